@@ -91,7 +91,7 @@ class Drawing:
         self.network = Network(mirror=options.mirror)
         self.history = History()
         self.progress = 0.0
-        self.revision = 0
+        self.network_revision = 0
         """Grows with every change of the kept wires."""
 
     @property
@@ -162,7 +162,7 @@ class Drawing:
         before, self.network = self.network, network
         if before.strokes != network.strokes:
             self.engines.follow(network.strokes)
-        self.revision += before.wires != network.wires or before.mirror != network.mirror
+        self.network_revision += before.wires != network.wires or before.mirror != network.mirror
 
     def step(self, network: Network) -> Message:
         """Go on to a network, with a step for undo. Return a warning, or an empty message."""

@@ -55,7 +55,7 @@ class Extension(Gesture):
     def commit(self) -> Committed:
         """Return the network with the extended wire, which ends the chain."""
         candidates = self._live.candidates
-        if candidates.target is not None and not candidates.active_final and self._live.computing:
+        if candidates.target is not None and self._live.waits:
             self.wanted = False
             return self
         wire = self.find(candidates.active)

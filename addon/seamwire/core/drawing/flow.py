@@ -54,7 +54,11 @@ class Flow:
     def commit(self, gesture: Gesture, target: Snap | None) -> bool:
         """Commit a gesture, or let it wait until it is computed. Return whether it was not refused."""
         done = self._attempt(gesture, target)
-        return self.wait_for(done, target) if isinstance(done, Gesture) else done
+        if not isinstance(done, Gesture):
+            return done
+        if done is not gesture and not self.gestures.queue:
+            return self.commit(done, target)
+        return self.wait_for(done, target)
 
     def wait_for(self, gesture: Gesture, target: Snap | None) -> bool:
         """Commit a gesture after those that wait already."""
@@ -75,7 +79,7 @@ class Flow:
             return True
         if not self.change(done, gesture.chosen):
             return False
-        self.message = self.message or gesture.told
+        self.message = self.message or gesture.take_warning()
         if gesture is self.gestures.wire and target is not None:
             self.remember_click(target)
         return True
@@ -395,7 +399,9 @@ class Flow:
         """Commit the gesture that has waited longest, if it is computed. Return whether it was."""
         queue = self.gestures.queue
         head = queue[0]
-        if not isinstance(head.gesture, LineGesture):
+        if isinstance(head.gesture, LineGesture):
+            self.revision += head.gesture.poll()
+        elif head.target is not None:
             self.aim(head.target, again=True)
             if head.gesture is not self.gestures.wire:
                 head.gesture.aim(head.target)

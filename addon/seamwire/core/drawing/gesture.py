@@ -25,9 +25,8 @@ class Gesture:
     chosen: int | None = None
     """The number of the candidate that stays the active one after the commit; None: the leading one."""
 
-    @property
-    def told(self) -> Message:
-        """The message after its network was committed."""
+    def take_warning(self) -> Message:
+        """Return what to tell after its network was committed. The warning about triangles comes only once."""
         return NOTHING
 
     def aim(self, target: Snap | None) -> Message:

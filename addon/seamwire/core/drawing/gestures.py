@@ -37,7 +37,7 @@ class Gestures:
     retraces
         Kept wires that take another course once it is computed. Nothing waits for them.
     queue
-        Committed gestures that wait, the oldest first. Each waits for those before it.
+        Committed gestures that wait, the oldest first. They are committed in this order.
     """
 
     def __init__(self, drawing: Drawing) -> None:
@@ -83,7 +83,12 @@ class Gestures:
         """Return the live wires that compute something for what is shown or waits."""
         under_way = [self.wire, self.loop, *(one.gesture for one in self.queue), *self.retraces]
         under_way += [held for held in (self.drag, self.line) if held is not None]
-        return [live for gesture in under_way for live in gesture.lives()]
+        # A loop that waits is computed even if no offers are shown.
+        cuts = self._drawing.options.along == "SURFACE" and any(one.gesture is self.loop for one in self.queue)
+        return [
+            *(live for gesture in under_way for live in gesture.lives()),
+            *([self._drawing.engines.cuts()] if cuts else []),
+        ]
 
     def read_progress(self) -> None:
         """Read how much is computed. Wires that are not final after all work is done stay so, so this comes before asking."""

@@ -64,9 +64,8 @@ class LineGesture(Gesture):
             before = seed.pick if seed.forward and isinstance(seed.pick, tuple) else None
         return EdgeLine(drawing.engines, drawing.points, vertex, before)
 
-    @property
-    def told(self) -> Message:
-        """Why wires do not follow the whole line, or a warning about triangles that they must lead around."""
+    def take_warning(self) -> Message:
+        """Return why wires do not follow the whole line, or a warning about triangles that they must lead around."""
         return self._line.message or self._drawing.engines.warning(self._drawing.options.along)
 
     @property

@@ -164,13 +164,13 @@ class LoopGesture(Gesture):
 
     def aim(self, target: Snap | None) -> Message:
         """Choose the offer that is shown at a target, or the first one if none is shown."""
-        self._target = target
         if target is None:
             return NOTHING
-        self.cuts.bend(False)
         if not self.offers.takes(target.pick):
             code = "no-loop-through" if self._drawing.options.along == "EDGES" else "no-cut-through"
             return Message.of(code, pick=target.pick)
+        self._target = target
+        self.cuts.bend(False)
         self.edges.point_at(target)
         shown = self.edges
         self._seen, self._choice = None, 0
@@ -184,15 +184,7 @@ class LoopGesture(Gesture):
         """Return the network with what is offered at the target."""
         assert self._target is not None
         pick = self._target.pick
-        if self._drawing.options.along == "SURFACE":
-            done = self.commit_cut(self._target)
-        elif undirected(pick) == self._crest_taken or not isinstance(pick, tuple):
-            done = None
-        else:
-            done = self._along_edges(pick)
-        if done is not self:
-            self._target = None
-        return done
+        return self._along_edges(pick) if isinstance(pick, tuple) else self.commit_cut(self._target)
 
     def _along_edges(self, edge: Edge) -> Committed:
         options, network = self._drawing.options, self._drawing.network
@@ -239,7 +231,7 @@ class LoopGesture(Gesture):
         return replace(network, wires=(*network.wires, *wires))
 
     def _along_crest(self, pick: Pick) -> Committed:
-        """Return the network with wires along the ridge or valley at a pick."""
+        """Return the line along the ridge or valley at a pick, which waits in place of the loop."""
         drawing = self._drawing
         number = None if self.crests is None else self.crests.line_at(pick)
         if self.crests is None or number is None or drawing.triangles is None:
@@ -253,7 +245,11 @@ class LoopGesture(Gesture):
         self.cuts.was_taken(pick)
         self.edges.wanted = False
         self._crest_taken = undirected(pick)
-        return line.commit()
+        return line
+
+    def is_crest_taken(self, pick: Pick) -> bool:
+        """Whether the last loop was a ridge or valley at a pick."""
+        return undirected(pick) == self._crest_taken
 
     def forget_crest(self) -> None:
         """Offer the ridge or valley again that was taken last: it may be gone."""
@@ -267,10 +263,7 @@ class LoopGesture(Gesture):
 
     def lives(self) -> list[LiveWire]:
         """Return the live wires that compute closed cuts. Loops along edges come from the live wire's."""
-        asked = (
-            self._drawing.options.along == "SURFACE" and self._target is not None and self.cuts.takes(self._target.pick)
-        )
-        return [self._drawing.engines.cuts()] if self.cuts.wanted or asked else []
+        return [self._drawing.engines.cuts()] if self.cuts.wanted else []
 
 
 class NextOffer(Gesture):
@@ -292,7 +285,7 @@ class NextOffer(Gesture):
         self._drawing = drawing
         self._loops = loops
         self._wire = wire
-        self._flow = steps
+        self._steps = steps
 
     def commit(self) -> Committed:
         """Return the network with the next offer in place of the wire."""
@@ -308,7 +301,7 @@ class NextOffer(Gesture):
             if not offers:
                 raise Refused(self._loops.problem or Message.of("nothing-else-through-edge"))
             own = replace(own, offers=offers)
-        return network.with_wire(own).with_next_offer(own, self._flow)
+        return network.with_wire(own).with_next_offer(own, self._steps)
 
     def lives(self) -> list[LiveWire]:
         """Return the live wires that compute for it. Offers at an edge are found along edges."""

@@ -40,7 +40,7 @@ class Painter:
 
     def picture(self, revision: int, message: Message) -> Picture:
         """Return a picture with a revision and a message."""
-        key = (revision, self._drawing.revision, message, self.work)
+        key = (revision, self._drawing.network_revision, message, self.work)
         if self._last is None or self._last[0] != key:
             self._last = (key, self._painted(revision, message))
         return self._last[1]
@@ -70,7 +70,7 @@ class Painter:
         return Picture(
             options=options,
             revision=revision,
-            network_revision=drawing.revision,
+            network_revision=drawing.network_revision,
             wires=shown,
             seeds=shown_seeds(drawing.seeds(network), drawing.seed_place, closing, hovered, begins),
             strokes=network.strokes,

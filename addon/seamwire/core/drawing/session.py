@@ -133,6 +133,8 @@ class Session:
             return self._flow.refuse(why)
         self._flow.cancel_drag()
         if self.options.along == "EDGES":
+            if loop.is_crest_taken(target.pick):
+                return True  # the first press of a double click took the ridge
             self._flow.take_back_click(target.pick)
         return self._flow.commit(loop, target)
 
@@ -190,10 +192,13 @@ class Session:
             found = extension.wire is not None or self.computing
             return found or self._flow.refuse(self._flow.message or Message.of("no-way-on"))
         target = self.target
-        if self._gestures.queue and target is not None:
-            extension.wanted = False
-            return self._flow.wait_for(extension, target)
-        return self._flow.commit(extension, target)
+        if not self._gestures.queue:
+            self._gestures.wire.seen = True
+            return self._flow.commit(extension, target)
+        if target is None:
+            return self._flow.refuse("no-way-on")
+        extension.wanted = False
+        return self._flow.wait_for(extension, target)
 
     def stop_preview(self) -> bool:
         """Hide the way to the end. Return whether it was shown."""
@@ -445,7 +450,7 @@ class Session:
     @property
     def network_revision(self) -> int:
         """Grows with every change of the kept wires."""
-        return self.drawing.revision
+        return self.drawing.network_revision
 
     @property
     def seed(self) -> Pick | None:

@@ -66,15 +66,18 @@ class StrokeGesture(Gesture):
             raise TypeError("neither points nor vertices")
         else:
             course = drawn(points, faces, drawing.points, drawing.triangles)
-        candidates = live.candidates
-        # The wire that the stroke is for stays the active one, even if another is shorter now.
-        self.chosen = candidates.chosen
-        if acts_on is None and drawing.network.seed is not None and not candidates.straight_active:
-            self.chosen = candidates.active_index
-            acts_on = FOLLOWS[self.chosen]
-        self._stroke = Stroke(*course, attracts=attracts, acts_on=acts_on or "both", radius=radius)
+        self._live = live
+        self._course = course
+        self._meant = acts_on
+        self._how = {"attracts": attracts, "radius": radius}
 
     def commit(self) -> Committed:
         """Return the network with the stroke."""
-        network = self._drawing.network
-        return replace(network, strokes=(*network.strokes, self._stroke))
+        network, candidates, acts_on = self._drawing.network, self._live.candidates, self._meant
+        # The wire that the stroke is for stays the active one, even if another is shorter now.
+        self.chosen = candidates.chosen
+        if acts_on is None and network.seed is not None and not candidates.straight_active:
+            self.chosen = candidates.active_index
+            acts_on = FOLLOWS[self.chosen]
+        stroke = Stroke(*self._course, acts_on=acts_on or "both", **self._how)
+        return replace(network, strokes=(*network.strokes, stroke))

@@ -35,13 +35,13 @@ class WireGesture(Gesture):
         self._message = NOTHING
         self.seen = False
         """Whether the active wire was shown before the click. The session tells, because waiting clicks show nothing."""
+        self._kept = False
         self.seedless = False
         """Whether no live wire is shown, because the seed moves."""
 
-    @property
-    def told(self) -> Message:
-        """A warning about triangles that wires must lead around, once."""
-        return self._drawing.engines.warning(self._drawing.options.along)
+    def take_warning(self) -> Message:
+        """Return the warning about triangles that a kept wire leads around, once."""
+        return self._drawing.engines.warning(self._drawing.options.along) if self._kept else NOTHING
 
     def aim(self, target: Snap | None) -> Message:
         """Find the wires to a target."""
@@ -56,6 +56,15 @@ class WireGesture(Gesture):
     def computing(self) -> bool:
         """Whether the wires may still change."""
         return self._drawing.progress < 1.0 or not self.candidates.final
+
+    @property
+    def waits(self) -> bool:
+        """Whether a click has to wait.
+
+        It keeps the candidate that was shown. If none was shown yet, it does not keep one merely because that finished first.
+        """
+        candidates = self.candidates
+        return not (candidates.decided or (self.seen and candidates.active_final)) and self.computing
 
     def begun(self, target: Snap) -> Network:
         """Return the network with a new chain that begins at a target.
@@ -75,12 +84,12 @@ class WireGesture(Gesture):
         """Return the network with the active wire, or with a new chain if none is drawn."""
         candidates, network, options = self.candidates, self._drawing.network, self._drawing.options
         target = candidates.target
+        self._kept = False
         if target is None:
             return None
         if network.seed is None:
             return self.begun(target)
-        # Keep the candidate that was shown. If none was shown yet, do not pick one merely because it finished first.
-        if not (candidates.decided or (self.seen and candidates.active_final)) and self.computing:
+        if self.waits:
             return self
         wire = candidates.active
         if wire is None:
@@ -98,6 +107,7 @@ class WireGesture(Gesture):
         network = network.joined(target, self._drawing.points).with_drawn(wire, target.pick, ending is not None)
         for joint in reversed(candidates.ring.joints if candidates.ring_active else ()):
             network = network.with_seed_in(wire, joint, self._drawing.points) or network
+        self._kept = True
         return network
 
     def ending(self, target: Snap) -> Intent | None:

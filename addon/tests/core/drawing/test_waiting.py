@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Gestures that wait, one behind the other, and what they leave behind."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from fake_live import grid_points, grid_triangles
+from seamwire.core.drawing import candidates
+from seamwire.core.fields.crests import Crests
+from seamwire.core.network.network import Snap
+from seamwire.core.network.wires import Wire
+from setting import use
+from table import SIZE, Table, courses
+
+POINTS = grid_points(SIZE)
+ROW = range(SIZE, 2 * SIZE)
+
+
+def ridge() -> Crests:
+    """Return one ridge, along the second row of vertices."""
+    triangles = grid_triangles(SIZE).tolist()
+    edges = [(v, v + 1) for v in ROW[:-1]] + [(ROW[-2], ROW[-1])]
+    faces = [next(row for row, corners in enumerate(triangles) if {v, v + 1} <= set(corners)) for v in ROW[:-1]]
+    return Crests(
+        POINTS[list(ROW)],
+        np.array(edges, dtype=np.int32),
+        np.array([0.0] * (SIZE - 1) + [1.0]),
+        np.array([*faces, -1], dtype=np.int32),
+        np.ones(SIZE),
+        np.array([0, SIZE], dtype=np.int32),
+        np.ones(1),
+    )
+
+
+def with_ridge(*args: object, **options: object) -> Table:
+    table = Table(*args, **options)
+    table.session.use_crests(ridge(), True)
+    return table
+
+
+def make_ready(table: Table, *ready: bool) -> None:
+    for live in table.lives.values():
+        live.ready = ready
+    table.session.poll()
+
+
+def test_a_run_that_waits_does_not_take_the_wire_that_merely_finishes_first() -> None:
+    table = Table(ready=(False, False))
+    session = table.session
+    session.click(0)
+    session.hover(14)
+    session.run_to_end()
+    make_ready(table, False, True)
+    assert session.waiting_clicks == 1
+    assert session.wires == ()
+    make_ready(table, True, True)
+    assert courses(session) == [(0, 1, 2, 8, 14, 20, 26, 32)]
+
+
+def test_a_double_click_takes_a_ridge_once() -> None:
+    session = with_ridge().session
+    session.hover((7, 8), loop=True)
+    session.click((7, 8))
+    session.hover((7, 8))
+    session.click((7, 8))
+    session.loop((7, 8))
+    assert courses(session) == [tuple(ROW)]
+
+
+def test_a_ridge_waits_behind_clicks() -> None:
+    session = with_ridge("SURFACE", ready=(False, False)).session
+    session.click(20)
+    session.click(22)
+    session.loop(7)
+    assert session.waiting_clicks == 2
+    assert session.wires == ()
+
+
+def test_after_a_ridge_the_triangles_are_told_of_that_its_wires_lead_around() -> None:
+    session = with_ridge("SURFACE", holes=(2, 1)).session
+    session.hover(7, loop=True)
+    session.click(7)
+    assert session.message.code == "invalid-triangles"
+
+
+def test_a_waiting_click_that_begins_a_chain_does_not_use_up_the_warning() -> None:
+    table = Table("SURFACE", holes=(2, 1), ready=(False, False), metric_ready=(False, False))
+    session = table.session
+    session.loop(0)
+    session.click(35)
+    session.wait()
+    assert session.message.code != "invalid-triangles"
+    session.click(7)
+    session.wait()
+    assert session.message.code == "invalid-triangles"
+
+
+def test_a_loop_that_was_given_up_leaves_nothing_to_compute() -> None:
+    session = Table("SURFACE", metric_ready=(False, False)).session
+    session.loop(8)
+    session.undo()
+    session.click(0)
+    session.hover(21)
+    session.poll()
+    assert not session.computing
+    assert session.work.progress == 1.0
+
+
+def test_a_refused_loop_computes_no_closed_cuts_later() -> None:
+    session = Table().session
+    assert not session.loop(9)
+    use(session, along="SURFACE")
+    assert session.drawing.engines._cuts is None
+
+
+def test_a_refused_loop_leaves_the_bent_cut_that_is_shown() -> None:
+    session = Table("SURFACE").session
+    session.loop(24)
+    session.hover(8, loop=True, bend=True)
+    assert not session.loop((25, 31))
+    assert session.picture.offered.kinds == ("ACROSS",)
+
+
+def test_no_run_goes_ahead_of_a_line_that_waits() -> None:
+    session = Table(fork_ready=(False, False)).session
+    session.click(17)
+    session.click((23, 22))
+    session.line_begin(35)
+    session.line_to(POINTS[[35, 34]], np.array([49, 49]), None)
+    session.line_keep(session.line_release())
+    assert session.waiting_clicks == 1
+    assert not session.run_to_end()
+    assert session.message.code == "no-way-on"
+    assert len(session.wires) == 1
+
+
+def test_a_stroke_is_drawn_while_a_moved_seed_waits(monkeypatch: pytest.MonkeyPatch) -> None:
+    def straight(_live: object, begin: int, end: int, _seen: object, _follow: int) -> Wire:
+        return Wire("SURFACE", (begin, end), POINTS[[begin, end]], begin, end)
+
+    monkeypatch.setattr(candidates, "straight_wire", straight)
+    session = Table("SURFACE", ready=(True,) * 3, fork_ready=(False,) * 3).session
+    use(session, straight=True)
+    for pick in (0, 14):
+        session.click(Snap(pick, seen_along=(0.0, 0.0, 1.0)))
+    session.hover(Snap(28, seen_along=(0.0, 0.0, 1.0)))
+    session.drag(Snap(14, "SEED"))
+    session.drag_to(Snap(21, seen_along=(0.0, 0.0, 1.0)))
+    session.drag_end()
+    assert session.draw_stroke(vertices=[27, 28])
+    assert session.strokes[0].acts_on == "both"
