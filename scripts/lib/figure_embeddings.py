@@ -198,13 +198,17 @@ def campens_invalid(studio: Studio) -> Image.Image:
 
 def _around_hole(studio: Studio, model: Model, made: seamwire_core.Embedding, ratio: float) -> NDArray[np.float64]:
     """Return a picture of the triangles around an invalid part: it is a hole, through which a blue surface is seen."""
-    corners = model.triangles[made.hole_faces[0]]
-    place, normal = model.points[corners].mean(axis=0), model.curvature.normals[corners].mean(axis=0)
+    face = made.hole_faces[0]
+    normal = model.curvature.normals[model.triangles[face]].mean(axis=0)
+    # The smallest of the triangle's valid parts are beside it.
+    parts = made.points[made.triangles[made.source_face == face]]
+    sizes = np.ptp(parts, axis=1).max(axis=1)
+    smallest = int(sizes.argmin())
+    zoom = 0.04 * model.size / float(sizes[smallest])
     stage = studio.empty_stage(model, 5, ratio)
     stage.mesh(model.points - 1e-4 * model.size * normal, model.triangles, INVALID)
     stage.mesh(made.points, made.triangles)
-    zoom = 0.4 * model.size / float(np.ptp(model.points[corners], axis=0).max())
     stage.wireframe(made.points, made.edges, 0.006 / zoom)
     stage.turn_to(normal)
-    stage.look_at(place, zoom)
+    stage.look_at(parts[smallest].mean(axis=0), zoom)
     return studio.render(stage)

@@ -26,7 +26,7 @@ COLORS = {
     "pottmann_kovacs": (0.10, 0.62, 0.20),
     "feature": (0.12, 0.30, 0.90),
 }
-"""Those of Figure 4."""
+"""Colors of wires in Figure 4."""
 ANISOTROPY = 20.0
 _ENDS = (
     (((0.02, 0.572, 0.792), (0.608, 0.183, 0.826)), "along a ridge"),

@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from figure_sheet import Panel, sheet
+from figure_sheet import Key, Panel, sheet
 from figure_stage import INK, SEED
 from figure_studio import ISLANDS, STROKE, anisotropy_bar
 from shape_proxies import shape_proxies
@@ -17,15 +17,16 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from PIL import Image
 
-_FLAT = ((0.9, 0.05, 0.62), (0.9, 0.1, 0.45), (0.9, 0.3, 0.4))
-"""Where the stroke of Figure 10 begins, what it leads over and where it ends: on the flat side of rocker-arm."""
+_FLAT = ((0.285, 0.0, 0.385), (0.58, 0.0, 0.70), (0.878, 0.0, 0.493))
+"""Where the stroke of Figure 10 begins, what it leads over and where it ends: on the flat side of fandisk."""
+PLAIN = (0.55, 0.55, 0.58)
 PROXIES = 40
 """Regions of the variational shape approximation in Figure 11."""
 
 
 def scribble(studio: Studio) -> Image.Image:
     """Figure 10: the metric on a flat part, a scribble for a part of the way, the metric that it makes, and wires in both."""
-    model = studio.model("rocker-arm")
+    model = studio.model("fandisk")
     start, over, end = (model.vertex_at(*place) for place in _FLAT)
     points, faces = _arc_on(model, start, over, end)
     metric = model.metric("feature", gamma=0.1)
@@ -41,12 +42,14 @@ def scribble(studio: Studio) -> Image.Image:
         if shown in {"stroke", "wires"}:
             stage.line(points[part], STROKE, 0.006)
         if shown == "wires":
-            for one, color in ((metric, (0.5, 0.5, 0.52)), (drawn, INK)):
+            for one, color in ((metric, PLAIN), (drawn, INK)):
                 field = studio.core.distance_field(model.embed(one, max_error=0.01), start)
                 stage.line(field.trace(end).points, color, 0.008)
-        if shown != "metric":
+        if shown in {"stroke", "wires"}:
             stage.balls(model.points[[start, end]], SEED, 0.013)
-        panels.append(Panel(studio.render(stage), title, anisotropy_bar() if shown in {"metric", "drawn"} else None))
+        bar = anisotropy_bar() if shown in {"metric", "drawn"} else None
+        key = Key((("without", PLAIN), ("with the scribble", INK))) if shown == "wires" else None
+        panels.append(Panel(studio.render(stage), title, bar or key))
     return sheet([panels])
 
 

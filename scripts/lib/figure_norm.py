@@ -52,7 +52,7 @@ def norm_at_a_point(studio: Studio) -> Image.Image:
 
 
 class _Plot:
-    """A square plot in units of its own."""
+    """A square plot with its own units."""
 
     def __init__(self, side: int, low: tuple[float, float], high: tuple[float, float]) -> None:
         self._side, self._low = _FINE * side, np.array(low)
