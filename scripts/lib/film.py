@@ -350,35 +350,40 @@ def animation(film: Film) -> None:
     film.obj.data.use_mirror_x = True
     film.at = film.vertex(0.55, -0.55, 0.9)
     start(film)
-    film.say("Click, move, click", 3)
-    film.go(film.vertex(0.0, -0.6, 0.80), 7)
+    film.say("Click, move, click", 1)
+    film.go(film.vertex(0.0, -0.6, 0.80), 5)
     film.click()
-    film.go(film.vertex(0.45, -0.60, 0.72), 5)
-    film.go(film.vertex(0.80, -0.40, 0.40), 7)
+    film.go(film.vertex(0.45, -0.60, 0.72), 4)
+    film.go(film.vertex(0.80, -0.40, 0.40), 6)
     film.click()
-    film.go(film.vertex(0.55, -0.40, -0.30), 8)
+    film.go(film.vertex(0.55, -0.40, -0.30), 7)
     film.click()
-    film.go(film.vertex(0.0, -0.75, -0.08), 9)
+    film.go(film.vertex(0.0, -0.75, -0.08), 7)
     film.click()
     film.click("RIGHTMOUSE")
     film.say("Drag a seed")
-    film.go(film.vertex(0.55, -0.40, -0.30), 7)
+    film.go(film.vertex(0.55, -0.40, -0.30), 5)
     drag(film, film.vertex(0.62, -0.40, -0.10))
-    film.say("Alt-click: the loop around the eye")
-    film.peek(film.edge(EYE), 8)
-    film.hold(4)
+    film.say("Alt-click: a whole loop")
+    film.peek(film.edge(EYE), 6)
+    film.hold(3)
     film.take()
-    film.peek(film.edge(EAR), 9)
+    film.peek(film.edge(EAR), 7)
     film.hold(2)
     film.take()
-    film.peek(film.middle_edge(0.0, -0.45, 0.9), 9)
+    film.peek(film.middle_edge(0.0, -0.45, 0.9), 7)
     film.hold(2)
     film.take()
     film.say("Unwrapped")
-    film.go(film.vertex(0.9, -0.4, -0.6), 6)
+    film.go(film.vertex(0.9, -0.4, -0.6), 4)
     unwrap(film)
-    film.hold(18)
+    film.hold(14)
     film.write()
+
+
+def aside(film: Film) -> tuple[float, float]:
+    """Return a place beside the mesh where the pointer covers nothing."""
+    return film.ui.region.width - 120.0, 0.6 * film.ui.region.height
 
 
 def drag(film: Film, *places: tuple[float, float]) -> None:
@@ -386,7 +391,7 @@ def drag(film: Film, *places: tuple[float, float]) -> None:
     film.pressed = True
     film.send("LEFTMOUSE", "PRESS")
     for place in places:
-        film.go(place, 7)
+        film.go(place, 6)
     film.pressed = False
     film.send("LEFTMOUSE", "RELEASE")
     film.hold(2)
@@ -540,8 +545,7 @@ def guide(film: Film) -> None:
     film.click("RIGHTMOUSE")
     film.go(film.vertex(0.55, -0.40, -0.30))
     film.ui.event("LEFTMOUSE", "PRESS", film.at)
-    film.go(film.vertex(0.50, -0.45, -0.10))
-    film.go(film.vertex(0.62, -0.40, -0.10))
+    film.go(film.vertex(0.40, -0.65, -0.12))
     film.ui.wait_until(lambda: session().moved and not session().computing)
     film.picture("drag")
     film.ui.event("LEFTMOUSE", "RELEASE", film.at)
@@ -616,7 +620,7 @@ def cut(film: Film) -> None:
     film.ui.view.view_distance = 2.2
     with film.ui.override():
         bpy.ops.mesh.seamwire_mark(chains=" ".join(map(str, seeds)), along="SURFACE")
-    film.at = (60.0, 60.0)
+    film.at = aside(film)
     film.ui.move(film.at)
     for name, what in (("snapped", None), ("cut", partial(bpy.ops.mesh.seamwire_finish, finish="CUT"))):
         if what is not None:
@@ -638,7 +642,7 @@ def stretch(film: Film) -> None:
             film.peek(edge)
             film.take()
         film.click("RIGHTMOUSE")
-        film.go((60.0, 60.0))
+        film.go(aside(film))
         film.ui.wait(30, redraw=True)
         film.picture(f"stretch-{name}")
 
@@ -846,7 +850,7 @@ def figure_pictures(film: Film) -> None:
         film.take()
     settings().heat = "STRENGTH"
     film.ui.view.view_rotation = Euler((1.4, 0.0, BEHIND + 0.2)).to_quaternion()
-    film.go((80.0, 80.0))
+    film.go(aside(film))
     film.ui.wait_until(lambda: not session().computing, 60.0)
     film.ui.wait(40, redraw=True)
     film.picture("heat")
