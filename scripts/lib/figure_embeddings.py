@@ -144,8 +144,11 @@ def times(studio: Studio) -> str:
 
 
 def _times_of(studio: Studio, model: Model, a: int) -> str:
-    core, surface = studio.core, model.surface
-    norms, curvature = _timed(lambda: core.principal_curvatures(surface))
+    core = studio.core
+    # A surface keeps its curvature.
+    fresh = [core.Surface(model.points, model.triangles) for _ in range(3)]
+    norms, curvature = _timed(*(lambda one=one: core.principal_curvatures(one) for one in fresh))
+    surface = fresh[-1]
     more, metric = _timed(lambda: core.feature_metric(surface, curvature, max_anisotropy=float(a)))
     subdivision, made = _timed(lambda: core.embed(surface, metric))
     solved, _ = optimized(studio, model, metric)
@@ -197,18 +200,13 @@ def campens_invalid(studio: Studio) -> Image.Image:
 
 
 def _around_hole(studio: Studio, model: Model, made: seamwire_core.Embedding, ratio: float) -> NDArray[np.float64]:
-    """Return a picture of the triangles around an invalid part: it is a hole, through which a blue surface is seen."""
-    face = made.hole_faces[0]
-    normal = model.curvature.normals[model.triangles[face]].mean(axis=0)
-    # The smallest of the triangle's valid parts are beside it.
-    parts = made.points[made.triangles[made.source_face == face]]
-    sizes = np.ptp(parts, axis=1).max(axis=1)
-    smallest = int(sizes.argmin())
-    zoom = 0.04 * model.size / float(sizes[smallest])
+    """Return a picture of a triangle with an invalid part, and of how it was cut."""
+    corners = model.triangles[made.hole_faces[0]]
+    place, normal = model.points[corners].mean(axis=0), model.curvature.normals[corners].mean(axis=0)
     stage = studio.empty_stage(model, 5, ratio)
-    stage.mesh(model.points - 1e-4 * model.size * normal, model.triangles, INVALID)
     stage.mesh(made.points, made.triangles)
+    zoom = 0.4 * model.size / float(np.ptp(model.points[corners], axis=0).max())
     stage.wireframe(made.points, made.edges, 0.006 / zoom)
     stage.turn_to(normal)
-    stage.look_at(parts[smallest].mean(axis=0), zoom)
+    stage.look_at(place, zoom)
     return studio.render(stage)

@@ -2,7 +2,8 @@
 """Films the tool at work in Blender's window, with simulated events and the display's own pixels; scripts/animation runs this.
 
 ``blender ... --python scripts/lib/film.py -- PART FOLDER`` takes a part that scripts/animation names. It leaves guide-*.png in the folder,
-or writes frames to frames.raw there, which may be a pipe. The simulated mouse has no pointer on the display, so one is drawn into the frames.
+or writes frames to frames.raw there, which may be a pipe.
+The simulated mouse has no pointer on the display, so one is drawn into the frames.
 
 Films run in real time. Each frame is one step of a clock: events are sent for its time, and the display is read when the tool has
 answered. When the tool's answer took longer than a frame, the film stands still for that time. Drawing Blender's window is not counted,
@@ -218,7 +219,9 @@ class Film:
     def write(self) -> None:
         """Keep the film: its frames one after the other, three bytes a pixel."""
         late = sum(self.late) / self.rate * self.STEP
-        print(f"{len(self.frames) / self.rate * self.STEP:.1f} s, of which the tool was late for {late:.1f} s", flush=True)
+        print(
+            f"{len(self.frames) / self.rate * self.STEP:.1f} s, of which the tool was late for {late:.1f} s", flush=True
+        )
         with (self.folder / "frames.raw").open("wb") as file:
             for frame in self.frames:
                 file.write(np.ascontiguousarray(frame[:, :, :3]).tobytes())
