@@ -823,10 +823,8 @@ STEPS = (
 )
 
 
-def figure_pictures(film: Film) -> None:
-    """Take the preview of a mirrored wire on a figure, and wires behind a surface that heat colors."""
-    film.filming = False
-    stage(film)
+def show_figure(film: Film) -> None:
+    """Put the figure in place of the mesh, in Edit Mode, symmetric and with its mirror on."""
     bpy.ops.object.mode_set(mode="OBJECT")
     bpy.ops.object.delete()
     film.obj = figure()
@@ -836,6 +834,13 @@ def figure_pictures(film: Film) -> None:
         bpy.ops.mesh.symmetrize(direction="POSITIVE_X")
         bpy.ops.mesh.select_all(action="DESELECT")
     film.obj.data.use_mirror_x = True
+
+
+def figure_pictures(film: Film) -> None:
+    """Take the preview of a mirrored wire on a figure."""
+    film.filming = False
+    stage(film)
+    show_figure(film)
     settings().along, settings().finish = "SURFACE", "SNAP"
     film.ui.view.view_rotation = Euler((1.45, 0.0, 0.12)).to_quaternion()
     film.ui.view.view_location = (0.0, 0.0, 0.4)
@@ -846,17 +851,6 @@ def figure_pictures(film: Film) -> None:
     film.click()
     film.go(film.vertex(0.34, -0.1, 0.48))
     film.picture("mirror")
-    film.click()
-    film.click("RIGHTMOUSE")
-    for place in ((0.0, -0.12, 0.86), (0.36, -0.12, 0.6), (0.19, -0.15, -0.3)):
-        film.peek(film.vertex(*place))
-        film.take()
-    settings().heat = "STRENGTH"
-    film.ui.view.view_rotation = Euler((1.4, 0.0, BEHIND + 0.2)).to_quaternion()
-    film.go(aside(film))
-    film.ui.wait_until(lambda: not session().computing, 60.0)
-    film.ui.wait(40, redraw=True)
-    film.picture("heat")
 
 
 def character(film: Film) -> None:
@@ -865,15 +859,7 @@ def character(film: Film) -> None:
     sides = []
     seams: set[tuple[int, int]] = set()
     for draw, around in ((draw_with_seamwire, BEHIND), (draw_with_blender, STEPS[0][0])):
-        bpy.ops.object.mode_set(mode="OBJECT")
-        bpy.ops.object.delete()
-        film.obj = figure()
-        with film.ui.override():
-            bpy.ops.object.mode_set(mode="EDIT")
-            bpy.ops.mesh.select_all(action="SELECT")
-            bpy.ops.mesh.symmetrize(direction="POSITIVE_X")
-            bpy.ops.mesh.select_all(action="DESELECT")
-        film.obj.data.use_mirror_x = True
+        show_figure(film)
         film.ui.view.view_rotation = Euler((1.4, 0.0, around)).to_quaternion()
         film.ui.view.view_location = (0.0, 0.0, 0.16)
         film.ui.view.view_distance = 4.0

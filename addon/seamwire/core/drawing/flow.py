@@ -233,7 +233,8 @@ class Flow:
 
     def show_offers(self) -> None:
         """Show the offers at the cursor, as soon as they are computed."""
-        self.gestures.read_progress()
+        if self.gestures.loop.offers.unfinished:
+            self.gestures.read_progress()
         changed, message = self.gestures.poll_offers(self.message)
         self.revision += changed or message != self.message
         self.message = message

@@ -59,14 +59,9 @@ class Gestures:
         return [*waiting, *([] if self.line is None else [self.line])]
 
     @property
-    def wires_computing(self) -> bool:
-        """Whether the library works on wires. Loops do not count: clicks on wires must not wait for them."""
-        return self.wire.computing or (self.drag is not None and not self.drag.final)
-
-    @property
     def computing(self) -> bool:
         """Whether the library works on anything shown."""
-        return self.wires_computing or not self.loop.final
+        return self.wire.computing or not self.loop.final or (self.drag is not None and not self.drag.final)
 
     @property
     def waiting(self) -> int:
@@ -76,8 +71,7 @@ class Gestures:
     @property
     def settled(self) -> bool:
         """Whether nothing would change the picture."""
-        still = self.wire.candidates.final and self.loop.final and (self.drag is None or self.drag.final)
-        return still and self.line is None and not self.computing and not self.queue and not self.retraces
+        return self.line is None and not self.computing and not self.queue and not self.retraces
 
     def lives(self) -> list[LiveWire]:
         """Return the live wires that compute something for what is shown or waits."""

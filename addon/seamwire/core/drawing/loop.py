@@ -53,7 +53,7 @@ class LoopGesture(Gesture):
         self.edges = LoopOffers(drawing.engines, drawing.stops, points, flat)
         self.cuts = SurfaceLoops(drawing.engines, triangles)
         self.problem = NOTHING
-        self.crests: Crests | None = None
+        self._crests: Crests | None = None
         self._crests_first = False
         self._crest_taken: Pick | None = None
         self._target: Snap | None = None
@@ -123,9 +123,9 @@ class LoopGesture(Gesture):
 
     def use_crests(self, crests: Crests | None, first: bool) -> bool:
         """Offer ridges and valleys, as the first or as the last offer. Return whether offers have to be found again."""
-        if crests is self.crests and first == self._crests_first:
+        if crests is self._crests and first == self._crests_first:
             return False
-        self.crests, self._crests_first = crests, first
+        self._crests, self._crests_first = crests, first
         if self.offers.wanted:
             self.offers.final = False
         return self.offers.wanted
@@ -155,7 +155,7 @@ class LoopGesture(Gesture):
             return offers
         # A click must not take the first known loop while others are still computed.
         ready = offers or (self.edges if isinstance(pick, tuple) else self.cuts).final or self._crests_first
-        crest = self.crests.offer(pick) if self.crests is not None and kept is None and ready else None
+        crest = self._crests.offer(pick) if self._crests is not None and kept is None and ready else None
         if crest is None or undirected(pick) == self._crest_taken:
             return offers
         return (crest, *offers) if self._crests_first else (*offers, crest)
@@ -233,10 +233,10 @@ class LoopGesture(Gesture):
     def _along_crest(self, pick: Pick) -> Committed:
         """Return the line along the ridge or valley at a pick, which waits in place of the loop."""
         drawing = self._drawing
-        number = None if self.crests is None else self.crests.line_at(pick)
-        if self.crests is None or number is None or drawing.triangles is None:
+        number = None if self._crests is None else self._crests.line_at(pick)
+        if self._crests is None or number is None or drawing.triangles is None:
             raise Refused("no-crest-at", pick=pick)
-        points, triangles = self.crests.line(number)
+        points, triangles = self._crests.line(number)
         first = FacePoint.at(points[0], int(triangles[0]), drawing.triangles, drawing.points)
         begin: Pick = first if drawing.into_faces and drawing.options.along == "SURFACE" else first.vertex
         line = LineGesture(drawing, Snap(begin), apart=True)
