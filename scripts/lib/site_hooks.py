@@ -4,6 +4,7 @@
 - Links to files outside docs/ work on the forge as they are. The site has no such files. There these links lead to the forge if its address
   is known (``repo_url``), and otherwise become plain text.
 - The API reference, which scripts/docs makes before, goes below api/.
+- KaTeX, which typesets the equations, is copied from Debian's package. So the site loads nothing from elsewhere.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 API = Path(__file__).resolve().parents[2] / "build/docs"
+KATEX = "/usr/share/javascript/katex"
 
 LINK = re.compile(r"(!?)\[([^\]]*)\]\(((?:\.\./)+[^)\s#]+)(#[^)\s]*)?\)")
 
@@ -46,7 +48,9 @@ def on_page_markdown(markdown: str, page: Any, config: Any, **_: Any) -> str:  #
 
 
 def on_post_build(config: Any, **_: Any) -> None:  # noqa: ANN401
-    """Add the API reference, if it is there."""
+    """Add KaTeX, and the API reference if it is there."""
+    unused = shutil.ignore_patterns("*.mjs", "*.ttf", "*.woff")
+    shutil.copytree(KATEX, Path(config.site_dir) / "katex", ignore=unused, dirs_exist_ok=True)
     for language in ("cpp", "python"):
         if (API / language).exists():
             shutil.copytree(API / language, Path(config.site_dir) / "api" / language, dirs_exist_ok=True)
