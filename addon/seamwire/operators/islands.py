@@ -98,7 +98,7 @@ class MESH_OT_seamwire_select_islands(SelectingIslands, bpy.types.Operator):
         name="Which",
         description="Islands to select",
         items=(
-            ("TO_CUT", "Islands to Cut", "Islands that are not discs and cannot unwrap without another cut"),
+            ("TO_CUT", "Islands to Cut", "Islands that are not discs: closed ones, and those with holes or handles"),
             ("WORST", "Worst Stretched Island", "The island that the UV map stretches most. The view turns to it"),
         ),
     )
