@@ -2,7 +2,7 @@
 """Automatic seams beside an artist's and those of other methods, measured on the same models.
 
     python native/bench/auto_seams.py --models FOLDER [--peers FOLDER] [--maps FOLDER] [--only NAME...] [--along edges|surface]
-        [--measure-only] [--json FILE] [--page FILE...] [--sheets FOLDER [--blind]]
+        [--measure-only] [--json FILE] [--page FILE... [--tables NAME...]] [--sheets FOLDER [--blind]]
 
 uv_maps.py describes the files of models and maps, and uv_measures.py the numbers. The folder of --peers has the maps of other methods,
 NAME.METHOD.npz. The library plans and flattens our maps, each model in a separate process, and the program writes them to the folder of
@@ -20,7 +20,8 @@ These methods are ours:
 "artist as published" is the artist's own map.
 
 The program prints Markdown tables: our maps of each model, the seams of each model and method, the medians of all methods, and the goals
-beside the results. --page replaces the tables of Markdown pages, between comments "begin NAME" and "end NAME".
+beside the results. --page replaces the tables of Markdown pages, between comments "begin NAME" and "end NAME". With --tables it
+replaces only these.
 
 --sheets draws a picture of each model with a row for each of the methods ours, artist, xatlas and optcuts. With --blind the rows are
 shuffled and have letters instead of names. The file key.json in the same folder has the names. The program needs numpy, scipy, and
@@ -46,6 +47,7 @@ from auto_seams_report import (
     median_table,
     model_table,
     tables_on,
+    with_artist,
     with_tables,
 )
 from seam_planning import ARTIST, OURS, in_own_process
@@ -92,7 +94,8 @@ def main() -> None:
     print(*made.values(), sep="\n\n")
     for page in options.page:
         text = page.read_text(encoding="utf-8")
-        page.write_text(with_tables(text, {name: made[name] for name in tables_on(text)}), encoding="utf-8")
+        names = [name for name in tables_on(text) if not options.tables or name in options.tables]
+        page.write_text(with_tables(text, {name: made[name] for name in names}), encoding="utf-8")
 
 
 def tables(results: list[Result]) -> dict[str, str]:
@@ -102,6 +105,7 @@ def tables(results: list[Result]) -> dict[str, str]:
         **{f"comparison-{name}": comparison_table(results, name) for name in COMPARED},
         **{f"methods-{section}": median_table(results, section) for section in SECTIONS},
         **{f"former-{section}": median_table(results, section, former=True) for section in SECTIONS},
+        "artist-models-stretch": median_table(with_artist(results), "stretch"),
         "goals": goal_table(results),
     }
 
@@ -117,6 +121,7 @@ def parsed_options() -> argparse.Namespace:
     parser.add_argument("--measure-only", action="store_true", help="plan nothing")
     parser.add_argument("--json", type=Path, help="file for all numbers")
     parser.add_argument("--page", type=Path, nargs="+", default=[], help="Markdown pages whose tables are renewed")
+    parser.add_argument("--tables", nargs="+", metavar="NAME", help="renew these tables only")
     parser.add_argument("--sheets", type=Path, help="folder for pictures")
     parser.add_argument("--blind", action="store_true", help="hide the methods' names in pictures")
     return parser.parse_args()

@@ -57,6 +57,10 @@ COLUMNS = (
     Column("E_d", lambda r: r.measures.energy),
     Column("density 5 %", lambda r: r.measures.density),
     Column("visible", lambda r: r.measures.visibility),
+    Column("angles", lambda r: r.measures.angles, 3),
+    Column("areas", lambda r: r.measures.areas, 3),
+    Column("angles 95 %", lambda r: r.measures.angles_most),
+    Column("areas 95 %", lambda r: r.measures.areas_most),
     Column("mirrored", lambda r: r.measures.mirrored),
     Column("lift", lambda r: r.measures.lift),
     Column("sharp", lambda r: r.measures.sharp),
@@ -69,13 +73,16 @@ COLUMNS = (
     Column("s", lambda r: r.info.get("sec"), 1),
     Column("MB", lambda r: r.info.get("mem"), 0),
 )
-SEAM, ENERGY, DENSITY, VISIBLE, MIRRORED, LIFT, SHARP, TINY, ENDS, OVERLAPPING, FLIPS, PACKING, FIRST, SECONDS = (
-    next(column.value for column in COLUMNS if column.title == title)
-    for title in (
-        *("seam", "E_d", "density 5 %", "visible", "mirrored", "lift", "sharp", "tiny", "loose ends"),
-        *("overlapping", "flips", "packing", "first s", "s"),
-    )
-)
+
+
+def value_of(title: str) -> Value:
+    """Return what the column of a title shows of a result."""
+    return next(column.value for column in COLUMNS if column.title == title)
+
+
+SEAM, ENERGY, DENSITY, VISIBLE, MIRRORED = map(value_of, ("seam", "E_d", "density 5 %", "visible", "mirrored"))
+ANGLES, AREAS, LIFT, SHARP, TINY = map(value_of, ("angles", "areas", "lift", "sharp", "tiny"))
+OVERLAPPING, FLIPS, PACKING, FIRST, SECONDS = map(value_of, ("overlapping", "flips", "packing", "first s", "s"))
 
 
 def median(values: Iterable[float | None]) -> float | None:
@@ -99,6 +106,7 @@ def markdown(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 
 SECTIONS = {
     "length": ("islands", "seam", "E_d", "density 5 %", "visible"),
+    "stretch": ("angles", "areas", "angles 95 %", "areas 95 %"),
     "place": ("mirrored", "lift", "sharp", "tiny", "loose ends"),
     "cost": ("overlapping", "flips", "packing", "first s", "s", "MB"),
 }
@@ -106,6 +114,8 @@ SECTIONS = {
 _LONGEST = 5
 """Columns up to which a table also has the number of triangles or models."""
 _COUNTED = {"tiny", "overlapping", "flips"}
+_LARGEST = "areas"
+"""The column whose largest value of any model stands beside its median."""
 FORMER = ("before", "before stretch")
 """Maps of the planner that the present one replaced. They have separate tables."""
 
@@ -133,8 +143,8 @@ def model_table(results: Sequence[Result], method: str, section: str) -> str:
 def median_table(results: Sequence[Result], section: str, *, former: bool = False) -> str:
     """Return a table of the medians of each method over the models that it has a map of.
 
-    Tiny islands, overlapping islands and flips are the numbers of models that have any. With ``former`` the rows are the
-    former planner's, otherwise those of all other methods.
+    Tiny islands, overlapping islands and flips are the numbers of models that have any. The stretch of areas also has the largest
+    value of any model. With ``former`` the rows are the former planner's, otherwise those of all other methods.
     """
     columns = columns_of(section)
     has_size = len(columns) <= _LONGEST
@@ -144,17 +154,30 @@ def median_table(results: Sequence[Result], section: str, *, former: bool = Fals
             continue
         chosen = [result for result in results if result.method == method]
         size = [str(len(chosen))] if has_size else []
-        rows.append([method, *size, *(typical(column, chosen) for column in columns)])
-    titles = [f"models: {column.title}" if column.title in _COUNTED else column.title for column in columns]
+        rows.append([method, *size, *(cell for column in columns for cell in typical(column, chosen))])
+    titles = [title for column in columns for title in titles_of(column)]
     return markdown(["method", *(["models"] if has_size else []), *titles], rows)
 
 
-def typical(column: Column, results: Sequence[Result]) -> str:
-    """Return the median of a column over the results, or the number of results that have any of what it counts."""
+def titles_of(column: Column) -> list[str]:
+    """Return the titles of a column in a table of medians."""
+    if column.title == _LARGEST:
+        return [column.title, f"{column.title}, largest"]
+    return [f"models: {column.title}" if column.title in _COUNTED else column.title]
+
+
+def typical(column: Column, results: Sequence[Result]) -> list[str]:
+    """Return the cells of a column in a table of medians: the median, and the largest value where it has a column.
+
+    For islands and triangles that are counted, this is the number of results that have any.
+    """
     values = [column.value(result) for result in results]
     if column.title in _COUNTED:
-        return str(sum(value is not None and value > 0 for value in values))
-    return shown(median(values), max(column.decimals, 1) if column.title == "islands" else column.decimals)
+        return [str(sum(value is not None and value > 0 for value in values))]
+    cells = [shown(median(values), max(column.decimals, 1) if column.title == "islands" else column.decimals)]
+    if column.title == _LARGEST:
+        cells.append(shown(max((value for value in values if value is not None), default=None), column.decimals))
+    return cells
 
 
 def tables_on(page: str) -> list[str]:
@@ -177,23 +200,48 @@ def with_tables(page: str, tables: dict[str, str]) -> str:
     return page
 
 
+@dataclass(frozen=True)
+class Comparison:
+    """A table of methods model by model: its methods, two values, the second one in parentheses, and their decimals."""
+
+    methods: Sequence[str]
+    title: str = "seam (E_d)"
+    values: tuple[Value, Value] = (SEAM, ENERGY)
+    decimals: int = 2
+
+    def cell(self, result: Result) -> str:
+        """Return the cell of a result."""
+        first, second = (shown(value(result), self.decimals) for value in self.values)
+        return f"{first} ({second})"
+
+
 COMPARED = {
-    "artists": ("ours", "ours as artist", "ours as artist flattened", "artist", "artist as published"),
-    "programs": ("ours", "tree", "ours 4.1", "optcuts", "xatlas"),
-    "former": ("ours", "before"),
+    "artists": Comparison(("ours", "ours as artist", "ours as artist flattened", "artist", "artist as published")),
+    "programs": Comparison(("ours", "tree", "ours 4.1", "optcuts", "xatlas")),
+    "former": Comparison(("ours", "before")),
+    "stretch": Comparison(
+        ("ours", "xatlas", "smart", "artist", "artist abf", "artist as published"), "areas (angles)", (AREAS, ANGLES), 3
+    ),
 }
-"""Methods whose seams are shown model by model, by the table's name."""
+"""Tables that show methods model by model, by name."""
 
 
 def comparison_table(results: Sequence[Result], name: str) -> str:
-    """Return a table of the seam's length and, in parentheses, E_d of each model and method."""
-    cells = {(r.model, r.method): f"{shown(SEAM(r))} ({shown(ENERGY(r))})" for r in results}
-    methods = [method for method in COMPARED[name] if any(r.method == method for r in results)]
+    """Return a table of two values, for instance the seam's length and, in parentheses, E_d, of each model and method."""
+    comparison = COMPARED[name]
+    cells = {(r.model, r.method): comparison.cell(r) for r in results}
+    methods = [method for method in comparison.methods if any(r.method == method for r in results)]
     models = dict.fromkeys(r.model for r in results)
     return markdown(
-        ["seam (E_d)", *methods],
+        [comparison.title, *methods],
         [[model, *(cells.get((model, method), "-") for method in methods)] for model in models],
     )
+
+
+def with_artist(results: Sequence[Result]) -> list[Result]:
+    """Return the results of the models that have an artist's seams."""
+    models = {result.model for result in results if result.method == "artist"}
+    return [result for result in results if result.model in models]
 
 
 def ratios(results: Sequence[Result], one: str, other: str, value: Value) -> list[float]:

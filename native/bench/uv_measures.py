@@ -43,6 +43,8 @@ _SYMMETRY_PROBES = 4_000
 _SHARP = np.radians(30.0)
 _TINY = 0.001
 _WORST = 0.001
+_MOST_OCTAVES = 5.0
+"""A triangle counts as stretched 32 times at most, so that a triangle without any UV area does not outweigh all others."""
 _PACKING_PIXELS = 1024
 _STACKED = 0.005
 """A layout in which more than this share of the covered pixels is covered twice is not packed."""
@@ -59,6 +61,14 @@ class Measures:
     """Symmetric Dirichlet energy (Smith and Schaefer 2015): see `symmetric_dirichlet_energy`."""
     density: float
     """Texel density that 95 % of the area reach, relative to the mean over the area."""
+    angles: float
+    """Mean stretch of angles: see `stretch`."""
+    areas: float
+    """Mean stretch of areas: see `stretch`."""
+    angles_most: float
+    """Stretch of angles that 95 % of the area keep within."""
+    areas_most: float
+    """Stretch of areas that 95 % of the area keep within."""
     visibility: float | None
     """Share of the views that see the seam, over the same share of the whole surface."""
     mirrored: float | None
@@ -223,6 +233,27 @@ def symmetric_dirichlet_energy(areas: Floats, larger: Floats, smaller: Floats) -
     return float(2 * np.sqrt((areas * growth).sum() * (areas * shrinkage).sum()) / areas.sum())
 
 
+def stretch(areas: Floats, larger: Floats, smaller: Floats) -> tuple[Floats, Floats]:
+    """Return how much a map stretches the angles and the area of each triangle, (m,) each.
+
+    The stretch of angles is how many times longer the map makes a triangle one way than the other. The stretch of areas is how many
+    times larger or smaller it makes the triangle than the mean, which is the area of the whole map over that of the surface. Both are
+    1 or more, and at most 32 (Sander, Snyder, Gortler, Hoppe, Texture mapping progressive meshes, 2001; Hormann and Greiner, MIPS,
+    2000). areas, larger and smaller are (m,): areas of triangles and singular values.
+    """
+    growth = larger * smaller
+    mean = (areas * growth).sum() / areas.sum()
+    with np.errstate(divide="ignore", invalid="ignore"):
+        octaves = np.log2(larger / smaller), np.abs(np.log2(growth / mean))
+    angles, sizes = (2.0 ** np.minimum(np.nan_to_num(each, nan=np.inf), _MOST_OCTAVES) for each in octaves)
+    return angles, sizes
+
+
+def weighted_geometric_mean(values: Floats, weights: Floats) -> float:
+    """Return the geometric mean of positive values."""
+    return float(np.exp(np.average(np.log(values), weights=weights)))
+
+
 def overlap(uv_map: UvMap, areas: Floats) -> tuple[float, int]:
     """Return the share of the area that islands cover twice themselves, and the number of these islands."""
     islands = uv_map.islands
@@ -294,6 +325,7 @@ def measure(uv_map: UvMap, reference: Reference) -> Measures:
     larger, smaller, determinant = singular_values(uv_map)
     proper = areas > 1e-10 * total / len(areas)
     density = np.sqrt(np.abs(determinant)) / np.sqrt((areas * np.abs(determinant)).sum() / total)
+    angles, sizes = stretch(areas[proper], larger[proper], smaller[proper])
     samples, lengths = seam_samples(uv_map.points, uv_map.seams, _SEAM_STEP * diagonal)
     seam, visibility, mirrored, precision, recall = lengths.sum(), None, None, None, None
     if seam:
@@ -314,6 +346,10 @@ def measure(uv_map: UvMap, reference: Reference) -> Measures:
         seam=float(seam / np.sqrt(total)),
         energy=symmetric_dirichlet_energy(areas, larger, smaller),
         density=weighted_quantile(density[proper], areas[proper], 0.05),
+        angles=weighted_geometric_mean(angles, areas[proper]),
+        areas=weighted_geometric_mean(sizes, areas[proper]),
+        angles_most=weighted_quantile(angles, areas[proper], 0.95),
+        areas_most=weighted_quantile(sizes, areas[proper], 0.95),
         visibility=visibility,
         mirrored=mirrored,
         precision=precision,

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import sys
 from pathlib import Path
@@ -22,11 +23,12 @@ from auto_seams_report import (
     median_table,
     model_table,
     tables_on,
+    with_artist,
     with_tables,
 )
 from seam_planning import artist_map, in_own_process, peak_memory, planned_maps
 from uv_maps import Frame, Model, UvMap, read_frames
-from uv_measures import Measures, Reference, front_views, measure, symmetric_dirichlet_energy
+from uv_measures import Measures, Reference, front_views, measure, stretch, symmetric_dirichlet_energy
 from uv_pictures import Row, arranged, draw_sheet, layout_picture, surface_picture
 from uv_rasters import coverage, front_view
 
@@ -89,6 +91,31 @@ def test_energy_leaves_out_the_worst_thousandth_of_the_area() -> None:
     # 2 sqrt(X Y), X the mean of s1^2 + s2^2 and Y that of s1^-2 + s2^-2, without the two worst triangles.
     growth, shrinkage = (1800 * 2 + 198 * 1.25) / 1998, (1800 * 2 + 198 * 5) / 1998
     assert symmetric_dirichlet_energy(areas, one, tenth) == pytest.approx(2 * np.sqrt(growth * shrinkage), abs=1e-9)
+
+
+def test_a_map_twice_as_long_one_way_stretches_angles_and_no_areas() -> None:
+    model = model_of(*grid(4, 4))
+    for scale in (0.01, 1.0, 30.0):
+        uv_map = UvMap(model.points, model.triangles, flat_map(model).uvs * np.array([2.0, 1.0]) * scale)
+        found = measured(model, uv_map)
+        assert (found.angles, found.angles_most) == (pytest.approx(2.0), pytest.approx(2.0))
+        assert (found.areas, found.areas_most) == (pytest.approx(1.0), pytest.approx(1.0))
+
+
+def test_stretch_of_areas_is_relative_to_the_whole_map() -> None:
+    model = model_of(*grid(4, 4))
+    uv_map = flat_map(model)
+    uv_map.uvs[:16] *= 3.0  # half of the area is nine times larger: the mean is five times
+    found = measured(model, uv_map)
+    assert found.angles == pytest.approx(1.0)
+    assert found.areas == pytest.approx(np.sqrt(9 / 5 * 5))
+    assert found.areas_most == pytest.approx(5.0)
+
+
+def test_a_triangle_without_uv_area_counts_as_stretched_32_times() -> None:
+    angles, areas = stretch(np.ones(3), np.array([1.0, 1.0, 0.0]), np.array([1.0, 0.0, 0.0]))
+    assert angles.tolist() == [1.0, 32.0, 32.0]
+    assert areas == pytest.approx([3.0, 32.0, 32.0])
 
 
 def test_a_cube_in_six_islands_is_cut_along_all_sharp_edges() -> None:
@@ -314,11 +341,26 @@ def test_tables_compare_models_that_both_methods_have() -> None:
     assert "| loose ends, more than the artist | <= 0 | - | 0 of 0 | - |" in lines
     assert "| 4,000 to 14,000 triangles: seconds to the end | <= 10 | 3.00 | 1 of 1 | yes |" in lines
     assert "| on sharp edges, hard surface | >= 0.6 | - | 0 of 0 | - |" in lines
+    assert f"| a | {short.areas:.3f} ({short.angles:.3f}) |" in comparison_table(results, "stretch").splitlines()
     assert model_table(results, "ours", "length").splitlines()[2].startswith("| a | 9000 | 1 | 0.25 | 4.00 |")
     missed = [Result("a", "ours 4.1", 9000, False, short, {"bound": 3.9}), *results[2:]]
     assert "| seam at E_d 4.1 / OptCuts | <= 0.9 | inf | 0 of 1 | no |" in goal_table(missed).splitlines()
     assert comparison_table(results, "programs").splitlines()[-1] == "| b | - | - | 0.25 (4.00) |"
     assert median_table(results, "length").splitlines()[-1].startswith("| optcuts | 2 | 1.0 | 0.44 |")
+
+
+def test_medians_of_the_stretch_of_areas_have_the_largest_beside_them() -> None:
+    model = model_of(*grid(8, 8))
+    same = measured(model, flat_map(model))
+    results = [
+        Result(name, "ours", 9000, False, dataclasses.replace(same, areas=areas), {})
+        for name, areas in (("a", 1.1), ("b", 1.02), ("c", 1.5))
+    ]
+    head, _, row = median_table(results, "stretch").splitlines()
+    assert head == "| method | models | angles | areas | areas, largest | angles 95 % | areas 95 % |"
+    assert row == "| ours | 3 | 1.000 | 1.100 | 1.500 | 1.00 | 1.00 |"
+    assert with_artist(results) == []
+    assert with_artist([*results, Result("b", "artist", 9000, False, same, {})])[0] == results[1]
 
 
 def test_the_former_planner_has_separate_tables() -> None:
