@@ -7,15 +7,17 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
+from figure_models import PATH_ERROR
 from figure_sheet import Bar, Key, Panel, sheet
 from figure_stage import INK
 from figure_studio import RIDGE, VALLEY, anisotropy_bar
-from seamwire.core.fields import color_maps
+from seamwire.core.fields import color_maps, metric_fields
 
 if TYPE_CHECKING:
     import seamwire_core
     from figure_models import Model
     from figure_studio import Studio
+    from numpy.typing import NDArray
     from PIL import Image
 
 METRICS = ("euclidean", "pottmann_kovacs", "campen", "feature")
@@ -28,11 +30,12 @@ COLORS = {
 }
 """Colors of wires in Figure 4."""
 ANISOTROPY = 20.0
-_ENDS = (
-    (((0.02, 0.572, 0.792), (0.608, 0.183, 0.826)), "along a ridge"),
-    (((0.523, 0.834, 0.448), (0.289, 0.48, 0.28)), "along a valley"),
-)
-"""Between which places of rocker-arm the wires of Figure 4 run: some of those where the four metrics differ most."""
+_CANDIDATES = 40
+"""Vertices of ridges and of valleys between which Figure 4 looks for the ends of its wires."""
+_APART = (0.3, 0.9)
+"""How far these ends are apart, in sides of the unit cube."""
+_ONE_SIDE = 0.6
+"""Length of the mean normal along the wires, at least: they are all seen from one side."""
 _RIM = (0.98, 0.30, 0.43)
 """Where Figure 6 looks closer: a ridge beside a flat part of rocker-arm."""
 
@@ -78,12 +81,10 @@ def along_ridge_and_valley(studio: Studio) -> Image.Image:
     """Figure 4: geodesics of four metrics between points of a curved ridge, and of a curved valley."""
     model = studio.model("rocker-arm")
     panels = []
-    for ends, title in _ENDS:
-        start, end = (model.vertex_at(*place) for place in ends)
-        wires = {kind: model.field(kind, start, **_strength(kind)).trace(end) for kind in METRICS}
+    for sign, title in ((1.0, "along a ridge"), (-1.0, "along a valley")):
+        wires = _most_different(model, sign)
         stage = studio.stage(model, 2, 0.8)
-        faces = np.concatenate([wire.faces for wire in wires.values()])
-        normal = model.curvature.normals[model.triangles[faces]].mean(axis=(0, 1))
+        normal = _mean_normal(model, wires)
         for kind, wire in wires.items():
             # Ours lies over the wider one of Campen's, which is seen on both sides.
             lift = 0.004 * model.size * normal if kind == "feature" else 0.0
@@ -95,6 +96,53 @@ def along_ridge_and_valley(studio: Studio) -> Image.Image:
         stage.look_at(0.5 * (low + top), min(3.0, 0.75 * model.size / float(np.linalg.norm(top - low))))
         panels.append(Panel(studio.render(stage), title, Key(tuple((NAMES[kind], COLORS[kind]) for kind in METRICS))))
     return sheet([panels])
+
+
+def _most_different(model: Model, sign: float) -> dict[str, seamwire_core.Wire]:
+    """Return a wire in each metric, between those strong vertices of a ridge (1) or a valley (-1) where the metrics differ most.
+
+    Metrics differ by the mean of s along the wires: the smaller one of ours and Campen's, less the larger one of the two other metrics.
+
+    Raises
+    ------
+    ValueError
+        If the model has no such vertices.
+    """
+    smoothed = model.core.smoothed_curvatures(model.surface, model.curvature)
+    strong = np.flatnonzero((sign * smoothed.k1 > 0.0) & (model.strength >= np.percentile(model.strength, 95)))
+    ends = strong[metric_fields.spread(model.points[strong], _CANDIDATES)[0]]
+    embeddings = {kind: model.embed(model.metric(kind, **_strength(kind)), kind, PATH_ERROR) for kind in METRICS}
+    best: dict[str, seamwire_core.Wire] = {}
+    best_gain, best_means, pairs = -np.inf, {}, 0
+    for start in ends.tolist():
+        away = np.linalg.norm(model.points[ends] - model.points[start], axis=1) / model.size
+        targets = ends[(ends > start) & (away > _APART[0]) & (away < _APART[1])].tolist()
+        fields = {kind: model.core.distance_field(one, start) for kind, one in embeddings.items()} if targets else {}
+        pairs += len(targets)
+        for target in targets:
+            wires = {kind: field.trace(target) for kind, field in fields.items()}
+            means = {kind: _mean_strength(model, wire) for kind, wire in wires.items()}
+            gain = min(means["feature"], means["campen"]) - max(means["pottmann_kovacs"], means["euclidean"])
+            if gain > best_gain and np.linalg.norm(_mean_normal(model, wires)) > _ONE_SIDE:
+                best_gain, best_means, best = gain, means, wires
+    what = "ridge" if sign > 0.0 else "valley"
+    if not best:
+        raise ValueError(f"{model.name} has no two points on a {what} that are far enough apart")
+    text = ", ".join(f"{NAMES[kind]} {mean:.0f}" for kind, mean in best_means.items())
+    print(f"   Figure 4: {what}, the best of {pairs} pairs; mean of s along the wires: {text}")
+    return best
+
+
+def _mean_strength(model: Model, wire: seamwire_core.Wire) -> float:
+    """Return the mean of s along a wire."""
+    lengths = np.linalg.norm(np.diff(wire.points, axis=0), axis=1)
+    return float(np.average(model.strength[model.triangles[wire.faces]].mean(axis=1), weights=lengths))
+
+
+def _mean_normal(model: Model, wires: dict[str, seamwire_core.Wire]) -> NDArray[np.float64]:
+    """Return the mean of the unit normals along wires, (3,)."""
+    faces = np.concatenate([wire.faces for wire in wires.values()])
+    return model.curvature.normals[model.triangles[faces]].mean(axis=(0, 1))
 
 
 def feature_strength(studio: Studio) -> Image.Image:

@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+from figure_drawn import spread_colors
 from figure_sheet import Key, Panel, sheet
 from figure_stage import INK, SEED
 from figure_studio import ISLANDS, STROKE, anisotropy_bar
@@ -73,7 +74,7 @@ def segmentation(studio: Studio) -> Image.Image:
     studio.add_crests(stage, lines)
     panels = [Panel(studio.render(stage), "ridges and valleys")]
     regions = shape_proxies(model.points, model.triangles, PROXIES)
-    stage = studio.stage(model, 4, colors=np.array(ISLANDS)[_spread_colors(model.triangles, regions)])
+    stage = studio.stage(model, 4, colors=np.array(ISLANDS)[spread_colors(model.triangles, regions, len(ISLANDS))])
     panels.append(Panel(studio.render(stage), "shape approximation"))
     for filled in (False, True):
         stage = studio.empty_stage(model, 4)
@@ -92,19 +93,3 @@ def more_segmentations(studio: Studio) -> Image.Image:
         studio.add_network(stage, model)
         panels.append(Panel(studio.render(stage), model.name))
     return sheet([panels])
-
-
-def _spread_colors(triangles: NDArray[np.int32], regions: NDArray[np.int32]) -> NDArray[np.int64]:
-    """Return a color's number for each triangle: regions that touch have others, as far as there are enough."""
-    corners = np.stack([triangles.ravel(), np.repeat(regions, 3)], axis=1)
-    corners = np.unique(corners, axis=0)
-    same = corners[1:, 0] == corners[:-1, 0]
-    touching: dict[int, set[int]] = {}
-    for one, other in np.stack([corners[:-1, 1], corners[1:, 1]], axis=1)[same].tolist():
-        touching.setdefault(one, set()).add(other)
-        touching.setdefault(other, set()).add(one)
-    colors = np.zeros(int(regions.max()) + 1, dtype=np.int64)
-    for region in range(len(colors)):
-        taken = {int(colors[other]) for other in touching.get(region, ()) if other < region}
-        colors[region] = min(set(range(len(ISLANDS))) - taken, default=region % len(ISLANDS))
-    return colors[regions]

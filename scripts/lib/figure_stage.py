@@ -54,7 +54,7 @@ class Stage:
         self._zoom = 1.0
         self._aim: NDArray[np.float64] | None = None
         self._view = view
-        seen = self._corners @ np.array(_turn(*view).to_matrix())
+        seen = self._corners @ np.array(turn(*view).to_matrix())
         wide, high, _ = np.ptp(seen, axis=0)
         if ratio is None:
             ratio = min(1.5, (high + 0.06 * wide) / (1.06 * wide))
@@ -204,7 +204,7 @@ class Stage:
         """Return the viewer's axes, (3, 3), what is in the middle, and how wide the part is that is seen."""
         render = bpy.context.scene.render
         width, height = render.resolution_x, render.resolution_y
-        turned = np.array(_turn(*self._view).to_matrix().inverted())
+        turned = np.array(turn(*self._view).to_matrix().inverted())
         seen = self._corners @ turned.T
         low, top = seen.min(axis=0), seen.max(axis=0)
         aim = turned.T @ (0.5 * (low + top)) if self._aim is None else self._aim
@@ -261,7 +261,7 @@ def _set_lights() -> None:
         light.direction, light.smooth = direction, 0.2
 
 
-def _turn(azimuth: float, elevation: float) -> Euler:
+def turn(azimuth: float, elevation: float) -> Euler:
     """Return how a camera is turned that looks at the origin from azimuth and elevation, degrees."""
     flat, high = radians(azimuth), radians(elevation)
     towards = Vector((cos(flat) * cos(high), sin(flat) * cos(high), sin(high)))

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
+from figure_drawn import Drawn, network_of, spread_colors
 from figure_models import Model
 from figure_sheet import Bar, with_inset
-from figure_stage import CLAY, INK, SEED, Stage
+from figure_stage import INK, SEED, Stage
 from seamwire.core.fields import color_maps, metric_fields
 
 if TYPE_CHECKING:
@@ -94,7 +95,7 @@ class Studio:
     def __init__(self, folder: Path, models: Mapping[str, Model]) -> None:
         self.folder, self.models = folder, models
         self.core = next(iter(models.values())).core
-        self._plans: dict[str, seamwire_core.SeamPlan] = {}
+        self._networks: dict[str, Drawn] = {}
 
     def model(self, *names: str) -> Model:
         """Return the first of some models that is there, else the first of all."""
@@ -160,12 +161,22 @@ class Studio:
         is_ridge = lines.curvatures[:-1][inside] > 0.0
         stage.segments(pieces, np.where(is_ridge[:, None], RIDGE, VALLEY), 0.005)
 
+    def network(self, model: Model) -> Drawn:
+        """Return the network of a model, drawn or planned."""
+        if model.name not in self._networks:
+            self._networks[model.name] = network_of(model, self.folder)
+        return self._networks[model.name]
+
     def add_network(self, stage: Stage, model: Model, filled: bool = False) -> None:
-        """Add a model with a network of wires as the planner suggests it."""
-        if model.name not in self._plans:
-            self._plans[model.name] = self.core.SeamPlanner(model.surface, along="surface").plan()
-        plan = self._plans[model.name]
-        stage.mesh(model.points, model.triangles, np.array(ISLANDS)[plan.islands % len(ISLANDS)] if filled else CLAY)
-        for wire in plan.wires:
-            stage.line(wire.points, INK, 0.008)
-        stage.balls(model.points[sorted({seed for wire in plan.wires for seed in wire.seeds})], SEED, 0.013)
+        """Add a model with its network: with its seeds and scribbles, or with a color for each island."""
+        drawn = self.network(model)
+        if filled:
+            colors = np.array(ISLANDS)[spread_colors(drawn.triangles, drawn.islands, len(ISLANDS))]
+            stage.mesh(drawn.points, drawn.triangles, colors)
+        else:
+            stage.mesh(model.points, model.triangles)
+            for scribble in drawn.scribbles:
+                stage.line(scribble, STROKE, 0.014)
+            stage.balls(drawn.seeds, SEED, 0.013)
+        for wire in drawn.wires:
+            stage.line(wire, INK, 0.008)
