@@ -3,7 +3,7 @@
 
 Arguments after ``--``: a model, its recording, and a folder. recordings/README.md describes recordings.
 
-The folder gets NAME.json, the network of wires. It also gets NAME.npz: the mesh cut along the wires, its islands, and the fields of `Played`.
+The folder gets NAME.json, the network of wires, and NAME.npz. The latter has the mesh cut along the wires, its islands, and `Played`.
 
 The time of a person is an estimate. The keystroke-level model gives seconds for thinking, pointing, buttons and keys (Card, Moran, Newell:
 The keystroke-level model for user performance time with interactive systems, CACM 23(7), 1980). The time of the tool is measured.
