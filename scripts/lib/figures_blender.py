@@ -22,6 +22,7 @@ import bpy
 addon_utils.enable("seamwire", default_set=True)
 
 import figure_embeddings
+import figure_features
 import figure_metrics
 import figure_networks
 import figure_norm
@@ -46,8 +47,9 @@ FIGURES = {
     10: figure_networks.scribble,
     11: figure_networks.segmentation,
     12: figure_networks.more_segmentations,
+    13: figure_features.feature_detection,
 }
-"""What makes each figure, as a picture or a table."""
+"""What makes each figure, as a picture or a table. The paper has no number 13."""
 
 
 def suzanne(core: object) -> Model:
