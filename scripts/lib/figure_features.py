@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from PIL import Image
 
 MODELS = ("armadillo", "rocker-arm")
-"""Models of the picture. The constants below were chosen on them."""
+"""Models of the picture. The constants below were chosen on rocker-arm."""
 SOURCES, TARGETS = 100, 300
 """About how many vertices paths start from and lead to."""
 GAMMA = 0.1
