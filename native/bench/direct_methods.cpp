@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <queue>
 
 #include "seamwire/errors.hpp"
@@ -412,6 +413,228 @@ std::vector<double> FastMarching::solve(std::int32_t seed) const {
       }
       front.lower(u.to, distance);
     }
+  });
+  return front.distances;
+}
+
+namespace {
+
+// Finds the direct geodesics of the saddle vertex graph, from one vertex after another. Windows spread from the vertex,
+// the nearest first, and are filtered as in Xin and Wang, "Improving Chen and Han's Algorithm on the Discrete Geodesic
+// Problem" (2009). The saddle vertices in the disc emit windows too. These show which geodesics are not direct.
+class DirectGeodesics {
+ public:
+  explicit DirectGeodesics(const IntrinsicMesh& mesh)
+      : mesh_(mesh),
+        leaving_(static_cast<std::size_t>(mesh.vertex_count)),
+        is_saddle_(leaving_.size(), 0),
+        found_(leaving_.size()),
+        nearest_(mesh.twins.size()) {
+    // More than 2 pi by less than this is rounding.
+    constexpr double kFlatness = 1e-7;
+    std::vector<double> angles(leaving_.size(), 0.0);
+    for (std::int32_t h = 0; h < static_cast<std::int32_t>(mesh.twins.size()); ++h) {
+      const double base = mesh.lengths[h], left = mesh.lengths[previous(h)], right = mesh.lengths[next(h)];
+      const double x = (base * base + left * left - right * right) / (2 * base);
+      apexes_.emplace_back(x, std::sqrt(std::max(0.0, left * left - x * x)));
+      leaving_[mesh.tail(h)].push_back(h);
+      angles[mesh.tail(h)] += std::atan2(apexes_.back().y(), x);
+      if (mesh.twins[h] < 0) is_saddle_[mesh.tail(h)] = is_saddle_[mesh.tip(h)] = 1;
+    }
+    for (std::size_t v = 0; v < angles.size(); ++v) {
+      if (angles[v] > 2 * std::numbers::pi + kFlatness) is_saddle_[v] = 1;
+    }
+  }
+
+  // Calls visit(to, length) for each vertex with a direct geodesic among the `disc` vertices nearest to `seed`.
+  template <class Visit>
+  void run(std::int32_t seed, int disc, const Visit& visit) {
+    for (const std::int32_t v : touched_) found_[v] = {};
+    for (const std::int32_t h : split_) nearest_[h] = {};
+    touched_.clear();
+    split_.clear();
+    events_ = {};
+    relax(seed, 0.0, false);
+    for (int passed = -1; passed < disc && !events_.empty();) {
+      const Event event = events_.top();
+      events_.pop();
+      if (event.vertex < 0) {
+        cross(event.window);
+        continue;
+      }
+      Found& found = found_[event.vertex];
+      if (std::exchange(found.is_passed, true)) continue;
+      ++passed;
+      if (found.is_direct) visit(event.vertex, found.distance);
+      if (event.vertex == seed || is_saddle_[event.vertex]) emit(event.vertex, event.vertex == seed);
+    }
+  }
+
+ private:
+  // A part of an edge that the source sees in a straight line over unfolded triangles. The half-edge runs from the
+  // origin along the x-axis. Lines enter its triangle, which is above. The source is below.
+  struct Window {
+    std::int32_t half_edge = -1;
+    bool is_direct = false;  // the source is the seed
+    double begin = 0.0, end = 0.0;
+    Eigen::Vector2d source = Eigen::Vector2d::Zero();
+    double offset = 0.0;  // the distance of the source
+  };
+  struct Event {
+    double distance;
+    std::int32_t vertex;  // -1: the window
+    Window window;
+    bool operator>(const Event& other) const { return distance > other.distance; }
+  };
+  struct Found {
+    double distance = kInfinity;
+    bool is_direct = false, is_passed = false;
+  };
+  // The shortest line over a half-edge to its apex, and where it crosses the half-edge.
+  struct Nearest {
+    double distance = kInfinity, at = 0.0;
+  };
+  // A path that is shorter by less than this part is the same one, up to rounding.
+  static constexpr double kTie = 1 - 1e-12;
+  // A line may miss the end of a window by this part of the edge, because of rounding.
+  static constexpr double kMiss = 1e-10;
+
+  static std::int32_t next(std::int32_t h) { return h - h % 3 + (h + 1) % 3; }
+  static std::int32_t previous(std::int32_t h) { return next(next(h)); }
+  static double cross_product(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return a.x() * b.y() - a.y() * b.x();
+  }
+
+  void relax(std::int32_t v, double distance, bool is_direct) {
+    Found& found = found_[v];
+    if (found.is_passed || distance >= found.distance) return;
+    if (found.distance == kInfinity) touched_.push_back(v);
+    found.distance = distance;
+    found.is_direct = is_direct;
+    events_.push({distance, v, {}});
+  }
+
+  void emit(std::int32_t v, bool is_seed) {
+    const double offset = found_[v].distance;
+    for (const std::int32_t h : leaving_[v]) {
+      const std::int32_t opposite = next(h);
+      relax(mesh_.tip(h), offset + mesh_.lengths[h], is_seed);
+      relax(mesh_.apex(h), offset + mesh_.lengths[previous(h)], is_seed);
+      const double length = mesh_.lengths[opposite];
+      const Eigen::Vector2d& apex = apexes_[opposite];
+      push({mesh_.twins[opposite], is_seed, 0.0, length, {length - apex.x(), -apex.y()}, offset});
+    }
+  }
+
+  // Adds a window, unless paths over an end of its edge are shorter.
+  void push(const Window& window) {
+    const auto& [h, is_direct, begin, end, source, offset] = window;
+    if (h < 0 || !(begin < end) || !(source.y() < 0)) return;
+    const auto to = [&, &from = source, &before = offset](double x) {
+      return before + std::hypot(from.x() - x, from.y());
+    };
+    if (found_[mesh_.tail(h)].distance + end < to(end) * kTie) return;
+    if (found_[mesh_.tip(h)].distance + mesh_.lengths[h] - begin < to(begin) * kTie) return;
+    events_.push({to(std::clamp(source.x(), begin, end)), -1, window});
+  }
+
+  // The window sees the apex, and parts of both sides.
+  void cross(const Window& window) {
+    const auto& [h, is_direct, begin, end, source, offset] = window;
+    const double base = mesh_.lengths[h], left = mesh_.lengths[previous(h)], right = mesh_.lengths[next(h)];
+    const Eigen::Vector2d& apex = apexes_[h];
+    const Eigen::Vector2d tip(base, 0.0);
+    if (!(apex.y() > 0)) return;
+    // Where the line to the apex meets the base. Lines on its left go to the left side.
+    const double middle = cross_product(source, apex) / (apex.y() - source.y());
+    bool sees_left = begin < middle, sees_right = middle < end;
+    if (begin - kMiss * base <= middle && middle <= end + kMiss * base) {
+      const double distance = offset + (apex - source).norm();
+      relax(mesh_.apex(h), distance, is_direct);
+      // One angle, one split (Chen and Han, 1990): lines that cross a shorter line to the apex are not shortest paths.
+      Nearest& nearest = nearest_[h];
+      if (nearest.distance < distance * kTie) {
+        sees_left = sees_left && nearest.at >= middle;
+        sees_right = sees_right && nearest.at <= middle;
+      } else if (distance < nearest.distance) {
+        if (nearest.distance == kInfinity) split_.push_back(h);
+        nearest = {distance, middle};
+      }
+    }
+    // How far along a side, from 0 at the base to 1 at the apex, a line from `from` over x on the base meets it. The
+    // side begins at the origin.
+    const auto along = [](double x, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+      return std::clamp(x * from.y() / ((x - from.x()) * to.y() + from.y() * to.x()), 0.0, 1.0);
+    };
+    // Whether paths over the vertex opposite to a side are shorter, at the end of the window that is next to the base.
+    const auto is_longer = [&, &from = source, &before = offset](std::int32_t v, const Eigen::Vector2d& corner,
+                                                                 const Eigen::Vector2d& at) {
+      return found_[v].distance + (at - corner).norm() < (before + (at - from).norm()) * kTie;
+    };
+    if (sees_left) {
+      const double first = along(begin, source, apex), last = middle < end ? 1.0 : along(end, source, apex);
+      const Eigen::Vector2d u = apex / left;
+      if (!is_longer(mesh_.tip(h), tip, first * apex)) {
+        push({mesh_.twins[previous(h)],
+              is_direct,
+              first * left,
+              last * left,
+              {source.dot(u), cross_product(u, source)},
+              offset});
+      }
+    }
+    if (sees_right) {
+      // As on the left, in the mirror image.
+      const Eigen::Vector2d mirrored_source(base - source.x(), source.y()), mirrored_apex(base - apex.x(), apex.y());
+      const double first = along(base - end, mirrored_source, mirrored_apex);
+      const double last = begin < middle ? 1.0 : along(base - begin, mirrored_source, mirrored_apex);
+      const Eigen::Vector2d u = (tip - apex) / right, from = source - apex;
+      if (!is_longer(mesh_.tail(h), {0.0, 0.0}, tip + first * (apex - tip))) {
+        push({mesh_.twins[next(h)],
+              is_direct,
+              (1 - last) * right,
+              (1 - first) * right,
+              {from.dot(u), cross_product(u, from)},
+              offset});
+      }
+    }
+  }
+
+  const IntrinsicMesh& mesh_;
+  std::vector<Eigen::Vector2d> apexes_;  // per half-edge, in its frame
+  std::vector<std::vector<std::int32_t>> leaving_;
+  std::vector<char> is_saddle_;
+  std::vector<Found> found_;
+  std::vector<Nearest> nearest_;               // per half-edge
+  std::vector<std::int32_t> touched_, split_;  // entries of found_ and nearest_ to reset
+  std::priority_queue<Event, std::vector<Event>, std::greater<>> events_;
+};
+
+}  // namespace
+
+SaddleVertexGraph::SaddleVertexGraph(const IntrinsicMesh& mesh, int disc)
+    : arcs_(static_cast<std::size_t>(mesh.vertex_count)) {
+  DirectGeodesics geodesics(mesh);
+  for (std::int32_t v = 0; v < mesh.vertex_count; ++v) {
+    geodesics.run(v, disc, [&](std::int32_t to, double length) {
+      arcs_[v].push_back({to, length});
+      arcs_[to].push_back({v, length});
+    });
+  }
+  // Some geodesics were found from both ends.
+  for (std::vector<Arc>& arcs : arcs_) {
+    std::sort(arcs.begin(), arcs.end(),
+              [](const Arc& a, const Arc& b) { return std::pair(a.to, a.length) < std::pair(b.to, b.length); });
+    const auto is_same = [](const Arc& a, const Arc& b) { return a.to == b.to; };
+    arcs.erase(std::unique(arcs.begin(), arcs.end(), is_same), arcs.end());
+    arcs.shrink_to_fit();
+  }
+}
+
+std::vector<double> SaddleVertexGraph::solve(std::int32_t seed) const {
+  Front front(arcs_.size(), seed);
+  front.run([&](std::int32_t a) {
+    for (const auto& [to, length] : arcs_[a]) front.lower(to, front.distances[a] + length);
   });
   return front.distances;
 }

@@ -89,4 +89,22 @@ class FastMarching {
   std::vector<std::vector<Update>> updates_;  // a vertex: those that its distance allows
 };
 
+/// Ying, Wang, He, "Saddle Vertex Graph (SVG): A Novel Solution to the Discrete Geodesic Problem" (2013), on edge
+/// lengths. The graph joins vertices whose geodesic is direct, which means that it passes no other vertex. Geodesics
+/// bend at saddle vertices only, so each is a chain of direct ones, and Dijkstra on the graph finds it. For speed, each
+/// vertex is joined only to others among the `disc` vertices nearest to it. With all vertices, distances are exact.
+class SaddleVertexGraph {
+ public:
+  /// Finds the disc of each vertex. Loose edges are ignored.
+  SaddleVertexGraph(const IntrinsicMesh& mesh, int disc);
+  std::vector<double> solve(std::int32_t seed) const;
+
+ private:
+  struct Arc {
+    std::int32_t to;
+    double length;
+  };
+  std::vector<std::vector<Arc>> arcs_;  // per vertex
+};
+
 }  // namespace seamwire::bench

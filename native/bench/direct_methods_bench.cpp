@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // The methods of Section 2.3 of the paper beside exact geodesics on the embedding:
-//   direct_methods_bench [--seeds N] [--most-faces N] MESH...
+//   direct_methods_bench [--seeds N] [--most-faces N] [--only NAME]... [--anisotropy A]... MESH...
 // Prints error and time, a line for each method, mesh and maximum anisotropy, with tabs between columns. MESH is a
-// file, or "torus" or "sphere", which are made here with 20,000 triangles.
+// file, or "torus" or "sphere", which are made here with 20,000 triangles. With --only, it measures methods whose names
+// begin with one of the given ones. The anisotropies are 2, 5, 10 and 20, unless others are given.
 //
 // The metric is M_min of eq. 5. On the sphere, which has no curvature lines, it runs along the parallels. All methods
 // approximate the same problem: the mesh's polyhedron, with forms between vertices as repeated halving of edges gives
@@ -14,14 +15,20 @@
 // second is Dijkstra over 7 and 15 Steiner points for each edge of the mesh cut once, extrapolated, from the first
 // seed. It shares nothing with the embedding.
 //
+// The saddle vertex graph is made on the embedding. Lines that end in "beside ours" have its error against exact
+// distances on the embedding.
+//
 // Errors are the mean and the 95th percentile over the vertices, as medians over the seeds. Times are processor time of
 // one thread, as medians over the seeds. The time to build what each metric needs once is separate.
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <numeric>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "../tests/shapes.hpp"
 #include "direct_methods.hpp"
@@ -33,6 +40,12 @@ namespace {
 
 struct Options {
   int seeds = 5, most_faces = 1'400'000;
+  std::vector<std::string> only{};  ///< beginnings of names; empty: all methods
+  std::vector<double> anisotropies{};
+
+  bool is_wanted(const std::string& method) const {
+    return only.empty() || std::ranges::any_of(only, [&](const std::string& name) { return method.starts_with(name); });
+  }
 };
 
 Surface surface_of(const std::string& mesh) {
@@ -88,7 +101,7 @@ void measure(const std::string& file, const Options& options) {
   const std::size_t count = surface.vertex_count();
   int levels = 0;
   for (std::size_t faces = 4 * surface.face_count(); faces <= std::size_t(options.most_faces); faces *= 4) ++levels;
-  for (const double anisotropy : {2.0, 5.0, 10.0, 20.0}) {
+  for (const double anisotropy : options.anisotropies) {
     const Metric metric = metric_of(file, surface, anisotropy);
     const MetricSurface input = metric_surface(surface, metric);
     std::vector<std::int32_t> seeds(static_cast<std::size_t>(options.seeds));
@@ -102,30 +115,36 @@ void measure(const std::string& file, const Options& options) {
       }
       return distances;
     };
-    const std::vector<std::vector<double>> references = solve_all(levels), coarser = solve_all(std::max(0, levels - 1));
+    const std::vector<std::vector<double>> references = solve_all(levels);
     // A row of the first seeds' distances.
-    const auto line = [&](const char* method, double building, const std::vector<double>& solving,
-                          const std::vector<std::vector<double>>& distances) {
+    const auto line = [&](const std::string& method, double building, const std::vector<double>& solving,
+                          const std::vector<std::vector<double>>& distances,
+                          const std::vector<std::vector<double>>& expected) {
       std::vector<double> means, most;
       for (std::size_t i = 0; i < distances.size(); ++i) {
-        const std::vector<double> all = errors(distances[i], references[i], count);
+        const std::vector<double> all = errors(distances[i], expected[i], count);
         means.push_back(std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size()));
         most.push_back(quantile(all, 0.95));
       }
       std::printf("%s\t%zu\t%g\t%s\t%.2f\t%.2f\t%.3f\t%.3f\n", mesh_name(file, 0).c_str(), surface.face_count(),
-                  anisotropy, method, 1e3 * building, 1e3 * median(solving), 100 * median(means), 100 * median(most));
+                  anisotropy, method.c_str(), 1e3 * building, 1e3 * median(solving), 100 * median(means),
+                  100 * median(most));
       std::fflush(stdout);
     };
-    const auto row = [&](const char* method, double building, const auto& solve) {
+    const auto row = [&](const std::string& method, double building, const auto& solve) {
       std::vector<double> solving(seeds.size());
       std::vector<std::vector<double>> distances(seeds.size());
+      if (!options.is_wanted(method)) return distances;
       for (std::size_t i = 0; i < seeds.size(); ++i) {
         solving[i] = seconds([&] { distances[i] = solve(seeds[i]); });
       }
-      line(method, building, solving, distances);
+      line(method, building, solving, distances, references);
+      return distances;
     };
-    line("reference, once less", 0.0, {0.0}, coarser);
-    line("reference, Steiner points", 0.0, {0.0}, {dense_steiner(surface, metric, seeds.front())});
+    if (options.is_wanted("reference")) {
+      line("reference, once less", 0.0, {0.0}, solve_all(std::max(0, levels - 1)), references);
+      line("reference, Steiner points", 0.0, {0.0}, {dense_steiner(surface, metric, seeds.front())}, references);
+    }
     row("Dijkstra", 0.0, [&](std::int32_t seed) { return edge_dijkstra(input, seed); });
     row("Steiner points, 5", 0.0, [&](std::int32_t seed) { return steiner_dijkstra(input, seed, 5); });
     row("STVD, 3", 0.0, [&](std::int32_t seed) { return short_term_vector_dijkstra(input, seed, 3); });
@@ -142,6 +161,17 @@ void measure(const std::string& file, const Options& options) {
     const double unfolding = seconds([&] { marching = std::make_unique<FastMarching>(embedding.mesh); });
     row("fast marching, embedded", embedding_time + unfolding,
         [&](std::int32_t seed) { return marching->solve(seed); });
+    for (const int disc : {50, 200}) {
+      const std::string name = "SVG, " + std::to_string(disc);
+      if (!options.is_wanted(name)) continue;
+      std::unique_ptr<SaddleVertexGraph> graph;
+      const double joining = seconds([&] { graph = std::make_unique<SaddleVertexGraph>(embedding.mesh, disc); });
+      const auto distances = row(name, embedding_time + joining, [&](std::int32_t seed) { return graph->solve(seed); });
+      const ExactGeodesics exact(embedding.mesh);
+      std::vector<std::vector<double>> expected;
+      for (const std::int32_t seed : seeds) expected.push_back(exact.solve(seed).distances());
+      line(name + " beside ours", 0.0, {0.0}, distances, expected);
+    }
     for (const auto& [name, max_error] : {std::pair("ours", 0.0), std::pair("ours, 2 %", 0.02),
                                           std::pair("ours, 1 %", 0.01), std::pair("ours, 0.5 %", 0.005)}) {
       std::unique_ptr<ExactGeodesics> ours;
@@ -154,8 +184,15 @@ void measure(const std::string& file, const Options& options) {
 
 int measure_all(int argc, char** argv) {
   Options options;
-  return run(argc, argv, {{"--seeds", set_count(options.seeds, 1)}, {"--most-faces", set_count(options.most_faces, 1)}},
-             [&](const std::string& mesh) { measure(mesh, options); });
+  return run(argc, argv,
+             {{"--seeds", set_count(options.seeds, 1)},
+              {"--most-faces", set_count(options.most_faces, 1)},
+              {"--anisotropy", [&](const std::string& a) { options.anisotropies.push_back(std::stod(a)); }},
+              {"--only", [&](const std::string& name) { options.only.push_back(name); }}},
+             [&](const std::string& mesh) {
+               if (options.anisotropies.empty()) options.anisotropies = {2.0, 5.0, 10.0, 20.0};
+               measure(mesh, options);
+             });
 }
 
 }  // namespace

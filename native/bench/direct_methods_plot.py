@@ -23,6 +23,7 @@ def main() -> None:
     results, file = map(Path, sys.argv[1:])
     with results.open() as lines:
         rows = [row for row in csv.reader(lines, delimiter="\t") if not row[3].startswith("reference")]
+    rows = [row for row in rows if not row[3].endswith("beside ours")]
     methods = list(dict.fromkeys(row[3] for row in rows))
     grays = {"ours": "0.6", "ours, 2 %": "0.45", "ours, 1 %": "0.2", "ours, 0.5 %": "0"}
     colors = {method: grays.get(method, f"C{i}") for i, method in enumerate(methods)}

@@ -305,12 +305,46 @@ TEST_F(DirectMethodsOnTheTorus, DistancesAreTwiceAsLongInAMetricOfTwiceTheLength
       vectors(5),
       ordered_upwind,
       [](const MetricSurface& s, std::int32_t seed) { return HeatMethod(s).solve(seed); },
-      [&](const MetricSurface& s, std::int32_t seed) { return FastMarching(embed(torus, s.metric).mesh).solve(seed); }};
+      [&](const MetricSurface& s, std::int32_t seed) { return FastMarching(embed(torus, s.metric).mesh).solve(seed); },
+      [&](const MetricSurface& s, std::int32_t seed) {
+        return SaddleVertexGraph(embed(torus, s.metric).mesh, 20).solve(seed);
+      }};
   for (const Distances& method : methods) {
     const std::vector<double> once = method(metric_surface(torus, metric), 0);
     const std::vector<double> found = method(metric_surface(torus, twice), 0);
     for (std::size_t v = 0; v < torus.vertex_count(); ++v) EXPECT_NEAR(found[v], 2 * once[v], kHeatRounding);
   }
+}
+
+// The graph with all direct geodesics has every geodesic. With small discs, paths are real ones, but longer.
+void expect_exact_with_all_vertices(const IntrinsicMesh& mesh) {
+  const ExactGeodesics exact(mesh);
+  const SaddleVertexGraph all(mesh, mesh.vertex_count), many(mesh, 100), few(mesh, 10);
+  for (const std::int32_t seed : {0, mesh.vertex_count / 2, mesh.vertex_count - 1}) {
+    const std::vector<double> expected = exact.solve(seed).distances();
+    const std::vector<double> found = all.solve(seed), longer = many.solve(seed), longest = few.solve(seed);
+    double sum = 0.0, longer_sum = 0.0, longest_sum = 0.0;
+    for (std::size_t v = 0; v < expected.size(); ++v) {
+      EXPECT_NEAR(found[v], expected[v], kRounding);
+      EXPECT_GE(longer[v], expected[v] - kRounding);
+      EXPECT_GE(longest[v], expected[v] - kRounding);
+      sum += expected[v];
+      longer_sum += longer[v];
+      longest_sum += longest[v];
+    }
+    EXPECT_GT(longer_sum, sum);
+    EXPECT_GT(longest_sum, longer_sum);
+    EXPECT_LT(longest_sum, 1.1 * sum);
+  }
+}
+
+TEST_F(DirectMethodsOnTheTorus, TheSaddleVertexGraphIsExactWithAllVertices) {
+  expect_exact_with_all_vertices(embed(torus, metric).mesh);
+}
+
+TEST(DirectMethods, TheSaddleVertexGraphIsExactAroundABoundary) {
+  const Surface surface = shapes::cylinder(24, 12).surface();
+  expect_exact_with_all_vertices(embed(surface, euclidean_metric(surface, principal_curvatures(surface))).mesh);
 }
 
 TEST(DirectMethods, TheReferenceIsExact) {
