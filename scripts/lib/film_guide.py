@@ -1,0 +1,292 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The pictures of the guide and of the installation."""
+
+from __future__ import annotations
+
+import os
+from functools import partial
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+import show
+import ui as driver
+from film_hand import session, write_png
+from film_stage import EAR, EYE, aside, settings, show_card, stage, start, unwrap
+from mathutils import Euler, Vector
+
+if TYPE_CHECKING:
+    from film_hand import Film
+
+
+def guide(film: Film) -> None:
+    """Take what the guide shows, one picture after the other."""
+    film.filming = False
+    stage(film)
+    film.at = film.vertex(0.0, -0.6, 0.80)
+    start(film)
+    film.click()
+    film.go(film.vertex(0.80, -0.40, 0.40))
+    film.picture("wires")
+    film.key("E")
+    start_of, end_of = film.vertex(0.0, -0.6, 0.80), film.at
+    film.go(end_of)
+    film.picture("stroke-before")
+    over = film.vertex(0.40, -0.10, 1.0)
+    draw_stroke(film, [bend(start_of, over, end_of, part) for part in np.linspace(0.05, 0.95, 30)])
+    film.go(end_of)
+    film.picture("stroke-after")
+    film.key("BACK_SPACE")
+    film.key("E")
+    film.go(end_of)
+    film.click()
+    film.go(film.vertex(0.55, -0.40, -0.30))
+    film.click()
+    film.go(film.vertex(0.0, -0.75, -0.08))
+    film.click()
+    film.click("RIGHTMOUSE")
+    film.go(film.vertex(0.55, -0.40, -0.30))
+    film.ui.event("LEFTMOUSE", "PRESS", film.at)
+    film.go(film.vertex(0.40, -0.65, -0.12))
+    film.ui.wait_until(lambda: session().moved and not session().computing)
+    film.picture("drag")
+    film.ui.event("LEFTMOUSE", "RELEASE", film.at)
+    film.settle()
+    film.peek(film.edge(EYE))
+    film.picture("loop")
+    film.take()
+    film.obj.data.use_mirror_x = True
+    film.peek(film.edge(EAR))
+    film.take()
+    film.peek(film.middle_edge(0.0, -0.45, 0.9))
+    film.picture("strip")
+    film.take()
+    film.go(film.vertex(0.9, -0.4, -0.6))
+    film.picture("segments")
+    film.click()
+    film.key("F1")
+    film.picture("keys")
+    film.key("F1")
+    film.click("RIGHTMOUSE")
+    unwrap(film)
+    film.picture("unwrapped")
+
+
+def tool(film: Film) -> None:
+    """Take the tool before the first click, with its menu and its views open, and in a chain. The names have Blender's version."""
+    version = ".".join(map(str, bpy.app.version[:2]))
+    film.filming = False
+    stage(film)
+    film.at = film.vertex(0.0, -0.6, 0.80)
+    show_card(True)
+    for _ in range(20):  # the tool is at the end of the toolbar
+        film.ui.wheel(up=False, at=(30.0, 300.0))
+    film.ui.space.show_gizmo = True
+    start(film)
+    film.ui.wait(20, redraw=True)
+    film.picture(f"tool-{version}-card")
+    film.ui.space.show_gizmo = False
+    show_card(False)
+    film.ui.wait(20, redraw=True)
+    film.picture(f"tool-{version}-before")
+    for kind, name in (("menu", "VIEW3D_MT_seamwire"), ("panel", "VIEW3D_PT_seamwire_overlays")):
+        with film.ui.override():
+            getattr(bpy.ops.wm, f"call_{kind}")(name=name)
+        film.ui.wait(6)
+        film.picture(f"tool-{version}-{kind}")
+        film.ui.key("ESC")
+        film.ui.wait(6)
+    film.click()
+    film.go(film.vertex(0.80, -0.40, 0.40))
+    film.ui.wait(20, redraw=True)
+    film.picture(f"tool-{version}-chain")
+    film.key("ESC")
+
+
+def cut(film: Film) -> None:
+    """Take what becomes of a wire over irregular triangles: snapped to edges, and cut into the faces."""
+    film.filming = False
+    stage(film)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    modifier = film.obj.modifiers.new("Scan", "DECIMATE")
+    modifier.ratio = 0.25
+    bpy.ops.object.modifier_apply(modifier=modifier.name)
+    bpy.ops.object.shade_flat()
+    bpy.ops.object.mode_set(mode="EDIT")
+    vertices = film.obj.data.vertices
+    places = (
+        Vector(place) for place in ((-0.55, -0.45, -0.3), (0.0, -0.75, 0.1), (0.6, -0.55, -0.25), (0.3, -0.6, -0.75))
+    )
+    seeds = [min(vertices, key=lambda v: (v.co - place).length).index for place in places]
+    film.ui.view.view_rotation = Euler((1.24, 0.0, 0.2)).to_quaternion()
+    film.ui.view.view_distance = 2.2
+    with film.ui.override():
+        bpy.ops.mesh.seamwire_mark(chains=" ".join(map(str, seeds)), along="SURFACE")
+    film.at = aside(film)
+    film.ui.move(film.at)
+    for name, what in (("snapped", None), ("cut", partial(bpy.ops.mesh.seamwire_finish, finish="CUT"))):
+        if what is not None:
+            with film.ui.override():
+                what()
+        film.ui.wait(20, redraw=True)
+        film.picture(name)
+
+
+def stretch(film: Film) -> None:
+    """Take the stretch of a UV map before and after a cut, with the islands unwrapped that it changed."""
+    film.filming = False
+    stage(film)
+    settings().heat, settings().unwrap = "AREA", True
+    film.obj.data.use_mirror_x = True
+    start(film)
+    for edges, name in (((film.edge(EYE), film.middle_edge(0.0, -0.45, 0.9)), "before"), ((film.edge(EAR),), "after")):
+        for edge in edges:
+            film.peek(edge)
+            film.take()
+        film.click("RIGHTMOUSE")
+        film.go(aside(film))
+        film.ui.wait(30, redraw=True)
+        film.picture(f"stretch-{name}")
+
+
+def views(film: Film) -> None:
+    """Take each view of the metric in object mode, six in one picture. Take wires behind the surface in one of them."""
+    from seamwire.view.object_mode import object_mode
+
+    film.filming = False
+    stage(film)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    film.obj.modifiers.new("Subdivision", "SUBSURF").levels = 2
+    film.obj.select_set(False)
+    place = Vector((0.0, -0.6, 0.80))
+    min(film.obj.data.vertices, key=lambda vertex: (vertex.co - place).length).select = True
+    settings().along, settings().views_in_object_mode = "SURFACE", True
+    shots = []
+    for shown in (
+        {"heat": "STRENGTH"},
+        {"heat": "DISTANCE", "show_bands": True},
+        {"show_ellipses": True},
+        {"show_paths": True},
+        {"show_invalid": True},
+        {"heat": "CONCAVITY", "show_crests": True},
+    ):
+        for name, value in shown.items():
+            setattr(settings(), name, value)
+        film.ui.wait(3, redraw=True)  # all of them are asked for by then
+        film.ui.wait_until(lambda: object_mode.views is not None and object_mode.views.is_complete, 60.0)
+        film.at = (30.0, 30.0)  # the pointer lies beside what is taken
+        picture = film.shot()[:, :, :3]
+        region = film.ui.region
+        top = film.ui.window.height - region.y - region.height
+        right = region.x + region.width
+        # The right part, where the legend is, at half the size.
+        part = picture[top + 75 : top + 75 + 800, right - 1068 : right]
+        shots.append(part.reshape(400, 2, 534, 2, 3).mean(axis=(1, 3)).astype(np.uint8))
+        for name in shown:
+            settings().property_unset(name)
+    whole = np.concatenate([np.concatenate(shots[:3], axis=1), np.concatenate(shots[3:], axis=1)])
+    write_png(film.folder / "guide-views.png", whole[:, :1600])
+    settings().property_unset("views_in_object_mode")
+    film.ui.wait(20)
+
+
+def bend(
+    one: tuple[float, float], over: tuple[float, float], two: tuple[float, float], part: float
+) -> tuple[float, float]:
+    """Return a place on an arc that is drawn towards a point between its ends."""
+    a, b, c = map(np.array, (one, over, two))
+    x, y = (1.0 - part) ** 2 * a + 2.0 * part * (1.0 - part) * b + part**2 * c
+    return float(x), float(y)
+
+
+def draw_stroke(film: Film, places: list[tuple[float, float]]) -> None:
+    """Draw a stroke that wires are to follow, and take its picture before the button is let go."""
+    film.go(places[0])
+    film.ui.event("LEFTMOUSE", "PRESS", film.at, shift=True)
+    for place in places[1:]:
+        film.go(place, 1, shift=True)
+    film.picture("stroke")
+    film.ui.event("LEFTMOUSE", "RELEASE", film.at, shift=True)
+    film.settle()
+
+
+def install(film: Film) -> None:
+    """Take how the add-on is installed from a file: the menu, the file, and the result."""
+    film.filming = False
+    preferences = bpy.context.preferences
+    preferences.view.ui_scale = 1.6
+    preferences.view.filebrowser_display_type = "SCREEN"
+    with film.ui.override():
+        bpy.ops.screen.screen_full_area(use_hide_panels=True)
+    film.ui.wait(8)
+    film.ui = driver.Ui()
+    window, area = film.ui.window, film.ui.area
+    area.ui_type = "PREFERENCES"
+    preferences.active_section = "EXTENSIONS"
+    film.ui.wait(10, redraw=True)
+    film.ui.region = next(region for region in area.regions if region.type == "WINDOW")
+    film.at = (film.ui.region.width - 30.0, film.ui.region.height - 30.0)
+    film.ui.click(film.at)
+    film.ui.wait(10)
+    version = ".".join(map(str, bpy.app.version[:2]))
+    write_png(film.folder / f"install-{version}-menu.png", film.shot())
+    film.ui.key("ESC")
+    with bpy.context.temp_override(window=window, area=area, region=film.ui.region):
+        bpy.ops.extensions.package_install_files("INVOKE_DEFAULT", filepath=os.environ["SEAMWIRE_PACKAGE"])
+    film.ui.wait(30)
+    write_png(film.folder / f"install-{version}-file.png", film.shot())
+    film.ui.key("ESC")
+    film.ui.wait(10)
+    preferences.active_section = "ADDONS"
+    bpy.context.window_manager.extension_search = "Seamwire"
+    film.ui.wait(20, redraw=True)
+    write_png(film.folder / f"install-{version}-done.png", film.shot())
+
+
+def looks(film: Film) -> None:
+    """Take all that the overlay draws in Blender's themes, shadings and display scales, to be looked at."""
+    film.filming = False
+    stage(film)
+    film.at = film.vertex(0.0, -0.6, 0.80)
+    start(film)
+    for one, two, held in (
+        ((-0.05, -0.9, 0.05), (0.5, -0.7, 0.62), {"shift": True}),
+        ((0.1, -0.9, 0.15), (0.45, -0.6, 0.8), {"shift": True, "ctrl": True}),
+    ):
+        film.go(film.vertex(*one))
+        film.ui.event("LEFTMOUSE", "PRESS", film.at, **held)
+        film.go(film.vertex(*two), 10, **held)
+        film.ui.event("LEFTMOUSE", "RELEASE", film.at, **held)
+    film.go(film.vertex(0.0, -0.6, 0.80))
+    film.click()
+    film.go(film.vertex(0.80, -0.40, 0.40))
+    film.click()
+    film.go(film.vertex(0.55, -0.40, -0.30))
+    film.click()
+    film.click("RIGHTMOUSE")
+    film.obj.data.use_mirror_x = True
+    film.go(film.edge(EYE), alt=True)
+    film.take()
+    settings().clear = True
+    film.go(film.edge(EAR), alt=True)
+    film.take()
+    settings().clear = False
+    film.go(film.vertex(0.55, -0.40, -0.30))
+    film.click()
+    film.go(film.vertex(0.0, -0.75, -0.08))
+    for theme in ("DARK", "LIGHT"):
+        show.theme(theme)
+        for shading in show.SHADINGS:
+            show.shading(film.ui, shading)
+            film.ui.wait(4, redraw=True)
+            write_png(film.folder / f"looks-{theme}-{shading}.png".lower(), film.shot())
+        show.shading(film.ui, "SOLID")
+    show.theme("DARK")
+    bpy.context.preferences.view.ui_scale = 2.0
+    film.ui.wait(8, redraw=True)
+    write_png(film.folder / "looks-scale-2.png", film.shot())
+    bpy.context.preferences.view.ui_scale = 1.0
+    film.click("RIGHTMOUSE")
+    film.go(film.edge(EYE), alt=True)
+    write_png(film.folder / "looks-loop.png", film.shot())
+    film.key("ESC")
