@@ -57,7 +57,9 @@ def embedding(studio: Studio) -> Image.Image:
     before = np.tile(CLAY, (len(model.triangles), 1))
     before[invalid] = INVALID
     place = _densest(model, invalid)
-    panels = [Panel(studio.render(studio.stage(model, 5, colors=before)), f"{len(invalid)} invalid", _key(INVALID))]
+    stage = studio.stage(model, 5)
+    stage.balls(model.points[model.triangles[invalid]].mean(axis=1), INVALID, 0.003)
+    panels = [Panel(studio.render(stage), f"{len(invalid)} invalid", _key(INVALID))]
     after = np.tile(CLAY, (len(made.triangles), 1))
     after[np.isin(made.source_face, invalid)] = MENDED
     left = invalid_in(made)
@@ -79,7 +81,10 @@ def embedding(studio: Studio) -> Image.Image:
         farthest = float(field.distances[np.isfinite(field.distances)].max())
         stage = studio.stage(model, 5, colors=length_colors(field.distances / farthest))
         levels = metric_fields.band_levels(farthest)
-        stage.segments(studio.core.isolines(model.surface, field.distances, levels)[0], INK, 0.0016, sides=3)
+        pieces, faces, _ = studio.core.isolines(model.surface, field.distances, levels)
+        # Flat triangles are shown rounded by their normals: lines in their planes would sink in.
+        above = 0.001 * model.size * model.curvature.normals[model.triangles[faces]].mean(axis=1)
+        stage.segments(pieces + above[:, None], INK, 0.0016, sides=3)
         stage.line(field.trace(end).points, SEED, 0.008)
         panels.append(Panel(studio.render(stage), title, Bar("distance", "0", f"{farthest:.2f}", length_colors)))
     return sheet([panels])
@@ -129,13 +134,13 @@ def _densest(model: Model, faces: NDArray[np.int32]) -> int:
 def times(studio: Studio) -> str:
     """Figure 8: times and counts beside the paper's."""
     lines = [
-        "| model (triangles) | A | norms | Opt | subdivision | invalid / added | seeding | exploring |",
-        "|---|---|---|---|---|---|---|---|",
+        "| model (triangles), A | norms | Opt | subdivision | invalid / added | seeding | exploring |",
+        "|---|---|---|---|---|---|---|",
     ]
     for name, rows in OTHERS.items():
         for a, norms, solved, subdivision, invalid, added, seeding in rows:
             lines.append(
-                f"| the paper's {name} | {a} | {norms:.3f} | {solved:.2f} | {subdivision:.3f} | {invalid}/{added} | {seeding:.2f} | 0.001 |"
+                f"| the paper's {name}, {a} | {norms:.3f} | {solved:.2f} | {subdivision:.3f} | {invalid}/{added} | {seeding:.2f} | 0.001 |"
             )
     for name, count in SIZES.items():
         model = resampled(studio.models[name], count) if name in studio.models else None
@@ -161,7 +166,7 @@ def _times_of(studio: Studio, model: Model, a: int) -> str:
     seconds = [f"{value:#.3g}" for value in (norms + more, solved, subdivision, seeding, exploring)]
     counts = f"{made.invalid_before}/{made.faces_added}{left}"
     return (
-        f"| {model.name} ({len(model.triangles) / 1000:.0f}k) | {a} | {seconds[0]} | {seconds[1]} | {seconds[2]} | {counts} | "
+        f"| {model.name} ({len(model.triangles) / 1000:.0f}k), {a} | {seconds[0]} | {seconds[1]} | {seconds[2]} | {counts} | "
         f"{seconds[3]} | {seconds[4]} |"
     )
 
@@ -200,13 +205,28 @@ def campens_invalid(studio: Studio) -> Image.Image:
 
 
 def _around_hole(studio: Studio, model: Model, made: seamwire_core.Embedding, ratio: float) -> NDArray[np.float64]:
-    """Return a picture of a triangle with an invalid part, and of how it was cut."""
+    """Return a picture of a triangle with invalid parts and of how it was cut. The parts are enlarged in a corner."""
     corners = model.triangles[made.hole_faces[0]]
-    place, normal = model.points[corners].mean(axis=0), model.curvature.normals[corners].mean(axis=0)
+    normal = model.curvature.normals[corners].mean(axis=0)
+    rims = _rims(made)
+    rim = made.points[rims].reshape(-1, 3)
     stage = studio.empty_stage(model, 5, ratio)
     stage.mesh(made.points, made.triangles)
+    # The parts are triangles. Each is filled from its middle.
+    middle = np.array([rim[np.any(rims == edge[0], axis=1).repeat(2)].mean(axis=0) for edge in rims])
+    fans = np.concatenate([made.points[rims], middle[:, None]], axis=1).reshape(-1, 3)
+    stage.mesh(fans, np.arange(len(fans)).reshape(-1, 3), INVALID)
+    closer = 0.4 * float(np.ptp(model.points[corners], axis=0).max() / np.ptp(rim, axis=0).max())
     zoom = 0.4 * model.size / float(np.ptp(model.points[corners], axis=0).max())
-    stage.wireframe(made.points, made.edges, 0.006 / zoom)
+    stage.wireframe(made.points, made.edges, 0.006 / zoom / max(1.0, 0.3 * closer))
     stage.turn_to(normal)
-    stage.look_at(place, zoom)
-    return studio.render(stage)
+    stage.look_at(model.points[corners].mean(axis=0), zoom)
+    return studio.render_with_inset(stage, rim.mean(axis=0), closer)
+
+
+def _rims(made: seamwire_core.Embedding) -> NDArray[np.int32]:
+    """Return the edges around the parts that an embedding left out, (k, 2)."""
+    sides = np.concatenate([made.triangles[:, [0, 1]], made.triangles[:, [1, 2]], made.triangles[:, [2, 0]]])
+    edges, first, counts = np.unique(np.sort(sides, axis=1), axis=0, return_index=True, return_counts=True)
+    faces = made.source_face[first % len(made.triangles)]
+    return edges[(counts == 1) & np.isin(faces, made.hole_faces)]

@@ -85,9 +85,9 @@ def along_ridge_and_valley(studio: Studio) -> Image.Image:
         wires = _most_different(model, sign)
         stage = studio.stage(model, 2, 0.8)
         normal = _mean_normal(model, wires)
-        for kind, wire in wires.items():
-            # Ours lies over the wider one of Campen's, which is seen on both sides.
-            lift = 0.004 * model.size * normal if kind == "feature" else 0.0
+        for height, (kind, wire) in enumerate(wires.items()):
+            # Each wire lies over the wire before it. Campen's is wider, so that it is seen on both sides of ours.
+            lift = 0.003 * height * model.size * normal
             stage.line(wire.points + lift, COLORS[kind], 0.010 if kind == "campen" else 0.006)
         places = np.concatenate([wire.points for wire in wires.values()])
         stage.balls(places[[0, len(wires["euclidean"].points) - 1]], INK, 0.011)

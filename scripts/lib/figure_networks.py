@@ -6,10 +6,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+from exoskeleton import exoskeleton
 from figure_drawn import spread_colors
 from figure_sheet import Key, Panel, sheet
 from figure_stage import INK, SEED
-from figure_studio import ISLANDS, STROKE, anisotropy_bar
+from figure_studio import ISLANDS, RIDGE, STROKE, VALLEY, anisotropy_bar
 from shape_proxies import shape_proxies
 
 if TYPE_CHECKING:
@@ -22,7 +23,15 @@ _FLAT = ((0.285, 0.0, 0.385), (0.58, 0.0, 0.70), (0.878, 0.0, 0.493))
 """Where the stroke of Figure 10 begins, what it leads over and where it ends: on the flat side of fandisk."""
 PLAIN = (0.55, 0.55, 0.58)
 PROXIES = 40
-"""Regions of the variational shape approximation in Figure 11."""
+"""Regions of the automatic segmentations in Figure 11."""
+COMPARED = ("rocker-arm", "armadillo", "fertility")
+"""Models of Figure 11."""
+_COLUMNS = 5
+"""Panels in a row of Figure 11."""
+_OTHERS = 3
+"""Models of Figure 12."""
+_VIEWS = {"rocker-arm": (28.0, 20.0)}
+"""Azimuth and elevation from where a network is seen best, if that is not the model's usual view."""
 
 
 def scribble(studio: Studio) -> Image.Image:
@@ -49,7 +58,10 @@ def scribble(studio: Studio) -> Image.Image:
         if shown in {"stroke", "wires"}:
             stage.balls(model.points[[start, end]], SEED, 0.013)
         bar = anisotropy_bar() if shown in {"metric", "drawn"} else None
-        key = Key((("without", PLAIN), ("with the scribble", INK))) if shown == "wires" else None
+        key = {
+            "stroke": Key((("scribble", STROKE),)),
+            "wires": Key((("without", PLAIN), ("with the scribble", INK))),
+        }.get(shown)
         panels.append(Panel(studio.render(stage), title, bar or key))
     return sheet([panels])
 
@@ -67,29 +79,45 @@ def _arc_on(model: Model, start: int, over: int, end: int) -> tuple[NDArray[np.f
 
 
 def segmentation(studio: Studio) -> Image.Image:
-    """Figure 11: ridges and valleys, variational shape approximation, a network of wires, and what it cuts the model into."""
-    model = studio.model("rocker-arm", "fandisk")
-    lines = studio.core.crest_lines(model.surface, studio.core.smoothed_curvatures(model.surface, model.curvature))
-    stage = studio.stage(model, 4)
-    studio.add_crests(stage, lines)
-    panels = [Panel(studio.render(stage), "ridges and valleys")]
-    regions = shape_proxies(model.points, model.triangles, PROXIES)
-    stage = studio.stage(model, 4, colors=np.array(ISLANDS)[spread_colors(model.triangles, regions, len(ISLANDS))])
-    panels.append(Panel(studio.render(stage), "shape approximation"))
-    for filled in (False, True):
-        stage = studio.empty_stage(model, 4)
-        studio.add_network(stage, model, filled)
-        panels.append(Panel(studio.render(stage), "its islands" if filled else "a network of wires"))
-    return sheet([panels])
+    """Figure 11: feature lines, two automatic segmentations, a network of wires, and the islands that it encloses."""
+    names = [name for name in COMPARED if name in studio.models] or [studio.model().name]
+    rows = []
+    for model in (studio.models[name] for name in names):
+        view = _VIEWS.get(model.name, model.view)
+        lines = studio.core.crest_lines(model.surface, studio.core.smoothed_curvatures(model.surface, model.curvature))
+        stage = studio.stage(model, _COLUMNS, view=view)
+        studio.add_crests(stage, lines)
+        key = Key((("ridge", RIDGE), ("valley", VALLEY)))
+        row = [Panel(studio.render(stage), "feature lines", key)]
+        for regions, title in (
+            (shape_proxies(model.points, model.triangles, PROXIES, teleport=True), "proxies"),
+            (exoskeleton(model.points, model.triangles, PROXIES).regions, "proxies in parts"),
+        ):
+            colors = np.array(ISLANDS)[spread_colors(model.triangles, regions, len(ISLANDS))]
+            row.append(Panel(studio.render(studio.stage(model, _COLUMNS, colors=colors, view=view)), title))
+        rows.append([*row, *_network_panels(studio, model, _COLUMNS, view)])
+    return sheet(rows)
 
 
 def more_segmentations(studio: Studio) -> Image.Image:
-    """Figure 12: networks on other models."""
-    used = studio.model("rocker-arm", "fandisk")
-    others = [model for model in studio.models.values() if model is not used and model.name != "sphere"][:4]
+    """Figure 12: networks on other models, and the islands that they enclose."""
+    others = [model for model in studio.models.values() if model.name not in {*COMPARED, "sphere"}]
+    drawn = [model for model in others if (studio.folder / f"{model.name}.json").exists()]
+    panels = [
+        _network_panels(studio, model, 2 * _OTHERS, _VIEWS.get(model.name, model.view), f"{model.name}: ")
+        for model in (drawn or others)[:_OTHERS]
+    ]
+    return sheet([[panel for pair in panels for panel in pair]])
+
+
+def _network_panels(
+    studio: Studio, model: Model, columns: int, view: tuple[float, float], name: str = ""
+) -> list[Panel]:
+    """Return a picture of a network with its seeds and scribbles, and one of its islands."""
     panels = []
-    for model in others:
-        stage = studio.empty_stage(model, 4)
-        studio.add_network(stage, model)
-        panels.append(Panel(studio.render(stage), model.name))
-    return sheet([panels])
+    for filled, title in ((False, "wires"), (True, "islands")):
+        stage = studio.empty_stage(model, columns, view=view)
+        studio.add_network(stage, model, filled)
+        key = None if filled else Key((("seed", SEED), ("scribble", STROKE)))
+        panels.append(Panel(studio.render(stage), name + title, key))
+    return panels

@@ -101,9 +101,16 @@ class Studio:
         """Return the first of some models that is there, else the first of all."""
         return next((self.models[name] for name in names if name in self.models), next(iter(self.models.values())))
 
-    def stage(self, model: Model, columns: int, ratio: float | None = None, colors: NDArray | None = None) -> Stage:
+    def stage(
+        self,
+        model: Model,
+        columns: int,
+        ratio: float | None = None,
+        colors: NDArray | None = None,
+        view: tuple[float, float] | None = None,
+    ) -> Stage:
         """Return a stage with a model on it, so wide that `columns` of its pictures fill a sheet."""
-        stage = self.empty_stage(model, columns, ratio)
+        stage = self.empty_stage(model, columns, ratio, view)
         if colors is None:
             stage.mesh(model.points, model.triangles)
         else:
@@ -111,9 +118,11 @@ class Studio:
         return stage
 
     @staticmethod
-    def empty_stage(model: Model, columns: int, ratio: float | None = None) -> Stage:
-        """Return a stage for a model that is not on it yet."""
-        return Stage(model.points, model.view, (SHEET - GAP * (columns - 1)) // columns, ratio)
+    def empty_stage(
+        model: Model, columns: int, ratio: float | None = None, view: tuple[float, float] | None = None
+    ) -> Stage:
+        """Return a stage for a model that is not on it yet, seen from the model's own view or another one."""
+        return Stage(model.points, view or model.view, (SHEET - GAP * (columns - 1)) // columns, ratio)
 
     def render(self, stage: Stage) -> NDArray[np.float64]:
         """Return the stage's picture."""
