@@ -67,7 +67,7 @@ def potpourri3d_heat(points: Array, triangles: NDArray[np.int32]) -> Solve:
 MOST_FACES_OF_CGAL = 200_000
 """Above, it takes more than 10 GB and minutes a seed."""
 
-SOLVERS = {"seamwire": seamwire, "pygeodesic": pygeodesic, "potpourri3d heat": potpourri3d_heat}
+SOLVERS = {"Seamwire": seamwire, "pygeodesic": pygeodesic, "heat method": potpourri3d_heat}
 
 
 def loop_subdivided(points: Array, triangles: NDArray[np.int32]) -> tuple[Array, NDArray[np.int32]]:
@@ -191,14 +191,14 @@ def measure(
     points: Array, triangles: NDArray[np.int32], seeds: list[int], options: argparse.Namespace
 ) -> dict[str, Result | None]:
     """Measure and print what each solver takes on a mesh, and how far it is from ours."""
-    ours = run_apart("seamwire", points, triangles, seeds, options.repeats)
-    report("seamwire", ours)
-    results = {"seamwire": ours}
+    ours = run_apart("Seamwire", points, triangles, seeds, options.repeats)
+    report("Seamwire", ours)
+    results = {"Seamwire": ours}
     if ours is None:
         return results
     exact = len(triangles) <= options.most_faces
     for name in SOLVERS:
-        if name == "seamwire" or name in options.skip or (name == "pygeodesic" and not exact):
+        if name == "Seamwire" or name in options.skip or (name == "pygeodesic" and not exact):
             continue
         repeats = 1 if name == "pygeodesic" else options.repeats
         results[name] = run_apart(name, points, triangles, seeds, repeats)
@@ -251,7 +251,11 @@ def plot(curves: dict[str, list[tuple[int, float]]], file: Path) -> None:
         lines.append(f'<path d="M{path}" fill="none" stroke="{color}" stroke-width="2"/>')
         lines += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3" fill="{color}"/>' for x, y in places]
         x, y = places[-1]
-        lines.append(f'<text x="{x + 8:.1f}" y="{y + 4:.1f}" fill="{color}">{name}</text>')
+        # Names are to the right of the longest curves, and to the left above the others, where no curve runs.
+        if curve[-1][0] == max(point[0] for point in every):
+            lines.append(f'<text x="{x + 8:.1f}" y="{y + 4:.1f}" fill="{color}">{name}</text>')
+        else:
+            lines.append(f'<text x="{x - 8:.1f}" y="{y - 4:.1f}" text-anchor="end" fill="{color}">{name}</text>')
     file.write_text("\n".join([*lines, "</svg>"]) + "\n")
 
 
@@ -264,7 +268,7 @@ def main() -> None:
     )
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--seeds", type=int, default=5)
-    parser.add_argument("--skip", action="append", default=[], choices=["pygeodesic", "potpourri3d heat", "CGAL"])
+    parser.add_argument("--skip", action="append", default=[], choices=["pygeodesic", "heat method", "CGAL"])
     parser.add_argument("--most-faces", type=int, default=200_000, help="leave the exact peers out above")
     parser.add_argument(
         "--programs", type=Path, help="the folder with geodesics_bench and, where it was built, cgal_bench"

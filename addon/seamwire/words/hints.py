@@ -133,7 +133,8 @@ def _click(picture: Picture) -> Iterator[Deed]:
 
 
 def _offer(kind: LoopKind) -> str:
-    return LOOP_NAMES[kind].title()
+    # Title case as Blender has it: small words stay small.
+    return " ".join(word if word in {"a", "of"} else word.capitalize() for word in LOOP_NAMES[kind].split())
 
 
 def _wires(picture: Picture) -> Iterator[Deed]:

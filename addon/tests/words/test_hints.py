@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the status bar says: what each button and key would do now."""
 
+from dataclasses import replace
+
 import pytest
 from polygon_meshes import arrays_of, grid_places, grid_polygons
 from seamwire.core.drawing.drawing import Drawing
+from seamwire.core.drawing.picture import Offered
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Snap
 from seamwire.core.solver.live_maker import LiveMaker
@@ -144,3 +147,9 @@ def test_what_does_not_apply_is_not_hinted_at(session: Session) -> None:
     assert "Avoid Stroke" in said(session)
     use(session, metric="euclidean")
     assert "Strength" not in said(session), "straight ways have none"
+
+
+@pytest.mark.parametrize(("kind", "text"), [("HANDLE", "Add Cut of a Handle"), ("PAST", "Add Strip Past Poles")])
+def test_offers_are_in_title_case_as_blender_has_it(session: Session, kind: str, text: str) -> None:
+    picture = replace(session.picture, offered=Offered((kind,)))
+    assert text in "; ".join(said for _, said in hints(Status(picture, Bindings())))
