@@ -32,7 +32,7 @@ COLORS = {
 ANISOTROPY = 20.0
 _CANDIDATES = 40
 """Vertices of ridges and of valleys between which Figure 4 looks for the ends of its wires."""
-_APART = (0.3, 0.9)
+_APART = (0.2, 0.9)
 """How far these ends are apart, in sides of the unit cube."""
 _ONE_SIDE = 0.6
 """Length of the mean normal along the wires, at least: they are all seen from one side."""
@@ -101,7 +101,8 @@ def along_ridge_and_valley(studio: Studio) -> Image.Image:
 def _most_different(model: Model, sign: float) -> dict[str, seamwire_core.Wire]:
     """Return a wire in each metric, between those strong vertices of a ridge (1) or a valley (-1) where the metrics differ most.
 
-    Metrics differ by the mean of s along the wires: the smaller one of ours and Campen's, less the larger one of the two other metrics.
+    Metrics differ by the mean of s along the wires: the smaller one of ours and Campen's, less the larger one of the two others. Only
+    vertices that bend like the feature count, so that no wire gains by a ridge beside a valley.
 
     Raises
     ------
@@ -109,7 +110,8 @@ def _most_different(model: Model, sign: float) -> dict[str, seamwire_core.Wire]:
         If the model has no such vertices.
     """
     smoothed = model.core.smoothed_curvatures(model.surface, model.curvature)
-    strong = np.flatnonzero((sign * smoothed.k1 > 0.0) & (model.strength >= np.percentile(model.strength, 95)))
+    strength = np.where(sign * smoothed.k1 > 0.0, model.strength, 0.0)
+    strong = np.flatnonzero(strength >= np.percentile(strength[strength > 0.0], 90))
     ends = strong[metric_fields.spread(model.points[strong], _CANDIDATES)[0]]
     embeddings = {kind: model.embed(model.metric(kind, **_strength(kind)), kind, PATH_ERROR) for kind in METRICS}
     best: dict[str, seamwire_core.Wire] = {}
@@ -121,7 +123,7 @@ def _most_different(model: Model, sign: float) -> dict[str, seamwire_core.Wire]:
         pairs += len(targets)
         for target in targets:
             wires = {kind: field.trace(target) for kind, field in fields.items()}
-            means = {kind: _mean_strength(model, wire) for kind, wire in wires.items()}
+            means = {kind: _mean_along(model, wire, strength) for kind, wire in wires.items()}
             gain = min(means["feature"], means["campen"]) - max(means["pottmann_kovacs"], means["euclidean"])
             if gain > best_gain and np.linalg.norm(_mean_normal(model, wires)) > _ONE_SIDE:
                 best_gain, best_means, best = gain, means, wires
@@ -133,10 +135,10 @@ def _most_different(model: Model, sign: float) -> dict[str, seamwire_core.Wire]:
     return best
 
 
-def _mean_strength(model: Model, wire: seamwire_core.Wire) -> float:
-    """Return the mean of s along a wire."""
+def _mean_along(model: Model, wire: seamwire_core.Wire, values: NDArray[np.float64]) -> float:
+    """Return the mean of values at the vertices, (n,), along a wire."""
     lengths = np.linalg.norm(np.diff(wire.points, axis=0), axis=1)
-    return float(np.average(model.strength[model.triangles[wire.faces]].mean(axis=1), weights=lengths))
+    return float(np.average(values[model.triangles[wire.faces]].mean(axis=1), weights=lengths))
 
 
 def _mean_normal(model: Model, wires: dict[str, seamwire_core.Wire]) -> NDArray[np.float64]:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 WIDTH = 2400
 """Of every sheet, pixels, at least."""
 LIMIT = 600_000
-"""Of every file, bytes."""
+"""The size that a file should have at most, bytes."""
 _SEEN = 1.5
 """Mean difference of colors in smooth parts, of 255, from where on the eye may see it."""
 _STEEP = 4
@@ -161,24 +161,22 @@ def _pixels(picture: NDArray[np.float64]) -> Image.Image:
 
 
 def save(image: Image.Image, path: Path) -> str:
-    """Write a PNG of at most LIMIT bytes and return what it took: with all colors, else with at most 256.
+    """Write a PNG and return what it took: all colors, or at most 256 if that saves enough bytes and the eye does not see it.
 
-    Raises
-    ------
-    ValueError
-        If even that is too large, or if the colors differ so much that bands could be seen.
+    A picture that stays larger than LIMIT is written with all colors, and the text says so.
     """
     data, how = _bytes(image), "all colors"
-    colors = None if len(data) <= LIMIT else _Colors(np.asarray(image))
-    for count in () if colors is None else (256, 176, 128):
-        made, off = colors.reduced(count)
-        data, how = _bytes(made), f"{count} colors, smooth parts {off:.2f} off"
-        if off > _SEEN:
-            raise ValueError(f"{path.name}: {how}, which may be seen, and {len(data)} bytes")
-        if len(data) <= LIMIT:
-            break
     if len(data) > LIMIT:
-        raise ValueError(f"{path.name}: {len(data)} bytes, more than {LIMIT}")
+        colors, fewer = _Colors(np.asarray(image)), None
+        for count in (256, 176, 128, 96):
+            made, off = colors.reduced(count)
+            fewer = _bytes(made)
+            if len(fewer) <= LIMIT or off > _SEEN:
+                break
+        if len(fewer) <= LIMIT and off <= _SEEN:
+            data, how = fewer, f"{count} colors, smooth parts {off:.2f} off"
+        else:
+            how = f"all colors, because {LIMIT // 1000} kB would need too few"
     path.write_bytes(data)
     return f"{image.width} x {image.height}, {len(data) // 1000} kB, {how}"
 

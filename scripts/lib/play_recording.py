@@ -218,25 +218,21 @@ class Player:
 
     def close(self) -> None:
         """Close the chain."""
+        self._need_chain()
         self.press("C", button=False)
 
     def end(self) -> None:
-        """End the chain.
+        """End the chain."""
+        self._need_chain()
+        self.press("RIGHTMOUSE")
 
-        Raises
-        ------
-        ValueError
-            If it has ended before, as when it was closed: then a right click opens a menu.
-        """
+    @staticmethod
+    def _need_chain() -> None:
+        """Raise ValueError if the chain has ended before, as on a wire: then the same key or button does something else in Blender."""
         from seamwire.operators.report import running
 
         if not running:
             raise ValueError("the chain has ended before")
-        self.press("RIGHTMOUSE")
-
-    def undo(self) -> None:
-        """Take back what was done last."""
-        self.press("Z", button=False, ctrl=True)
 
     def look(self, name: str) -> None:
         """Leave a picture with a grid of places."""
@@ -300,7 +296,7 @@ class Player:
         print(f"   {self.name}: {self.played}, {islands.max() + 1} islands", flush=True)
 
 
-ACTS = ("view", "click", "drag", "candidate", "stroke", "loop", "close", "end", "undo", "look")
+ACTS = ("view", "click", "drag", "candidate", "stroke", "loop", "close", "end", "look")
 
 
 def session() -> object | None:
