@@ -83,7 +83,7 @@ def limbs(film: Film) -> None:
     film.at = film.vertex(0.6, -0.2, 1.0)
     start(film)
     presses = 0
-    film.say("Alt over a point: the cut that the shape suggests there", 6)
+    film.say("Alt: the closed cut that the shape suggests", 6)
     for place in (
         (0.0, -0.12, 0.86),
         (0.36, -0.12, 0.6),
@@ -96,7 +96,7 @@ def limbs(film: Film) -> None:
         presses += 1
         film.caption = f"Presses: {presses}"
         film.take()
-    film.say("Shift Alt: that cut, bent to another point")
+    film.say("Shift+Alt: the cut bends to another point")
     film.go(film.vertex(-0.33, -0.1, -0.18), 6)
     for key, held in (("LEFT_SHIFT", {"shift": True}), ("LEFT_ALT", {"shift": True, "alt": True})):
         film.ui.event(key, "PRESS", film.at, **held)

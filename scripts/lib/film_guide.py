@@ -12,7 +12,7 @@ import numpy as np
 import show
 import ui as driver
 from film_hand import session, write_png
-from film_stage import EAR, EYE, aside, settings, show_card, stage, start, unwrap
+from film_stage import EAR, EYE, FACE, aside, settings, show_card, stage, start, unwrap
 from mathutils import Euler, Vector
 
 if TYPE_CHECKING:
@@ -25,9 +25,14 @@ def guide(film: Film) -> None:
     stage(film)
     film.at = film.vertex(0.0, -0.6, 0.80)
     start(film)
+    film.go(film.vertex(0.1, -0.75, 0.1))
+    film.click()
+    film.go(film.vertex(0.95, 0.1, 0.1))
+    film.picture("wires")
+    film.key("ESC")
+    film.go(film.vertex(0.0, -0.6, 0.80))
     film.click()
     film.go(film.vertex(0.80, -0.40, 0.40))
-    film.picture("wires")
     film.key("E")
     start_of, end_of = film.vertex(0.0, -0.6, 0.80), film.at
     film.go(end_of)
@@ -114,78 +119,87 @@ def cut(film: Film) -> None:
     bpy.ops.object.shade_flat()
     bpy.ops.object.mode_set(mode="EDIT")
     vertices = film.obj.data.vertices
-    places = (
-        Vector(place) for place in ((-0.55, -0.45, -0.3), (0.0, -0.75, 0.1), (0.6, -0.55, -0.25), (0.3, -0.6, -0.75))
-    )
+    around_eye = ((0.2, -0.8, 0.55), (0.05, -0.75, 0.1), (0.55, -0.6, -0.1), (0.75, -0.5, 0.35), (0.5, -0.75, 0.5))
+    places = [Vector(place) for place in (*around_eye, around_eye[0])]
     seeds = [min(vertices, key=lambda v: (v.co - place).length).index for place in places]
-    film.ui.view.view_rotation = Euler((1.24, 0.0, 0.2)).to_quaternion()
-    film.ui.view.view_distance = 2.2
+    film.ui.view.view_rotation = Euler((1.3, 0.0, 0.3)).to_quaternion()
+    film.ui.view.view_location = (0.2, 0.0, 0.12)
+    film.ui.view.view_distance = 1.7
     with film.ui.override():
         bpy.ops.mesh.seamwire_mark(chains=" ".join(map(str, seeds)), along="SURFACE")
+    settings().along = "SURFACE"
     film.at = aside(film)
-    film.ui.move(film.at)
     for name, what in (("snapped", None), ("cut", partial(bpy.ops.mesh.seamwire_finish, finish="CUT"))):
         if what is not None:
             with film.ui.override():
                 what()
-        film.ui.wait(20, redraw=True)
+        start(film)
+        film.ui.wait(10, redraw=True)
         film.picture(name)
 
 
 def stretch(film: Film) -> None:
-    """Take the stretch of a UV map before and after a cut, with the islands unwrapped that it changed."""
+    """Take the stretch of a UV map before and after loops around the face, the eyes and the ears. The islands that change are unwrapped."""
     film.filming = False
     stage(film)
     settings().heat, settings().unwrap = "AREA", True
     film.obj.data.use_mirror_x = True
     start(film)
-    for edges, name in (((film.edge(EYE), film.middle_edge(0.0, -0.45, 0.9)), "before"), ((film.edge(EAR),), "after")):
+    middle = film.middle_edge(0.0, -0.45, 0.9)
+    for edges, name in (((middle,), "before"), ((film.edge(FACE), film.edge(EYE), film.edge(EAR)), "after")):
         for edge in edges:
             film.peek(edge)
             film.take()
-        film.click("RIGHTMOUSE")
         film.go(aside(film))
         film.ui.wait(30, redraw=True)
         film.picture(f"stretch-{name}")
 
 
 def views(film: Film) -> None:
-    """Take each view of the metric in object mode, six in one picture. Take wires behind the surface in one of them."""
+    """Take each view of the metric in Object Mode, six in one picture. The window has about the size of one of the six."""
     from seamwire.view.object_mode import object_mode
 
     film.filming = False
+    # The guide shows the picture at half its size.
+    bpy.context.preferences.view.ui_scale = 1.7
     stage(film)
+    space, view = film.ui.space, film.ui.view
+    space.show_region_header = space.show_region_tool_header = space.show_region_toolbar = False
     bpy.ops.object.mode_set(mode="OBJECT")
-    film.obj.modifiers.new("Subdivision", "SUBSURF").levels = 2
+    subdivision = film.obj.modifiers.new("Subdivision", "SUBSURF")
     film.obj.select_set(False)
     place = Vector((0.0, -0.6, 0.80))
     min(film.obj.data.vertices, key=lambda vertex: (vertex.co - place).length).select = True
     settings().along, settings().views_in_object_mode = "SURFACE", True
+    film.ui.wait(8, redraw=True)
+    film.at = (-100.0, -100.0)
+    head, nose = ((0.25, 0.0, -0.02), 2.7), ((0.12, -0.9, -0.16), 0.42)
     shots = []
-    for shown in (
-        {"heat": "STRENGTH"},
-        {"heat": "DISTANCE", "show_bands": True},
-        {"show_ellipses": True},
-        {"show_paths": True},
-        {"show_invalid": True},
-        {"heat": "CONCAVITY", "show_crests": True},
+    for (centre, distance), levels, shown in (
+        (head, 1, {"heat": "STRENGTH"}),
+        (head, 1, {"heat": "DISTANCE", "show_bands": True}),
+        (head, 1, {"show_ellipses": True}),
+        (head, 1, {"show_paths": True}),
+        (nose, 0, {"show_invalid": True}),
+        (head, 1, {"heat": "CONCAVITY", "show_crests": True}),
     ):
+        view.view_location, view.view_distance = centre, distance
+        subdivision.levels = levels
         for name, value in shown.items():
             setattr(settings(), name, value)
         film.ui.wait(3, redraw=True)  # all of them are asked for by then
         film.ui.wait_until(lambda: object_mode.views is not None and object_mode.views.is_complete, 60.0)
-        film.at = (30.0, 30.0)  # the pointer lies beside what is taken
         picture = film.shot()[:, :, :3]
         region = film.ui.region
-        top = film.ui.window.height - region.y - region.height
-        right = region.x + region.width
-        # The right part, where the legend is, at half the size.
-        part = picture[top + 75 : top + 75 + 800, right - 1068 : right]
-        shots.append(part.reshape(400, 2, 534, 2, 3).mean(axis=(1, 3)).astype(np.uint8))
+        # Arrows that bring hidden regions back lie at the top and at the right.
+        right, top = region.x + region.width - 14, picture.shape[0] - region.y - region.height + 20
+        shot = picture[top : top + region.height - 20, right - 800 : right].copy()
+        shot[-3:], shot[:, -3:] = 20, 20
+        shots.append(shot)
         for name in shown:
             settings().property_unset(name)
-    whole = np.concatenate([np.concatenate(shots[:3], axis=1), np.concatenate(shots[3:], axis=1)])
-    write_png(film.folder / "guide-views.png", whole[:, :1600])
+    rows = [np.concatenate(shots[i : i + 2], axis=1) for i in (0, 2, 4)]
+    write_png(film.folder / "guide-views.png", np.concatenate(rows))
     settings().property_unset("views_in_object_mode")
     film.ui.wait(20)
 

@@ -230,9 +230,11 @@ def offered() -> str | None:
 
 
 def draw_pointer(picture: NDArray[np.uint8], tip: tuple[float, float], pressed: bool) -> None:
-    """Draw a pointer, white with a dark rim, yellow while a button is down; the picture has its bottom row first."""
+    """Draw a pointer if it lies in the picture, which has its bottom row first. It is white, or yellow while a button is down."""
     x0, y0 = int(tip[0]) - 4, int(tip[1]) - 25
     height, width = picture.shape[:2]
+    if not (0 <= tip[0] < width and 0 <= tip[1] < height):
+        return
     rows, columns = np.mgrid[max(y0, 0) : min(y0 + 32, height), max(x0, 0) : min(x0 + 24, width)]
     inside, near = np.zeros(rows.shape), np.full(rows.shape, np.inf)
     for dx, dy in ((0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)):

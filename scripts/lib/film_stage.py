@@ -16,8 +16,9 @@ from mathutils import Euler
 if TYPE_CHECKING:
     from film_hand import Film
 
-EYE, EAR = (729, 1606), (317, 1146)
-"""Edges of Suzanne, subdivided once, with loops around an eye and an ear; halves of them are in her subdivided twice."""
+EYE, EAR, FACE = (729, 1606), (1382, 1948), (317, 1146)
+"""Edges of Suzanne, subdivided once, with loops around an eye, the hollow of an ear, and the face. Films click a half of such an edge in
+the mesh that is subdivided twice."""
 
 
 def settings() -> bpy.types.PropertyGroup:
@@ -87,7 +88,7 @@ def start(film: Film) -> None:
 
 def aside(film: Film) -> tuple[float, float]:
     """Return a place beside the mesh where the pointer covers nothing."""
-    return film.ui.region.width - 120.0, 0.6 * film.ui.region.height
+    return film.ui.region.width - 120.0, 0.3 * film.ui.region.height
 
 
 def drag(film: Film, *places: tuple[float, float]) -> None:
