@@ -77,8 +77,8 @@ def limbs(film: Film) -> None:
         bpy.ops.mesh.select_all(action="DESELECT")
     settings().along, settings().finish = "SURFACE", "SNAP"
     film.ui.view.view_rotation = Euler((1.4, 0.0, 0.12)).to_quaternion()
-    film.ui.view.view_location = (0.0, 0.0, 0.12)
-    film.ui.view.view_distance = 3.6
+    film.ui.view.view_location = (0.0, 0.0, 0.2)
+    film.ui.view.view_distance = 4.0
     film.ui.wait(4, redraw=True)
     film.at = film.vertex(0.6, -0.2, 1.0)
     start(film)

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
-from film_hand import offered
 from film_stage import EAR, EYE, drag, settings, stage, start, unwrap
 from mathutils import Euler
 
@@ -108,14 +107,11 @@ def job(film: Film) -> None:
     film.hold(16)
     film.take()
     film.hold(10)
-    film.say("The last loop opens the head in the middle. The wheel makes it longer.", 12)
+    film.say("The last loop is a strip. It divides the head in the middle.", 12)
     film.peek(film.middle_edge(0.0, -0.45, 0.9), 14)
     film.hold(12)
-    while offered() != "WHOLE":
-        film.ui.wheel(up=True, alt=True)
-        film.settle()
-        film.hold(9)
     film.take()
+    film.hold(12)
     film.say("Each island has its own color, on the other side too.", 6)
     film.go(film.vertex(0.9, -0.4, -0.6), 10)
     film.hold(14)
@@ -126,13 +122,16 @@ def job(film: Film) -> None:
         film.ui.view.view_rotation = Euler((1.24, 0.0, around)).to_quaternion()
         film.hold(1)
     film.say("Unwrap as usual in Blender.", 20)
+    # The view is narrow in this workspace, and its legend lies at the bottom.
+    film.is_subtitle = False
     unwrap(film)
     film.hold(44)
-    film.say("Heat shows how much the map stretches areas. Red means twice the mean.")
+    film.say("Heat: how the map stretches areas")
     with film.ui.override():
         bpy.ops.wm.tool_set_by_id(name="seamwire.draw")
     settings().heat = "AREA"
     film.ui.wait(20, redraw=True)
-    film.hold(64)
+    film.hold(34)
+    film.say("Blue: no stretch. Red: a lot.", 34)
     film.say("Done: every island lies flat.", 44)
     film.write()
