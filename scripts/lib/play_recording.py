@@ -212,8 +212,9 @@ class Player:
         self.send("LEFT_ALT", "RELEASE")
         self.played.hand += KEY
 
-    def candidate(self) -> None:
-        """Take the next candidate."""
+    def candidate(self, u: float, v: float) -> None:
+        """Take the next candidate of the wire to a place."""
+        self.point(*self.pixel(u, v))
         self.press("W", button=False)
 
     def close(self) -> None:
