@@ -131,6 +131,8 @@ LINES = (
 )
 ON_CUTS = tuple(line[0] for line in LINES[3:])
 """Where they do not begin at a free end."""
+ARM_BEGINS = (0.366, 0.035, 0.715)
+"""Just above the edge that Blender's ring around the arm begins with, as seen from the front. A click there closes the ring."""
 STEPS = (
     # What Blender's own hand does: from which side, where, and whether a path begins there.
     (BEFORE, (0.0, -0.13, 0.88), True),
@@ -138,7 +140,7 @@ STEPS = (
     (BEHIND, (0.377, 0.013, 0.705), True),
     (BEHIND, (0.39, 0.08, 0.5), False),
     (BEFORE, (0.37, -0.12, 0.6), False),
-    (BEFORE, (0.377, 0.013, 0.705), False),
+    (BEFORE, ARM_BEGINS, False),
     (BEFORE, (0.299, 0.018, -0.105), True),
     (BEFORE, (0.02, -0.14, -0.3), False),
     (BEHIND, (0.02, 0.14, -0.3), False),
@@ -236,7 +238,7 @@ def draw_with_blender(film: Film, seams: set[tuple[int, int]]) -> None:
         side, near = around, Vector(place)
         # To begin at an edge that is selected would take it away: the one beside it is clicked.
         middles = film.beside_selected() if begins and place in ON_CUTS else drawn_before
-        film.go(film.seen(min(middles, key=lambda co: (co - near).length)), 9)
+        film.go(film.seen(near if place is ARM_BEGINS else min(middles, key=lambda co: (co - near).length)), 9)
         count.add()
         film.click(**({"shift": True} if begins else {"ctrl": True}))
     with film.ui.override():
