@@ -4,7 +4,11 @@
 from __future__ import annotations
 
 import os
+import shutil
+import sys
+import tempfile
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import bpy
@@ -227,32 +231,47 @@ def draw_stroke(film: Film, places: list[tuple[float, float]]) -> None:
 def install(film: Film) -> None:
     """Take how the add-on is installed from a file: the menu, the file, and the result."""
     film.filming = False
+    # Blender warns of extensions with short module names. Only enable_addon() adds such names.
+    for name in [name for name in sys.modules if name.split(".")[0] == "seamwire"]:
+        del sys.modules[name]
     preferences = bpy.context.preferences
     preferences.view.ui_scale = 1.6
     preferences.view.filebrowser_display_type = "SCREEN"
     with film.ui.override():
-        bpy.ops.screen.screen_full_area(use_hide_panels=True)
+        bpy.ops.screen.screen_full_area(use_hide_panels=False)
     film.ui.wait(8)
     film.ui = driver.Ui()
     window, area = film.ui.window, film.ui.area
     area.ui_type = "PREFERENCES"
     preferences.active_section = "EXTENSIONS"
+    bpy.context.window_manager.extension_show_panel_installed = False
     film.ui.wait(10, redraw=True)
     film.ui.region = next(region for region in area.regions if region.type == "WINDOW")
+    film.ui.wait(10, redraw=True)
     film.at = (film.ui.region.width - 30.0, film.ui.region.height - 30.0)
     film.ui.click(film.at)
     film.ui.wait(10)
     version = ".".join(map(str, bpy.app.version[:2]))
     write_png(film.folder / f"install-{version}-menu.png", film.shot())
     film.ui.key("ESC")
-    with bpy.context.temp_override(window=window, area=area, region=film.ui.region):
-        bpy.ops.extensions.package_install_files("INVOKE_DEFAULT", filepath=os.environ["SEAMWIRE_PACKAGE"])
+    # The picture shows the folder's name.
+    package = Path(os.environ["SEAMWIRE_PACKAGE"])
+    downloads = Path(tempfile.gettempdir()) / "Downloads"
+    downloads.mkdir()
+    copy = shutil.copy(package, downloads)
+    film.ui.wait(10, redraw=True)
+    region = next(region for region in area.regions if region.type == "WINDOW")
+    with bpy.context.temp_override(window=window, area=area, region=region):
+        bpy.ops.extensions.package_install_files("INVOKE_DEFAULT", filepath=str(copy))
     film.ui.wait(30)
+    area.spaces.active.show_region_toolbar = False  # it lists the volumes of this computer
+    film.ui.wait(10, redraw=True)
     write_png(film.folder / f"install-{version}-file.png", film.shot())
     film.ui.key("ESC")
+    shutil.rmtree(downloads)
     film.ui.wait(10)
     preferences.active_section = "ADDONS"
-    bpy.context.window_manager.extension_search = "Seamwire"
+    bpy.context.window_manager.addon_search = "Seamwire"
     film.ui.wait(20, redraw=True)
     write_png(film.folder / f"install-{version}-done.png", film.shot())
 
