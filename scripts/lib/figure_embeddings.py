@@ -28,6 +28,8 @@ ROOT = Path(__file__).parents[2]
 INVALID, MENDED = (0.15, 0.35, 0.95), (0.62, 0.78, 1.0)
 SIZES = {"rocker-arm": 50_000, "armadillo": 100_000, "nefertiti": 200_000}
 """Triangles of the models in Figure 8: as many as the paper's have."""
+_FEW = 20
+"""Up to so many remaining parts have larger dots in Figure 9."""
 OTHERS = {
     "Rocker (50k)": (
         (10, 0.065, 10.72, 0.003, 45, 100, 0.43),
@@ -183,50 +185,52 @@ def _timed(*calls: Callable[[], object]) -> tuple[float, object]:
 
 
 def campens_invalid(studio: Studio) -> Image.Image:
-    """Figure 9: invalid triangles in Campen's metric, A = 20, before, while and after triangles are cut, and what remains."""
+    """Figure 9: invalid triangles in Campen's metric, A = 20, before, while and after triangles are cut, and where some remain."""
     rows = []
     for names, sigmas in ((("armadillo", "suzanne"), (0.1, 0.05, 0.03, 0.001)), (("rocker-arm",), (0.1, 0.03, 0.001))):
         model = studio.model(*names)
         metric = model.metric("campen", max_anisotropy=20.0)
         faces = studio.core.invalid_faces(model.surface, metric)
+        made = [studio.core.embed(model.surface, metric, sigma=sigma) for sigma in sigmas]
+        # Most of what is left last is in front.
+        left = next((one.hole_faces for one in reversed(made) if len(one.hole_faces)), faces)
+        x, y, z = model.curvature.normals[model.triangles[left]].mean(axis=(0, 1))
+        view = (
+            float(np.degrees(np.arctan2(y, x))),
+            float(np.clip(np.degrees(np.arctan2(z, np.hypot(x, y))), -50.0, 50.0)),
+        )
         colors = np.tile(CLAY, (len(model.triangles), 1))
         colors[faces] = INVALID
-        panels = [Panel(studio.render(studio.stage(model, 5, colors=colors)), f"before: {len(faces)}")]
-        for sigma in sigmas:
-            made = studio.core.embed(model.surface, metric, sigma=sigma)
-            stage = studio.stage(model, 5)
-            stage.balls(model.points[model.triangles[made.hole_faces]].mean(axis=1), INVALID, 0.006)
-            panels.append(Panel(studio.render(stage), f"σ = {sigma:g}: {made.invalid_left}"))
-        if len(made.hole_faces):
+        panels = [Panel(studio.render(studio.stage(model, 5, colors=colors, view=view)), f"before: {len(faces)}")]
+        for sigma, one in zip(sigmas, made, strict=True):
+            stage = studio.stage(model, 5, view=view)
+            radius = 0.006 if one.invalid_left > _FEW else 0.012
+            stage.balls(model.points[model.triangles[one.hole_faces]].mean(axis=1), INVALID, radius)
+            panels.append(Panel(studio.render(stage), f"σ = {sigma:g}: {one.invalid_left}"))
+        if len(made[-1].hole_faces):
             ratio = len(panels[0].picture) / panels[0].picture.shape[1]
-            panels.append(Panel(_around_hole(studio, model, made, ratio), "what remains"))
+            panels.append(Panel(_around_hole(studio, model, made[-1], ratio), "where they remain"))
         rows.append(panels)
     return sheet(rows)
 
 
 def _around_hole(studio: Studio, model: Model, made: seamwire_core.Embedding, ratio: float) -> NDArray[np.float64]:
-    """Return a picture of a triangle with invalid parts and of how it was cut. The parts are enlarged in a corner."""
+    """Return a picture of a triangle with invalid parts and of how it was cut. A dot marks the parts."""
     corners = model.triangles[made.hole_faces[0]]
-    normal = model.curvature.normals[corners].mean(axis=0)
-    rims = _rims(made)
-    rim = made.points[rims].reshape(-1, 3)
+    place, normal = model.points[corners].mean(axis=0), model.curvature.normals[corners].mean(axis=0)
+    zoom = 0.4 * model.size / float(np.ptp(model.points[corners], axis=0).max())
     stage = studio.empty_stage(model, 5, ratio)
     stage.mesh(made.points, made.triangles)
-    # The parts are triangles. Each is filled from its middle.
-    middle = np.array([rim[np.any(rims == edge[0], axis=1).repeat(2)].mean(axis=0) for edge in rims])
-    fans = np.concatenate([made.points[rims], middle[:, None]], axis=1).reshape(-1, 3)
-    stage.mesh(fans, np.arange(len(fans)).reshape(-1, 3), INVALID)
-    closer = 0.4 * float(np.ptp(model.points[corners], axis=0).max() / np.ptp(rim, axis=0).max())
-    zoom = 0.4 * model.size / float(np.ptp(model.points[corners], axis=0).max())
-    stage.wireframe(made.points, made.edges, 0.006 / zoom / max(1.0, 0.3 * closer))
+    stage.wireframe(made.points, made.edges, 0.006 / zoom)
+    stage.balls(made.points[_rims(made)].reshape(-1, 3).mean(axis=0), INVALID, 0.02 / zoom)
     stage.turn_to(normal)
-    stage.look_at(model.points[corners].mean(axis=0), zoom)
-    return studio.render_with_inset(stage, rim.mean(axis=0), closer)
+    stage.look_at(place, zoom)
+    return studio.render(stage)
 
 
 def _rims(made: seamwire_core.Embedding) -> NDArray[np.int32]:
-    """Return the edges around the parts that an embedding left out, (k, 2)."""
+    """Return the edges around the invalid parts that an embedding left out of one triangle, (k, 2)."""
     sides = np.concatenate([made.triangles[:, [0, 1]], made.triangles[:, [1, 2]], made.triangles[:, [2, 0]]])
     edges, first, counts = np.unique(np.sort(sides, axis=1), axis=0, return_index=True, return_counts=True)
     faces = made.source_face[first % len(made.triangles)]
-    return edges[(counts == 1) & np.isin(faces, made.hole_faces)]
+    return edges[(counts == 1) & (faces == made.hole_faces[0])]

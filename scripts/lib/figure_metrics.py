@@ -32,9 +32,9 @@ COLORS = {
 ANISOTROPY = 20.0
 _CANDIDATES = 40
 """Vertices of ridges and of valleys between which Figure 4 looks for the ends of its wires."""
-_APART = (0.2, 0.9)
+_APART = (0.3, 0.9)
 """How far these ends are apart, in sides of the unit cube."""
-_ONE_SIDE = 0.6
+_ONE_SIDE = 0.85
 """Length of the mean normal along the wires, at least: they are all seen from one side."""
 _RIM = (0.98, 0.30, 0.43)
 """Where Figure 6 looks closer: a ridge beside a flat part of rocker-arm."""
@@ -93,7 +93,7 @@ def along_ridge_and_valley(studio: Studio) -> Image.Image:
         stage.balls(places[[0, len(wires["euclidean"].points) - 1]], INK, 0.011)
         stage.turn_to(normal)
         low, top = places.min(axis=0), places.max(axis=0)
-        stage.look_at(0.5 * (low + top), min(3.0, 0.75 * model.size / float(np.linalg.norm(top - low))))
+        stage.look_at(0.5 * (low + top), min(2.0, 0.75 * model.size / float(np.linalg.norm(top - low))))
         panels.append(Panel(studio.render(stage), title, Key(tuple((NAMES[kind], COLORS[kind]) for kind in METRICS))))
     return sheet([panels])
 
