@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A curve network after Exoskeleton [dGGDV11], which Figure 11 shows beside the wires.
+"""A segmentation after Exoskeleton [dGGDV11], which Figure 11 shows beside the wires.
 
 De Goes, Goldenstein, Desbrun, Velho, "Exoskeleton: Curve network abstraction for 3D shapes" (2011), divide a shape into
 perceptual parts. An extension of variational shape approximation [CSAD04] then makes the curve network. We had only the
@@ -9,7 +9,6 @@ paper's abstract. It does not say how parts are found, or how the approximation 
   Goldenstein, Velho, "A hierarchical segmentation of articulated bodies" (2008). Ours has no hierarchy.
 - Diffusion slows down at concave edges, so that parts meet there.
 - The approximation runs inside each part. Regions move to the parts that have the largest errors.
-- Curves follow the edges of the mesh.
 """
 
 from __future__ import annotations
@@ -35,12 +34,10 @@ _STEPS = 30
 
 
 class Exoskeleton(NamedTuple):
-    """A curve network and what it surrounds."""
+    """The regions that the curves of a network surround, and the parts that the regions lie in."""
 
     regions: NDArray[np.int32]  # (m,), of each triangle
     parts: NDArray[np.int32]  # (m,), of each triangle
-    edges: NDArray[np.int32]  # (e, 2), vertices of the mesh's edges between two regions
-    corners: NDArray[np.int32]  # (c,), vertices where three or more regions meet
 
 
 def exoskeleton(points: NDArray[np.float64], triangles: NDArray[np.int32], count: int) -> Exoskeleton:
@@ -55,16 +52,7 @@ def exoskeleton(points: NDArray[np.float64], triangles: NDArray[np.int32], count
     """
     parts = shape_parts(points, triangles)
     regions = shape_proxies(points, triangles, count, parts=parts, teleport=True)
-    return Exoskeleton(regions, parts, *network(triangles, regions))
-
-
-def network(triangles: NDArray[np.int32], regions: NDArray[np.int32]) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Return the mesh's edges between two regions, (e, 2), and the vertices where three or more regions meet, (c,)."""
-    sides, pairs = shared_sides(triangles)
-    edges = sides[regions[pairs[:, 0]] != regions[pairs[:, 1]]]
-    meeting = np.unique(np.stack([triangles.ravel(), np.repeat(regions, 3)], axis=1), axis=0)
-    vertices, meets = np.unique(meeting[:, 0], return_counts=True)
-    return edges, vertices[meets > 2].astype(np.int32)
+    return Exoskeleton(regions, parts)
 
 
 def shape_parts(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.int32]:
@@ -124,7 +112,7 @@ def _patches(areas: NDArray[np.float64], pairs: NDArray[np.int64], steps: NDArra
             patches[face] = patch
             for near, step in beside[face]:
                 if patches[near] < 0:
-                    heappush(queue, (away + step, near, patch))
+                    heappush(queue, (max(away, 0.0) + step, near, patch))
     # Components without a seed become one patch.
     return np.where(patches < 0, number, patches)
 

@@ -44,6 +44,7 @@ def network_of(model: Model, folder: Path) -> Drawn:
     """Return the network that play_recording.py left in a folder. Without one, return a network of the planner."""
     file = folder / f"{model.name}.json"
     if not file.exists():
+        print(f"   {model.name}: no drawing, so its network is one of the planner")
         return _planned(model)
     network = json.loads(file.read_text(encoding="utf-8"))
     with np.load(file.with_suffix(".npz")) as mesh:

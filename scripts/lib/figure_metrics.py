@@ -99,9 +99,9 @@ def along_ridge_and_valley(studio: Studio) -> Image.Image:
 
 
 def _most_different(model: Model, sign: float) -> dict[str, seamwire_core.Wire]:
-    """Return a wire in each metric, between those strong vertices of a ridge (1) or a valley (-1) where the metrics differ most.
+    """Return a wire in each metric, between the two vertices of a ridge (1) or a valley (-1) where ours and Campen's beat the others most.
 
-    Metrics differ by the mean of s along the wires: the smaller one of ours and Campen's, less the larger one of the two others. Only
+    The gain is a difference of means of s along the wires: the smaller one of ours and Campen's, less the larger one of the others. Only
     vertices that bend like the feature count, so that no wire gains by a ridge beside a valley.
 
     Raises

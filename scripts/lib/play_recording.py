@@ -3,7 +3,7 @@
 
 Arguments after ``--``: a model, its recording, and a folder. recordings/README.md describes recordings.
 
-The folder gets NAME.json, the network of wires, and NAME.npz. The latter has the mesh cut along the wires, its islands, and `Played`.
+The folder gets NAME.json, the network of wires, and NAME.npz, the mesh cut along the wires with its islands. `Played` is printed.
 
 The time of a person is an estimate. The keystroke-level model gives seconds for thinking, pointing, buttons and keys (Card, Moran, Newell:
 The keystroke-level model for user performance time with interactive systems, CACM 23(7), 1980). The time of the tool is measured.
@@ -15,7 +15,7 @@ import os
 import subprocess
 import sys
 import time
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -31,6 +31,7 @@ import ui as driver
 from enabling import enable_addon
 from figure_models import read
 from figure_stage import turn
+from film_hand import session
 from mathutils import Vector
 from PIL import Image, ImageDraw
 from turns import play_strictly
@@ -292,22 +293,11 @@ class Player:
             points=points,
             triangles=triangles,
             islands=islands,
-            **{name: np.array(value) for name, value in asdict(self.played).items()},
         )
         print(f"   {self.name}: {self.played}, {islands.max() + 1} islands", flush=True)
 
 
 ACTS = ("view", "click", "drag", "candidate", "stroke", "loop", "close", "end", "look")
-
-
-def session() -> object | None:
-    """Return the session of the chain that is drawn, or of what is pointed at."""
-    from seamwire.operators.report import running
-    from seamwire.view.edited_objects import edited
-
-    if running:
-        return running[0].session
-    return edited.front.session if edited.front is not None else None
 
 
 def main(model: str, recording: str, folder: str) -> None:

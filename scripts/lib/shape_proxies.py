@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Variational shape approximation [CAD04], which Figure 11 shows beside the wires: regions of faces that a plane each stands for."""
+"""Variational shape approximation [CSAD04], which Figure 11 shows beside the wires: regions of faces that a plane each stands for."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def shape_proxies(
         (m,), 0 and up: a connected part of the mesh for each triangle. No region crosses from one part to another.
         Each part has at least one region, so there are more than `count` regions if there are more parts than that.
     teleport
-        Whether regions that are hardly needed move to where the error is largest, as in [CAD04].
+        Whether regions that are hardly needed move to where the error is largest, as in [CSAD04].
     """
     a, b, c = points[triangles].transpose(1, 0, 2)
     cross = np.cross(b - a, c - a)

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from .edit_mesh import Cage
 
 CUTS = ".seamwire_cut"
-"""The layer of vertices, and of edges, that is 1 where a cut made them: those can be taken back. `_HELD` marks more."""
+"""The layer of vertices, and of edges, that is 1 where a cut made them: those can be taken back. Edges can also have the value `_HELD`."""
 
 _HELD = 2
 """The value of an edge that holds the end of a seam inside a face after the cut that led on from there was taken back."""
@@ -316,7 +316,7 @@ def _held_at(verts: Iterable[bmesh.types.BMVert], of_edges: bmesh.types.BMLayerI
 def _join(
     bm: bmesh.types.BMesh, edges: Collection[bmesh.types.BMEdge], kept: Collection[bmesh.types.BMVert] = ()
 ) -> int:
-    """Join what cuts along some edges parted as `take_back` does, with all of some vertices kept. Return how many edges went."""
+    """Join what cuts along some edges parted as `take_back` does, and return how many edges went. Vertices in `kept` stay."""
     of_verts, of_edges = bm.verts.layers.int.get(CUTS), bm.edges.layers.int.get(CUTS)
     labels, unwrapped = bm.edges.layers.int.get(LABELS), bm.edges.layers.int.get(UNWRAPPED)
     cuts = [edge for edge in edges if edge[of_edges] and not any(face.hide for face in edge.link_faces)]
