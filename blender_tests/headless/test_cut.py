@@ -828,16 +828,6 @@ def drag(obj: bpy.types.Object, seed: int, to: int) -> None:
     _finish(mesh, before)
 
 
-def remove(obj: bpy.types.Object, *seeds: int) -> None:
-    """Remove the wires that begin or end at some seeds, as the tool does."""
-    mesh = session_on(obj)
-    network = mesh.session.network
-    for wire in network.wires:
-        if {wire.start, wire.end} & {*seeds}:
-            mesh.session.drop(wire)
-    _finish(mesh, network)
-
-
 def _finish(mesh: ObjectSession, before: Network) -> None:
     change = Change(before, mesh.session.network)
     write(mesh)
@@ -896,102 +886,6 @@ def test_removing_a_cut_wire_gives_the_mesh_back_as_it_was(shape: str) -> None:
     after = content(obj)
     for name in before:
         assert after[name] == before[name], name
-
-
-INSIDE, BELOW = (0.1, 0.06, 0.0), (-0.1, -0.55, 0.0)
-"""Two places inside faces of a 9 x 9 grid, where a chain from vertex 75 to vertex 10 bends."""
-
-
-def chain_inside(triangulated: bool, *seeds: tuple[float, float, float] | int) -> bpy.types.Object:
-    """Add a grid, and cut a chain from vertex 75 over places inside faces to a vertex."""
-    obj = add_grid(9)
-    edit()
-    if triangulated:
-        bm = bmesh.from_edit_mesh(obj.data)
-        bmesh.ops.triangulate(bm, faces=bm.faces[:])
-        bmesh.update_edit_mesh(obj.data)
-    assert cut(" ".join(f"({x[0]} {x[1]} {x[2]})" if isinstance(x, tuple) else str(x) for x in (75, *seeds)))
-    return obj
-
-
-def at(obj: bpy.types.Object, place: tuple[float, float, float]) -> int:
-    """Return the vertex at a place."""
-    vertex = vertex_near(obj, place)
-    assert (bmesh.from_edit_mesh(obj.data).verts[vertex].co - Vector(place)).length < 1e-4
-    return vertex
-
-
-def joins(obj: bpy.types.Object) -> set[frozenset[int]]:
-    """Return the seeds that cut wires join, if all seams are theirs and the seams form one open chain."""
-    wires = session_on(obj).session.wires
-    ends = {v for v, count in _counts(seams(obj)).items() if count == 1}
-    assert agree(obj)
-    assert all(wire.is_cut for wire in wires)
-    assert len(ends) == 2 and joined(obj, min(ends)) >= ends
-    return {frozenset((wire.start, wire.end)) for wire in wires}
-
-
-def left_over(obj: bpy.types.Object) -> int:
-    """Return how many edges there are that cuts made and no seam runs along."""
-    bm = bmesh.from_edit_mesh(obj.data)
-    return sum(bool(edge[bm.edges.layers.int[CUTS]]) and not edge.seam for edge in bm.edges)
-
-
-def seam_length(obj: bpy.types.Object) -> float:
-    return sum(edge.calc_length() for edge in bmesh.from_edit_mesh(obj.data).edges if edge.seam)
-
-
-@pytest.mark.every_blender
-@pytest.mark.parametrize("triangulated", [False, True], ids=["quads", "triangles"])
-@pytest.mark.parametrize("to", [1, 9, 11, 19, 45, 54, 79])
-def test_a_wire_stays_whole_where_another_is_dragged_from_their_seed_inside_a_face(to: int, triangulated: bool) -> None:
-    obj = chain_inside(triangulated, INSIDE, 10)
-    drag(obj, 10, to)
-    seed = at(obj, INSIDE)
-    assert joins(obj) == {frozenset((75, seed)), frozenset((seed, to))}
-    assert left_over(obj) == 0
-    own = seam_length(obj)
-    assert is_sound(obj)
-    anew = chain_inside(triangulated, INSIDE, to)
-    assert own == pytest.approx(seam_length(anew), rel=1e-2)
-
-
-@pytest.mark.every_blender
-@pytest.mark.parametrize("triangulated", [False, True], ids=["quads", "triangles"])
-def test_a_wire_stays_whole_where_another_is_removed_from_their_seed_inside_a_face(triangulated: bool) -> None:
-    obj = chain_inside(triangulated, 0)
-    remove(obj, 75)
-    before = content(obj)
-    bpy.ops.object.mode_set(mode="OBJECT")
-    bpy.data.objects.remove(obj)
-
-    obj = chain_inside(triangulated, INSIDE, BELOW, 10)
-    remove(obj, 10)
-    seed, end = at(obj, INSIDE), at(obj, BELOW)
-    assert joins(obj) == {frozenset((75, seed)), frozenset((seed, end))}
-    assert left_over(obj) == 1, "it holds the end"
-    assert is_sound(obj)
-    drag(obj, end, 1)
-    seed = at(obj, INSIDE)
-    assert joins(obj) == {frozenset((75, seed)), frozenset((seed, 1))}
-    assert left_over(obj) == 0
-    remove(obj, 1)
-    assert joins(obj) == {frozenset((75, at(obj, INSIDE)))}
-    remove(obj, 75)
-    after = content(obj)
-    for name in before:
-        assert after[name] == before[name], name
-
-
-def test_an_edge_that_held_the_end_of_a_wire_goes_once_another_wire_holds_it() -> None:
-    obj = chain_inside(True, INSIDE, 10)
-    remove(obj, 10)
-    assert left_over(obj) == 1
-    seed = at(obj, INSIDE)
-    assert cut(f"{seed} 53") == {"FINISHED"}
-    seed = at(obj, INSIDE)
-    assert joins(obj) == {frozenset((75, seed)), frozenset((seed, 53))}
-    assert left_over(obj) == 0
 
 
 def test_what_another_wire_was_cut_along_stays_where_one_is_taken_back() -> None:

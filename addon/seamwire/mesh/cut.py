@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING
 import bmesh
 import numpy as np
 from mathutils import Vector
-from mathutils.geometry import intersect_point_tri
 
 from ..core.network.picks import FacePoint, vertices_of
 from ..core.seams import cut
@@ -29,10 +28,7 @@ if TYPE_CHECKING:
     from .edit_mesh import Cage
 
 CUTS = ".seamwire_cut"
-"""The layer of vertices, and of edges, that is 1 where a cut made them: those can be taken back. Edges can also have the value `_HELD`."""
-
-_HELD = 2
-"""The value of an edge that holds the end of a seam inside a face after the cut that led on from there was taken back."""
+"""The layer of vertices, and of edges, that is 1 where a cut made them: those can be taken back."""
 
 _RINGS = 3
 """How far one looks around a pick once vertices are found that stay: those of the face that it lies in may not be the first."""
@@ -171,15 +167,8 @@ def carry_out(cage: Cage, what: CutPlan, seeds: Iterable[int | FacePoint] = (), 
     with _changing(cage):
         seams, seed_verts, uncut = _carry_out(bm, what, list(seeds))
         new = [edge for edge in seams if not edge.seam]
-        of_edges = bm.edges.layers.int.get(CUTS)
         for edge in seams:
             edge.seam = True
-            edge[of_edges] = min(edge[of_edges], 1)
-        # A new cut may lead on from where an edge held the end of a seam.
-        kept = {vert for vert in seed_verts.values() if vert.is_valid}
-        if held := _held_at(kept, of_edges):
-            _join(bm, held, kept)
-            seams, new = ([edge for edge in edges if edge.is_valid] for edges in (seams, new))
         if crumb > 0.0:
             _join(bm, _crumb_borders(bm, new, crumb * sum(face.calc_area() for face in bm.faces)))
             seams = [edge for edge in seams if edge.is_valid and edge.seam]
@@ -289,135 +278,38 @@ def take_back(cage: Cage, edges: Iterable[Edge]) -> int:
     """Join what cuts along some edges parted, and return how many edges went.
 
     Only edges that cuts made are removed, except on hidden faces. A vertex that a cut made on an edge is removed if only that edge is
-    left there and no wire uses it. If another seam ends inside a face, an edge leads on from its end, because edges cannot end inside
-    faces. That edge goes with the seam, or once another cut leads on from there. Vertices, edges and faces have other numbers then.
+    left there and no wire uses it. Vertices, edges and faces have other numbers then.
     """
     bm = cage.bm
     with _changing(cage):
         _add_unwrapped(bm)
-        _, of_edges = _cut_layers(bm)
-        own = [edge for a, b in edges if (edge := bm.edges.get((bm.verts[a], bm.verts[b]))) is not None]
-        held = _held_at([vert for edge in own for vert in edge.verts], of_edges)
-        return _join(bm, list(dict.fromkeys((*own, *held))))
+        _cut_layers(bm)
+        return _join(bm, [edge for a, b in edges if (edge := bm.edges.get((bm.verts[a], bm.verts[b]))) is not None])
 
 
-def _held_at(verts: Iterable[bmesh.types.BMVert], of_edges: bmesh.types.BMLayerItem) -> list[bmesh.types.BMEdge]:
-    """Return the edges that hold ends of seams, from some vertices on."""
-    found: dict[bmesh.types.BMEdge, None] = {}
-    waiting = list(verts)
-    while waiting:
-        vert = waiting.pop()
-        new = [edge for edge in vert.link_edges if edge[of_edges] == _HELD and not edge.seam and edge not in found]
-        found.update(dict.fromkeys(new))
-        waiting += [edge.other_vert(vert) for edge in new]
-    return list(found)
-
-
-def _join(
-    bm: bmesh.types.BMesh, edges: Collection[bmesh.types.BMEdge], kept: Collection[bmesh.types.BMVert] = ()
-) -> int:
-    """Join what cuts along some edges parted as `take_back` does, and return how many edges went. Vertices in `kept` stay."""
+def _join(bm: bmesh.types.BMesh, edges: Collection[bmesh.types.BMEdge]) -> int:
+    """Join what cuts along some edges parted as `take_back` does, and return how many edges went."""
     of_verts, of_edges = bm.verts.layers.int.get(CUTS), bm.edges.layers.int.get(CUTS)
     labels, unwrapped = bm.edges.layers.int.get(LABELS), bm.edges.layers.int.get(UNWRAPPED)
-    cuts = [edge for edge in edges if edge[of_edges] and not any(face.hide for face in edge.link_faces)]
-    held = dict.fromkeys(_holding(cuts))
     verts = {vert for edge in edges for vert in edge.verts if vert[of_verts]}
+    count = len(bm.edges)
+    cuts = [edge for edge in edges if edge[of_edges] and not any(face.hide for face in edge.link_faces)]
     if unwrapped is not None:
         for face in {face for edge in cuts for face in edge.link_faces}:
             within = [edge for edge in face.edges if not edge.seam]
             for edge in within or face.edges:
                 edge[unwrapped] = JOINED
-    bmesh.ops.dissolve_edges(bm, edges=[edge for edge in cuts if edge not in held], use_verts=False)
-    if held:
-        replaced = [edge for edge in held if _hold_at_corner(bm, edge)]
-        bmesh.ops.dissolve_edges(bm, edges=replaced, use_verts=False)
-    for edge in held:
-        if edge.is_valid:
-            edge[of_edges] = _HELD
-    gone = sum(not edge.is_valid for edge in cuts)
+    bmesh.ops.dissolve_edges(bm, edges=cuts, use_verts=False)
+    gone = count - len(bm.edges)
     passed = [
         vert
         for vert in verts
         if vert.is_valid
-        and vert not in kept
         and len(vert.link_edges) == 2
-        and not any(edge[of_edges] == _HELD for edge in vert.link_edges)
         and not any(labels is not None and edge[labels] for edge in vert.link_edges)
     ]
     bmesh.ops.dissolve_verts(bm, verts=passed)
     return gone
-
-
-def _holding(cuts: Iterable[bmesh.types.BMEdge]) -> list[bmesh.types.BMEdge]:
-    """Return the cuts that must stay because seams would go with them.
-
-    Blender joins two faces over all of their common edges. A seam that ends inside a face lies between two faces only because a cut leads
-    on from its end. So faces are not joined if they have a common seam.
-    """
-    group_of: dict[bmesh.types.BMFace, bmesh.types.BMFace] = {}
-    seams_of: dict[bmesh.types.BMFace, set[bmesh.types.BMEdge]] = {}
-
-    def group(face: bmesh.types.BMFace) -> bmesh.types.BMFace:
-        if face not in group_of:
-            group_of[face], seams_of[face] = face, {edge for edge in face.edges if edge.seam}
-        while group_of[face] is not face:
-            group_of[face] = face = group_of[group_of[face]]
-        return face
-
-    held = []
-    for edge in cuts:
-        if len(edge.link_faces) != 2:
-            continue
-        one, other = map(group, edge.link_faces)
-        if one is other:
-            continue
-        if seams_of[one].isdisjoint(seams_of[other]):
-            group_of[other] = one
-            seams_of[one] |= seams_of.pop(other)
-        else:
-            held.append(edge)
-    return held
-
-
-def _hold_at_corner(bm: bmesh.types.BMesh, edge: bmesh.types.BMEdge) -> bool:
-    """Lead an edge to a corner of the face that a cut parted, so that the cut can go. Return whether that was possible.
-
-    Otherwise later cuts would run through the place where this one left the face, or make slivers beside it.
-    """
-    of_verts, of_edges = bm.verts.layers.int.get(CUTS), bm.edges.layers.int.get(CUTS)
-    labels = bm.edges.layers.int.get(LABELS)
-    corners = []
-    for loop in (loop for own in edge.link_loops for loop in (own, own.link_loop_next)):
-        parted = [other for other in loop.vert.link_edges if other is not edge]
-        if (
-            not loop.vert[of_verts]
-            or len(parted) != 2
-            or any(other.seam or other[of_edges] or (labels is not None and other[labels]) for other in parted)
-        ):
-            continue
-        three = loop.link_loop_prev.vert, loop.vert, loop.link_loop_next.vert
-        end = edge.other_vert(loop.vert)
-        corner = three[2] if three[0] is end else three[0]
-        if not corner[of_verts] and bm.edges.get((end, corner)) is None and _is_ear(loop.face, *three):
-            corners.append(((corner.co - loop.vert.co).length, loop.face, end, corner))
-    if not corners:
-        return False
-    _, face, end, corner = max(corners, key=lambda one: one[0])
-    _, loop = bmesh.utils.face_split(face, end, corner)
-    loop.edge[of_edges] = _HELD
-    loop.edge.select = face.select
-    return True
-
-
-def _is_ear(
-    face: bmesh.types.BMFace, before: bmesh.types.BMVert, tip: bmesh.types.BMVert, after: bmesh.types.BMVert
-) -> bool:
-    """Whether the triangle of three corners in a row can be split off a face."""
-    three = before, tip, after
-    upright = (tip.co - before.co).cross(after.co - tip.co).dot(face.normal) > 0.0
-    return upright and not any(
-        intersect_point_tri(vert.co, *(corner.co for corner in three)) for vert in face.verts if vert not in three
-    )
 
 
 def _crumb_borders(
