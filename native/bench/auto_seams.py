@@ -19,8 +19,8 @@ These methods are ours:
 
 "artist as published" is the artist's own map.
 
-The program prints Markdown tables: our maps of each model, the seams of each model and method, the medians of all methods, and the goals
-beside the results. --page replaces the tables of Markdown pages, between comments "begin NAME" and "end NAME". With --tables it
+The program prints Markdown tables. They have our maps of each model, the seams of each model and method, the medians of all methods, and
+the goals beside the results. --page replaces the tables of Markdown pages, between comments "begin NAME" and "end NAME". With --tables it
 replaces only these.
 
 --sheets draws a picture of each model with a row for each of the methods ours, artist, xatlas and optcuts. With --blind the rows are
