@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
+from itertools import pairwise
+
 import bmesh
 import bpy
 import numpy as np
@@ -86,3 +89,72 @@ def energy(obj: bpy.types.Object, aspect: float = 1.0) -> float:
         kept = order[np.cumsum(weights[order]) <= (1.0 - left_out + 1e-9) * weights.sum()]
         larger, smaller, weights = larger[kept], smaller[kept], weights[kept]
     return float(2.0 * np.sqrt((larger @ weights) * (smaller @ weights)) / weights.sum())
+
+
+def folded(obj: bpy.types.Object, least_height: float = 1e-6) -> int:
+    """Return how many edges a map is folded at, plus the number of triangles without an area in it.
+
+    The map is folded where two triangles are joined in it and lie on the same side of their common edge, whichever way their faces are
+    turned. Triangles whose height is less than `least_height` of their longest side do not count.
+    """
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.index_update()
+    layer = bm.loops.layers.uv.active
+    flat = 0
+    sides: dict[tuple[int, int], list[tuple[tuple[float, ...], float]]] = defaultdict(list)
+    for loops in bm.calc_loop_triangles():
+        if loops[0].face.hide:
+            continue
+        corners = np.array([loop.vert.co[:] for loop in loops])
+        longest = max(np.linalg.norm(corners - np.roll(corners, 1, axis=0), axis=1))
+        doubled = np.linalg.norm(np.cross(corners[1] - corners[0], corners[2] - corners[0]))
+        if doubled <= least_height * longest**2:
+            continue
+        signed = signed_areas(np.array([[loop[layer].uv[:] for loop in loops]], dtype=np.float64))[0]
+        flat += signed == 0.0
+        for one, other in pairwise([*loops, loops[0]]):
+            is_up = one.vert.index < other.vert.index
+            ends = (one, other) if is_up else (other, one)
+            key = tuple(loop.vert.index for loop in ends)
+            sides[key].append((tuple(value for loop in ends for value in loop[layer].uv), signed if is_up else -signed))
+    folds = 0
+    for found in sides.values():
+        if len(found) == 2 and found[0][0] == found[1][0]:
+            folds += found[0][1] * found[1][1] > 0.0
+    return flat + folds
+
+
+def has_overlap(*objects: bpy.types.Object, least_depth: float = 1e-5) -> bool:
+    """Return whether two triangles in the maps of objects, taken together, cover the same place.
+
+    Two triangles overlap if no line parts them. `least_depth` is how far they have to be moved apart at least, in lengths of the UV
+    square: what is less comes from rounding.
+    """
+    uvs = np.concatenate([triangles(obj)[0] for obj in objects])
+    low, high = uvs.min(axis=1), uvs.max(axis=1)
+    order = np.argsort(low[:, 0])
+    uvs, low, high = uvs[order], low[order], high[order]
+    ends = np.searchsorted(low[:, 0], high[:, 0] - least_depth)
+    for i, end in enumerate(ends.tolist()):
+        others = slice(i + 1, end)
+        near = (low[others, 1] < high[i, 1] - least_depth) & (high[others, 1] > low[i, 1] + least_depth)
+        rows = i + 1 + np.flatnonzero(near)
+        if len(rows) and (_depths(uvs[i], uvs[rows]) > least_depth).any():
+            return True
+    return False
+
+
+def _depths(one: NDArray[np.float64], others: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return how far a triangle, (3, 2), and others, (k, 3, 2), have to be moved apart, at most 0 where they are apart, (k,)."""
+    ones = np.broadcast_to(one, others.shape)
+    depths = np.full(len(others), np.inf)
+    for corners in (ones, others):
+        sides = np.roll(corners, -1, axis=1) - corners
+        lengths = np.linalg.norm(sides, axis=2)
+        for k in range(3):
+            normal = np.stack([-sides[:, k, 1], sides[:, k, 0]], axis=1)
+            normal /= np.maximum(lengths[:, k], 1e-300)[:, None]
+            a, b = (np.einsum("ijk,ik->ij", each, normal) for each in (ones, others))
+            depth = np.minimum(a.max(axis=1) - b.min(axis=1), b.max(axis=1) - a.min(axis=1))
+            depths = np.minimum(depths, np.where(lengths[:, k] > 0.0, depth, np.inf))
+    return depths

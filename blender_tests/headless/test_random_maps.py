@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Random polygon meshes are flattened, unwrapped and cut by Suggest Seamwires. No map is bad without a warning.
+
+The maps are measured by `maps`, which does not know the add-on. SEAMWIRE_RANDOM_MAPS=2500 takes so many meshes of each kind, and
+SEAMWIRE_RANDOM_MAPS=2500:700 begins with number 700. A small sample runs otherwise.
+"""
+
+import os
+import time
+import traceback
+
+import bmesh
+import bpy
+import numpy as np
+import pytest
+from maps import folded, has_overlap
+from random_meshes import KINDS, add_random
+from scene import edit, seams
+from seamwire.core.base import native
+from seamwire.mesh import edit_mesh
+
+COUNT, _, FIRST = os.environ.get("SEAMWIRE_RANDOM_MAPS", "4").partition(":")
+NUMBERS = range(int(FIRST or 0), int(FIRST or 0) + int(COUNT))
+SECONDS = 60.0
+"""No mesh may take longer: all have less than a few thousand faces."""
+
+
+def problems_of(obj: bpy.types.Object) -> list[str]:
+    """Return what is wrong with the active UV map of an edit mesh."""
+    found = []
+    if folds := folded(obj):
+        found.append(f"{folds} folds")
+    if has_overlap(obj):
+        found.append("overlap")
+    return found
+
+
+def flattened_badly(obj: bpy.types.Object) -> list[str]:
+    """Return what is wrong with the library's map of an edit mesh: corners of polygons that are torn."""
+    arrays = edit_mesh.read(obj)
+    core = native.load()
+    try:
+        flat = core.flatten(arrays.in_object, arrays.triangles, arrays.seams)
+    except ValueError:  # it says what cannot be mapped
+        return []
+    uvs = np.asarray(flat.uvs).reshape(-1, 2)
+    keys = np.stack([np.repeat(arrays.polygons, 3), arrays.triangles.ravel()], axis=1)
+    _, corner = np.unique(keys, axis=0, return_inverse=True)
+    low, high = np.full((corner.max() + 1, 2), np.inf), np.full((corner.max() + 1, 2), -np.inf)
+    np.minimum.at(low, corner.ravel(), uvs)
+    np.maximum.at(high, corner.ravel(), uvs)
+    torn = int(((high - low) > 0.0).any(axis=1).sum())
+    return [f"{torn} corners of polygons have two places"] if torn else []
+
+
+def run(operator: object, capfd: pytest.CaptureFixture[str], **options: object) -> tuple[bool, str]:
+    """Call an operator. Return whether it warned or refused, and what it printed."""
+    capfd.readouterr()
+    try:
+        operator(**options)
+    except RuntimeError as error:
+        return True, str(error)
+    said = capfd.readouterr().out
+    return "Warning" in said, said
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_no_map_of_a_random_mesh_is_bad_without_a_warning(kind: str, capfd: pytest.CaptureFixture[str]) -> None:
+    failures = []
+    counts = {"meshes": 0, "warned": 0}
+    for number in NUMBERS:
+        started = time.monotonic()
+        try:
+            failures += [f"{number}: {each}" for each in _play(kind, number, capfd, counts)]
+        except Exception:
+            failures.append(f"{number}: {traceback.format_exc(limit=-2)}")
+        taken = time.monotonic() - started
+        if taken > SECONDS:
+            failures.append(f"{number}: {taken:.0f} s")
+        bpy.ops.object.mode_set(mode="OBJECT")
+        bpy.data.batch_remove([*bpy.data.objects, *bpy.data.meshes])
+    with capfd.disabled():
+        print(f"{kind}: {counts}, {len(failures)} failures", flush=True)
+    assert not failures, "\n".join([f"{len(failures)} of {len(NUMBERS)}", *failures[:40]])
+
+
+def _play(kind: str, number: int, capfd: pytest.CaptureFixture[str], counts: dict[str, int]) -> list[str]:
+    failures = []
+    counts["meshes"] += 1
+    obj = add_random(kind, number)
+    edit()
+    if not len(bmesh.from_edit_mesh(obj.data).faces):
+        return []
+    failures += [f"flatten: {each}" for each in flattened_badly(obj)]
+    before = seams(obj)
+    for name, operator in (("unwrap", bpy.ops.mesh.seamwire_unwrap), ("suggest", bpy.ops.mesh.seamwire_suggest)):
+        warned, said = run(operator, capfd)
+        counts["warned"] += warned
+        if name == "unwrap" and seams(obj) != before:
+            failures.append("unwrap: the seams changed")
+        if obj.data.uv_layers:
+            wrong = problems_of(obj)
+            if wrong and not warned:
+                failures.append(f"{name}: {', '.join(wrong)}, but the report says: {said.strip()}")
+            if "no overlap" in said and "overlap" in wrong:
+                failures.append(f"{name}: overlap, but the report says: {said.strip()}")
+    return failures
