@@ -25,7 +25,7 @@ try:
 except ImportError:
     igl = None
 
-sys.path.insert(0, str(Path(__file__).parents[2] / "scripts/lib"))
+sys.path.insert(0, str(Path(__file__).parents[2] / "docs/figures"))
 from figure_models import read
 
 _CLOSE, _MOST_ITERATIONS = 1e-3, 100

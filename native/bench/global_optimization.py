@@ -26,7 +26,7 @@ import osqp
 import seamwire_core as sw
 from scipy import sparse
 
-sys.path.insert(0, str(Path(__file__).parents[2] / "scripts/lib"))
+sys.path.insert(0, str(Path(__file__).parents[2] / "docs/figures"))
 sys.path.insert(0, str(Path(__file__).parents[2] / "addon"))
 from figure_models import Model, read
 from seamwire.core.base.geometry import nearest_on_segments  # knows no Blender

@@ -21,7 +21,7 @@ import numpy as np
 import seamwire_core as sw
 from scipy.spatial import KDTree
 
-sys.path.insert(0, str(Path(__file__).parents[2] / "scripts/lib"))
+sys.path.insert(0, str(Path(__file__).parents[2] / "docs/figures"))
 sys.path.insert(0, str(Path(__file__).parents[2] / "addon"))
 from figure_models import read
 from seamwire.core.base.geometry import barycentric, nearest_on_segments  # these know no Blender

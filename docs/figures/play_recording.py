@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Plays a recorded drawing in Blender's window with simulated events. scripts/figures runs this for Figures 1, 11 and 12.
+"""Plays a recorded drawing in Blender's window with simulated events. docs/figures/make runs this for Figures 1, 11 and 12.
 
 Arguments after ``--``: a model, its recording, and a folder. recordings/README.md describes recordings.
 
@@ -21,7 +21,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [os.environ["SEAMWIRE_BLENDER_PACKAGES"], str(ROOT / "blender_tests"), str(Path(__file__).parent)]
+sys.path[:0] = [
+    os.environ["SEAMWIRE_BLENDER_PACKAGES"],
+    str(ROOT / "blender_tests"),
+    str(Path(__file__).parent),
+    str(ROOT / "docs/films"),
+]
 # Pillow; Blender's own packages come first.
 sys.path += map(str, (ROOT / ".venv/lib").glob("python*/site-packages"))
 

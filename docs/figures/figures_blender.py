@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The figures of the paper, made again with the project's own code: Blender runs this for ``scripts/figures``.
+"""The figures of the paper, made again with the project's own code: Blender runs this for ``docs/figures/make``.
 
 Arguments after ``--``: the folder to write into, the figures' numbers, models.
 """

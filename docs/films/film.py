@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Films the tool at work in Blender's window, with simulated events and the display's own pixels; scripts/animation runs this.
+"""Films the tool at work in Blender's window, with simulated events and the display's own pixels; docs/films/make runs this.
 
-``blender ... --python scripts/lib/film.py -- PART FOLDER`` takes a part that scripts/animation names. It leaves guide-*.png in the folder,
+``blender ... --python docs/films/film.py -- PART FOLDER`` takes a part that docs/films/make names. It leaves guide-*.png in the folder,
 or writes frames to frames.raw there, which may be a pipe.
 The simulated mouse has no pointer on the display, so one is drawn into the frames.
 
@@ -17,7 +17,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [os.environ["SEAMWIRE_BLENDER_PACKAGES"], str(ROOT / "blender_tests"), str(ROOT / "scripts/lib")]
+sys.path[:0] = [os.environ["SEAMWIRE_BLENDER_PACKAGES"], str(ROOT / "blender_tests"), str(Path(__file__).parent)]
 
 from enabling import enable_addon
 from film_figure import character, figure_pictures, limbs
