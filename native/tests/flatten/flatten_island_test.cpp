@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -258,11 +259,53 @@ TEST(Outline, TouchingIsNotCrossing) {
   };
   EXPECT_FALSE(outline.crosses_itself(at({Point2(0, 0), Point2(1, 0), Point2(0, 1), Point2(1, 1)})));
   EXPECT_TRUE(outline.crosses_itself(at({Point2(0, 0), Point2(1, 0), Point2(1, 1), Point2(0, 1)}))) << "a bow tie";
-  EXPECT_FALSE(outline.crosses_itself(at({Point2(0, 0), Point2(2, 0), Point2(1, 0), Point2(1, 1)})))
-      << "a corner on an edge";
+  const auto touching = at({Point2(0, 0), Point2(2, 0), Point2(1, 0), Point2(1, 1)});
+  EXPECT_FALSE(outline.crosses_itself(touching)) << "a corner on an edge";
+  EXPECT_FALSE(outline.covers_twice(touching, 1e-6));
   const auto shallow = at({Point2(0, 0), Point2(2, 0), Point2(1, -1e-4), Point2(1, 1)});
   EXPECT_TRUE(outline.crosses_itself(shallow));
-  EXPECT_FALSE(outline.crosses_itself(shallow, 1e-3));
+  EXPECT_FALSE(outline.covers_twice(shallow, 1e-3));
+}
+
+TEST(Outline, CrossingsThroughVerticesCoverThePlaneTwice) {
+  // A strip of squares around a square hole. The last square lies on the first one, or beside it.
+  shapes::Mesh mesh;
+  for (std::int32_t i = 0; i < 11; ++i) {
+    mesh.points.emplace_back(i, 0, 0);
+    mesh.points.emplace_back(i, 1, 0);
+    if (i == 0) continue;
+    mesh.triangles.push_back({2 * i - 2, 2 * i, 2 * i + 1});
+    mesh.triangles.push_back({2 * i - 2, 2 * i + 1, 2 * i - 1});
+  }
+  const Island island = whole(mesh);
+  const Outline outline(island.boundaries(), 0.1);
+  // The right side goes around the outside of three squares by three, the left side around their middle.
+  const std::vector<Point2> outer{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {3, 1}, {3, 2},
+                                  {3, 3}, {2, 3}, {1, 3}, {0, 3}, {0, 2}};
+  const std::vector<Point2> inner{{0, 1}, {1, 1}, {2, 1}, {2, 1}, {2, 1}, {2, 2},
+                                  {2, 2}, {2, 2}, {1, 2}, {1, 2}, {1, 2}};
+  std::vector<double> map(2 * island.vertices.size());
+  const auto place = [&](double turned, const std::vector<Point2>& right, const std::vector<Point2>& left) {
+    for (std::size_t v = 0; v < island.vertices.size(); ++v) {
+      const auto of = static_cast<std::size_t>(island.vertices[v]);
+      const Point2 p = Eigen::Rotation2Dd(turned) * (of % 2 == 0 ? right : left)[of / 2];
+      map[2 * v] = p.x();
+      map[2 * v + 1] = p.y();
+    }
+  };
+  for (const double turned : {0.0, 0.3}) {
+    place(turned, outer, inner);
+    EXPECT_FALSE(outline.covers_twice(map, 1e-6)) << turned;
+    std::vector<Point2> right = outer, left = inner;
+    right[10] = {0, 1};
+    left[10] = {1, 1};
+    place(turned, right, left);
+    EXPECT_FALSE(outline.covers_twice(map, 1e-6)) << "the ends touch, turned by " << turned;
+    right[10] = {0, 0};
+    left[10] = {1, 0};
+    place(turned, right, left);
+    EXPECT_TRUE(outline.covers_twice(map, 1e-6)) << "the end lies on the first square, turned by " << turned;
+  }
 }
 
 TEST(Outline, FirstContactIsWhereAVertexMeetsAnEdge) {
