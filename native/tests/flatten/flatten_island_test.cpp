@@ -38,6 +38,9 @@ Island whole(const shapes::Mesh& mesh, const std::set<Edge>& cuts = {}) {
   return islands.front();
 }
 
+/// All half-edges of an island may be cut.
+std::vector<std::uint8_t> all_real(const Island& island) { return std::vector<std::uint8_t>(island.twins.size(), 1); }
+
 std::set<Edge> column(int n, int rows) {
   std::set<Edge> cuts;
   for (int j = 0; j < rows; ++j) cuts.insert({j * n, (j + 1) * n});
@@ -330,7 +333,7 @@ TEST(OpenIsland, HandlesAndBallsBecomeDiscs) {
   for (const shapes::Mesh& mesh : {shapes::icosphere(0), shapes::icosphere(2), shapes::torus(12, 8)}) {
     const Island island = whole(mesh);
     EXPECT_FALSE(is_planar(island));
-    const OpenedIsland opened = open_to_plane(island, mesh.points, {});
+    const OpenedIsland opened = open_to_plane(island, all_real(island), mesh.points, {});
     EXPECT_TRUE(is_planar(opened.island));
     EXPECT_EQ(opened.island.boundaries().size(), 1U);
     EXPECT_EQ(opened.island.boundaries()[0].size(), 2 * opened.opened) << "each opened edge has two sides";
@@ -340,20 +343,23 @@ TEST(OpenIsland, HandlesAndBallsBecomeDiscs) {
 
 TEST(OpenIsland, AHandleIsCutAlongItsShortWays) {
   const shapes::Mesh mesh = shapes::torus(30, 10);
-  const OpenedIsland opened = open_to_plane(whole(mesh), mesh.points, {});
+  const Island island = whole(mesh);
+  const OpenedIsland opened = open_to_plane(island, all_real(island), mesh.points, {});
   EXPECT_LE(opened.opened, 41U) << "once around the tube and once around the axis, and one shared edge at most";
 }
 
 TEST(OpenIsland, ASlitOfOneEdgeBecomesLonger) {
   const shapes::Mesh mesh = shapes::icosphere(1);
   const auto [a, b] = std::minmax(mesh.triangles[0][0], mesh.triangles[0][1]);
-  const OpenedIsland opened = open_to_plane(whole(mesh, {{a, b}}), mesh.points, {});
+  const Island slit = whole(mesh, {{a, b}});
+  const OpenedIsland opened = open_to_plane(slit, all_real(slit), mesh.points, {});
   EXPECT_EQ(opened.opened, 1U);
   EXPECT_TRUE(is_planar(opened.island));
   // Two slits of one edge, and no other vertex.
   const std::vector<Vector> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const shapes::Mesh tetrahedron{points, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
-  EXPECT_TRUE(is_planar(open_to_plane(whole(tetrahedron, {{0, 1}, {2, 3}}), points, {}).island));
+  const Island slits = whole(tetrahedron, {{0, 1}, {2, 3}});
+  EXPECT_TRUE(is_planar(open_to_plane(slits, all_real(slits), points, {}).island));
 }
 
 }  // namespace
