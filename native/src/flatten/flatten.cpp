@@ -259,7 +259,7 @@ Flattening flatten(const Surface& surface, std::span<const Edge> cuts, const Fla
   }
   fill_left_out(surface, result);
   task.check(0.95);
-  result.energy = measure_map(surface, result.uvs, result.islands, {.stop = task.stop, .progress = {}}).energy;
+  result.energy = map_energy(surface, result.uvs, result.islands, {.stop = task.stop, .progress = {}});
   return result;
 }
 
