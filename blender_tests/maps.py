@@ -57,6 +57,37 @@ def covered_twice(*objects: bpy.types.Object, samples: int = 3000) -> int:
     return int((count > 1).sum())
 
 
+_DEEP = 2e-7
+"""Triangles that reach into each other by less, in the UV square, touch up to the rounding of single precision."""
+
+
+def overlapping_pairs(*objects: bpy.types.Object) -> int:
+    """Return how many pairs of triangles reach into each other in the maps of objects, taken together.
+
+    Two triangles are apart if the line along a side of either parts them. Triangles without area in the map are left out.
+    """
+    uvs = np.concatenate([triangles(obj)[0] for obj in objects])
+    area = signed_areas(uvs)
+    uvs[area < 0.0] = uvs[area < 0.0][:, ::-1]
+    uvs = uvs[area != 0.0]
+    low, high = uvs.min(axis=1), uvs.max(axis=1)
+    order = np.argsort(low[:, 0], kind="stable")
+    uvs, low, high = uvs[order], low[order], high[order]
+    sides = np.roll(uvs, -1, axis=1) - uvs
+    outwards = np.stack([sides[..., 1], -sides[..., 0]], axis=2) / np.linalg.norm(sides, axis=2)[..., None]
+    reach = np.einsum("tij,tij->ti", outwards, uvs)
+    ends = np.searchsorted(low[:, 0], high[:, 0] - _DEEP)
+    found = 0
+    for row, end in enumerate(ends.tolist()):
+        near = np.arange(row + 1, end)
+        near = near[(low[near, 1] < high[row, 1] - _DEEP) & (high[near, 1] > low[row, 1] + _DEEP)]
+        from_own = np.einsum("ij,tkj->tik", outwards[row], uvs[near]).min(axis=2) - reach[row]
+        from_others = np.einsum("tij,kj->tik", outwards[near], uvs[row]).min(axis=2) - reach[near]
+        gap = np.maximum(from_own.max(axis=1), from_others.max(axis=1))
+        found += int((gap < -_DEEP).sum())
+    return found
+
+
 def in_square(obj: bpy.types.Object) -> bool:
     """Whether the map lies in the UV square, up to rounding."""
     uvs, _ = triangles(obj)

@@ -14,6 +14,7 @@ import numpy as np
 
 from ..core.base import native
 from ..core.islands.islands import choose_hues, neighbours, places_of
+from ..core.islands.map_faults import MappedSurface
 from ..core.islands.stretch import IslandStretch, Stretch
 from . import edit_mesh, uv_map
 
@@ -220,37 +221,14 @@ def worst_of(objects: Iterable[bpy.types.Object]) -> tuple[bpy.types.Object, NDA
     return obj, worst.faces
 
 
-@dataclass(frozen=True)
-class MapQuality:
-    """How good the active UV map of a mesh is.
-
-    Parameters
-    ----------
-    energy
-        Its symmetric Dirichlet energy E_d: 4 if nothing is stretched, infinite if there is nothing to measure.
-    area
-        The area of the visible faces, in the object's units squared.
-    overlapping
-        How many islands cover a part of the map twice, or turn a face over.
-    """
-
-    energy: float
-    area: float
-    overlapping: int
-
-
-def map_quality(obj: bpy.types.Object) -> MapQuality | None:
-    """Measure the active UV map of an edit mesh, without the object's scale; None if there are no UVs or no visible faces."""
+def mapped(obj: bpy.types.Object) -> MappedSurface | None:
+    """Read the visible faces of an edit mesh with their places in its active UV map; None if there are no UVs or no visible faces."""
     arrays = edit_mesh.read(obj)
     corners, uvs = uv_map.read(obj)
     if uvs is None or not len(arrays.triangles):
         return None
-    points, triangles = arrays.in_object, arrays.triangles
-    on_image = uvs[corners.of_triangles(arrays)].astype(np.float64) * (uv_map.aspect(obj), 1.0)
-    report = native.load().measure_map(points, triangles, on_image, islands=labels_of(arrays))
-    one, two = (points[triangles[:, corner]] - points[triangles[:, 0]] for corner in (1, 2))
-    area = 0.5 * float(np.linalg.norm(np.cross(one, two), axis=1).sum())
-    return MapQuality(float(report.energy), area, len(report.overlapping))
+    own = uvs[corners.of_triangles(arrays)]
+    return MappedSurface(arrays.in_object, arrays.triangles, arrays.polygons, labels_of(arrays), own)
 
 
 def stretch_of(obj: bpy.types.Object, arrays: Arrays, labels: NDArray[np.int32]) -> IslandStretch | None:

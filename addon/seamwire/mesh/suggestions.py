@@ -7,13 +7,14 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from ..core.seams.suggestion import Request, energy_of, mean_stretch
+from ..core.seams.suggestion import Request, energy_of, mean_stretch, stretch_of
+from ..core.islands.map_faults import NO_FAULTS
 from ..words.notices import Notices
 from ..words.suggestion import Outcome
-from . import edit_mesh
-from .seam_islands import map_quality, missing_cuts, worst_of
+from . import edit_mesh, uv_map
+from .seam_islands import mapped, missing_cuts, worst_of
 from .suggestion import Suggestion
-from .unwrap import unwrap_changed
+from .unwrap import Unwrapped, unwrap_changed
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Mapping
@@ -117,6 +118,7 @@ class Suggestions:
         self.notices = Notices()
         self.problem = "No face is visible"
         self._wanted = wanted
+        self._unwrapped: Unwrapped | None = None
         self._found: list[Suggestion] = []
         for obj, faces in objects.items():
             try:
@@ -144,17 +146,6 @@ class Suggestions:
     def has_wires(self) -> bool:
         """Whether any wire was found."""
         return any(suggestion.wires for suggestion in self)
-
-    @property
-    def is_reached(self) -> bool:
-        """Whether all plans are within the limit on stretch, if there is one."""
-        return self._wanted.limit == "DISCS" or all(suggestion.best.is_reached for suggestion in self)
-
-    @property
-    def stretch(self) -> float:
-        """The mean stretch of all planned maps in percent."""
-        energies = [float(suggestion.best.energy) for suggestion in self]
-        return 100.0 * mean_stretch(energies, [suggestion.area for suggestion in self])
 
     @property
     def crumb(self) -> float:
@@ -190,25 +181,36 @@ class Suggestions:
         starts = {suggestion.mesh.obj: uvs for suggestion in self if (uvs := suggestion.map()) is not None}
         is_first = not any(suggestion.had_seams or suggestion.others for suggestion in self)
         is_whole = {suggestion.mesh.obj for suggestion in self} >= set(context.objects_in_mode_unique_data)
-        return unwrap_changed(context, every=is_first and is_whole and self.has_wires, starts=starts).islands
+        every = is_first and is_whole and self.has_wires
+        self._unwrapped = unwrap_changed(context, every=every, starts=starts)
+        return self._unwrapped.islands
 
     def outcome(self) -> Outcome:
-        """Measure the islands and the map."""
-        wanted, stretch, overlapping = self._wanted, self.stretch, None
-        if wanted.unwraps:
-            maps = [found for suggestion in self if (found := map_quality(suggestion.mesh.obj)) is not None]
-            stretch = 100.0 * mean_stretch([found.energy for found in maps], [found.area for found in maps])
-            overlapping = sum(found.overlapping for found in maps)
+        """Measure the islands, and the UV maps that the meshes have. If nothing was to be unwrapped, the planned maps count."""
+        wanted, done = self._wanted, self._unwrapped
+        missing = [missing_cuts(suggestion.mesh.obj) for suggestion in self]
         is_few = wanted.limit == "ISLANDS" and any(
-            suggestion.best.island_count - suggestion.others < wanted.islands for suggestion in self
+            len(own) - suggestion.others < wanted.islands for own, suggestion in zip(missing, self, strict=True)
         )
+        energies, areas = self._energies()
         return Outcome(
             wires=sum(len(suggestion.wires) for suggestion in self),
             marked=sum(suggestion.marked for suggestion in self),
-            missing=[int(cuts) for suggestion in self for cuts in missing_cuts(suggestion.mesh.obj)],
+            missing=[int(cuts) for own in missing for cuts in own],
             discs_wanted=wanted.limit == "DISCS",
             islands_wanted=wanted.islands if is_few else 0,
-            stretch=stretch,
-            stretch_wanted=0.0 if self.is_reached else wanted.stretch,
-            overlapping=overlapping,
+            stretch=100.0 * mean_stretch(energies, areas) if energies else None,
+            stretches=[100.0 * stretch_of(energy) for energy in energies],
+            stretch_wanted=0.0 if wanted.limit == "DISCS" else wanted.stretch,
+            unwrapped=None if done is None else done.islands,
+            faults=NO_FAULTS if done is None else done.faults,
         )
+
+    def _energies(self) -> tuple[list[float], list[float]]:
+        """Return the energy of each map, and the area of its surface."""
+        if not self._wanted.unwraps:
+            return [float(suggestion.best.energy) for suggestion in self], [suggestion.area for suggestion in self]
+        if self._unwrapped is None:  # the maps on the meshes are those from before
+            return [], []
+        maps = {obj: found for obj in (each.mesh.obj for each in self) if (found := mapped(obj)) is not None}
+        return [found.energy(uv_map.aspect(obj)) for obj, found in maps.items()], [found.area for found in maps.values()]

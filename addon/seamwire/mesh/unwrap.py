@@ -20,6 +20,8 @@ import bpy
 import numpy as np
 
 from ..core.base import native
+from ..core.islands.map_faults import NO_FAULTS, MapFaults, MappedSurface, find_faults, joined
+from ..core.islands.rounded_flips import turn_back
 from ..core.islands.uv_islands import NewIsland, boxes_of, families, in_rows, place, split_edges, uv_areas
 from . import edit_mesh, uv_map
 from .seam_islands import labels_of
@@ -49,10 +51,13 @@ class Unwrapped:
         How many were unwrapped.
     kept
         How many keep their UVs.
+    faults
+        What is wrong with those that were unwrapped, as the UV map holds them.
     """
 
     islands: int
     kept: int
+    faults: MapFaults = NO_FAULTS
 
 
 class _Map:
@@ -62,7 +67,8 @@ class _Map:
         self.obj = obj
         self._arrays = arrays = edit_mesh.read(obj)
         self._aspect = uv_map.aspect(obj)
-        self.corners, self._uvs = uv_map.read(obj)
+        self._read = read = uv_map.read_with_edges(obj, UNWRAPPED)
+        self.corners, self._uvs = read.corners, read.uvs
         self._triangles = self.corners.of_triangles(arrays)
         self._labels = labels_of(arrays)
         self.count = int(self._labels.max(initial=-1)) + 1
@@ -72,7 +78,7 @@ class _Map:
         self._of_face[arrays.polygons] = self._labels
         changed = self._find_changed()
         self.changed = np.arange(self.count) if every else np.flatnonzero(changed)
-        pinned = self._pinned()[self._triangles].any(axis=1)
+        pinned = read.pinned[self._triangles].any(axis=1)
         self._with_pins = np.intersect1d(self.changed, self._labels[pinned])
 
     @property
@@ -84,10 +90,7 @@ class _Map:
         self._families = np.arange(self.count)
         if self._uvs is None:
             return np.ones(self.count, dtype=bool)
-        corners, bm = self.corners, self.bm
-        layer = bm.edges.layers.int.get(UNWRAPPED)
-        seams = np.array([edge.seam for edge in bm.edges], dtype=bool)
-        known = np.array([edge[layer] for edge in bm.edges] if layer else np.zeros(len(seams)), dtype=np.int64)
+        corners, seams, known = self.corners, self._read.seams, self._read.numbers
         visible = self._of_face[corners.faces] >= 0
         pairs, torn = split_edges(corners.vertices, np.where(visible, corners.edges, -1), corners.following, self._uvs)
         islands = self._of_face[corners.faces[pairs]]
@@ -154,9 +157,11 @@ class _Map:
             cuts[(cuts >= 0).all(axis=1)],
             start=None if start is None else start[rows],
         )
-        corners, first = np.unique(self._triangles[rows], return_index=True)
-        uvs = np.asarray(flat.uvs).reshape(-1, 2)[first]
-        return corners, uvs, np.repeat(np.asarray(flat.islands), 3)[first]
+        # A corner of several triangles is where the largest has it: one without area may be anywhere.
+        largest = np.argsort(-self._areas[rows], kind="stable")
+        corners, first = np.unique(self._triangles[rows][largest], return_index=True)
+        uvs = np.asarray(flat.uvs)[largest].reshape(-1, 2)[first]
+        return corners, uvs, np.repeat(np.asarray(flat.islands)[largest], 3)[first]
 
     def _present(self) -> NDArray[np.float64] | None:
         """Return the present map in lengths on the model, (m, 3, 2), each island as large as its surface. None: the mesh has no UV map."""
@@ -217,19 +222,6 @@ class _Map:
             islands.append((corners, new))
         return islands
 
-    def _pinned(self) -> NDArray[np.bool_]:
-        """Return which corners of changed islands are pinned, (c,)."""
-        bm = self.bm
-        layer = bm.loops.layers.uv.active
-        pinned = np.zeros(len(self.corners.vertices), dtype=bool)
-        if layer is None:
-            return pinned
-        starts = np.flatnonzero(np.diff(self.corners.faces, prepend=-1))
-        for face in self.faces().tolist():
-            for i, loop in enumerate(bm.faces[face].loops, start=starts[face]):
-                pinned[i] = loop[layer].pin_uv
-        return pinned
-
     def restore(self) -> None:
         """Give all corners the UVs that they had."""
         if self._uvs is not None:
@@ -237,13 +229,42 @@ class _Map:
             bmesh.update_edit_mesh(self.obj.data, loop_triangles=False, destructive=False)
 
     def write(self, corners: NDArray[np.int64], uvs: NDArray[np.float64]) -> None:
-        """Give corners their places in the map."""
+        """Give corners, (c,) ascending, their places in the map, (c, 2)."""
         bm = self.bm
         layer = bm.loops.layers.uv.active
-        starts = np.flatnonzero(np.diff(self.corners.faces, prepend=-1))
-        faces = self.corners.faces[corners]
-        for face, within, uv in zip(faces.tolist(), (corners - starts[faces]).tolist(), uvs.tolist(), strict=True):
-            bm.faces[face].loops[within][layer].uv = uv
+        places = iter(zip(corners.tolist(), uvs.tolist(), strict=True))
+        faces, starts = np.unique(self.corners.faces, return_index=True)
+        touched = np.unique(self.corners.faces[corners])
+        begin = starts[np.searchsorted(faces, touched)]
+        corner, uv = next(places, (-1, None))
+        for face, first in zip(touched.tolist(), begin.tolist(), strict=True):
+            for number, loop in enumerate(bm.faces[face].loops, start=first):
+                if number == corner:
+                    loop[layer].uv = uv
+                    corner, uv = next(places, (-1, None))
+
+    def mapped(self) -> MappedSurface:
+        """Return the visible faces with the UVs that the mesh has."""
+        arrays = self._arrays
+        uvs = uv_map.read_uvs(self.obj)[self._triangles]
+        return MappedSurface(arrays.in_object, arrays.triangles, arrays.polygons, self._labels, uvs)
+
+    def homes(self) -> NDArray[np.float64]:
+        """Return the low corner of the tile of the UV plane that each island had before, (count, 2)."""
+        if self._uvs is None:
+            return np.zeros((self.count, 2))
+        middles = self._uvs[self._triangles].astype(np.float64).mean(axis=1)
+        sizes = np.bincount(self._labels, minlength=self.count)
+        sums = np.stack([np.bincount(self._labels, column, self.count) for column in middles.T], axis=1)
+        return np.floor(sums / sizes[:, None])
+
+    def turn_back(self) -> bool:
+        """Turn back what rounding has turned over in changed islands without pins; return whether anything has moved."""
+        rows = np.isin(self._labels, np.setdiff1d(self.changed, self._with_pins)) & (self._areas > 0.0)
+        uvs = uv_map.read_uvs(self.obj)
+        corners, places = turn_back(uvs, self._triangles[rows], self.corners.vertices, self._labels[rows])
+        self.write(corners, places)
+        return len(corners) > 0
 
     def on_image(self, uvs: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return UVs, (c, 2), squeezed as the image is wide, so that they are not stretched on it."""
@@ -301,7 +322,7 @@ def unwrap_changed(
     if not any(found.count for found in maps):
         raise ValueError(problem if not maps else "No face is visible: there is nothing to unwrap")
     maps = [found for found in maps if found.count]
-    unwrapped = sum(len(found.changed) for found in maps)
+    unwrapped, faults = sum(len(found.changed) for found in maps), NO_FAULTS
     kept = sum(found.count for found in maps) - unwrapped
     if unwrapped:
         flat = {found: found.flat_islands(method) for found in maps}
@@ -314,14 +335,23 @@ def unwrap_changed(
                 _unwrap_by_blender(context, blenders, "ANGLE_BASED" if method == "SEAMWIRE" else method)
                 _lay_out(solved)
                 _place(context, maps, flat)
-            except ValueError:
+                faults = _faults(maps)
+                if faults.flipped and any([found.turn_back() for found in maps]):
+                    faults = _faults(maps)
+            except BaseException:
                 for found in maps:
                     found.restore()
                 raise
     for found in maps:
         if len(found.changed):
             found.remember()
-    return Unwrapped(unwrapped, kept)
+    return Unwrapped(unwrapped, kept, faults)
+
+
+def _faults(maps: Sequence[_Map]) -> MapFaults:
+    """Measure what is wrong with the changed islands in the UV maps that the meshes have."""
+    chosen = np.concatenate([np.isin(np.arange(found.count), found.changed) for found in maps])
+    return find_faults(joined([found.mapped() for found in maps]), chosen, np.concatenate([found.homes() for found in maps]))
 
 
 def _unwrap_by_blender(context: bpy.types.Context, islands: Mapping[_Map, NDArray[np.integer]], method: str) -> None:
@@ -390,7 +420,7 @@ def _with_uv_maps(context: bpy.types.Context, maps: Iterable[_Map]) -> Iterator[
     bare = [obj.data for obj in context.objects_in_mode_unique_data if not obj.data.uv_layers]
     try:
         yield
-    except ValueError:
+    except BaseException:
         for mesh, layer in made:
             mesh.uv_layers.remove(layer)
         raise

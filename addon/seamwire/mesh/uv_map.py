@@ -62,6 +62,44 @@ class Corners:
         return order[np.searchsorted(keys, wanted.reshape(-1), sorter=order)].reshape(-1, 3)
 
 
+@dataclass(frozen=True)
+class EditedMap:
+    """What unwrapping needs of an edit mesh, hidden faces included.
+
+    Parameters
+    ----------
+    corners
+        The corners of the faces.
+    uvs
+        (c, 2) their places in the active UV map; None: there is no UV map.
+    pinned
+        (c,) whether they are pinned.
+    seams
+        (e,) whether the edges are seams.
+    numbers
+        (e,) the values of the edges in a layer; zeros: there is no such layer.
+    """
+
+    corners: Corners
+    uvs: NDArray[np.float32] | None
+    pinned: NDArray[np.bool_]
+    seams: NDArray[np.bool_]
+    numbers: NDArray[np.int32]
+
+
+def read_with_edges(obj: bpy.types.Object, layer: str) -> EditedMap:
+    """Read an edit mesh, and what a layer of whole numbers holds of its edges."""
+    with _copied(obj) as mesh:
+        corners, uvs = Corners.of(mesh), _uvs(mesh)
+        seams = np.zeros(len(mesh.edges), dtype=bool)
+        mesh.edges.foreach_get("use_seam", seams)
+        numbers = np.zeros(len(mesh.edges), dtype=np.int32)
+        attribute = mesh.attributes.get(layer)
+        if attribute is not None and len(attribute.data) == len(numbers):
+            attribute.data.foreach_get("value", numbers)
+        return EditedMap(corners, uvs, _pinned(mesh), seams, numbers)
+
+
 def read(obj: bpy.types.Object) -> tuple[Corners, NDArray[np.float32] | None]:
     """Read the corners of an edit mesh, and their UVs as `read_uvs` does."""
     with _copied(obj) as mesh:
@@ -117,3 +155,15 @@ def _uvs(mesh: bpy.types.Mesh) -> NDArray[np.float32] | None:
 
 def _column(layer: bpy.types.MeshUVLoopLayer) -> tuple[bpy.types.bpy_prop_collection, str]:
     return (layer.uv, "vector") if hasattr(layer, "uv") else (layer.data, "uv")
+
+
+def _pinned(mesh: bpy.types.Mesh) -> NDArray[np.bool_]:
+    pinned = np.zeros(len(mesh.loops), dtype=bool)
+    layer = mesh.uv_layers.active
+    if layer is None:
+        return pinned
+    # Newer versions of Blender keep pins in an attribute, which is empty while nothing is pinned.
+    items, name = (layer.pin, "value") if hasattr(layer, "pin") else (layer.data, "pin_uv")
+    if len(items) == len(pinned):
+        items.foreach_get(name, pinned)
+    return pinned

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import traceback
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 import bpy
 
@@ -18,8 +18,12 @@ from . import undo_steps
 from .unwrap import unwrap_after_chain
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from ..view.object_view import ObjectView
     from ..words.notices import Notices
+
+_Result = TypeVar("_Result")
 
 
 class ChainRecord:
@@ -113,25 +117,35 @@ class ChainRecord:
             self.view = None
             return
         change = Change(before, view.session.network)
-        marked, cleared = _write(view, adopt=True)
-        self.view, self._is_saved, problem = None, False, ""
         try:
-            finished = _apply(view, change)
-        except Exception as error:
-            # The wires are in the mesh by now. Undo must lead back from a change that stopped halfway.
-            traceback.print_exc()
-            edited.forget(view)
-            finished = ""
-            self._notices.add(
-                "ERROR", f"Wires are kept, but cutting or sliding them ended on an error, undo leads back: {error}"
-            )
+            marked, cleared = view.mesh.write(view.mesh.plan())
+        except ValueError:
+            raise
+        except Exception:
+            self._is_saved = True  # the mesh may have a part of the wires: dropping the chain writes the former ones
+            raise
+        self.view, self._is_saved = None, False
+        # The wires are in the mesh by now. Whatever fails, a step of undo must lead back.
+        self._try("drawing them", view, lambda: _renew(view))
+        done = self._try("cutting or sliding them", view, lambda: _apply(view, change)) or ""
+        problem = ""
         if undo_step:
             if (marked or cleared) and context.mode == "EDIT_MESH":
-                problem = unwrap_after_chain(context)
+                problem = self._try("unwrapping", view, lambda: unwrap_after_chain(context)) or ""
             undo_steps.push(title)
         self.has_kept = True
-        done = finished or summary(change.drawn, marked, cleared)
-        self._notices.add("INFO", f"{title}: {done}{problem and f'. {problem}'}")
+        told = f"{title}: {done or summary(change.drawn, marked, cleared)}"
+        self._notices.add("WARNING" if problem else "INFO", f"{told}. {problem}" if problem else told)
+
+    def _try(self, what: str, view: ObjectView, work: Callable[[], _Result]) -> _Result | None:
+        """Do some of the work on a mesh that has its wires already. Report an error instead of raising it, and return None."""
+        try:
+            return work()
+        except Exception as error:
+            traceback.print_exc()
+            edited.forget(view)
+            self._notices.add("ERROR", f"Wires are kept, but {what} ended on an error, undo leads back: {error}")
+            return None
 
     def save(self) -> None:
         """Write the wires so far to the mesh, so that Blender saves them. The chain goes on."""
@@ -148,13 +162,16 @@ class ChainRecord:
                 _write(view, adopt=True)
 
 
-def _write(view: ObjectView, adopt: bool) -> tuple[int, int]:
-    plan = view.mesh.plan()
-    counts = view.mesh.write(plan, adopt)
+def _write(view: ObjectView, adopt: bool) -> None:
+    view.mesh.write(view.mesh.plan(), adopt)
+    _renew(view)
+
+
+def _renew(view: ObjectView) -> None:
+    """Let a view show the mesh with its wires."""
     if view.mesh.alive():
         view.renew()
         view.was_read()
-    return counts
 
 
 def _apply(view: ObjectView, change: Change) -> str:

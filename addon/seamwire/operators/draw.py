@@ -141,14 +141,20 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
 
     def _failed(self, error: Exception) -> set[str]:
         traceback.print_exc()
-        previews = bool(self._chain.state.peek)
+        previews, restored = bool(self._chain.state.peek), True
         try:
             self._chain.drop()
         except Exception:
             traceback.print_exc()
             self._chain.close()
+            restored = False
         if previews:
             return {"CANCELLED", "PASS_THROUGH"}
+        if not restored:
+            # The mesh may have a part of the wires.
+            undo_steps.push(undo_steps.DRAW_SEVERAL)
+            self.report({"ERROR"}, f"Drawing failed, undo leads back: {error}")
+            return {"FINISHED"}
         self.report({"ERROR"}, f"Drawing failed, and the mesh was restored: {error}")
         return {"CANCELLED"}
 

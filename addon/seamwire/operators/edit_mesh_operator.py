@@ -3,10 +3,12 @@
 
 from __future__ import annotations
 
+import traceback
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, TypeVar
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     import bpy
 
@@ -37,8 +39,24 @@ class NeedsEditMode:
         return False
 
 
+class Halfway(Exception):  # noqa: N818 - reads as a state of the work
+    """Work has changed a mesh, and ended on an error. Its message is the error's."""
+
+
+@contextmanager
+def changing() -> Iterator[None]:
+    """Raise `Halfway` instead of any error. All of an operator that changes meshes must be in this block."""
+    try:
+        yield
+    except Exception as error:
+        raise Halfway(str(error)) from error
+
+
 class EditMeshOperator(NeedsEditMode):
-    """Gives an operator its poll, its options and a way to report what went wrong. The operator has `run`."""
+    """Gives an operator its poll, its options and a way to report what went wrong. The operator has `run`.
+
+    If an error comes while meshes are changed, see `changing`, the operator ends with a step of undo.
+    """
 
     bl_options = {"REGISTER", "UNDO"}
 
@@ -51,6 +69,14 @@ class EditMeshOperator(NeedsEditMode):
         except (ValueError, NativeError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
+        except Halfway as error:
+            return self.stopped_halfway(error)
+
+    def stopped_halfway(self, error: Halfway) -> set[str]:
+        """Report the error, and return the result with which Blender makes a step of undo."""
+        traceback.print_exception(error.__cause__)
+        self.report({"ERROR"}, f"Stopped halfway, undo leads back: {error}")
+        return {"FINISHED"}
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Do the work, and return the result that Blender expects.
@@ -58,7 +84,9 @@ class EditMeshOperator(NeedsEditMode):
         Raises
         ------
         ValueError, native.NativeError
-            If it cannot be done. The message is a sentence for the artist.
+            If it cannot be done. The message is a sentence for the artist. Nothing has changed then.
+        Halfway
+            If an error comes while meshes are changed.
         """
         raise NotImplementedError
 

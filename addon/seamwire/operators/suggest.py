@@ -10,7 +10,6 @@ import bpy
 from mathutils import Vector
 
 from ..mesh.settings import ALONG_ITEMS, AUTO_FINISH_ITEMS
-from ..words.names import count
 from .cut import cut_wires
 from .edit_mesh_operator import EditMeshOperator
 from .slide import slide_wires
@@ -245,19 +244,17 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
         suggestions.write()
         slide_wires({suggestion.mesh: suggestion.wires for suggestion in suggestions.finished_by("SLIDE")})
         self._unwrap(context, suggestions)
+        self._tell(suggestions)
+        return {"FINISHED"}
+
+    def _tell(self, suggestions: Suggestions) -> None:
         outcome = suggestions.outcome()
         self.report({"INFO"} if outcome.is_good else {"WARNING"}, outcome.text)
-        return {"FINISHED"}
 
     def _unwrap_uncut(self, context: bpy.types.Context, suggestions: Suggestions) -> set[str]:
         """Unwrap although no seam is needed, report it, and return the operator's result."""
         unwrapped = self._unwrap(context, suggestions) if self.unwrap else 0
-        if not suggestions.is_reached:
-            self.report({"WARNING"}, f"No useful seam found: the stretch stays at {suggestions.stretch:.0f} %")
-        elif unwrapped:
-            self.report({"INFO"}, f"No seam needed: {count(unwrapped, 'island')} unwrapped")
-        else:
-            self.report({"INFO"}, "Nothing to add: all islands already unwrap within the limit")
+        self._tell(suggestions)
         return {"FINISHED"} if unwrapped else {"CANCELLED"}
 
     def _unwrap(self, context: bpy.types.Context, suggestions: Suggestions) -> int:

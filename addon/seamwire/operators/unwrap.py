@@ -6,6 +6,7 @@ from __future__ import annotations
 import bpy
 
 from ..mesh.settings import settings
+from ..words.maps import in_words
 from ..words.names import count
 from .edit_mesh_operator import EditMeshOperator
 
@@ -41,12 +42,13 @@ class MESH_OT_seamwire_unwrap(EditMeshOperator, bpy.types.Operator):
         if not done.islands:
             self.report({"INFO"}, "Nothing to unwrap: no island has changed")
             return {"CANCELLED"}
-        self.report({"INFO"}, f"{count(done.islands, 'island')} unwrapped, {done.kept} kept")
+        parts = [f"{count(done.islands, 'island')} unwrapped", f"{done.kept} kept", *in_words(done.faults)]
+        self.report({"WARNING"} if done.faults else {"INFO"}, ", ".join(parts))
         return {"FINISHED"}
 
 
 def unwrap_after_chain(context: bpy.types.Context) -> str:
-    """Unwrap after a change of seams, as the tool or Blender is set. Return an error message, or an empty text."""
+    """Unwrap after a change of seams, as the tool or Blender is set. Return what went wrong, or an empty text."""
     if not settings(context).unwrap:
         from ..mesh import edit_mesh
 
@@ -56,10 +58,9 @@ def unwrap_after_chain(context: bpy.types.Context) -> str:
     from ..mesh.unwrap import unwrap_changed
 
     try:
-        unwrap_changed(context)
+        return ", ".join(in_words(unwrap_changed(context).faults))
     except (ValueError, NativeError) as error:
         return str(error)
-    return ""
 
 
 register, unregister = bpy.utils.register_classes_factory((MESH_OT_seamwire_unwrap,))

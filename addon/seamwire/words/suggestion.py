@@ -3,9 +3,12 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from ..core.islands.map_faults import NO_FAULTS, MapFaults
+from .maps import in_words, not_reached, percent
 from .names import count
 
 if TYPE_CHECKING:
@@ -27,11 +30,15 @@ class Outcome:
     islands_wanted
         The number of islands that was asked for but not reached; 0 if it was reached.
     stretch
-        The mean stretch in percent.
+        The mean stretch of all maps in percent; None if there are no maps.
+    stretches
+        The stretch of each object's map in percent.
     stretch_wanted
-        The stretch that was asked for but not reached; 0 if it was reached.
-    overlapping
-        The number of overlapping islands in the UV map, or None if nothing was unwrapped.
+        The stretch that was asked for in percent; 0 if any stretch is good.
+    unwrapped
+        The number of unwrapped islands; None if nothing was to be unwrapped, or could be.
+    faults
+        What is wrong with them.
     """
 
     wires: int
@@ -39,37 +46,61 @@ class Outcome:
     missing: Sequence[int]
     discs_wanted: bool = False
     islands_wanted: int = 0
-    stretch: float = 0.0
+    stretch: float | None = None
+    stretches: Sequence[float] = ()
     stretch_wanted: float = 0.0
-    overlapping: int | None = None
+    unwrapped: int | None = None
+    faults: MapFaults = NO_FAULTS
 
     @property
     def is_good(self) -> bool:
         """Whether everything that was asked for was reached."""
-        is_open = self.discs_wanted and any(self.missing)
-        return not (is_open or self.islands_wanted or self.stretch_wanted or self.overlapping)
+        return not (self._problems() or self.faults or self._open_islands())
 
     @property
     def text(self) -> str:
         """The report as one line."""
+        if not self.wires:
+            return self._text_without_wires()
         parts = [count(self.wires, "wire")]
         if self.marked:
             parts.append(f"{count(self.marked, 'edge')} marked")
         parts.append(count(len(self.missing), "island"))
+        if self._open_islands():
+            parts.append(self._open_islands())
+        elif any(self.missing):  # a cut to an eye would cross the face
+            parts.append(f"{sum(cuts > 0 for cuts in self.missing)} with holes")
+        return ", ".join([*parts, *self._of_map(), *self._problems()])
+
+    def _text_without_wires(self) -> str:
+        if self._problems() or self._open_islands():
+            parts = filter(None, [*self._of_map(), self._open_islands(), *self._problems()])
+            return f"No useful seam found: {', '.join(parts)}"
+        if self.unwrapped:
+            return ", ".join([f"No seam needed: {count(self.unwrapped, 'island')} unwrapped", *in_words(self.faults)])
+        return "Nothing to add: all islands already unwrap within the limit"
+
+    def _of_map(self) -> list[str]:
+        parts = []
+        if self.stretch is not None and math.isfinite(self.stretch):
+            parts.append(f"stretch {percent(self.stretch)}")
+        if self.faults:
+            parts += in_words(self.faults)
+        elif self.unwrapped:
+            parts.append("no overlap")
+        return parts
+
+    def _open_islands(self) -> str:
+        """Return which islands should be discs but are not, or an empty text."""
+        if not self.discs_wanted or not any(self.missing):
+            return ""
+        holed = count(sum(cuts > 0 for cuts in self.missing), "island still needs", "islands still need")
+        return f"{holed} {count(sum(self.missing), 'cut')}"
+
+    def _problems(self) -> list[str]:
+        """Return what was asked for and not reached."""
+        parts = []
         if self.islands_wanted:
             parts.append(f"fewer than {self.islands_wanted} because there are no more limbs to part")
-        holed = sum(cuts > 0 for cuts in self.missing)
-        if holed and self.discs_wanted:
-            parts.append(
-                f"{count(holed, 'island still needs', 'islands still need')} {count(sum(self.missing), 'cut')}"
-            )
-        elif holed:  # a cut to an eye would cross the face
-            parts.append(f"{holed} with holes")
-        parts.append(f"stretch {self.stretch:.0f} %")
-        if self.overlapping:
-            parts.append(f"{count(self.overlapping, 'island')} overlapping")
-        elif self.overlapping is not None:
-            parts.append("no overlap")
-        if self.stretch_wanted:
-            parts.append(f"{self.stretch_wanted:.0f} % was not reached")
-        return ", ".join(parts)
+        missed = not_reached(self.stretches, self.stretch_wanted) if self.stretch_wanted else ""
+        return [*parts, missed] if missed else parts

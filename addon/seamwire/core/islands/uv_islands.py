@@ -129,10 +129,15 @@ def families(count: int, pairs: NDArray[np.int64]) -> NDArray[np.int64]:
     return found
 
 
+def signed_uv_areas(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the areas of triangles, (t, 3, 2), negative for clockwise ones."""
+    one, two = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    return 0.5 * (one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0])
+
+
 def uv_areas(corners: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the areas of triangles, (t, 3, 2)."""
-    one, two = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    return 0.5 * np.abs(one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0])
+    return np.abs(signed_uv_areas(corners))
 
 
 def boxes_of(corners: NDArray[np.float64]) -> NDArray[np.float64]:

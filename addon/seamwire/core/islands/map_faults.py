@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is wrong with a UV map as it is stored: faces that are turned over, islands that overlap, and islands outside the UV square."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..base import native
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import seamwire_core
+    from numpy.typing import NDArray
+
+_ON_BORDER = 1e-5
+"""An island may leave its tile by so much, because UVs are rounded."""
+
+
+@dataclass(frozen=True)
+class MapFaults:
+    """What is wrong with some islands of a UV map.
+
+    Parameters
+    ----------
+    flipped
+        The number of faces that are turned over against their island, or have no area in the map.
+    overlapping
+        The number of islands that cover a part of themselves or of another island.
+    outside
+        The number of islands that lie neither in the UV square nor in the tile that they had before.
+    """
+
+    flipped: int = 0
+    overlapping: int = 0
+    outside: int = 0
+
+    def __bool__(self) -> bool:
+        return any((self.flipped, self.overlapping, self.outside))
+
+
+NO_FAULTS = MapFaults()
+
+
+@dataclass(frozen=True)
+class MappedSurface:
+    """The visible faces of a mesh with their UVs.
+
+    Parameters
+    ----------
+    points
+        (n, 3) vertices.
+    triangles
+        (m, 3) what the faces are cut into.
+    polygons
+        (m,) the face that each triangle is part of.
+    labels
+        (m,) the island of each triangle, numbered from 0.
+    uvs
+        (m, 3, 2) the UVs of the triangles' corners.
+    """
+
+    points: NDArray[np.float64]
+    triangles: NDArray[np.int32]
+    polygons: NDArray[np.int32]
+    labels: NDArray[np.int32]
+    uvs: NDArray[np.floating]
+
+    @property
+    def count(self) -> int:
+        """The number of islands."""
+        return int(self.labels.max(initial=-1)) + 1
+
+    @property
+    def area(self) -> float:
+        """The area on the model."""
+        corners = self.points[self.triangles]
+        return 0.5 * float(np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum())
+
+    def energy(self, aspect: float = 1.0) -> float:
+        """Return the mean symmetric Dirichlet energy E_d: 4 if nothing is stretched, infinite if there is nothing to measure.
+
+        `aspect` is the width over the height of the image that the UVs lie on.
+        """
+        _, report = self.measured(aspect)
+        return np.inf if report is None else float(report.energy)
+
+    def measured(self, aspect: float = 1.0) -> tuple[NDArray[np.int64], seamwire_core.MapReport | None]:
+        """Return the triangles whose UVs are numbers, and the library's report on them; None if there are no such triangles.
+
+        The report numbers these triangles and their islands from 0.
+        """
+        rows = np.flatnonzero(np.isfinite(self.uvs).all(axis=(1, 2)))
+        if not len(rows):
+            return rows, None
+        uvs = self.uvs[rows].astype(np.float64) * (aspect, 1.0)
+        numbers = np.unique(self.labels[rows], return_inverse=True)[1].astype(np.int32)
+        return rows, native.load().measure_map(self.points, self.triangles[rows], uvs, islands=numbers)
+
+
+def joined(surfaces: Sequence[MappedSurface]) -> MappedSurface:
+    """Return maps that share the UV square as the map of one mesh. Each keeps the order of its triangles.
+
+    All meshes get the same size, because faces that are tiny beside the whole mesh have no shape that can be measured.
+    """
+    if len(surfaces) == 1:
+        return surfaces[0]
+    points, triangles, polygons, labels = [], [], [], []
+    vertices = faces = islands = 0
+    for each in surfaces:
+        size = float(np.ptp(each.points, axis=0).max(initial=0.0))
+        points.append(each.points / size if size > 0.0 else each.points)
+        triangles.append(each.triangles + vertices)
+        polygons.append(each.polygons + faces)
+        labels.append(each.labels + islands)
+        vertices += len(each.points)
+        faces += int(each.polygons.max(initial=-1)) + 1
+        islands += each.count
+    columns = (points, triangles, polygons, labels, [each.uvs for each in surfaces])
+    return MappedSurface(*map(np.concatenate, columns))
+
+
+def find_faults(
+    surface: MappedSurface, chosen: NDArray[np.bool_] | None = None, homes: NDArray[np.float64] | None = None
+) -> MapFaults:
+    """Measure what is wrong with some islands of a map.
+
+    Parameters
+    ----------
+    surface
+        All that lies in the map.
+    chosen
+        (count,) which islands are looked at. The others count only as what these may overlap. None: all islands.
+    homes
+        (count, 2) the low corner of the tile that each island had before. Islands may lie there or in the UV square. None: no other tile.
+    """
+    chosen = np.ones(surface.count, dtype=bool) if chosen is None else chosen
+    homes = np.zeros((surface.count, 2)) if homes is None else homes
+    rows, report = surface.measured()
+    is_bad = np.ones(len(surface.labels), dtype=bool)  # where a UV is no number
+    is_bad[rows] = False
+    overlapping = np.empty(0, dtype=np.int32)
+    outside = np.zeros(surface.count, dtype=bool)
+    if report is not None:
+        is_bad[rows[report.flipped]] = True
+        islands = np.unique(surface.labels[rows])
+        overlapping = islands[np.union1d(report.overlapping, getattr(report, "colliding", report.overlapping))]
+        outside = _outside(surface, rows, homes)
+    is_bad &= chosen[surface.labels]
+    return MapFaults(
+        flipped=len(np.unique(surface.polygons[is_bad])),
+        overlapping=int(chosen[overlapping].sum()),
+        outside=int((outside & chosen).sum()),
+    )
+
+
+def _outside(
+    surface: MappedSurface, rows: NDArray[np.int64], homes: NDArray[np.float64]
+) -> NDArray[np.bool_]:
+    """Return which islands lie neither in the UV square nor in their home, (count,)."""
+    low, high = np.full((surface.count, 2), np.inf), np.full((surface.count, 2), -np.inf)
+    uvs, labels = surface.uvs[rows].astype(np.float64), surface.labels[rows]
+    np.minimum.at(low, labels, uvs.min(axis=1))
+    np.maximum.at(high, labels, uvs.max(axis=1))
+
+    def in_tile(corner: NDArray[np.float64] | float) -> NDArray[np.bool_]:
+        return ((low >= corner - _ON_BORDER) & (high <= corner + 1.0 + _ON_BORDER)).all(axis=1)
+
+    return ~(in_tile(0.0) | in_tile(homes))
