@@ -28,6 +28,7 @@ from scene import (
 )
 from seamwire.core.drawing.change import Change
 from seamwire.core.network.network import Network
+from seamwire.core.seams.cut_nodes import Node
 from seamwire.mesh import cut as mesh_cut
 from seamwire.mesh import finish
 from seamwire.mesh.cut_joins import CUT_EDGES, CUT_VERTS
@@ -360,6 +361,27 @@ def test_a_face_that_cannot_be_cut_stays_whole_and_is_told_of(
     bm = bmesh.from_edit_mesh(obj.data)
     assert all(edge.link_faces for edge in bm.edges) and all(vert.link_edges for vert in bm.verts)
     assert len(seams(obj)) == 7
+
+
+def test_an_edge_that_is_missing_where_a_cut_runs_along_it_is_found_before_anything_is_cut(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    obj = add_grid(9)
+    add_layers(obj)
+    edit()
+    before = snapshot(obj)
+    plan = mesh_cut.plan
+
+    def astray(*what: object) -> object:
+        found = plan(*what)
+        found.along.append((Node((3,)), Node((77,))))  # no neighbors
+        return found
+
+    monkeypatch.setattr(mesh_cut, "plan", astray)
+    with pytest.raises(RuntimeError, match="A wire does not run over the mesh near vertex 3"):
+        cut("0 44")
+    assert snapshot(obj) == before
+    assert session_on(obj).session.wires == ()
 
 
 def refuse(monkeypatch: pytest.MonkeyPatch, call: int) -> None:

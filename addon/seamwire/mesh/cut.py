@@ -18,6 +18,7 @@ from mathutils import Vector
 
 from ..core.network.picks import FacePoint, vertices_of
 from ..core.seams import cut
+from ..core.seams.cut_nodes import CutError
 from .cut_joins import cut_layers, holding, join, mark_seams
 from .unwrap import UNWRAPPED
 
@@ -218,7 +219,7 @@ def _carry_out(
     for node, vert in vert_of.items():
         if len(node.vertices) > 1:
             vert[of_verts] = 1
-    seams = [bm.edges.get((vert_of[one], vert_of[two])) for one, two in what.along]
+    seams = list(_edges_along(bm, what, vert_of))
     node_of = {vert: node for node, vert in vert_of.items()}
     uncut, left = 0, set()
     for polygon, segments in what.across.items():
@@ -236,6 +237,17 @@ def _carry_out(
     _remove_loose(bm, [edge for edge in left if edge[of_edges]])
     _spread_selection(bm, [vert for node, vert in vert_of.items() if len(node.vertices) > 1 and vert.is_valid])
     return seams, seed_verts, uncut
+
+
+def _edges_along(
+    bm: bmesh.types.BMesh, what: CutPlan, vert_of: Mapping[Node, bmesh.types.BMVert]
+) -> Iterator[bmesh.types.BMEdge]:
+    """Yield the edges that cuts run along. Raises `CutError` if there is no such edge."""
+    for one, two in what.along:
+        edge = bm.edges.get((vert_of[one], vert_of[two]))
+        if edge is None:
+            raise CutError("off-mesh-near", vertex=one.vertices[0])
+        yield edge
 
 
 def _remove_loose(bm: bmesh.types.BMesh, edges: Iterable[bmesh.types.BMEdge]) -> None:
