@@ -4,7 +4,9 @@
 import math
 import random
 from collections import defaultdict
+from collections.abc import Callable
 from dataclasses import replace
+from pathlib import Path
 
 import bmesh
 import bpy
@@ -26,9 +28,10 @@ from scene import (
 )
 from seamwire.core.drawing.change import Change
 from seamwire.core.network.network import Network
+from seamwire.core.seams.cut_nodes import Node
 from seamwire.mesh import cut as mesh_cut
 from seamwire.mesh import finish
-from seamwire.mesh.cut import CUTS
+from seamwire.mesh.cut_joins import CUT_EDGES, CUT_VERTS
 from seamwire.mesh.edit_mesh import LABELS
 from seamwire.mesh.object_session import ObjectSession
 from seamwire.mesh.seam_islands import island_count
@@ -216,7 +219,7 @@ def test_layers_come_out_as_blenders_own_bisect_leaves_them() -> None:
         bpy.data.objects.remove(obj)
     ours, blenders = found
     assert ours.pop(f"edges int {LABELS}"), "the wires"
-    assert ours.pop(f"edges int {CUTS}") and ours.pop(f"verts int {CUTS}"), "what the cut made"
+    assert ours.pop(f"edges int {CUT_EDGES}") and ours.pop(f"verts int {CUT_VERTS}"), "what the cut made"
     assert ours.keys() == blenders.keys()
     for name in ours:
         assert ours[name] == blenders[name], name
@@ -358,6 +361,27 @@ def test_a_face_that_cannot_be_cut_stays_whole_and_is_told_of(
     bm = bmesh.from_edit_mesh(obj.data)
     assert all(edge.link_faces for edge in bm.edges) and all(vert.link_edges for vert in bm.verts)
     assert len(seams(obj)) == 7
+
+
+def test_an_edge_that_is_missing_where_a_cut_runs_along_it_is_found_before_anything_is_cut(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    obj = add_grid(9)
+    add_layers(obj)
+    edit()
+    before = snapshot(obj)
+    plan = mesh_cut.plan
+
+    def astray(*what: object) -> object:
+        found = plan(*what)
+        found.along.append((Node((3,)), Node((77,))))  # no neighbors
+        return found
+
+    monkeypatch.setattr(mesh_cut, "plan", astray)
+    with pytest.raises(RuntimeError, match="A wire does not run over the mesh near vertex 3"):
+        cut("0 44")
+    assert snapshot(obj) == before
+    assert session_on(obj).session.wires == ()
 
 
 def refuse(monkeypatch: pytest.MonkeyPatch, call: int) -> None:
@@ -828,6 +852,16 @@ def drag(obj: bpy.types.Object, seed: int, to: int) -> None:
     _finish(mesh, before)
 
 
+def remove(obj: bpy.types.Object, *seeds: int) -> None:
+    """Remove the wires that begin or end at some seeds, as the tool does."""
+    mesh = session_on(obj)
+    network = mesh.session.network
+    for wire in network.wires:
+        if {wire.start, wire.end} & {*seeds}:
+            mesh.session.drop(wire)
+    _finish(mesh, network)
+
+
 def _finish(mesh: ObjectSession, before: Network) -> None:
     change = Change(before, mesh.session.network)
     write(mesh)
@@ -835,8 +869,8 @@ def _finish(mesh: ObjectSession, before: Network) -> None:
 
 
 def content(obj: bpy.types.Object) -> dict[str, object]:
-    """Return what a mesh holds by place, without the layers of wires and cuts."""
-    return {name: value for name, value in by_place(obj).items() if CUTS not in name and LABELS not in name}
+    """Return what a mesh holds by place, without our own layers, whose names all begin like that of the labels."""
+    return {name: value for name, value in by_place(obj).items() if LABELS not in name}
 
 
 def vertex_near(obj: bpy.types.Object, place: tuple[float, float, float]) -> int:
@@ -886,6 +920,182 @@ def test_removing_a_cut_wire_gives_the_mesh_back_as_it_was(shape: str) -> None:
     after = content(obj)
     for name in before:
         assert after[name] == before[name], name
+
+
+INSIDE, BELOW = (0.1, 0.06, 0.0), (-0.1, -0.55, 0.0)
+"""Two places inside faces of a 9 x 9 grid, where a chain from vertex 75 to vertex 10 bends."""
+
+
+def chain_inside(triangulated: bool, *seeds: tuple[float, float, float] | int) -> bpy.types.Object:
+    """Add a grid, and cut a chain from vertex 75 over places inside faces to a vertex."""
+    obj = add_grid(9)
+    edit()
+    if triangulated:
+        bm = bmesh.from_edit_mesh(obj.data)
+        bmesh.ops.triangulate(bm, faces=bm.faces[:])
+        bmesh.update_edit_mesh(obj.data)
+    assert cut(" ".join(f"({x[0]} {x[1]} {x[2]})" if isinstance(x, tuple) else str(x) for x in (75, *seeds)))
+    return obj
+
+
+def at(obj: bpy.types.Object, place: tuple[float, float, float]) -> int:
+    """Return the vertex at a place."""
+    vertex = vertex_near(obj, place)
+    assert (bmesh.from_edit_mesh(obj.data).verts[vertex].co - Vector(place)).length < 1e-4
+    return vertex
+
+
+def joins(obj: bpy.types.Object) -> set[frozenset[int]]:
+    """Return the seeds that cut wires join, if all seams are theirs and the seams form one open chain."""
+    wires = session_on(obj).session.wires
+    ends = {v for v, count in _counts(seams(obj)).items() if count == 1}
+    assert agree(obj)
+    assert all(wire.is_cut for wire in wires)
+    assert len(ends) == 2 and joined(obj, min(ends)) >= ends
+    return {frozenset((wire.start, wire.end)) for wire in wires}
+
+
+def left_over(obj: bpy.types.Object) -> int:
+    """Return how many edges there are that cuts made and no seam runs along."""
+    bm = bmesh.from_edit_mesh(obj.data)
+    return sum(bool(edge[bm.edges.layers.int[CUT_EDGES]]) and not edge.seam for edge in bm.edges)
+
+
+def seam_length(obj: bpy.types.Object) -> float:
+    return sum(edge.calc_length() for edge in bmesh.from_edit_mesh(obj.data).edges if edge.seam)
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize("triangulated", [False, True], ids=["quads", "triangles"])
+@pytest.mark.parametrize("to", [1, 9, 11, 19, 45, 54, 79])
+def test_a_wire_stays_whole_where_another_is_dragged_from_their_seed_inside_a_face(to: int, triangulated: bool) -> None:
+    obj = chain_inside(triangulated, INSIDE, 10)
+    drag(obj, 10, to)
+    seed = at(obj, INSIDE)
+    assert joins(obj) == {frozenset((75, seed)), frozenset((seed, to))}
+    assert left_over(obj) == 0
+    own = seam_length(obj)
+    assert is_sound(obj)
+    anew = chain_inside(triangulated, INSIDE, to)
+    assert own == pytest.approx(seam_length(anew), rel=1e-2)
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize("triangulated", [False, True], ids=["quads", "triangles"])
+def test_a_wire_stays_whole_where_another_is_removed_from_their_seed_inside_a_face(triangulated: bool) -> None:
+    obj = chain_inside(triangulated, 0)
+    remove(obj, 75)
+    before = content(obj)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.data.objects.remove(obj)
+
+    obj = chain_inside(triangulated, INSIDE, BELOW, 10)
+    remove(obj, 10)
+    seed, end = at(obj, INSIDE), at(obj, BELOW)
+    assert joins(obj) == {frozenset((75, seed)), frozenset((seed, end))}
+    assert left_over(obj) == 1, "it holds the end"
+    assert is_sound(obj)
+    drag(obj, end, 1)
+    seed = at(obj, INSIDE)
+    assert joins(obj) == {frozenset((75, seed)), frozenset((seed, 1))}
+    assert left_over(obj) == 0
+    remove(obj, 1)
+    assert joins(obj) == {frozenset((75, at(obj, INSIDE)))}
+    remove(obj, 75)
+    after = content(obj)
+    for name in before:
+        assert after[name] == before[name], name
+
+
+def test_an_edge_that_held_the_end_of_a_wire_goes_once_another_wire_holds_it() -> None:
+    obj = chain_inside(True, INSIDE, 10)
+    remove(obj, 10)
+    assert left_over(obj) == 1
+    seed = at(obj, INSIDE)
+    assert cut(f"{seed} 53") == {"FINISHED"}
+    seed = at(obj, INSIDE)
+    assert joins(obj) == {frozenset((75, seed)), frozenset((seed, 53))}
+    assert left_over(obj) == 0
+
+
+def undone(_path: Path) -> None:
+    bpy.ops.ed.undo_push(message="Cut")
+    bpy.ops.ed.undo_push(message="Another step")
+    bpy.ops.ed.undo()
+
+
+def redone(_path: Path) -> None:
+    bpy.ops.ed.undo_push(message="Cut")
+    bpy.ops.ed.undo()
+    bpy.ops.ed.redo()
+
+
+def saved(path: Path) -> None:
+    bpy.ops.wm.save_as_mainfile(filepath=str(path / "cut.blend"), check_existing=False)
+    bpy.ops.wm.open_mainfile(filepath=str(path / "cut.blend"))
+
+
+def tabbed(_path: Path) -> None:
+    bpy.ops.object.mode_set(mode="OBJECT")
+    edit()
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize("between", [undone, redone, saved, tabbed], ids=lambda between: between.__name__)
+def test_removing_a_cut_wire_gives_the_mesh_back_whatever_blender_did_with_the_mesh_meanwhile(
+    between: Callable[[Path], None], tmp_path: Path
+) -> None:
+    obj = add_grid(9)
+    name = obj.name
+    add_layers(obj)
+    edit()
+    bpy.ops.ed.undo_push(message="Before")
+    between(tmp_path)  # Blender rounds some values when it saves them
+    before = content(bpy.data.objects[name])
+    assert cut("0 (0.1 0.06 0) 44; 8 36") == {"FINISHED"}
+    between(tmp_path)
+    obj = bpy.data.objects[name]
+    network = session_on(obj).session.network
+    assert len(network.wires) == 5, "two of them cross"
+    remove(obj, *(wire.start for wire in network.wires))
+    assert seams(obj) == []
+    after = content(obj)
+    for layer in before:
+        assert after[layer] == before[layer], layer
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize("between", [undone, redone, saved], ids=lambda between: between.__name__)
+def test_dragging_a_seed_twice_leaves_no_old_cut_whatever_blender_did_with_the_mesh_meanwhile(
+    between: Callable[[Path], None], tmp_path: Path
+) -> None:
+    obj = add_grid(9)
+    name = obj.name
+    edit()
+    bpy.ops.ed.undo_push(message="Before")
+    cut("0 44")
+    for seed, to in ((44, 62), (62, 53)):
+        between(tmp_path)
+        obj = bpy.data.objects[name]
+        drag(obj, seed, to)
+    counts = [len(items) for items in (obj.data.vertices, obj.data.edges, obj.data.polygons)]
+    anew = add_grid(9)
+    edit()
+    cut("0 53")
+    assert counts == [len(items) for items in (anew.data.vertices, anew.data.edges, anew.data.polygons)]
+
+
+def test_no_two_layers_have_the_same_name() -> None:
+    """Blender 5 loses one of two layers with the same name on undo, also if they belong to vertices and edges."""
+    obj = add_grid(9)
+    obj.data.uv_layers.new()
+    edit()
+    cut("0 44; 8 36")
+    remove(obj, 0)
+    bpy.ops.mesh.seamwire_unwrap()
+    names = [name for _, _, layers in layer_kinds(bmesh.from_edit_mesh(obj.data)) for name, _ in layers.items()]
+    assert len([name for name in names if name.startswith(LABELS)]) == 4
+    assert len(set(names)) == len(names)
 
 
 def test_what_another_wire_was_cut_along_stays_where_one_is_taken_back() -> None:
@@ -996,7 +1206,7 @@ def test_what_is_smaller_than_a_crumb_is_no_island(crumb: float, islands: int) -
     assert island_count(obj) == islands
     assert agree(obj)
     bm = bmesh.from_edit_mesh(obj.data)
-    made = bm.edges.layers.int[CUTS]
+    made = bm.edges.layers.int[CUT_EDGES]
     assert all(edge.seam for edge in bm.edges if edge[made]), "no cut is left over"
     bpy.ops.object.mode_set(mode="OBJECT")
     assert not obj.data.validate(verbose=True)

@@ -18,17 +18,15 @@ from mathutils import Vector
 
 from ..core.network.picks import FacePoint, vertices_of
 from ..core.seams import cut
-from .edit_mesh import LABELS
-from .unwrap import JOINED, UNWRAPPED
+from ..core.seams.cut_nodes import CutError
+from .cut_joins import cut_layers, holding, join, mark_seams
+from .unwrap import UNWRAPPED
 
 if TYPE_CHECKING:
     from ..core.base.mesh_arrays import Arrays
     from ..core.network.picks import Edge, Pick
     from ..core.seams.cut import Curve, CutPlan, Node
     from .edit_mesh import Cage
-
-CUTS = ".seamwire_cut"
-"""The layer of vertices, and of edges, that is 1 where a cut made them: those can be taken back."""
 
 _RINGS = 3
 """How far one looks around a pick once vertices are found that stay: those of the face that it lies in may not be the first."""
@@ -100,7 +98,7 @@ class PickedPlaces:
         bm = cage.bm
         # First of all: a new layer makes what was found before invalid.
         _add_unwrapped(bm)
-        of_verts, _ = _cut_layers(bm)
+        of_verts, _ = cut_layers(bm)
         self._verts: dict[Pick, bmesh.types.BMVert] = {}
         self._around: dict[Pick, list[bmesh.types.BMVert]] = {}
         for pick in picks:
@@ -167,10 +165,12 @@ def carry_out(cage: Cage, what: CutPlan, seeds: Iterable[int | FacePoint] = (), 
     with _changing(cage):
         seams, seed_verts, uncut = _carry_out(bm, what, list(seeds))
         new = [edge for edge in seams if not edge.seam]
-        for edge in seams:
-            edge.seam = True
+        mark_seams(bm, seams)
+        # The new cuts may lead on from where edges held the ends of other seams.
+        passed = {vert for edge in seams for vert in edge.verts}
+        join(bm, holding(bm, passed), passed)
         if crumb > 0.0:
-            _join(bm, _crumb_borders(bm, new, crumb * sum(face.calc_area() for face in bm.faces)))
+            join(bm, _crumb_borders(bm, new, crumb * sum(face.calc_area() for face in bm.faces)))
             seams = [edge for edge in seams if edge.is_valid and edge.seam]
     bm = cage.bm
     pairs = {(min(pair), max(pair)) for pair in ((edge.verts[0].index, edge.verts[1].index) for edge in seams)}
@@ -195,7 +195,7 @@ def _carry_out(
 ) -> tuple[list[bmesh.types.BMEdge], dict[int | FacePoint, bmesh.types.BMVert], int]:
     """Cut, and return the edges along the cuts, the seeds, and how many faces could not be cut."""
     # First of all: a new layer makes what was found before invalid.
-    of_verts, of_edges = _cut_layers(bm)
+    of_verts, of_edges = cut_layers(bm)
     seed_verts = {seed: bm.verts[seed] for seed in seeds if isinstance(seed, int)}
     at_points = {seed: what.node_at(seed.corners, seed.weights) for seed in seeds if isinstance(seed, FacePoint)}
     faces = {polygon: (bm.faces[polygon], list(bm.faces[polygon].verts)) for polygon in what.across}
@@ -219,7 +219,7 @@ def _carry_out(
     for node, vert in vert_of.items():
         if len(node.vertices) > 1:
             vert[of_verts] = 1
-    seams = [bm.edges.get((vert_of[one], vert_of[two])) for one, two in what.along]
+    seams = list(_edges_along(bm, what, vert_of))
     node_of = {vert: node for node, vert in vert_of.items()}
     uncut, left = 0, set()
     for polygon, segments in what.across.items():
@@ -237,6 +237,17 @@ def _carry_out(
     _remove_loose(bm, [edge for edge in left if edge[of_edges]])
     _spread_selection(bm, [vert for node, vert in vert_of.items() if len(node.vertices) > 1 and vert.is_valid])
     return seams, seed_verts, uncut
+
+
+def _edges_along(
+    bm: bmesh.types.BMesh, what: CutPlan, vert_of: Mapping[Node, bmesh.types.BMVert]
+) -> Iterator[bmesh.types.BMEdge]:
+    """Yield the edges that cuts run along. Raises `CutError` if there is no such edge."""
+    for one, two in what.along:
+        edge = bm.edges.get((vert_of[one], vert_of[two]))
+        if edge is None:
+            raise CutError("off-mesh-near", vertex=one.vertices[0])
+        yield edge
 
 
 def _remove_loose(bm: bmesh.types.BMesh, edges: Iterable[bmesh.types.BMEdge]) -> None:
@@ -260,14 +271,6 @@ def _spread_selection(bm: bmesh.types.BMesh, verts: Iterable[bmesh.types.BMVert]
         bm.select_flush_mode()
 
 
-def _cut_layers(bm: bmesh.types.BMesh) -> tuple[bmesh.types.BMLayerItem, bmesh.types.BMLayerItem]:
-    """Return the layers of vertices and of edges that tell what cuts made."""
-    layers = tuple(items.layers.int.get(CUTS) or items.layers.int.new(CUTS) for items in (bm.verts, bm.edges))
-    for items in (bm.verts, bm.edges, bm.faces):
-        items.ensure_lookup_table()
-    return layers
-
-
 def _add_unwrapped(bm: bmesh.types.BMesh) -> None:
     """See that unwrapping can be told where faces were joined."""
     if bm.loops.layers.uv and bm.edges.layers.int.get(UNWRAPPED) is None:
@@ -275,41 +278,16 @@ def _add_unwrapped(bm: bmesh.types.BMesh) -> None:
 
 
 def take_back(cage: Cage, edges: Iterable[Edge]) -> int:
-    """Join what cuts along some edges parted, and return how many edges went.
+    """Join what cuts along some edges parted, see `cut_joins.join`, and return how many of these edges went.
 
-    Only edges that cuts made are removed, except on hidden faces. A vertex that a cut made on an edge is removed if only that edge is
-    left there and no wire uses it. Vertices, edges and faces have other numbers then.
+    Edges that hold ends of these cuts go too. Vertices, edges and faces have other numbers then.
     """
     bm = cage.bm
     with _changing(cage):
         _add_unwrapped(bm)
-        _cut_layers(bm)
-        return _join(bm, [edge for a, b in edges if (edge := bm.edges.get((bm.verts[a], bm.verts[b]))) is not None])
-
-
-def _join(bm: bmesh.types.BMesh, edges: Collection[bmesh.types.BMEdge]) -> int:
-    """Join what cuts along some edges parted as `take_back` does, and return how many edges went."""
-    of_verts, of_edges = bm.verts.layers.int.get(CUTS), bm.edges.layers.int.get(CUTS)
-    labels, unwrapped = bm.edges.layers.int.get(LABELS), bm.edges.layers.int.get(UNWRAPPED)
-    verts = {vert for edge in edges for vert in edge.verts if vert[of_verts]}
-    count = len(bm.edges)
-    cuts = [edge for edge in edges if edge[of_edges] and not any(face.hide for face in edge.link_faces)]
-    if unwrapped is not None:
-        for face in {face for edge in cuts for face in edge.link_faces}:
-            within = [edge for edge in face.edges if not edge.seam]
-            for edge in within or face.edges:
-                edge[unwrapped] = JOINED
-    bmesh.ops.dissolve_edges(bm, edges=cuts, use_verts=False)
-    gone = count - len(bm.edges)
-    passed = [
-        vert
-        for vert in verts
-        if vert.is_valid
-        and len(vert.link_edges) == 2
-        and not any(labels is not None and edge[labels] for edge in vert.link_edges)
-    ]
-    bmesh.ops.dissolve_verts(bm, verts=passed)
-    return gone
+        cut_layers(bm)
+        own = [edge for a, b in edges if (edge := bm.edges.get((bm.verts[a], bm.verts[b]))) is not None]
+        return join(bm, [*own, *holding(bm, {vert for edge in own for vert in edge.verts})])
 
 
 def _crumb_borders(
