@@ -14,7 +14,7 @@ from ..words.names import count
 from .cut import cut_wires
 from .edit_mesh_operator import EditMeshOperator
 from .slide import slide_wires
-from .steps import Step, Stepwise
+from .steps import Step, Stepwise, end_all
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -336,4 +336,12 @@ def _towards_viewer(context: bpy.types.Context) -> tuple[float, float, float]:
     return tuple(view.view_rotation @ Vector((0.0, 0.0, 1.0)))
 
 
-register, unregister = bpy.utils.register_classes_factory((MESH_OT_seamwire_suggest,))
+def register() -> None:
+    """Add the operator."""
+    bpy.utils.register_class(MESH_OT_seamwire_suggest)
+
+
+def unregister() -> None:
+    """End the search that runs, and remove the operator."""
+    end_all()
+    bpy.utils.unregister_class(MESH_OT_seamwire_suggest)
