@@ -13,8 +13,10 @@ from ..mesh.settings import ALONG_ITEMS, AUTO_FINISH_ITEMS
 from ..words.names import count
 from .cut import cut_wires
 from .edit_mesh_operator import EditMeshOperator
+from .report import running as chains
 from .slide import slide_wires
 from .steps import Step, Stepwise, end_all
+from .steps import running as searches
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -123,6 +125,19 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
         options={"HIDDEN", "SKIP_SAVE"},
     )
 
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Return whether a mesh is in Edit Mode, and neither a chain is being drawn nor another search runs."""
+        if not super().poll(context):
+            return False
+        if chains:
+            cls.poll_message_set("A chain is being drawn")
+            return False
+        if searches:
+            cls.poll_message_set("A search for seams is running")
+            return False
+        return True
+
     def draw(self, _context: bpy.types.Context) -> None:
         """Show the settings that have an effect."""
         layout = self.layout
@@ -179,6 +194,7 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
                 work = partial(suggestion.plan, wanted.request, is_enough=lambda: self.enough)
                 yield from _step(suggestions, Step("Planning seams", work, _Look(preview, suggestion)))
             yield from _step(suggestions, Step("Marking seams"))
+            suggestions.refresh()
         finally:
             preview.close()
         return self._carry_out(context, suggestions)
