@@ -236,9 +236,11 @@ def test_a_wire_that_is_marked_meanwhile_stays_after_saving(
     marked = stored.chains(suzanne)
     assert len(marked) == 1
     waiting.end()
-    ui.wait_until(lambda: len(stored.chains(suzanne)) > 1, 60.0)
+    ui.wait_until(lambda: not searches, 60.0)
     stored.forget(monkeypatch)
-    assert marked[0] in stored.chains(suzanne), "the file holds the record of its label"
+    found = stored.chains(suzanne)
+    assert marked[0] in found, "the mesh holds the record of its label"
+    assert len(found) > 1
     assert stored.agree(suzanne)
 
 
