@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scene import add_grid, add_layers, edit, snapshot
 from seamwire.core.drawing.session import Session
 from seamwire.mesh.settings import TOOL, settings
-from seamwire.operators import modal
+from seamwire.operators import modal, steps
 from seamwire.operators.report import running
 from seamwire.view.edited_objects import edited
 
@@ -157,6 +157,7 @@ def leave(ui: driver.Ui) -> None:
     """End what is drawn, however it stands, and forget what was prepared."""
     for chain in tuple(running):
         chain.drop()
+    steps.end_all()
     edited.clear()
     if bpy.context.mode == "EDIT_MESH":
         choose(ui, "builtin.select_box")

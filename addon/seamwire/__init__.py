@@ -1,8 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Seamwire: live-wire seam drawing for Blender."""
 
+from __future__ import annotations
+
 import sys
 from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 bl_info = {
     "name": "Seamwire",
@@ -48,15 +54,27 @@ _PARTS = (
 
 
 def register() -> None:
-    """Add the preferences, the operators, the keys, the tool and the menu entries."""
-    for part in _PARTS:
-        import_module(f".{part}", __package__).register()
+    """Add the preferences, the operators, the keys, the tool and the menu entries. If a part fails, remove the others again."""
+    _parts()[0]()
 
 
 def unregister() -> None:
     """Remove all of them, and drop prepared meshes."""
-    for part in reversed(_PARTS):
-        import_module(f".{part}", __package__).unregister()
+    _parts()[1]()
+
+
+def _parts() -> tuple[Callable[[], None], Callable[[], None]]:
+    """Return what registers all parts, and what removes them."""
+    together = import_module(".mesh.registration", __package__).together
+    parts = (import_module(f".{part}", __package__) for part in _PARTS)
+    return together((_prepare, _forget), *((part.register, part.unregister) for part in parts))
+
+
+def _prepare() -> None:
+    """Meshes are prepared when they are pointed at."""
+
+
+def _forget() -> None:
     objects = sys.modules.get(f"{__package__}.view.edited_objects")
     if objects is not None:
         objects.edited.clear()

@@ -1,12 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Disabling the add-on while it draws, and its keys among the user's keymaps. Blender has no keymaps without a window."""
 
+import threading
+from pathlib import Path
+
 import bpy
 import pytest
+import seamwire
 import traces
 import ui as driver
-from desk import Desk
-from seamwire.operators import bindings
+from desk import Desk, draw
+from scene import seams
+from seamwire.mesh.suggestion import Suggestion
+from seamwire.operators import bindings, steps
+from seamwire.view.edited_objects import edited
 from seamwire.words.keys import NUMBERS, Action, Bindings
 
 
@@ -32,6 +39,120 @@ def test_disabled_while_drawing_it_ends_and_leaves_nothing_behind(desk: Desk) ->
     finally:
         traces.enable()
     ui.wait()  # the user's keymaps follow at the next turn of the event loop
+    assert traces.difference(before, traces.traces()) == {}
+
+
+@pytest.fixture
+def endless(monkeypatch: pytest.MonkeyPatch) -> list[object]:
+    """Let searches show their first plan, and go on until they are cancelled. Return the plans."""
+    plan, found = Suggestion.plan, []
+
+    def plan_on(suggestion: Suggestion, request: object, progress: object, **options: object) -> None:
+        plan(suggestion, request, progress, **options)
+        found.append(suggestion.best_so_far)
+        while progress(0.5):
+            threading.Event().wait(0.01)
+        raise ValueError("cancelled")
+
+    monkeypatch.setattr(Suggestion, "plan", plan_on)
+    return found
+
+
+def search(desk: Desk, endless: list[object]) -> None:
+    """Begin a search that shows a plan and does not end."""
+    with desk.ui.override():
+        assert bpy.ops.mesh.seamwire_suggest("INVOKE_DEFAULT", limit="ISLANDS", islands=2) == {"RUNNING_MODAL"}
+    desk.ui.wait_until(lambda: bool(endless) and edited.covered)
+
+
+def is_searching() -> bool:
+    """Whether anything of a search is left."""
+    threads = [thread.name for thread in threading.enumerate() if "seamwire steps" in thread.name]
+    return bool(steps.running or threads or edited.covered)
+
+
+@pytest.mark.smoke
+@pytest.mark.every_blender
+def test_disabled_while_it_searches_it_ends_and_draws_again_when_enabled(desk: Desk, endless: list[object]) -> None:
+    ui = desk.ui
+    desk.choose()
+    before = traces.traces()
+    search(desk, endless)
+    traces.disable()
+    try:
+        assert not is_searching()
+        ui.key("RET")
+        ui.pixels()
+        assert traces.ours(traces.traces()) == []
+        assert desk.left_clean()
+    finally:
+        traces.enable()
+    ui.wait()
+    ui.key("RET")
+    assert desk.unchanged(), "Enter marks nothing that nobody has seen"
+    desk.choose()
+    assert traces.difference(before, traces.traces()) == {}
+    draw(desk, 36, 44)
+    assert len(seams(desk.obj)) == 8
+    search(desk, endless)
+    ui.key("ESC")
+    ui.wait_until(lambda: not is_searching())
+
+
+@pytest.mark.parametrize("load_ui", [False, True])
+def test_opening_a_file_ends_the_search(desk: Desk, endless: list[object], tmp_path: Path, load_ui: bool) -> None:
+    path = str(tmp_path / "a.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path, copy=True)
+    search(desk, endless)
+    bpy.ops.wm.open_mainfile(filepath=path, load_ui=load_ui)
+    driver.Ui.__init__(desk.ui)  # the file may have brought another window
+    desk.ui.wait(5)
+    assert not is_searching()
+
+
+def test_a_search_that_was_ended_otherwise_ends_at_its_next_event(desk: Desk, endless: list[object]) -> None:
+    search(desk, endless)
+    steps.end_all()
+    assert not is_searching()
+    desk.ui.key("RET")
+    desk.ui.move(desk.at(40))
+    assert desk.unchanged()
+
+
+def test_if_a_part_cannot_be_registered_nothing_is(ui: driver.Ui, monkeypatch: pytest.MonkeyPatch) -> None:
+    ui.wait()
+    before = traces.traces()
+    register_class, calls, failing = bpy.utils.register_class, 0, -1
+
+    def refuse(cls: type) -> None:
+        nonlocal calls
+        calls += 1
+        if calls == failing:
+            raise RuntimeError("refused")
+        register_class(cls)
+
+    monkeypatch.setattr(bpy.utils, "register_class", refuse)
+    seamwire.unregister()
+    bare = traces.traces()
+    try:
+        assert traces.ours(bare) == []
+        seamwire.register()
+        seamwire.unregister()
+        assert calls > 30
+        for failing in range(1, calls, 5):
+            calls = 0
+            with pytest.raises(RuntimeError, match="refused"):
+                seamwire.register()
+            assert traces.difference(bare, traces.traces()) == {}, f"class {failing}"
+        failing = -1
+        with monkeypatch.context() as patched:
+            patched.setattr(bpy.types.TOPBAR_MT_file_export, "append", None, raising=False)
+            with pytest.raises(TypeError):
+                seamwire.register()
+        assert traces.difference(bare, traces.traces()) == {}
+    finally:
+        seamwire.register()
+    ui.wait()
     assert traces.difference(before, traces.traces()) == {}
 
 

@@ -6,15 +6,19 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Iterator
 
+import bmesh
 import bpy
 import numpy as np
 import pytest
+import stored
 import ui as driver
 from desk import choose, leave, undo_steps
-from scene import add_suzanne, edit, seams, snapshot
+from scene import add_suzanne, edit, head, seams, snapshot
 from seamwire.core.base import native
 from seamwire.mesh.suggestion import Suggestion
 from seamwire.operators import suggest
+from seamwire.operators.report import running as chains
+from seamwire.operators.steps import running as searches
 from seamwire.view.edited_objects import edited
 
 
@@ -206,8 +210,8 @@ def test_a_mesh_that_is_changed_meanwhile_keeps_what_it_has(
         bpy.ops.mesh.select_all(action="SELECT")
         bpy.ops.mesh.subdivide()
     waiting.end()
-    ui.wait_until(lambda: not edited.covered, 60.0)
-    ui.wait(10)
+    ui.wait_until(lambda: not searches, 60.0)
+    assert not edited.covered
     assert seams(suzanne) == []
 
 
@@ -219,6 +223,73 @@ def test_a_file_may_be_loaded_meanwhile(ui: driver.Ui, suzanne: bpy.types.Object
     ui.wait(10)
     assert bpy.context.active_object.name == "Cube"
     assert not edited.covered
+
+
+def test_a_wire_that_is_marked_meanwhile_stays_after_saving(
+    ui: driver.Ui, suzanne: bpy.types.Object, waiting: Waiting, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    start, end = head(suzanne, 2)
+    invoke(ui, along="EDGES", unwrap=False)
+    ui.wait_until(lambda: bool(waiting.found))
+    with ui.override():
+        assert bpy.ops.mesh.seamwire_mark(chains=f"{start} {end}") == {"FINISHED"}
+    marked = stored.chains(suzanne)
+    assert len(marked) == 1
+    waiting.end()
+    ui.wait_until(lambda: not searches, 60.0)
+    stored.forget(monkeypatch)
+    found = stored.chains(suzanne)
+    assert marked[0] in found, "the mesh holds the record of its label"
+    assert len(found) > 1
+    assert stored.agree(suzanne)
+
+
+def test_a_mesh_that_is_moved_meanwhile_keeps_what_it_has(
+    ui: driver.Ui, suzanne: bpy.types.Object, waiting: Waiting
+) -> None:
+    invoke(ui)
+    ui.wait_until(lambda: bool(waiting.found))
+    with ui.override():
+        bm = bmesh.from_edit_mesh(suzanne.data)
+        bm.verts.ensure_lookup_table()
+        bm.verts[0].co.z += 1.0
+        bmesh.update_edit_mesh(suzanne.data)
+    waiting.end()
+    ui.wait_until(lambda: not searches, 60.0)
+    assert seams(suzanne) == []
+
+
+@pytest.mark.every_blender
+def test_beside_a_search_a_chain_in_another_window_is_refused_with_a_sentence(
+    ui: driver.Ui, suzanne: bpy.types.Object, waiting: Waiting, capfd: pytest.CaptureFixture[str]
+) -> None:
+    choose(ui)
+    with ui.override():
+        bpy.ops.wm.window_new()
+    other = bpy.context.window_manager.windows[-1]
+    ui.wait(5)
+    try:
+        invoke(ui)
+        ui.wait_until(lambda: bool(waiting.found))
+        area = next(area for area in other.screen.areas if area.type == "VIEW_3D")
+        region = next(region for region in area.regions if region.type == "WINDOW")
+        with bpy.context.temp_override(window=other, area=area, region=region):
+            capfd.readouterr()
+            assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT", first="CLICK") == {"CANCELLED"}
+            assert "A search for seams is running" in "".join(capfd.readouterr())
+            assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT", first="REMOVE") & {"PASS_THROUGH", "CANCELLED"}
+            assert not bpy.ops.mesh.seamwire_suggest.poll(), "one search at a time"
+        assert not chains
+        ui.key("ESC")
+        ui.wait_until(lambda: not searches)
+        with bpy.context.temp_override(window=other, area=area, region=region):
+            assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
+        assert not bpy.ops.mesh.seamwire_suggest.poll(), "a chain is drawn in the other window"
+        chains[0].drop()
+    finally:
+        with bpy.context.temp_override(window=other):
+            bpy.ops.wm.window_close()
+        ui.wait(3)
 
 
 def test_seams_are_hidden_from_the_side_that_the_view_shows(

@@ -11,6 +11,7 @@ import bpy
 from ..core.drawing.options import Options
 from ..core.solver.defaults import CLAMP_PERCENTILE, CLAMP_RANGE, STRENGTH_RANGE, STRENGTHS
 from ..words.notices import Notices
+from .registration import classes, together
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -290,15 +291,15 @@ def tool_is_active(context: bpy.types.Context) -> bool:
     return tool is not None and tool.idname == TOOL
 
 
-def register() -> None:
-    """Add the type of the settings, and the property in which meshes keep their wires."""
-    bpy.utils.register_class(SeamwireSettings)
+def _add_property() -> None:
     bpy.types.Mesh.seamwire_wires = bpy.props.StringProperty(
         name="Seamwires", description="The wires drawn on this mesh", options={"HIDDEN"}
     )
 
 
-def unregister() -> None:
-    """Remove both. Meshes keep their stored wires."""
+def _remove_property() -> None:
+    """Remove the property in which meshes keep their wires. Meshes keep the stored wires."""
     del bpy.types.Mesh.seamwire_wires
-    bpy.utils.unregister_class(SeamwireSettings)
+
+
+register, unregister = together(*classes(SeamwireSettings), (_add_property, _remove_property))

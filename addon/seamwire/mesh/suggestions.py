@@ -142,6 +142,17 @@ class Suggestions:
         """Whether no mesh has changed since it was read."""
         return all(suggestion.mesh.alive() for suggestion in self)
 
+    def refresh(self) -> None:
+        """Read the meshes again. Wires and seams that were added during the search stay.
+
+        Raises
+        ------
+        ValueError
+            If a mesh has another shape than the planned one.
+        """
+        if not all(suggestion.mesh.refresh(suggestion.mesh.obj) for suggestion in self):
+            raise ValueError("The mesh changed during the search")
+
     @property
     def has_wires(self) -> bool:
         """Whether any wire was found."""

@@ -6,6 +6,7 @@ from __future__ import annotations
 import bpy
 
 from ..mesh import settings as chosen
+from ..mesh.registration import classes, together
 from .edit_mesh_operator import EditMeshOperator
 from .finish import finish_wires
 from .islands import SelectingIslands, kind_property
@@ -107,8 +108,8 @@ class MESH_OT_seamwire_store_view(_Alias, Storing, bpy.types.Operator):
         return self.store_view(context, self.view)
 
 
-register, unregister = bpy.utils.register_classes_factory(
-    (
+register, unregister = together(
+    *classes(
         MESH_OT_seamwire_cut,
         MESH_OT_seamwire_slide,
         MESH_OT_seamwire_select_islands_to_cut,

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import bpy
 
+from ..mesh.registration import classes, together
 from ..mesh.settings import preferences, tool_is_active
 from .report import running
 
@@ -99,4 +100,4 @@ def close(context: bpy.types.Context) -> None:
 
 
 _CLASSES = (MESH_OT_seamwire_card, SEAMWIRE_GT_card, SEAMWIRE_GGT_card)
-register, unregister = bpy.utils.register_classes_factory(_CLASSES)
+register, unregister = together(*classes(*_CLASSES))

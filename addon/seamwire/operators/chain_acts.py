@@ -17,11 +17,8 @@ if TYPE_CHECKING:
     from .chain_state import ChainState
 
 
-def _tick(state: ChainState, _given: Given) -> None:
+def _tick(_state: ChainState, _given: Given) -> None:
     edited.poll()
-    if state.is_ending and not state.waits:
-        state.is_ending = False
-        state.end()
 
 
 def _end(state: ChainState, _given: Given) -> None:
@@ -38,6 +35,21 @@ def _remove(state: ChainState, given: Given) -> bool:
     if not is_removed:
         state.end()
     return not is_removed
+
+
+def _let_go(state: ChainState, _given: Given) -> None:
+    """Cancel what is held, and nothing else."""
+    state.let_go()
+
+
+def _refuse(state: ChainState, _given: Given) -> None:
+    """Do nothing, because the held button comes first."""
+    state.say("Release the button first")
+
+
+def _end_held(state: ChainState, given: Given) -> None:
+    """Cancel what is held if another button asks for it, as in Blender's own drags. A key waits."""
+    (_let_go if given.event.type.endswith("MOUSE") else _refuse)(state, given)
 
 
 def _nothing(_state: ChainState, _given: Given) -> None:
@@ -79,6 +91,17 @@ ACTS: dict[Action | Sign, Callable[[ChainState, Given], bool | None]] = {
     Sign.REPEAT: _nothing,
 }
 """The function for each meaning. If it returns True, Blender has the event too."""
+WHILE_HELD: dict[Action | Sign, Callable[[ChainState, Given], bool | None]] = {
+    **dict.fromkeys(Action, _refuse),
+    **{what: ACTS[what] for what in Sign},
+    Action.XRAY: keys.toggle_xray,
+    Action.KEYS: keys.toggle_keys,
+    Action.UNDO: _let_go,
+    Action.CANCEL: _let_go,
+    Action.END: _end_held,
+    Sign.OTHER_TOOL: _refuse,
+}
+"""The function for each meaning while a button is held. A key works only on what is held, or on what is shown."""
 _FIRST = {**ACTS, Action.REMOVE: gestures.remove, Action.NEXT: gestures.retrace}
 """The function for a press that begins a chain. If it returns False, it has found nothing to act on."""
 _BLENDERS = frozenset({Sign.TICK, Sign.AWAY, Sign.HOVER, Sign.OTHER_TOOL, Sign.NOTHING})
@@ -91,7 +114,12 @@ def act(state: ChainState, given: Given) -> bool:
         state.say("")
         if given.what is not Action.NEXT:
             state.peek = ""
-    return bool(ACTS[given.what](state, given)) or given.what in _BLENDERS
+    if state.hold is not None and (given.event.type, given.event.value) == (state.hold.button, "PRESS"):
+        state.let_go()  # another window has received the release
+    is_held = state.hold is not None
+    passes = bool((WHILE_HELD if is_held else ACTS)[given.what](state, given))
+    state.end_if_done()
+    return passes or (given.what in _BLENDERS and not (is_held and given.what is Sign.OTHER_TOOL))
 
 
 def act_first(state: ChainState, given: Given) -> bool:

@@ -90,15 +90,21 @@ class EventReader:
         if hold is not None and event.type == hold.button and event.value == "RELEASE":
             return Given(Sign.RELEASE, event, place)
         if place is None:
-            return Given(self._away(event), event)
+            return Given(self._away(context, event, state, double), event)
         if event.type.endswith("MOUSE") and hold is None and navigation.on_gizmo(place, context.preferences):
             return Given(Sign.NOTHING, event)
         return Given(_motion(event, state) or self._key(context, event, state, double), event, place)
 
-    def _away(self, event: bpy.types.Event) -> Sign:
-        if event.value == "PRESS" and not self._window.is_over_settings(event):
-            return Sign.OTHER_TOOL
-        return Sign.AWAY if event.type == "MOUSEMOVE" else Sign.NOTHING
+    def _away(
+        self, context: bpy.types.Context, event: bpy.types.Event, state: ChainState, double: bool
+    ) -> Action | Sign:
+        if event.type == "MOUSEMOVE":
+            return Sign.AWAY
+        if state.hold is not None and _motion(event, state) is None:
+            what = self._key(context, event, state, double)
+            return Sign.NOTHING if what is Sign.ZOOM else what
+        is_pressed = event.value == "PRESS" and not self._window.is_over_settings(event)
+        return Sign.OTHER_TOOL if is_pressed and state.hold is None else Sign.NOTHING
 
     def _key(
         self, context: bpy.types.Context, event: bpy.types.Event, state: ChainState, double: bool

@@ -169,7 +169,7 @@ def begin_stroke(state: ChainState, given: Given) -> None:
     is_live = state.session.seed is not None or state.session.waiting_clicks
     view = state.view if is_live or found is None else found
     state.draw_on(view)
-    state.cancel_hold()
+    state.cancel_drags()
     scale = bpy.context.preferences.system.ui_scale
     state.hold = StrokeHold(given.event.type, view, given.place, given.what is Action.GUIDE, scale)
 

@@ -114,7 +114,6 @@ def toggle_keys(state: ChainState, _given: Given) -> None:
 def undo(state: ChainState, _given: Given) -> None:
     """Undo within the chain. End the chain if nothing is left to undo."""
     state.draw_on(state.view)
-    state.hold = None
     if not state.session.undo():
         state.end()
 

@@ -100,12 +100,22 @@ class ChainState:
         """Keep what was drawn as a separate step of undo."""
         self.record.keep(bpy.context, waits=self.is_ending)
 
-    def cancel_hold(self) -> bool:
-        """Cancel what is dragged, and return whether there was something."""
+    def let_go(self) -> None:
+        """Cancel what a button holds."""
         hold, self.hold = self.hold, None
-        dragged = hold is not None and hold.cancel()
-        # A released drag may still wait.
-        return any([view.session.drag_cancel() for view in edited.views()]) or dragged or hold is not None
+        if hold is not None:
+            hold.cancel()
+
+    def cancel_drags(self) -> bool:
+        """Cancel what a button holds, and released drags that still wait. Return whether there was something."""
+        is_held = self.hold is not None
+        self.let_go()
+        return any([view.session.drag_cancel() for view in edited.views()]) or is_held
+
+    def end_if_done(self) -> None:
+        """End the chain that is about to end, once nothing waits and no button is held."""
+        if self.is_ending and not self.waits and self.hold is None:
+            self.end()
 
     def end(self, wait: bool = True) -> None:
         """Let go of everything that is live.
@@ -116,7 +126,7 @@ class ChainState:
             Whether clicks that wait for their wires are done first. Otherwise they are forgotten.
         """
         self.has_begun, self.peek = True, ""
-        if self.cancel_hold():
+        if not wait and self.cancel_drags():
             return
         if wait and self.waits:
             self.is_ending = True

@@ -38,8 +38,8 @@ class Hold(Protocol):
     def release(self) -> str:
         """Do what was meant. Return the title of the step of undo, or an empty text if nothing was done."""
 
-    def cancel(self) -> bool:
-        """Cancel without a change, and return whether there was a drag."""
+    def cancel(self) -> None:
+        """Cancel without a change."""
 
 
 class SeedHold:
@@ -84,9 +84,10 @@ class SeedHold:
         self._view.session.click(self._snap)
         return undo_steps.DRAW_WIRES
 
-    def cancel(self) -> bool:
+    def cancel(self) -> None:
         """Let the seed go back."""
-        return self._view.session.drag_cancel()
+        if self._dragging:
+            self._view.session.drag_cancel()
 
 
 class Trail:
@@ -208,9 +209,9 @@ class LineHold:
         self._view.session.line_keep(self._line)
         return undo_steps.DRAW_LINE
 
-    def cancel(self) -> bool:
+    def cancel(self) -> None:
         """Forget the line."""
-        return self._view.session.line_cancel()
+        self._view.session.line_cancel()
 
 
 class StrokeHold:
@@ -273,7 +274,6 @@ class StrokeHold:
         )
         return undo_steps.GUIDE_STROKE if self._attracts else undo_steps.AVOID_STROKE
 
-    def cancel(self) -> bool:
+    def cancel(self) -> None:
         """Forget it."""
         self._view.stroke = None
-        return self._trail is not None

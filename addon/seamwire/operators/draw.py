@@ -14,6 +14,7 @@ from ..words.keys import Action, Key
 from .edit_mesh_operator import NeedsEditMode
 from .navigation import takes
 from .report import running
+from .steps import running as searches
 
 if TYPE_CHECKING:
     from .modal import Chain
@@ -68,6 +69,11 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
 
         if self.first != "NONE" and takes(Key.of(event), context):
             return {"PASS_THROUGH"}
+        if searches:
+            if self.first in _FOR_BLENDER:
+                return {"PASS_THROUGH"}
+            self.report({"WARNING"}, "A search for seams is running: wait for it, or press Esc in its window")
+            return {"CANCELLED"}
         if not any(area.type == "VIEW_3D" for area in context.window.screen.areas):
             self.report({"ERROR"}, "Drawing needs a 3D view in this window")
             return {"CANCELLED"}

@@ -11,6 +11,7 @@ import traceback
 
 import bpy
 
+from ..mesh.registration import classes, together
 from ..mesh.settings import tool_is_active
 from .report import running
 
@@ -91,4 +92,4 @@ class SEAMWIRE_GGT_hover(bpy.types.GizmoGroup):
 _CLASSES = (MESH_OT_seamwire_hover, SEAMWIRE_GT_hover, SEAMWIRE_GGT_hover)
 
 
-register, unregister = bpy.utils.register_classes_factory(_CLASSES)
+register, unregister = together(*classes(*_CLASSES))

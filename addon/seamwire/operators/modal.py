@@ -113,7 +113,7 @@ class Chain:
         ValueError
             If an edge is gone. Then the mesh is unchanged.
         """
-        self.state.cancel_hold()
+        self.state.cancel_drags()
         self.state.record.keep(context, undo_step, waits=self.state.is_ending)
         self.close()
         return self.state.record.has_kept

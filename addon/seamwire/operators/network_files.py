@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, ClassVar
 import bpy
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
+from ..mesh.registration import classes, together
 from ..mesh.settings import settings
 from ..words.names import count
 from .edit_mesh_operator import EditMeshOperator
@@ -96,4 +97,4 @@ class MESH_OT_seamwire_load_network(EditMeshOperator, bpy.types.Operator, Import
 CLASSES = (MESH_OT_seamwire_save_network, MESH_OT_seamwire_load_network)
 
 
-register, unregister = bpy.utils.register_classes_factory(CLASSES)
+register, unregister = together(*classes(*CLASSES))

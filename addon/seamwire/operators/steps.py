@@ -7,7 +7,7 @@ Esc cancels the operator, and nothing changes. Enter ends a step early if it alr
 from __future__ import annotations
 
 import time
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -106,20 +106,28 @@ class Stepwise:
 
         if bpy.app.background or context.window is None:
             return self.execute(context)
+        manager = context.window_manager
         self._steps = self.steps(context)
         self._cancelled, self._fraction, self._seen = False, 0.0, ""
         self._workspace = context.workspace
         self._work: Future[None] | None = None
         self._thread = ThreadPoolExecutor(1, "seamwire steps")
-        self._timer = context.window_manager.event_timer_add(_PERIOD, window=context.window)
+        self._cleanup = ExitStack()
+        self._cleanup.callback(self._tell, None)
+        self._cleanup.callback(manager.event_timer_remove, manager.event_timer_add(_PERIOD, window=context.window))
+        self._cleanup.callback(self._steps.close)
+        self._cleanup.callback(self._thread.shutdown)
         running.append(self)
-        result = self._advance(context)
+        self._cleanup.callback(running.remove, self)
+        result = self._advance()
         if result == {"RUNNING_MODAL"}:
             context.window_manager.modal_handler_add(self)
         return result
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Wait for a step, and take the next one. Only the view can be moved in the meantime."""
+        if self not in running:
+            return {"CANCELLED", "PASS_THROUGH"}
         if moves_view(event, context.window_manager):
             return {"PASS_THROUGH"}
         if event.type == "ESC":
@@ -131,19 +139,22 @@ class Stepwise:
             try:
                 self._show()
             except BaseException:
-                self._cancelled = True
-                self._end(context)
+                self.end()
                 raise
         if is_at_work or event.type not in {"TIMER", "ESC"}:
             return {"RUNNING_MODAL"}
-        return self._advance(context)
+        return self._advance()
 
-    def cancel(self, context: bpy.types.Context) -> None:
+    def cancel(self, _context: bpy.types.Context) -> None:
         """End because Blender quits or loads a file."""
-        self._cancelled = True
-        self._end(context)
+        self.end()
 
-    def _advance(self, context: bpy.types.Context) -> set[str]:
+    def end(self) -> None:
+        """Cancel the step that runs, wait for its thread, and put everything back. More than once does no harm."""
+        self._cancelled = True
+        self._cleanup.close()
+
+    def _advance(self) -> set[str]:
         """Take the next step, or end."""
         result = {"CANCELLED"}
         try:
@@ -160,9 +171,9 @@ class Stepwise:
         except ValueError as error:
             self.report({"ERROR"}, str(error))
         except BaseException:
-            self._end(context)
+            self.end()
             raise
-        self._end(context)
+        self.end()
         return result
 
     def _progress(self, fraction: float) -> bool:
@@ -174,12 +185,14 @@ class Stepwise:
         if self._step.look is not None and not self.enough:
             self._seen = self._step.look()
             parts += [self._seen, "Enter: Keep This"] if self._seen else []
-        self._workspace.status_text_set("    ".join([*parts, "Esc: Cancel"]))
+        self._tell("    ".join([*parts, "Esc: Cancel"]))
 
-    def _end(self, context: bpy.types.Context) -> None:
-        running.remove(self)
-        self._thread.shutdown()
-        self._steps.close()
-        context.window_manager.event_timer_remove(self._timer)
+    def _tell(self, text: str | None) -> None:
         with suppress(ReferenceError):  # the workspace may be gone with its file
-            self._workspace.status_text_set(None)
+            self._workspace.status_text_set(text)
+
+
+def end_all() -> None:
+    """End every operator that takes steps, as if the artist had cancelled it."""
+    for operator in tuple(running):
+        operator.end()

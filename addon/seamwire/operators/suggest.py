@@ -12,8 +12,10 @@ from mathutils import Vector
 from ..mesh.settings import ALONG_ITEMS, AUTO_FINISH_ITEMS
 from .cut import cut_wires
 from .edit_mesh_operator import EditMeshOperator
+from .report import running as chains
 from .slide import slide_wires
-from .steps import Step, Stepwise
+from .steps import Step, Stepwise, end_all
+from .steps import running as searches
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -122,6 +124,19 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
         options={"HIDDEN", "SKIP_SAVE"},
     )
 
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Return whether a mesh is in Edit Mode, and neither a chain is being drawn nor another search runs."""
+        if not super().poll(context):
+            return False
+        if chains:
+            cls.poll_message_set("A chain is being drawn")
+            return False
+        if searches:
+            cls.poll_message_set("A search for seams is running")
+            return False
+        return True
+
     def draw(self, _context: bpy.types.Context) -> None:
         """Show the settings that have an effect."""
         layout = self.layout
@@ -178,6 +193,7 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
                 work = partial(suggestion.plan, wanted.request, is_enough=lambda: self.enough)
                 yield from _step(suggestions, Step("Planning seams", work, _Look(preview, suggestion)))
             yield from _step(suggestions, Step("Marking seams"))
+            suggestions.refresh()
         finally:
             preview.close()
         return self._carry_out(context, suggestions)
@@ -333,4 +349,12 @@ def _towards_viewer(context: bpy.types.Context) -> tuple[float, float, float]:
     return tuple(view.view_rotation @ Vector((0.0, 0.0, 1.0)))
 
 
-register, unregister = bpy.utils.register_classes_factory((MESH_OT_seamwire_suggest,))
+def register() -> None:
+    """Add the operator."""
+    bpy.utils.register_class(MESH_OT_seamwire_suggest)
+
+
+def unregister() -> None:
+    """End the search that runs, and remove the operator."""
+    end_all()
+    bpy.utils.unregister_class(MESH_OT_seamwire_suggest)

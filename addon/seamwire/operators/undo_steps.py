@@ -10,6 +10,8 @@ from __future__ import annotations
 
 import bpy
 
+from ..mesh.registration import classes, together
+
 DRAW_SEVERAL = "Draw Seamwires"
 """The step of a chain that did several of these."""
 DRAW_WIRES = "Draw Wires"
@@ -73,4 +75,4 @@ def push(title: str) -> None:
     getattr(bpy.ops.mesh, _name(title))("INVOKE_DEFAULT", True)
 
 
-register, unregister = bpy.utils.register_classes_factory(_CLASSES)
+register, unregister = together(*classes(*_CLASSES))

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
+from ..mesh.registration import classes, together
 from ..mesh.settings import TOOL
 from ..operators.bindings import ACTION_OPERATOR, NAME
 from ..words.keys import KEYS, NUMBERS
@@ -40,10 +41,13 @@ _registered: list[tuple[bpy.types.KeyMap, bpy.types.KeyMapItem]] = []
 _SPACE = {"space_type": "VIEW_3D", "region_type": "WINDOW"}
 
 
-def register() -> None:
+def _add_keys() -> None:
     """Add the key that chooses the tool in Edit Mode, and the keys of a chain."""
-    bpy.utils.register_class(MESH_OT_seamwire_key)
-    _registered.extend(_add())
+    try:
+        _registered.extend(_add())
+    except BaseException:
+        _remove_keys()
+        raise
 
 
 def _add() -> Iterator[tuple[bpy.types.KeyMap, bpy.types.KeyMapItem]]:
@@ -66,13 +70,14 @@ def _add() -> Iterator[tuple[bpy.types.KeyMap, bpy.types.KeyMapItem]]:
         item.properties.action = action.name
 
 
-def unregister() -> None:
-    """Remove all keys."""
+def _remove_keys() -> None:
     while _registered:
         keymap, item = _registered.pop()
         keymap.keymap_items.remove(item)
     remove(NAME)
-    bpy.utils.unregister_class(MESH_OT_seamwire_key)
+
+
+register, unregister = together(*classes(MESH_OT_seamwire_key), (_add_keys, _remove_keys))
 
 
 def empty(name: str) -> None:

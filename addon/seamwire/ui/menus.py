@@ -3,11 +3,18 @@
 
 from __future__ import annotations
 
+from functools import partial
+from typing import TYPE_CHECKING
+
 import bpy
 
+from ..mesh.registration import classes, together
 from ..mesh.settings import TOOL, settings
 from ..operators.store import ISLAND_ITEMS, VIEW_ITEMS
 from .properties import VIEWS
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 MENUS = ("VIEW3D_MT_edit_mesh_edges", "VIEW3D_MT_uv_map", "IMAGE_MT_uvs")
 """Blender's menus that have the submenu."""
@@ -114,9 +121,6 @@ SUBMENUS = (
     VIEW3D_MT_seamwire_islands,
     VIEW3D_MT_seamwire_views,
 )
-_register_classes, _unregister_classes = bpy.utils.register_classes_factory(
-    (VIEW3D_MT_seamwire, *SUBMENUS, VIEW3D_MT_seamwire_store_view)
-)
 
 
 def _draw_tool(layout: bpy.types.UILayout) -> None:
@@ -150,15 +154,15 @@ _ENTRIES = (
 )
 
 
-def register() -> None:
-    """Add the menus and the entries in Blender's."""
-    _register_classes()
-    for name, draw in _ENTRIES:
-        getattr(bpy.types, name).append(draw)
+def _add(name: str, draw: Callable[[bpy.types.Menu, bpy.types.Context], None]) -> None:
+    getattr(bpy.types, name).append(draw)
 
 
-def unregister() -> None:
-    """Remove them."""
-    for name, draw in reversed(_ENTRIES):
-        getattr(bpy.types, name).remove(draw)
-    _unregister_classes()
+def _remove(name: str, draw: Callable[[bpy.types.Menu, bpy.types.Context], None]) -> None:
+    getattr(bpy.types, name).remove(draw)
+
+
+register, unregister = together(
+    *classes(VIEW3D_MT_seamwire, *SUBMENUS, VIEW3D_MT_seamwire_store_view),
+    *((partial(_add, *entry), partial(_remove, *entry)) for entry in _ENTRIES),
+)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import bpy
 
+from ..mesh.registration import classes, together
 from ..mesh.settings import ADDON, SeamwireSettings, replace_removed_metric
 from ..operators import bindings, islands
 from ..words.keys import Action
@@ -141,18 +142,18 @@ class SeamwireSessionPreferences(_Properties, bpy.types.PropertyGroup):
     """The same preferences for an add-on that is enabled but not listed in Blender's preferences. Blender does not store them."""
 
 
-def register() -> None:
-    """Add the preferences."""
-    bpy.utils.register_class(SeamwirePreferences)
-    bpy.utils.register_class(SeamwireSessionPreferences)
+def _add_property() -> None:
     bpy.types.WindowManager.seamwire_preferences = bpy.props.PointerProperty(
         type=SeamwireSessionPreferences, options={"HIDDEN"}
     )
-    replace_removed_metric()
 
 
-def unregister() -> None:
-    """Remove the preferences."""
+def _remove_property() -> None:
     del bpy.types.WindowManager.seamwire_preferences
-    bpy.utils.unregister_class(SeamwireSessionPreferences)
-    bpy.utils.unregister_class(SeamwirePreferences)
+
+
+register, unregister = together(
+    *classes(SeamwirePreferences, SeamwireSessionPreferences),
+    (_add_property, _remove_property),
+    (replace_removed_metric, lambda: None),
+)

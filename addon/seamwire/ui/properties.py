@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import bpy
 
+from ..mesh.registration import classes, together
 from ..mesh.settings import SeamwireSettings, settings, tool_is_active
 
 VIEWS = ("show_crests", "show_silhouette", "show_ellipses", "show_paths", "show_bands", "show_invalid")
@@ -148,6 +149,4 @@ def _panel(name: str) -> type[bpy.types.Panel]:
     return type(f"VIEW3D_PT_seamwire_{name.lower()}", (bpy.types.Panel,), body)
 
 
-register, unregister = bpy.utils.register_classes_factory(
-    (VIEW3D_PT_seamwire_overlays, *(_panel(name) for name, _ in GROUPS))
-)
+register, unregister = together(*classes(VIEW3D_PT_seamwire_overlays, *(_panel(name) for name, _ in GROUPS)))

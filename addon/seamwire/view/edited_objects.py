@@ -134,7 +134,7 @@ class EditedObjects:
         while self._handles:
             bpy.types.SpaceView3D.draw_handler_remove(self._handles.pop(), "WINDOW")
         self.timer.stop()
-        self.chain = False
+        self.chain = self.covered = False
         self.is_paused = False
         self._error = None
 

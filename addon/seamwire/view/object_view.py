@@ -213,9 +213,14 @@ class ObjectView:
         return any((self.session.revision != seen, self.islands.poll(), told))
 
     def shows(self, update: bpy.types.DepsgraphUpdate) -> bool:
-        """Whether an update of Blender's tells of a change of the mesh, whichever it is."""
+        """Whether an update of Blender's tells of a change of the mesh or of the object's scale.
+
+        The object's own geometry changes with each frame of an animation, and the edit mesh stays.
+        """
         try:
-            return update.is_updated_geometry and update.id.original in (self.obj, self.mesh.cage.mesh)
+            if update.id.original == self.obj:
+                return update.is_updated_geometry and update.is_updated_transform
+            return update.is_updated_geometry and update.id.original == self.mesh.cage.mesh
         except ReferenceError:
             return False
 

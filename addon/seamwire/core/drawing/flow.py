@@ -161,14 +161,16 @@ class Flow:
     # Undo and redo
 
     def undo(self) -> bool:
-        """Take back the last step, or the last gesture that still waits."""
+        """Take back what is held, else the last gesture that still waits, else the last step."""
         gestures = self.gestures
+        if self.cancel_line() or (gestures.drag is not None and not gestures.drag.ending and self.cancel_drag()):
+            return True
         if gestures.queue:
             gestures.queue.pop()
             gestures.loop.forget_crest()
             self.revision += 1
             return True
-        if self.cancel_drag() or self.cancel_line():
+        if self.cancel_drag():
             return True
         if gestures.retraces:
             gestures.retraces.pop()

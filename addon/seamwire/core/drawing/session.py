@@ -365,7 +365,7 @@ class Session:
     # Undo and redo
 
     def undo(self) -> bool:
-        """Take back the last step, or the last gesture that still waits."""
+        """Take back what is held, else the last gesture that still waits, else the last step."""
         return self._flow.undo()
 
     def redo(self) -> bool:

@@ -150,3 +150,17 @@ def test_a_stroke_is_drawn_while_a_moved_seed_waits(monkeypatch: pytest.MonkeyPa
     session.drag_end()
     assert session.draw_stroke(vertices=[27, 28])
     assert session.strokes[0].acts_on == "both"
+
+
+def test_undo_takes_back_a_held_line_before_a_click_that_waits() -> None:
+    table = Table(ready=(False, False))
+    session = table.session
+    session.click(0)
+    session.click(8)
+    assert session.waiting_clicks == 1
+    session.line_begin(30)
+    assert session.undo()
+    assert not session.draws_line
+    assert session.waiting_clicks == 1
+    table.compute()
+    assert len(session.wires) == 1

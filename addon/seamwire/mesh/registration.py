@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Registers several things with Blender: all of them, or nothing if one fails."""
+
+from __future__ import annotations
+
+from contextlib import ExitStack
+from functools import partial
+from typing import TYPE_CHECKING
+
+import bpy
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    Change = tuple[Callable[[], object], Callable[[], object]]
+    """A function, and the function that takes back what the first has done."""
+
+
+def together(*changes: Change) -> tuple[Callable[[], None], Callable[[], None]]:
+    """Return a function that makes all changes, and a function that takes them back in reverse order.
+
+    If a change fails, the changes before it are taken back, and the error is raised. An error while changes are taken back is raised
+    after the others were taken back too.
+    """
+
+    def register() -> None:
+        with ExitStack() as undo:
+            for do, take_back in changes:
+                do()
+                undo.callback(take_back)
+            undo.pop_all()
+
+    def unregister() -> None:
+        with ExitStack() as undo:
+            for _, take_back in changes:
+                undo.callback(take_back)
+
+    return register, unregister
+
+
+def classes(*types: type) -> tuple[Change, ...]:
+    """Return the changes that register classes."""
+    return tuple((partial(_add, each), partial(_remove, each)) for each in types)
+
+
+def _add(each: type) -> None:
+    bpy.utils.register_class(each)
+
+
+def _remove(each: type) -> None:
+    bpy.utils.unregister_class(each)

@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""While a button is held, keys work on what it drags: the chain stays as it is, whatever is pressed."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import bpy
+import pytest
+from desk import Desk, draw
+from scene import chain, seams
+from seamwire.mesh.settings import settings
+from seamwire.operators.chain_acts import act
+from seamwire.operators.chain_events import Given, Sign
+from seamwire.view.edited_objects import edited
+from seamwire.view.viewport import place_in
+from seamwire.words.keys import Action
+
+KEPT = chain(0, 1, 2, 3, 4)
+HELD = ("guide stroke", "avoid stroke", "line", "line that goes on", "seed")
+CANCELS = {Action.UNDO, Action.CANCEL}
+SHOWS = {Action.XRAY, Action.KEYS}
+
+
+@pytest.fixture(autouse=True)
+def no_double_clicks(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let two presses at a place be two clicks."""
+    monkeypatch.setattr(bpy.context.preferences.inputs, "mouse_double_click_time", 1)
+
+
+class Hand:
+    """Draws a chain of one kept wire, and holds a button.
+
+    Parameters
+    ----------
+    desk
+        The mesh.
+    what
+        Of `HELD`.
+    """
+
+    def __init__(self, desk: Desk, what: str) -> None:
+        self.desk, self.ui, self.what = desk, desk.ui, what
+        if what == "seed":
+            desk.choose()
+            draw(desk, 0, 4)
+            self.session = desk.session
+        else:
+            self.session = desk.start()
+            self.ui.click(desk.at(0))
+            self.ui.click(desk.at(4))
+        self.ui.wait_until(lambda: len(self.session.wires) == 1 and not self.session.computing)
+
+    def press(self) -> None:
+        """Press the button and move."""
+        start = {"line that goes on": 4, "seed": 0}.get(self.what, 36)
+        desk, ui = self.desk, self.ui
+        shift, ctrl = self.what.endswith("stroke"), self.what == "avoid stroke"
+        ui.wait_until(lambda: not self.session.computing)
+        ui.event("LEFTMOUSE", "PRESS", desk.at(start), shift=shift, ctrl=ctrl)
+        for step in (1, 2, 3):
+            ui.move((desk.at(start)[0] + 12.0 * step, desk.at(start)[1] + 12.0 * step), shift=shift, ctrl=ctrl)
+        ui.event("LEFT_SHIFT", "RELEASE")
+        assert self.holds
+
+    @property
+    def holds(self) -> bool:
+        """Whether something is dragged."""
+        shown = edited.front.stroke is not None or self.session.draws_line or self.session.dragging
+        assert shown == (self.desk.running and self.desk.chain.state.hold is not None)
+        return shown
+
+    def chain(self) -> tuple[object, ...]:
+        """Return what no key may change."""
+        names = ("along", "clear", "snap", "strength_edges", "finish")
+        kept = self.session.kept
+        return (
+            [wire.vertices for wire in kept.wires],
+            kept.strokes,
+            self.session.seed,
+            self.session.waiting_clicks,
+            self.session.options.mirror,
+            *(getattr(settings(), name) for name in names),
+            seams(self.desk.obj),
+        )
+
+
+@pytest.mark.smoke
+@pytest.mark.every_blender
+def test_backspace_drops_the_stroke_that_is_drawn_and_keeps_the_wire(desk: Desk) -> None:
+    hand = Hand(desk, "guide stroke")
+    hand.press()
+    desk.ui.key("BACK_SPACE")
+    assert edited.front.stroke is None
+    desk.ui.event("LEFTMOUSE", "RELEASE")
+    assert len(hand.session.wires) == 1
+    assert hand.session.strokes == ()
+    desk.ui.key("RET")
+    assert seams(desk.obj) == KEPT
+
+
+@pytest.mark.parametrize("what", HELD)
+def test_no_action_touches_the_chain_while_a_button_is_held(desk: Desk, what: str) -> None:
+    hand = Hand(desk, what)
+    hand.press()
+    before = hand.chain()
+    place = place_in(desk.ui.area, desk.ui.region, tuple(round(x) for x in desk.at(2)))
+    for action in Action:
+        if not hand.holds:
+            hand.press()
+            before = hand.chain()
+        event = SimpleNamespace(type="Q", value="PRESS", ctrl=False, shift=False, alt=False, oskey=False)
+        assert not act(desk.chain.state, Given(action, event, place)), action
+        assert hand.chain() == before, action
+        assert hand.holds == (action not in CANCELS), action
+        assert desk.running or action in CANCELS, action
+        if action in SHOWS:
+            act(desk.chain.state, Given(action, event, place))
+    assert not act(desk.chain.state, Given(Sign.OTHER_TOOL, event, place)), "Blender's key waits as well"
+    assert hand.chain() == before
+    assert hand.holds
+
+
+@pytest.mark.parametrize("what", HELD)
+@pytest.mark.parametrize("is_away", [False, True])
+def test_keys_while_a_button_is_held(desk: Desk, what: str, is_away: bool) -> None:
+    hand, ui = Hand(desk, what), desk.ui
+    for key, held in (
+        ("BACK_SPACE", {}),
+        ("Z", {"ctrl": True}),
+        ("Z", {"ctrl": True, "shift": True}),
+        ("RET", {}),
+        ("X", {}),
+        ("C", {}),
+        ("F", {}),
+        ("G", {}),
+        ("TAB", {}),
+        ("RIGHTMOUSE", {}),
+        ("ESC", {}),
+    ):
+        hand.press()
+        before = hand.chain()
+        if is_away:
+            ui.move((-30.0, 100.0))
+        ui.key(key, **held)
+        assert hand.chain() == before, key
+        assert hand.holds == (key not in {"BACK_SPACE", "RIGHTMOUSE", "ESC"} and (key != "Z" or "shift" in held)), key
+        if hand.holds:
+            ui.key("ESC")
+        ui.event("LEFTMOUSE", "RELEASE", desk.at(50))
+        assert hand.chain() == before, key
+    if desk.running:
+        ui.key("RET")
+    ui.wait_until(lambda: not desk.running)
+    assert seams(desk.obj) == KEPT
+
+
+def test_enter_waits_until_a_released_seed_has_its_wires(desk: Desk) -> None:
+    hand, ui = Hand(desk, "seed"), desk.ui
+    ui.move(desk.at(0))
+    ui.event("LEFTMOUSE", "PRESS", desk.at(0))
+    for vertex in (9, 10, 18):
+        ui.event("MOUSEMOVE", "NOTHING", desk.at(vertex), ticks=0)
+    ui.event("LEFTMOUSE", "RELEASE", desk.at(18), ticks=0)
+    ui.event("RET", "PRESS", ticks=0)
+    ui.event("RET", "RELEASE")
+    ui.wait_until(lambda: not desk.running)
+    assert 18 in hand.session.seeds(), "the seed stays where it was released"
