@@ -28,7 +28,7 @@ from ..core.storage.serialization import Archive, UnreadableError
 from ..core.storage.wire_labels import EdgeLabels, Found, Places
 from ..words.notices import Notices
 from . import edit_mesh
-from .settings import mirror_axes, snapshot
+from .settings import auto_along, mirror_axes, snapshot
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Sequence
@@ -155,12 +155,12 @@ class ObjectSession:
 
     def options(self, settings: SeamwireSettings) -> Options:
         """Return the settings as they are now, for this object."""
-        return snapshot(settings, self.cage.mesh, self._best_finish)
+        return snapshot(settings, self.cage.mesh, along=self.best_along, finish=self._best_finish)
 
     @property
     def best_along(self) -> Along:
-        """How wires run here before the artist chooses: across the surface where they are best cut into the faces."""
-        return "SURFACE" if self._best_finish == "CUT" else "EDGES"
+        """How wires run here if the mesh decides: across the surface where they are best cut into the faces."""
+        return auto_along(self._best_finish)
 
     @functools.cached_property
     def _best_finish(self) -> Finish:

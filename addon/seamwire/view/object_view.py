@@ -18,6 +18,7 @@ from ..core.seams.gaps import GapFinder
 from ..core.solver.solver import for_live
 from ..mesh import settings as chosen
 from ..mesh.object_session import ObjectSession
+from .failures import failures
 from .metric_views import MetricViews
 from .overlay import Overlay
 from .shown_islands import ShownIslands
@@ -25,7 +26,7 @@ from .stretch_heat import StretchHeat
 from .theme import HUES
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Collection, Sequence
 
     from numpy.typing import NDArray
 
@@ -183,6 +184,8 @@ class ObjectView:
             self.stale = stale
 
     def _follow_views(self) -> None:
+        if failures.has("views", self.name):
+            return
         session, options = self.session, self.options
         crests = options.snap or session.wants_crests
         self.views.follow(options, self._source(), session.drawing.engines.strokes, crests)
@@ -200,24 +203,38 @@ class ObjectView:
     @property
     def busy(self) -> bool:
         """Whether something is being computed: `poll` is to be called now and then."""
-        return self.mesh.busy or self.islands.busy or self.views.busy
+        views = self.views.busy and not failures.has("views", self.name)
+        return self.mesh.busy or self.islands.busy or views
 
     def poll(self) -> bool:
         """Take in what was computed; return whether there is something new to be seen."""
         self.mesh.poll()
-        told = self.views.poll()
+        told = failures.attempt(("views", self.name), self.views.poll)
         self.session.use_crests(self.views.crests, self.options.show_crests)
         # Progress is told by the status bar: the picture stays.
         seen = self.session.revision
         self.session.poll()
         return any((self.session.revision != seen, self.islands.poll(), told))
 
-    def shows(self, update: bpy.types.DepsgraphUpdate) -> bool:
-        """Whether an update of Blender's tells of a change of the mesh, whichever it is."""
+    def shows_any(self, meshes: Collection[bpy.types.Mesh]) -> bool:
+        """Whether its mesh is among some meshes."""
         try:
-            return update.is_updated_geometry and update.id.original in (self.obj, self.mesh.cage.mesh)
+            return self.mesh.cage.mesh in meshes
         except ReferenceError:
             return False
+
+    @property
+    def exists(self) -> bool:
+        """Whether Blender still has the object that was read. Undo makes another one."""
+        try:
+            return bool(self.obj.name)
+        except ReferenceError:
+            return False
+
+    @property
+    def size(self) -> int:
+        """How many triangles it has. Its memory grows with them."""
+        return len(self.mesh.arrays.triangles)
 
     def snap(self, view: View, cursor: tuple[float, float], plain: bool = False) -> Snap | None:
         """Return what is under the cursor; `plain`: what loops lead through, whatever was drawn on it.
