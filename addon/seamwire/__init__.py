@@ -42,6 +42,7 @@ _PARTS = (
     "operators.aliases",
     "operators.undo_steps",
     "operators.draw",
+    "view.handlers",
     "operators.hover",
     "operators.card",
     "ui.keymap",

@@ -56,7 +56,7 @@ def test_without_an_entry_in_the_preferences_there_are_defaults(
     monkeypatch.setattr(settings, "ADDON", "seamwire_unlisted")  # as after `blender --addons seamwire`
     source, target = add_grid(5, name="Source"), add_grid(5, name="Target")
     edit()
-    assert settings.settings().along == "EDGES"
+    assert settings.settings().along == "AUTO"
     assert settings.preferences().line_width == 1.0
     bpy.ops.mesh.seamwire_mark(chains="10 14", objects="Source")
     assert bpy.ops.mesh.seamwire_store(what="STRENGTH") == {"FINISHED"}

@@ -39,7 +39,6 @@ def point_at(ui: driver.Ui, place: tuple[float, float, float]) -> None:
 @pytest.mark.every_blender
 def test_scans_start_across_the_surface_until_the_artist_chooses(scan: driver.Ui) -> None:
     point_at(scan, (0.1, 0.1, 0.0))
-    assert settings().along == "SURFACE"
     assert edited.front.session.options.along == "SURFACE"
     assert not isinstance(edited.front.session.target.pick, tuple)
     scan.click(scan.on_screen((0.1, 0.1, 0.0)))
@@ -58,15 +57,15 @@ def test_the_way_that_was_chosen_stays_on_scans(scan: driver.Ui) -> None:
 
 def test_modeled_meshes_start_along_edges_after_a_scan(scan: driver.Ui) -> None:
     point_at(scan, (0.1, 0.1, 0.0))
-    assert settings().along == "SURFACE"
+    assert edited.front.session.options.along == "SURFACE"
     with scan.override():
         bpy.ops.object.mode_set(mode="OBJECT")
         bpy.data.objects["Scan"].hide_set(True)
         add_grid(5, name="Model")
         edit()
     point_at(scan, (0.1, 0.1, 0.0))
-    assert edited.front.name == "Model"
-    assert settings().along == "EDGES"
+    scan.wait_until(lambda: edited.front.name == "Model")
+    assert edited.front.session.options.along == "EDGES"
 
 
 def test_a_grid_of_quads_starts_along_edges(desk: Desk) -> None:

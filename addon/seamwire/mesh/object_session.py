@@ -28,7 +28,7 @@ from ..core.storage.serialization import Archive, UnreadableError
 from ..core.storage.wire_labels import EdgeLabels, Found, Places
 from ..words.notices import Notices
 from . import edit_mesh
-from .settings import mirror_axes, snapshot
+from .settings import auto_along, mirror_axes, snapshot
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Sequence
@@ -46,10 +46,28 @@ FIRST_VERSION = "seamwire"
 _MOMENT = 0.1
 """Seconds for which the interface may wait."""
 
+_MOST_RECORDED = 32_000_000
+"""Bytes of records, as text, that are kept for undo. Meshes hold the records that they use."""
+
 _archive = Archive()
-"""All records that this Blender has seen: undo brings back labels whose records no mesh holds any more."""
+"""Records that were seen since the file was opened: undo brings back labels whose records no mesh holds any more."""
 _taken_cuts = CutMemory()
-"""All closed cuts that were taken in this Blender, to be bent after they were cut."""
+"""Closed cuts that were taken since the file was opened, to be bent after they were cut."""
+
+
+def forget_records() -> None:
+    """Forget the records and the closed cuts of a file that is no longer open."""
+    global _archive
+    _archive = Archive()
+    _taken_cuts.clear()
+
+
+def _trimmed_archive() -> Archive:
+    """Return the records of this file, the oldest ones dropped if they take too much memory. Sessions keep what they have."""
+    global _archive
+    if _archive.size > _MOST_RECORDED:
+        _archive = _archive.newest(_MOST_RECORDED // 2)
+    return _archive
 
 
 class ObjectSession:
@@ -155,12 +173,12 @@ class ObjectSession:
 
     def options(self, settings: SeamwireSettings) -> Options:
         """Return the settings as they are now, for this object."""
-        return snapshot(settings, self.cage.mesh, self._best_finish)
+        return snapshot(settings, self.cage.mesh, along=self.best_along, finish=self._best_finish)
 
     @property
     def best_along(self) -> Along:
-        """How wires run here before the artist chooses: across the surface where they are best cut into the faces."""
-        return "SURFACE" if self._best_finish == "CUT" else "EDGES"
+        """How wires run here if the mesh decides: across the surface where they are best cut into the faces."""
+        return auto_along(self._best_finish)
 
     @functools.cached_property
     def _best_finish(self) -> Finish:
@@ -265,7 +283,8 @@ class ObjectSession:
         try:
             own = Archive.parse(self.cage.mesh.seamwire_wires)
             # If numbers of the mesh stand for something else in this Blender, the mesh gets a separate archive.
-            self._archive = _archive if _archive.merge(own) else own
+            archive = _trimmed_archive()
+            self._archive = archive if archive.merge(own) else own
         except serialization.NewerError as error:
             self._newer = True
             self.notices.add("WARNING", str(error))

@@ -26,6 +26,10 @@ ALONG_ITEMS = (
     ("EDGES", "Along Edges", "Wires are chains of the mesh's edges", 0),
     ("SURFACE", "Across Surface", "Wires cross faces. Finish decides how they become seams", 1),
 )
+AUTO_ALONG_ITEMS = (
+    ("AUTO", "Auto", "Across the surface of dense triangles such as scans and sculpts, otherwise along edges", 2),
+    *ALONG_ITEMS,
+)
 FINISH_ITEMS = (
     ("SNAP", "Snap", "Mark the nearest edges", 0),
     ("SLIDE", "Slide", "Mark the nearest edges, and slide their vertices onto the wire", 2),
@@ -85,11 +89,6 @@ def _changed(_settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> 
                 area.tag_redraw()
 
 
-def _along_changed(settings: SeamwireSettings, context: bpy.types.Context) -> None:
-    settings.along_is_automatic = False
-    _changed(settings, context)
-
-
 def strength_property(along: Along) -> object:
     """Return the property for the strength along edges or across the surface."""
     return bpy.props.FloatProperty(
@@ -106,12 +105,7 @@ class SeamwireSettings(bpy.types.PropertyGroup):
     """How wires are drawn: keys write these properties, and sessions follow snapshots of them."""
 
     along: bpy.props.EnumProperty(
-        name="Along", description="How wires run on the mesh", items=ALONG_ITEMS, update=_along_changed
-    )
-    along_is_automatic: bpy.props.BoolProperty(
-        name="Along Is Automatic",
-        description="The mesh decides whether wires run along edges, until the artist chooses",
-        options={"HIDDEN"},
+        name="Along", description="How wires run on the mesh", items=AUTO_ALONG_ITEMS, default="AUTO", update=_changed
     )
     strength_edges: strength_property("EDGES")
     strength_surface: strength_property("SURFACE")
@@ -214,7 +208,9 @@ class SeamwireSettings(bpy.types.PropertyGroup):
     )
 
 
-def snapshot(settings: SeamwireSettings, mesh: bpy.types.Mesh | None = None, auto: Finish = "SNAP") -> Options:
+def snapshot(
+    settings: SeamwireSettings, mesh: bpy.types.Mesh | None = None, *, along: Along = "EDGES", finish: Finish = "SNAP"
+) -> Options:
     """Return the settings as they are now.
 
     Parameters
@@ -223,24 +219,20 @@ def snapshot(settings: SeamwireSettings, mesh: bpy.types.Mesh | None = None, aut
         Blender's properties.
     mesh
         Its own options tell over which axes wires are mirrored; None: over none.
-    auto
-        The finish that Auto stands for on that mesh.
+    along, finish
+        The values that Auto stands for on that mesh.
     """
     values = {field.name: _exact(getattr(settings, field.name)) for field in fields(Options) if field.name != "mirror"}
     values["metric"] = values["metric"] or "feature"  # one that was removed is stored as nothing
-    if values["finish"] == "AUTO":
-        values["finish"] = auto
+    for name, best in (("along", along), ("finish", finish)):
+        if values[name] == "AUTO":
+            values[name] = best
     return Options(**values, mirror=() if mesh is None else mirror_axes(mesh))
 
 
-def start_along(settings: SeamwireSettings, along: Along) -> bool:
-    """Let wires run along edges or across the surface unless the artist has chosen; return whether that is a change."""
-    is_chosen = settings.is_property_set("along") and not settings.along_is_automatic
-    if is_chosen or settings.along == along:
-        return False
-    settings.along = along
-    settings.along_is_automatic = True
-    return True
+def auto_along(finish: Finish) -> Along:
+    """Return how wires run on a mesh with a best finish if the mesh decides."""
+    return "SURFACE" if finish == "CUT" else "EDGES"
 
 
 def mirror_axes(mesh: bpy.types.Mesh) -> tuple[int, ...]:

@@ -12,7 +12,9 @@ import numpy as np
 from ..core.base import native
 from ..core.fields.crests import Crests
 from ..core.fields.metric_fields import FieldMaker, Request
+from ..core.seams.suggestion import best_finish
 from . import edit_mesh
+from .settings import auto_along, snapshot
 
 if TYPE_CHECKING:
     from typing import Literal
@@ -56,9 +58,9 @@ def store(
     source = selected_vertex(obj) if view == "DISTANCE" else None
     if view == "DISTANCE" and source is None:
         raise ValueError("Select the vertex that distances are to be measured from")
-    strength = settings.strength_edges if settings.along == "EDGES" else settings.strength_surface
+    options = snapshot(settings, along=auto_along(best_finish(arrays.polygons)))
     request = Request(
-        frozenset({view}), settings.metric, strength, settings.clamp, settings.shown_metric.lower(), source
+        frozenset({view}), options.metric, options.strength, options.clamp, options.shown_metric.lower(), source
     )
     maker = FieldMaker(core, lambda: core.Surface(arrays.points, arrays.triangles, arrays.edges))
     made = getattr(maker.make(request), view.lower())

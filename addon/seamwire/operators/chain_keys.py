@@ -34,7 +34,7 @@ def change_strength(state: ChainState, given: Given) -> None:
     """Let wires follow the shape more or less."""
     session, chosen = state.session, settings()
     is_more = given.what is Action.STRONGER
-    name, strength = strength_name(chosen.along), session.options.stepped(1 if is_more else -1).strength
+    name, strength = strength_name(session.options.along), session.options.stepped(1 if is_more else -1).strength
     if session.dragging:
         state.say("Finish moving the seed first")
     elif strength == session.options.strength:
@@ -78,7 +78,7 @@ def toggle_snap(state: ChainState, given: Given) -> None:
 def switch(state: ChainState, given: Given) -> None:
     """Draw across the surface, or along edges."""
     assert given.place is not None
-    settings().along = "SURFACE" if settings().along == "EDGES" else "EDGES"
+    settings().along = "SURFACE" if state.session.options.along == "EDGES" else "EDGES"
     rehover(state, given.place)
 
 

@@ -7,8 +7,6 @@ receives the motion and ends at once.
 
 from __future__ import annotations
 
-import traceback
-
 import bpy
 
 from ..mesh.registration import classes, together
@@ -25,14 +23,8 @@ def _hover(context: bpy.types.Context, location: tuple[int, int]) -> None:
     from ..view.edited_objects import edited
     from ..view.viewport import place_in
 
-    if running:
-        return
-    try:
+    if not running:
         edited.hover(place_in(context.area, context.region, location))
-    except Exception:
-        # Blender would call again at each motion.
-        traceback.print_exc()
-        edited.pause()
 
 
 class MESH_OT_seamwire_hover(bpy.types.Operator):

@@ -3,10 +3,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import bpy
 
+from ..core.drawing.options import strength_name
 from ..mesh.registration import classes, together
 from ..mesh.settings import SeamwireSettings, settings, tool_is_active
+
+if TYPE_CHECKING:
+    from ..core.network.picks import Along
 
 VIEWS = ("show_crests", "show_silhouette", "show_ellipses", "show_paths", "show_bands", "show_invalid")
 """The toggles of views that are lines on the mesh."""
@@ -25,29 +31,37 @@ def draw_views(chosen: SeamwireSettings, layout: bpy.types.UILayout) -> None:
 
 def draw_header(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
     """Show at most six controls in a row. Blender shows the mirror of the mesh beside them."""
-    chosen = settings(context)
+    chosen, along = settings(context), along_of(context)
     layout.row(align=True).prop(chosen, "along", expand=True)
-    if chosen.along == "SURFACE":
+    if along == "SURFACE":
         layout.prop(chosen, "finish")
-    layout.prop(chosen, _strength(chosen))
-    if chosen.along == "SURFACE":
+    layout.prop(chosen, strength_name(along))
+    if along == "SURFACE":
         layout.prop(chosen, "straight", toggle=True)
     layout.prop(chosen, "clear", toggle=True)
     layout.popover(VIEW3D_PT_seamwire_overlays.bl_idname, text="Views", icon="OVERLAY")
 
 
-def _strength(chosen: SeamwireSettings) -> str:
-    return "strength_edges" if chosen.along == "EDGES" else "strength_surface"
+def along_of(context: bpy.types.Context) -> Along:
+    """Return how wires run on the active object."""
+    along = settings(context).along
+    if along != "AUTO":
+        return along
+    # Imported only when the tool is used, so that Blender's start does not wait for NumPy.
+    from ..view.edited_objects import edited
+
+    return edited.best_along(context.edit_object)
 
 
 def draw_drawing(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
     """Show how wires are drawn."""
     chosen, obj = settings(context), context.edit_object
+    along = along_of(context)
     layout.prop(chosen, "along")
-    layout.prop(chosen, _strength(chosen))
+    layout.prop(chosen, strength_name(along))
     toggles = _whole_width(layout)
     straight = toggles.row()
-    straight.active = chosen.along == "SURFACE"
+    straight.active = along == "SURFACE"
     straight.prop(chosen, "straight")
     toggles.prop(chosen, "clear")
     toggles.prop(chosen, "snap")
@@ -61,7 +75,7 @@ def draw_drawing(context: bpy.types.Context, layout: bpy.types.UILayout) -> None
 def draw_finish(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
     """Show how wires across the surface become seams."""
     chosen = settings(context)
-    layout.active = chosen.along == "SURFACE"
+    layout.active = along_of(context) == "SURFACE"
     layout.prop(chosen, "finish")
 
 

@@ -4,12 +4,17 @@
 from __future__ import annotations
 
 import sys
+from typing import TYPE_CHECKING
 
 import bpy
 
+from ..core.drawing.options import strength_name
 from ..mesh import settings as chosen
 from ..view.timer import Timer
 from .properties import draw_views
+
+if TYPE_CHECKING:
+    from ..core.network.picks import Along
 
 
 class VIEW3D_PT_seamwire_views(bpy.types.Panel):
@@ -38,9 +43,17 @@ class VIEW3D_PT_seamwire_views(bpy.types.Panel):
         layout.active = settings.views_in_object_mode
         draw_views(settings, layout)
         layout.prop(settings, "along")
-        layout.prop(settings, "strength_edges" if settings.along == "EDGES" else "strength_surface")
+        layout.prop(settings, strength_name(_along(settings)))
         layout.prop(settings, "metric")
         layout.menu("VIEW3D_MT_seamwire_store_view")
+
+
+def _along(settings: chosen.SeamwireSettings) -> Along:
+    """Return how wires would run on the object whose views are shown."""
+    if settings.along != "AUTO":
+        return settings.along
+    module = sys.modules.get(f"{chosen.ADDON}.view.object_mode")
+    return "EDGES" if module is None else module.object_mode.best_along
 
 
 def _follow() -> None:

@@ -1,19 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The objects that are drawn on: which of them is under the mouse, what is drawn over them, and how they follow Blender.
 
-Prepared data of a mesh stays until its geometry changes, also between chains and while other tools are used.
+Prepared data of a mesh stays until its geometry changes, also between chains and while other tools are used. Whatever a view should
+show and does not is read by a timer. `draw` starts the timer, because Blender draws its views after each change of mode, tool or mesh.
 """
 
 from __future__ import annotations
 
-import sys
 import time
-from contextlib import suppress
+from functools import partial
 from typing import TYPE_CHECKING
 
 import bpy
 
 from ..mesh import settings as chosen
+from .failures import failures
 from .object_view import ObjectView, in_bounds, let_blender_tell
 from .timer import Timer
 
@@ -21,14 +22,15 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from ..core.network.network import Snap
+    from ..core.network.picks import Along
     from .viewport import Place
 
 _RHYTHM = 0.05
 """Seconds between two looks at running work: redraws stay below what the eye takes for a stop."""
 _PAUSE = 0.2
 """Seconds after which a mesh that Blender has changed is read anew: while it is being moved, it changes all the time."""
-_KEPT = 8
-"""So many objects stay prepared while they are not edited."""
+_MOST_IDLE = 1_000_000_000
+"""The most bytes of the objects that stay prepared while they are not edited."""
 
 
 class EditedObjects:
@@ -38,8 +40,6 @@ class EditedObjects:
     ----------
     front
         The one that was pointed at last; None: none yet.
-    is_paused
-        Whether nothing lights up under the mouse.
     chain
         Whether a chain is being drawn. The chain then updates the objects, and they are drawn with every tool.
     covered
@@ -50,14 +50,13 @@ class EditedObjects:
 
     def __init__(self) -> None:
         self._views: dict[str, ObjectView] = {}
-        self._handles: list[object] = []
-        self._error: Exception | None = None
-        self._forgotten: dict[str, bool] = {}  # names, and whether that object was in front
+        self._was_front = ""  # the object that was in front until it had to be read anew
+        self._waits = False  # whether a mesh may have to be read
+        self._states: dict[int, tuple[str, bool]] = {}  # the mode of each window, and whether it shows the tool
         self.front: ObjectView | None = None
         self.timer = Timer(self.tick)
         self.chain = False
         self.covered = False
-        self.is_paused = False
 
     # What there is
 
@@ -81,9 +80,16 @@ class EditedObjects:
         if view is None:
             view = ObjectView(obj)
             self._views[name] = view
+            if self.front is None and name == self._was_front:
+                self.front = view
             self._make_room()
         self._begin()
         return view
+
+    def best_along(self, obj: bpy.types.Object | None) -> Along:
+        """Return how wires run on an object if the mesh decides: along edges as long as it is not read."""
+        view = None if obj is None else self._views.get(obj.name_full)
+        return "EDGES" if view is None else view.mesh.best_along
 
     @staticmethod
     def _is_current(view: ObjectView, obj: bpy.types.Object) -> bool:
@@ -99,27 +105,40 @@ class EditedObjects:
         view = self._views.pop(name)
         view.close()
         if self.front is view:
-            self.front = None
+            self.front, self._was_front = None, name
 
     def _make_room(self) -> None:
-        idle = [name for name, view in self._views.items() if not view.mesh.alive()]
-        for name in idle[: max(0, len(self._views) - _KEPT)]:
+        """Forget objects that are not edited, the oldest first, where all together take too much memory."""
+        idle = {name: view.size for name, view in self._views.items() if not view.mesh.alive()}
+        spare = sum(idle.values()) - _MOST_IDLE
+        for name, size in idle.items():
+            if spare <= 0:
+                break
             self._remove(name)
+            spare -= size
+
+    def _drop_deleted(self) -> None:
+        """Forget the objects that were deleted. Undo makes other objects with the same names."""
+        for name, view in tuple(self._views.items()):
+            if not view.exists and bpy.data.objects.get(name) is None:
+                self._remove(name)
 
     def forget(self, view: ObjectView) -> None:
         """Let an object be read anew, at the latest when the mesh has stayed as it is for a moment: it has other vertices now."""
-        self._forgotten[view.name] = view is self.front
         self._changed = time.monotonic()
         self._remove(view.name)
+        self.watch()
 
     def take_stock(self) -> None:
         """Read anew what has changed, and let one of the objects that are edited be in front."""
-        self._error = None  # what could not be drawn before says nothing of now
+        failures.retry()
         let_blender_tell()
         self.refresh()
+        self._choose_front(bpy.context.active_object)
+
+    def _choose_front(self, active: bpy.types.Object) -> None:
         if self.front is None or not self.front.mesh.alive():
-            self.front = self.of(bpy.context.active_object)
-        chosen.start_along(chosen.settings(), self.front.mesh.best_along)
+            self.front = self.of(active)
 
     def clear(self) -> None:
         """Forget all objects, draw nothing any more and follow Blender no more."""
@@ -130,13 +149,12 @@ class EditedObjects:
             chosen.listeners.remove(self._on_settings)
         for name in tuple(self._views):
             self._remove(name)
-        self._forgotten.clear()
-        while self._handles:
-            bpy.types.SpaceView3D.draw_handler_remove(self._handles.pop(), "WINDOW")
+        self._was_front = ""
+        self._waits = False
+        self._states.clear()
         self.timer.stop()
         self.chain = self.covered = False
-        self.is_paused = False
-        self._error = None
+        failures.clear()
 
     # Pointing
 
@@ -157,23 +175,30 @@ class EditedObjects:
         return (found[0], None) if found else (None, None)
 
     def _at(self, obj: bpy.types.Object, place: Place) -> ObjectView | None:
-        """Return an object that may be under the mouse: those that were pointed at always, others where there is room."""
+        """Return an object that may be under the mouse: those that were read always, others where there is room."""
         if obj.name_full not in self._views and not in_bounds(obj, place.view, place.cursor):
             return None
         if not obj.visible_in_viewport_get(place.area.spaces.active):
             return None
+        return self._read(obj)
+
+    def _read(self, obj: bpy.types.Object) -> ObjectView | None:
+        """Return what `of` returns, or None where there is nothing to draw on until the mesh changes."""
+        part = ("read", obj.name_full)
+        if failures.has(*part):
+            return None
         try:
             return self.of(obj)
-        except ValueError:  # it has nothing to draw on
+        except ValueError:
+            failures.skip(*part)
             return None
 
     def hover(self, place: Place | None) -> None:
         """Light up what a click would take, while no chain is being drawn."""
-        if self.is_paused:
-            return
+        failures.attempt(("hover",), partial(self._hover, place))
+
+    def _hover(self, place: Place | None) -> None:
         view, snap = (None, None) if place is None else self.find(place)
-        if view is not None and chosen.start_along(chosen.settings(), view.mesh.best_along):
-            view, snap = self.find(place)
         self.point_at(view, place)
         if self.front is not None and view is not self.front:
             self.front.session.hover(None)
@@ -189,10 +214,6 @@ class EditedObjects:
         for each in self.views():
             hit = each.surface_at(place.view, place.cursor) if each is view and place is not None else None
             each.islands.pointed = None if hit is None else hit[1]
-
-    def pause(self) -> None:
-        """Light up nothing until the objects are forgotten: doing so raised."""
-        self.is_paused = True
 
     # How they follow
 
@@ -221,33 +242,26 @@ class EditedObjects:
             elif obj.mode == "EDIT" and not self._is_current(view, obj):
                 self.forget(view)
 
-    def _read_forgotten(self) -> None:
-        """Read the objects that were forgotten, so that their wires are seen again before the mouse moves."""
-        names, self._forgotten = self._forgotten, {}
-        for name, was_front in names.items():
-            obj = bpy.data.objects.get(name)
-            if obj is None or obj.type != "MESH" or obj.mode != "EDIT":
-                continue
-            with suppress(ValueError):  # nothing of it is visible any more
-                view = self.of(obj)
-                if was_front and self.front is None:
-                    self.front = view
-
     def on_update(self, depsgraph: bpy.types.Depsgraph) -> None:
         """Take note of meshes that Blender says were changed."""
-        for view in self._views.values():
-            if not any(view.shows(update) for update in depsgraph.updates):
-                continue
-            now = time.monotonic()
+        self._drop_deleted()
+        meshes = _changed_meshes(depsgraph)
+        changed = [view for view in self._views.values() if view.shows_any(meshes) or view.is_stretched_anew]
+        if not meshes and not changed:
+            return
+        failures.retry()
+        now = time.monotonic()
+        for view in changed:
             if not view.stale:
                 view.stale = True
                 self._stale_since = now
-            if not self.chain:
-                self._changed = now
-                self.watch()
+        if not self.chain:
+            self._changed = now
+            self.watch()
 
     def on_undo(self) -> None:
         """Follow Blender's undo or redo: all edit meshes are others now."""
+        failures.retry()
         for view in self._views.values():
             view.stale = True
         self.refresh()
@@ -255,33 +269,58 @@ class EditedObjects:
         self.watch()
 
     def watch(self) -> None:
-        """Look after running work until it is done."""
+        """Look after running work, and read what is to be read, until that is done."""
+        self._waits = True
         self.timer.start(after=_RHYTHM)
 
     def poll(self) -> None:
-        """Take in what was computed, and show it."""
+        """Take in what was computed for a chain, and show it. Raises what went wrong."""
         if any([view.poll() for view in self.views()]):
             self.redraw()
 
     def tick(self) -> float | None:
-        """Poll running work and read changed meshes again.
+        """Poll running work, and read a mesh that a view should show.
 
         Return the seconds until the next call, or None if nothing is left to do. While a chain is drawn, it looks after the
         objects, and it calls `watch` when it ends.
         """
         if self.chain:
             return None
-        if self._waits_to_be_read and time.monotonic() - self._changed > _PAUSE:
-            self.refresh()
-            self._read_forgotten()
+        if time.monotonic() - self._changed > _PAUSE:
+            self._read_next()
+        views = self.views()
+        if any([failures.attempt(("poll", view.name), view.poll) for view in views]):
             self.redraw()
-        self.poll()
-        return _RHYTHM if self._waits_to_be_read or any(view.busy for view in self.views()) else None
+        is_busy = any(view.busy and not failures.has("poll", view.name) for view in views)
+        return _RHYTHM if self._waits or is_busy else None
 
-    @property
-    def _waits_to_be_read(self) -> bool:
-        changed = bool(self._forgotten) or any(view.stale for view in self.views())
-        return changed and _tool_is_shown()
+    def _read_next(self) -> None:
+        """Read one of the meshes that views should show. The others wait, so that Blender draws and listens in between."""
+        self._waits = False
+        for window in bpy.context.window_manager.windows:
+            with bpy.context.temp_override(window=window):
+                unread = self._unread() if chosen.tool_is_active(bpy.context) else []
+                if unread:
+                    self._waits = True
+                    failures.attempt(("read", unread[0].name_full), partial(self._show_read, unread[0]))
+                    return
+
+    def _show_read(self, obj: bpy.types.Object) -> None:
+        view = self._read(obj)
+        if view is not None and (self.front is None or not self.front.mesh.alive()):
+            self.front = view
+        self.show()
+        self.redraw()
+
+    def _unread(self) -> list[bpy.types.Object]:
+        """Return the objects in edit mode that are not read as they are now, the active one first."""
+        return [obj for obj in _in_edit_mode() if not self._is_read(obj)]
+
+    def _is_read(self, obj: bpy.types.Object) -> bool:
+        if failures.has("read", obj.name_full):
+            return True
+        view = self._views.get(obj.name_full)
+        return view is not None and not view.stale and view.mesh.alive() and view.obj == obj
 
     _changed = _stale_since = 0.0
 
@@ -309,55 +348,56 @@ class EditedObjects:
 
     def take_error(self) -> None:
         """Raise what could not be drawn since the last call: raised while drawing, it would be printed at every redraw."""
-        error, self._error = self._error, None
+        error = failures.take("draw")
         if error is not None:
             raise error
 
     def _begin(self) -> None:
-        """Draw, and follow what Blender does, from now on."""
+        """Follow what Blender does, from now on."""
         for name, handler in _HANDLERS:
             handlers = getattr(bpy.app.handlers, name)
             if handler not in handlers:
                 handlers.append(handler)
-        if self._on_settings not in chosen.listeners:
-            chosen.listeners.append(self._on_settings)
-        if not self._handles and not bpy.app.background:
-            add = bpy.types.SpaceView3D.draw_handler_add
-            self._handles = [
-                add(self._draw, ("draw_in_scene",), "WINDOW", "POST_VIEW"),
-                add(self._draw, ("draw_on_screen",), "WINDOW", "POST_PIXEL"),
-            ]
+    def draw(self, part: str) -> None:
+        """Draw in the view that Blender is drawing now, and have what is missing read.
 
-    def _draw(self, part: str) -> None:
-        if self._error is not None:
-            return
-        try:
-            for view in self._drawn():
-                getattr(view.overlay, part)()
-        except Exception as error:
-            self._error = error
-            sys.excepthook(*sys.exc_info())
-
-    def _drawn(self) -> Iterator[ObjectView]:
-        """Yield the objects that are drawn in the view that Blender is drawing now."""
+        Parameters
+        ----------
+        part
+            The method of overlays to call.
+        """
         context = bpy.context
-        is_wanted = (self.chain or chosen.tool_is_active(context)) and not self.covered
-        if not is_wanted or not context.space_data.overlay.show_overlays:
-            return
-        shown = set(context.view_layer.objects.keys())
-        for name, view in self._views.items():
+        has_tool = chosen.tool_is_active(context)
+        self._follow_window(context.window, (context.mode, has_tool))
+        if has_tool and not self.chain and self._unread():
+            self.watch()
+        if (has_tool or self.chain) and not self.covered and context.space_data.overlay.show_overlays:
+            for view in self._drawn(context.space_data):
+                failures.attempt(("draw", view.name), getattr(view.overlay, part))
+
+    def _follow_window(self, window: bpy.types.Window, state: tuple[str, bool]) -> None:
+        """Take note of the mode of a window, and of whether it shows the tool."""
+        key = window.as_pointer()
+        if self._states.get(key) != state:
+            self._states[key] = state
+            failures.retry()
+
+    def _drawn(self, space: bpy.types.SpaceView3D) -> Iterator[ObjectView]:
+        """Yield the objects that are drawn in a view."""
+        for obj in _in_edit_mode():
+            view = self._views.get(obj.name_full)
+            if view is None or not view.mesh.alive() or not obj.visible_in_viewport_get(space):
+                continue
             # A mesh that changes for a long time is shown after it was read again.
-            recent = time.monotonic() - self._stale_since < 2.0 * _PAUSE
-            current = view.mesh.alive() and (self.chain or not view.stale or recent)
-            if current and name in shown and view.obj.visible_in_viewport_get(context.space_data):
+            if self.chain or not view.stale or time.monotonic() - self._stale_since < 2.0 * _PAUSE:
                 yield view
 
 
-def _tool_is_shown() -> bool:
-    """Whether the tool is the active one of edit mode in a window's workspace."""
-    spaces = (window.workspace for window in bpy.context.window_manager.windows)
-    tools = (space.tools.from_space_view3d_mode("EDIT_MESH", create=False) for space in spaces)
-    return any(tool is not None and tool.idname == chosen.TOOL for tool in tools)
+def _changed_meshes(depsgraph: bpy.types.Depsgraph) -> set[bpy.types.Mesh]:
+    """Return the meshes in edit mode whose geometry Blender says was changed. A modifier that moves does not change the mesh."""
+    found = {update.id.original for update in depsgraph.updates if update.is_updated_geometry}
+    meshes = {one.user if isinstance(one, bpy.types.Key) else one for one in found}
+    return {one for one in meshes if isinstance(one, bpy.types.Mesh) and one.is_editmode}
 
 
 def _in_edit_mode() -> list[bpy.types.Object]:

@@ -127,7 +127,8 @@ class MetricViews:
         return self._maker.busy or self._maker.newest is not self._seen
 
     def poll(self) -> bool:
-        """Return whether there is something new to be seen since the last call."""
+        """Return whether there is something new to be seen since the last call. Raises what went wrong on the thread."""
+        self._maker.check()
         new = self._maker.newest is not self._seen
         self._seen = self._maker.newest
         return new

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..core.network.network import edges_after
+from .failures import failures
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -37,18 +38,23 @@ class ShownIslands:
         self._asked: object = None
         self._cuts: NDArray[np.int32] | None = None
         self._told: object = None
+        self._part = ("islands", object())
         self.pointed: int | None = None
         """The triangle under the mouse; None: it is elsewhere."""
 
     @property
     def newest(self) -> Islands | None:
-        """The islands that were computed last."""
-        return self._maker.newest
+        """The islands that were computed last. None if computing them failed."""
+        return None if self._failed else self._maker.newest
 
     @property
     def busy(self) -> bool:
         """Whether islands are being computed: `poll` is to be called now and then."""
-        return self._maker.busy or self._stale
+        return not self._failed and (self._maker.busy or self._stale)
+
+    @property
+    def _failed(self) -> bool:
+        return failures.has(*self._part)
 
     @property
     def _stale(self) -> bool:
@@ -76,6 +82,20 @@ class ShownIslands:
         bool
             Whether there are islands to be seen that no call before told of.
         """
+        failures.attempt(self._part, self._ask)
+        newest = self.newest
+        before, self._told = self._told, None if newest is None else newest.key
+        return self._told != before
+
+    def _ask(self) -> None:
+        try:
+            self._maker.check()
+            self._want()
+        except Exception:
+            self._asked = self._cuts = None  # the next attempt asks anew
+            raise
+
+    def _want(self) -> None:
         if self._stale:
             self._asked = (self._session.network_revision, self._seams_read)
             session = self._session
@@ -84,6 +104,3 @@ class ShownIslands:
             if self._cuts is None or not np.array_equal(wanted, self._cuts):
                 self._cuts = wanted
                 self._maker.want(self._asked, wanted)
-        newest = self.newest
-        before, self._told = self._told, None if newest is None else newest.key
-        return self._told != before

@@ -18,6 +18,7 @@ SENTENCES = {
     "cut-is-gone": "The mesh has changed too much to find this cut again: undo, or add another cut",
     "cut-meets-no-edge": "No edge is left for the seam of this cut",
     "does-not-load": "Seamwire's compiled part does not load in this Blender (Python {version} on {system}): {why}",
+    "drawing-failed": "Part of the drawing failed. It is tried again when the mode, the tool or the mesh changes: {why}",
     "end-lost": "{wire}: one of its seeds could not be placed on this mesh",
     "ends-meet": "{wire}: both its seeds would be at vertex {vertex} of this mesh",
     "ends-where-it-begins": "The wire ends where it begins: click somewhere else",

@@ -39,15 +39,19 @@ class Newest(Generic[Request, Answer]):
 
     @property
     def busy(self) -> bool:
-        """Whether something is being computed."""
-        return self._working
+        """Whether something is being computed, or an error waits for `check`."""
+        return self._working or self._error is not None
 
     @property
     def answer(self) -> Answer | None:
-        """The latest result. Raises what went wrong on the thread."""
-        if self._error is not None:
-            raise self._error
+        """The latest result."""
         return self._answer
+
+    def check(self) -> None:
+        """Raise what went wrong on the thread since the last call."""
+        error, self._error = self._error, None
+        if error is not None:
+            raise error
 
     @property
     def superseded(self) -> bool:
@@ -91,8 +95,7 @@ class Newest(Generic[Request, Answer]):
                 continue
             except Exception as error:
                 # The main thread raises it: here nobody would see it.
-                self._error = error
-                self._working = False
-                return
+                self._error = None if self._closed else error
+                continue
             if not self._closed:
-                self._answer = made
+                self._answer, self._error = made, None

@@ -263,8 +263,16 @@ class FieldMaker:
 
     @property
     def newest(self) -> Fields | None:
-        """The latest result. Raises what went wrong on the thread."""
+        """The latest result."""
         return self._maker.answer
+
+    def check(self) -> None:
+        """Raise what went wrong on the thread since the last call. Then the same fields can be asked for again."""
+        try:
+            self._maker.check()
+        except Exception:
+            self._asked = None
+            raise
 
     def want(self, request: Request) -> None:
         """Ask for fields; what is being computed for another request is dropped."""

@@ -112,8 +112,12 @@ class IslandMaker:
 
     @property
     def newest(self) -> Islands | None:
-        """The latest result. Raises what went wrong on the thread."""
+        """The latest result."""
         return self._maker.answer
+
+    def check(self) -> None:
+        """Raise what went wrong on the thread since the last call."""
+        self._maker.check()
 
     def want(self, key: object, cuts: Iterable[tuple[int, int]] | NDArray[np.int32]) -> None:
         """Ask for the islands that cut edges make; `key` is how the answer is known."""

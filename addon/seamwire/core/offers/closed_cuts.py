@@ -30,6 +30,8 @@ _ON = 0.02
 """How far from a closed cut, as part of its length, the wires are in the mean that it was cut along: cuts are straight over faces."""
 _LONGER = 0.1
 """By how much of its length these may be longer or shorter in all."""
+_MOST_BYTES = 16_000_000
+"""Of the courses that are remembered. The oldest ones go first."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,10 +111,16 @@ class _StoredCut:
 
 
 class CutMemory:
-    """The closed cuts that were taken, as long as Blender runs: undo brings back meshes whose sessions are over."""
+    """The closed cuts that were taken since the file was opened: undo brings back meshes whose sessions are over."""
 
     def __init__(self) -> None:
         self._cuts: dict[_StoredCut, None] = {}
+        self._size = 0
+
+    def clear(self) -> None:
+        """Forget all cuts."""
+        self._cuts.clear()
+        self._size = 0
 
     def keep(self, cuts: Iterable[TakenCut], network: Network, places: Places) -> None:
         """Remember cuts that a mesh holds now, and the numbers that it knows their wires by, which `network` has."""
@@ -120,7 +128,17 @@ class CutMemory:
         for cut in cuts:
             numbers = frozenset(number_of[wire.id] for wire in cut.wires)
             if 0 not in numbers:
-                self._cuts.setdefault(_StoredCut(numbers, cut.course @ places.to_object.T))
+                self._add(_StoredCut(numbers, cut.course @ places.to_object.T))
+
+    def _add(self, cut: _StoredCut) -> None:
+        if cut in self._cuts:
+            return
+        self._cuts[cut] = None
+        self._size += cut.course.nbytes
+        while self._size > _MOST_BYTES and len(self._cuts) > 1:
+            oldest = next(iter(self._cuts))
+            del self._cuts[oldest]
+            self._size -= oldest.course.nbytes
 
     def recall(self, network: Network, places: Places) -> Iterator[TakenCut]:
         """Yield the cuts whose wires a network has, as they are on its mesh, the one taken last at the end."""

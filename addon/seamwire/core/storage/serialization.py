@@ -69,9 +69,15 @@ class Archive:
 
     A label stands for its members: the number of a wire along the edge, its negative for an image of the wire, the number of a stroke
     that begins there, or `WAS_SEAM`. One with a single member is that number itself.
+
+    Attributes
+    ----------
+    size
+        How many bytes the records of wires and strokes take as text.
     """
 
     def __init__(self) -> None:
+        self.size = 0
         self.wires: dict[int, Record] = {}
         self.strokes: dict[int, Record] = {}
         self._sets: dict[int, tuple[int, ...]] = {}
@@ -95,7 +101,9 @@ class Archive:
             if version != str(VERSION):
                 raise NewerError("stored-by-newer")
             (body,) = rest
-            data = json.loads(zlib.decompress(base64.b64decode(body, validate=True)))
+            plain = zlib.decompress(base64.b64decode(body, validate=True))
+            data = json.loads(plain)
+            archive.size = len(plain)
             archive.wires = {_number(number): checked_wire(record) for number, record in data["wires"].items()}
             archive.strokes = {_number(number): dict(record) for number, record in data["strokes"].items()}
             archive._sets = {_number(label): tuple(map(int, members)) for label, members in data["sets"].items()}
@@ -132,10 +140,25 @@ class Archive:
             for number, what in more.items():
                 if any(number in kind and (kind is not own or kind[number] != what) for kind in kinds):
                     return False
-        self.wires.update(other.wires)
-        self.strokes.update(other.strokes)
-        self._sets.update(other._sets)
+        for own, more in zip(kinds, (other.wires, other.strokes, other._sets), strict=True):
+            new = {number: what for number, what in more.items() if number not in own}
+            own.update(new)
+            self.size += sum(_size(what) for what in new.values())
         return True
+
+    def newest(self, most: int) -> Archive:
+        """Return an archive with the newest records, at most so many bytes of each kind."""
+        kept = Archive()
+        for own, target in ((self.wires, kept.wires), (self.strokes, kept.strokes), (self._sets, kept._sets)):
+            left, found = most, []
+            for number, what in reversed(own.items()):
+                left -= _size(what)
+                if left < 0:
+                    break
+                found.append((number, what))
+            target.update(reversed(found))
+            kept.size += sum(_size(what) for _, what in found)
+        return kept
 
     def knows(self, label: int) -> bool:
         """Whether what a label stands for is here."""
@@ -169,8 +192,14 @@ class Archive:
         kinds = (self.wires, self.strokes, self._sets)
         while any(number in kind and (kind is not where or kind[number] != what) for kind in kinds):
             number = max((number + 1) & 0x7FFFFFFF, _FIRST_NUMBER)
-        where[number] = what
+        if number not in where:
+            where[number] = what
+            self.size += _size(what)
         return number
+
+
+def _size(what: object) -> int:
+    return len(json.dumps(what))
 
 
 def _number(text: str) -> int:

@@ -57,3 +57,32 @@ def test_a_closed_one_keeps_its_answer_and_makes_no_other() -> None:
     owner.newest.want(5)
     assert not owner.newest.busy
     assert owner.newest.answer == 6
+
+
+def settle(newest: Newest[int, int]) -> None:
+    """Wait until nothing is being computed."""
+    end = time.monotonic() + 20.0
+    while newest.busy and time.monotonic() < end:
+        time.sleep(0.001)
+
+
+def test_an_error_on_the_thread_is_raised_once_and_the_next_request_is_answered() -> None:
+    def make(request: int) -> int:
+        if request == 3:
+            raise RuntimeError("three")
+        return 2 * request
+
+    newest: Newest[int, int] = Newest(make, "test")
+    newest.want(3)
+    end = time.monotonic() + 20.0
+    with pytest.raises(RuntimeError, match="three"):
+        while time.monotonic() < end:
+            assert newest.busy, "whoever polls while it is busy sees the error"
+            newest.check()
+            time.sleep(0.001)
+    newest.check()
+    assert not newest.busy
+    newest.want(4)
+    settle(newest)
+    newest.check()
+    assert newest.answer == 8

@@ -11,6 +11,7 @@ from fake_live import FakeCuts, FakeLive
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Network
 from seamwire.core.network.wires import Wire
+from seamwire.core.offers import closed_cuts
 from seamwire.core.offers.closed_cuts import CutMemory, is_same
 from seamwire.core.offers.surface_loops import CUT_IS_GONE, NOTHING_TO_BEND
 from seamwire.core.storage.wire_labels import Places
@@ -124,3 +125,19 @@ def test_what_was_changed_since_it_was_taken_is_not_handed_on() -> None:
     assert len(session.taken_cuts) == 1
     session.drop(session.wires[1])
     assert session.taken_cuts == ()
+
+
+def test_the_memory_of_cuts_is_bounded_and_forgets_the_oldest(monkeypatch: pytest.MonkeyPatch) -> None:
+    session = taken()
+    wires = as_cut(session)
+    places = Places(Table("SURFACE").points, SCALE)
+    (cut,) = (cut for cut in (cut.of(Network(tuple(wires))) for cut in session.taken_cuts) if cut is not None)
+    monkeypatch.setattr(closed_cuts, "_MOST_BYTES", 2 * cut.course.nbytes)
+    memory, networks = CutMemory(), []
+    for number in (100, 200, 300):
+        own = tuple(replace(wire, stored=number + place) for place, wire in enumerate(cut.wires))
+        networks.append(Network(own))
+        memory.keep([cut], networks[-1], places)
+    assert [len(list(memory.recall(network, places))) for network in networks] == [0, 1, 1]
+    memory.clear()
+    assert not list(memory.recall(networks[-1], places))

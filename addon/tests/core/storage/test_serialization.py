@@ -446,3 +446,19 @@ def test_archives_whose_numbers_stand_for_different_things_are_not_merged() -> N
     more = again.add_stroke({"order": 3})
     assert one.merge(again)
     assert set(one.strokes) == {number, more}
+
+
+def test_an_archive_knows_its_size_and_drops_the_oldest_records() -> None:
+    archive = Archive()
+    numbers = [archive.add_wire({"order": order}) for order in range(10)]
+    assert archive.size == sum(len(json.dumps(record)) for record in archive.wires.values())
+    size = archive.size
+    archive.add_wire({"order": 3})
+    again = Archive()
+    again.add_wire({"order": 4})
+    assert archive.merge(again)
+    assert archive.size == size, "records that are known take no more memory"
+    newest = archive.newest(size // 2)
+    assert list(newest.wires) == numbers[5:]
+    assert newest.size == size // 2
+    assert len(archive.wires) == 10, "whoever uses the old archive keeps all"
