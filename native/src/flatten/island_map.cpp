@@ -90,9 +90,19 @@ class Problem {
   std::span<const TriangleBlocks> blocks() const { return blocks_; }
   std::size_t vertex_count() const { return island_.vertices.size(); }
 
+  /// The better one of Tutte's embeddings on a circle and, for a long island, on a rectangle.
   std::vector<double> tutte(const Task& task) {
-    return tutte_embedding(island_, local_.points, boundaries_, {.outer = outer_, .area = energy_.area()}, *solver_,
-                           task);
+    TutteOutline outline{.outer = outer_, .area = energy_.area()};
+    const auto embed = [&] {
+      return tutte_embedding(island_, local_.points, boundaries_, outline, *solver_, task);
+    };
+    const std::vector<double> map = embed();
+    const double unit = energy_.unit();
+    outline.ends = long_ends(island_, local_.points, boundaries_[outer_], energy_.area() * unit * unit);
+    if (!outline.ends) return map;
+    outline.ends->length /= unit;
+    const std::vector<double> other = embed();
+    return mean_logarithm(other) < mean_logarithm(map) ? other : map;
   }
   /// The mean of the centers of a vertex's triangles.
   Point2 middle_around(std::int32_t vertex, std::span<const double> map) const {
@@ -124,6 +134,15 @@ class Problem {
       length += (local_.points[index(loop[i])] - local_.points[index(loop[(i + 1) % loop.size()])]).norm();
     }
     return length;
+  }
+
+  /// Of the energies of a map's triangles, over the area. A few bad triangles are mended soon, and must not decide.
+  double mean_logarithm(std::span<const double> map) const {
+    if (map.empty()) return std::numeric_limits<double>::infinity();
+    const std::vector<double> energies = energy_.energies(map);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < energies.size(); ++k) sum += energy_.weights()[k] * std::log(energies[k]);
+    return sum;
   }
 
   void find_outer_loop() {

@@ -18,6 +18,9 @@ namespace seamwire::detail {
 namespace {
 
 constexpr double kLeastCut = 0.6;  // a piece with a shorter tree and boundary, in roots of its area, gets one slit more
+/// The area within the length of a loop from it, in the square of that length: about 4 around a hole in a plane, 1 at
+/// the end of a tube. With less than this, the loop is the end of a tube.
+constexpr double kLeastAround = 2.0;
 
 /// Something that the tree has to reach: any of some vertices.
 struct Terminal {
@@ -216,7 +219,19 @@ class TreeGrowth {
     for (const std::int32_t tip : find_tips(problem_, body, distances)) state.terminals.push_back({{tip}, false});
   }
 
-  /// Takes out the loops that a slit from the hidden middle of the piece could only reach across a face. An eye stays a
+  /// Whether a loop is a hole in a wider surface, as an eye is, and not the end of a tube.
+  bool is_hole(const PieceBody& body, const std::vector<std::int32_t>& loop) const {
+    const double length = loop_length(problem_.mesh, loop);
+    const std::vector<double> away = edge_distances(problem_.mesh, loop);
+    double area = 0.0;
+    for (const std::int32_t f : body.island.faces) {
+      const Triangle& t = problem_.mesh.triangles[f];
+      if (std::ranges::all_of(t, [&](std::int32_t v) { return away[v] < length; })) area += problem_.areas[f];
+    }
+    return area > kLeastAround * length * length;
+  }
+
+  /// Takes out the holes that a slit from the hidden middle of the piece could only reach across a face. An eye stays a
   /// hole of its island.
   void leave_holes_in_faces(const PieceBody& body, std::span<const double> distances,
                             std::vector<std::vector<std::int32_t>>& loops) const {
@@ -226,6 +241,7 @@ class TreeGrowth {
     from[find_root(problem_, body, distances)] = 1;
     const SlitFinder finder(problem_, from, from);
     std::erase_if(loops, [&](const std::vector<std::int32_t>& loop) {
+      if (!is_hole(body, loop)) return false;
       const std::int32_t nearest = cheapest(finder, {loop, true}).second;
       const std::optional<Slit> slit = nearest < 0 ? std::nullopt : finder.slit_to(nearest);
       return slit && crosses_face(problem_, *slit);
