@@ -14,6 +14,7 @@
 #include "detail/poll.hpp"
 #include "seams/carried_slits.hpp"
 #include "seams/neck_rings.hpp"
+#include "seams/parting_cuts.hpp"
 #include "seams/planned_wires.hpp"
 #include "seams/simplified_mesh.hpp"
 #include "seams/slit_search.hpp"
@@ -38,6 +39,7 @@ constexpr double kBudget = 4000.0;
 constexpr int kRounds = 2;
 constexpr double kNearBound = 0.02;  // a map whose energy is this far below the bound may have too many seams
 constexpr double kMargin = 3e-3;
+constexpr int kHalvings = 4;  // how often pieces without a map are parted
 constexpr double kLaterBudget = 0.5;  // of a repetition, as a share of the one before
 
 void check_options(const Surface& surface, const SeamPlannerOptions& options) {
@@ -256,6 +258,24 @@ class Planning {
   }
 
   SeamPlan run() {
+    SeamPlan plan = planned();
+    // Pieces that miss the bound are tried again with cuts along their rims, and without any map also in halves.
+    const auto retry = [&](std::vector<Slit> cuts) {
+      if (cuts.empty()) return;
+      add_rings(std::move(cuts));
+      SeamPlan other = planned();
+      const bool is_better = other.is_reached ? !plan.is_reached : !(plan.energy <= other.energy);
+      if (is_better) plan = std::move(other);
+    };
+    if (!plan.is_reached) retry(rim_cuts(problem_, missed_));
+    for (int round = 0; round < kHalvings && !std::isfinite(plan.energy); ++round) {
+      retry(halving_cuts(problem_, 2 * index(problem_.pieces.count), task_));
+    }
+    return plan;
+  }
+
+ private:
+  SeamPlan planned() {
     const bool is_bounded = std::isfinite(goal_.distortion);
     SlitTree tree = grow_tree(problem_, is_bounded, task_);
     const std::vector<std::int32_t> roots = tree.roots;
@@ -272,6 +292,7 @@ class Planning {
       };
       const SlitPlan plan = search_slits(problem_, {std::move(tree.slits), roots}, aim, tell, task_);
       steps += plan.work;
+      if (round == 0) find_missed(plan);
       std::vector<Slit> slits = on_original(plan.slits);
       SlitPlan solved = solved_on_original(slits);
       // The simplified mesh distorts less or more than the original one. The bound is moved by as much.
@@ -295,7 +316,6 @@ class Planning {
     return result;
   }
 
- private:
   /// Which of two plans on the original mesh is better: the cheaper one within the bound, or else the one with less
   /// energy.
   std::pair<double, double> rank(const SlitPlan& solved) const {
@@ -307,13 +327,29 @@ class Planning {
   void part_limbs() {
     auto islands = index(problem_.pieces.count);
     if (!goal_.parts && goal_.islands <= islands) return;
+    std::vector<Slit> rings;
     for (const NeckRing& ring : find_necks(problem_, task_)) {
       if (!goal_.parts && islands >= goal_.islands) break;
       islands += ring.image.empty() ? 1 : 2;
-      for (Slit& slit : slits_of(ring)) rings_.push_back(std::move(slit));
+      for (Slit& slit : slits_of(ring)) rings.push_back(std::move(slit));
     }
+    add_rings(std::move(rings));
+    add_rings(halving_cuts(problem_, goal_.islands, task_));
+  }
+
+  void add_rings(std::vector<Slit> rings) {
+    std::ranges::move(rings, std::back_inserter(rings_));
     problem_.is_seam = cut_of(problem_, rings_, {}).is_cut;
     find_pieces_of(problem_);
+  }
+
+  /// The pieces without a map within the bound.
+  void find_missed(const SlitPlan& plan) {
+    missed_.clear();
+    for (std::int32_t p = 0; index(p) < plan.maps.size(); ++p) {
+      const auto& map = plan.maps[p];
+      if (!map || map->map.overlaps || !(map->map.energy <= goal_.distortion)) missed_.push_back(p);
+    }
   }
 
   /// Rings and slits on the original mesh, rings first.
@@ -321,7 +357,14 @@ class Planning {
     std::vector<Slit> all = rings_;
     all.insert(all.end(), slits.begin(), slits.end());
     if (!planner_.is_simplified()) return all;
-    return carried_slits(problem_, *planner_.simplified_mesh, planner_.original, all);
+    all = carried_slits(problem_, *planner_.simplified_mesh, planner_.original, all);
+    if (goal_.islands < 2) return all;
+    // A closed cut may not have been carried whole.
+    SlitProblem original = planner_.original;
+    original.is_seam = cut_of(original, all, {}).is_cut;
+    find_pieces_of(original);
+    std::ranges::move(halving_cuts(std::move(original), goal_.islands, task_), std::back_inserter(all));
+    return all;
   }
 
   /// The map of the original mesh with rings and slits.
@@ -341,6 +384,7 @@ class Planning {
   const Task& task_;
   SlitProblem problem_;
   std::vector<Slit> rings_;
+  std::vector<std::int32_t> missed_;
 };
 
 SeamPlan SeamPlanner::plan(const SeamGoal& goal, const std::function<void(const SeamPlan&)>& found,
