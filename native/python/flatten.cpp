@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,9 +34,14 @@ Task part_of(const Task& task, double begin, double length) {
           }};
 }
 
+std::optional<std::vector<Edge>> real_edges_from(const py::object& edges) {
+  return edges.is_none() ? std::nullopt : std::optional(edges_from(edges, "edges"));
+}
+
 Held<FlatteningObject> flattened(std::vector<Vector> points, std::vector<Triangle> triangles,
-                                 const std::vector<Edge>& cuts, const FlattenOptions& options, const Task& task) {
-  const Surface surface(std::move(points), std::move(triangles), std::nullopt, part_of(task, 0.0, 0.1));
+                                 std::optional<std::vector<Edge>> edges, const std::vector<Edge>& cuts,
+                                 const FlattenOptions& options, const Task& task) {
+  const Surface surface(std::move(points), std::move(triangles), std::move(edges), part_of(task, 0.0, 0.1));
   auto object = make_held<FlatteningObject>();
   object->map = flatten(surface, cuts, options, part_of(task, 0.1, 0.9));
   for (std::size_t i = 0; i < object->map.by_island.size(); ++i) {
@@ -91,9 +97,12 @@ void bind_map_report(py::module_& module) {
           "(j,) int32: triangles that are turned over against their island, or have no area in the map.")
       .def_property_readonly("overlapping", array_of<MapReport>(&MapReport::overlapping),
                              "(k,) int32: islands that cover a part of the plane twice, or have a flipped triangle.")
+      .def_property_readonly("colliding", array_of<MapReport>(&MapReport::colliding),
+                             "(k,) int32: islands that cover a part of another island, and those other islands.")
       .def("__repr__", [](const MapReport& report) {
         return "<MapReport: " + std::to_string(report.flipped.size()) + " flipped triangles, " +
-               std::to_string(report.overlapping.size()) + " overlapping islands>";
+               std::to_string(report.overlapping.size()) + " overlapping islands, " +
+               std::to_string(report.colliding.size()) + " colliding islands>";
       });
 }
 
@@ -101,18 +110,21 @@ void bind_flatten_function(py::module_& module) {
   module.def(
       "flatten",
       [](const py::object& points, const py::object& triangles, const py::object& cuts, const py::object& start,
-         bool keep_apart, const py::object& progress) {
+         bool keep_apart, const py::object& edges, const py::object& progress) {
         auto own_points = points_from(points, "points");
         auto own_triangles = triangles_from(triangles, "triangles");
+        auto own_edges = real_edges_from(edges);
         const std::vector<Edge> own_cuts = edges_from(cuts, "cuts");
         FlattenOptions options{.start = {}, .keep_apart = keep_apart};
         if (!start.is_none()) options.start = corner_uvs_from(start, "start");
         return Watch(progress).run([&](const Task& task) {
-          return flattened(std::move(own_points), std::move(own_triangles), own_cuts, options, task);
+          return flattened(std::move(own_points), std::move(own_triangles), std::move(own_edges), own_cuts, options,
+                           task);
         });
       },
       py::arg("points"), py::arg("triangles"), py::arg("cuts") = py::tuple(), py::kw_only(),
-      py::arg("start") = py::none(), py::arg("keep_apart") = true, py::arg("progress") = py::none(),
+      py::arg("start") = py::none(), py::arg("keep_apart") = true, py::arg("edges") = py::none(),
+      py::arg("progress") = py::none(),
       R"(Map each island of a surface to the plane.
 
 No triangle is flipped, and the symmetric Dirichlet energy is minimized (Smith and Schaefer, "Bijective Parameterization
@@ -132,6 +144,9 @@ start : (m, 3, 2) array_like of float, optional
     A former map. Islands start from it if it is continuous there and flips no triangle.
 keep_apart : bool
     Whether an island that overlaps itself is solved again with a barrier along its outline.
+edges : (e, 2) array_like of int, optional
+    The real edges, if the triangles come from polygons. The map is continuous across all other edges of triangles. None:
+    every edge of a triangle is real.
 progress : callable, optional
     Called repeatedly with the fraction done. Returning False cancels.
 
@@ -151,17 +166,21 @@ Cancelled
 void bind_measure_map(py::module_& module) {
   module.def(
       "measure_map",
-      [](const py::object& points, const py::object& triangles, const py::object& uvs, const py::object& islands) {
+      [](const py::object& points, const py::object& triangles, const py::object& uvs, const py::object& islands,
+         const py::object& edges, const py::object& progress) {
         auto own_points = points_from(points, "points");
         auto own_triangles = triangles_from(triangles, "triangles");
         const CornerUvs own_uvs = corner_uvs_from(uvs, "uvs");
         const auto numbers = islands.is_none() ? std::vector<std::int32_t>{} : numbers_from(islands, "islands");
-        return Watch(py::none()).run([&](const Task& task) {
-          const Surface surface(std::move(own_points), std::move(own_triangles), std::nullopt, task);
-          return make_held<MapReport>(measure_map(surface, own_uvs, numbers, task));
+        auto own_edges = real_edges_from(edges);
+        return Watch(progress).run([&](const Task& task) {
+          const Surface surface(std::move(own_points), std::move(own_triangles), std::move(own_edges),
+                                part_of(task, 0.0, 0.2));
+          return make_held<MapReport>(measure_map(surface, own_uvs, numbers, part_of(task, 0.2, 0.8)));
         });
       },
-      py::arg("points"), py::arg("triangles"), py::arg("uvs"), py::arg("islands") = py::none(),
+      py::arg("points"), py::arg("triangles"), py::arg("uvs"), py::arg("islands") = py::none(), py::kw_only(),
+      py::arg("edges") = py::none(), py::arg("progress") = py::none(),
       R"(Measure any UV map of a surface.
 
 Parameters
@@ -175,6 +194,10 @@ uvs : (m, 3, 2) array_like of float
 islands : (m,) array_like of int, optional
     The island of each triangle, numbered from 0. By default, triangles that agree on the UVs of an edge are in one
     island.
+edges : (e, 2) array_like of int, optional
+    The real edges, if the triangles come from polygons. None: every edge of a triangle is real.
+progress : callable, optional
+    Called repeatedly with the fraction done. Returning False cancels.
 
 Returns
 -------
@@ -184,6 +207,7 @@ Raises
 ------
 ValueError
     If an array has the wrong shape or type, a number is not finite, or a vertex or an island is out of range.
+Cancelled
 )");
 }
 

@@ -506,7 +506,8 @@ class MapReport:
     energy: float  # symmetric Dirichlet energy at the best uniform scale, 4 for an isometry
     energies: NDArray[np.float64]  # of each triangle
     flipped: NDArray[np.int32]  # triangles
-    overlapping: NDArray[np.int32]  # islands
+    overlapping: NDArray[np.int32]  # islands that cover a part of the plane twice
+    colliding: NDArray[np.int32]  # islands that cover a part of another island, and those other islands
 
 def flatten(
     points: ArrayLike,
@@ -515,11 +516,20 @@ def flatten(
     *,
     start: ArrayLike | None = None,
     keep_apart: bool = True,
+    edges: ArrayLike | None = None,
     progress: Progress | None = None,
 ) -> Flattening:
     """Map each island of a surface to the plane, without flips and with as little stretch as possible."""
 
-def measure_map(points: ArrayLike, triangles: ArrayLike, uvs: ArrayLike, islands: ArrayLike | None = None) -> MapReport:
+def measure_map(
+    points: ArrayLike,
+    triangles: ArrayLike,
+    uvs: ArrayLike,
+    islands: ArrayLike | None = None,
+    *,
+    edges: ArrayLike | None = None,
+    progress: Progress | None = None,
+) -> MapReport:
     """Measure the stretch of any UV map, its flipped triangles and its overlapping islands."""
 
 class PlannedWire:

@@ -36,7 +36,7 @@ def test_islands_are_those_of_face_segments() -> None:
     assert len(report.flipped) == len(report.overlapping) == 0
     assert report.energies.shape == (256,)
     assert repr(flat) == "<Flattening: 256 triangles, 2 islands>"
-    assert repr(report) == "<MapReport: 0 flipped triangles, 0 overlapping islands>"
+    assert repr(report) == "<MapReport: 0 flipped triangles, 0 overlapping islands, 2 colliding islands>"
 
 
 def test_handles_are_opened() -> None:

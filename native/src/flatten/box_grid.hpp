@@ -26,6 +26,8 @@ struct Box {
       high[k] = std::max(high[k], point[k] + reach);
     }
   }
+  /// The longer side.
+  double size() const { return std::max(high[0] - low[0], high[1] - low[1]); }
   bool meets(const Box& other) const {
     return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] && other.low[1] <= high[1];
   }

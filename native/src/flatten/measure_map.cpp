@@ -12,9 +12,10 @@
 #include "detail/disjoint_sets.hpp"
 #include "detail/half_edge.hpp"
 #include "detail/index.hpp"
+#include "detail/poll.hpp"
 #include "flatten/box_grid.hpp"
+#include "flatten/coverage.hpp"
 #include "flatten/cut_open.hpp"
-#include "flatten/outline.hpp"
 #include "flatten/symmetric_dirichlet.hpp"
 
 namespace seamwire {
@@ -66,7 +67,16 @@ class HalfEdgeMap {
   std::size_t size() const { return uvs_.size(); }
   std::int32_t island(std::size_t face) const { return island_[face]; }
   std::int32_t island_count() const { return island_.empty() ? 0 : std::ranges::max(island_) + 1; }
+  /// Of all triangles, those of mirrored islands turned over.
   const std::vector<Corners>& uvs() const { return uvs_; }
+  bool is_mirrored(std::int32_t island) const { return is_mirrored_[island] != 0; }
+  /// Of a triangle, as they lie in the map.
+  Corners placed_uvs(std::size_t face) const {
+    Corners corners = uvs_[face];
+    if (!is_mirrored(island_[face])) return corners;
+    for (Eigen::Vector2d& uv : corners) uv.x() = -uv.x();
+    return corners;
+  }
   /// Twice the area.
   double cross(std::size_t face) const {
     const auto& [a, b, c] = uvs_[face];
@@ -96,8 +106,9 @@ class HalfEdgeMap {
   void turn_islands() {
     std::vector<double> area(index(island_count()), 0.0);
     for (std::size_t f = 0; f < size(); ++f) area[island_[f]] += cross(f);
+    for (const double sum : area) is_mirrored_.push_back(sum < 0.0 ? 1 : 0);
     for (std::size_t f = 0; f < size(); ++f) {
-      if (area[island_[f]] >= 0.0) continue;
+      if (is_mirrored_[island_[f]] == 0) continue;
       for (Eigen::Vector2d& uv : uvs_[f]) uv.x() = -uv.x();
     }
   }
@@ -105,6 +116,7 @@ class HalfEdgeMap {
   const Surface& surface_;
   std::vector<Corners> uvs_;
   std::vector<std::int32_t> island_;
+  std::vector<std::uint8_t> is_mirrored_;  // of each island
 };
 
 /// The energies at the scale at which their mean is lowest, without the worst triangles.
@@ -171,117 +183,162 @@ ScaledEnergies scaled_energies(const Surface& surface, const HalfEdgeMap& map, s
   return {energy.parts(flat), weights, area > 0.0 ? 2.0 * energy.area() / area : 1.0};
 }
 
-/// Finds islands that cover a part of the plane twice.
+/// Finds islands that cover a part of the plane twice, and islands that cover a part of another one.
 class OverlapTest {
  public:
-  OverlapTest(const Surface& surface, const HalfEdgeMap& map) : map_(map) {
+  OverlapTest(const Surface& surface, const HalfEdgeMap& map, const Task& task)
+      : map_(map), task_(task), outlines_(index(map.island_count())) {
     std::vector<std::uint8_t> is_cut(surface.twins().size(), 0);
     for (std::int32_t h = 0; index(h) < is_cut.size(); ++h) {
       const std::int32_t twin = surface.twins()[h];
       if (twin < 0) continue;
       is_cut[h] = map.island(index(h / 3)) != map.island(index(twin / 3)) || !map.is_continuous(h) ? 1 : 0;
     }
-    pieces_ = cut_open(surface.face_fans(), surface.twins(), is_cut);
+    task.check(0.5);
+    std::int32_t vertices = 0;
+    for (const Island& piece : cut_open(surface.face_fans(), surface.twins(), is_cut)) {
+      poll_.next();
+      add_piece(piece, vertices);
+      vertices += static_cast<std::int32_t>(piece.vertices.size());
+    }
   }
 
-  std::vector<std::int32_t> overlapping(std::vector<std::uint8_t> is_bad, const Task& task) const {
-    std::vector<std::vector<const Island*>> by_island(is_bad.size());
-    for (const Island& piece : pieces_) by_island[map_.island(index(piece.faces.front()))].push_back(&piece);
+  /// `is_bad`: islands that are known to overlap.
+  std::vector<std::int32_t> overlapping(const std::vector<std::uint8_t>& is_bad) const {
     std::vector<std::int32_t> found;
-    for (std::size_t i = 0; i < by_island.size(); ++i) {
-      task.check(0.5 + 0.5 * static_cast<double>(i) / static_cast<double>(by_island.size()));
-      if (is_bad[i] != 0 || overlaps(by_island[i])) found.push_back(static_cast<std::int32_t>(i));
+    for (std::size_t i = 0; i < outlines_.size(); ++i) {
+      poll_.next();
+      const IslandOutline& outline = outlines_[i];
+      const auto is_double = [&] {
+        return Coverage(outline.sides, outline.inner, kTouching * outline.box.size(), task_).is_double();
+      };
+      if (is_bad[i] != 0 || outline.is_wound || (!outline.sides.empty() && is_double())) {
+        found.push_back(static_cast<std::int32_t>(i));
+      }
+    }
+    return found;
+  }
+
+  std::vector<std::int32_t> colliding() const {
+    std::vector<const IslandOutline*> outlines;
+    std::vector<Box> boxes;
+    double largest = 0.0;
+    for (const IslandOutline& outline : outlines_) {
+      if (outline.sides.empty()) continue;
+      outlines.push_back(&outline);
+      boxes.push_back(outline.box);
+      for (std::size_t k = 0; k < 2; ++k) {
+        largest = std::max({largest, std::abs(outline.box.low[k]), std::abs(outline.box.high[k])});
+      }
+    }
+    // Only islands whose boxes meet can collide.
+    std::vector<OutlineSide> sides;
+    std::vector<InnerPoint> inner;
+    const BoxGrid grid(boxes);
+    for (std::size_t i = 0; i < outlines.size(); ++i) {
+      poll_.next();
+      bool is_near = false;
+      grid.for_each_meeting(boxes[i], [&](std::int32_t other) { is_near = is_near || index(other) != i; });
+      if (!is_near) continue;
+      inner.insert(inner.end(), outlines[i]->inner.begin(), outlines[i]->inner.end());
+      sides.insert(sides.end(), outlines[i]->sides.begin(), outlines[i]->sides.end());
+    }
+    std::vector<std::uint8_t> is_colliding(outlines_.size(), 0);
+    if (!sides.empty()) {
+      Coverage(std::move(sides), std::move(inner), kTouching * largest, task_).mark_colliding(is_colliding);
+    }
+    std::vector<std::int32_t> found;
+    for (std::int32_t i = 0; index(i) < is_colliding.size(); ++i) {
+      if (is_colliding[index(i)] != 0) found.push_back(i);
     }
     return found;
   }
 
  private:
-  bool overlaps(const std::vector<const Island*>& pieces) const {
-    std::vector<double> map;
-    std::vector<Edge> edges;
-    std::vector<std::size_t> first_edge;
+  struct IslandOutline {
+    std::vector<OutlineSide> sides;
+    std::vector<InnerPoint> inner;
     Box box;
-    for (const Island* piece : pieces) {
-      const auto offset = static_cast<std::int32_t>(map.size() / 2);
-      first_edge.push_back(edges.size());
-      map.resize(map.size() + 2 * piece->vertices.size());
-      double* own = map.data() + 2 * index(offset);
-      for (std::size_t f = 0; f < piece->faces.size(); ++f) {
-        for (std::size_t i = 0; i < 3; ++i) {
-          const Eigen::Vector2d& uv = map_.uvs()[index(piece->faces[f])][i];
-          own[2 * index(piece->triangles[f][i])] = uv.x();
-          own[2 * index(piece->triangles[f][i]) + 1] = uv.y();
-          box.add(uv.data());
-        }
+    bool is_wound = false;  // closed, or around an inner vertex twice
+  };
+
+  /// `first`: the number of the piece's first vertex.
+  void add_piece(const Island& piece, std::int32_t first) {
+    const std::int32_t island = map_.island(index(piece.faces.front()));
+    IslandOutline& outline = outlines_[index(island)];
+    std::vector<Eigen::Vector2d> own(piece.vertices.size());
+    double largest = -1.0;
+    InnerPoint inner{.place = {0.0, 0.0}, .group = island, .reach = 0.0};
+    for (std::size_t f = 0; f < piece.faces.size(); ++f) {
+      const Corners corners = map_.placed_uvs(index(piece.faces[f]));
+      double longest = 0.0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        own[index(piece.triangles[f][i])] = corners[i];
+        outline.box.add(corners[i].data());
+        longest = std::max(longest, (corners[(i + 1) % 3] - corners[i]).norm());
       }
-      if (winds_around_a_vertex(*piece, own)) return true;
-      for (const std::vector<std::int32_t>& loop : piece->boundaries()) {
-        for (std::size_t i = 0; i < loop.size(); ++i) {
-          edges.push_back({loop[i] + offset, loop[(i + 1) % loop.size()] + offset});
+      const double doubled = map_.cross(index(piece.faces[f]));
+      if (!(doubled > largest)) continue;
+      largest = doubled;
+      inner.place = corners[0] + ((corners[1] - corners[0]) + (corners[2] - corners[0])) / 3.0;
+      inner.reach = longest > 0.0 ? doubled / longest / 3.0 : 0.0;
+    }
+    outline.inner.push_back(inner);
+    const std::vector<std::vector<std::int32_t>> boundaries = piece.boundaries();
+    outline.is_wound = outline.is_wound || boundaries.empty() || winds_around_a_vertex(piece, own);
+    for (const std::vector<std::int32_t>& loop : boundaries) {
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const std::int32_t tail = loop[i], tip = loop[(i + 1) % loop.size()];
+        OutlineSide side{own[index(tail)], own[index(tip)], first + tail, first + tip, island};
+        if (map_.is_mirrored(island)) {
+          std::swap(side.from, side.to);
+          std::swap(side.tail, side.tip);
         }
+        outline.sides.push_back(side);
       }
     }
-    first_edge.push_back(edges.size());
-    if (edges.empty()) return !pieces.empty();
-    const double size = std::max(box.high[0] - box.low[0], box.high[1] - box.low[1]);
-    if (Outline(edges).crosses_itself(map, kTouching * size)) return true;
-    return pieces.size() > 1 && is_one_in_another(pieces, map, edges, first_edge);
   }
 
   /// Whether the triangles around an inner vertex go around it more than once.
-  static bool winds_around_a_vertex(const Island& piece, const double* own) {
+  bool winds_around_a_vertex(const Island& piece, const std::vector<Eigen::Vector2d>& own) const {
     std::vector<double> angle(piece.vertices.size(), 0.0);
     std::vector<std::uint8_t> is_border(piece.vertices.size(), 0);
     for (std::int32_t h = 0; index(h) < piece.twins.size(); ++h) {
       const Triangle& t = piece.triangles[h / 3];
-      const double* at = own + 2 * index(t[h % 3]);
-      const double* to = own + 2 * index(t[(h + 1) % 3]);
-      const double* back = own + 2 * index(t[(h + 2) % 3]);
-      const double ax = to[0] - at[0], ay = to[1] - at[1], bx = back[0] - at[0], by = back[1] - at[1];
-      angle[t[h % 3]] += std::atan2(ax * by - ay * bx, ax * bx + ay * by);
+      const Eigen::Vector2d& at = own[index(t[h % 3])];
+      const Eigen::Vector2d to = own[index(t[(h + 1) % 3])] - at, back = own[index(t[(h + 2) % 3])] - at;
+      angle[t[h % 3]] += std::atan2(to.x() * back.y() - to.y() * back.x(), to.dot(back));
       if (piece.twins[h] < 0) is_border[t[h % 3]] = 1;
     }
     for (std::size_t v = 0; v < angle.size(); ++v) {
-      if (is_border[v] == 0 && angle[v] > 3.0 * std::numbers::pi) return true;
-    }
-    return false;
-  }
-
-  /// Whether a piece lies inside another one, whose outlines do not cross: the outline winds around its first triangle.
-  static bool is_one_in_another(const std::vector<const Island*>& pieces, const std::vector<double>& map,
-                                const std::vector<Edge>& edges, const std::vector<std::size_t>& first_edge) {
-    std::size_t offset = 0;
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-      std::array<double, 2> center{0.0, 0.0};
-      for (const std::int32_t v : pieces[i]->triangles.front()) {
-        for (std::size_t k = 0; k < 2; ++k) center[k] += map[2 * (offset + index(v)) + k] / 3.0;
-      }
-      offset += pieces[i]->vertices.size();
-      for (std::size_t j = 0; j < pieces.size(); ++j) {
-        if (j == i) continue;
-        int winding = 0;
-        for (std::size_t e = first_edge[j]; e < first_edge[j + 1]; ++e) {
-          const double* a = map.data() + 2 * index(edges[e][0]);
-          const double* b = map.data() + 2 * index(edges[e][1]);
-          if ((a[1] > center[1]) == (b[1] > center[1])) continue;
-          const double side = (b[0] - a[0]) * (center[1] - a[1]) - (b[1] - a[1]) * (center[0] - a[0]);
-          if (a[1] <= center[1] && side > 0.0) ++winding;
-          if (a[1] > center[1] && side < 0.0) --winding;
-        }
-        if (winding != 0) return true;
-      }
+      if (is_border[v] == 0 && std::abs(angle[v]) > 3.0 * std::numbers::pi) return true;
     }
     return false;
   }
 
   const HalfEdgeMap& map_;
-  std::vector<Island> pieces_;
+  const Task& task_;
+  mutable Poll poll_{task_, 0.5, 0.5, 1, Poll::kFewSteps};
+  std::vector<IslandOutline> outlines_;
 };
 
 }  // namespace
 
+double map_energy(const Surface& surface, std::span<const Corners> uvs, std::span<const std::int32_t> islands,
+                  const Task& task) {
+  check_map(surface, uvs, islands);
+  task.check(0.0);
+  const HalfEdgeMap map(surface, uvs, islands);
+  if (map.size() == 0) return std::numeric_limits<double>::infinity();
+  task.check(0.1);
+  std::vector<double> weights;
+  return scaled_energies(surface, map, weights).mean();
+}
+
 MapReport measure_map(const Surface& surface, std::span<const Corners> uvs, std::span<const std::int32_t> islands,
-                      const Task& task) {
+                      const Task& given_task) {
+  const RisingProgress rising(given_task);
+  const Task& task = rising.task();
   check_map(surface, uvs, islands);
   task.check(0.0);
   MapReport report;
@@ -289,6 +346,7 @@ MapReport measure_map(const Surface& surface, std::span<const Corners> uvs, std:
   report.energies.assign(surface.face_count(), 0.0);
   const HalfEdgeMap map(surface, uvs, islands);
   if (map.size() == 0) return report;
+  task.check(0.1);
   std::vector<double> weights;
   const ScaledEnergies energies = scaled_energies(surface, map, weights);
   task.check(0.4);
@@ -301,7 +359,9 @@ MapReport measure_map(const Surface& surface, std::span<const Corners> uvs, std:
     report.flipped.push_back(source);
     is_bad[map.island(f)] = 1;
   }
-  report.overlapping = OverlapTest(surface, map).overlapping(std::move(is_bad), task);
+  const OverlapTest test(surface, map, task);
+  report.overlapping = test.overlapping(is_bad);
+  report.colliding = test.colliding();
   return report;
 }
 

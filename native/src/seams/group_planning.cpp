@@ -4,16 +4,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "seams/carried_slits.hpp"
+#include "seams/parting_cuts.hpp"
 
 namespace seamwire::detail {
 namespace {
 
 /// How often a search is repeated because the original mesh distorts more than the simplified one.
 constexpr int kRounds = 2;
+constexpr int kHalvings = 4;  // how often pieces without a map are parted
 constexpr double kNearBound = 0.02;  // a map whose energy is this far below the bound may have too many seams
 constexpr double kMargin = 3e-3;
 constexpr double kLaterBudget = 0.5;  // of a repetition, as a share of the one before
@@ -40,10 +43,23 @@ double GroupProblem::counted_area() const {
 }
 
 void GroupPlanning::part(const std::vector<NeckRing>& rings) {
-  if (rings.empty()) return;
+  std::vector<Slit> slits;
   for (const NeckRing& ring : rings) {
-    for (Slit& slit : slits_of(ring)) rings_.push_back(std::move(slit));
+    for (Slit& slit : slits_of(ring)) slits.push_back(std::move(slit));
   }
+  add_rings(std::move(slits));
+}
+
+void GroupPlanning::halve(std::size_t count, const Task& task) {
+  least_pieces_ = count;
+  add_rings(halving_cuts(problem(), count, task));
+}
+
+std::size_t GroupPlanning::most_pieces() const { return count_blocks(problem()); }
+
+void GroupPlanning::add_rings(std::vector<Slit> rings) {
+  if (rings.empty()) return;
+  std::ranges::move(rings, std::back_inserter(rings_));
   parted_ = group_->searched();
   parted_->is_seam = cut_of(*parted_, rings_, {}).is_cut;
   find_pieces_of(*parted_);
@@ -65,6 +81,23 @@ void GroupPlanning::show(const SlitPlan& plan) {
 }
 
 void GroupPlanning::search(const SlitGoal& goal, const std::function<void()>& found, const Task& task) {
+  search_once(goal, found, task);
+  // Without a good plan the group is parted further: along the rims of the pieces that miss the bound. Without any map,
+  // it is also parted into halves.
+  for (int round = 0; round <= kHalvings && !result_.is_within(goal.energy); ++round) {
+    if (round > 0 && std::isfinite(result_.energy)) return;
+    std::vector<Slit> cuts = round == 0 ? rim_cuts(problem(), missed_)
+                                        : halving_cuts(problem(), 2 * index(problem().pieces.count), task);
+    if (cuts.empty()) continue;
+    add_rings(std::move(cuts));
+    const Result before = std::move(result_);
+    grow(std::isfinite(goal.energy), task);
+    search_once(goal, {}, task);
+    if (rank(before, goal.energy) <= rank(result_, goal.energy)) result_ = before;
+  }
+}
+
+void GroupPlanning::search_once(const SlitGoal& goal, const std::function<void()>& found, const Task& task) {
   SlitGoal aim = goal;
   Result best;
   for (int round = 0;; ++round) {
@@ -78,6 +111,7 @@ void GroupPlanning::search(const SlitGoal& goal, const std::function<void()>& fo
     };
     const SlitPlan plan = search_slits(problem(), std::move(start_), roots_, aim, tell, part_of(task, begin, end));
     steps_ += plan.work;
+    if (round == 0) missed_ = missed_pieces(plan, goal.energy);
     Result solved = solved_on_original(on_original(plan.slits), part_of(task, end, round < kRounds ? end + 0.05 : 1.0));
     // The simplified mesh distorts less or more than the original one. The bound is moved by as much.
     const double excess = solved.energy - goal.energy;
@@ -98,7 +132,23 @@ std::vector<Slit> GroupPlanning::on_original(const std::vector<Slit>& slits) con
   std::vector<Slit> all = rings_;
   all.insert(all.end(), slits.begin(), slits.end());
   if (!group_->simplified_mesh) return all;
-  return carried_slits(problem(), *group_->simplified_mesh, group_->original, all);
+  all = carried_slits(problem(), *group_->simplified_mesh, group_->original, all);
+  if (least_pieces_ > 0) {  // a closed cut may not have been carried whole
+    SlitProblem original = group_->original;
+    original.is_seam = cut_of(original, all, {}).is_cut;
+    find_pieces_of(original);
+    std::ranges::move(halving_cuts(std::move(original), least_pieces_, {}), std::back_inserter(all));
+  }
+  return all;
+}
+
+std::vector<std::int32_t> GroupPlanning::missed_pieces(const SlitPlan& plan, double bound) const {
+  std::vector<std::int32_t> missed;
+  for (std::int32_t p = 0; index(p) < plan.maps.size(); ++p) {
+    const auto& map = plan.maps[p];
+    if (!map || map->map.overlaps || !(map->map.energy <= bound)) missed.push_back(p);
+  }
+  return missed;
 }
 
 GroupPlanning::Result GroupPlanning::solved_on_original(std::vector<Slit> slits, const Task& task) const {

@@ -47,6 +47,10 @@ class GroupPlanning {
   std::int32_t piece_count() const { return problem().pieces.count; }
   /// Cuts along rings.
   void part(const std::vector<NeckRing>& rings);
+  /// Cuts pieces into halves until there are so many, see halving_cuts().
+  void halve(std::size_t count, const Task& task);
+  /// How many pieces there can be at most.
+  std::size_t most_pieces() const;
 
   /// Grows the tree of slits and solves its maps. Throws Cancelled.
   void grow(bool has_tips, const Task& task);
@@ -66,6 +70,9 @@ class GroupPlanning {
   double steps() const { return steps_; }
 
  private:
+  void add_rings(std::vector<Slit> rings);
+  void search_once(const SlitGoal& goal, const std::function<void()>& found, const Task& task);
+  std::vector<std::int32_t> missed_pieces(const SlitPlan& plan, double bound) const;
   const SlitProblem& problem() const { return parted_ ? *parted_ : group_->searched(); }
   std::vector<Slit> on_original(const std::vector<Slit>& slits) const;
   Result solved_on_original(std::vector<Slit> slits, const Task& task) const;
@@ -74,7 +81,9 @@ class GroupPlanning {
   const GroupProblem* group_;
   std::vector<Slit> rings_;
   std::optional<SlitProblem> parted_;  // with rings
+  std::size_t least_pieces_ = 0;
   std::vector<std::int32_t> roots_;
+  std::vector<std::int32_t> missed_;  // pieces that the last search left without a map within the bound
   SlitPlan start_;
   Result result_;
   double steps_ = 0.0;

@@ -227,6 +227,18 @@ std::vector<Slit> rim_cuts(const SlitProblem& problem, std::span<const std::int3
   return slits_along(problem.mesh, std::move(is_marked));
 }
 
+std::size_t count_blocks(const SlitProblem& problem) {
+  const PlanMesh& mesh = problem.mesh;
+  DisjointSets blocks(mesh.face_count());
+  std::size_t count = mesh.face_count();
+  for (std::int32_t h = 0; index(h) < mesh.twins.size(); ++h) {
+    const std::int32_t edge = mesh.edge_of[h];
+    if (mesh.twins[h] < h || problem.is_seam[edge] != 0 || problem.prices.of_edge[edge] != kNever) continue;
+    if (blocks.join(h / 3, mesh.twins[h] / 3)) --count;
+  }
+  return count;
+}
+
 std::vector<Slit> halving_cuts(SlitProblem problem, std::size_t count, const Task& task) {
   std::vector<std::uint8_t> is_marked(problem.mesh.edge_count(), 0);
   while (index(problem.pieces.count) < count) {

@@ -15,6 +15,9 @@ namespace seamwire::detail {
 /// rim with many corners needs this: a slit to each corner would be too many. `pieces`: the pieces in which to look.
 std::vector<Slit> rim_cuts(const SlitProblem& problem, std::span<const std::int32_t> pieces);
 
+/// How many pieces the problem's pieces can be parted into at most, with seams wherever they may run.
+std::size_t count_blocks(const SlitProblem& problem);
+
 /// Cuts that part the largest pieces into halves until there are `count` pieces. On a symmetric mesh they are
 /// symmetric, so there may be more. There are fewer pieces only if no seam may run inside of any.
 std::vector<Slit> halving_cuts(SlitProblem problem, std::size_t count, const Task& task);

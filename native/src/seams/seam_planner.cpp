@@ -320,6 +320,7 @@ class Planning {
   }
   const std::vector<GroupProblem>& groups() const { return planner_.groups; }
   void part_limbs(const Task& task);
+  void halve_groups(const Task& task);
   void for_each_group(const Task& task, const std::function<void(std::size_t, const Task&)>& work) const;
   double bound_of_groups() const;
   std::vector<SlitChains> chains() const;
@@ -394,6 +395,32 @@ void Planning::part_limbs(const Task& task) {
     chosen[neck.group].push_back(std::move(neck.ring));
   }
   for (std::size_t g = 0; g < plans_.size(); ++g) plans_[g].part(chosen[g]);
+  halve_groups(task);
+}
+
+/// Cuts into halves, in the group whose pieces are the largest, until there are as many islands as the goal asks for.
+void Planning::halve_groups(const Task& task) {
+  std::vector<std::size_t> counts, most;
+  std::size_t islands = 0;
+  for (std::size_t g = 0; g < plans_.size(); ++g) {
+    counts.push_back(index(plans_[g].piece_count()));
+    most.push_back(plans_[g].most_pieces());
+    islands += groups()[g].places.size() * counts[g];
+  }
+  if (islands >= goal_.islands) return;
+  const auto size = [&](std::size_t g) {
+    return groups()[g].size * groups()[g].size / static_cast<double>(counts[g]);
+  };
+  while (islands < goal_.islands) {
+    std::size_t largest = plans_.size();
+    for (std::size_t g = 0; g < plans_.size(); ++g) {
+      if (counts[g] < most[g] && (largest == plans_.size() || size(g) > size(largest))) largest = g;
+    }
+    if (largest == plans_.size()) break;
+    ++counts[largest];
+    islands += groups()[largest].places.size();
+  }
+  for (std::size_t g = 0; g < plans_.size(); ++g) plans_[g].halve(counts[g], task);
 }
 
 /// Works on small groups at the same time, then on the others one after another.

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <random>
 #include <set>
@@ -318,6 +320,147 @@ TEST(MeasureMap, FindsFlipsAndOverlaps) {
   }
   EXPECT_EQ(measure_map(surface, uvs, std::vector<std::int32_t>(uvs.size(), 0)).overlapping.size(), 1U)
       << "one inside the other";
+}
+
+/// A strip of squares.
+struct Strip {
+  Surface surface;
+  CornerUvs uvs;
+};
+/// Unit squares around a ring of 3 x 3, the ninth on the first, and so on. Their sides to the squares before and after
+/// meet at the corners of the ring.
+Strip around_a_ring(std::size_t count, double angle) {
+  constexpr std::array<std::array<int, 2>, 8> kPlaces{{{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
+  shapes::Mesh mesh;
+  CornerUvs uvs;
+  std::vector<std::map<std::array<int, 2>, std::int32_t>> vertices(count);
+  const Eigen::Rotation2Dd turn(angle);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto [x, y] = kPlaces[i % 8];
+    std::array<std::int32_t, 4> quad{};
+    std::array<Eigen::Vector2d, 4> uv;
+    constexpr std::array<std::array<int, 2>, 4> kCorners{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::array<int, 2> corner{x + kCorners[k][0], y + kCorners[k][1]};
+      // Shared with the square before.
+      if (i > 0 && vertices[i - 1].contains(corner)) {
+        vertices[i][corner] = vertices[i - 1][corner];
+      } else {
+        vertices[i][corner] = static_cast<std::int32_t>(mesh.points.size());
+        mesh.points.emplace_back(corner[0], corner[1], 0.3 * static_cast<double>(i));
+      }
+      quad[k] = vertices[i][corner];
+      uv[k] = turn * Eigen::Vector2d(corner[0], corner[1]);
+    }
+    mesh.triangles.push_back({quad[0], quad[1], quad[2]});
+    uvs.push_back({uv[0], uv[1], uv[2]});
+    mesh.triangles.push_back({quad[0], quad[2], quad[3]});
+    uvs.push_back({uv[0], uv[2], uv[3]});
+  }
+  return {mesh.surface(), uvs};
+}
+
+TEST(MeasureMap, FindsSquaresThatLieOnOthersExactly) {
+  for (const double angle : {0.0, 0.3, 1.0, std::numbers::pi / 4}) {
+    for (const std::size_t count : {4U, 7U, 8U}) {
+      const Strip strip = around_a_ring(count, angle);
+      const std::vector<std::int32_t> islands(strip.uvs.size(), 0);
+      EXPECT_TRUE(measure_map(strip.surface, strip.uvs, islands).overlapping.empty()) << count << ", " << angle;
+    }
+    for (const std::size_t count : {9U, 10U, 11U, 12U, 16U, 17U}) {
+      const Strip strip = around_a_ring(count, angle);
+      const std::vector<std::int32_t> islands(strip.uvs.size(), 0);
+      EXPECT_EQ(measure_map(strip.surface, strip.uvs, islands).overlapping, std::vector<std::int32_t>{0})
+          << count << ", " << angle;
+    }
+  }
+}
+
+/// Separate unit squares at places, and their map to these places.
+struct Squares {
+  Surface surface;
+  CornerUvs uvs;
+};
+Squares squares_at(const std::vector<Eigen::Vector2d>& places, double size = 1.0) {
+  shapes::Mesh mesh;
+  CornerUvs uvs;
+  for (const Eigen::Vector2d& place : places) {
+    const auto v = static_cast<std::int32_t>(mesh.points.size());
+    std::array<Eigen::Vector2d, 4> uv;
+    for (std::size_t k = 0; k < 4; ++k) {
+      uv[k] = place + size * Eigen::Vector2d(k == 1 || k == 2 ? 1.0 : 0.0, k > 1 ? 1.0 : 0.0);
+      mesh.points.emplace_back(uv[k].x(), uv[k].y(), static_cast<double>(v));
+    }
+    mesh.triangles.push_back({v, v + 1, v + 2});
+    uvs.push_back({uv[0], uv[1], uv[2]});
+    mesh.triangles.push_back({v, v + 2, v + 3});
+    uvs.push_back({uv[0], uv[2], uv[3]});
+  }
+  return {mesh.surface(), uvs};
+}
+
+TEST(MeasureMap, IslandsThatTouchDoNotCollide) {
+  std::vector<Eigen::Vector2d> places;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) places.emplace_back(i + 0.5 * (j % 2), j);
+  }
+  const Squares squares = squares_at(places);
+  std::vector<std::int32_t> islands;
+  for (std::int32_t i = 0; i < 36; ++i) islands.insert(islands.end(), {i, i});
+  const MapReport report = measure_map(squares.surface, squares.uvs, islands);
+  EXPECT_TRUE(report.overlapping.empty() && report.colliding.empty());
+  // All as one island.
+  EXPECT_TRUE(measure_map(squares.surface, squares.uvs, std::vector<std::int32_t>(72, 0)).overlapping.empty());
+  // As single precision rounds them.
+  CornerUvs rounded = squares.uvs;
+  for (auto& corners : rounded) {
+    for (Eigen::Vector2d& uv : corners) uv = (Eigen::Rotation2Dd(0.7) * uv / 7.0).cast<float>().cast<double>();
+  }
+  EXPECT_TRUE(measure_map(squares.surface, rounded, islands).colliding.empty());
+}
+
+TEST(MeasureMap, FindsIslandsOnOthers) {
+  struct Case {
+    Eigen::Vector2d place;
+    double size;
+    const char* what;
+  };
+  for (const auto& [place, size, what] :
+       {Case{{0, 0}, 1.0, "exactly on it"}, Case{{0.25, 0.25}, 0.5, "inside it"},
+        Case{{0.5, 0}, 1.0, "half on it, sides in line"}, Case{{0.5, 0.5}, 1.0, "corner in it"},
+        Case{{0, 0}, 0.5, "in its corner"}, Case{{-1, -1}, 3.0, "around it"}, Case{{0.25, 0}, 0.5, "at its side"}}) {
+    for (const double mirror : {1.0, -1.0}) {
+      Squares squares = squares_at({{5, 5}, {0, 0}, {0, 0}, {-4, 0}});
+      for (std::size_t f = 4; f < 6; ++f) {
+        for (Eigen::Vector2d& uv : squares.uvs[f]) {
+          uv = place + size * uv;
+          if (mirror < 0.0) uv.x() = 2 * place.x() + size - uv.x();
+        }
+      }
+      const std::vector<std::int32_t> islands{0, 0, 1, 1, 2, 2, 3, 3};
+      const MapReport report = measure_map(squares.surface, squares.uvs, islands);
+      EXPECT_EQ(report.colliding, (std::vector<std::int32_t>{1, 2})) << what;
+      EXPECT_TRUE(report.overlapping.empty() && report.flipped.empty()) << what;
+      if (mirror < 0.0) continue;
+      const MapReport as_one =
+          measure_map(squares.surface, squares.uvs, std::vector<std::int32_t>{0, 0, 1, 1, 1, 1, 2, 2});
+      EXPECT_EQ(as_one.overlapping, std::vector<std::int32_t>{1}) << what;
+      EXPECT_TRUE(as_one.colliding.empty()) << what;
+    }
+  }
+}
+
+TEST(MeasureMap, AHundredThousandPiecesAreMeasuredAndCanBeCancelled) {
+  std::vector<Eigen::Vector2d> places;
+  for (int i = 0; i < 316; ++i) {
+    for (int j = 0; j < 316; ++j) places.emplace_back(i, j);
+  }
+  const Squares squares = squares_at(places);
+  const std::vector<std::int32_t> islands(squares.uvs.size(), 0);
+  EXPECT_TRUE(measure_map(squares.surface, squares.uvs, islands).overlapping.empty());
+  int asked = 0;
+  const Task task{.stop = {}, .progress = [&](double) { return ++asked < 50; }};
+  EXPECT_THROW(measure_map(squares.surface, squares.uvs, islands, task), Cancelled);
 }
 
 TEST(MeasureMap, SeesThatAMapWindsAroundAVertexTwice) {
