@@ -21,6 +21,9 @@ constexpr std::size_t kMostThreads = 8;
 /// How often the caller is told of the progress, and asked whether to go on.
 constexpr std::chrono::milliseconds kPeriod{20};
 
+/// Whether this thread is one of those of run_on_threads().
+thread_local bool is_working = false;
+
 /// The work of the threads of run_on_threads(): done and left.
 class SharedWork {
  public:
@@ -78,12 +81,20 @@ class SharedWork {
 
 void run_on_threads(std::size_t count, const Task& task, const std::function<double(std::size_t)>& fraction,
                     const std::function<void(std::size_t, const Task&)>& work) {
+  if (is_working) {
+    for (std::size_t i = 0; i < count; ++i) {
+      task.check(fraction(i));
+      work(i, {.stop = task.stop, .progress = {}});
+    }
+    return;
+  }
   std::stop_source stop;
   const std::stop_callback forward(task.stop, [&stop] { stop.request_stop(); });
   const std::size_t cores = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, kMostThreads);
   const std::size_t thread_count = std::min(cores, count);
   SharedWork shared(count, thread_count);
   const auto run = [&] {
+    is_working = true;
     while (const std::optional<std::size_t> i = shared.take()) {
       std::exception_ptr thrown;
       try {

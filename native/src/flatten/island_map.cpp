@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "flatten/island_map.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -37,6 +38,8 @@ constexpr double kTouchingPart = 1e-3, kPartedBy = 0.02;
 /// Crossings not deeper than this, in the unit of maps, come from the two sides of a slit that is closed in the map.
 /// measure_map() ignores crossings of twice that depth.
 constexpr double kTouchingDepth = 5e-7;
+/// The projection to a plane is a start if its energy is below this: the island is flat.
+constexpr double kFlatEnergy = 4.01;
 /// Added to the matrix's diagonal, as a part of its mean: the energy does not change with translations.
 constexpr double kLeastRegularization = 1e-9;
 
@@ -90,6 +93,21 @@ class Problem {
   std::span<const TriangleBlocks> blocks() const { return blocks_; }
   std::size_t vertex_count() const { return island_.vertices.size(); }
 
+  /// The projection to the plane that an island lies in; empty if the island is not flat.
+  std::vector<double> projection(const Task& task) const {
+    Vector normal = Vector::Zero();
+    for (const auto& [a, b, c] : island_.triangles) normal += (point(b) - point(a)).cross(point(c) - point(a));
+    if (!(normal.norm() > 0.0)) return {};
+    normal.normalize();
+    const Vector along = normal.unitOrthogonal(), across = normal.cross(along);
+    std::vector<double> map;
+    map.reserve(2 * local_.points.size());
+    for (const Vector& p : local_.points) {
+      for (const Vector* axis : {&along, &across}) map.push_back(p.dot(*axis) / energy_.unit());
+    }
+    const bool is_flat = energy_.energy(map) < kFlatEnergy && !outline_->covers_twice(map, kTouchingDepth, task);
+    return is_flat ? map : std::vector<double>{};
+  }
   /// The better one of Tutte's embeddings on a circle and, for a long island, on a rectangle.
   std::vector<double> tutte(const Task& task) {
     TutteOutline outline{.outer = outer_, .area = energy_.area()};
@@ -128,6 +146,8 @@ class Problem {
   }
 
  private:
+  const Vector& point(std::int32_t v) const { return local_.points[index(v)]; }
+
   double length_of(const std::vector<std::int32_t>& loop) const {
     double length = 0.0;
     for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -396,7 +416,8 @@ IslandMap minimize(Problem& problem, const std::vector<double>& start, bool may_
 IslandMap map_island(const Island& island, std::span<const Vector> points, const MapOptions& options,
                      const Task& task) {
   Problem problem(island, points, task);
-  const std::vector<double> start = problem.tutte(task);
+  std::vector<double> start = problem.projection(task);
+  if (start.empty()) start = problem.tutte(task);
   if (start.empty())
     return {.uvs = {}, .energy = std::numeric_limits<double>::infinity(), .overlaps = false, .steps = 0};
   return minimize(problem, start, true, options, task);

@@ -2,8 +2,9 @@
 #include "seams/planned_wires.hpp"
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 #include <limits>
-#include <map>
 #include <set>
 #include <utility>
 
@@ -12,10 +13,11 @@
 namespace seamwire::detail {
 namespace {
 
-constexpr double kNearSlit = 0.04;  // wires across a surface of area 1 stay as near as this to their slits
+/// Wires across a surface of area 1 stay as near as this to their slits, by closeness.
+constexpr std::array<double, SlitChains::kClosest> kNearSlit = {0.04, 0.015};
 constexpr double kStraight = 0.1;   // seeds along edges are where a slit bends by more than this
 
-using Chain = PlannedWires::Chain;
+using Chain = SlitChains::Chain;
 
 double distance_to(const Vector& point, const Vector& a, const Vector& b) {
   const Vector along = b - a;
@@ -44,94 +46,108 @@ std::pair<Chain, Chain> split(const Chain& chain, std::size_t at) {
   return {Chain(chain.begin(), middle + 1), Chain(middle, chain.end())};
 }
 
-/// The chains of slits, split at the vertices where other slits start.
-std::vector<Chain> sections(std::span<const Slit> slits) {
-  std::set<std::int32_t> starts;
-  std::vector<Chain> chains;
-  for (const Slit& slit : slits) {
-    for (const Chain* chain : {&slit.path, &slit.image}) {
-      if (chain->size() < 2) continue;
-      starts.insert(chain->front());
-      chains.push_back(*chain);
-    }
-  }
-  std::vector<Chain> found;
-  for (const Chain& chain : chains) {
-    std::size_t begin = 0;
-    for (std::size_t i = 1; i < chain.size(); ++i) {
-      if (i + 1 < chain.size() && !starts.contains(chain[i])) continue;
-      found.emplace_back(chain.begin() + static_cast<std::ptrdiff_t>(begin),
-                         chain.begin() + static_cast<std::ptrdiff_t>(i) + 1);
-      begin = i;
-    }
-  }
-  return found;
-}
-
 /// Splits a chain where it bends away from the straight line between its ends (Douglas and Peucker 1973).
-void add_straight(const PlanMesh& mesh, const Chain& chain, std::vector<Chain>& found) {
+void add_straight(const PlanMesh& mesh, const Chain& chain, double most_away, std::vector<Chain>& found) {
   const std::vector<Vector> line = {mesh.points[chain.front()], mesh.points[chain.back()]};
   const auto [at, distance] = farthest_from(mesh, chain, line);
-  if (distance <= kStraight) {
+  if (distance <= most_away) {
     found.push_back(chain);
     return;
   }
   const auto [one, other] = split(chain, at);
-  add_straight(mesh, one, found);
-  add_straight(mesh, other, found);
+  add_straight(mesh, one, most_away, found);
+  add_straight(mesh, other, most_away, found);
 }
 
 }  // namespace
+
+SlitChains::SlitChains(std::span<const Slit> slits) {
+  std::set<std::int32_t> starts;
+  std::vector<const Chain*> whole;
+  for (const Slit& slit : slits) {
+    for (const Chain* chain : {&slit.path, &slit.image}) {
+      if (chain->size() < 2) continue;
+      starts.insert(chain->front());
+      whole.push_back(chain);
+    }
+  }
+  for (const Chain* chain : whole) {
+    std::size_t begin = 0;
+    for (std::size_t i = 1; i < chain->size(); ++i) {
+      if (i + 1 < chain->size() && !starts.contains((*chain)[i])) continue;
+      chains.emplace_back(chain->begin() + static_cast<std::ptrdiff_t>(begin),
+                          chain->begin() + static_cast<std::ptrdiff_t>(i) + 1);
+      begin = i;
+    }
+  }
+}
 
 PlannedWires::PlannedWires(const SurfaceContext& context, Along along, const Strength& strength, const Task& task)
     : surface_(context.surface(task)) {
   if (along == Along::kSurface) across_ = std::make_unique<const CandidateWires>(context, strength, task);
 }
 
-std::vector<PlannedWire> PlannedWires::along(const SlitProblem& problem, std::span<const Slit> slits,
-                                             const Task& task) const {
-  return across_ ? across_surface(problem.mesh, sections(slits), task) : along_edges(problem.mesh, sections(slits));
+PlannedWire PlannedWires::along_edges(const PlanMesh& mesh, const Chain& chain) const {
+  PlannedWire wire;
+  wire.from = mesh.sources[chain.front()];
+  wire.to = mesh.sources[chain.back()];
+  for (std::size_t i = 0; i < chain.size(); ++i) {
+    wire.vertices.push_back(mesh.sources[chain[i]]);
+    wire.points.push_back(surface_->points()[mesh.sources[chain[i]]]);
+    if (!across_ || i == 0) continue;
+    const std::int32_t edge = mesh.edge_between(chain[i - 1], chain[i]);
+    wire.faces.push_back(edge < 0 ? -1 : mesh.faces[mesh.half_edge_of[edge] / 3]);
+  }
+  return wire;
 }
 
-std::vector<PlannedWire> PlannedWires::along_edges(const PlanMesh& mesh, const std::vector<Chain>& sections) const {
-  std::vector<Chain> chains;
-  for (const Chain& section : sections) add_straight(mesh, section, chains);
+std::vector<PlannedWire> PlannedWires::along_edges(const PlanMesh& mesh, const SlitChains& slits) const {
+  std::vector<Chain> straight;
+  for (const Chain& chain : slits.chains) add_straight(mesh, chain, kStraight * slits.size, straight);
   std::vector<PlannedWire> wires;
-  for (const Chain& chain : chains) {
-    PlannedWire wire;
-    wire.from = mesh.sources[chain.front()];
-    wire.to = mesh.sources[chain.back()];
-    for (const std::int32_t v : chain) {
-      wire.vertices.push_back(mesh.sources[v]);
-      wire.points.push_back(surface_->points()[mesh.sources[v]]);
-    }
-    wires.push_back(std::move(wire));
-  }
+  wires.reserve(straight.size());
+  for (const Chain& chain : straight) wires.push_back(along_edges(mesh, chain));
   return wires;
 }
 
-std::vector<PlannedWire> PlannedWires::across_surface(const PlanMesh& mesh, std::vector<Chain> chains,
-                                                      const Task& task) const {
+std::vector<PlannedWire> PlannedWires::along(const PlanMesh& mesh, std::span<const SlitChains> slits,
+                                             const Task& task) const {
+  struct Open {
+    Chain chain;
+    double most_away;
+  };
   std::vector<PlannedWire> wires;
-  while (!chains.empty()) {
+  std::vector<Open> open;
+  for (const SlitChains& own : slits) {
+    if (!across_ || own.closeness >= SlitChains::kClosest) {
+      std::ranges::move(along_edges(mesh, own), std::back_inserter(wires));
+      continue;
+    }
+    for (const Chain& chain : own.chains) open.push_back({chain, kNearSlit[index(own.closeness)] * own.size});
+  }
+  while (!open.empty()) {
     std::vector<CandidateWires::Ends> ends;
-    ends.reserve(chains.size());
-    for (const Chain& chain : chains) ends.push_back({mesh.sources[chain.front()], mesh.sources[chain.back()]});
+    ends.reserve(open.size());
+    for (const Open& one : open) ends.push_back({mesh.sources[one.chain.front()], mesh.sources[one.chain.back()]});
     std::vector<CandidateWire> found = across_->find(ends, task);
-    std::vector<Chain> again;
-    for (std::size_t i = 0; i < chains.size(); ++i) {
+    std::vector<Open> again;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      const auto& [chain, most_away] = open[i];
       CandidateWire& one = found[i];
       std::vector<Vector> line;
       line.reserve(one.points.size());
       for (const Vector& point : one.points) line.push_back(mesh.scale * point);
-      const auto [at, distance] = farthest_from(mesh, chains[i], line);
-      if (chains[i].size() > 2 && (one.vertices.empty() || distance > kNearSlit)) {
-        auto [first, second] = split(chains[i], at > 0 ? at : chains[i].size() / 2);
-        again.push_back(std::move(first));
-        again.push_back(std::move(second));
+      const auto [at, distance] = farthest_from(mesh, chain, line);
+      if (chain.size() > 2 && (one.vertices.empty() || distance > most_away)) {
+        auto [first, second] = split(chain, at > 0 ? at : chain.size() / 2);
+        again.push_back({std::move(first), most_away});
+        again.push_back({std::move(second), most_away});
         continue;
       }
-      if (one.vertices.empty()) continue;
+      if (one.vertices.empty()) {
+        wires.push_back(along_edges(mesh, chain));
+        continue;
+      }
       wires.push_back({.from = ends[i].from,
                        .to = ends[i].to,
                        .follow = one.follow,
@@ -139,7 +155,7 @@ std::vector<PlannedWire> PlannedWires::across_surface(const PlanMesh& mesh, std:
                        .points = std::move(one.points),
                        .faces = std::move(one.faces)});
     }
-    chains = std::move(again);
+    open = std::move(again);
   }
   return wires;
 }

@@ -12,21 +12,36 @@
 
 namespace seamwire::detail {
 
+/// Slits as chains between the vertices where slits meet and end.
+struct SlitChains {
+  using Chain = std::vector<std::int32_t>;  ///< vertices joined by edges
+
+  explicit SlitChains(std::span<const Slit> slits = {});
+
+  std::vector<Chain> chains;
+  double size = 1.0;  ///< the root of the share of the surface's area that these slits cut
+  /// How near wires across the surface stay to the slits. Wires at kClosest run along the slits' edges.
+  int closeness = 0;
+  static constexpr int kClosest = 2;
+};
+
 /// Makes wires of slits: between seeds where slits meet, end, and bend.
 class PlannedWires {
  public:
-  using Chain = std::vector<std::int32_t>;  ///< vertices joined by edges
-
   /// Prepares the metrics of wires across the surface. Throws InvalidInput for a strength; Cancelled.
   PlannedWires(const SurfaceContext& context, Along along, const Strength& strength, const Task& task);
 
+  bool are_across() const { return across_ != nullptr; }
   /// Along edges, wires are the slits. Across the surface, they are the shortest curves between seeds of the slits,
-  /// with as many seeds as it takes to stay near them. Throws Cancelled.
-  std::vector<PlannedWire> along(const SlitProblem& problem, std::span<const Slit> slits, const Task& task) const;
+  /// with as many seeds as it takes to stay near them. Where no such curve exists, they run along the slits' edges.
+  /// `mesh`: of the whole surface. Throws Cancelled.
+  std::vector<PlannedWire> along(const PlanMesh& mesh, std::span<const SlitChains> slits, const Task& task) const;
 
  private:
-  std::vector<PlannedWire> along_edges(const PlanMesh& mesh, const std::vector<Chain>& sections) const;
-  std::vector<PlannedWire> across_surface(const PlanMesh& mesh, std::vector<Chain> chains, const Task& task) const;
+  using Chain = SlitChains::Chain;
+
+  PlannedWire along_edges(const PlanMesh& mesh, const Chain& chain) const;
+  std::vector<PlannedWire> along_edges(const PlanMesh& mesh, const SlitChains& slits) const;
 
   std::shared_ptr<const Surface> surface_;
   std::unique_ptr<const CandidateWires> across_;  // null along edges

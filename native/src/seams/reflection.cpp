@@ -6,7 +6,8 @@
 #include <cmath>
 
 #include "detail/index.hpp"
-#include "seams/point_grid.hpp"
+#include "detail/poll.hpp"
+#include "seams/point_tree.hpp"
 
 namespace seamwire::detail {
 namespace {
@@ -30,22 +31,39 @@ bool maps_edges(const PlanMesh& mesh, const Reflection& reflection) {
   return static_cast<double>(mapped) >= kNearlyAll * static_cast<double>(mesh.edge_count());
 }
 
-/// The reflection in one plane.
-std::optional<Reflection> reflection_at(const PlanMesh& mesh, int axis, double offset, double diagonal) {
+Eigen::AlignedBox3d box_of(const PlanMesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const Vector& point : mesh.points) box.extend(point);
+  return box;
+}
+
+}  // namespace
+
+double diagonal_of(const PlanMesh& mesh) {
+  const Eigen::AlignedBox3d box = box_of(mesh);
+  return box.isEmpty() ? 0.0 : box.diagonal().norm();
+}
+
+std::optional<Reflection> reflection_in(const PlanMesh& mesh, int axis, double offset, double diagonal,
+                                        const Task& task) {
   const std::vector<FaceFrame> frames = face_frames(mesh);
   const std::vector<double> areas = vertex_areas(mesh, frames);
   const std::vector<Vector> normals = vertex_normals(mesh, frames);
+  task.check(0.0);
   // On coarse meshes the nearest vertex may be far along the surface, though the surface is near.
-  const PointGrid grid(mesh.points, std::max(kNear * diagonal, kSpacing * median_length(mesh)));
+  const PointTree tree(mesh.points, task);
+  const double radius = std::max(kNear * diagonal, kSpacing * median_length(mesh));
   const auto surface_distance = [&](std::int32_t v, const Vector& point) {
     const Vector away = point - mesh.points[v];
     return normals[v].isZero() ? away.norm() : std::min(away.norm(), std::abs(away.dot(normals[v])));
   };
   Reflection found{.axis = axis, .offset = offset, .images = {}, .sides = {}};
   double corresponding = 0.0, total = 0.0;
+  const Poll poll(task, 0.0, 1.0, mesh.vertex_count());
   for (std::int32_t v = 0; index(v) < mesh.vertex_count(); ++v) {
+    poll.at(index(v));
     const Vector image = found.mirrored(mesh.points[v]);
-    std::int32_t nearest = grid.nearest(image);
+    std::int32_t nearest = tree.nearest(image, radius).point;
     if (nearest >= 0 && surface_distance(nearest, image) > kNear * diagonal) nearest = -1;
     found.images.push_back(nearest);
     total += areas[v];
@@ -58,15 +76,11 @@ std::optional<Reflection> reflection_at(const PlanMesh& mesh, int axis, double o
   return found;
 }
 
-}  // namespace
-
-std::optional<Reflection> find_reflection(const PlanMesh& mesh, int axis) {
-  Eigen::AlignedBox3d box;
-  for (const Vector& point : mesh.points) box.extend(point);
-  const double diagonal = box.isEmpty() ? 0.0 : box.diagonal().norm();
+std::optional<Reflection> find_reflection(const PlanMesh& mesh, int axis, const Task& task) {
+  const double diagonal = diagonal_of(mesh);
   if (!(diagonal > 0.0)) return std::nullopt;
-  std::optional<Reflection> found = reflection_at(mesh, axis, 0.0, diagonal);
-  return found ? found : reflection_at(mesh, axis, box.center()[axis], diagonal);
+  std::optional<Reflection> found = reflection_in(mesh, axis, 0.0, diagonal, task);
+  return found ? found : reflection_in(mesh, axis, box_of(mesh).center()[axis], diagonal, task);
 }
 
 }  // namespace seamwire::detail

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "seams/plan_mesh.hpp"
+#include "seamwire/task.hpp"
 
 namespace seamwire::detail {
 
@@ -29,7 +30,15 @@ struct Reflection {
 };
 
 /// The reflection in the plane through the origin whose normal is an axis, or in the one through the middle of the
-/// mesh; nullopt if the mesh has no such symmetry.
-std::optional<Reflection> find_reflection(const PlanMesh& mesh, int axis);
+/// mesh; nullopt if the mesh has no such symmetry. Throws Cancelled.
+std::optional<Reflection> find_reflection(const PlanMesh& mesh, int axis, const Task& task = {});
+
+/// The reflection in a plane that is known; nullopt if the mesh is not symmetric there. `diagonal`: of the shape whose
+/// size decides what counts as near. Throws Cancelled.
+std::optional<Reflection> reflection_in(const PlanMesh& mesh, int axis, double offset, double diagonal,
+                                        const Task& task = {});
+
+/// The diagonal of the box around a mesh; 0 without vertices.
+double diagonal_of(const PlanMesh& mesh);
 
 }  // namespace seamwire::detail

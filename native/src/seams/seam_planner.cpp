@@ -8,16 +8,15 @@
 #include <numeric>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <utility>
 
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
-#include "seams/carried_slits.hpp"
-#include "seams/neck_rings.hpp"
+#include "detail/run_on_threads.hpp"
+#include "seams/group_planning.hpp"
+#include "seams/piece_groups.hpp"
 #include "seams/planned_wires.hpp"
-#include "seams/simplified_mesh.hpp"
-#include "seams/slit_search.hpp"
-#include "seams/slit_solver.hpp"
 #include "seams/visibility.hpp"
 #include "seamwire/seams/missing_cuts.hpp"
 #include "seamwire/surface/segments.hpp"
@@ -29,16 +28,14 @@ using namespace detail;
 
 namespace {
 
-/// A mesh with more triangles is planned on a simplified one with about so many.
-constexpr std::size_t kMostTriangles = 9000, kSimplified = 7000;
+/// A surface with more triangles is planned on simplified meshes, all of them together with about so many. Each group
+/// has at least the third number, if it is not smaller itself.
+constexpr std::size_t kMostTriangles = 9000, kSimplified = 7000, kLeastSimplified = 600;
+/// Groups with fewer triangles are planned at the same time, on one thread each.
+constexpr std::size_t kSmallGroup = 600;
 /// Faces may be cut for a bound on the energy below this.
 constexpr double kLowStretch = 4.15;
 constexpr double kBudget = 4000.0;
-/// How often planning is repeated because the original mesh distorts more than the simplified one.
-constexpr int kRounds = 2;
-constexpr double kNearBound = 0.02;  // a map whose energy is this far below the bound may have too many seams
-constexpr double kMargin = 3e-3;
-constexpr double kLaterBudget = 0.5;  // of a repetition, as a share of the one before
 
 void check_options(const Surface& surface, const SeamPlannerOptions& options) {
   check_strength(options.strength);
@@ -103,19 +100,19 @@ struct SeamPlanner::Impl {
   SurfaceContext context;
   std::shared_ptr<const Surface> surface;
   SeamPlannerOptions options;
-  SlitProblem original;
-  std::optional<SimplifiedMesh> simplified_mesh;  // of the original, if that is large
-  SlitProblem simple;                             // on that
+  PlanMesh whole;  // empty if one group is the whole surface
+  std::vector<GroupProblem> groups;
   std::unique_ptr<const PlannedWires> wires;
 
-  bool is_simplified() const { return simplified_mesh.has_value(); }
-  const SlitProblem& searched() const { return is_simplified() ? simple : original; }
+  /// The mesh of the whole surface.
+  const PlanMesh& mesh() const { return whole.triangles.empty() && !groups.empty() ? groups.front().original.mesh : whole; }
 
   void prepare(const Task& task);
+  void find_meshes(const Task& task);
+  Visibility visibility_of_all(const Task& task) const;
+  void find_prices_of_all(const Visibility& visibility);
+  void join_copies();
   std::vector<double> weights_of(const PlanMesh& mesh) const;
-  SeamPlan seam_plan(std::span<const Slit> slits, const SlitPlan& planned, const SeamGoal& goal,
-                     const Task& task) const;
-  void add_map(SeamPlan& plan, const SlitPlan& solved, const SeamGoal& goal) const;
 };
 
 std::vector<double> SeamPlanner::Impl::weights_of(const PlanMesh& mesh) const {
@@ -126,31 +123,120 @@ std::vector<double> SeamPlanner::Impl::weights_of(const PlanMesh& mesh) const {
 }
 
 void SeamPlanner::Impl::prepare(const Task& task) {
-  original.mesh = plan_mesh(*surface);
-  original.is_seam = marked_edges(original.mesh, options.seams);
-  if (options.mirror >= 0) original.reflection = find_reflection(original.mesh, options.mirror);
-  if (original.mesh.face_count() > kMostTriangles) {
-    simplified_mesh = simplified(original.mesh, original.is_seam, original.mirror(), kSimplified, task);
-    simple.mesh = simplified_mesh->mesh;
-    simple.is_seam = simplified_mesh->is_seam;
-    if (original.reflection) simple.reflection = find_reflection(simple.mesh, options.mirror);
-  }
-  const PlanMesh& mesh = searched().mesh;
-  Visibility visibility = find_visibility(mesh, options.front, task);
-  if (is_simplified()) {
-    simple.prices = find_prices(mesh, visibility, simple.reflection, weights_of(mesh));
-    const std::vector<std::int32_t> nearest = nearest_of(original.mesh, simplified_mesh->vertices);
-    Visibility all;
-    for (const std::int32_t v : nearest) {
-      all.ambient.push_back(v < 0 ? 0.0 : visibility.ambient[v]);
-      if (options.front) all.front.push_back(v < 0 ? 0.0 : visibility.front[v]);
+  const double meshes_end = (options.along == Along::kSurface) ? 0.25 : 0.5;
+  find_meshes(part_of(task, 0.0, meshes_end));
+  find_prices_of_all(visibility_of_all(part_of(task, meshes_end, 2.0 * meshes_end)));
+  join_copies();
+  wires = std::make_unique<const PlannedWires>(context, options.along, options.strength,
+                                               part_of(task, 2.0 * meshes_end, 1.0));
+}
+
+/// Finds the groups and their meshes.
+void SeamPlanner::Impl::find_meshes(const Task& task) {
+  whole = plan_mesh(*surface);
+  std::vector<std::uint8_t> is_seam = marked_edges(whole, options.seams);
+  std::optional<Reflection> reflection;
+  if (options.mirror >= 0) reflection = find_reflection(whole, options.mirror, part_of(task, 0.0, 0.2));
+  MeshParts parts(whole, is_seam, surface->edges());
+  std::vector<PieceGroup> found =
+      find_groups(whole, is_seam, reflection ? &*reflection : nullptr, parts, part_of(task, 0.2, 0.3));
+  const std::size_t all = whole.face_count();
+  std::size_t done = 0;
+  for (PieceGroup& piece_group : found) {
+    GroupProblem& group = groups.emplace_back();
+    const std::size_t count = piece_group.faces.size();
+    group.original.reflection = std::move(piece_group.reflection);
+    if (found.size() == 1) {
+      std::vector<std::int32_t> vertices(whole.vertex_count());
+      std::iota(vertices.begin(), vertices.end(), 0);
+      group.places.push_back({std::move(vertices), std::move(piece_group.faces)});
+      group.original.mesh = std::move(whole);
+      group.original.is_seam = std::move(is_seam);
+      whole = {};
+    } else {
+      MeshPart part = parts.part(piece_group.faces);
+      group.size = part.size;
+      group.places.push_back({std::move(part.vertices), std::move(piece_group.faces)});
+      group.original.mesh = std::move(part.mesh);
+      group.original.is_seam = std::move(part.is_seam);
     }
-    visibility = std::move(all);
+    const Task own = part_of(task, 0.3 + 0.7 * static_cast<double>(done) / static_cast<double>(all),
+                             0.3 + 0.7 * static_cast<double>(done + count) / static_cast<double>(all));
+    done += count;
+    const std::size_t wanted = std::max(kSimplified * count / all, kLeastSimplified);
+    if (all <= kMostTriangles || count * kSimplified <= wanted * kMostTriangles) continue;
+    SlitProblem& original = group.original;
+    group.simplified_mesh = simplified(original.mesh, original.is_seam, original.mirror(), wanted, own);
+    group.simple.mesh = group.simplified_mesh->mesh;
+    group.simple.is_seam = group.simplified_mesh->is_seam;
+    if (original.reflection) {
+      group.simple.reflection = reflection_in(group.simple.mesh, options.mirror, original.reflection->offset,
+                                              diagonal_of(group.simple.mesh), own);
+    }
   }
-  original.prices = find_prices(original.mesh, visibility, original.reflection, weights_of(original.mesh));
-  find_pieces_of(original);
-  if (is_simplified()) find_pieces_of(simple);
-  wires = std::make_unique<const PlannedWires>(context, options.along, options.strength, task);
+}
+
+/// The visibility of the vertices of the meshes of all groups on which seams are searched, one after another.
+Visibility SeamPlanner::Impl::visibility_of_all(const Task& task) const {
+  if (groups.size() == 1) return find_visibility(groups.front().searched().mesh, options.front, task);
+  PlanMesh all;
+  for (const GroupProblem& group : groups) {
+    const auto first = static_cast<std::int32_t>(all.points.size());
+    const PlanMesh& own = group.searched().mesh;
+    for (const Vector& point : own.points) all.points.push_back(group.size * point);
+    for (const auto& [a, b, c] : own.triangles) all.triangles.push_back({first + a, first + b, first + c});
+  }
+  return find_visibility(all, options.front, task);
+}
+
+void SeamPlanner::Impl::find_prices_of_all(const Visibility& visibility) {
+  std::size_t begin = 0;
+  const auto part = [&](const std::vector<double>& values, std::size_t count) {
+    const auto first = values.begin() + static_cast<std::ptrdiff_t>(begin);
+    return values.empty() ? values : std::vector<double>(first, first + static_cast<std::ptrdiff_t>(count));
+  };
+  for (GroupProblem& group : groups) {
+    const PlanMesh& mesh = group.searched().mesh;
+    Visibility own{.front = part(visibility.front, mesh.vertex_count()),
+                   .ambient = part(visibility.ambient, mesh.vertex_count())};
+    begin += mesh.vertex_count();
+    SlitProblem& original = group.original;
+    if (group.simplified_mesh) {
+      group.simple.prices = find_prices(mesh, own, group.simple.reflection, weights_of(mesh));
+      Visibility all;
+      for (const std::int32_t v : nearest_of(original.mesh, group.simplified_mesh->vertices)) {
+        all.ambient.push_back(v < 0 ? 0.0 : own.ambient[v]);
+        if (options.front) all.front.push_back(v < 0 ? 0.0 : own.front[v]);
+      }
+      own = std::move(all);
+    }
+    original.prices = find_prices(original.mesh, own, original.reflection, weights_of(original.mesh));
+  }
+}
+
+/// Makes one group of those that are alike, and finds the pieces of each.
+void SeamPlanner::Impl::join_copies() {
+  constexpr double kSameSize = 1e-6;
+  const auto is_same_size = [](double one, double other) { return std::abs(one - other) <= kSameSize * one; };
+  std::unordered_map<std::uint64_t, std::vector<std::size_t>> by_likeness;
+  std::vector<GroupProblem> joined;
+  for (GroupProblem& group : groups) {
+    std::vector<std::size_t>& candidates = by_likeness[groups.size() > 1 ? likeness(group.original) : 0];
+    const auto like = std::ranges::find_if(candidates, [&](std::size_t other) {
+      return is_same_size(joined[other].size, group.size) && are_alike(joined[other].original, group.original);
+    });
+    if (like != candidates.end()) {
+      joined[*like].places.push_back(std::move(group.places.front()));
+      continue;
+    }
+    candidates.push_back(joined.size());
+    joined.push_back(std::move(group));
+  }
+  groups = std::move(joined);
+  for (GroupProblem& group : groups) {
+    find_pieces_of(group.original);
+    if (group.simplified_mesh) find_pieces_of(group.simple);
+  }
 }
 
 /// Chains of edges across which triangles cannot be oriented alike. A one-sided surface is cut open there.
@@ -185,56 +271,6 @@ std::vector<std::vector<std::int32_t>> one_sided_chains(const Surface& surface, 
   return chains;
 }
 
-SeamPlan SeamPlanner::Impl::seam_plan(std::span<const Slit> slits, const SlitPlan& planned, const SeamGoal& goal,
-                                      const Task& task) const {
-  SeamPlan plan;
-  plan.wires = wires->along(original, slits, task);
-  for (const std::vector<std::int32_t>& chain : one_sided_chains(*surface, options.seams)) {
-    PlannedWire wire;
-    wire.vertices = chain;
-    wire.from = chain.front();
-    wire.to = chain.back();
-    for (const std::int32_t v : chain) wire.points.push_back(surface->points()[v]);
-    plan.wires.push_back(std::move(wire));
-  }
-  plan.cost = planned.price;
-  plan.energy = planned.energy;
-  plan.is_reached = std::isfinite(planned.energy) && planned.energy <= goal.distortion && !planned.overlaps;
-  std::vector<Edge> cuts = options.seams;
-  for (const PlannedWire& wire : plan.wires) {
-    for (std::size_t i = 1; i < wire.vertices.size(); ++i) cuts.push_back({wire.vertices[i - 1], wire.vertices[i]});
-  }
-  plan.islands = face_segments(*surface, cuts);
-  for (const std::int32_t missing : missing_cuts(*surface, cuts, plan.islands)) {
-    ++plan.island_count;
-    plan.not_discs += missing > 0 ? 1 : 0;
-  }
-  return plan;
-}
-
-/// Adds the map and the energy that measure_map() reports. measure_map() scales the map first; the search does not.
-void SeamPlanner::Impl::add_map(SeamPlan& plan, const SlitPlan& solved, const SeamGoal& goal) const {
-  const Point2 none = Point2::Zero();
-  plan.uvs.assign(surface->face_count(), {none, none, none});
-  for (const auto& map : solved.maps) {
-    if (!map) continue;
-    for (std::size_t k = 0; k < map->island.triangles.size(); ++k) {
-      const std::int32_t face = original.mesh.faces[map->island.faces[k]];
-      for (const std::int32_t own : map->island.triangles[k]) {
-        // The triangle may be turned over.
-        const std::int32_t vertex = original.mesh.sources[map->island.vertices[own]];
-        const auto corner = std::ranges::find(surface->triangles()[face], vertex) - surface->triangles()[face].begin();
-        plan.uvs[face][static_cast<std::size_t>(corner)] = map->map.uvs[own] / original.mesh.scale;
-      }
-    }
-  }
-  const bool is_whole =
-      std::ranges::all_of(original.by_piece, [](const SlitProblem::Piece& piece) { return piece.may_be_cut; });
-  if (!std::isfinite(plan.energy) || !is_whole) return;
-  plan.energy = measure_map(*surface, plan.uvs, plan.islands).energy;
-  plan.is_reached = plan.energy <= goal.distortion && !solved.overlaps;
-}
-
 SeamPlanner::SeamPlanner(std::shared_ptr<const Surface> surface, const SeamPlannerOptions& options, const Task& task)
     : SeamPlanner(SurfaceContext(std::move(surface)), options, task) {}
 
@@ -246,109 +282,365 @@ SeamPlanner::SeamPlanner(const SurfaceContext& context, const SeamPlannerOptions
   impl_ = std::move(impl);
 }
 
+/// The edges that are cut: seams, and those that a plan's wires run along.
+std::vector<Edge> cuts_of(const SeamPlan& plan, std::vector<Edge> seams) {
+  for (const PlannedWire& wire : plan.wires) {
+    for (std::size_t i = 1; i < wire.vertices.size(); ++i) seams.push_back({wire.vertices[i - 1], wire.vertices[i]});
+  }
+  return seams;
+}
+
 /// One call of SeamPlanner::plan().
 class Planning {
  public:
   Planning(const SeamPlanner::Impl& planner, const SeamGoal& goal, const std::function<void(const SeamPlan&)>& found,
-           const Task& task)
-      : planner_(planner), goal_(goal), found_(found), task_(task), problem_(planner.searched()) {
-    part_limbs();
-  }
+           const Task& task);
 
   SeamPlan run() {
+    part_limbs(part_of(task_, 0.0, kLimbsEnd));
     const bool is_bounded = std::isfinite(goal_.distortion);
-    SlitTree tree = grow_tree(problem_, is_bounded, task_);
-    const std::vector<std::int32_t> roots = tree.roots;
-    SlitGoal aim;
-    aim.energy = goal_.distortion;
-    aim.may_cross_faces = (goal_.distortion < kLowStretch);
-    aim.budget = (goal_.steps > 0) ? static_cast<double>(goal_.steps) : kBudget;
-    std::vector<Slit> best_slits;
-    SlitPlan best;
-    double steps = 0.0;
-    for (int round = 0;; ++round) {
-      const auto tell = [&](const SlitPlan& plan) {
-        if (found_ && round == 0) found_(planner_.seam_plan(on_original(plan.slits), plan, goal_, task_));
-      };
-      const SlitPlan plan = search_slits(problem_, {std::move(tree.slits), roots}, aim, tell, task_);
-      steps += plan.work;
-      std::vector<Slit> slits = on_original(plan.slits);
-      SlitPlan solved = solved_on_original(slits);
-      // The simplified mesh distorts less or more than the original one. The bound is moved by as much.
-      const double excess = solved.energy - goal_.distortion;
-      const bool is_near = excess <= 0.0 && (excess > -kNearBound || plan.slits.empty());
-      if (round == 0 || rank(solved) < rank(best)) {
-        best = std::move(solved);
-        best_slits = std::move(slits);
-      }
-      const double energy = plan.energy - excess - kMargin;
-      const bool is_last = !planner_.is_simplified() || !is_bounded || round == kRounds || is_near ||
-                           plan.energy > aim.energy || !(energy > 4.0);
-      if (is_last) break;
-      aim.energy = energy;
-      aim.budget *= kLaterBudget;
-      tree.slits = plan.slits;
-    }
-    SeamPlan result = planner_.seam_plan(best_slits, best, goal_, task_);
-    result.steps = steps;
-    planner_.add_map(result, best, goal_);
-    return result;
+    for_each_group(part_of(task_, kLimbsEnd, kTreesEnd),
+                   [&](std::size_t g, const Task& own) { plans_[g].grow(is_bounded, own); });
+    tell();
+    bound_ = bound_of_groups();
+    const SlitGoal aim{.energy = bound_,
+                       .may_cross_faces = goal_.distortion < kLowStretch,
+                       .budget = goal_.steps > 0 ? static_cast<double>(goal_.steps) : kBudget};
+    for_each_group(part_of(task_, kTreesEnd, kSearchEnd), [&](std::size_t g, const Task& own) {
+      plans_[g].search(aim, is_small(g) ? std::function<void()>() : [&] { tell(); }, own);
+    });
+    return finished(part_of(task_, kSearchEnd, 1.0));
   }
 
  private:
-  /// Which of two plans on the original mesh is better: the cheaper one within the bound, or else the one with less
-  /// energy.
-  std::pair<double, double> rank(const SlitPlan& solved) const {
-    const bool is_within = solved.energy <= goal_.distortion && !solved.overlaps;
-    return is_within ? std::pair(0.0, solved.price) : std::pair(1.0, solved.energy);
-  }
+  static constexpr double kLimbsEnd = 0.02, kTreesEnd = 0.06, kSearchEnd = 0.93;  // shares of all work
 
-  /// Cuts around limbs at their necks, as many as the goal asks for.
-  void part_limbs() {
-    auto islands = index(problem_.pieces.count);
-    if (!goal_.parts && goal_.islands <= islands) return;
-    for (const NeckRing& ring : find_necks(problem_, task_)) {
-      if (!goal_.parts && islands >= goal_.islands) break;
-      islands += ring.image.empty() ? 1 : 2;
-      for (Slit& slit : slits_of(ring)) rings_.push_back(std::move(slit));
-    }
-    problem_.is_seam = cut_of(problem_, rings_, {}).is_cut;
-    find_pieces_of(problem_);
+  bool is_small(std::size_t group) const {
+    return plans_.size() > 1 && groups()[group].searched().mesh.face_count() < kSmallGroup;
   }
-
-  /// Rings and slits on the original mesh, rings first.
-  std::vector<Slit> on_original(std::span<const Slit> slits) const {
-    std::vector<Slit> all = rings_;
-    all.insert(all.end(), slits.begin(), slits.end());
-    if (!planner_.is_simplified()) return all;
-    return carried_slits(problem_, *planner_.simplified_mesh, planner_.original, all);
-  }
-
-  /// The map of the original mesh with rings and slits.
-  SlitPlan solved_on_original(const std::vector<Slit>& slits) const {
-    SlitProblem original = planner_.original;
-    original.is_seam = cut_of(original, slits, {}).is_cut;
-    find_pieces_of(original);
-    const Task own{.stop = task_.stop, .progress = [this](double) { return !task_.progress || task_.progress(1.0); }};
-    SlitPlan solved = SlitSolver(original, {}).solve({}, own);
-    for (const Slit& slit : slits) solved.price += original.price(slit);
-    return solved;
-  }
+  const std::vector<GroupProblem>& groups() const { return planner_.groups; }
+  void part_limbs(const Task& task);
+  void halve_groups(const Task& task);
+  void for_each_group(const Task& task, const std::function<void(std::size_t, const Task&)>& work) const;
+  double bound_of_groups() const;
+  std::vector<SlitChains> chains() const;
+  SeamPlan plan_with(std::span<const SlitChains> chains, const Task& task) const;
+  void tell() const;
+  SeamPlan finished(const Task& task);
+  std::vector<std::uint8_t> are_kept(const CutMaps& maps) const;
+  void add_maps(SeamPlan& plan, const PlanMesh& mesh, const GroupProblem::Place* place, const CutMaps& maps);
+  void measure(SeamPlan& plan, const Task& task) const;
 
   const SeamPlanner::Impl& planner_;
   const SeamGoal& goal_;
   const std::function<void(const SeamPlan&)>& found_;
   const Task& task_;
-  SlitProblem problem_;
-  std::vector<Slit> rings_;
+  std::vector<GroupPlanning> plans_;  // by group
+  double bound_ = 0.0;                // on the energy of each group
+  /// All places of all groups, one group after another.
+  struct Placed {
+    std::size_t group, place;
+  };
+  std::vector<Placed> places_;
+  std::vector<std::int32_t> place_of_face_;  // of each face of the whole mesh
+  std::vector<std::uint8_t> is_counted_;     // the same: 0 in pieces that may not be cut
+  std::vector<double> areas_;                // the same
+  std::vector<std::pair<double, double>> energies_;  // with areas, of the counted triangles of the planned map
+  bool is_mapped_ = true;                    // whether all counted triangles have a map
 };
+
+Planning::Planning(const SeamPlanner::Impl& planner, const SeamGoal& goal,
+                   const std::function<void(const SeamPlan&)>& found, const Task& task)
+    : planner_(planner),
+      goal_(goal),
+      found_(found),
+      task_(task),
+      place_of_face_(planner.mesh().face_count()),
+      is_counted_(planner.mesh().face_count()) {
+  for (const FaceFrame& frame : face_frames(planner.mesh())) areas_.push_back(frame.area);
+  for (std::size_t g = 0; g < groups().size(); ++g) {
+    plans_.emplace_back(groups()[g]);
+    const SlitProblem& own = groups()[g].original;
+    for (std::size_t k = 0; k < groups()[g].places.size(); ++k) {
+      const std::vector<std::int32_t>& faces = groups()[g].places[k].faces;
+      for (std::size_t f = 0; f < faces.size(); ++f) {
+        place_of_face_[faces[f]] = static_cast<std::int32_t>(places_.size());
+        is_counted_[faces[f]] = own.by_piece[own.pieces.of_face[f]].may_be_cut ? 1 : 0;
+      }
+      places_.push_back({g, k});
+    }
+  }
+}
+
+/// Cuts around limbs at their necks, as many as the goal asks for.
+void Planning::part_limbs(const Task& task) {
+  std::size_t islands = 0;
+  for (std::size_t g = 0; g < plans_.size(); ++g) islands += groups()[g].places.size() * index(plans_[g].piece_count());
+  if (!goal_.parts && goal_.islands <= islands) return;
+  struct Neck {
+    std::size_t group;
+    NeckRing ring;
+  };
+  std::vector<Neck> necks;
+  for (std::size_t g = 0; g < plans_.size(); ++g) {
+    const auto count = static_cast<double>(plans_.size());
+    const Task own = part_of(task, static_cast<double>(g) / count, static_cast<double>(g + 1) / count);
+    for (NeckRing& ring : plans_[g].necks(own)) necks.push_back({g, std::move(ring)});
+  }
+  std::ranges::stable_sort(necks, std::ranges::greater(), [](const Neck& neck) { return neck.ring.narrowness; });
+  std::vector<std::vector<NeckRing>> chosen(plans_.size());
+  for (Neck& neck : necks) {
+    if (!goal_.parts && islands >= goal_.islands) break;
+    islands += groups()[neck.group].places.size() * (neck.ring.image.empty() ? 1 : 2);
+    chosen[neck.group].push_back(std::move(neck.ring));
+  }
+  for (std::size_t g = 0; g < plans_.size(); ++g) plans_[g].part(chosen[g]);
+  halve_groups(task);
+}
+
+/// Cuts into halves, in the group whose pieces are the largest, until there are as many islands as the goal asks for.
+void Planning::halve_groups(const Task& task) {
+  std::vector<std::size_t> counts, most;
+  std::size_t islands = 0;
+  for (std::size_t g = 0; g < plans_.size(); ++g) {
+    counts.push_back(index(plans_[g].piece_count()));
+    most.push_back(plans_[g].most_pieces());
+    islands += groups()[g].places.size() * counts[g];
+  }
+  if (islands >= goal_.islands) return;
+  const auto size = [&](std::size_t g) {
+    return groups()[g].size * groups()[g].size / static_cast<double>(counts[g]);
+  };
+  while (islands < goal_.islands) {
+    std::size_t largest = plans_.size();
+    for (std::size_t g = 0; g < plans_.size(); ++g) {
+      if (counts[g] < most[g] && (largest == plans_.size() || size(g) > size(largest))) largest = g;
+    }
+    if (largest == plans_.size()) break;
+    ++counts[largest];
+    islands += groups()[largest].places.size();
+  }
+  for (std::size_t g = 0; g < plans_.size(); ++g) plans_[g].halve(counts[g], task);
+}
+
+/// Works on small groups at the same time, then on the others one after another.
+void Planning::for_each_group(const Task& task, const std::function<void(std::size_t, const Task&)>& work) const {
+  std::vector<std::size_t> small, large;
+  for (std::size_t g = 0; g < plans_.size(); ++g) (is_small(g) ? small : large).push_back(g);
+  const auto size = [&](std::size_t g) { return static_cast<double>(groups()[g].searched().mesh.face_count()); };
+  double all = 0.0, done = 0.0;
+  for (std::size_t g = 0; g < plans_.size(); ++g) all += size(g);
+  std::vector<double> ends = {0.0};
+  for (const std::size_t g : small) ends.push_back(ends.back() + size(g));
+  run_on_threads(
+      small.size(), task, [&](std::size_t count) { return ends[count] / all; },
+      [&](std::size_t i, const Task& own) { work(small[i], own); });
+  done = ends.back();
+  if (!small.empty() && !large.empty()) tell();
+  for (const std::size_t g : large) {
+    work(g, part_of(task, done / all, (done + size(g)) / all));
+    done += size(g);
+  }
+}
+
+/// The bound on the energy of each group, for the mean over the surface to be within the goal. Groups without seams
+/// that distort less leave more to the others.
+double Planning::bound_of_groups() const {
+  constexpr double kUsed = 1.0 - 1e-6;  // of what they leave: rounding must not matter
+  if (!std::isfinite(goal_.distortion)) return goal_.distortion;
+  double left = 0.0, area = 0.0;
+  std::vector<std::pair<double, double>> above;  // excess and area
+  for (std::size_t g = 0; g < plans_.size(); ++g) {
+    const GroupPlanning::Result& plan = plans_[g].result();
+    const double own = groups()[g].counted_area(), excess = plan.energy - goal_.distortion;
+    if (excess > 0.0) {
+      above.emplace_back(excess, own);
+      area += own;
+    } else if (plan.slits.empty() && !plan.overlaps) {
+      left -= kUsed * excess * own;
+    }
+  }
+  std::ranges::sort(above);
+  double level = 0.0;
+  for (const auto& [excess, own] : above) {
+    const double needed = (excess - level) * area;
+    if (!(needed < left)) return goal_.distortion + level + (left > 0.0 ? left / area : 0.0);
+    left -= needed;
+    level = excess;
+    area -= own;
+  }
+  return goal_.distortion + level;
+}
+
+/// The slits of all places.
+std::vector<SlitChains> Planning::chains() const {
+  std::vector<SlitChains> found;
+  for (std::size_t g = 0; g < plans_.size(); ++g) {
+    const SlitChains own(plans_[g].result().slits);
+    for (const GroupProblem::Place& place : groups()[g].places) {
+      SlitChains& moved = found.emplace_back(own);
+      moved.size = groups()[g].size;
+      for (SlitChains::Chain& chain : moved.chains) {
+        for (std::int32_t& v : chain) v = place.vertices[v];
+      }
+    }
+  }
+  return found;
+}
+
+/// A plan with these slits, as good as the groups' plans.
+SeamPlan Planning::plan_with(std::span<const SlitChains> chains, const Task& task) const {
+  const Surface& surface = *planner_.surface;
+  SeamPlan plan;
+  plan.wires = planner_.wires->along(planner_.mesh(), chains, task);
+  for (const std::vector<std::int32_t>& chain : one_sided_chains(surface, planner_.options.seams)) {
+    PlannedWire wire;
+    wire.vertices = chain;
+    wire.from = chain.front();
+    wire.to = chain.back();
+    for (const std::int32_t v : chain) wire.points.push_back(surface.points()[v]);
+    plan.wires.push_back(std::move(wire));
+  }
+  double area = 0.0, energy = 0.0;
+  bool overlaps = false;
+  for (std::size_t g = 0; g < plans_.size(); ++g) {
+    const GroupPlanning::Result& own = plans_[g].result();
+    const double share = groups()[g].counted_area();
+    plan.cost += static_cast<double>(groups()[g].places.size()) * groups()[g].size * own.price;
+    plan.steps += groups()[g].size * groups()[g].size * plans_[g].steps();
+    overlaps = overlaps || own.overlaps;
+    if (!(share > 0.0)) continue;
+    area += share;
+    energy += share * own.energy;
+  }
+  plan.energy = area > 0.0 ? energy / area : 4.0;
+  plan.is_reached = std::isfinite(plan.energy) && plan.energy <= goal_.distortion && !overlaps;
+  const std::vector<Edge> cuts = cuts_of(plan, planner_.options.seams);
+  plan.islands = face_segments(surface, cuts);
+  for (const std::int32_t missing : missing_cuts(surface, cuts, plan.islands)) {
+    ++plan.island_count;
+    plan.not_discs += missing > 0 ? 1 : 0;
+  }
+  return plan;
+}
+
+void Planning::tell() const {
+  if (found_) found_(plan_with(chains(), {.stop = task_.stop, .progress = {}}));
+}
+
+/// The plan with the map that belongs to its wires. Wires that leave a piece without a good map come nearer to the
+/// slits.
+SeamPlan Planning::finished(const Task& task) {
+  constexpr double kMapBegins = 0.3, kMapEnds = 0.8;
+  std::vector<SlitChains> slits = chains();
+  const PlanMesh& mesh = planner_.mesh();
+  for (bool is_again = false;; is_again = false) {
+    SeamPlan plan = plan_with(slits, part_of(task, 0.0, kMapBegins));
+    plan.uvs.assign(planner_.surface->face_count(), {Point2::Zero(), Point2::Zero(), Point2::Zero()});
+    energies_.clear();
+    is_mapped_ = true;
+    if (planner_.wires->are_across()) {
+      const std::vector<std::uint8_t> is_cut = marked_edges(mesh, cuts_of(plan, planner_.options.seams));
+      const CutMaps maps = solve_cut(mesh, is_cut, part_of(task, kMapBegins, kMapEnds));
+      const std::vector<std::uint8_t> is_kept = are_kept(maps);
+      for (std::size_t i = 0; i < places_.size(); ++i) {
+        if (slits[i].closeness >= SlitChains::kClosest || is_kept[i] != 0) continue;
+        ++slits[i].closeness;
+        is_again = true;
+      }
+      if (is_again) continue;
+      add_maps(plan, mesh, nullptr, maps);
+    } else {
+      for (const auto& [group, place] : places_) {
+        const GroupProblem& own = groups()[group];
+        add_maps(plan, own.original.mesh, &own.places[place], plans_[group].result().maps);
+      }
+    }
+    measure(plan, part_of(task, kMapEnds, 1.0));
+    return plan;
+  }
+}
+
+/// Of each place, whether its maps are about as good as those with its slits.
+std::vector<std::uint8_t> Planning::are_kept(const CutMaps& maps) const {
+  constexpr double kWorse = 1.01;
+  struct Found {
+    std::size_t islands = 0;
+    bool is_mapped = true, overlaps = false;
+    std::vector<std::pair<double, double>> energies;
+  };
+  std::vector<Found> found(places_.size());
+  for (std::size_t i = 0; i < maps.maps.size(); ++i) {
+    Found& own = found[place_of_face_[maps.first_faces[i]]];
+    ++own.islands;
+    if (is_counted_[maps.first_faces[i]] == 0) continue;
+    const auto& map = maps.maps[i];
+    own.is_mapped = own.is_mapped && map;
+    if (!map) continue;
+    own.overlaps = own.overlaps || map->map.overlaps;
+    for (std::size_t k = 0; k < map->energies.size(); ++k) {
+      own.energies.emplace_back(map->energies[k], areas_[map->island.faces[k]]);
+    }
+  }
+  std::vector<std::uint8_t> kept;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const GroupPlanning::Result& planned = plans_[places_[i].group].result();
+    const double most = planned.energy <= bound_ ? bound_ : kWorse * planned.energy;
+    const bool is_good = found[i].is_mapped && (!found[i].overlaps || planned.overlaps) &&
+                         found[i].islands <= planned.maps.maps.size() &&
+                         mean_energy(std::move(found[i].energies)) <= most;
+    kept.push_back(is_good || !std::isfinite(planned.energy) ? 1 : 0);
+  }
+  return kept;
+}
+
+/// Adds UVs. `place`: where the faces and vertices of the maps' mesh are on the whole mesh; null: in the same place.
+void Planning::add_maps(SeamPlan& plan, const PlanMesh& mesh, const GroupProblem::Place* place, const CutMaps& maps) {
+  const PlanMesh& whole = planner_.mesh();
+  const auto whole_face = [&](std::int32_t f) { return place != nullptr ? place->faces[f] : f; };
+  for (std::size_t i = 0; i < maps.maps.size(); ++i) {
+    const auto& map = maps.maps[i];
+    const bool is_counted = is_counted_[whole_face(maps.first_faces[i])] != 0;
+    is_mapped_ = is_mapped_ && (map || !is_counted);
+    if (!map) continue;
+    for (std::size_t k = 0; k < map->island.triangles.size(); ++k) {
+      const std::int32_t face = whole_face(map->island.faces[k]), own_face = whole.faces[face];
+      const Triangle& corners = planner_.surface->triangles()[own_face];
+      for (std::size_t c = 0; c < 3; ++c) {
+        // The triangle may be turned over.
+        const std::int32_t vertex = whole.sources[whole.triangles[face][c]];
+        const auto corner = std::ranges::find(corners, vertex) - corners.begin();
+        const Point2& uv = map->map.uvs[map->island.triangles[k][c]];
+        plan.uvs[own_face][static_cast<std::size_t>(corner)] = uv / mesh.scale;
+      }
+      if (is_counted) energies_.emplace_back(map->energies[k], areas_[face]);
+    }
+  }
+}
+
+/// Says what holds for the planned map. measure_map() scales the map first; the search does not.
+void Planning::measure(SeamPlan& plan, const Task& task) const {
+  plan.is_reached = false;
+  plan.energy = kNever;
+  if (!is_mapped_) return;
+  const MapReport report = measure_map(*planner_.surface, plan.uvs, plan.islands, task);
+  std::vector<std::uint8_t> is_counted_island(plan.island_count, 0);
+  for (std::size_t f = 0; f < is_counted_.size(); ++f) {
+    if (is_counted_[f] != 0) is_counted_island[plan.islands[planner_.mesh().faces[f]]] = 1;
+  }
+  const bool is_all = std::ranges::all_of(is_counted_, [](std::uint8_t counted) { return counted != 0; });
+  plan.energy = is_all ? report.energy : mean_energy(energies_);
+  const bool overlaps =
+      std::ranges::any_of(report.overlapping, [&](std::int32_t island) { return is_counted_island[island] != 0; });
+  plan.is_reached = std::isfinite(plan.energy) && plan.energy <= goal_.distortion && !overlaps;
+}
 
 SeamPlan SeamPlanner::plan(const SeamGoal& goal, const std::function<void(const SeamPlan&)>& found,
                            const Task& task) const {
   if (!(goal.distortion > 4.0)) {
     throw InvalidInput("distortion is " + std::to_string(goal.distortion) + ", not above 4, that of an isometry");
   }
-  const RisingProgress rising(task);  // each round of the search counts from 0
+  const RisingProgress rising(task);
   return Planning(*impl_, goal, found, rising.task()).run();
 }
 

@@ -56,7 +56,7 @@ class Collapsing {
   }
 
   void run(std::size_t goal, const Task& task) {
-    for (std::int32_t v = 0; index(v) < mesh_.vertex_count(); ++v) push_all(v);
+    queue_all(task);
     const Poll poll(task, 0.0, 1.0, mesh_.vertex_count(), Poll::kFewSteps);
     for (std::size_t step = 0; left_ > goal && !queue_.empty(); ++step) {
       poll.at(step);
@@ -98,17 +98,28 @@ class Collapsing {
   bool folds(std::int32_t from, std::int32_t to) const;
   void collapse(std::int32_t from, std::int32_t to);
   void collapse_with_image(std::int32_t from, std::int32_t to);
-  void push_all(std::int32_t v) {
-    for (const std::int32_t other : neighbors(v)) {
-      push(v, other);
-      push(other, v);
-    }
-  }
-  void push(std::int32_t from, std::int32_t to) {
+  Entry entry(std::int32_t from, std::int32_t to) const {
     Quadric sum = quadrics_[from];
     sum += quadrics_[to];
     const double error = std::max(sum.at(mesh_.points[to]), 0.0);
-    queue_.push({error, from, to, version_[from] + version_[to]});
+    return {error, from, to, version_[from] + version_[to]};
+  }
+  /// Queues each directed edge once.
+  void queue_all(const Task& task) {
+    std::vector<Entry> entries;
+    const Poll poll(task, 0.0, 0.0, mesh_.vertex_count());
+    for (std::int32_t v = 0; index(v) < mesh_.vertex_count(); ++v) {
+      poll.at(index(v));
+      for (const std::int32_t other : neighbors(v)) entries.push_back(entry(v, other));
+    }
+    queue_ = std::priority_queue<Entry>({}, std::move(entries));
+  }
+  /// Queues the edges of a vertex again, in both directions.
+  void push_all(std::int32_t v) {
+    for (const std::int32_t other : neighbors(v)) {
+      queue_.push(entry(v, other));
+      queue_.push(entry(other, v));
+    }
   }
   std::int32_t image(std::int32_t v) const { return reflection_ != nullptr ? reflection_->images[v] : v; }
   bool is_on_plane(std::int32_t v) const { return reflection_ != nullptr && reflection_->sides[v] == 0; }

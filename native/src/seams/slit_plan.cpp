@@ -99,6 +99,17 @@ std::vector<std::int32_t> pieces_of(const SlitProblem& problem, const Slit& slit
   return found;
 }
 
+bool is_mappable(const Island& island) {
+  const auto twins = std::ranges::count_if(island.twins, [](std::int32_t twin) { return twin >= 0; });
+  const auto edges = static_cast<std::int64_t>(island.twins.size()) - twins / 2;
+  const auto euler =
+      static_cast<std::int64_t>(island.vertices.size()) - edges + static_cast<std::int64_t>(island.triangles.size());
+  // Nothing is mapped to an outline of two edges.
+  const std::vector<std::vector<std::int32_t>> loops = island.boundaries();
+  const bool has_outline = std::ranges::any_of(loops, [](const auto& loop) { return loop.size() > 2; });
+  return has_outline && euler == 2 - std::ssize(loops);
+}
+
 std::optional<Island> open_piece(const SlitProblem& problem, const Cut& cut, std::int32_t piece) {
   const SlitProblem::Piece& part = problem.by_piece[piece];
   std::vector<std::uint8_t> is_cut(part.twins.size(), 0);
@@ -111,14 +122,7 @@ std::optional<Island> open_piece(const SlitProblem& problem, const Cut& cut, std
   if (islands.size() != 1) return std::nullopt;
   Island& island = islands.front();
   for (std::int32_t& face : island.faces) face = part.faces[face];
-  const auto twins = std::ranges::count_if(island.twins, [](std::int32_t twin) { return twin >= 0; });
-  const auto edges = static_cast<std::int64_t>(island.twins.size()) - twins / 2;
-  const auto euler =
-      static_cast<std::int64_t>(island.vertices.size()) - edges + static_cast<std::int64_t>(island.triangles.size());
-  // Nothing is mapped to an outline of two edges.
-  const std::vector<std::vector<std::int32_t>> loops = island.boundaries();
-  const bool has_outline = std::ranges::any_of(loops, [](const auto& loop) { return loop.size() > 2; });
-  if (!has_outline || euler != 2 - std::ssize(loops)) return std::nullopt;
+  if (!is_mappable(island)) return std::nullopt;
   return std::move(island);
 }
 
@@ -130,9 +134,22 @@ std::vector<Point2> carried_over(const PieceMap& from, const Island& to) {
   return uvs;
 }
 
-PieceMap piece_map(const SlitProblem& problem, Island island, IslandMap map) {
-  std::vector<double> energies = triangle_energies(island, problem.mesh.points, map.uvs);
+PieceMap piece_map(std::span<const Vector> points, Island island, IslandMap map) {
+  std::vector<double> energies = triangle_energies(island, points, map.uvs);
   return {std::move(island), std::move(map), std::move(energies)};
+}
+
+double mean_energy(std::vector<std::pair<double, double>> energies) {
+  double area = 0.0;
+  for (const auto& [energy, own] : energies) area += own;
+  std::ranges::sort(energies, std::ranges::greater());
+  double left_out = 0.0, sum = 0.0;
+  for (const auto& [energy, own] : energies) {
+    const double counted = std::clamp(left_out + own - kLeftOut * area, 0.0, own);
+    left_out += own - counted;
+    if (counted > 0.0) sum += counted * energy;
+  }
+  return area > left_out ? sum / (area - left_out) : 4.0;
 }
 
 void sum_up(const SlitProblem& problem, SlitPlan& plan) {
@@ -140,26 +157,17 @@ void sum_up(const SlitProblem& problem, SlitPlan& plan) {
   for (const Slit& slit : plan.slits) plan.price += problem.price(slit);
   plan.overlaps = false;
   plan.energy = kNever;
-  std::vector<std::pair<double, double>> by_energy;  // with the areas
-  double area = 0.0;
+  std::vector<std::pair<double, double>> energies;
   for (std::size_t p = 0; p < plan.maps.size(); ++p) {
     if (!problem.by_piece[p].may_be_cut) continue;
     const auto& map = plan.maps[p];
     if (!map) return;
     plan.overlaps = plan.overlaps || map->map.overlaps;
     for (std::size_t k = 0; k < map->energies.size(); ++k) {
-      by_energy.emplace_back(map->energies[k], problem.areas[map->island.faces[k]]);
-      area += by_energy.back().second;
+      energies.emplace_back(map->energies[k], problem.areas[map->island.faces[k]]);
     }
   }
-  std::ranges::sort(by_energy, std::ranges::greater());
-  double left_out = 0.0, sum = 0.0;
-  for (const auto& [energy, own] : by_energy) {
-    const double counted = std::clamp(left_out + own - kLeftOut * area, 0.0, own);
-    left_out += own - counted;
-    if (counted > 0.0) sum += counted * energy;
-  }
-  plan.energy = area > left_out ? sum / (area - left_out) : 4.0;
+  plan.energy = mean_energy(std::move(energies));
 }
 
 }  // namespace seamwire::detail

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "flatten/island_map.hpp"
@@ -68,7 +69,7 @@ struct PieceMap {
   IslandMap map;
   std::vector<double> energies;  ///< E_d of each triangle
 };
-PieceMap piece_map(const SlitProblem& problem, Island island, IslandMap map);
+PieceMap piece_map(std::span<const Vector> points, Island island, IslandMap map);
 
 /// A state of the search: slits, and the maps of all pieces with them.
 struct SlitPlan {
@@ -87,11 +88,17 @@ bool crosses_face(const SlitProblem& problem, const Slit& slit);
 /// The pieces in which a slit lies, ascending.
 std::vector<std::int32_t> pieces_of(const SlitProblem& problem, const Slit& slit);
 
+/// Whether an island has a map without flips: it is a disc, or a disc with holes, with an outline of three or more edges.
+bool is_mappable(const Island& island);
+
 /// The island of a piece with a cut; nullopt if it is not a disc, or a disc with holes.
 std::optional<Island> open_piece(const SlitProblem& problem, const Cut& cut, std::int32_t piece);
 
 /// A start for the map of an island that is cut further than another one was: the UVs of the same corners.
 std::vector<Point2> carried_over(const PieceMap& from, const Island& to);
+
+/// The mean of energies over an area, without the worst 0.1 % of it; 4 without an area. Pairs of an energy and an area.
+double mean_energy(std::vector<std::pair<double, double>> energies);
 
 /// Sums up the maps.
 void sum_up(const SlitProblem& problem, SlitPlan& plan);

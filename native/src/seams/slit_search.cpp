@@ -67,8 +67,7 @@ class Search {
          const std::function<void(const SlitPlan&)>& found, const Task& task)
       : problem_(problem), solver_(problem, std::move(roots)), goal_(goal), found_(found), task_(task) {}
 
-  SlitPlan run(std::vector<Slit> slits) {
-    SlitPlan plan = solver_.solve(std::move(slits), own_task());
+  SlitPlan run(SlitPlan plan) {
     steps_ += plan.work;
     offer(plan);
     if (std::isfinite(goal_.energy)) {  // without a bound, the tree is all that is asked for
@@ -358,9 +357,9 @@ bool Search::exchange(const SlitPlan& plan) {
 
 }  // namespace
 
-SlitPlan search_slits(const SlitProblem& problem, SlitTree tree, const SlitGoal& goal,
+SlitPlan search_slits(const SlitProblem& problem, SlitPlan start, std::vector<std::int32_t> roots, const SlitGoal& goal,
                       const std::function<void(const SlitPlan&)>& found, const Task& task) {
-  return Search(problem, std::move(tree.roots), goal, found, task).run(std::move(tree.slits));
+  return Search(problem, std::move(roots), goal, found, task).run(std::move(start));
 }
 
 }  // namespace seamwire::detail

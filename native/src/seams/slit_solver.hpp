@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -12,7 +14,10 @@
 
 namespace seamwire::detail {
 
-/// Maps pieces with given slits to the plane. May be called from several threads.
+/// How the maps of plans are solved.
+inline constexpr MapOptions kPlanMap{.max_steps = 60, .tolerance = 3e-4};
+
+/// Maps pieces with given slits to the plane, several pieces on several threads. May be called from several threads.
 ///
 /// A piece that slits do not make a disc has no map, and the plan's energy is infinite.
 class SlitSolver {
@@ -36,10 +41,21 @@ class SlitSolver {
   Cut cut(std::span<const Slit> slits) const { return cut_of(problem_, slits, roots_); }
 
  private:
+  /// Calls solve(piece, task) for pieces, and adds up the steps that it returns.
+  double for_each(std::span<const std::int32_t> pieces, const Task& task,
+                  const std::function<double(std::int32_t, const Task&)>& solve) const;
   SlitPlan continued(const SlitPlan& before, const Slit& slit, const MapOptions& options, const Task& task) const;
 
   const SlitProblem& problem_;
   std::vector<std::int32_t> roots_;
 };
+
+/// The maps of the islands into which a cut parts a mesh.
+struct CutMaps {
+  std::vector<std::shared_ptr<const PieceMap>> maps;  ///< by island; null where an island has no map
+  std::vector<std::int32_t> first_faces;              ///< of each island
+};
+/// `is_cut`: of each edge. On several threads. Throws Cancelled.
+CutMaps solve_cut(const PlanMesh& mesh, std::span<const std::uint8_t> is_cut, const Task& task);
 
 }  // namespace seamwire::detail

@@ -36,7 +36,7 @@ Vector by_cosine(int i, int count, const Vector& axis) {
 Visibility find_visibility(const PlanMesh& mesh, const std::optional<Vector>& front, const Task& task) {
   constexpr double kAbove = 2e-3;  // start this far above the surface, to miss the faces around the vertex
   const RayTree rays(mesh.points, mesh.triangles);
-  rays.wait();
+  rays.wait(task);
   const std::vector<Vector> normals = vertex_normals(mesh, face_frames(mesh));
   std::vector<Vector> views;
   for (int i = 0; front && i < kViews; ++i) views.push_back(on_hemisphere(i, kViews, front->normalized()));

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -256,6 +257,16 @@ RayHit RayTree::first_hit(const Vector& given_origin, const Vector& given_direct
 
 bool RayTree::ready() const { return parts_->state.load(std::memory_order_acquire) == Parts::State::kBuilt; }
 
-void RayTree::wait() const { parts_->state.wait(Parts::State::kBuilding, std::memory_order_acquire); }
+void RayTree::wait(const Task& task) const {
+  constexpr std::chrono::milliseconds kPeriod{5};
+  if (!task.progress && !task.stop.stop_possible()) {
+    parts_->state.wait(Parts::State::kBuilding, std::memory_order_acquire);
+    return;
+  }
+  while (parts_->state.load(std::memory_order_acquire) == Parts::State::kBuilding) {
+    task.check(0.0);
+    std::this_thread::sleep_for(kPeriod);
+  }
+}
 
 }  // namespace seamwire

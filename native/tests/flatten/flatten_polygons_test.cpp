@@ -116,6 +116,58 @@ TEST(FlattenPolygons, EachSingleSeamOfABallIsFine) {
   }
 }
 
+TEST(FlattenPolygons, LargePolygonsHaveMaps) {
+  for (const auto cutting : {shapes::Cutting::kFan, shapes::Cutting::kStrip}) {
+    const shapes::PolygonMesh mesh = shapes::closed_cylinder(4096, 1);
+    const Surface surface = mesh.surface(cutting);
+    const Flattening flat = flatten(surface, {});
+    EXPECT_TRUE(std::isfinite(flat.energy));
+    const MapReport report = measure_map(surface, flat.uvs, flat.islands);
+    EXPECT_TRUE(report.flipped.empty() && report.overlapping.empty());
+  }
+}
+
+TEST(FlattenPolygons, AFlatPolygonIsItsOwnMap) {
+  // A comb of 300 teeth, each as a triangle upon a strip.
+  shapes::PolygonMesh mesh;
+  std::vector<std::int32_t> comb;
+  std::vector<Triangle> triangles;
+  const Eigen::Vector3d along(0.6, 0.8, 0.0), up(0.0, 0.0, 1.0);
+  const std::int32_t teeth = 300;
+  for (std::int32_t i = 0; i <= teeth; ++i) mesh.points.push_back(i * along - up);
+  for (std::int32_t i = teeth; i >= 0; --i) {
+    mesh.points.push_back(i * along);
+    if (i > 0) mesh.points.push_back((i - 0.5) * along + 20.0 * up);
+  }
+  for (std::int32_t v = 0; v < static_cast<std::int32_t>(mesh.points.size()); ++v) comb.push_back(v);
+  const auto upper = [&](std::int32_t i) { return teeth + 1 + 2 * (teeth - i); };
+  for (std::int32_t i = 0; i < teeth; ++i) {
+    triangles.push_back({i, i + 1, upper(i + 1)});
+    triangles.push_back({i, upper(i + 1), upper(i)});
+    triangles.push_back({upper(i), upper(i + 1), upper(i + 1) + 1});
+  }
+  mesh.polygons.push_back(comb);
+  const Flattening flat = flatten(Surface(mesh.points, triangles, mesh.edges()), {});
+  EXPECT_NEAR(flat.energy, 4.0, 1e-9);
+  EXPECT_LE(flat.by_island[0].steps, 1U);
+}
+
+TEST(FlattenPolygons, AFanOfFiftyThousandTrianglesHasAMap) {
+  const int n = 50000;
+  shapes::Mesh mesh;
+  mesh.points.emplace_back(0, 0, 0.2);
+  for (std::int32_t i = 0; i < n; ++i) {
+    const double a = 2 * std::numbers::pi * i / n, radius = 1.0 + 0.2 * std::sin(5 * a);
+    mesh.points.emplace_back(radius * std::cos(a), radius * std::sin(a), 0.1 * std::cos(3 * a));
+    mesh.triangles.push_back({0, 1 + i, 1 + (i + 1) % n});
+  }
+  const Surface surface = mesh.surface();
+  const Flattening flat = flatten(surface, {});
+  EXPECT_LT(flat.energy, 4.1);
+  const MapReport report = measure_map(surface, flat.uvs, flat.islands);
+  EXPECT_TRUE(report.flipped.empty() && report.overlapping.empty());
+}
+
 TEST(FlattenPolygons, QuadsOnTheSameDiagonalKeepTheirOwn) {
   // Two quads that share two opposite corners: their diagonals join the same two vertices.
   const shapes::PolygonMesh mesh{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {1, 0, 1}, {0, 1, 1}},

@@ -6,10 +6,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <random>
+#include <stop_token>
 #include <vector>
 
-#include "seams/point_grid.hpp"
+#include "seams/point_tree.hpp"
 #include "shapes.hpp"
+#include "thread_sanitizer.hpp"
 
 namespace seamwire {
 
@@ -80,7 +82,7 @@ TEST(Reflection, SurvivesAnotherSmallPart) {
   EXPECT_TRUE(found->is_exact);
 }
 
-TEST(PointGrid, FindsWhatALookAtAllPointsFinds) {
+TEST(PointTree, FindsWhatALookAtAllPointsFinds) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> anywhere(-1.0, 1.0);
   const auto point = [&] {
@@ -91,7 +93,7 @@ TEST(PointGrid, FindsWhatALookAtAllPointsFinds) {
     std::vector<Vector> points(200);
     for (Vector& one : points) one = point();
     points.push_back(points.front());  // of equals the first
-    const PointGrid grid(points, radius);
+    const PointTree tree(points);
     for (int i = 0; i < 200; ++i) {
       const Vector to = i == 0 ? points.front() : point();
       std::int32_t nearest = -1;
@@ -103,9 +105,29 @@ TEST(PointGrid, FindsWhatALookAtAllPointsFinds) {
           nearest = static_cast<std::int32_t>(k);
         }
       }
-      EXPECT_EQ(grid.nearest(to), nearest);
+      EXPECT_EQ(tree.nearest(to, radius).point, nearest);
     }
   }
+}
+
+TEST(PointTree, LooksAtFewPoints) {
+  // Thousands of points are within the radius.
+  const std::vector<Vector> points = shapes::icosphere(sized(6, 4)).points;
+  const PointTree tree(points);
+  std::size_t looked_at = 0;
+  for (const Vector& point : points) {
+    const auto found = tree.nearest({-point.x(), point.y(), point.z()}, 0.5);
+    EXPECT_GE(found.point, 0);
+    looked_at += found.looked_at;
+  }
+  EXPECT_LT(looked_at, 60 * points.size());
+}
+
+TEST(Reflection, CanBeCancelled) {
+  const PlanMesh mesh = plan_mesh(shapes::dumbbell(12, 20).surface());
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_THROW(find_reflection(mesh, 0, {.stop = stop.get_token(), .progress = {}}), Cancelled);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "seamwire/errors.hpp"
 #include "seamwire/surface/types.hpp"
 #include "seamwire/surface/vector.hpp"
+#include "seamwire/task.hpp"
 
 namespace seamwire {
 
@@ -33,11 +34,11 @@ class RayTree {
 
   /// Whether the tree is built.
   bool ready() const;
-  /// Waits until it is, or until there turns out to be no memory for it.
-  void wait() const;
+  /// Waits until it is, or until there turns out to be no memory for it. Throws Cancelled.
+  void wait(const Task& task = {}) const;
 
  private:
-  struct Parts;  // rays.cpp
+  struct Parts;  // ray_tree.cpp
   std::shared_ptr<Parts> parts_;
 };
 

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "seams/group_planning.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+#include "detail/index.hpp"
+#include "detail/poll.hpp"
+#include "seams/carried_slits.hpp"
+#include "seams/parting_cuts.hpp"
+
+namespace seamwire::detail {
+namespace {
+
+/// How often a search is repeated because the original mesh distorts more than the simplified one.
+constexpr int kRounds = 2;
+constexpr int kHalvings = 4;  // how often pieces without a map are parted
+constexpr double kNearBound = 0.02;  // a map whose energy is this far below the bound may have too many seams
+constexpr double kMargin = 3e-3;
+constexpr double kLaterBudget = 0.5;  // of a repetition, as a share of the one before
+/// Where the search of each round begins and ends as a share of all work. The map of the original mesh follows.
+constexpr std::array<std::array<double, 2>, kRounds + 1> kSimplifiedRounds = {{{0.0, 0.55}, {0.62, 0.77}, {0.84, 0.92}}};
+constexpr std::array<double, 2> kOnlyRound = {0.0, 0.95};
+
+/// Which of two plans on the original mesh is better: the cheaper one within the bound, or else the one with less
+/// energy.
+std::pair<double, double> rank(const GroupPlanning::Result& solved, double bound) {
+  return solved.is_within(bound) ? std::pair(0.0, solved.price) : std::pair(1.0, solved.energy);
+}
+
+}  // namespace
+
+double GroupProblem::counted_area() const {
+  double counted = 0.0, all = 0.0;
+  for (const SlitProblem::Piece& piece : original.by_piece) {
+    all += piece.area;
+    counted += piece.may_be_cut ? piece.area : 0.0;
+  }
+  const double share = counted < all ? counted / all : 1.0;
+  return counted > 0.0 ? static_cast<double>(places.size()) * size * size * share : 0.0;
+}
+
+void GroupPlanning::part(const std::vector<NeckRing>& rings) {
+  std::vector<Slit> slits;
+  for (const NeckRing& ring : rings) {
+    for (Slit& slit : slits_of(ring)) slits.push_back(std::move(slit));
+  }
+  add_rings(std::move(slits));
+}
+
+void GroupPlanning::halve(std::size_t count, const Task& task) {
+  least_pieces_ = count;
+  add_rings(halving_cuts(problem(), count, task));
+}
+
+std::size_t GroupPlanning::most_pieces() const { return count_blocks(problem()); }
+
+void GroupPlanning::add_rings(std::vector<Slit> rings) {
+  if (rings.empty()) return;
+  std::ranges::move(rings, std::back_inserter(rings_));
+  parted_ = group_->searched();
+  parted_->is_seam = cut_of(*parted_, rings_, {}).is_cut;
+  find_pieces_of(*parted_);
+}
+
+void GroupPlanning::grow(bool has_tips, const Task& task) {
+  SlitTree tree = grow_tree(problem(), has_tips, part_of(task, 0.0, 0.5));
+  roots_ = std::move(tree.roots);
+  start_ = SlitSolver(problem(), roots_).solve(std::move(tree.slits), part_of(task, 0.5, 1.0));
+  show(start_);
+}
+
+void GroupPlanning::show(const SlitPlan& plan) {
+  result_ = {.slits = on_original(plan.slits),
+             .energy = plan.energy,
+             .price = plan.price,
+             .overlaps = plan.overlaps,
+             .maps = {}};
+}
+
+void GroupPlanning::search(const SlitGoal& goal, const std::function<void()>& found, const Task& task) {
+  search_once(goal, found, task);
+  // Without a good plan the group is parted further: along the rims of the pieces that miss the bound. Without any map,
+  // it is also parted into halves.
+  for (int round = 0; round <= kHalvings && !result_.is_within(goal.energy); ++round) {
+    if (round > 0 && std::isfinite(result_.energy)) return;
+    std::vector<Slit> cuts = round == 0 ? rim_cuts(problem(), missed_)
+                                        : halving_cuts(problem(), 2 * index(problem().pieces.count), task);
+    if (cuts.empty()) continue;
+    add_rings(std::move(cuts));
+    const Result before = std::move(result_);
+    grow(std::isfinite(goal.energy), task);
+    search_once(goal, {}, task);
+    if (rank(before, goal.energy) <= rank(result_, goal.energy)) result_ = before;
+  }
+}
+
+void GroupPlanning::search_once(const SlitGoal& goal, const std::function<void()>& found, const Task& task) {
+  SlitGoal aim = goal;
+  Result best;
+  for (int round = 0;; ++round) {
+    const bool is_simplified = group_->simplified_mesh.has_value();
+    const auto [begin, end] = is_simplified ? kSimplifiedRounds[index(round)] : kOnlyRound;
+    bool is_start = true;  // which grow() has shown
+    const auto tell = [&](const SlitPlan& plan) {
+      if (std::exchange(is_start, false) || round > 0 || !found) return;
+      show(plan);
+      found();
+    };
+    const SlitPlan plan = search_slits(problem(), std::move(start_), roots_, aim, tell, part_of(task, begin, end));
+    steps_ += plan.work;
+    if (round == 0) missed_ = missed_pieces(plan, goal.energy);
+    Result solved = solved_on_original(on_original(plan.slits), part_of(task, end, round < kRounds ? end + 0.05 : 1.0));
+    // The simplified mesh distorts less or more than the original one. The bound is moved by as much.
+    const double excess = solved.energy - goal.energy;
+    const bool is_near = excess <= 0.0 && (excess > -kNearBound || plan.slits.empty());
+    if (round == 0 || rank(solved, goal.energy) < rank(best, goal.energy)) best = std::move(solved);
+    const double energy = plan.energy - excess - kMargin;
+    const bool is_last = !is_simplified || !std::isfinite(goal.energy) || round == kRounds || is_near ||
+                         plan.energy > aim.energy || !(energy > 4.0);
+    if (is_last) break;
+    aim.energy = energy;
+    aim.budget *= kLaterBudget;
+    start_ = SlitSolver(problem(), roots_).solve(plan.slits, part_of(task, end + 0.05, end + 0.07));
+  }
+  result_ = std::move(best);
+}
+
+std::vector<Slit> GroupPlanning::on_original(const std::vector<Slit>& slits) const {
+  std::vector<Slit> all = rings_;
+  all.insert(all.end(), slits.begin(), slits.end());
+  if (!group_->simplified_mesh) return all;
+  all = carried_slits(problem(), *group_->simplified_mesh, group_->original, all);
+  if (least_pieces_ > 0) {  // a closed cut may not have been carried whole
+    SlitProblem original = group_->original;
+    original.is_seam = cut_of(original, all, {}).is_cut;
+    find_pieces_of(original);
+    std::ranges::move(halving_cuts(std::move(original), least_pieces_, {}), std::back_inserter(all));
+  }
+  return all;
+}
+
+std::vector<std::int32_t> GroupPlanning::missed_pieces(const SlitPlan& plan, double bound) const {
+  std::vector<std::int32_t> missed;
+  for (std::int32_t p = 0; index(p) < plan.maps.size(); ++p) {
+    const auto& map = plan.maps[p];
+    if (!map || map->map.overlaps || !(map->map.energy <= bound)) missed.push_back(p);
+  }
+  return missed;
+}
+
+GroupPlanning::Result GroupPlanning::solved_on_original(std::vector<Slit> slits, const Task& task) const {
+  const SlitProblem& original = group_->original;
+  Result solved;
+  solved.maps = solve_cut(original.mesh, cut_of(original, slits, {}).is_cut, task);
+  std::vector<std::pair<double, double>> energies;
+  bool is_mapped = true;
+  for (std::size_t i = 0; i < solved.maps.maps.size(); ++i) {
+    if (!original.by_piece[original.pieces.of_face[solved.maps.first_faces[i]]].may_be_cut) continue;
+    const auto& map = solved.maps.maps[i];
+    is_mapped = is_mapped && map != nullptr;
+    if (!map) continue;
+    solved.overlaps = solved.overlaps || map->map.overlaps;
+    for (std::size_t k = 0; k < map->energies.size(); ++k) {
+      energies.emplace_back(map->energies[k], original.areas[map->island.faces[k]]);
+    }
+  }
+  solved.energy = is_mapped ? mean_energy(std::move(energies)) : kNever;
+  for (const Slit& slit : slits) solved.price += original.price(slit);
+  solved.slits = std::move(slits);
+  return solved;
+}
+
+}  // namespace seamwire::detail

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "seams/neck_rings.hpp"
+#include "seams/simplified_mesh.hpp"
+#include "seams/slit_plan.hpp"
+#include "seams/slit_search.hpp"
+#include "seams/slit_solver.hpp"
+#include "seams/slit_tree.hpp"
+#include "seamwire/task.hpp"
+
+namespace seamwire::detail {
+
+/// A group of pieces that is planned by itself, and the places on the surface where copies of it lie.
+struct GroupProblem {
+  SlitProblem original;
+  std::optional<SimplifiedMesh> simplified_mesh;  ///< of the original, if that is large
+  SlitProblem simple;                             ///< on that
+  double size = 1.0;                              ///< the root of each copy's share of the surface's area
+
+  /// One copy: the whole mesh's vertices and faces of the original's.
+  struct Place {
+    std::vector<std::int32_t> vertices, faces;
+  };
+  std::vector<Place> places;
+
+  const SlitProblem& searched() const { return simplified_mesh ? simple : original; }
+  /// The share of the whole surface's area that all copies have, without pieces that may not be cut.
+  double counted_area() const;
+};
+
+/// Plans one group.
+class GroupPlanning {
+ public:
+  /// The group must outlive this object.
+  explicit GroupPlanning(const GroupProblem& group) : group_(&group) {}
+
+  /// Closed cuts at necks, the narrowest first.
+  std::vector<NeckRing> necks(const Task& task) const { return find_necks(problem(), task); }
+  std::int32_t piece_count() const { return problem().pieces.count; }
+  /// Cuts along rings.
+  void part(const std::vector<NeckRing>& rings);
+  /// Cuts pieces into halves until there are so many, see halving_cuts().
+  void halve(std::size_t count, const Task& task);
+  /// How many pieces there can be at most.
+  std::size_t most_pieces() const;
+
+  /// Grows the tree of slits and solves its maps. Throws Cancelled.
+  void grow(bool has_tips, const Task& task);
+  /// Looks for a better plan within `goal.energy`. `found` is called whenever result() is a better plan, except at the end. Throws Cancelled.
+  void search(const SlitGoal& goal, const std::function<void()>& found, const Task& task);
+
+  /// The best plan so far.
+  struct Result {
+    std::vector<Slit> slits;  ///< on the original mesh, rings first
+    double energy = kNever, price = 0.0;
+    bool overlaps = false;
+    CutMaps maps;  ///< empty before search() has ended
+    bool is_within(double bound) const { return energy <= bound && !overlaps; }
+  };
+  const Result& result() const { return result_; }
+  bool has_slits() const { return !result_.slits.empty(); }
+  double steps() const { return steps_; }
+
+ private:
+  void add_rings(std::vector<Slit> rings);
+  void search_once(const SlitGoal& goal, const std::function<void()>& found, const Task& task);
+  std::vector<std::int32_t> missed_pieces(const SlitPlan& plan, double bound) const;
+  const SlitProblem& problem() const { return parted_ ? *parted_ : group_->searched(); }
+  std::vector<Slit> on_original(const std::vector<Slit>& slits) const;
+  Result solved_on_original(std::vector<Slit> slits, const Task& task) const;
+  void show(const SlitPlan& plan);
+
+  const GroupProblem* group_;
+  std::vector<Slit> rings_;
+  std::optional<SlitProblem> parted_;  // with rings
+  std::size_t least_pieces_ = 0;
+  std::vector<std::int32_t> roots_;
+  std::vector<std::int32_t> missed_;  // pieces that the last search left without a map within the bound
+  SlitPlan start_;
+  Result result_;
+  double steps_ = 0.0;
+};
+
+}  // namespace seamwire::detail
