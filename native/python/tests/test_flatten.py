@@ -108,3 +108,42 @@ def test_wrong_input_of_measure_map(change: dict, message: str) -> None:
     points, triangles = meshes.grid(2)
     with pytest.raises(ValueError, match=message):
         sw.measure_map(**{"points": points, "triangles": triangles, "uvs": points[triangles][:, :, :2], **change})
+
+
+def cube() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the points, the triangles and the real edges of a cube of six quads."""
+    points = np.array([(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)], dtype=float)
+    quads = np.array([(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)])
+    triangles = quads[:, [[0, 1, 2], [0, 2, 3]]].reshape(-1, 3)
+    edges = np.unique(np.sort(np.stack([quads, np.roll(quads, -1, axis=1)], axis=2).reshape(-1, 2), axis=1), axis=0)
+    return points, triangles, edges
+
+
+def test_real_edges_keep_polygons_whole() -> None:
+    points, triangles, edges = cube()
+    flat = sw.flatten(points, triangles, edges=edges)
+    # Corners 0 and 2 of each quad are in both of its triangles.
+    np.testing.assert_array_equal(flat.uvs[::2, 0], flat.uvs[1::2, 0])
+    np.testing.assert_array_equal(flat.uvs[::2, 2], flat.uvs[1::2, 1])
+    report = sw.measure_map(points, triangles, flat.uvs, flat.islands, edges=edges)
+    assert (len(report.flipped), len(report.overlapping)) == (0, 0)
+    with pytest.raises(ValueError, match="edges: expected"):
+        sw.flatten(points, triangles, edges=[1])
+    with pytest.raises(ValueError, match="edge 0: vertex 99"):
+        sw.measure_map(points, triangles, flat.uvs, edges=[(0, 99)])
+
+
+def test_islands_on_other_islands_collide() -> None:
+    points, triangles = meshes.grid(1)
+    points = np.concatenate([points + (place, 0, 0) for place in (0.0, 1.0, 1.5, 5.0)])
+    triangles = np.concatenate([triangles + 4 * i for i in range(4)])
+    report = sw.measure_map(points, triangles, points[triangles][:, :, :2])
+    assert report.colliding.tolist() == [1, 2]
+    assert report.colliding.dtype == np.int32
+    assert report.overlapping.tolist() == []
+
+
+def test_measuring_can_be_cancelled() -> None:
+    points, triangles = meshes.grid(30)
+    with pytest.raises(sw.Cancelled):
+        sw.measure_map(points, triangles, points[triangles][:, :, :2], progress=lambda _: False)

@@ -58,6 +58,12 @@ void add_touches(const OutlineSide& one, std::int32_t number, const OutlineSide&
 
 }  // namespace
 
+void mark_longest(std::span<OutlineSide> loop) {
+  const auto length = [](const OutlineSide& side) { return (side.to - side.from).norm(); };
+  const auto longest = std::ranges::max_element(loop, {}, length);
+  if (longest != loop.end()) longest->is_longest = true;
+}
+
 Coverage::Coverage(std::vector<OutlineSide> sides, std::vector<InnerPoint> inner, double tolerance, const Task& task)
     : sides_(std::move(sides)), inner_(std::move(inner)), tolerance_(tolerance), task_(task) {
   Box all;
@@ -237,6 +243,9 @@ bool Coverage::find(const IsRelevant& is_relevant, const Crossing& crossing, con
       }
     });
     if (is_found) return true;
+  }
+  for (std::size_t s = 0; s < sides_.size(); ++s) {
+    if (sides_[s].is_longest) is_touched[s] = 1;
   }
   // Between two touches of a side the number of times that the plane beside it is covered is the same everywhere.
   for (std::int32_t s = 0; index(s) < sides_.size(); ++s) {

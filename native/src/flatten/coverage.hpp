@@ -18,9 +18,13 @@ namespace seamwire::detail {
 /// A side of an outline in a map. The outlined part of the plane lies to its left.
 struct OutlineSide {
   Eigen::Vector2d from, to;
-  std::int32_t tail, tip;  ///< the vertices at its ends: sides with a common vertex do not cross each other
-  std::int32_t group;      ///< the island that it is a side of
+  std::int32_t tail, tip;   ///< the vertices at its ends: sides with a common vertex do not cross each other
+  std::int32_t group;       ///< the island that it is a side of
+  bool is_longest = false;  ///< of its loop
 };
+
+/// Marks the longest side of a loop.
+void mark_longest(std::span<OutlineSide> loop);
 
 /// A point inside a piece of a group.
 struct InnerPoint {
@@ -31,9 +35,10 @@ struct InnerPoint {
 
 /// How often the closed outlines of islands cover the points of a plane, and where they cover it twice.
 ///
-/// Without flips, a point is covered as often as the outlines wind around it. Points at which that number is two lie
-/// next to an outline that crosses or touches another one, or the outline lies inside another one. So the number is
-/// looked up beside each part of each side that touches something, and at one point inside each piece.
+/// Without flips, a point is covered as often as the outlines wind around it. Where that number is two, there is an
+/// outline that crosses or touches another one, a whole loop that is turned inside out, or a piece inside another one.
+/// So the number is looked up beside each part of each side that touches something, beside one side of each loop, and
+/// at one point inside each piece.
 class Coverage {
  public:
   /// `tolerance`: sides that cross by less than this only touch. `inner`: one point inside each piece.

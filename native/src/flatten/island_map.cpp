@@ -38,6 +38,8 @@ constexpr double kTouchingPart = 1e-3, kPartedBy = 0.02;
 /// Crossings not deeper than this, in the unit of maps, come from the two sides of a slit that is closed in the map.
 /// measure_map() ignores crossings of twice that depth.
 constexpr double kTouchingDepth = 5e-7;
+/// Crossings of a start with the barrier are less deep.
+constexpr double kStartDepth = 1e-8;
 /// The projection to a plane is a start if its energy is below this: the island is flat.
 constexpr double kFlatEnergy = 4.01;
 /// Added to the matrix's diagonal, as a part of its mean: the energy does not change with translations.
@@ -352,7 +354,8 @@ class Minimizer {
 
   void keep_if_apart() {
     if (has_barrier_ || !options_.keep_apart) return;
-    if (!(problem_.outline().energy(map_) < kBarrierOfStart) || problem_.outline().crosses_itself(map_)) return;
+    if (!(problem_.outline().energy(map_) < kBarrierOfStart)) return;
+    if (problem_.outline().covers_twice(map_, kStartDepth, task_)) return;
     last_apart_ = map_;
   }
 
@@ -379,7 +382,7 @@ IslandMap result_of(Problem& problem, const std::vector<double>& map, std::size_
 
 /// A start whose outline touches nothing: vertices of the outline that touch it move towards the middle of their
 /// triangles, so that the two sides of a slit part. Returns nothing if that is not enough.
-std::vector<double> parted(Problem& problem, const std::vector<double>& start) {
+std::vector<double> parted(Problem& problem, const std::vector<double>& start, const Task& task) {
   std::vector<double> map = start;
   for (const Outline::Pair& pair : problem.outline().close_pairs(start, kTouchingPart)) {
     const Eigen::Vector2d middle = problem.middle_around(pair.vertex, start);
@@ -389,7 +392,7 @@ std::vector<double> parted(Problem& problem, const std::vector<double>& start) {
     }
   }
   const bool is_fine = std::isfinite(problem.energy().energy(map)) && std::isfinite(problem.outline().energy(map)) &&
-                       !problem.outline().crosses_itself(map);
+                       !problem.outline().covers_twice(map, kStartDepth, task);
   return is_fine ? map : std::vector<double>{};
 }
 
@@ -403,7 +406,7 @@ IslandMap minimize(Problem& problem, const std::vector<double>& start, bool may_
   const bool is_hopeless = problem.energy().energy(free.map()) > options.worse_than;
   const bool repeats = overlaps && !is_hopeless && may_repeat && options.keep_apart;
   std::vector<double> other_start = repeats ? free.last_apart() : std::vector<double>{};
-  if (repeats && other_start.empty()) other_start = parted(problem, start);
+  if (repeats && other_start.empty()) other_start = parted(problem, start, task);
   if (other_start.empty()) return result_of(problem, free.map(), free.steps(), overlaps);
   Minimizer apart(problem, other_start, true, options, task);
   apart.run(0);

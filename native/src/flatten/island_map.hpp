@@ -37,8 +37,9 @@ struct IslandMap {
 };
 
 /// Maps an island to the plane. A flat island starts from its own shape, and others from Tutte's embedding (1963) on a
-/// circle. Then it minimizes the symmetric Dirichlet energy (Smith and Schaefer 2015) by projected Newton steps (Smith, de Goes and Kim 2019). While triangles
-/// are strongly distorted, their rest shapes are moved towards the map (Liu et al. 2018).
+/// circle. Then it minimizes the symmetric Dirichlet energy (Smith and Schaefer 2015) by projected Newton steps (Smith,
+/// de Goes and Kim 2019). While triangles are strongly distorted, their rest shapes are moved towards the map (Liu et
+/// al. 2018).
 ///
 /// `points`: of the mesh vertices, of any unit; the map has the same unit. Triangles lower than 1e-4 of their longest
 /// side are treated as if they were that high. Throws InvalidInput if the island is neither a disc nor a disc with

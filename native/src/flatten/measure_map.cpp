@@ -296,6 +296,7 @@ class OverlapTest {
         }
         outline.sides.push_back(side);
       }
+      mark_longest(std::span(outline.sides).last(loop.size()));
     }
   }
 

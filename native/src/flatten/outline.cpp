@@ -16,10 +16,6 @@ constexpr double kBarrierWeight = 1e-3;
 
 const double* at(std::span<const double> map, std::int32_t v) { return map.data() + 2 * index(v); }
 
-double turn(const double* a, const double* b, const double* c) {
-  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-}
-
 /// A point's distance from an edge, and how far along the edge its nearest point is, from 0 to 1.
 struct Nearest {
   double distance, along, x, y;  // x, y: from the nearest point to the point
@@ -37,32 +33,8 @@ Nearest nearest_on_edge(const double* point, const double* a, const double* b) {
 Outline::Outline(const std::vector<std::vector<std::int32_t>>& boundaries, double reach) : reach_(reach) {
   for (const std::vector<std::int32_t>& loop : boundaries) {
     for (std::size_t i = 0; i < loop.size(); ++i) edges_.push_back({loop[i], loop[(i + 1) % loop.size()]});
+    loop_sizes_.push_back(loop.size());
   }
-}
-
-bool Outline::crosses_itself(std::span<const double> map) const {
-  std::vector<Box> boxes(edges_.size());
-  for (std::size_t e = 0; e < edges_.size(); ++e) {
-    for (const std::int32_t v : edges_[e]) boxes[e].add(at(map, v));
-  }
-  const BoxGrid grid(boxes);
-  bool crosses = false;
-  const auto has_ends_on_both_sides = [&](const Edge& line, const Edge& edge) {
-    const double* a = at(map, line[0]);
-    const double* b = at(map, line[1]);
-    const double first = turn(a, b, at(map, edge[0])), second = turn(a, b, at(map, edge[1]));
-    return (first > 0.0 && second < 0.0) || (first < 0.0 && second > 0.0);
-  };
-  for (std::size_t e = 0; e < edges_.size() && !crosses; ++e) {
-    const auto& [a, b] = edges_[e];
-    grid.for_each_meeting(boxes[e], [&, a = a, b = b](std::int32_t i) {
-      const auto& [c, d] = edges_[index(i)];
-      if (index(i) <= e || a == c || a == d || b == c || b == d) return;
-      crosses = crosses || (has_ends_on_both_sides(edges_[e], edges_[index(i)]) &&
-                            has_ends_on_both_sides(edges_[index(i)], edges_[e]));
-    });
-  }
-  return crosses;
 }
 
 bool Outline::covers_twice(std::span<const double> map, double tolerance, const Task& task) const {
@@ -70,6 +42,11 @@ bool Outline::covers_twice(std::span<const double> map, double tolerance, const 
   sides.reserve(edges_.size());
   for (const auto& [a, b] : edges_) {
     sides.push_back({{at(map, a)[0], at(map, a)[1]}, {at(map, b)[0], at(map, b)[1]}, a, b, 0});
+  }
+  std::size_t begin = 0;
+  for (const std::size_t size : loop_sizes_) {
+    mark_longest(std::span(sides).subspan(begin, size));
+    begin += size;
   }
   return Coverage(std::move(sides), {}, tolerance, task).is_double();
 }

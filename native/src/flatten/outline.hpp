@@ -19,8 +19,6 @@ class Outline {
   /// `reach`: the distance at which the barrier begins, in the unit of maps.
   Outline(const std::vector<std::vector<std::int32_t>>& boundaries, double reach);
 
-  /// Whether two edges of the outline cross at points between their ends. Edges that only touch do not cross.
-  bool crosses_itself(std::span<const double> map) const;
   /// Whether the outline of a map without flips covers a part of the plane twice. Edges that cross by less than
   /// `tolerance` only touch. Throws Cancelled.
   bool covers_twice(std::span<const double> map, double tolerance, const Task& task = {}) const;
@@ -47,6 +45,7 @@ class Outline {
 
  private:
   std::vector<Edge> edges_;  // own vertices, in the direction of the loops
+  std::vector<std::size_t> loop_sizes_;
   double reach_;
 };
 

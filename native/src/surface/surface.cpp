@@ -200,6 +200,25 @@ std::vector<bool> find_duplicates(const Faces& faces, const ItemsByEdge& by_edge
   return duplicate;
 }
 
+// Two polygons may have a triangle in common and differ elsewhere. Without it, a polygon would be torn. So duplicates
+// stay in polygons that have other triangles too. The triangles of a polygon follow each other, so at a diagonal of
+// several polygons each side meets the next one of the list.
+void keep_in_polygons(const Faces& faces, const ItemsByEdge& by_edge, const std::vector<Edge>& real,
+                      std::vector<bool>& duplicate) {
+  DisjointSets polygons(faces.corners.size());
+  by_edge.for_each_edge(0.25, [&](const Edge& edge, std::span<const Index> sides) {
+    if (sides.size() % 2 != 0 || std::ranges::binary_search(real, edge)) return;
+    for (std::size_t i = 0; i < sides.size(); i += 2) polygons.join(sides[i] / 3, sides[i + 1] / 3);
+  });
+  std::vector<bool> has_other(faces.corners.size(), false);
+  for (Index f = 0; f < faces.count(); ++f) {
+    if (!duplicate[f]) has_other[polygons.find(f)] = true;
+  }
+  for (Index f = 0; f < faces.count(); ++f) {
+    if (has_other[polygons.find(f)]) duplicate[f] = false;
+  }
+}
+
 void remove_faces(Faces& faces, const std::vector<bool>& remove, std::vector<Index>& removed) {
   std::size_t kept = 0;
   for (std::size_t f = 0; f < faces.corners.size(); ++f) {
@@ -566,13 +585,14 @@ Surface::Surface(std::vector<Vector> points, std::vector<Triangle> triangles, st
   std::optional<ItemsByEdge> by_edge(sides_by_edge(points_.size(), faces, task));
   task.check(0.2);
   bool has_duplicates = false;
-  const std::vector<bool> duplicate = find_duplicates(faces, *by_edge, has_duplicates);
+  std::vector<bool> duplicate = find_duplicates(faces, *by_edge, has_duplicates);
+  if (edges) edges_ = sorted_unique(points_.size(), *edges, task);
   if (has_duplicates) {
+    if (edges) keep_in_polygons(faces, *by_edge, edges_, duplicate);
     remove_faces(faces, duplicate, report_.duplicate_faces);
     by_edge.emplace(sides_by_edge(points_.size(), faces, task));
   }
   task.check(0.3);
-  if (edges) edges_ = sorted_unique(points_.size(), *edges, task);
   Gluing gluing = glue(faces, *by_edge, edges ? &edges_ : nullptr, report_);
 
   task.check(0.35);

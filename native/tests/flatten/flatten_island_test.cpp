@@ -260,14 +260,39 @@ TEST(Outline, TouchingIsNotCrossing) {
     }
     return map;
   };
-  EXPECT_FALSE(outline.crosses_itself(at({Point2(0, 0), Point2(1, 0), Point2(0, 1), Point2(1, 1)})));
-  EXPECT_TRUE(outline.crosses_itself(at({Point2(0, 0), Point2(1, 0), Point2(1, 1), Point2(0, 1)}))) << "a bow tie";
+  EXPECT_FALSE(outline.covers_twice(at({Point2(0, 0), Point2(1, 0), Point2(0, 1), Point2(1, 1)}), 1e-6));
+  EXPECT_TRUE(outline.covers_twice(at({Point2(0, 0), Point2(1, 0), Point2(1, 1), Point2(0, 1)}), 1e-6)) << "a bow tie";
   const auto touching = at({Point2(0, 0), Point2(2, 0), Point2(1, 0), Point2(1, 1)});
-  EXPECT_FALSE(outline.crosses_itself(touching)) << "a corner on an edge";
-  EXPECT_FALSE(outline.covers_twice(touching, 1e-6));
+  EXPECT_FALSE(outline.covers_twice(touching, 1e-6)) << "a corner on an edge";
   const auto shallow = at({Point2(0, 0), Point2(2, 0), Point2(1, -1e-4), Point2(1, 1)});
-  EXPECT_TRUE(outline.crosses_itself(shallow));
+  EXPECT_TRUE(outline.covers_twice(shallow, 1e-6));
   EXPECT_FALSE(outline.covers_twice(shallow, 1e-3));
+}
+
+TEST(Outline, AHoleThatIsTurnedInsideOutCoversThePlaneTwice) {
+  // A slit of two edges: its middle lies on both sides, and each side may move.
+  const shapes::Mesh mesh = shapes::grid(4);
+  const Island island = whole(mesh, {{11, 12}, {12, 13}});
+  const Outline outline(island.boundaries(), 0.1);
+  std::vector<double> map;
+  for (const std::int32_t v : island.vertices) {
+    for (const double value : mesh.points[static_cast<std::size_t>(v)].head<2>()) map.push_back(value);
+  }
+  EXPECT_FALSE(outline.covers_twice(map, 1e-6));
+  // The own vertex of the middle that has a triangle below the slit.
+  for (const Triangle& t : island.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto own = static_cast<std::size_t>(t[i]);
+      const bool is_below =
+          std::ranges::any_of(t, [&](std::int32_t v) { return map[2 * static_cast<std::size_t>(v) + 1] < 0.49; });
+      if (island.vertices[own] == 12 && is_below && map[2 * own + 1] == 0.5) map[2 * own + 1] = 0.499;
+    }
+  }
+  EXPECT_FALSE(outline.covers_twice(map, 1e-6)) << "the slit is open";
+  for (std::size_t v = 0; v < island.vertices.size(); ++v) {
+    if (island.vertices[v] == 12 && map[2 * v + 1] == 0.499) map[2 * v + 1] = 0.501;
+  }
+  EXPECT_TRUE(outline.covers_twice(map, 1e-6)) << "its sides lie over each other";
 }
 
 TEST(Outline, CrossingsThroughVerticesCoverThePlaneTwice) {

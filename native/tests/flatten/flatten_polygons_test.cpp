@@ -178,6 +178,20 @@ TEST(FlattenPolygons, QuadsOnTheSameDiagonalKeepTheirOwn) {
   expect_map_of_polygons(mesh, surface, {});
 }
 
+TEST(FlattenPolygons, PolygonsWithACommonTriangleStayWhole) {
+  // Vertex 1 is in two quads only, which both have the triangle 0 1 2, turned differently.
+  const shapes::PolygonMesh mesh{{{0, 0, 0}, {1, 0, 0.2}, {2, 0, 0}, {1, 1, 0}, {1, -1, 0}},
+                                 {{0, 1, 2, 3}, {2, 1, 0, 4}}};
+  const Surface surface(mesh.points, {{0, 1, 2}, {0, 2, 3}, {2, 1, 0}, {2, 0, 4}}, mesh.edges());
+  EXPECT_TRUE(surface.report().duplicate_faces.empty());
+  EXPECT_TRUE(surface.report().nonmanifold_edges.empty());
+  EXPECT_EQ(face_segments(surface, {}), (std::vector<std::int32_t>(4, 0)));
+  expect_map_of_polygons(mesh, surface, {});
+  // A quad that is there twice is left out still.
+  EXPECT_EQ(Surface(mesh.points, {{0, 1, 2}, {0, 2, 3}, {0, 1, 2}, {0, 2, 3}}, mesh.edges()).report().duplicate_faces,
+            (std::vector<std::int32_t>{2, 3}));
+}
+
 /// A flat sheet of n x n quads, with a fin upon each of some edges.
 shapes::PolygonMesh sheet_with_fins(int n, int fins) {
   shapes::PolygonMesh mesh = shapes::of_quads(shapes::quad_grid(n));
