@@ -61,6 +61,8 @@ class MappedSurface:
         (m,) the island of each triangle, numbered from 0.
     uvs
         (m, 3, 2) the UVs of the triangles' corners.
+    edges
+        (e, 2) the edges of the faces, without the diagonals that cut these into triangles.
     """
 
     points: NDArray[np.float64]
@@ -68,6 +70,7 @@ class MappedSurface:
     polygons: NDArray[np.int32]
     labels: NDArray[np.int32]
     uvs: NDArray[np.floating]
+    edges: NDArray[np.int32]
 
     @property
     def count(self) -> int:
@@ -98,7 +101,8 @@ class MappedSurface:
             return rows, None
         uvs = self.uvs[rows].astype(np.float64) * (aspect, 1.0)
         numbers = np.unique(self.labels[rows], return_inverse=True)[1].astype(np.int32)
-        return rows, native.load().measure_map(self.points, self.triangles[rows], uvs, islands=numbers)
+        report = native.load().measure_map(self.points, self.triangles[rows], uvs, islands=numbers, edges=self.edges)
+        return rows, report
 
 
 def joined(surfaces: Sequence[MappedSurface]) -> MappedSurface:
@@ -108,7 +112,7 @@ def joined(surfaces: Sequence[MappedSurface]) -> MappedSurface:
     """
     if len(surfaces) == 1:
         return surfaces[0]
-    points, triangles, polygons, labels = [], [], [], []
+    points, triangles, polygons, labels, edges = [], [], [], [], []
     vertices = faces = islands = 0
     for each in surfaces:
         size = float(np.ptp(each.points, axis=0).max(initial=0.0))
@@ -116,10 +120,11 @@ def joined(surfaces: Sequence[MappedSurface]) -> MappedSurface:
         triangles.append(each.triangles + vertices)
         polygons.append(each.polygons + faces)
         labels.append(each.labels + islands)
+        edges.append(each.edges + vertices)
         vertices += len(each.points)
         faces += int(each.polygons.max(initial=-1)) + 1
         islands += each.count
-    columns = (points, triangles, polygons, labels, [each.uvs for each in surfaces])
+    columns = (points, triangles, polygons, labels, [each.uvs for each in surfaces], edges)
     return MappedSurface(*map(np.concatenate, columns))
 
 
@@ -147,7 +152,7 @@ def find_faults(
     if report is not None:
         is_bad[rows[report.flipped]] = True
         islands = np.unique(surface.labels[rows])
-        overlapping = islands[np.union1d(report.overlapping, getattr(report, "colliding", report.overlapping))]
+        overlapping = islands[np.union1d(report.overlapping, report.colliding)]
         outside = _outside(surface, rows, homes)
     is_bad &= chosen[surface.labels]
     return MapFaults(
