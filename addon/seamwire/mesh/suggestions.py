@@ -213,4 +213,6 @@ class Suggestions:
         if self._unwrapped is None:  # the maps on the meshes are those from before
             return [], []
         maps = {obj: found for obj in (each.mesh.obj for each in self) if (found := mapped(obj)) is not None}
-        return [found.energy(uv_map.aspect(obj)) for obj, found in maps.items()], [found.area for found in maps.values()]
+        return [found.energy(uv_map.aspect(obj)) for obj, found in maps.items()], [
+            found.area for found in maps.values()
+        ]

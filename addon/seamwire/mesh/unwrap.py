@@ -352,7 +352,9 @@ def unwrap_changed(
 def _faults(maps: Sequence[_Map]) -> MapFaults:
     """Measure what is wrong with the changed islands in the UV maps that the meshes have."""
     chosen = np.concatenate([np.isin(np.arange(found.count), found.changed) for found in maps])
-    return find_faults(joined([found.mapped() for found in maps]), chosen, np.concatenate([found.homes() for found in maps]))
+    return find_faults(
+        joined([found.mapped() for found in maps]), chosen, np.concatenate([found.homes() for found in maps])
+    )
 
 
 def _unwrap_by_blender(context: bpy.types.Context, islands: Mapping[_Map, NDArray[np.integer]], method: str) -> None:

@@ -81,7 +81,9 @@ class MappedSurface:
     def area(self) -> float:
         """The area on the model."""
         corners = self.points[self.triangles]
-        return 0.5 * float(np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum())
+        return 0.5 * float(
+            np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum()
+        )
 
     def energy(self, aspect: float = 1.0) -> float:
         """Return the mean symmetric Dirichlet energy E_d: 4 if nothing is stretched, infinite if there is nothing to measure.
@@ -162,9 +164,7 @@ def find_faults(
     )
 
 
-def _outside(
-    surface: MappedSurface, rows: NDArray[np.int64], homes: NDArray[np.float64]
-) -> NDArray[np.bool_]:
+def _outside(surface: MappedSurface, rows: NDArray[np.int64], homes: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Return which islands lie neither in the UV square nor in their home, (count,)."""
     low, high = np.full((surface.count, 2), np.inf), np.full((surface.count, 2), -np.inf)
     uvs, labels = surface.uvs[rows].astype(np.float64), surface.labels[rows]
