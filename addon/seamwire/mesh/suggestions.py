@@ -7,8 +7,8 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from ..core.seams.suggestion import Request, energy_of, mean_stretch, stretch_of
 from ..core.islands.map_faults import NO_FAULTS
+from ..core.seams.suggestion import Request, energy_of, mean_stretch, stretch_of
 from ..words.notices import Notices
 from ..words.suggestion import Outcome
 from . import edit_mesh, uv_map

@@ -13,7 +13,7 @@ def squares(*corners: tuple[float, float], size: float = 0.2, unit: float = 1.0)
     """Return separate squares, each an island of two triangles, with their low corners at some places of the map."""
     square = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
     points = np.concatenate(
-        [np.pad(unit * square, ((0, 0), (0, 1))) + (2.0 * unit * i, 0, 0) for i in range(len(corners))]
+        [np.pad(unit * square, ((0, 0), (0, 1))) + np.array([2.0 * unit * i, 0.0, 0.0]) for i in range(len(corners))]
     )
     triangles = np.concatenate([np.array([(0, 1, 2), (0, 2, 3)]) + 4 * i for i in range(len(corners))])
     edges = np.concatenate([np.array([(0, 1), (1, 2), (2, 3), (3, 0)]) + 4 * i for i in range(len(corners))])
