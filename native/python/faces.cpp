@@ -64,7 +64,7 @@ segments : (m,) array_like of int
 Returns
 -------
 (count,) int32
-    0 for a disc, and 1 for a tube, a Moebius strip or a closed ball. 2 for a disc with a handle, and 3 for a torus.
+    0 for a disc, and 1 for a tube or a closed ball. 2 for a disc with a handle, and 3 for a torus.
 
 Raises
 ------

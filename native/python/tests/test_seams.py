@@ -194,7 +194,7 @@ def closed_ring(columns: int, row: int) -> list[tuple[int, int]]:
         (meshes.torus(6, 5), closed_ring(6, 2), [1]),
         (meshes.torus(6, 5), [*closed_ring(6, 1), *closed_ring(6, 3)], [1, 1]),
         (meshes.torus(6, 5), closed_ring(6, 2)[:1], [2]),
-        (meshes.moebius(9), [], [1]),
+        (meshes.moebius(9), [], [0]),
         (meshes.moebius(9), [(8, 9)], [0]),
         (meshes.joined(meshes.torus(6, 5), meshes.grid(2)), [], [3, 0]),
     ],

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
@@ -41,16 +42,18 @@ struct Touch {
   auto operator<=>(const Touch&) const = default;
 };
 
+/// Adds the places between the ends of a side at which another one touches it.
 void add_touches(const OutlineSide& one, std::int32_t number, const OutlineSide& other, double tolerance,
                  std::vector<Touch>& touches) {
+  const double least = tolerance / (one.to - one.from).norm();
+  const auto add = [&](double part) {
+    if (part > least && part < 1.0 - least) touches.push_back({number, part});
+  };
   for (const Point* end : {&other.from, &other.to}) {
-    if (distance(one, *end) <= tolerance) touches.push_back({number, along(one, *end)});
+    if (distance(one, *end) <= tolerance) add(along(one, *end));
   }
   const double from = turn(other.from, other.to, one.from), to = turn(other.from, other.to, one.to);
-  if ((from > 0.0) != (to > 0.0)) touches.push_back({number, from / (from - to)});
-  // The other one may touch an end.
-  touches.push_back({number, 0.0});
-  touches.push_back({number, 1.0});
+  if ((from > 0.0) != (to > 0.0)) add(from / (from - to));
 }
 
 }  // namespace
@@ -209,25 +212,35 @@ Coverage::Meeting Coverage::meeting(const OutlineSide& one, const OutlineSide& o
 template <class IsRelevant, class Crossing, class Look>
 bool Coverage::find(const IsRelevant& is_relevant, const Crossing& crossing, const Look& look) const {
   std::vector<Touch> touches;
+  std::vector<std::uint8_t> is_touched(sides_.size(), 0);
+  std::vector<std::int32_t> seen_from(sides_.size(), -1);
   Poll poll(task_, 0.0, 0.0, 1);
-  for (std::int32_t cell = 0; index(cell) < cells_.row_count(); ++cell) {
-    const std::span<const std::int32_t> here = cells_[cell];
-    for (std::size_t i = 0; i < here.size(); ++i) {
-      const OutlineSide& one = sides_[index(here[i])];
-      for (std::size_t j = i + 1; j < here.size(); ++j) {
+  const auto try_pair = [&](std::int32_t s, std::int32_t t) {
+    const OutlineSide& one = sides_[index(s)];
+    const OutlineSide& other = sides_[index(t)];
+    if (!is_relevant(one, other)) return false;
+    const Meeting meets = meeting(one, other);
+    if (meets == Meeting::kCrossing) return crossing(one, other);
+    if (meets == Meeting::kApart) return false;
+    is_touched[index(s)] = is_touched[index(t)] = 1;
+    add_touches(one, s, other, tolerance_, touches);
+    add_touches(other, t, one, tolerance_, touches);
+    return false;
+  };
+  for (std::int32_t s = 0; index(s) < sides_.size(); ++s) {
+    bool is_found = false;
+    for_each_cell(sides_[index(s)], [&](std::int32_t cell) {
+      const std::span<const std::int32_t> here = cells_[cell];
+      for (auto t = std::ranges::upper_bound(here, s); t != here.end() && !is_found; ++t) {
         poll.next();
-        const OutlineSide& other = sides_[index(here[j])];
-        if (!is_relevant(one, other)) continue;
-        const Meeting meets = meeting(one, other);
-        if (meets == Meeting::kApart) continue;
-        if (meets == Meeting::kCrossing) {
-          if (crossing(one, other)) return true;
-          continue;
-        }
-        add_touches(one, here[i], other, tolerance_, touches);
-        add_touches(other, here[j], one, tolerance_, touches);
+        if (std::exchange(seen_from[index(*t)], s) != s) is_found = try_pair(s, *t);
       }
-    }
+    });
+    if (is_found) return true;
+  }
+  // Between two touches of a side the number of times that the plane beside it is covered is the same everywhere.
+  for (std::int32_t s = 0; index(s) < sides_.size(); ++s) {
+    if (is_touched[index(s)] != 0) touches.insert(touches.end(), {{s, 0.0}, {s, 1.0}});
   }
   std::ranges::sort(touches);
   for (std::size_t i = 1; i < touches.size(); ++i) {

@@ -19,6 +19,7 @@
 #include "flatten/open_island.hpp"
 #include "seamwire/surface/segments.hpp"
 #include "surface/cuts.hpp"
+#include "surface/real_edges.hpp"
 
 namespace seamwire {
 
@@ -79,9 +80,22 @@ class Flattener {
     return options_.start[index(caller_face(island, index(h / 3)))][caller_corner(surface_, face, index(h % 3))];
   }
 
+  /// Whether each half-edge of an island is a real edge.
+  std::vector<std::uint8_t> real_half_edges(const Island& island) const {
+    std::vector<std::uint8_t> is_real;
+    is_real.reserve(island.twins.size());
+    for (const Triangle& t : island.triangles) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        is_real.push_back(has_edge(surface_, {island.vertices[t[i]], island.vertices[t[(i + 1) % 3]]}) ? 1 : 0);
+      }
+    }
+    return is_real;
+  }
+
   /// The island is opened further until double precision can hold the embedding.
   MappedIsland from_tutte(const Island& island, const MapOptions& options, const Task& task) const {
-    MappedIsland result{.opened = open_to_plane(island, surface_.points(), task), .map = {}};
+    const std::vector<std::uint8_t> is_real = real_half_edges(island);
+    MappedIsland result{.opened = open_to_plane(island, is_real, surface_.points(), task), .map = {}};
     for (int opening = 0;; ++opening) {
       result.map = map_island(result.opened.island, surface_.points(), options, task);
       if (!result.map.uvs.empty()) return result;
@@ -89,7 +103,7 @@ class Flattener {
         throw InvalidInput("the island with triangle " + std::to_string(caller_face(island, 0)) +
                            " cannot be flattened in double precision; cut it further");
       }
-      OpenedIsland further = open_to_farthest(result.opened.island, surface_.points(), task);
+      OpenedIsland further = open_to_farthest(result.opened.island, is_real, surface_.points(), task);
       further.opened += result.opened.opened;
       result.opened = std::move(further);
     }
@@ -104,7 +118,12 @@ class Flattener {
       if (twin < h) continue;
       const bool agrees = start_of(island, h) == start_of(island, next_in_face(twin)) &&
                           start_of(island, next_in_face(h)) == start_of(island, twin);
-      if (!agrees) is_cut[h] = is_cut[twin] = 1;
+      if (agrees) continue;
+      if (!has_edge(surface_, {island.vertices[island.triangles[h / 3][h % 3]],
+                               island.vertices[island.triangles[h / 3][(h + 1) % 3]]})) {
+        return std::nullopt;  // a polygon has two UVs at a corner
+      }
+      is_cut[h] = is_cut[twin] = 1;
     }
     MappedIsland result{.opened = open_along(island, is_cut), .map = {}};
     const Island& own = result.opened.island;
@@ -137,23 +156,6 @@ std::vector<Island> islands_of(const Surface& surface, std::span<const Edge> cut
     for (std::int32_t& v : island.vertices) v = surface.vertex_of_fan()[v];
   }
   return islands;
-}
-
-/// Numbers islands as face_segments() does: the first part of a segment has its number, further parts come after all.
-std::vector<std::int32_t> number_islands(const Surface& surface, const std::vector<Island>& islands,
-                                         std::vector<std::int32_t>& labels) {
-  std::int32_t count = labels.empty() ? 0 : std::ranges::max(labels) + 1;
-  std::vector<std::uint8_t> is_taken(index(count), 0);
-  std::vector<std::int32_t> numbers;
-  for (const Island& island : islands) {
-    const std::int32_t label = labels[surface.face_of_half_edge_face()[island.faces.front()]];
-    const bool is_first = std::exchange(is_taken[label], std::uint8_t{1}) == 0;
-    numbers.push_back(is_first ? label : count++);
-  }
-  for (std::size_t i = 0; i < islands.size(); ++i) {
-    for (const std::int32_t f : islands[i].faces) labels[surface.face_of_half_edge_face()[f]] = numbers[i];
-  }
-  return numbers;
 }
 
 /// Maps all islands, those with the most triangles first.
@@ -242,7 +244,6 @@ Flattening flatten(const Surface& surface, std::span<const Edge> cuts, const Fla
   const std::vector<Island> islands = islands_of(surface, cuts);
   Flattening result;
   result.islands = face_segments(surface, cuts);
-  const std::vector<std::int32_t> numbers = number_islands(surface, islands, result.islands);
   const std::vector<MappedIsland> mapped = map_all(surface, islands, options, task);
   result.uvs.assign(surface.face_count(), {Point2::Zero(), Point2::Zero(), Point2::Zero()});
   result.by_island.resize(result.islands.empty() ? 0 : index(std::ranges::max(result.islands) + 1));
@@ -255,7 +256,8 @@ Flattening flatten(const Surface& surface, std::span<const Edge> cuts, const Fla
             mapped[i].map.uvs[island.triangles[f][k]];
       }
     }
-    result.by_island[numbers[i]] = describe(surface, mapped[i]);
+    const std::int32_t first = surface.face_of_half_edge_face()[island.faces.front()];
+    result.by_island[result.islands[first]] = describe(surface, mapped[i]);
   }
   fill_left_out(surface, result);
   task.check(0.95);

@@ -359,7 +359,7 @@ IslandMap minimize(Problem& problem, const std::vector<double>& start, bool may_
                    const Task& task) {
   Minimizer free(problem, start, false, options, task);
   free.run(0);
-  const bool overlaps = problem.outline().crosses_itself(free.map(), kTouchingDepth);
+  const bool overlaps = problem.outline().covers_twice(free.map(), kTouchingDepth, task);
   // A barrier only adds to the energy.
   const bool is_hopeless = problem.energy().energy(free.map()) > options.worse_than;
   const bool repeats = overlaps && !is_hopeless && may_repeat && options.keep_apart;
@@ -369,7 +369,7 @@ IslandMap minimize(Problem& problem, const std::vector<double>& start, bool may_
   Minimizer apart(problem, other_start, true, options, task);
   apart.run(0);
   return result_of(problem, apart.map(), free.steps() + apart.steps(),
-                   problem.outline().crosses_itself(apart.map(), kTouchingDepth));
+                   problem.outline().covers_twice(apart.map(), kTouchingDepth, task));
 }
 
 }  // namespace
@@ -398,7 +398,7 @@ IslandMap continue_map(const Island& island, std::span<const Vector> points, std
   if (!std::isfinite(problem.energy().energy(start))) {
     throw InvalidInput("the start of an island has a triangle that is flipped or has no area");
   }
-  return minimize(problem, start, !problem.outline().crosses_itself(start, kTouchingDepth), options, task);
+  return minimize(problem, start, !problem.outline().covers_twice(start, kTouchingDepth, task), options, task);
 }
 
 std::vector<double> triangle_energies(const Island& island, std::span<const Vector> points,

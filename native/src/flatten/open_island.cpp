@@ -19,12 +19,14 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// Shortest paths along the edges of an island.
+/// Shortest paths along the real edges of an island.
 class Paths {
  public:
-  Paths(const Island& island, std::span<const Vector> points)
-      : island_(island), points_(points), leaving_(island.vertices.size(), [&](const auto& visit) {
-          for (std::int32_t h = 0; index(h) < island.twins.size(); ++h) visit(tail(h), h);
+  Paths(const Island& island, std::span<const std::uint8_t> is_real, std::span<const Vector> points)
+      : island_(island), is_real_(is_real), points_(points), leaving_(island.vertices.size(), [&](const auto& visit) {
+          for (std::int32_t h = 0; index(h) < island.twins.size(); ++h) {
+            if (can_be_cut(h)) visit(tail(h), h);
+          }
         }) {}
 
   std::int32_t tail(std::int32_t h) const { return island_.triangles[h / 3][h % 3]; }
@@ -32,6 +34,9 @@ class Paths {
   double length(std::int32_t h) const {
     return (points_[index(island_.vertices[tail(h)])] - points_[index(island_.vertices[tip(h)])]).norm();
   }
+
+  /// Whether an edge is a real one inside the island.
+  bool can_be_cut(std::int32_t h) const { return island_.twins[h] >= 0 && is_real_[index(h)] != 0; }
 
   /// Distances from the nearest of some vertices. Paths do not run along the boundary.
   void search(std::span<const std::int32_t> from, const Task& task) {
@@ -52,7 +57,7 @@ class Paths {
       if (count % 1024 == 0) task.check(0.0);
       const std::int32_t v = heap.pop();
       for (const std::int32_t h : leaving_[v]) {
-        if (island_.twins[h] >= 0) try_edge(tip(h), h, distance_[v] + length(h));
+        try_edge(tip(h), h, distance_[v] + length(h));
       }
     }
   }
@@ -77,8 +82,9 @@ class Paths {
 
  private:
   const Island& island_;
+  std::span<const std::uint8_t> is_real_;
   std::span<const Vector> points_;
-  Csr<std::int32_t> leaving_;  // half-edges that start at each vertex
+  Csr<std::int32_t> leaving_;  // half-edges that start at each vertex and can be cut
   std::vector<double> distance_;
   std::vector<std::int32_t> towards_;  // the half-edge that ends at each vertex on the path to it, -1 at sources
 };
@@ -96,17 +102,20 @@ std::vector<std::int32_t> boundary_vertices(const std::vector<std::vector<std::i
 }
 
 /// Cuts that leave a disc: the edges that neither the paths nor a spanning tree of the triangles take, each with the
-/// paths to both of its ends. The tree prefers edges whose closed curve is long.
+/// paths to both of its ends. The tree takes edges inside polygons first, and then prefers edges whose closed curve is
+/// long.
 std::vector<std::uint8_t> greedy_system(const Island& island, const Paths& paths) {
   std::vector<std::int32_t> order;
+  DisjointSets triangles(island.triangles.size());
   for (std::int32_t h = 0; index(h) < island.twins.size(); ++h) {
-    if (island.twins[h] > h && !paths.is_on_path(h)) order.push_back(h);
+    if (island.twins[h] < h) continue;
+    if (!paths.can_be_cut(h)) triangles.join(h / 3, island.twins[h] / 3);
+    if (paths.can_be_cut(h) && !paths.is_on_path(h)) order.push_back(h);
   }
   const auto curve = [&](std::int32_t h) {
     return paths.distance(paths.tail(h)) + paths.length(h) + paths.distance(paths.tip(h));
   };
   std::ranges::stable_sort(order, std::ranges::greater(), curve);
-  DisjointSets triangles(island.triangles.size());
   std::vector<std::uint8_t> is_cut(island.twins.size(), 0);
   for (const std::int32_t h : order) {
     if (triangles.join(h / 3, island.twins[h] / 3)) continue;
@@ -177,12 +186,13 @@ OpenedIsland open_along(const Island& island, const std::vector<std::uint8_t>& i
   return opened;
 }
 
-OpenedIsland open_to_plane(const Island& island, std::span<const Vector> points, const Task& task) {
+OpenedIsland open_to_plane(const Island& island, std::span<const std::uint8_t> is_real, std::span<const Vector> points,
+                           const Task& task) {
   OpenedIsland result{.island = island, .opened = 0};
   // One round for handles or a closed ball, and one for each slit of a single edge.
   for (int round = 0; round < 3 && !is_planar(result.island); ++round) {
     const std::vector<std::vector<std::int32_t>> boundaries = result.island.boundaries();
-    Paths paths(result.island, points);
+    Paths paths(result.island, is_real, points);
     std::vector<std::uint8_t> is_cut;
     if (euler_characteristic(result.island) == 2 - static_cast<std::int64_t>(boundaries.size())) {
       is_cut =
@@ -200,8 +210,9 @@ OpenedIsland open_to_plane(const Island& island, std::span<const Vector> points,
   return result;
 }
 
-OpenedIsland open_to_farthest(const Island& island, std::span<const Vector> points, const Task& task) {
-  Paths paths(island, points);
+OpenedIsland open_to_farthest(const Island& island, std::span<const std::uint8_t> is_real,
+                              std::span<const Vector> points, const Task& task) {
+  Paths paths(island, is_real, points);
   paths.search(boundary_vertices(island.boundaries()), task);
   std::vector<std::uint8_t> is_cut(island.twins.size(), 0);
   paths.mark(paths.farthest(), is_cut);

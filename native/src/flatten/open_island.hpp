@@ -22,14 +22,17 @@ struct OpenedIsland {
   std::size_t opened = 0;  ///< edges of it that were cut
 };
 
-/// Opens an island until is_planar() holds. A closed ball is cut along a shortest path between two vertices far from
-/// each other. Handles are cut along a greedy system of paths (Erickson and Whittlesey 2005) from one vertex, or from
-/// the boundary if there is one. `points`: of mesh vertices. Throws InvalidInput if nothing can be cut; Cancelled.
-OpenedIsland open_to_plane(const Island& island, std::span<const Vector> points, const Task& task);
+/// Opens an island along real edges until is_planar() holds. A closed ball is cut along a shortest path between two
+/// vertices far from each other. Handles are cut along a greedy system of paths (Erickson and Whittlesey 2005) from one
+/// vertex, or from the boundary if there is one. `is_real`: 1 for half-edges that may be cut. `points`: of mesh
+/// vertices. Throws InvalidInput if nothing can be cut; Cancelled.
+OpenedIsland open_to_plane(const Island& island, std::span<const std::uint8_t> is_real, std::span<const Vector> points,
+                           const Task& task);
 
-/// Cuts a planar island along a shortest path from its boundary to the vertex farthest from it. Throws InvalidInput if
-/// all vertices are on the boundary; Cancelled.
-OpenedIsland open_to_farthest(const Island& island, std::span<const Vector> points, const Task& task);
+/// Cuts a planar island along a shortest path of real edges from its boundary to the vertex farthest from it. Throws
+/// InvalidInput if all vertices are on the boundary; Cancelled.
+OpenedIsland open_to_farthest(const Island& island, std::span<const std::uint8_t> is_real,
+                              std::span<const Vector> points, const Task& task);
 
 /// Cuts an island along some of its half-edges. Returns no triangles if it falls apart.
 OpenedIsland open_along(const Island& island, const std::vector<std::uint8_t>& is_cut);

@@ -7,6 +7,7 @@
 
 #include "detail/index.hpp"
 #include "flatten/box_grid.hpp"
+#include "flatten/coverage.hpp"
 
 namespace seamwire::detail {
 namespace {
@@ -39,7 +40,7 @@ Outline::Outline(const std::vector<std::vector<std::int32_t>>& boundaries, doubl
   }
 }
 
-bool Outline::crosses_itself(std::span<const double> map, double tolerance) const {
+bool Outline::crosses_itself(std::span<const double> map) const {
   std::vector<Box> boxes(edges_.size());
   for (std::size_t e = 0; e < edges_.size(); ++e) {
     for (const std::int32_t v : edges_[e]) boxes[e].add(at(map, v));
@@ -50,8 +51,7 @@ bool Outline::crosses_itself(std::span<const double> map, double tolerance) cons
     const double* a = at(map, line[0]);
     const double* b = at(map, line[1]);
     const double first = turn(a, b, at(map, edge[0])), second = turn(a, b, at(map, edge[1]));
-    const double least = tolerance * std::hypot(b[0] - a[0], b[1] - a[1]);
-    return (first > least && second < -least) || (first < -least && second > least);
+    return (first > 0.0 && second < 0.0) || (first < 0.0 && second > 0.0);
   };
   for (std::size_t e = 0; e < edges_.size() && !crosses; ++e) {
     const auto& [a, b] = edges_[e];
@@ -63,6 +63,15 @@ bool Outline::crosses_itself(std::span<const double> map, double tolerance) cons
     });
   }
   return crosses;
+}
+
+bool Outline::covers_twice(std::span<const double> map, double tolerance, const Task& task) const {
+  std::vector<OutlineSide> sides;
+  sides.reserve(edges_.size());
+  for (const auto& [a, b] : edges_) {
+    sides.push_back({{at(map, a)[0], at(map, a)[1]}, {at(map, b)[0], at(map, b)[1]}, a, b, 0});
+  }
+  return Coverage(std::move(sides), {}, tolerance, task).is_double();
 }
 
 std::vector<Outline::Pair> Outline::close_pairs(std::span<const double> map, double factor) const {

@@ -5,10 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "seamwire/surface/types.hpp"
+#include "seamwire/task.hpp"
 
 namespace seamwire::detail {
 
@@ -18,13 +18,12 @@ class Outline {
  public:
   /// `reach`: the distance at which the barrier begins, in the unit of maps.
   Outline(const std::vector<std::vector<std::int32_t>>& boundaries, double reach);
-  /// Of edges between any vertices, without a barrier.
-  explicit Outline(std::vector<Edge> edges) : edges_(std::move(edges)), reach_(0.0) {}
 
-  /// Whether two edges of the outline cross. Edges that only touch, in points or along their length, do not cross; nor
-  /// do edges of which an end is closer than `tolerance` to the line through the other one. A disc without flips whose
-  /// outline does not cross overlaps nowhere.
-  bool crosses_itself(std::span<const double> map, double tolerance = 0.0) const;
+  /// Whether two edges of the outline cross at points between their ends. Edges that only touch do not cross.
+  bool crosses_itself(std::span<const double> map) const;
+  /// Whether the outline of a map without flips covers a part of the plane twice. Edges that cross by less than
+  /// `tolerance` only touch. Throws Cancelled.
+  bool covers_twice(std::span<const double> map, double tolerance, const Task& task = {}) const;
 
   /// A vertex of the outline that is close to one of its edges: three own vertices.
   struct Pair {

@@ -44,42 +44,19 @@ std::vector<Edge> real_cuts(const Surface& surface, std::span<const Edge> cut_ed
   return cuts;
 }
 
-/// Both half-edges of each edge at which triangles meet in pairs. Where the triangles on both sides face opposite ways,
-/// the half-edge mesh is open, and the half-edges run in the same direction.
-struct Meeting {
-  std::int32_t one, other;
-  bool is_turned;
-};
-std::vector<Meeting> meetings(const Surface& surface) {
-  std::vector<Meeting> found;
-  const std::vector<Edge>& turned = surface.report().unorientable_edges;
-  std::vector<std::int32_t> first(turned.size(), -1);  // half-edge of each of these edges
-  for (std::int32_t h = 0; index(h) < surface.twins().size(); ++h) {
-    const std::int32_t twin = surface.twins()[h];
-    if (twin > h) found.push_back({h, twin, false});
-    if (twin >= 0 || turned.empty()) continue;
-    const auto place = std::ranges::lower_bound(turned, edge_of(surface, h));
-    if (place == turned.end() || *place != edge_of(surface, h)) continue;
-    std::int32_t& other = first[static_cast<std::size_t>(place - turned.begin())];
-    if (other >= 0) found.push_back({other, h, true});
-    other = h;
-  }
-  return found;
-}
-
 /// The parts of a cut surface. Each is listed at its first face in the half-edge mesh. `faces`: joins the faces of a
 /// part. Cut open, the surface has a vertex for each set of corners that are joined.
 std::vector<Part> find_parts(const Surface& surface, std::span<const Edge> cuts, DisjointSets& faces) {
   const std::size_t count = surface.face_fans().size();
   DisjointSets corners(3 * count);
   std::vector<std::int32_t> joined;  // one half-edge of each edge inside a part
-  for (const Meeting& meeting : meetings(surface)) {
-    if (std::ranges::binary_search(cuts, edge_of(surface, meeting.one))) continue;
-    joined.push_back(meeting.one);
-    faces.join(meeting.one / 3, meeting.other / 3);
-    const std::int32_t start = meeting.other, end = next_in_face(meeting.other);
-    corners.join(meeting.one, meeting.is_turned ? start : end);
-    corners.join(next_in_face(meeting.one), meeting.is_turned ? end : start);
+  for (std::int32_t h = 0; index(h) < surface.twins().size(); ++h) {
+    const std::int32_t twin = surface.twins()[h];
+    if (twin < h || std::ranges::binary_search(cuts, edge_of(surface, h))) continue;
+    joined.push_back(h);
+    faces.join(h / 3, twin / 3);
+    corners.join(h, next_in_face(twin));
+    corners.join(next_in_face(h), twin);
   }
   std::vector<Part> parts(count);
   for (std::int32_t c = 0; index(c) < 3 * count; ++c) {

@@ -2,6 +2,7 @@
 #include "seamwire/surface/segments.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <map>
 #include <numeric>
@@ -9,6 +10,7 @@
 #include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 #include "surface/cuts.hpp"
+#include "surface/real_edges.hpp"
 
 namespace seamwire {
 
@@ -16,33 +18,62 @@ using namespace detail;
 
 namespace {
 
-/// Across edges where the half-edge mesh is cut open, and to the triangles that it left out.
-void join_across_odd_edges(const Surface& surface, const Cuts& cuts, DisjointSets& sets) {
-  std::map<Edge, std::int32_t> odd;  // with the first triangle seen there
+/// Adds each triangle that the surface left out to the segment of one neighbor, so that it joins no segments. The
+/// neighbor beyond a diagonal of its polygon comes first. Neighbors that were left out themselves follow.
+void join_left_out(const Surface& surface, const Cuts& cuts, DisjointSets& sets) {
   const SurfaceReport& report = surface.report();
-  for (const std::vector<Edge>* edges : {&report.nonmanifold_edges, &report.unorientable_edges}) {
-    for (const auto& [a, b] : *edges) odd.emplace(ascending(a, b), -1);
-  }
-  const auto for_each_side = [&](std::int32_t f, const auto& visit) {
+  std::vector<std::int32_t> left_out = report.degenerate_faces;
+  left_out.insert(left_out.end(), report.duplicate_faces.begin(), report.duplicate_faces.end());
+  if (left_out.empty()) return;
+  std::ranges::sort(left_out);
+  std::map<Edge, std::vector<std::int32_t>> at_edge;  // the triangles that are in a segment
+  const auto edges_of = [&](std::int32_t f) {
     const Triangle& t = surface.triangles()[f];
-    for (std::size_t i = 0; i < 3; ++i) visit(t[i], t[(i + 1) % 3]);
+    return std::array<Edge, 3>{ascending(t[0], t[1]), ascending(t[1], t[2]), ascending(t[2], t[0])};
   };
-  for (const std::vector<std::int32_t>* faces : {&report.degenerate_faces, &report.duplicate_faces}) {
-    for (const std::int32_t f : *faces) {
-      for_each_side(f, [&](std::int32_t a, std::int32_t b) { odd.emplace(ascending(a, b), -1); });
+  std::vector<std::uint8_t> is_near(surface.vertex_count(), 0);
+  for (const std::int32_t f : left_out) {
+    for (const Edge& edge : edges_of(f)) {
+      if (edge[0] == edge[1] || cuts.contains(edge[0], edge[1])) continue;
+      at_edge[edge];
+      is_near[edge[0]] = is_near[edge[1]] = 1;
     }
   }
-  if (odd.empty()) return;
-  std::vector<std::uint8_t> touched(surface.vertex_count(), 0);
-  for (const auto& [edge, face] : odd) touched[edge[0]] = touched[edge[1]] = 1;
-  for (std::int32_t f = 0; index(f) < surface.face_count(); ++f) {
-    for_each_side(f, [&](std::int32_t a, std::int32_t b) {
-      if (touched[a] == 0 || touched[b] == 0 || a == b || cuts.contains(a, b)) return;
-      const auto found = odd.find(ascending(a, b));
-      if (found == odd.end()) return;
-      if (found->second >= 0) sets.join(found->second, f);
-      found->second = f;
-    });
+  const auto add = [&](std::int32_t f) {
+    for (const Edge& edge : edges_of(f)) {
+      if (is_near[edge[0]] == 0 || is_near[edge[1]] == 0) continue;
+      const auto found = at_edge.find(edge);
+      if (found != at_edge.end()) found->second.push_back(f);
+    }
+  };
+  for (const std::int32_t f : surface.face_of_half_edge_face()) add(f);
+  const auto neighbor_of = [&](std::int32_t f) {
+    std::int32_t neighbor = -1;
+    for (const Edge& edge : edges_of(f)) {
+      const auto found = at_edge.find(edge);
+      if (found == at_edge.end() || found->second.empty()) continue;
+      if (!has_edge(surface, edge)) return found->second.front();
+      if (neighbor < 0) neighbor = found->second.front();
+    }
+    return neighbor;
+  };
+  while (!left_out.empty()) {
+    std::vector<std::int32_t> remaining;
+    for (const std::int32_t f : left_out) {
+      const std::int32_t neighbor = neighbor_of(f);
+      if (neighbor < 0) {
+        remaining.push_back(f);
+        continue;
+      }
+      sets.join(neighbor, f);
+      add(f);
+    }
+    if (remaining.size() == left_out.size()) {
+      // None of them has a neighbor in a segment: the first begins a new one.
+      add(remaining.front());
+      remaining.erase(remaining.begin());
+    }
+    left_out = std::move(remaining);
   }
 }
 
@@ -60,7 +91,7 @@ std::vector<std::int32_t> face_segments(const Surface& surface, std::span<const 
     if (cuts.contains(vertex_of_fan[fans[h % 3]], vertex_of_fan[fans[(h + 1) % 3]])) continue;
     sets.join(source[h / 3], source[twin / 3]);
   }
-  join_across_odd_edges(surface, cuts, sets);
+  join_left_out(surface, cuts, sets);
 
   std::vector<std::int32_t> labels(surface.face_count()), sizes, roots;
   for (std::int32_t f = 0; index(f) < labels.size(); ++f) {

@@ -220,6 +220,8 @@ struct Gluing {
   std::vector<Index> twin;
   std::vector<Index> sibling;
   std::vector<Edge> carried;  // edges that faces have, sorted
+  /// Whether a side lies inside a polygon: its edge is not real. Empty: all edges are real.
+  std::vector<bool> is_inside;
 };
 
 void link_siblings(Gluing& gluing, std::span<const Index> sides) {
@@ -227,29 +229,53 @@ void link_siblings(Gluing& gluing, std::span<const Index> sides) {
   for (std::size_t i = 0; i < sides.size(); ++i) gluing.sibling[sides[i]] = sides[(i + 1) % sides.size()];
 }
 
-Gluing glue(const Faces& faces, const ItemsByEdge& by_edge, SurfaceReport& report) {
+void glue_pair(Gluing& gluing, Index one, Index other) {
+  gluing.twin[one] = other;
+  gluing.twin[other] = one;
+}
+
+// Glues the sides of a diagonal. Two polygons with the same two corners may each have it. The triangles of a polygon
+// follow each other, so each side meets the next one of the list.
+bool glue_diagonals(const Faces& faces, std::span<const Index> sides, Gluing& gluing) {
+  for (std::size_t i = 0; i < sides.size(); i += 2) {
+    if (i + 1 == sides.size() || faces.tail(sides[i]) != faces.tip(sides[i + 1])) return false;
+  }
+  for (std::size_t i = 0; i < sides.size(); i += 2) glue_pair(gluing, sides[i], sides[i + 1]);
+  return true;
+}
+
+// `real`: the real edges, sorted; nullptr: all are real.
+Gluing glue(const Faces& faces, const ItemsByEdge& by_edge, const std::vector<Edge>* real, SurfaceReport& report) {
   Gluing gluing;
   gluing.twin.assign(faces.side_count(), kNone);
   gluing.carried.reserve(faces.corners.size() * 3 / 2);
+  if (real != nullptr) gluing.is_inside.assign(faces.side_count(), false);
+  std::size_t next = 0;
   by_edge.for_each_edge(0.3, [&](const Edge& edge, std::span<const Index> sides) {
     gluing.carried.push_back(edge);
+    if (real != nullptr) {
+      while (next < real->size() && (*real)[next] < edge) ++next;
+      const bool is_diagonal = next == real->size() || (*real)[next] != edge;
+      for (const Index side : sides) gluing.is_inside[side] = is_diagonal;
+      if (is_diagonal && sides.size() > 2 && glue_diagonals(faces, sides, gluing)) return;
+    }
     if (sides.size() == 1) ++report.boundary_edges;
     if (sides.size() > 2) {
       report.nonmanifold_edges.push_back(edge);
       link_siblings(gluing, sides);
     }
-    if (sides.size() != 2) return;
-    gluing.twin[sides[0]] = sides[1];
-    gluing.twin[sides[1]] = sides[0];
+    if (sides.size() == 2) glue_pair(gluing, sides[0], sides[1]);
   });
   return gluing;
 }
 
-// Which faces to turn over so that glued faces agree. Faces that agree as given are reached before others, so that
-// where the surface is one-sided it is cut along edges where the caller's orientation breaks already. Of a component
-// the orientation with more area is kept.
-std::vector<bool> find_flips(const Faces& faces, const std::vector<Index>& twin, const std::vector<double>& areas,
+// Which faces to turn over so that glued faces agree. The triangles of a polygon are reached together, so that the
+// surface is never cut inside a polygon. Then faces that agree as given are reached before others, so that where the
+// surface is one-sided it is cut along edges where the caller's orientation breaks already. Of a component the
+// orientation with more area is kept.
+std::vector<bool> find_flips(const Faces& faces, const Gluing& gluing, const std::vector<double>& areas,
                              const Task& task) {
+  const std::vector<Index>& twin = gluing.twin;
   const Index count = faces.count();
   std::vector<bool> visited(count, false);
   std::vector<bool> flipped(count, false);
@@ -263,13 +289,26 @@ std::vector<bool> find_flips(const Faces& faces, const std::vector<Index>& twin,
     disagreeing.clear();
     double area[2] = {0.0, 0.0};
     std::size_t number[2] = {0, 0};
-    const auto reach = [&](Index face, bool flip) {
+    const auto reach_triangle = [&](Index face, bool flip) {
       visited[face] = true;
       flipped[face] = flip;
       area[flip] += areas[face];
       ++number[flip];
       component.push_back(face);
       agreeing.push_back(face);
+    };
+    const auto reach = [&](Index face, bool flip) {
+      std::size_t next_reached = component.size();
+      reach_triangle(face, flip);
+      if (gluing.is_inside.empty()) return;
+      for (; next_reached < component.size(); ++next_reached) {
+        const Index reached = component[next_reached];
+        for (Index side = 3 * reached; side < 3 * reached + 3; ++side) {
+          const Index other = twin[side];
+          if (other == kNone || !gluing.is_inside[side] || visited[other / 3]) continue;
+          reach_triangle(other / 3, flipped[reached] != (faces.tail(side) != faces.tip(other)));
+        }
+      }
     };
     reach(start, false);
     for (std::size_t next = 0;;) {
@@ -533,11 +572,12 @@ Surface::Surface(std::vector<Vector> points, std::vector<Triangle> triangles, st
     by_edge.emplace(sides_by_edge(points_.size(), faces, task));
   }
   task.check(0.3);
-  Gluing gluing = glue(faces, *by_edge, report_);
+  if (edges) edges_ = sorted_unique(points_.size(), *edges, task);
+  Gluing gluing = glue(faces, *by_edge, edges ? &edges_ : nullptr, report_);
 
   task.check(0.35);
   stray_edges = sorted_unique(points_.size(), stray_edges, task);
-  edges_ = edges ? sorted_unique(points_.size(), *edges, task) : merged(gluing.carried, stray_edges);
+  if (!edges) edges_ = merged(gluing.carried, stray_edges);
   // A polygon's triangulation may run through edges that are not real: those of faces left out connect all the same.
   const std::vector<Edge> connecting = merged(edges_, stray_edges);
   if (connecting.empty() && faces.corners.empty()) throw InvalidInput("the mesh is empty: it has no edge");
@@ -554,7 +594,7 @@ Surface::Surface(std::vector<Vector> points, std::vector<Triangle> triangles, st
   task.check(0.5);
   const std::vector<double> areas = face_areas(points_, faces, scale_, report_, task);
   task.check(0.55);
-  const std::vector<bool> flipped = find_flips(faces, gluing.twin, areas, task);
+  const std::vector<bool> flipped = find_flips(faces, gluing, areas, task);
   for (Index f = 0; f < faces.count(); ++f) {
     if (flipped[f]) report_.flipped_faces.push_back(faces.source[f]);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -36,6 +37,9 @@ Island whole(const shapes::Mesh& mesh, const std::set<Edge>& cuts = {}) {
   EXPECT_EQ(islands.size(), 1U);
   return islands.front();
 }
+
+/// All half-edges of an island may be cut.
+std::vector<std::uint8_t> all_real(const Island& island) { return std::vector<std::uint8_t>(island.twins.size(), 1); }
 
 std::set<Edge> column(int n, int rows) {
   std::set<Edge> cuts;
@@ -258,11 +262,53 @@ TEST(Outline, TouchingIsNotCrossing) {
   };
   EXPECT_FALSE(outline.crosses_itself(at({Point2(0, 0), Point2(1, 0), Point2(0, 1), Point2(1, 1)})));
   EXPECT_TRUE(outline.crosses_itself(at({Point2(0, 0), Point2(1, 0), Point2(1, 1), Point2(0, 1)}))) << "a bow tie";
-  EXPECT_FALSE(outline.crosses_itself(at({Point2(0, 0), Point2(2, 0), Point2(1, 0), Point2(1, 1)})))
-      << "a corner on an edge";
+  const auto touching = at({Point2(0, 0), Point2(2, 0), Point2(1, 0), Point2(1, 1)});
+  EXPECT_FALSE(outline.crosses_itself(touching)) << "a corner on an edge";
+  EXPECT_FALSE(outline.covers_twice(touching, 1e-6));
   const auto shallow = at({Point2(0, 0), Point2(2, 0), Point2(1, -1e-4), Point2(1, 1)});
   EXPECT_TRUE(outline.crosses_itself(shallow));
-  EXPECT_FALSE(outline.crosses_itself(shallow, 1e-3));
+  EXPECT_FALSE(outline.covers_twice(shallow, 1e-3));
+}
+
+TEST(Outline, CrossingsThroughVerticesCoverThePlaneTwice) {
+  // A strip of squares around a square hole. The last square lies on the first one, or beside it.
+  shapes::Mesh mesh;
+  for (std::int32_t i = 0; i < 11; ++i) {
+    mesh.points.emplace_back(i, 0, 0);
+    mesh.points.emplace_back(i, 1, 0);
+    if (i == 0) continue;
+    mesh.triangles.push_back({2 * i - 2, 2 * i, 2 * i + 1});
+    mesh.triangles.push_back({2 * i - 2, 2 * i + 1, 2 * i - 1});
+  }
+  const Island island = whole(mesh);
+  const Outline outline(island.boundaries(), 0.1);
+  // The right side goes around the outside of three squares by three, the left side around their middle.
+  const std::vector<Point2> outer{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {3, 1}, {3, 2},
+                                  {3, 3}, {2, 3}, {1, 3}, {0, 3}, {0, 2}};
+  const std::vector<Point2> inner{{0, 1}, {1, 1}, {2, 1}, {2, 1}, {2, 1}, {2, 2},
+                                  {2, 2}, {2, 2}, {1, 2}, {1, 2}, {1, 2}};
+  std::vector<double> map(2 * island.vertices.size());
+  const auto place = [&](double turned, const std::vector<Point2>& right, const std::vector<Point2>& left) {
+    for (std::size_t v = 0; v < island.vertices.size(); ++v) {
+      const auto of = static_cast<std::size_t>(island.vertices[v]);
+      const Point2 p = Eigen::Rotation2Dd(turned) * (of % 2 == 0 ? right : left)[of / 2];
+      map[2 * v] = p.x();
+      map[2 * v + 1] = p.y();
+    }
+  };
+  for (const double turned : {0.0, 0.3}) {
+    place(turned, outer, inner);
+    EXPECT_FALSE(outline.covers_twice(map, 1e-6)) << turned;
+    std::vector<Point2> right = outer, left = inner;
+    right[10] = {0, 1};
+    left[10] = {1, 1};
+    place(turned, right, left);
+    EXPECT_FALSE(outline.covers_twice(map, 1e-6)) << "the ends touch, turned by " << turned;
+    right[10] = {0, 0};
+    left[10] = {1, 0};
+    place(turned, right, left);
+    EXPECT_TRUE(outline.covers_twice(map, 1e-6)) << "the end lies on the first square, turned by " << turned;
+  }
 }
 
 TEST(Outline, FirstContactIsWhereAVertexMeetsAnEdge) {
@@ -287,7 +333,7 @@ TEST(OpenIsland, HandlesAndBallsBecomeDiscs) {
   for (const shapes::Mesh& mesh : {shapes::icosphere(0), shapes::icosphere(2), shapes::torus(12, 8)}) {
     const Island island = whole(mesh);
     EXPECT_FALSE(is_planar(island));
-    const OpenedIsland opened = open_to_plane(island, mesh.points, {});
+    const OpenedIsland opened = open_to_plane(island, all_real(island), mesh.points, {});
     EXPECT_TRUE(is_planar(opened.island));
     EXPECT_EQ(opened.island.boundaries().size(), 1U);
     EXPECT_EQ(opened.island.boundaries()[0].size(), 2 * opened.opened) << "each opened edge has two sides";
@@ -297,20 +343,23 @@ TEST(OpenIsland, HandlesAndBallsBecomeDiscs) {
 
 TEST(OpenIsland, AHandleIsCutAlongItsShortWays) {
   const shapes::Mesh mesh = shapes::torus(30, 10);
-  const OpenedIsland opened = open_to_plane(whole(mesh), mesh.points, {});
+  const Island island = whole(mesh);
+  const OpenedIsland opened = open_to_plane(island, all_real(island), mesh.points, {});
   EXPECT_LE(opened.opened, 41U) << "once around the tube and once around the axis, and one shared edge at most";
 }
 
 TEST(OpenIsland, ASlitOfOneEdgeBecomesLonger) {
   const shapes::Mesh mesh = shapes::icosphere(1);
   const auto [a, b] = std::minmax(mesh.triangles[0][0], mesh.triangles[0][1]);
-  const OpenedIsland opened = open_to_plane(whole(mesh, {{a, b}}), mesh.points, {});
+  const Island slit = whole(mesh, {{a, b}});
+  const OpenedIsland opened = open_to_plane(slit, all_real(slit), mesh.points, {});
   EXPECT_EQ(opened.opened, 1U);
   EXPECT_TRUE(is_planar(opened.island));
   // Two slits of one edge, and no other vertex.
   const std::vector<Vector> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const shapes::Mesh tetrahedron{points, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}}};
-  EXPECT_TRUE(is_planar(open_to_plane(whole(tetrahedron, {{0, 1}, {2, 3}}), points, {}).island));
+  const Island slits = whole(tetrahedron, {{0, 1}, {2, 3}});
+  EXPECT_TRUE(is_planar(open_to_plane(slits, all_real(slits), points, {}).island));
 }
 
 }  // namespace

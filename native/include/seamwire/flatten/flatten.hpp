@@ -51,14 +51,12 @@ struct Flattening {
 /// threads.
 ///
 /// `cuts`: vertex pairs of either order; pairs that are not real edges of the surface cut nothing. Islands are the
-/// segments of face_segments(), except that the surface is cut open along non-manifold and unorientable edges, too: a
-/// segment that only such edges hold together becomes several islands. A segment's first part keeps its number, and the
-/// further parts are numbered after all segments.
+/// segments of face_segments().
 ///
-/// An island without a boundary or with handles is opened along short additional paths of edges, which FlatIsland
-/// counts. So is an island that double precision cannot map otherwise, such as a long tube with one end closed. A
-/// triangle that the surface left out (degenerate or duplicate) gets the UVs that its vertices have in its island. A
-/// vertex that is not in the island gets the island's center.
+/// An island without a boundary or with handles is opened along short additional paths of real edges, which FlatIsland
+/// counts. So is an island that double precision cannot map otherwise, such as a long tube with one end closed. So each
+/// corner of a polygon has one UV. A triangle that the surface left out (degenerate or duplicate) gets the UVs that its
+/// vertices have in its island. A vertex that is not in the island gets the island's center.
 ///
 /// Throws InvalidInput for a vertex out of range, a start of the wrong size or with numbers that are not finite, and an
 /// island that no opening makes possible to map. Throws Cancelled within about 20 ms at 100,000 triangles, and within

@@ -9,13 +9,12 @@
 
 namespace seamwire {
 
-/// How many more cuts each segment needs to become a disc. That is 0 for a disc, 1 for a tube, a Moebius strip or a
-/// closed ball, and 3 for a torus. Each cut leads from border to border. A segment without a border needs another cut
+/// How many more cuts each segment needs to become a disc. That is 0 for a disc, 1 for a tube or a closed ball,
+/// and 3 for a torus. Each cut leads from border to border. A segment without a border needs another cut
 /// first to get one.
 ///
-/// Triangles that share only a vertex are not joined. An edge with three or more triangles is a border of each of them,
-/// as it is in a UV map. So a segment may fall into several parts that meet in such edges, and the cuts of all of them
-/// count.
+/// Triangles that share only a vertex are not joined. Non-manifold and unorientable edges are borders of their
+/// triangles, as in face_segments(): a Moebius strip is a disc.
 ///
 /// `cut_edges`: as in face_segments(). `segments`: what that returns for them. Throws InvalidInput for a vertex out of
 /// range, and for segments of another surface or of other cuts.

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+
+#include "polygon_meshes.hpp"
+#include "seamwire/flatten/flatten.hpp"
+#include "seamwire/surface/segments.hpp"
+
+namespace seamwire {
+namespace {
+
+double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
+  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+}
+
+/// Whether two triangles of a map overlap by more than a length: no side of either has the other triangle beyond it.
+bool overlap(const std::array<Eigen::Vector2d, 3>& one, const std::array<Eigen::Vector2d, 3>& other, double length) {
+  for (const auto* of : {&one, &other}) {
+    const auto& beyond = of == &one ? other : one;
+    const double sign = turn((*of)[0], (*of)[1], (*of)[2]) > 0 ? 1.0 : -1.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Eigen::Vector2d &a = (*of)[i], &b = (*of)[(i + 1) % 3];
+      const double least = length * (b - a).norm();
+      if (std::ranges::all_of(beyond, [&](const auto& p) { return sign * turn(a, b, p) <= least; })) return false;
+    }
+  }
+  return true;
+}
+
+/// Looks at each pair of triangles of an island.
+bool covers_itself(const Flattening& flat, double length) {
+  for (std::size_t f = 0; f < flat.uvs.size(); ++f) {
+    for (std::size_t g = f + 1; g < flat.uvs.size(); ++g) {
+      if (flat.islands[f] == flat.islands[g] && overlap(flat.uvs[f], flat.uvs[g], length)) return true;
+    }
+  }
+  return false;
+}
+
+/// Each corner of a polygon has one UV, no triangle is flipped, and islands that are not said to overlap do not.
+void expect_map_of_polygons(const shapes::PolygonMesh& mesh, const Surface& surface, std::span<const Edge> cuts,
+                            bool may_overlap = false) {
+  const Flattening flat = flatten(surface, cuts);
+  EXPECT_EQ(flat.islands, face_segments(surface, cuts));
+  const std::vector<std::size_t> polygons = mesh.polygon_of_triangles();
+  std::map<std::pair<std::size_t, std::int32_t>, Eigen::Vector2d> uvs;
+  std::size_t torn = 0;
+  for (std::size_t f = 0; f < polygons.size(); ++f) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Eigen::Vector2d& uv = flat.uvs[f][i];
+      torn += uvs.emplace(std::pair(polygons[f], surface.triangles()[f][i]), uv).first->second == uv ? 0 : 1;
+    }
+  }
+  EXPECT_EQ(torn, 0U) << "corners of polygons with two UVs";
+  const MapReport report = measure_map(surface, flat.uvs, flat.islands);
+  EXPECT_TRUE(report.flipped.empty());
+  if (!may_overlap) {
+    EXPECT_TRUE(report.overlapping.empty());
+    EXPECT_FALSE(covers_itself(flat, 1e-5));
+  }
+  EXPECT_TRUE(std::isfinite(flat.energy));
+}
+
+std::vector<shapes::PolygonMesh> polygon_meshes() {
+  return {shapes::of_quads(shapes::quad_cube(1)),
+          shapes::of_quads(shapes::quad_cube(3)),
+          shapes::closed_cylinder(12, 1),
+          shapes::closed_cylinder(32, 3),
+          shapes::closed_cylinder(3, 1),
+          shapes::of_quads(shapes::quad_torus(12, 8)),
+          shapes::of_quads(shapes::quad_torus(3, 3)),
+          shapes::uv_ball(12, 7),
+          shapes::of_quads(shapes::plate({"###", "#.#", "###"}, 1)),
+          shapes::one_sided(12, 2, false),
+          shapes::one_sided(16, 8, true)};
+}
+
+TEST(FlattenPolygons, CutsRunAlongRealEdgesOnly) {
+  std::mt19937 random(5);
+  const std::vector<shapes::PolygonMesh> meshes = polygon_meshes();
+  for (std::size_t m = 0; m < meshes.size(); ++m) {
+    for (int round = 0; round < 8; ++round) {
+      shapes::PolygonMesh mesh = meshes[m];
+      std::normal_distribution<double> noise(0.0, round % 2 == 0 ? 0.0 : 0.01);
+      for (Vector& p : mesh.points) p += Vector(noise(random), noise(random), noise(random));
+      if (round > 3) {
+        for (auto& polygon : mesh.polygons) {
+          std::ranges::rotate(polygon, polygon.begin() + static_cast<std::ptrdiff_t>(random() % polygon.size()));
+          if (random() % 4 == 0) std::ranges::reverse(polygon);
+        }
+      }
+      const Surface surface = mesh.surface(round % 2 == 0 ? shapes::Cutting::kFan : shapes::Cutting::kStrip);
+      for (const Edge& edge : surface.report().unorientable_edges) {
+        EXPECT_TRUE(std::ranges::binary_search(surface.edges(), edge));
+      }
+      std::vector<Edge> cuts;
+      for (int i = 0; i < round % 4; ++i) cuts.push_back(surface.edges()[random() % surface.edges().size()]);
+      SCOPED_TRACE(testing::Message() << "mesh " << m << ", round " << round);
+      expect_map_of_polygons(mesh, surface, cuts);
+    }
+  }
+}
+
+TEST(FlattenPolygons, EachSingleSeamOfABallIsFine) {
+  for (const shapes::PolygonMesh& mesh :
+       {shapes::uv_ball(12, 8), shapes::of_quads(shapes::quad_torus(12, 8)), shapes::of_quads(shapes::quad_cube(1))}) {
+    const Surface surface = mesh.surface();
+    for (std::size_t e = 0; e < surface.edges().size(); e += 3) {
+      SCOPED_TRACE(e);
+      expect_map_of_polygons(mesh, surface, std::vector<Edge>{surface.edges()[e]});
+    }
+  }
+}
+
+TEST(FlattenPolygons, QuadsOnTheSameDiagonalKeepTheirOwn) {
+  // Two quads that share two opposite corners: their diagonals join the same two vertices.
+  const shapes::PolygonMesh mesh{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {1, 0, 1}, {0, 1, 1}},
+                                 {{0, 1, 2, 3}, {0, 4, 2, 5}}};
+  const Surface surface = mesh.surface();
+  EXPECT_TRUE(surface.report().nonmanifold_edges.empty());
+  EXPECT_EQ(face_segments(surface, {}), (std::vector<std::int32_t>{0, 0, 1, 1}));
+  expect_map_of_polygons(mesh, surface, {});
+}
+
+/// A flat sheet of n x n quads, with a fin upon each of some edges.
+shapes::PolygonMesh sheet_with_fins(int n, int fins) {
+  shapes::PolygonMesh mesh = shapes::of_quads(shapes::quad_grid(n));
+  for (int i = 0; i < fins; ++i) {
+    const int row = 1 + i / (n - 1), column = 1 + i % (n - 1);
+    const std::int32_t a = row * (n + 1) + column, b = a + 1;
+    const auto top = static_cast<std::int32_t>(mesh.points.size());
+    mesh.points.push_back(mesh.points[static_cast<std::size_t>(a)] + Vector(0, 0, 0.1));
+    mesh.points.push_back(mesh.points[static_cast<std::size_t>(b)] + Vector(0, 0, 0.1));
+    mesh.polygons.push_back({a, b, top + 1, top});
+  }
+  return mesh;
+}
+
+TEST(FlattenPolygons, FinsAreIslandsOfTheirOwn) {
+  const shapes::PolygonMesh mesh = sheet_with_fins(8, 20);
+  const Surface surface = mesh.surface();
+  const Flattening flat = flatten(surface, {});
+  EXPECT_EQ(flat.islands, face_segments(surface, {}));
+  EXPECT_EQ(flat.by_island.size(), 21U) << "a sheet and its fins";
+  EXPECT_NEAR(flat.energy, 4.0, 1e-6);
+  expect_map_of_polygons(mesh, surface, {});
+}
+
+TEST(FlattenPolygons, SheetsThatMeetInATAreIslandsOfTheirOwn) {
+  shapes::PolygonMesh mesh;
+  const int n = 6;
+  for (int page = 0; page < 3; ++page) {
+    const double a = std::numbers::pi / 2 * page;
+    const auto first = static_cast<std::int32_t>(mesh.points.size());
+    const auto at = [&](int i, int j) { return i == 0 && page > 0 ? j * (n + 1) : first + j * (n + 1) + i; };
+    for (int j = 0; j <= n; ++j) {
+      for (int i = 0; i <= n; ++i) mesh.points.emplace_back(i * std::cos(a), i * std::sin(a), j);
+    }
+    for (int j = 0; j < n; ++j) {
+      for (int i = 0; i < n; ++i) mesh.polygons.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  const Surface surface = mesh.surface();
+  EXPECT_EQ(std::ranges::max(face_segments(surface, {})), 2);
+  expect_map_of_polygons(mesh, surface, {});
+}
+
+}  // namespace
+}  // namespace seamwire
