@@ -630,7 +630,10 @@ def test_wires_are_kept_with_a_step_of_undo_if_unwrapping_fails(desk: Desk, monk
     draw(desk, 36, 44)
     dismiss(desk.ui)
     assert seams(desk.obj) == ROW
-    assert ("ERROR", "Wires are kept, but unwrapping ended on an error, undo leads back: as the test wants it") in reports
+    assert (
+        "ERROR",
+        "Wires are kept, but unwrapping ended on an error, undo leads back: as the test wants it",
+    ) in reports
     monkeypatch.undo()
     desk.ui.key("Z", ctrl=True)
     desk.ui.wait(3)
@@ -641,7 +644,7 @@ def test_a_chain_whose_wires_are_written_in_part_leaves_the_mesh_as_it_was(
     desk: Desk, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     desk.choose()
-    store, failed = ObjectSession._store, []  # noqa: SLF001
+    store, failed = ObjectSession._store, []
 
     def fail_once(self: ObjectSession) -> None:
         if not failed:

@@ -261,7 +261,7 @@ class _Map:
 
     def turn_back(self) -> bool:
         """Turn back what rounding has turned over in changed islands without pins; return whether anything has moved."""
-        rows = np.isin(self._labels, np.setdiff1d(self.changed, self._with_pins)) & (self._areas > 0.0)
+        rows = np.isin(self._labels, np.setdiff1d(self.changed, self._with_pins))
         uvs = uv_map.read_uvs(self.obj)
         corners, places = turn_back(uvs, self._triangles[rows], self.corners.vertices, self._labels[rows])
         self.write(corners, places)
