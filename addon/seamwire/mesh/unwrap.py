@@ -52,7 +52,7 @@ class Unwrapped:
     kept
         How many keep their UVs.
     faults
-        What is wrong with those that were unwrapped, as the UV map holds them.
+        The faults of the unwrapped islands in the UV map that the mesh has.
     """
 
     islands: int

@@ -22,7 +22,7 @@ _ON_BORDER = 1e-5
 
 @dataclass(frozen=True)
 class MapFaults:
-    """What is wrong with some islands of a UV map.
+    """The faults of some islands of a UV map.
 
     Parameters
     ----------
