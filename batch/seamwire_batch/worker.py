@@ -118,6 +118,17 @@ def values_for(operator: Any, given: dict[str, str]) -> dict[str, Any]:  # noqa:
     return values
 
 
+def _stretch_wanted(operator: Any, options: dict[str, Any]) -> float:  # noqa: ANN401 - bpy.ops has no type
+    """Return the stretch in percent that the arguments of Suggest Seamwires ask for; 0: any."""
+    from seamwire.core.seams.suggestion import stretch_of_ratio
+
+    properties = operator.get_rna_type().properties
+    value = {name: options.get(name, properties[name].default) for name in ("limit", "distortion", "stretch")}
+    if value["limit"] == "DISCS":
+        return 0.0
+    return 100.0 * stretch_of_ratio(value["stretch"]) if value["limit"] == "STRETCH" else value["distortion"]
+
+
 class Run:
     """The work on one asset.
 
@@ -131,6 +142,7 @@ class Run:
         self._job = job
         self._folder = Path(job["folder"])
         self.warnings: list[str] = []
+        self._stretch_wanted = 0.0
 
     def source(self) -> dict[str, Any]:
         """Write the networks of a source asset, one file for each object that has seams, and return their names."""
@@ -188,6 +200,7 @@ class Run:
             with _editing(obj):
                 self._mark(obj)
                 unwrap()
+                self._check_map(obj)
                 bpy.ops.mesh.seamwire_store(what="ATTRIBUTE")
         numbers = self._measured(objects)
         self._save_networks(objects)
@@ -226,6 +239,7 @@ class Run:
             options = values_for(operator, self._job["arguments"])
             if way == "suggest":
                 options["unwrap"] = False
+                self._stretch_wanted = _stretch_wanted(operator, options)
             self._call(obj, lambda: operator(**options))
             return
         from seamwire.core.matching.placing import Shape
@@ -291,6 +305,24 @@ class Run:
             self.warnings.append(f"{obj.name}: nothing was marked")
 
     # The results
+
+    def _check_map(self, obj: bpy.types.Object) -> None:
+        """Warn of what is wrong with the UV map that an object in edit mode has."""
+        from seamwire.core.islands.map_faults import find_faults
+        from seamwire.core.seams.suggestion import stretch_of
+        from seamwire.mesh import uv_map
+        from seamwire.mesh.seam_islands import mapped
+        from seamwire.words.maps import in_words, not_reached, percent
+
+        surface = mapped(obj)
+        if surface is None:
+            return
+        told = in_words(find_faults(surface))
+        if self._stretch_wanted:
+            stretch = 100.0 * stretch_of(surface.energy(uv_map.aspect(obj)))
+            missed = not_reached([stretch], self._stretch_wanted)
+            told += [f"stretch {percent(stretch)}, {missed}"] if missed else []
+        self.warnings += [f"{obj.name}: {text}" for text in told]
 
     def _measured(self, objects: list[bpy.types.Object]) -> dict[str, Any]:
         """Return the counts of seams and islands, and how many times longer or larger triangles are in the map on average and at worst."""

@@ -16,7 +16,7 @@ from scene import ADDON, add_grid, add_suzanne, edit, head
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "batch"))
 
-from seamwire_batch import assets, cli  # noqa: E402
+from seamwire_batch import assets, cli, worker  # noqa: E402
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="the stand-in for crashes is a script for sh")
 
@@ -163,3 +163,35 @@ def test_what_takes_too_much_memory_fails_alone(tmp_path: Path) -> None:
     assert code == 1
     assert rows["small.obj"]["status"] == "done"
     assert rows["large.blend"]["status"] == "memory"
+
+
+@pytest.mark.every_blender
+def test_what_is_wrong_with_the_map_in_the_file_is_a_warning(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    # As if unwrapping had left the two halves on each other, four times as long as wide.
+    obj = add_grid(5)
+    layer = obj.data.uv_layers.new()
+    for corner in obj.data.loops:
+        x, y, _ = obj.data.vertices[corner.vertex_index].co
+        layer.data[corner.index].uv = 0.8 * abs(x), 0.2 * y + 0.2
+    for edge in obj.data.edges:
+        edge.use_seam = all(abs(obj.data.vertices[v].co.x) < 1e-6 for v in edge.vertices)
+    export(tmp_path, ["halves.blend"])
+    monkeypatch.setattr(assets, "unwrap", lambda: None)
+    job = {
+        "asset": str(tmp_path / "assets" / "halves.blend"),
+        "folder": str(tmp_path),
+        "output": "made.blend",
+        "name": "halves.blend",
+        "way": "suggest",
+        "arguments": {"distortion": "30"},
+        "object": None,
+        "pictures": False,
+    }
+    work = worker.Run(job)
+    assert work.asset()["islands"] == 2
+    assert "Grid: 2 islands overlap" in work.warnings
+    assert "Grid: stretch 100 %, 30 % was not reached" in work.warnings
+    for arguments in ({"limit": "DISCS"}, {"distortion": "100"}):
+        work = worker.Run({**job, "arguments": arguments})
+        work.asset()
+        assert not any("reached" in text for text in work.warnings)

@@ -2,6 +2,7 @@
 """What the UV map holds after *Unwrap Changed Islands*, measured without the add-on, and what the reports say of it."""
 
 import math
+import re
 
 import bmesh
 import bpy
@@ -9,9 +10,8 @@ import numpy as np
 import pytest
 from maps import flipped, in_square, overlapping_pairs, signed_areas, triangles
 from scene import add_grid, add_object, edit, snapshot
-from seamwire.core.islands import rounded_flips
 from seamwire.mesh import unwrap as unwrapping
-from seamwire.mesh import uv_map
+from seamwire.operators.unwrap import unwrap_after_chain
 
 
 def add_torus() -> None:
@@ -57,6 +57,8 @@ def test_a_single_seam_anywhere_leaves_the_map_valid(shape: str) -> None:
     bm = bmesh.from_edit_mesh(obj.data)
     wrong = []
     for number in range(0, len(bm.edges), 1 if len(bm.edges) < 50 else 5):
+        while obj.data.uv_layers:
+            obj.data.uv_layers.remove(obj.data.uv_layers[0])
         for edge in bmesh.from_edit_mesh(obj.data).edges:
             edge.seam = edge.index == number
         assert unwrap(changed_only=False) == {"FINISHED"}
@@ -64,3 +66,135 @@ def test_a_single_seam_anywhere_leaves_the_map_valid(shape: str) -> None:
         if any(found):
             wrong.append((number, *found))
     assert wrong == []
+
+
+def add_capped_columns(caps: int = 12, width: float = 4e-4, height: float = 6e-8) -> bpy.types.Object:
+    """Add narrow quads side by side with triangles at both ends, without area or thinner than the UV square can hold."""
+    ends = (-0.5, 0.5)
+    points = [(width * i, y, 0.0) for y in ends for i in range(caps + 1)]
+    points += [(width * (i + 0.5), y + math.copysign((i % 3) * height, y), 0.0) for y in ends for i in range(caps)]
+    quads = [(i, i + 1, caps + 2 + i, caps + 1 + i) for i in range(caps)]
+    below = [(i + 1, i, 2 * (caps + 1) + i) for i in range(caps)]
+    above = [(caps + 1 + i, caps + 2 + i, 2 * (caps + 1) + caps + i) for i in range(caps)]
+    return add_object(points, [*quads, *below, *above])
+
+
+def turned_over(obj: bpy.types.Object) -> int:
+    """Return how many triangles are turned over in the map or have no area there, however small they are on the model."""
+    return int((signed_areas(triangles(obj)[0]) <= 0.0).sum())
+
+
+def test_faces_that_rounding_turns_over_are_turned_back(
+    monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    obj = add_capped_columns()
+    edit()
+    with monkeypatch.context() as without:
+        without.setattr(unwrapping, "turn_back", lambda *_: (np.empty(0, dtype=np.int64), np.empty((0, 2))))
+        assert unwrap() == {"FINISHED"}
+    left = turned_over(obj)
+    assert left > 0
+    told = capfd.readouterr().out
+    assert re.search(rf"Warning: 1 island unwrapped, 0 kept, 1 island overlaps, {left} faces? turned over\n", told)
+    assert unwrap(changed_only=False) == {"FINISHED"}
+    assert turned_over(obj) == 0
+    assert "Info: 1 island unwrapped, 0 kept\n" in capfd.readouterr().out
+
+
+@pytest.fixture
+def piled_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    """All islands are laid out at one place, and not packed."""
+    monkeypatch.setattr(unwrapping, "in_rows", lambda uvs, _: uvs / (4.0 * np.ptp(uvs)) + 0.5)
+    monkeypatch.setattr(unwrapping, "_pack", lambda *_: None)
+
+
+@pytest.mark.usefixtures("piled_up")
+def test_islands_that_overlap_after_packing_are_told_as_a_warning(capfd: pytest.CaptureFixture[str]) -> None:
+    obj = add_grid(5)
+    edit()
+    for edge in bmesh.from_edit_mesh(obj.data).edges:
+        edge.seam = all(abs(vertex.co.x) < 1e-6 for vertex in edge.verts)
+    assert unwrap() == {"FINISHED"}
+    assert overlapping_pairs(obj)
+    assert "Warning: 2 islands unwrapped, 0 kept, 2 islands overlap\n" in capfd.readouterr().out
+    assert unwrap_after_chain(bpy.context) == ""
+
+
+def test_islands_that_stay_do_not_count_even_if_they_overlap(capfd: pytest.CaptureFixture[str]) -> None:
+    obj = add_grid(5)
+    edit()
+    bm = bmesh.from_edit_mesh(obj.data)
+    for edge in bm.edges:
+        edge.seam = all(abs(vertex.co.x) in {0.0, 0.5} for vertex in edge.verts) and edge.calc_length() < 0.6
+        edge.seam &= abs(edge.verts[0].co.x - edge.verts[1].co.x) < 1e-6
+    assert unwrap() == {"FINISHED"}
+    assert "4 islands unwrapped" in capfd.readouterr().out
+    layer = bm.loops.layers.uv.active
+    for face in bm.faces:  # the two islands at the sides onto each other, as an artist stacks them
+        if abs(face.calc_center_median().x) > 0.5:
+            for loop in face.loops:
+                loop[layer].uv = 0.1 + 0.1 * abs(loop.vert.co.x), 0.1 + 0.1 * loop.vert.co.y
+    for edge in bm.edges:
+        edge.seam &= abs(edge.verts[0].co.x) > 0.1
+    bmesh.update_edit_mesh(obj.data)
+    assert unwrap() == {"FINISHED"}
+    assert overlapping_pairs(obj)
+    assert "Info: 1 island unwrapped, 2 kept\n" in capfd.readouterr().out
+
+
+def test_an_island_outside_the_uv_square_is_told(capfd: pytest.CaptureFixture[str]) -> None:
+    obj = add_grid(5)
+    edit()
+    bm = bmesh.from_edit_mesh(obj.data)
+    for edge in bm.edges:
+        edge.seam = all(abs(vertex.co.x) < 1e-6 for vertex in edge.verts)
+    assert unwrap() == {"FINISHED"}
+    layer = bm.loops.layers.uv.active
+    left = [face for face in bm.faces if face.calc_center_median().x < 0.0]
+    for face in left:  # it fills the square
+        for loop in face.loops:
+            loop[layer].uv = loop.vert.co.x + 1.0, 0.5 * loop.vert.co.y + 0.5
+    bm.edges.ensure_lookup_table()
+    for edge in bm.edges:
+        edge.seam |= all(abs(vertex.co.y) < 1e-6 and vertex.co.x >= 0.0 for vertex in edge.verts)
+    bmesh.update_edit_mesh(obj.data)
+    assert unwrap() == {"FINISHED"}
+    assert not in_square(obj)
+    assert "Warning: 2 islands unwrapped, 1 kept, 2 islands outside the UV square\n" in capfd.readouterr().out
+
+
+@pytest.mark.parametrize("with_map", [False, True])
+@pytest.mark.parametrize("where", ["_place", "find_faults", "_lay_out"])
+def test_any_error_leaves_all_uvs_as_they_were(where: str, with_map: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    obj = add_grid(5)
+    for vertex in obj.data.vertices:
+        vertex.co.z = vertex.co.x * vertex.co.y
+    edit()
+    if with_map:
+        assert unwrap() == {"FINISHED"}
+        bmesh.from_edit_mesh(obj.data).edges.ensure_lookup_table()
+        bmesh.from_edit_mesh(obj.data).edges[7].seam = True
+    before = snapshot(obj)
+
+    def fail(*_: object) -> None:
+        raise TypeError("as the test wants it")
+
+    monkeypatch.setattr(unwrapping, where, fail)
+    with pytest.raises(TypeError, match="as the test wants it"):
+        unwrapping.unwrap_changed(bpy.context, every=True)
+    assert snapshot(obj) == before
+
+
+def test_many_corners_are_written_where_they_belong() -> None:
+    obj = add_object(
+        [*((math.cos(0.01 * i), math.sin(0.01 * i), 0.0) for i in range(600)), (0.0, 0.0, 0.0), (2.0, 0.0, 0.0)],
+        [(*range(300), 600), (0, 601, 1)],
+    )
+    edit()
+    assert unwrap() == {"FINISHED"}
+    bm = bmesh.from_edit_mesh(obj.data)
+    layer = bm.loops.layers.uv.active
+    uvs = np.array([tuple(loop[layer].uv) for face in bm.faces for loop in face.loops])
+    places = np.array([tuple(loop.vert.co.xy) for face in bm.faces for loop in face.loops])
+    lengths = [np.linalg.norm(column[:, None] - column, axis=2) for column in (uvs, places)]
+    assert lengths[0] / lengths[0].max() == pytest.approx(lengths[1] / lengths[1].max(), abs=1e-4)

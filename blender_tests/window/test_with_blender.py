@@ -15,9 +15,12 @@ from scene import chain, edit, seams
 from seamwire.core.drawing.picture import Role, SeedRole
 from seamwire.core.drawing.session import Session
 from seamwire.mesh import edit_mesh
+from seamwire.mesh.object_session import ObjectSession
 from seamwire.mesh.settings import TOOL
+from seamwire.operators import chain_record
 from seamwire.operators.report import running
 from seamwire.view.edited_objects import edited
+from seamwire.words.notices import Notices
 
 ROW = chain(*range(36, 45))
 
@@ -614,6 +617,47 @@ def test_an_exception_ends_the_chain_and_leaves_the_mesh_as_it_was(desk: Desk, m
     assert desk.unchanged()
     draw(desk, 36, 44)
     assert seams(desk.obj) == ROW, "the tool goes on"
+
+
+def test_wires_are_kept_with_a_step_of_undo_if_unwrapping_fails(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise TypeError("as the test wants it")
+
+    monkeypatch.setattr(chain_record, "unwrap_after_chain", fail)
+    reports = []
+    monkeypatch.setattr(Notices, "add", lambda _, level, text: reports.append((level, text)))
+    desk.choose()
+    draw(desk, 36, 44)
+    dismiss(desk.ui)
+    assert seams(desk.obj) == ROW
+    assert (
+        "ERROR",
+        "Wires are kept, but unwrapping ended on an error, undo leads back: as the test wants it",
+    ) in reports
+    monkeypatch.undo()
+    desk.ui.key("Z", ctrl=True)
+    desk.ui.wait(3)
+    assert desk.unchanged()
+
+
+def test_a_chain_whose_wires_are_written_in_part_leaves_the_mesh_as_it_was(
+    desk: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    desk.choose()
+    store, failed = ObjectSession._store, []
+
+    def fail_once(self: ObjectSession) -> None:
+        if not failed:
+            failed.append(seams(desk.obj))
+            raise TypeError("as the test wants it")
+        store(self)
+
+    monkeypatch.setattr(ObjectSession, "_store", fail_once)
+    draw(desk, 36, 44)
+    dismiss(desk.ui)
+    driver.take_errors()
+    assert failed == [ROW]
+    assert desk.unchanged()
 
 
 def test_an_exception_in_the_first_click_leaves_blender_alive(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -228,7 +228,7 @@ def mapped(obj: bpy.types.Object) -> MappedSurface | None:
     if uvs is None or not len(arrays.triangles):
         return None
     own = uvs[corners.of_triangles(arrays)]
-    return MappedSurface(arrays.in_object, arrays.triangles, arrays.polygons, labels_of(arrays), own)
+    return MappedSurface(arrays.in_object, arrays.triangles, arrays.polygons, labels_of(arrays), own, arrays.edges)
 
 
 def stretch_of(obj: bpy.types.Object, arrays: Arrays, labels: NDArray[np.int32]) -> IslandStretch | None:

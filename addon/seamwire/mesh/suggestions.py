@@ -7,8 +7,8 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from ..core.seams.suggestion import Request, energy_of, mean_stretch, stretch_of
 from ..core.islands.map_faults import NO_FAULTS
+from ..core.seams.suggestion import Request, energy_of, mean_stretch, stretch_of
 from ..words.notices import Notices
 from ..words.suggestion import Outcome
 from . import edit_mesh, uv_map
@@ -224,4 +224,6 @@ class Suggestions:
         if self._unwrapped is None:  # the maps on the meshes are those from before
             return [], []
         maps = {obj: found for obj in (each.mesh.obj for each in self) if (found := mapped(obj)) is not None}
-        return [found.energy(uv_map.aspect(obj)) for obj, found in maps.items()], [found.area for found in maps.values()]
+        return [found.energy(uv_map.aspect(obj)) for obj, found in maps.items()], [
+            found.area for found in maps.values()
+        ]

@@ -52,7 +52,7 @@ class Unwrapped:
     kept
         How many keep their UVs.
     faults
-        What is wrong with those that were unwrapped, as the UV map holds them.
+        The faults of the unwrapped islands in the UV map that the mesh has.
     """
 
     islands: int
@@ -148,7 +148,7 @@ class _Map:
         vertices, triangles = np.unique(self._arrays.triangles[rows], return_inverse=True)
         number = np.full(len(self._arrays.points), -1, dtype=np.int32)
         number[vertices] = np.arange(len(vertices))
-        cuts = number[self._arrays.seams]
+        cuts, edges = number[self._arrays.seams], number[self._arrays.edges]
         if start is None:
             start = self._present()
         flat = native.load().flatten(
@@ -156,6 +156,7 @@ class _Map:
             triangles.reshape(-1, 3).astype(np.int32),
             cuts[(cuts >= 0).all(axis=1)],
             start=None if start is None else start[rows],
+            edges=edges[(edges >= 0).all(axis=1)],
         )
         # A corner of several triangles is where the largest has it: one without area may be anywhere.
         largest = np.argsort(-self._areas[rows], kind="stable")
@@ -247,7 +248,7 @@ class _Map:
         """Return the visible faces with the UVs that the mesh has."""
         arrays = self._arrays
         uvs = uv_map.read_uvs(self.obj)[self._triangles]
-        return MappedSurface(arrays.in_object, arrays.triangles, arrays.polygons, self._labels, uvs)
+        return MappedSurface(arrays.in_object, arrays.triangles, arrays.polygons, self._labels, uvs, arrays.edges)
 
     def homes(self) -> NDArray[np.float64]:
         """Return the low corner of the tile of the UV plane that each island had before, (count, 2)."""
@@ -260,7 +261,7 @@ class _Map:
 
     def turn_back(self) -> bool:
         """Turn back what rounding has turned over in changed islands without pins; return whether anything has moved."""
-        rows = np.isin(self._labels, np.setdiff1d(self.changed, self._with_pins)) & (self._areas > 0.0)
+        rows = np.isin(self._labels, np.setdiff1d(self.changed, self._with_pins))
         uvs = uv_map.read_uvs(self.obj)
         corners, places = turn_back(uvs, self._triangles[rows], self.corners.vertices, self._labels[rows])
         self.write(corners, places)
@@ -351,7 +352,9 @@ def unwrap_changed(
 def _faults(maps: Sequence[_Map]) -> MapFaults:
     """Measure what is wrong with the changed islands in the UV maps that the meshes have."""
     chosen = np.concatenate([np.isin(np.arange(found.count), found.changed) for found in maps])
-    return find_faults(joined([found.mapped() for found in maps]), chosen, np.concatenate([found.homes() for found in maps]))
+    return find_faults(
+        joined([found.mapped() for found in maps]), chosen, np.concatenate([found.homes() for found in maps])
+    )
 
 
 def _unwrap_by_blender(context: bpy.types.Context, islands: Mapping[_Map, NDArray[np.integer]], method: str) -> None:

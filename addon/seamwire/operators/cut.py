@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from ..words.names import count
 from ..words.reports import gaps, left_out
+from .edit_mesh_operator import changing
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -42,6 +43,11 @@ def cut_wires(
         Islands smaller than this fraction of the area of a mesh are merged into a larger one.
     live_unwrap
         Whether to follow Blender's Live Unwrap.
+
+    Raises
+    ------
+    Halfway
+        If an error comes after a mesh has changed.
     """
     from ..core.seams.cut_nodes import CutError
     from ..mesh import edit_mesh, finish
@@ -58,9 +64,10 @@ def cut_wires(
         return {"CANCELLED"}
     for problem in problems:
         operator.report({"WARNING"}, problem if kept else f"{problem}: no wire was added")
-    cuts = [finish.cut(mesh, plan, wires[mesh], kept, crumb=crumb)[1] for mesh, plan in plans.items()]
-    if live_unwrap:
-        edit_mesh.live_unwrap(context)
+    with changing():
+        cuts = [finish.cut(mesh, plan, wires[mesh], kept, crumb=crumb)[1] for mesh, plan in plans.items()]
+        if live_unwrap:
+            edit_mesh.live_unwrap(context)
     uncut = sum(cut.uncut for cut in cuts)
     if uncut:
         operator.report({"WARNING"}, gaps(uncut))

@@ -11,6 +11,7 @@ import bpy
 from ..core.base.native import NativeError
 from ..mesh.settings import ALONG_ITEMS, notices, settings
 from ..words.keys import Action, Key
+from . import undo_steps
 from .edit_mesh_operator import NeedsEditMode
 from .navigation import takes
 from .report import running

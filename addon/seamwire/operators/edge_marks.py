@@ -6,7 +6,7 @@ from __future__ import annotations
 import bpy
 
 from ..words.names import count
-from .edit_mesh_operator import EditMeshOperator, description_of_item
+from .edit_mesh_operator import EditMeshOperator, changing, description_of_item
 
 
 class MESH_OT_seamwire_mark_seams_as(EditMeshOperator, bpy.types.Operator):
@@ -32,7 +32,8 @@ class MESH_OT_seamwire_mark_seams_as(EditMeshOperator, bpy.types.Operator):
         """Mark the seams of all objects in Edit Mode."""
         from ..mesh.edge_marks import copy_seams
 
-        marked = copy_seams(list(context.objects_in_mode_unique_data), self.kind)
+        with changing():
+            marked = copy_seams(list(context.objects_in_mode_unique_data), self.kind)
         if not marked:
             self.report({"WARNING"}, "No visible seams to mark")
             return {"CANCELLED"}

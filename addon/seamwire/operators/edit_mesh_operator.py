@@ -100,7 +100,7 @@ class EditMeshOperator(NeedsEditMode):
         context
             Tells which objects are in Edit Mode.
         work
-            Takes an object. Its ValueErrors are reported, and the other objects are still worked on.
+            Takes an object. Its ValueErrors and NativeErrors are reported, and the other objects are still worked on.
 
         Returns
         -------
@@ -114,12 +114,9 @@ class EditMeshOperator(NeedsEditMode):
         for obj in context.objects_in_mode_unique_data:
             try:
                 found[obj] = work(obj)
-            except NativeError as error:
-                self.report({"ERROR"}, str(error))
-                return {}
             except NothingVisibleError:
                 continue
-            except ValueError as error:
+            except (ValueError, NativeError) as error:
                 problems.append(str(error))
         for problem in problems if found else problems[:1] or ["No face is visible"]:
             self.report({"WARNING"} if found else {"ERROR"}, problem)

@@ -9,7 +9,7 @@ import bpy
 
 from ..words.names import count
 from .cut import cut_wires
-from .edit_mesh_operator import EditMeshOperator, description_of_item
+from .edit_mesh_operator import EditMeshOperator, changing, description_of_item
 from .slide import slide_wires
 
 if TYPE_CHECKING:
@@ -48,8 +48,9 @@ def finish_wires(operator: EditMeshOperator, context: bpy.types.Context, finish:
         return {"CANCELLED"}
     if finish == "CUT":
         return cut_wires(operator, context, wires, kept=True)
-    done = slide_wires(wires)
-    edit_mesh.live_unwrap(context)
+    with changing():
+        done = slide_wires(wires)
+        edit_mesh.live_unwrap(context)
     operator.report({"INFO"}, f"{count(sum(map(len, wires.values())), 'wire')}: {done}")
     return {"FINISHED"}
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..words.names import count
-from .edit_mesh_operator import EditMeshOperator
+from .edit_mesh_operator import EditMeshOperator, changing
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -46,8 +46,10 @@ class MESH_OT_seamwire_close_gaps(EditMeshOperator, bpy.types.Operator):
         if not closed:
             self.report({"ERROR"}, "No gap could be closed")
             return {"CANCELLED"}
-        marked = sum(mesh.write(mesh.plan())[0] for mesh in found)
-        edit_mesh.live_unwrap(context)
+        plans = {mesh: mesh.plan() for mesh in found}
+        with changing():
+            marked = sum(mesh.write(plan)[0] for mesh, plan in plans.items())
+            edit_mesh.live_unwrap(context)
         self.report({"INFO"}, f"{count(closed, 'gap')} closed, {count(marked, 'edge')} marked")
         return {"FINISHED"}
 

@@ -10,7 +10,7 @@ import bpy
 from ..mesh.settings import ALONG_ITEMS, FINISH_ITEMS, METRIC_ITEMS
 from ..words.reports import summary
 from .cut import cut_wires
-from .edit_mesh_operator import EditMeshOperator
+from .edit_mesh_operator import EditMeshOperator, changing
 from .slide import slide_wires
 
 if TYPE_CHECKING:
@@ -112,17 +112,16 @@ class MESH_OT_seamwire_mark(EditMeshOperator, bpy.types.Operator):
         if self.finish == "CUT" and self.along == "SURFACE":
             return cut_wires(self, context, new_wires)
         plans = [(mesh, mesh.plan()) for mesh, _ in drawn]
-        wires = new = old = touched = 0
-        for mesh, plan in plans:
-            wires += len(new_wires[mesh])
-            touched += len({edge for wire in new_wires[mesh] for edge in wire.claims()})
-            marked, cleared = mesh.write(plan)
-            new, old = new + marked, old + cleared
-        told = summary(wires, new, old, touched)
-        if self.finish == "SLIDE" and self.along == "SURFACE" and not self.clear:
-            told = f"{told}, {slide_wires(new_wires)}"
-        if new or old:
-            edit_mesh.live_unwrap(context)
+        wires = sum(map(len, new_wires.values()))
+        touched = sum(len({edge for wire in own for edge in wire.claims()}) for own in new_wires.values())
+        with changing():
+            written = [mesh.write(plan) for mesh, plan in plans]
+            new, old = (sum(numbers) for numbers in zip(*written, strict=True))
+            told = summary(wires, new, old, touched)
+            if self.finish == "SLIDE" and self.along == "SURFACE" and not self.clear:
+                told = f"{told}, {slide_wires(new_wires)}"
+            if new or old:
+                edit_mesh.live_unwrap(context)
         self.report({"INFO"}, told)
         return {"FINISHED"}
 

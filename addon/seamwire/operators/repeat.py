@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..words.names import count
-from .edit_mesh_operator import EditMeshOperator
+from .edit_mesh_operator import EditMeshOperator, changing
 
 if TYPE_CHECKING:
     from ..core.network.wires import Wire
@@ -49,8 +49,10 @@ class MESH_OT_seamwire_repeat(EditMeshOperator, bpy.types.Operator):
             self.report({"INFO"}, "No other unmarked place matches these wires")
             return {"CANCELLED"}
         mesh.add(new)
-        marked, _ = mesh.write(mesh.plan())
-        edit_mesh.live_unwrap(context)
+        plan = mesh.plan()
+        with changing():
+            marked, _ = mesh.write(plan)
+            edit_mesh.live_unwrap(context)
         self.report(
             {"INFO"}, f"Repeated at {count(places, 'place')}: {count(len(new), 'wire')}, {count(marked, 'edge')} marked"
         )

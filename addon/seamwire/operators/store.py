@@ -7,7 +7,7 @@ import bpy
 
 from ..mesh import settings as chosen
 from ..words.names import count
-from .edit_mesh_operator import EditMeshOperator, description_of_item
+from .edit_mesh_operator import EditMeshOperator, changing, description_of_item
 
 ISLAND_ITEMS = (
     ("ATTRIBUTE", "Face Attribute", "Numbers from 0 in the attribute 'island', the largest island first", 0),
@@ -58,7 +58,8 @@ class Storing(EditMeshOperator):
             raise ValueError("Islands are stored in Edit Mode")
         if kind == "FACE_SETS" and bpy.app.version < (3, 6, 0):
             raise ValueError("Storing face sets needs Blender 3.6 or newer")
-        found = self.for_each_object(context, lambda obj: store(obj, kind))
+        with changing():
+            found = self.for_each_object(context, lambda obj: store(obj, kind))
         if not found:
             return {"CANCELLED"}
         self.report({"INFO"}, f"{count(sum(found.values()), 'island')} stored")

@@ -11,7 +11,7 @@ from mathutils import Vector
 
 from ..mesh.settings import ALONG_ITEMS, AUTO_FINISH_ITEMS
 from .cut import cut_wires
-from .edit_mesh_operator import EditMeshOperator
+from .edit_mesh_operator import EditMeshOperator, Halfway, changing
 from .report import running as chains
 from .slide import slide_wires
 from .steps import Step, Stepwise, end_all
@@ -253,14 +253,21 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
         """Write or cut the wires, unwrap, and report."""
         if not suggestions.has_wires:
             return self._unwrap_uncut(context, suggestions)
+        try:
+            return self._change(context, suggestions)
+        except Halfway as error:
+            return self.stopped_halfway(error)
+
+    def _change(self, context: bpy.types.Context, suggestions: Suggestions) -> set[str]:
         to_cut = {suggestion.mesh: suggestion.wires for suggestion in suggestions.finished_by("CUT")}
         crumb = suggestions.crumb
         if to_cut and cut_wires(self, context, to_cut, crumb=crumb, live_unwrap=False) == {"CANCELLED"}:
             return {"CANCELLED"}
-        suggestions.write()
-        slide_wires({suggestion.mesh: suggestion.wires for suggestion in suggestions.finished_by("SLIDE")})
-        self._unwrap(context, suggestions)
-        self._tell(suggestions)
+        with changing():
+            suggestions.write()
+            slide_wires({suggestion.mesh: suggestion.wires for suggestion in suggestions.finished_by("SLIDE")})
+            self._unwrap(context, suggestions)
+            self._tell(suggestions)
         return {"FINISHED"}
 
     def _tell(self, suggestions: Suggestions) -> None:

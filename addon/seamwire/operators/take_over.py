@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..words.names import count
-from .edit_mesh_operator import EditMeshOperator
+from .edit_mesh_operator import EditMeshOperator, changing
 
 if TYPE_CHECKING:
     import numpy as np
@@ -44,7 +44,10 @@ class MESH_OT_seamwire_take_over(EditMeshOperator, bpy.types.Operator):
             return {"CANCELLED"}
         for mesh, wires in found.items():
             mesh.take_over(wires)
-            mesh.write(mesh.plan())
+        plans = {mesh: mesh.plan() for mesh in found}
+        with changing():
+            for mesh, plan in plans.items():
+                mesh.write(plan)
         wires = [wire for own in found.values() for wire in own]
         seeds = {(mesh, end) for mesh, own in found.items() for wire in own for end in (wire.start, wire.end)}
         edges = sum(len(wire.edges()) for wire in wires)

@@ -9,7 +9,7 @@ import bpy
 
 from ..mesh.settings import settings
 from ..words.names import DEGREE_NAMES, count
-from .edit_mesh_operator import EditMeshOperator
+from .edit_mesh_operator import EditMeshOperator, changing
 
 if TYPE_CHECKING:
     from ..core.matching.transferred import Transfer
@@ -51,8 +51,9 @@ def write_and_report(
     if not found.wires and not found.strokes:
         operator.report({"ERROR"}, "No wire could be placed on this mesh")
         return {"CANCELLED"}
-    wires, marked = write(mesh, found)
-    edit_mesh.live_unwrap(context)
+    with changing():
+        wires, marked = write(mesh, found)
+        edit_mesh.live_unwrap(context)
     parts = [count(wires, "wire")]
     if wires < len(found.wires):
         parts.append(f"{len(found.wires) - wires} already present")

@@ -38,7 +38,7 @@ class Outcome:
     unwrapped
         The number of unwrapped islands; None if nothing was to be unwrapped, or could be.
     faults
-        What is wrong with them.
+        The faults of these islands.
     """
 
     wires: int

@@ -1,31 +1,87 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The report of Suggest Seamwires."""
 
+import pytest
+from seamwire.core.islands.map_faults import MapFaults
+from seamwire.words.maps import in_words, is_beyond, not_reached, percent
 from seamwire.words.suggestion import Outcome
 
 
 def test_a_good_result_is_told_in_numbers() -> None:
-    outcome = Outcome(wires=12, marked=340, missing=[0] * 6, stretch=14.2, overlapping=0)
+    outcome = Outcome(12, 340, [0] * 6, stretch=14.2, stretches=[14.2], stretch_wanted=17.0, unwrapped=6)
     assert outcome.is_good
     assert outcome.text == "12 wires, 340 edges marked, 6 islands, stretch 14 %, no overlap"
 
 
 def test_what_was_not_reached_is_told_and_no_good_result() -> None:
     for outcome, text in (
+        (Outcome(1, 0, [0], islands_wanted=4), "1 island, fewer than 4 because there are no more limbs to part"),
         (
-            Outcome(1, 0, [0], islands_wanted=4),
-            "1 wire, 1 island, fewer than 4 because there are no more limbs to part",
+            Outcome(1, 0, [0], stretch=21.0, stretches=[21.0], stretch_wanted=17.0),
+            "stretch 21 %, 17 % was not reached",
         ),
-        (Outcome(1, 0, [0], stretch=21.0, stretch_wanted=17.0), "stretch 21 %, 17 % was not reached"),
-        (Outcome(1, 0, [0], overlapping=2), "2 islands overlapping"),
+        (Outcome(1, 0, [0, 0], unwrapped=2, faults=MapFaults(overlapping=2)), "2 islands, 2 islands overlap"),
         (Outcome(3, 9, [0, 2, 1], discs_wanted=True), "3 islands, 2 islands still need 3 cuts"),
         (Outcome(3, 9, [0, 0, 1], discs_wanted=True), "3 islands, 1 island still needs 1 cut"),
     ):
         assert not outcome.is_good
         assert text in outcome.text
+        assert "no overlap" not in outcome.text
 
 
 def test_holes_are_told_and_good_where_discs_were_not_asked_for() -> None:
     outcome = Outcome(3, 9, [0, 2, 1])
     assert outcome.is_good
     assert "3 islands, 2 with holes" in outcome.text
+
+
+@pytest.mark.parametrize(
+    ("stretches", "mean", "told"),
+    [
+        ([13.0], 13.0, "stretch 13 %"),
+        ([17.4], 17.4, "stretch 17 %"),
+        ([17.6], 17.6, "stretch 18 %, 17 % was not reached"),
+        ([9.0, 21.0], 13.0, "stretch 13 %, 1 of 2 objects above 17 %"),
+    ],
+)
+def test_the_stretch_in_the_report_and_the_verdict_on_it_never_disagree(
+    stretches: list[float], mean: float, told: str
+) -> None:
+    outcome = Outcome(1, 0, [0], stretch=mean, stretches=stretches, stretch_wanted=17.0)
+    assert outcome.text == f"1 wire, 1 island, {told}"
+    assert outcome.is_good == ("17 %," not in told and "above" not in told and "not" not in told)
+
+
+def test_a_map_that_could_not_be_made_has_no_stretch_and_no_verdict_on_overlap() -> None:
+    assert Outcome(2, 5, [0], stretch_wanted=17.0).text == "2 wires, 5 edges marked, 1 island"
+
+
+def test_without_new_seams_the_report_tells_why() -> None:
+    flat = {"stretch": 0.0, "stretches": [0.0], "stretch_wanted": 17.0}
+    far = {"stretch": 30.0, "stretches": [30.0], "stretch_wanted": 17.0}
+    assert Outcome(0, 0, [0], unwrapped=1, **flat).text == "No seam needed: 1 island unwrapped"
+    assert Outcome(0, 0, [0], unwrapped=0, **flat).text == "Nothing to add: all islands already unwrap within the limit"
+    assert Outcome(0, 0, [0], **far).text == "No useful seam found: stretch 30 %, 17 % was not reached"
+    overlapping = Outcome(0, 0, [0], unwrapped=1, faults=MapFaults(overlapping=1), **flat)
+    assert overlapping.text == "No seam needed: 1 island unwrapped, 1 island overlaps"
+    assert not overlapping.is_good
+
+
+def test_small_stretches_are_told_with_a_decimal_place() -> None:
+    assert [percent(stretch) for stretch in (0.0, 0.46, 9.0, 9.96, 17.2, 172660.0)] == [
+        "0 %", "0.5 %", "9 %", "10 %", "17 %", "172660 %",
+    ]  # fmt: skip
+    assert not is_beyond(0.54, 0.5)
+    assert is_beyond(0.56, 0.5)
+    assert is_beyond(float("inf"), 1000.0)
+    assert not_reached([], 17.0) == ""
+
+
+def test_what_is_wrong_with_a_map_is_told_and_nothing_if_nothing_is_wrong() -> None:
+    assert in_words(MapFaults()) == []
+    assert in_words(MapFaults(3, 2, 1)) == [
+        "2 islands overlap",
+        "3 faces turned over",
+        "1 island outside the UV square",
+    ]
+    assert in_words(MapFaults(1, 1)) == ["1 island overlaps", "1 face turned over"]

@@ -22,7 +22,7 @@ _ON_BORDER = 1e-5
 
 @dataclass(frozen=True)
 class MapFaults:
-    """What is wrong with some islands of a UV map.
+    """The faults of some islands of a UV map.
 
     Parameters
     ----------
@@ -61,6 +61,8 @@ class MappedSurface:
         (m,) the island of each triangle, numbered from 0.
     uvs
         (m, 3, 2) the UVs of the triangles' corners.
+    edges
+        (e, 2) the edges of the faces, without the diagonals that cut these into triangles.
     """
 
     points: NDArray[np.float64]
@@ -68,6 +70,7 @@ class MappedSurface:
     polygons: NDArray[np.int32]
     labels: NDArray[np.int32]
     uvs: NDArray[np.floating]
+    edges: NDArray[np.int32]
 
     @property
     def count(self) -> int:
@@ -78,7 +81,9 @@ class MappedSurface:
     def area(self) -> float:
         """The area on the model."""
         corners = self.points[self.triangles]
-        return 0.5 * float(np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum())
+        return 0.5 * float(
+            np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum()
+        )
 
     def energy(self, aspect: float = 1.0) -> float:
         """Return the mean symmetric Dirichlet energy E_d: 4 if nothing is stretched, infinite if there is nothing to measure.
@@ -98,7 +103,8 @@ class MappedSurface:
             return rows, None
         uvs = self.uvs[rows].astype(np.float64) * (aspect, 1.0)
         numbers = np.unique(self.labels[rows], return_inverse=True)[1].astype(np.int32)
-        return rows, native.load().measure_map(self.points, self.triangles[rows], uvs, islands=numbers)
+        report = native.load().measure_map(self.points, self.triangles[rows], uvs, islands=numbers, edges=self.edges)
+        return rows, report
 
 
 def joined(surfaces: Sequence[MappedSurface]) -> MappedSurface:
@@ -108,7 +114,7 @@ def joined(surfaces: Sequence[MappedSurface]) -> MappedSurface:
     """
     if len(surfaces) == 1:
         return surfaces[0]
-    points, triangles, polygons, labels = [], [], [], []
+    points, triangles, polygons, labels, edges = [], [], [], [], []
     vertices = faces = islands = 0
     for each in surfaces:
         size = float(np.ptp(each.points, axis=0).max(initial=0.0))
@@ -116,10 +122,11 @@ def joined(surfaces: Sequence[MappedSurface]) -> MappedSurface:
         triangles.append(each.triangles + vertices)
         polygons.append(each.polygons + faces)
         labels.append(each.labels + islands)
+        edges.append(each.edges + vertices)
         vertices += len(each.points)
         faces += int(each.polygons.max(initial=-1)) + 1
         islands += each.count
-    columns = (points, triangles, polygons, labels, [each.uvs for each in surfaces])
+    columns = (points, triangles, polygons, labels, [each.uvs for each in surfaces], edges)
     return MappedSurface(*map(np.concatenate, columns))
 
 
@@ -147,7 +154,7 @@ def find_faults(
     if report is not None:
         is_bad[rows[report.flipped]] = True
         islands = np.unique(surface.labels[rows])
-        overlapping = islands[np.union1d(report.overlapping, getattr(report, "colliding", report.overlapping))]
+        overlapping = islands[np.union1d(report.overlapping, report.colliding)]
         outside = _outside(surface, rows, homes)
     is_bad &= chosen[surface.labels]
     return MapFaults(
@@ -157,9 +164,7 @@ def find_faults(
     )
 
 
-def _outside(
-    surface: MappedSurface, rows: NDArray[np.int64], homes: NDArray[np.float64]
-) -> NDArray[np.bool_]:
+def _outside(surface: MappedSurface, rows: NDArray[np.int64], homes: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Return which islands lie neither in the UV square nor in their home, (count,)."""
     low, high = np.full((surface.count, 2), np.inf), np.full((surface.count, 2), -np.inf)
     uvs, labels = surface.uvs[rows].astype(np.float64), surface.labels[rows]

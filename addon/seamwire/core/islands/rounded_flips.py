@@ -35,7 +35,7 @@ def turn_back(
     uvs
         (c, 2) the UVs of the faces' corners.
     corners
-        (t, 3) the corners of triangles with an area on the model.
+        (t, 3) the corners of triangles.
     vertices
         (c,) the vertex of each corner. Corners of an island with one vertex and the same UVs move together.
     labels
