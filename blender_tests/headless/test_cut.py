@@ -1085,6 +1085,30 @@ def test_dragging_a_seed_twice_leaves_no_old_cut_whatever_blender_did_with_the_m
     assert counts == [len(items) for items in (anew.data.vertices, anew.data.edges, anew.data.polygons)]
 
 
+@pytest.mark.parametrize(("chains", "along"), [("0 44", "SURFACE"), ("36 44", "EDGES")], ids=["along", "across"])
+def test_a_cut_that_another_wire_uses_goes_with_that_wire(chains: str, along: str) -> None:
+    obj = add_grid(9)
+    edit()
+    before = content(obj)
+    if along == "EDGES":
+        bpy.ops.mesh.seamwire_mark(chains=chains, along=along)
+        assert cut("1 76") == {"FINISHED"}
+    else:
+        assert cut("0 44") == {"FINISHED"}
+        bpy.ops.mesh.seamwire_mark(chains=chains, along=along, finish="SNAP")
+    for is_cut in (True, False):
+        mesh = session_on(obj)
+        network = mesh.session.network
+        (wire,) = [wire for wire in network.wires if wire.is_cut == is_cut]
+        mesh.session.drop(wire)
+        _finish(mesh, network)
+        assert agree(obj)
+        assert (content(obj)["places"] == before["places"]) != is_cut
+    after = content(obj)
+    for name in before:
+        assert after[name] == before[name], name
+
+
 def test_no_two_layers_have_the_same_name() -> None:
     """Blender 5 loses one of two layers with the same name on undo, also if they belong to vertices and edges."""
     obj = add_grid(9)
