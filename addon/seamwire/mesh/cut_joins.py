@@ -75,8 +75,8 @@ def join(
 ) -> int:
     """Join what cuts along some edges parted, and return how many of these edges went.
 
-    Only edges that cuts made and that are no seams are removed, except on hidden faces. A vertex that a cut made on an edge is removed if only that edge is
-    left there, no wire uses it, and it is not among those `kept`.
+    Only edges that cuts made are removed, except seams and those on hidden faces. A vertex that a cut made on an edge is removed if only
+    that edge is left there, no wire uses it, and it is not among those `kept`.
 
     Edges cannot end inside faces. Where another seam would, the cut that leads on from its end cannot go: it holds the end, or an edge
     to a corner of the face does in its place.
