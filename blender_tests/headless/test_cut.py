@@ -1085,6 +1085,111 @@ def test_dragging_a_seed_twice_leaves_no_old_cut_whatever_blender_did_with_the_m
     assert counts == [len(items) for items in (anew.data.vertices, anew.data.edges, anew.data.polygons)]
 
 
+def add_triangles() -> bpy.types.Object:
+    obj = add_grid(7)
+    edit()
+    bm = bmesh.from_edit_mesh(obj.data)
+    bmesh.ops.triangulate(bm, faces=bm.faces[:])
+    bmesh.update_edit_mesh(obj.data)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    return obj
+
+
+def some_places(obj: bpy.types.Object, dice: random.Random, count: int) -> str:
+    """Return places inside triangles of a mesh in edit mode, as text."""
+    bm, found = bmesh.from_edit_mesh(obj.data), []
+    for corners in dice.sample(bm.calc_loop_triangles(), count):
+        shares = [dice.uniform(0.1, 1.0) for _ in corners]
+        places = [share / sum(shares) * corner.vert.co for share, corner in zip(shares, corners, strict=True)]
+        found.append("({} {} {})".format(*sum(places, Vector())))
+    return " ".join(found)
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize(
+    "make", [lambda: add_grid(5), add_triangles, add_hills], ids=["quads", "triangles", "polygons"]
+)
+def test_after_any_cuts_drags_and_removals_the_mesh_comes_back(make: Callable[[], bpy.types.Object], seed: int) -> None:
+    dice, obj = random.Random(seed), make()
+    count = len(obj.data.vertices)
+    edit()
+    before = content(obj)
+    for _ in range(8):
+        wires = session_on(obj).session.wires
+        act = dice.choice(["cut", "drag", "remove"]) if wires else "cut"
+        ends = [end for wire in wires for end in (wire.start, wire.end)] or [0]
+        if act == "cut":
+            begin = f"{dice.choice(ends)} " if dice.random() < 0.5 else ""
+            cut(begin + some_places(obj, dice, 3))
+        elif act == "drag":
+            drag(obj, dice.choice(ends), dice.randrange(count))
+        else:
+            remove(obj, dice.choice(ends))
+        assert agree(obj), act
+        assert is_sound(obj), act
+    for wire in session_on(obj).session.wires:
+        remove(obj, wire.start)
+    while wires := session_on(obj).session.wires:
+        remove(obj, wires[0].start)
+    after = content(obj)
+    for name in before:
+        assert after[name] == before[name], name
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize("change", ["join", "duplicate", "subdivide", "symmetrize", "hide"])
+def test_cuts_in_a_mesh_that_blender_changed_are_taken_back_as_far_as_they_are_there(change: str) -> None:
+    obj, other = add_grid(7), add_grid(5)
+    edit()
+    assert cut("0 (0.1 0.06 0) 27; 6 28; (0.3 -0.9 0) (0.35 0.25 0)", objects=obj.name) == {"FINISHED"}
+    bpy.ops.mesh.select_all(action="SELECT")
+    if change == "join":
+        bpy.ops.object.mode_set(mode="OBJECT")
+        bpy.context.view_layer.objects.active = obj
+        obj.select_set(True)
+        other.select_set(True)
+        bpy.ops.object.join()
+        edit()
+    elif change == "hide":
+        bm = bmesh.from_edit_mesh(obj.data)
+        for face in bm.faces[:20]:
+            face.hide_set(True)
+        bmesh.update_edit_mesh(obj.data)
+    else:
+        getattr(bpy.ops.mesh, change)()
+    while wires := session_on(obj).session.wires:
+        remove(obj, wires[0].start)
+        assert is_sound(obj)
+    own, others = {"join": (49, 25), "duplicate": (49, 49)}.get(change, (0, 0))
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert not own or len(obj.data.vertices) == own + others
+
+
+@pytest.mark.parametrize(("chains", "along"), [("0 44", "SURFACE"), ("36 44", "EDGES")], ids=["along", "across"])
+def test_a_cut_that_another_wire_uses_goes_with_that_wire(chains: str, along: str) -> None:
+    obj = add_grid(9)
+    edit()
+    before = content(obj)
+    if along == "EDGES":
+        bpy.ops.mesh.seamwire_mark(chains=chains, along=along)
+        assert cut("1 76") == {"FINISHED"}
+    else:
+        assert cut("0 44") == {"FINISHED"}
+        bpy.ops.mesh.seamwire_mark(chains=chains, along=along, finish="SNAP")
+    for is_cut in (True, False):
+        mesh = session_on(obj)
+        network = mesh.session.network
+        (wire,) = [wire for wire in network.wires if wire.is_cut == is_cut]
+        mesh.session.drop(wire)
+        _finish(mesh, network)
+        assert agree(obj)
+        assert (content(obj)["places"] == before["places"]) != is_cut
+    after = content(obj)
+    for name in before:
+        assert after[name] == before[name], name
+
+
 def test_no_two_layers_have_the_same_name() -> None:
     """Blender 5 loses one of two layers with the same name on undo, also if they belong to vertices and edges."""
     obj = add_grid(9)

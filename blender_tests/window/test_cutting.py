@@ -328,3 +328,23 @@ def test_a_removed_cut_wire_takes_its_cut_back(cutting: Desk) -> None:
     ui.key("Z", ctrl=True)
     assert agree(cutting.obj)
     assert length(cutting) > 0
+
+
+@pytest.mark.every_blender
+def test_a_removed_cut_wire_takes_its_cut_back_after_undo_and_redo(cutting: Desk) -> None:
+    drawn_cut(cutting, 0, 44)
+    ui = cutting.ui
+    ui.key("Z", ctrl=True)
+    ui.wait(redraw=True)
+    assert seams(cutting.obj) == []
+    ui.key("Z", ctrl=True, shift=True)
+    ui.wait(redraw=True)
+    cutting.obj.update_from_editmode()
+    assert len(cutting.obj.data.polygons) > 64
+    ui.move(cutting.at(len(cutting.obj.data.vertices) - 1))
+    ui.key("X")
+    ui.wait_until(lambda: not seams(cutting.obj))
+    assert cutting.left_clean()
+    cutting.obj.update_from_editmode()
+    assert len(cutting.obj.data.vertices) == 81
+    assert len(cutting.obj.data.polygons) == 64

@@ -19,7 +19,7 @@ from mathutils import Vector
 from ..core.network.picks import FacePoint, vertices_of
 from ..core.seams import cut
 from ..core.seams.cut_nodes import CutError
-from .cut_joins import cut_layers, holding, join, mark_seams
+from .cut_joins import cut_layers, holding, is_left_behind, join, mark_seams
 from .unwrap import UNWRAPPED
 
 if TYPE_CHECKING:
@@ -275,6 +275,13 @@ def _add_unwrapped(bm: bmesh.types.BMesh) -> None:
     """See that unwrapping can be told where faces were joined."""
     if bm.loops.layers.uv and bm.edges.layers.int.get(UNWRAPPED) is None:
         bm.edges.layers.int.new(UNWRAPPED)
+
+
+def left_behind(cage: Cage, edges: Iterable[Edge]) -> list[Edge]:
+    """Return those among some edges where a cut can be taken back, see `cut_joins.is_left_behind`."""
+    bm = cage.bm
+    found = ((pair, bm.edges.get((bm.verts[pair[0]], bm.verts[pair[1]]))) for pair in edges)
+    return [pair for pair, edge in found if edge is not None and is_left_behind(bm, edge)]
 
 
 def take_back(cage: Cage, edges: Iterable[Edge]) -> int:

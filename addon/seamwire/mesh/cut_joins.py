@@ -60,13 +60,23 @@ def holding(bm: bmesh.types.BMesh, verts: Iterable[bmesh.types.BMVert]) -> list[
     return list(found)
 
 
+def is_left_behind(bm: bmesh.types.BMesh, edge: bmesh.types.BMEdge) -> bool:
+    """Whether a cut made an edge that is no seam, or a vertex on it that only joins two edges without wires."""
+    of_verts, of_edges = bm.verts.layers.int.get(CUT_VERTS), bm.edges.layers.int.get(CUT_EDGES)
+    if of_verts is None or of_edges is None:
+        return False
+    return (bool(edge[of_edges]) and not edge.seam) or any(
+        vert[of_verts] and _can_merge(bm, vert.link_edges) for vert in edge.verts
+    )
+
+
 def join(
     bm: bmesh.types.BMesh, edges: Collection[bmesh.types.BMEdge], kept: Collection[bmesh.types.BMVert] = ()
 ) -> int:
     """Join what cuts along some edges parted, and return how many of these edges went.
 
-    Only edges that cuts made are removed, except on hidden faces. A vertex that a cut made on an edge is removed if only that edge is
-    left there, no wire uses it, and it is not among those `kept`.
+    Only edges that cuts made are removed, except seams and those on hidden faces. A vertex that a cut made on an edge is removed if only
+    that edge is left there, no wire uses it, and it is not among those `kept`.
 
     Edges cannot end inside faces. Where another seam would, the cut that leads on from its end cannot go: it holds the end, or an edge
     to a corner of the face does in its place.
@@ -76,7 +86,10 @@ def join(
     cuts = [
         edge
         for edge in dict.fromkeys(edges)
-        if edge[of_edges] and len(edge.link_faces) == 2 and not any(face.hide for face in edge.link_faces)
+        if edge[of_edges]
+        and not edge.seam
+        and len(edge.link_faces) == 2
+        and not any(face.hide for face in edge.link_faces)
     ]
     verts = {vert for edge in edges for vert in edge.verts if vert[of_verts]}
     if unwrapped is not None:

@@ -244,15 +244,17 @@ def _go_on_with(mesh: ObjectSession, taken: Iterable[TakenCut]) -> None:
 
 
 def _take_back(mesh: ObjectSession, before: Network) -> int:
-    """Take back what wires of a network before were cut along that are there no more; return how many edges went."""
+    """Take back the cuts that a network before left behind; return how many edges went."""
     left = _left_cuts(mesh, before)
     return mesh_cut.take_back(mesh.cage, left) if left else 0
 
 
 def _left_cuts(mesh: ObjectSession, before: Network) -> list[Edge]:
-    """Return the edges that wires of a network were cut along and that have lost their seams."""
-    own = {edge for wire in before.wires if wire.is_cut for edge in wire.claims()}
-    return [edge for edge in sorted(own) if not mesh.cage.is_seam(edge)]
+    """Return the edges that wires of a network ran along where a cut can be taken back.
+
+    The last wire along a cut, or over a vertex that it made, need not be the wire that was cut.
+    """
+    return mesh_cut.left_behind(mesh.cage, sorted({edge for wire in before.wires for edge in wire.claims()}))
 
 
 def _placed(mesh: ObjectSession, wires: Iterable[Wire], places: mesh_cut.PickedPlaces) -> list[Wire]:
