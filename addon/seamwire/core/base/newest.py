@@ -44,7 +44,7 @@ class Newest(Generic[Request, Answer]):
 
     @property
     def answer(self) -> Answer | None:
-        """The latest result. Raises what went wrong on the thread."""
+        """The latest result. Raises what went wrong on the thread until something else is asked for."""
         if self._error is not None:
             raise self._error
         return self._answer
@@ -60,6 +60,7 @@ class Newest(Generic[Request, Answer]):
             if self._closed:
                 return
             self._wanted = [request]
+            self._error = None
             if self._working:
                 return
             self._working = True
@@ -90,9 +91,10 @@ class Newest(Generic[Request, Answer]):
             except self._given_up:
                 continue
             except Exception as error:
-                # The main thread raises it: here nobody would see it.
-                self._error = error
-                self._working = False
-                return
+                with self._lock:
+                    if not self._wanted:
+                        # The main thread raises it: here nobody would see it.
+                        self._error = error
+                continue
             if not self._closed:
                 self._answer = made
