@@ -155,7 +155,7 @@ class Monkey:
             self.move_view()
         elif kind < 0.98:
             self.hold_and_press()
-        elif kind < 0.985:
+        elif kind < 0.99:
             self.dice.choice((self.play, self.disable, self.work_in_second_window, self.suggest))()
         else:
             key = self.dice.choice(BLENDERS)
