@@ -44,7 +44,7 @@ class Newest(Generic[Request, Answer]):
 
     @property
     def answer(self) -> Answer | None:
-        """The latest result. Raises what went wrong on the thread until something else is asked for."""
+        """The latest result. Raises what went wrong on the thread."""
         if self._error is not None:
             raise self._error
         return self._answer
@@ -60,7 +60,6 @@ class Newest(Generic[Request, Answer]):
             if self._closed:
                 return
             self._wanted = [request]
-            self._error = None
             if self._working:
                 return
             self._working = True
@@ -91,10 +90,9 @@ class Newest(Generic[Request, Answer]):
             except self._given_up:
                 continue
             except Exception as error:
-                with self._lock:
-                    if not self._wanted:
-                        # The main thread raises it: here nobody would see it.
-                        self._error = error
-                continue
+                # The main thread raises it: here nobody would see it.
+                self._error = error
+                self._working = False
+                return
             if not self._closed:
                 self._answer = made

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import gc
-import threading
 import time
 import weakref
 from collections.abc import Iterator
@@ -48,44 +47,6 @@ def test_closing_frees_the_owner_at_once(on_thread: bool) -> None:
         assert time.monotonic() < end
         time.sleep(0.001)
     assert gone() is None
-
-
-def answered(newest: Newest[int, int]) -> int | None:
-    """Return the answer once nothing is computed any more."""
-    end = time.monotonic() + 20.0
-    while newest.busy:
-        assert time.monotonic() < end
-        time.sleep(0.001)
-    return newest.answer
-
-
-def test_after_an_error_the_next_request_is_answered() -> None:
-    def make(request: int) -> int:
-        return 6 // request
-
-    newest: Newest[int, int] = Newest(make, "test")
-    newest.want(0)
-    with pytest.raises(ZeroDivisionError):
-        answered(newest)
-    newest.want(3)
-    assert answered(newest) == 2
-
-
-def test_a_request_that_comes_while_another_fails_is_answered() -> None:
-    begun, may_fail = threading.Event(), threading.Event()
-
-    def make(request: int) -> int:
-        if request == 0:
-            begun.set()
-            may_fail.wait(20.0)
-        return 6 // request
-
-    newest: Newest[int, int] = Newest(make, "test")
-    newest.want(0)
-    assert begun.wait(20.0)
-    newest.want(3)
-    may_fail.set()
-    assert answered(newest) == 2
 
 
 def test_a_closed_one_keeps_its_answer_and_makes_no_other() -> None:
