@@ -105,6 +105,28 @@ def head(obj: bpy.types.Object, count: int) -> list[int]:
     return largest[:: len(largest) // count][:count]
 
 
+def animate(obj: bpy.types.Object) -> None:
+    """Give an object in edit mode an armature that turns it a little, with an animation of 30 frames. It stays active."""
+    bpy.ops.object.mode_set(mode="OBJECT")
+    armature = bpy.data.objects.new("Armature", bpy.data.armatures.new("Armature"))
+    bpy.context.collection.objects.link(armature)
+    bpy.context.view_layer.objects.active = armature
+    edit()
+    armature.data.edit_bones.new("Bone").tail = (0.0, 0.0, 1.0)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    pose = armature.pose.bones["Bone"]
+    pose.rotation_mode = "XYZ"
+    for frame, angle in ((1, 0.0), (30, 0.02)):
+        pose.rotation_euler = (0.0, 0.0, angle)
+        pose.keyframe_insert("rotation_euler", frame=frame)
+    obj.modifiers.new("Armature", "ARMATURE").object = armature
+    obj.vertex_groups.new(name="Bone").add(range(len(obj.data.vertices)), 1.0, "REPLACE")
+    armature.select_set(False)
+    bpy.context.view_layer.objects.active = obj
+    obj.select_set(True)
+    edit()
+
+
 def edit() -> None:
     """Enter edit mode on the selected objects."""
     bpy.ops.object.mode_set(mode="EDIT")

@@ -155,6 +155,15 @@ def test_keys_while_a_button_is_held(desk: Desk, what: str, is_away: bool) -> No
     assert seams(desk.obj) == KEPT
 
 
+def test_after_a_lost_release_the_next_press_begins_anew(desk: Desk) -> None:
+    hand, ui = Hand(desk, "guide stroke"), desk.ui
+    hand.press()
+    ui.click(desk.at(40))  # another window has received the release
+    ui.wait_until(lambda: len(hand.session.wires) == 2)
+    assert not hand.holds
+    assert hand.session.strokes == ()
+
+
 def test_enter_waits_until_a_released_seed_has_its_wires(desk: Desk) -> None:
     hand, ui = Hand(desk, "seed"), desk.ui
     ui.move(desk.at(0))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Events of every kind in random order, with Blender's own keys between ours.
+"""Events of every kind in random order, with Blender's own keys between ours, playback, a second window, and the add-on disabled.
 
 No error is raised. Only seams change, and what Blender's keys change. The network agrees with the seams.
 
@@ -15,10 +15,13 @@ from collections.abc import Iterator
 import bmesh
 import bpy
 import pytest
+import traces
 from desk import Desk, choose, undo_steps
 from keymaps import as_event, gestures, using
-from scene import seams, snapshot
+from scene import animate, seams, snapshot
+from seamwire.mesh.settings import preferences
 from seamwire.operators.report import running
+from seamwire.operators.steps import running as searches
 from seamwire.view.edited_objects import edited
 
 EVENTS = 800
@@ -26,6 +29,7 @@ SEEDS = range(1, 1 + int(os.environ.get("SEAMWIRE_MONKEYS", "1")))
 BATCH = 16
 """Events between two turns of Blender's loop: many come at once where a machine is slow."""
 OURS = ["W", "C", "F", "S", "E", "V", "M", "X", "BACK_SPACE", "RET", "ESC", "F1", "LEFT_ALT", "LEFT_SHIFT"]
+WHILE_HELD = ["BACK_SPACE", "RET", "X", "ESC", "C", "F", "S", "E", "W", "Z", "RIGHTMOUSE", "G", "TAB"]
 OURS_ALONE = {"F", "S", "E", "V", "M", "C", "F1", "W"}
 BLENDERS = [
     "A",
@@ -147,8 +151,12 @@ class Monkey:
             self.send(key, "RELEASE")
             if key in OURS_ALONE:
                 self.ui.wait(1)
-        elif kind < 0.97:
+        elif kind < 0.96:
             self.move_view()
+        elif kind < 0.98:
+            self.hold_and_press()
+        elif kind < 0.99:
+            self.dice.choice((self.play, self.disable, self.work_in_second_window, self.suggest))()
         else:
             key = self.dice.choice(BLENDERS)
             self.release()
@@ -172,6 +180,87 @@ class Monkey:
             self.send(f"LEFT_{name.upper()}", "RELEASE")
         self.ui.wait(1)
 
+    def hold_and_press(self) -> None:
+        """Drag over the mesh, and press a key before the button is released."""
+        self.release()
+        self.move()
+        self.send("LEFTMOUSE", "PRESS", **self.dice.choice(({}, {}, {"shift": True}, {"shift": True, "ctrl": True})))
+        self.held.append("LEFTMOUSE")
+        for _ in range(self.dice.randint(1, 4)):
+            self.move()
+        self.ui.wait(4)
+        if running and running[0].state.hold is not None:
+            key = self.dice.choice(WHILE_HELD)
+            self.send(key, "PRESS", ctrl=key == "Z")
+            self.send(key, "RELEASE")
+            for _ in range(self.dice.randint(0, 3)):
+                self.move()
+        if self.dice.random() < 0.8:
+            self.release()
+
+    def play(self) -> None:
+        """Play the animation, or stop it."""
+        self.log.append(("play",))
+        with self.ui.override():
+            bpy.ops.screen.animation_play()
+        self.ui.wait(2)
+
+    def disable(self) -> None:
+        """Disable the add-on whatever runs, work without it, and enable it again."""
+        self.log.append(("disable",))
+        traces.disable()
+        assert not running
+        assert not searches
+        for _ in range(self.dice.randint(0, 4)):
+            self.move()
+        self.release()
+        self.ui.wait(2)
+        traces.enable()
+        preferences().show_card = False
+        choose(self.ui)
+
+    def suggest(self) -> None:
+        """Search for seams beside the interface."""
+        self.release()
+        self.log.append(("suggest",))
+        with self.ui.override():
+            if bpy.ops.mesh.seamwire_suggest.poll():
+                bpy.ops.mesh.seamwire_suggest("INVOKE_DEFAULT", along="EDGES", unwrap=False)
+        self.ui.wait(self.dice.randint(0, 8))
+
+    def work_in_second_window(self) -> None:
+        """Open another window, draw and undo in both, and close it."""
+        self.release()
+        self.log.append(("second window",))
+        with self.ui.override():
+            bpy.ops.wm.window_new()
+        other = next(window for window in bpy.context.window_manager.windows if window != self.ui.window)
+        self.ui.wait(4)
+        area = next((area for area in other.screen.areas if area.type == "VIEW_3D"), None)
+        for _ in range(self.dice.randint(2, 12) if area is not None else 0):
+            if self.dice.random() < 0.4:
+                self.act_a_little()
+                continue
+            x = area.x + area.width // 2 + self.dice.randint(-60, 60)
+            y = area.y + area.height // 2 + self.dice.randint(-60, 60)
+            key, held = self.dice.choice((("LEFTMOUSE", {}), ("LEFTMOUSE", {}), ("Z", {"ctrl": True}), ("RET", {})))
+            other.event_simulate(type="MOUSEMOVE", value="NOTHING", x=x, y=y)
+            for value in ("PRESS", "RELEASE"):
+                other.event_simulate(type=key, value=value, x=x, y=y, **held)
+            self.log.append(("second window", key))
+            self.ui.wait(self.dice.randint(0, 2))
+        with bpy.context.temp_override(window=other):
+            bpy.ops.wm.window_close()
+        self.ui.wait(4)
+
+    def act_a_little(self) -> None:
+        """Click in the first window, or begin a search there."""
+        if self.dice.random() < 0.1:
+            self.suggest()
+        self.move()
+        self.send("LEFTMOUSE", "PRESS")
+        self.send("LEFTMOUSE", "RELEASE")
+
     def release(self) -> None:
         for button in self.held:
             self.send(button, "RELEASE")
@@ -185,7 +274,9 @@ class Monkey:
             self.send("ESC", "PRESS")
             self.send("ESC", "RELEASE")
             self.ui.wait(2)
-        self.ui.wait_until(lambda: not running)
+        self.ui.wait_until(lambda: not running and not searches)
+        if self.ui.window.screen.is_animation_playing:
+            self.play()
         if self.obj.mode != "EDIT":
             with self.ui.override():
                 bpy.context.view_layer.objects.active = self.obj
@@ -235,6 +326,8 @@ def test_whatever_is_pressed_seams_and_network_agree_and_nothing_else_changes(
     cone: Desk, seed: int, keymap: str, capfd: pytest.CaptureFixture[str]
 ) -> None:
     monkey = Monkey(cone, seed)
+    with cone.ui.override():
+        animate(cone.obj)
     for _ in range(bpy.context.preferences.edit.undo_steps + 1):  # undo never leads to where there was no mesh
         bpy.ops.ed.undo_push(message="Before")
     start = undo_steps(capfd)[-1]

@@ -8,32 +8,16 @@ from collections.abc import Iterator
 import bpy
 import pytest
 from desk import Desk
-from scene import chain, seams
+from scene import animate, chain, seams
 from seamwire.mesh import edit_mesh
 
 
 @pytest.fixture
 def playing(desk: Desk) -> Iterator[Desk]:
     """The mesh with an armature that turns it, while its animation plays."""
-    ui, obj = desk.ui, desk.obj
+    ui = desk.ui
     with ui.override():
-        bpy.ops.object.mode_set(mode="OBJECT")
-        armature = bpy.data.objects.new("Armature", bpy.data.armatures.new("Armature"))
-        bpy.context.collection.objects.link(armature)
-        bpy.context.view_layer.objects.active = armature
-        bpy.ops.object.mode_set(mode="EDIT")
-        bone = armature.data.edit_bones.new("Bone")
-        bone.tail = (0.0, 0.0, 1.0)
-        bpy.ops.object.mode_set(mode="OBJECT")
-        pose = armature.pose.bones["Bone"]
-        pose.rotation_mode = "XYZ"
-        for frame, angle in ((1, 0.0), (30, 0.02)):
-            pose.rotation_euler = (0.0, 0.0, angle)
-            pose.keyframe_insert("rotation_euler", frame=frame)
-        obj.modifiers.new("Armature", "ARMATURE").object = armature
-        obj.vertex_groups.new(name="Bone").add(range(81), 1.0, "REPLACE")
-        bpy.context.view_layer.objects.active = obj
-        bpy.ops.object.mode_set(mode="EDIT")
+        animate(desk.obj)
     desk.choose()
     ui.wait(10)
     yield desk

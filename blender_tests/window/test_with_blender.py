@@ -9,6 +9,7 @@ from pathlib import Path
 import bmesh
 import bpy
 import pytest
+import stored
 import ui as driver
 from desk import ORANGE, Desk, choose, dismiss, draw, shows, undo_steps
 from scene import chain, edit, seams
@@ -454,6 +455,18 @@ def test_ctrl_s_saves_what_is_drawn_so_far_and_the_chain_goes_on(desk: Desk, tmp
     saved = wanted.objects[0].data
     assert sorted(tuple(sorted(edge.vertices)) for edge in saved.edges if edge.use_seam) == ROW
     assert saved.seamwire_wires
+
+
+def test_a_wire_that_a_script_marks_within_a_chain_is_saved_with_the_chain(
+    desk: Desk, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    live(desk)
+    with desk.ui.override():
+        assert bpy.ops.mesh.seamwire_mark(chains="0 8") == {"FINISHED"}
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "a.blend"), copy=True)
+    stored.forget(monkeypatch)
+    assert stored.chains(desk.obj) == [tuple(range(9)), tuple(range(36, 45))]
+    desk.ui.key("ESC")
 
 
 def test_what_was_saved_within_a_chain_and_then_taken_back_is_no_seam(desk: Desk, tmp_path: Path) -> None:

@@ -114,8 +114,8 @@ def act(state: ChainState, given: Given) -> bool:
         state.say("")
         if given.what is not Action.NEXT:
             state.peek = ""
-    if state.hold is not None and (given.event.type, given.event.value) == (state.hold.button, "PRESS"):
-        state.let_go()  # another window has received the release
+        if state.hold is not None and given.event.type == state.hold.button:
+            state.let_go()  # another window has received the release
     is_held = state.hold is not None
     passes = bool((WHILE_HELD if is_held else ACTS)[given.what](state, given))
     state.end_if_done()

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import traceback
+from contextlib import suppress
 from typing import TYPE_CHECKING, TypeVar
 
 import bpy
@@ -12,6 +13,7 @@ from ..core.drawing.change import Change
 from ..core.network.network import Network
 from ..mesh import finish
 from ..view.edited_objects import edited
+from ..view.object_view import let_blender_tell
 from ..words.names import count
 from ..words.reports import gaps, left_out, summary
 from . import undo_steps
@@ -149,9 +151,14 @@ class ChainRecord:
 
     def save(self) -> None:
         """Write the wires so far to the mesh, so that Blender saves them. The chain goes on."""
+        if self.view is None:
+            return
+        let_blender_tell()
+        self.trouble("")
         if self.view is not None:
-            _write(self.view, adopt=False)
-            self._is_saved = True
+            with suppress(ValueError):  # the mesh has other vertices: the chain ends at its next event
+                _write(self.view, adopt=False)
+                self._is_saved = True
 
     def drop(self) -> None:
         """Undo everything since the last step."""

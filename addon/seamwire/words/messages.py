@@ -61,6 +61,7 @@ SENTENCES = {
     "no-seed-to-move": "No seed to move at {pick}",
     "no-triangles": "Lines across the surface need the triangles of the mesh",
     "no-visible-faces": "The mesh has no visible faces to place wires on",
+    "no-result": "The computation ended without a result: this step was dropped",
     "no-way": "{wire}: no wire leads from {start} to {end}",
     "no-way-on": "The wire cannot be extended from here",
     "no-wire-between": "No wire from {start} reaches {pick}",

@@ -10,6 +10,7 @@ from ..base.messages import NOTHING, Message, Refused, message_of
 from ..network.network import Network
 from ..network.picks import undirected
 from ..network.wires import FOLLOWS
+from ..solver.solver import MOST_WAITS
 from .gesture import Gesture, Waiting
 from .gestures import Gestures
 from .line import LineGesture
@@ -386,9 +387,13 @@ class Flow:
         return before != (self.revision, round(self.drawing.progress, 2))
 
     def wait(self) -> None:
-        """Wait until everything is computed and every waiting gesture is committed."""
+        """Wait until everything is computed and every waiting gesture is committed.
+
+        If the library has done all its work and a gesture still waits, the gesture is dropped, and `message` says so.
+        """
         gestures = self.gestures
-        while True:
+        rounds, before = 0, None
+        while rounds < MOST_WAITS:
             for live in gestures.lives():
                 try:
                     live.wait()
@@ -397,6 +402,13 @@ class Flow:
             self.poll()
             if not gestures.queue and not gestures.retraces and not gestures.computing:
                 return
+            now = (*map(id, gestures.queue), *map(id, gestures.retraces), self.drawing.progress)
+            rounds, before = (rounds + 1 if now == before else 0), now
+        if gestures.waiting:
+            gestures.queue.clear()
+            gestures.retraces.clear()
+            self.cancel_drag()
+            self.refuse("no-result")
 
     def _poll_queue(self) -> bool:
         """Commit the gesture that has waited longest, if it is computed. Return whether it was."""

@@ -20,7 +20,7 @@ from ..network.strokes import Stroke, for_library, on_mesh
 from ..network.wires import LOOP_KINDS, Wire
 from ..solver.defaults import CLAMP_PERCENTILE, STRENGTHS
 from ..solver.live_maker import LiveMaker
-from ..solver.solver import by_number
+from ..solver.solver import by_number, final
 from ..storage.network_file import Course, NetworkFile
 from ..storage.serialization import unpacked
 from .placing import DOUBTFUL, Placed, Shape, Surface
@@ -37,9 +37,6 @@ STRAY = 1.0
 
 _MOST_LOST = 0.3
 """The part of a wire's course that may have no place."""
-
-
-_SLICE = 0.005
 
 
 def spacing_of(course: Course) -> float:
@@ -243,10 +240,7 @@ class Tracing:
 
     def _best(self, live: LiveWire, end: int, places: NDArray[np.float64]) -> tuple[int, Candidate, float, int] | None:
         """Return which of both wires runs nearer to a course, it, how far it strays, and from which place most."""
-        found = live.wires(end)
-        while not found.final:
-            live.wait(_SLICE)
-            found = live.wires(end)
+        found = final(live, lambda: live.wires(end))
         best = None
         for follow, candidate in enumerate(by_number(found)[0]):
             if len(candidate.vertices) < 2:
@@ -295,10 +289,7 @@ class Tracing:
         if edge is None:
             return None
         if record["kind"] == "CLOSED":
-            loop = live.loop(edge)
-            while not loop.final:
-                live.wait(_SLICE)
-                loop = live.loop(edge)
+            loop = final(live, lambda: live.loop(edge))
             closed = len(loop.vertices) > 2
         else:
             live.wait()

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..base.messages import Refused
 from ..network.wires import Wire
-from ..solver.solver import by_number
+from ..solver.solver import MOST_WAITS, by_number
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -112,12 +113,22 @@ def wires_along(
 
 
 def waiting(live: LiveWire, wires: Iterable[Wire | None]) -> Iterator[Wire]:
-    """Yield the wires of `wires_along`, waiting for each."""
+    """Yield the wires of `wires_along`, waiting for each.
+
+    Raises
+    ------
+    Refused
+        If all work is done and a wire is still missing.
+    """
+    done = 0
     for wire in wires:
-        if wire is None:
-            live.wait(_SLICE)
-        else:
+        if wire is not None:
+            done = 0
             yield wire
+            continue
+        done = done + 1 if live.wait(_SLICE) else 0
+        if done > MOST_WAITS:
+            raise Refused("no-result")
 
 
 def _reach(

@@ -5,9 +5,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Literal, Protocol, get_args
+from typing import TYPE_CHECKING, Literal, Protocol, TypeVar, get_args
 
-from ..base.messages import NOTHING, Message
+from ..base.messages import NOTHING, Message, Refused
 from ..network.picks import FacePoint
 from ..network.wires import FOLLOWS
 from .defaults import CLAMP_PERCENTILE, STRENGTHS
@@ -192,6 +192,37 @@ class LiveWire(Protocol):
 
     def wait(self, seconds: float | None = None) -> bool:
         """Wait for the running work."""
+
+
+MOST_WAITS = 50
+"""So often in a row the library may say that all its work is done although an answer is not final."""
+_SLICE = 0.005
+"""Seconds of one wait."""
+
+
+class Final(Protocol):
+    """An answer of live wires that may become better until it is `final`."""
+
+    final: bool
+
+
+Answer = TypeVar("Answer", bound=Final)
+
+
+def final(live: LiveWire, ask: Callable[[], Answer]) -> Answer:
+    """Ask live wires again and again, and return the answer that is final.
+
+    Raises
+    ------
+    Refused
+        If all work is done and the answer is still not final.
+    """
+    done = 0
+    while not (found := ask()).final:
+        done = done + 1 if live.wait(_SLICE) else 0
+        if done > MOST_WAITS:
+            raise Refused("no-result")
+    return found
 
 
 class Engines:

@@ -5,11 +5,15 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from fake_live import grid_points, grid_triangles
+from fake_live import FakeLive, grid_points, grid_triangles
+from seamwire.core.base.messages import Refused
 from seamwire.core.drawing import candidates
 from seamwire.core.fields.crests import Crests
 from seamwire.core.network.network import Snap
+from seamwire.core.network.picks import Along
 from seamwire.core.network.wires import Wire
+from seamwire.core.seams.seam_wires import waiting, wires_along
+from seamwire.core.solver.solver import final
 from setting import use
 from table import SIZE, Table, courses
 
@@ -150,6 +154,44 @@ def test_a_stroke_is_drawn_while_a_moved_seed_waits(monkeypatch: pytest.MonkeyPa
     session.drag_end()
     assert session.draw_stroke(vertices=[27, 28])
     assert session.strokes[0].acts_on == "both"
+
+
+@pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
+def test_waiting_ends_if_the_library_never_comes_to_a_result(along: Along, monkeypatch: pytest.MonkeyPatch) -> None:
+    table = Table(along, ready=(False, False))
+    session = table.session
+    session.click(0)
+    session.click(8)
+    session.click(20)
+    monkeypatch.setattr(FakeLive, "wait", lambda _self, _seconds=None: True)
+    session.wait()
+    assert session.waiting_clicks == 0
+    assert session.message.code == "no-result"
+    assert session.wires == ()
+    assert session.seed == 0
+    session.click(8)
+    table.compute()
+    assert len(session.wires) == 1, "it goes on with what comes later"
+
+
+def test_waiting_ends_without_a_word_if_nothing_waits(monkeypatch: pytest.MonkeyPatch) -> None:
+    session = Table(ready=(False, False)).session
+    session.click(0)
+    session.hover(8)
+    monkeypatch.setattr(FakeLive, "wait", lambda _self, _seconds=None: True)
+    session.wait()
+    assert not session.message
+    assert session.seed == 0
+
+
+def test_an_answer_that_is_never_final_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    live = FakeLive(SIZE, ready=(False, False))
+    monkeypatch.setattr(FakeLive, "wait", lambda _self, _seconds=None: True)
+    with pytest.raises(Refused):
+        final(live, lambda: live.loop((0, 1)))
+    live.seed(0)
+    with pytest.raises(Refused):
+        list(waiting(live, wires_along(live, [0, 1, 2], POINTS, 5.0)))
 
 
 def test_undo_takes_back_a_held_line_before_a_click_that_waits() -> None:
