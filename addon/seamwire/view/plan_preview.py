@@ -121,16 +121,15 @@ class PlanPreview:
             edited.covered = True
         if obj.name_full not in self._shown:
             self._shown[obj.name_full] = _Shown(obj, arrays)
+        shown = self._shown[obj.name_full]
         failures.take("preview")  # another plan is another try
-        failures.attempt(
-            ("preview", self._shown[obj.name_full]), partial(self._shown[obj.name_full].follow, curves, cuts)
-        )
+        failures.attempt(("preview", "follow", obj.name_full), partial(shown.follow, curves, cuts))
         edited.redraw()
 
     def poll(self) -> None:
         """Show islands that were computed."""
-        for shown in self._shown.values():
-            failures.attempt(("preview", shown), shown.check)
+        for name, shown in self._shown.items():
+            failures.attempt(("preview", "islands", name), shown.check)
         if any(shown.is_new for shown in self._shown.values()):
             edited.redraw()
 
@@ -150,7 +149,7 @@ class PlanPreview:
         if not self._shown or not context.space_data.overlay.show_overlays:
             return
         looks = Looks.of(context.preferences.themes[0].view_3d, chosen.preferences())
-        for shown in self._shown.values():
+        for name, shown in self._shown.items():
             with suppress(ReferenceError):  # the object may be gone
                 if shown.obj.visible_in_viewport_get(context.space_data):
-                    failures.attempt(("preview", shown), partial(shown.draw, looks))
+                    failures.attempt(("preview", "draw", name), partial(shown.draw, looks))
