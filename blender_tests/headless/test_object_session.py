@@ -4,7 +4,9 @@
 import gc
 import math
 import weakref
+from collections.abc import Iterator
 from dataclasses import replace
+from pathlib import Path
 
 import bmesh
 import bpy
@@ -15,6 +17,7 @@ from scene import add_grid, add_layers, chain, edit, seams, snapshot
 from seamwire.core.solver.live_maker import LiveMaker
 from seamwire.mesh import edit_mesh
 from seamwire.mesh.object_session import ObjectSession
+from seamwire.view import edited_objects
 from seamwire.view.edited_objects import edited
 from stored import agree, chains, forget, session_on, wired, write
 
@@ -96,6 +99,50 @@ def test_what_was_prepared_for_a_mesh_that_changed_is_freed_at_once(grid: bpy.ty
     finally:
         gc.enable()
         edited.clear()
+
+
+@pytest.fixture
+def unprepared() -> Iterator[None]:
+    """Forget afterwards what was prepared."""
+    yield
+    edited.clear()
+
+
+@pytest.mark.usefixtures("unprepared")
+def test_a_deleted_object_does_not_stay_prepared(grid: bpy.types.Object) -> None:
+    gone = weakref.ref(edited.of(grid))
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert gone() is not None, "it stays prepared in Object Mode"
+    bpy.ops.object.delete()
+    bpy.context.view_layer.update()
+    gc.collect()
+    assert gone() is None
+
+
+@pytest.mark.usefixtures("unprepared")
+def test_objects_that_are_not_edited_stay_prepared_as_far_as_there_is_room(monkeypatch: pytest.MonkeyPatch) -> None:
+    prepared = []
+    for name in ("First", "Second", "Third"):
+        add_grid(5, name=name)
+        edit()
+        view = edited.of(bpy.context.active_object)
+        prepared.append(weakref.ref(view))
+        monkeypatch.setattr(edited_objects, "_MOST_IDLE", view.size + view.size // 2)
+        bpy.ops.object.mode_set(mode="OBJECT")
+    del view
+    gc.collect()
+    assert [one() is None for one in prepared] == [True, False, False]
+
+
+def test_records_of_wires_that_undo_brings_back_end_with_the_file(grid: bpy.types.Object, tmp_path: Path) -> None:
+    draw(session_on(grid), 36, 44)
+    grid.data.seamwire_wires = ""  # as undo leaves the mesh
+    assert len(session_on(grid).session.wires) == 1
+    name, path = grid.name, str(tmp_path / "other.blend")
+    grid.data.seamwire_wires = ""
+    bpy.ops.wm.save_as_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path)
+    assert session_on(bpy.data.objects[name]).session.wires == ()
 
 
 # What is written

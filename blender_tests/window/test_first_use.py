@@ -10,6 +10,7 @@ import ui as driver
 from desk import Desk, choose, leave, reset_settings
 from scene import add_grid, edit
 from seamwire.mesh.settings import preferences, settings
+from seamwire.ui.properties import along_of
 from seamwire.view import card as drawing
 from seamwire.view.edited_objects import edited
 from seamwire.words import card as words
@@ -66,6 +67,33 @@ def test_modeled_meshes_start_along_edges_after_a_scan(scan: driver.Ui) -> None:
     point_at(scan, (0.1, 0.1, 0.0))
     scan.wait_until(lambda: edited.front.name == "Model")
     assert edited.front.session.options.along == "EDGES"
+
+
+def test_pointing_at_objects_changes_no_setting(scan: driver.Ui) -> None:
+    with scan.override():
+        bpy.ops.object.mode_set(mode="OBJECT")
+        bpy.data.objects["Scan"].location.x = -1.5
+        add_grid(5, name="Model").location.x = 1.5
+        bpy.data.objects["Scan"].select_set(True)
+        edit()
+    scan.look_from_top(distance=8.0)
+    places = {"Scan": (-1.4, 0.1, 0.0), "Model": (1.6, 0.1, 0.0)}
+    before = {name: getattr(settings(), name) for name in settings().bl_rna.properties.keys()}  # noqa: SIM118
+    with scan.override():
+        shown = along_of(bpy.context)
+    for name in (*places, *places):
+        scan.move(scan.on_screen(places[name]))
+        scan.wait_until(lambda name=name: edited.front is not None and edited.front.name == name)
+        assert edited.front.session.options.along == ("SURFACE" if name == "Scan" else "EDGES")
+        assert {name: getattr(settings(), name) for name in before} == before
+        with scan.override():
+            assert along_of(bpy.context) == shown, "the header shows what the active object has"
+    scan.click(scan.on_screen(places["Scan"]))
+    scan.wheel(True, shift=True)
+    assert settings().strength_surface > before["strength_surface"], "the strength of this wire"
+    assert settings().strength_edges == before["strength_edges"]
+    scan.key("ESC")
+    settings().strength_surface = before["strength_surface"]
 
 
 def test_a_grid_of_quads_starts_along_edges(desk: Desk) -> None:

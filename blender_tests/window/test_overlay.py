@@ -25,6 +25,7 @@ from seamwire.core.network.network import Snap
 from seamwire.core.network.picks import Edge
 from seamwire.core.network.wires import Wire
 from seamwire.mesh import edit_mesh
+from seamwire.mesh.pose import Pose
 from seamwire.view.overlay import Overlay
 from seamwire.view.shown_islands import ShownIslands
 from seamwire.view.theme import Looks, Style
@@ -137,7 +138,7 @@ class Sight:
             self.errors.append(error)
 
     def make(self, **options: object) -> Overlay:
-        return Overlay(lambda: self.session.picture, self.obj, self.arrays.points, self.arrays.to_object, **options)
+        return Overlay(lambda: self.session.picture, self.obj, Pose(self.arrays), self.arrays.to_object, **options)
 
     def wire(self, *vertices: int, along: str = "EDGES", marks: bool = True, points: object = None) -> Wire:
         curve = self.arrays.points[list(vertices)] if points is None else np.array(points)
@@ -154,7 +155,7 @@ class Sight:
             islands.poll()
             return replace(self.session.picture, islands=islands.newest)
 
-        self.overlay = Overlay(look, self.obj, self.arrays.points, self.arrays.to_object)
+        self.overlay = Overlay(look, self.obj, Pose(self.arrays), self.arrays.to_object)
 
     def pixels(self, **said: object) -> NDArray[np.float32]:
         self.session.say(**said)

@@ -56,7 +56,7 @@ _taken_cuts = CutMemory()
 
 
 def forget_records() -> None:
-    """Forget the records and the closed cuts of a file that is no longer open."""
+    """Forget the records and the closed cuts of the file that was open before."""
     global _archive
     _archive = Archive()
     _taken_cuts.clear()

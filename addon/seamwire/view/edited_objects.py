@@ -245,6 +245,10 @@ class EditedObjects:
     def on_update(self, depsgraph: bpy.types.Depsgraph) -> None:
         """Take note of meshes that Blender says were changed."""
         self._drop_deleted()
+        moved = {update.id.name_full for update in depsgraph.updates if update.is_updated_geometry}
+        for view in self._views.values():
+            if view.name in moved:
+                view.has_moved()
         meshes = _changed_meshes(depsgraph)
         changed = [view for view in self._views.values() if view.shows_any(meshes) or view.is_stretched_anew]
         if not meshes and not changed:
@@ -258,6 +262,11 @@ class EditedObjects:
         if not self.chain:
             self._changed = now
             self.watch()
+
+    def on_frame(self) -> None:
+        """Take note that another frame may show the objects in another pose. Blender tells of no update then."""
+        for view in self._views.values():
+            view.has_moved()
 
     def on_undo(self) -> None:
         """Follow Blender's undo or redo: all edit meshes are others now."""
@@ -358,6 +367,7 @@ class EditedObjects:
             handlers = getattr(bpy.app.handlers, name)
             if handler not in handlers:
                 handlers.append(handler)
+
     def draw(self, part: str) -> None:
         """Draw in the view that Blender is drawing now, and have what is missing read.
 
@@ -373,6 +383,7 @@ class EditedObjects:
             self.watch()
         if (has_tool or self.chain) and not self.covered and context.space_data.overlay.show_overlays:
             for view in self._drawn(context.space_data):
+                failures.attempt(("pose", view.name), view.follow_pose)
                 failures.attempt(("draw", view.name), getattr(view.overlay, part))
 
     def _follow_window(self, window: bpy.types.Window, state: tuple[str, bool]) -> None:
@@ -415,6 +426,10 @@ def _on_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
     edited.on_update(depsgraph)
 
 
+def _on_frame(*_: object) -> None:
+    edited.on_frame()
+
+
 def _on_undo(*_: object) -> None:
     edited.on_undo()
 
@@ -429,6 +444,7 @@ def _on_load(*_: object) -> None:
 
 _HANDLERS = (
     ("depsgraph_update_post", _on_update),
+    ("frame_change_post", _on_frame),
     ("undo_post", _on_undo),
     ("redo_post", _on_undo),
     ("save_pre", _on_save),

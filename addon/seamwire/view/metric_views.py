@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from ..core.fields.color_maps import ColorMap
     from ..core.fields.crests import Crests
     from ..core.fields.metric_fields import Ellipses, Fields, Part, Source
+    from ..mesh.pose import Pose
     from .gpu_draw import Eye
     from .theme import Color
 
@@ -62,10 +63,19 @@ class MetricViews:
         The library's module.
     surface
         Returns the library's surface of it; called on a thread.
+    pose
+        Where the mesh is seen. None: where it is.
     """
 
-    def __init__(self, arrays: Arrays, core: ModuleType, surface: Callable[[], seamwire_core.Surface]) -> None:
+    def __init__(
+        self,
+        arrays: Arrays,
+        core: ModuleType,
+        surface: Callable[[], seamwire_core.Surface],
+        pose: Pose | None = None,
+    ) -> None:
         self._arrays = arrays
+        self._pose = pose
         self._maker = FieldMaker(core, surface)
         self._heat: Part | None = None
         self._visible: frozenset[Part] = frozenset()
@@ -178,6 +188,18 @@ class MetricViews:
 
     # Drawing
 
+    def repose(self) -> None:
+        """Draw everything where it is seen now."""
+        self._made.clear()
+
+    @property
+    def _points(self) -> NDArray[np.float64]:
+        return self._arrays.points if self._pose is None else self._pose.points
+
+    def _seen_at(self, segments: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return where segments on the mesh, (k, 2, 3), are seen."""
+        return segments if self._pose is None else self._pose.places(segments.reshape(-1, 3)).reshape(-1, 2, 3)
+
     def draw_heat(self, eye: Eye) -> None:
         """Draw the heat over the faces; there must be some."""
         values = self._values()
@@ -187,7 +209,7 @@ class MetricViews:
             colors = np.full((len(values), 4), _OPACITY)
             colors[:, :3] = scale.colors(values)
             colors[~np.isfinite(values)] = 0.0
-            return ShadedFaces(self._arrays.points, self._arrays.triangles, colors)
+            return ShadedFaces(self._points, self._arrays.triangles, colors)
 
         self._once("heat", values, make).draw_over(eye)
 
@@ -199,7 +221,7 @@ class MetricViews:
                 eye, [_SPLIT, _REPAIRED, _LEFT]
             )
             with blended("LESS_EQUAL"):
-                self._once("pieces", invalid, lambda: Lines(_PIECES, invalid.edges)).draw(eye)
+                self._once("pieces", invalid, lambda: Lines(_PIECES, self._seen_at(invalid.edges))).draw(eye)
         ellipses = self._shown("ELLIPSES")
         if ellipses is not None:
             rims, insides = self._once("ellipses", ellipses, lambda: _ellipse_faces(ellipses))
@@ -209,14 +231,14 @@ class MetricViews:
         with blended("LESS_EQUAL"):
             crests = self._shown("CRESTS")
             if crests is not None:
-                for lines in self._once("crests", crests, lambda: _crest_lines(crests)):
+                for lines in self._once("crests", crests, lambda: self._crest_lines(crests)):
                     lines.draw(eye)
             silhouette = self._shown("SILHOUETTE")
             if silhouette is not None:
                 self._seen_silhouette(silhouette, eye).draw(eye)
             isolines = self._shown("ISOLINES")
             if isolines is not None:
-                self._once("isolines", isolines, lambda: Lines(_BAND, isolines.segments)).draw(eye)
+                self._once("isolines", isolines, lambda: Lines(_BAND, self._seen_at(isolines.segments))).draw(eye)
             paths = self._shown("PATHS")
             if paths is not None:
                 self._once("paths", paths, lambda: _path_lines(paths)).draw(eye)
@@ -230,8 +252,12 @@ class MetricViews:
             kept[:] = eye.key, Lines(_SILHOUETTE, segments)
         return kept[1]
 
+    def _crest_lines(self, crests: Crests) -> tuple[Lines, Lines]:
+        is_ridge, segments = crests.ridges[crests.owners[crests.pieces]], self._seen_at(crests.segments)
+        return Lines(_VALLEY, segments[~is_ridge]), Lines(_RIDGE, segments[is_ridge])
+
     def _invalid_faces(self, invalid: metric_fields.Invalid) -> Faces:
-        faces = Faces(self._arrays.points)
+        faces = Faces(self._points)
         for color, numbers in enumerate((invalid.split, invalid.repaired, invalid.left)):
             if len(numbers):
                 faces.add(color, self._arrays.triangles[numbers])
@@ -349,11 +375,6 @@ def _fans(ellipses: Ellipses, margin: float, colors: NDArray[np.float64]) -> Sha
     fan = np.stack([np.zeros_like(corner), 1 + corner, 1 + (corner + 1) % _CORNERS], axis=1)
     triangles = (np.arange(count)[:, None, None] * (_CORNERS + 1) + fan).reshape(-1, 3)
     return ShadedFaces(points, triangles, np.repeat(colors, _CORNERS + 1, axis=0))
-
-
-def _crest_lines(crests: Crests) -> tuple[Lines, Lines]:
-    is_ridge = crests.ridges[crests.owners[crests.pieces]]
-    return Lines(_VALLEY, crests.segments[~is_ridge]), Lines(_RIDGE, crests.segments[is_ridge])
 
 
 def _path_lines(paths: metric_fields.Paths) -> ColoredLines:

@@ -3,17 +3,19 @@
 
 from __future__ import annotations
 
-import sys
 import time
+from functools import partial
 from typing import TYPE_CHECKING
 
 import bpy
 from mathutils import Matrix
 
 from ..core.base import native
+from ..core.seams.suggestion import best_finish
 from ..mesh import edit_mesh
 from ..mesh import settings as chosen
 from . import legend
+from .failures import failures
 from .gpu_draw import Eye, blended
 from .legend import Legend
 from .metric_views import MetricViews
@@ -21,12 +23,17 @@ from .overlay import free_room
 from .timer import Timer
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from ..core.base.mesh_arrays import Arrays
+    from ..core.network.picks import Along
 
 _RHYTHM = 0.05
 """Seconds between two looks at running work."""
 _IDLE = 0.25
 """Seconds between two looks at what is active."""
+_FOLLOWING, _DRAWING = ("object mode", "follow"), ("object mode", "draw")
+"""The parts that can fail."""
 _PAUSE = 0.3
 """Seconds after which a mesh that has changed is read anew: while it is being changed, it changes all the time."""
 
@@ -35,7 +42,6 @@ class _Shown:
     """The arrays of the active object."""
 
     def __init__(self, obj: bpy.types.Object) -> None:
-        self.name, self.mesh = obj.name_full, obj.data.name_full
         self.problem = ""
         self.arrays: Arrays | None = None
         self.views: MetricViews | None = None
@@ -50,9 +56,6 @@ class _Shown:
         arrays = self.arrays
         self.views = MetricViews(arrays, core, lambda: core.Surface(arrays.points, arrays.triangles, arrays.edges))
 
-    def is_of(self, obj: bpy.types.Object) -> bool:
-        return (self.name, self.mesh) == (obj.name_full, obj.data.name_full)
-
     def close(self) -> None:
         if self.views is not None:
             self.views.close()
@@ -63,11 +66,11 @@ class ObjectModeViews:
 
     def __init__(self) -> None:
         self._shown: _Shown | None = None
+        self._active: tuple[str, str] | None = None
         self._handles: list[object] = []
         self._changed = 0.0
         self._stale = False
         self._timer = Timer(self.tick, persistent=True)
-        self._end = Timer(self.stop)  # handlers cannot be removed while they draw
 
     def start(self) -> None:
         """Begin; to be called again does no harm."""
@@ -90,7 +93,6 @@ class ObjectModeViews:
             if _on_change in getattr(bpy.app.handlers, name):
                 getattr(bpy.app.handlers, name).remove(_on_change)
         self._timer.stop()
-        self._end.stop()
         self._forget()
 
     @property
@@ -100,18 +102,18 @@ class ObjectModeViews:
 
     def on_change(self, depsgraph: bpy.types.Depsgraph | None = None) -> None:
         """Take note of a change of meshes; without a depsgraph: of all of them."""
-        if self._shown is None:
+        if self._active is None:
             return
         if depsgraph is None or any(
-            update.is_updated_geometry and update.id.name_full in (self._shown.name, self._shown.mesh)
-            for update in depsgraph.updates
+            update.is_updated_geometry and update.id.name_full in self._active for update in depsgraph.updates
         ):
             self._stale, self._changed = True, time.monotonic()
 
     def _forget(self) -> None:
         if self._shown is not None:
             self._shown.close()
-        self._shown, self._stale = None, False
+        self._shown, self._active, self._stale = None, None, False
+        failures.take("object mode")  # another object or mesh is another try
 
     def tick(self) -> float | None:
         """Follow what is active; return the seconds until the next time, None if nothing is to be shown any more."""
@@ -120,36 +122,40 @@ class ObjectModeViews:
             _redraw()
             return None
         obj = _active()
-        if obj is None or (self._shown is not None and not self._shown.is_of(obj)):
+        names = None if obj is None else _names(obj)
+        if names != self._active or (self._stale and time.monotonic() - self._changed > _PAUSE):
             self._forget()
+            self._active = names
         if obj is None:
             return _IDLE
-        if self._stale and time.monotonic() - self._changed > _PAUSE:
-            self._forget()
+        return failures.attempt(_FOLLOWING, partial(self._follow, obj)) or _IDLE
+
+    def _follow(self, obj: bpy.types.Object) -> float:
+        """Show the views of an object, and return the seconds until the next time."""
         if self._shown is None:
             self._shown = _Shown(obj)
             _redraw()
         views = self._shown.views
         if views is None:
             return _IDLE
-        views.follow(chosen.snapshot(chosen.settings()), self._shown.source)
+        views.follow(chosen.snapshot(chosen.settings(), along=self.best_along), self._shown.source)
         if views.poll():
             _redraw()
         return _RHYTHM if views.busy else _IDLE
 
-    def _draw(self, part: object) -> None:
-        try:
-            context = bpy.context
-            obj = _active()
-            if obj is None or self._shown is None or not self._shown.is_of(obj) or self._stale:
-                return
-            if context.space_data.overlay.show_overlays and obj.visible_in_viewport_get(context.space_data):
-                part(obj)
-        except Exception:
-            # Printed once: it would come with every redraw.
-            self._shown = None
-            sys.excepthook(*sys.exc_info())
-            self._end.start()
+    @property
+    def best_along(self) -> Along:
+        """How wires run on the active object if its mesh decides: along edges as long as it is not read."""
+        arrays = None if self._shown is None else self._shown.arrays
+        return "EDGES" if arrays is None else chosen.auto_along(best_finish(arrays.polygons))
+
+    def _draw(self, part: Callable[[bpy.types.Object], None]) -> None:
+        context = bpy.context
+        obj = _active()
+        if obj is None or self._shown is None or _names(obj) != self._active or self._stale:
+            return
+        if context.space_data.overlay.show_overlays and obj.visible_in_viewport_get(context.space_data):
+            failures.attempt(_DRAWING, partial(part, obj))
 
     def _draw_in_scene(self, obj: bpy.types.Object) -> None:
         if self._shown.views is None:
@@ -166,6 +172,10 @@ class ObjectModeViews:
         with blended("NONE"):
             room = free_room(bpy.context.area, bpy.context.region)
             legend.draw(legends, room, bpy.context.preferences.system.ui_scale)
+
+
+def _names(obj: bpy.types.Object) -> tuple[str, str]:
+    return obj.name_full, obj.data.name_full
 
 
 def _active() -> bpy.types.Object | None:

@@ -19,6 +19,7 @@ from ..core.solver.solver import for_live
 from ..mesh import settings as chosen
 from ..mesh.edit_mesh import visible_stretch
 from ..mesh.object_session import ObjectSession
+from ..mesh.pose import Pose
 from .failures import failures
 from .metric_views import MetricViews
 from .overlay import Overlay
@@ -99,8 +100,10 @@ class ObjectView:
         gaps = GapFinder(arrays.points, arrays.triangles, arrays.edges, arrays.partly_hidden)
         make = self.mesh.make_live
         self._islands = islands.IslandMaker(arrays.triangles, make.face_segments, HUES, gaps, make.missing_cuts)
-        self.views = MetricViews(arrays, native.load(), self.mesh.make_live.wait)
-        self._picker = Picker(arrays, self.mesh.plain_seams)
+        self.pose = Pose(arrays)
+        self.views = MetricViews(arrays, native.load(), self.mesh.make_live.wait, self.pose)
+        self._has_moved = True
+        self._posed_picker: Picker | None = None
         self.islands = ShownIslands(self._islands, self.session, arrays.seams)
         self.stroke: tuple[NDArray[np.float64], bool] | None = None
         self._front = True
@@ -108,10 +111,10 @@ class ObjectView:
         self.overlay = Overlay(
             weak(self._look),  # what was prepared for a view is freed with it, and not when Python looks for cycles
             obj,
-            arrays.points,
+            self.pose,
             arrays.to_object,
             preferences=chosen.preferences(),
-            heat=StretchHeat(arrays, self._islands),
+            heat=StretchHeat(arrays, self._islands, self.pose),
             views=self.views,
         )
         self._strength: NDArray[np.float64] | None = None
@@ -173,10 +176,32 @@ class ObjectView:
 
     def renew(self) -> None:
         """Let picker and overlay follow the mesh that was read, or written."""
+        self.has_moved()
         self._picker.set_seams(self.mesh.plain_seams)
         self.overlay.renew(self.obj)
         self.islands.set_seams(self.mesh.arrays.seams)
         self.measure(anew=True)
+
+    def has_moved(self) -> None:
+        """Take note that modifiers may show the mesh in another pose."""
+        self._has_moved = True
+
+    def follow_pose(self) -> None:
+        """Let picker and overlay follow the pose in which the mesh is seen."""
+        if not self._has_moved:
+            return
+        self._has_moved = False
+        if self.pose.follow(self.obj):
+            self._posed_picker = None
+            self.overlay.repose()
+
+    @property
+    def _picker(self) -> Picker:
+        self.follow_pose()
+        if self._posed_picker is None:
+            posed = replace(self.mesh.arrays, points=self.pose.points)
+            self._posed_picker = Picker(posed, self.mesh.plain_seams, self.pose.places if self.pose.is_bent else None)
+        return self._posed_picker
 
     def measure(self, anew: bool = False) -> None:
         """Compute what the settings show, and measure the stretch of UVs where it is not known or `anew`."""
@@ -260,6 +285,7 @@ class ObjectView:
         mirrored = not plain and options.mirror and self.mesh.symmetric is not None
         if options.snap and self._strength is None:
             self._strength = self.session.drawing.feature_strength()
+        has_crests = options.show_crests and across if plain else options.snap
         snap = self._picker.snap(
             view,
             self.obj.matrix_world,
@@ -272,7 +298,7 @@ class ObjectView:
             preferred=self.session.drawing.symmetry.on_plane(self.session.options.mirror) if mirrored else frozenset(),
             strength=self._strength if options.snap and not plain else None,
             # A loop leads through what is seen: a ridge that is shown is as good as under the cursor.
-            crests=self.views.crests if (options.show_crests and across if plain else options.snap) else None,
+            crests=None if self.pose.is_bent or not has_crests else self.views.crests,
             scale=bpy.context.preferences.system.ui_scale,
         )
         return None if snap is None else replace(snap, seen_along=self.seen_along(view, snap.pick))
@@ -289,7 +315,8 @@ class ObjectView:
 
     def surface_at(self, view: View, cursor: tuple[float, float]) -> tuple[NDArray[np.float64], int] | None:
         """Return the place on the mesh that is seen at a pixel, in the session's coordinates, and its triangle."""
-        return self._picker.surface_at(view, self.obj.matrix_world, cursor)
+        found = self._picker.surface_at(view, self.obj.matrix_world, cursor)
+        return None if found is None else (self.pose.at_rest(*found), found[1])
 
     @property
     def stroke_radius(self) -> float | None:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import bpy
@@ -16,7 +17,7 @@ from .gpu_draw import Eye, Faces, Lines, blended, draw_dots
 from .theme import Looks, Style, hue_colors
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Sequence
 
     from numpy.typing import NDArray
 
@@ -24,6 +25,7 @@ if TYPE_CHECKING:
     from ..core.islands.islands import Islands
     from ..core.network.network import Snap
     from ..core.network.picks import Edge, Pick
+    from ..mesh.pose import Pose
     from .metric_views import MetricViews
     from .stretch_heat import StretchHeat
 
@@ -33,8 +35,8 @@ _NO_ROOM = (0.0, 0.0, 0.0, 0.0)
 class _Sheet:
     """Lines and dots that are drawn together. Lines that are added first lie below, and dots lie above all lines."""
 
-    def __init__(self, points: NDArray[np.float64]) -> None:
-        self._points = points
+    def __init__(self, pose: Pose) -> None:
+        self._pose = pose
         self._pieces: dict[Style, list[NDArray[np.float64]]] = {}
         self._places: dict[Style, list[NDArray[np.float64]]] = {}
         self.lines: list[Lines] = []
@@ -42,16 +44,21 @@ class _Sheet:
 
     def curve(self, style: Style, points: NDArray[np.float64]) -> None:
         if len(points) > 1:
-            self._pieces.setdefault(style, []).append(np.stack([points[:-1], points[1:]], axis=1))
+            seen = self._pose.places(points)
+            self._pieces.setdefault(style, []).append(np.stack([seen[:-1], seen[1:]], axis=1))
+
+    def path(self, style: Style, vertices: Sequence[int]) -> None:
+        """Add a line through vertices."""
+        self.edges(style, pairwise(vertices))
 
     def edges(self, style: Style, edges: Iterable[Edge]) -> None:
         pairs = np.array(list(edges), dtype=np.int64).reshape(-1, 2)
         if len(pairs):
-            self._pieces.setdefault(style, []).append(self._points[pairs])
+            self._pieces.setdefault(style, []).append(self._pose.points[pairs])
 
     def dot(self, style: Style, pick: Pick) -> None:
         """Add a dot at a pick."""
-        self._places.setdefault(style, []).append(place_of(pick, self._points))
+        self._places.setdefault(style, []).append(place_of(pick, self._pose.points))
 
     def finish(self) -> None:
         self.lines = [Lines(style, np.concatenate(parts)) for style, parts in self._pieces.items()]
@@ -67,8 +74,8 @@ class Overlay:
         Returns what is to be seen now.
     obj
         Whose mesh it is.
-    points
-        (n, 3) the vertices as the session has them.
+    pose
+        Where the mesh is seen.
     to_object
         (3, 3) takes those to object coordinates.
     preferences
@@ -83,7 +90,7 @@ class Overlay:
         self,
         picture: Callable[[], Picture],
         obj: bpy.types.Object,
-        points: NDArray[np.float64],
+        pose: Pose,
         to_object: NDArray[np.float64],
         *,
         preferences: object | None = None,
@@ -92,22 +99,34 @@ class Overlay:
     ) -> None:
         self._picture = picture
         self._obj = obj
-        self._points = points
+        self._pose = pose
         self._preferences = preferences
         self.heat = heat
         self._views = views
         self._to_object = Matrix(to_object.tolist()).to_4x4()
         self._looks = self._current_looks()
-        self._kept: tuple[object, _Sheet] = (None, _Sheet(points))
-        self._live: tuple[object, _Sheet] = (None, _Sheet(points))
-        self._bands: tuple[object, _Sheet] = (None, _Sheet(points))
-        self._gaps: tuple[object, _Sheet] = (None, _Sheet(points))
+        self._kept: tuple[object, _Sheet] = (None, _Sheet(pose))
+        self._live: tuple[object, _Sheet] = (None, _Sheet(pose))
+        self._bands: tuple[object, _Sheet] = (None, _Sheet(pose))
+        self._gaps: tuple[object, _Sheet] = (None, _Sheet(pose))
         self._faces: Faces | None = None
         self._tinted: object = None
 
     def renew(self, obj: bpy.types.Object) -> None:
         """Go on over an object that was read anew."""
         self._obj = obj
+
+    def repose(self) -> None:
+        """Draw everything where it is seen now."""
+        self._forget_lines()
+        self._faces = self._tinted = None
+        if self.heat is not None:
+            self.heat.repose()
+        if self._views is not None:
+            self._views.repose()
+
+    def _forget_lines(self) -> None:
+        self._kept = self._live = self._bands = self._gaps = (None, self._live[1])
 
     # Drawing
 
@@ -120,7 +139,7 @@ class Overlay:
         looks = self._current_looks()
         if looks != self._looks:
             self._looks = looks
-            self._kept = self._live = self._bands = self._gaps = (None, self._live[1])
+            self._forget_lines()
         sheets = (
             self._bands_sheet(picture),
             self._gaps_sheet(picture),
@@ -148,7 +167,7 @@ class Overlay:
         if found is None or self._looks.tint <= 0.0:
             return
         if self._faces is None:
-            self._faces = Faces(self._points)
+            self._faces = Faces(self._pose.points)
         if found.key != self._tinted:
             self._faces.clear()
             # Without a cut the parts of a mesh are no news, and tinting them would only change its colors.
@@ -190,7 +209,7 @@ class Overlay:
         key = [(id(points), len(points), attracts) for points, attracts in strokes]
         if self._bands[0] is not None and self._bands[0][0] == key:
             return self._bands[1]
-        sheet = _Sheet(self._points)
+        sheet = _Sheet(self._pose)
         for points, attracts in strokes:
             sheet.curve(self._looks.attracting if attracts else self._looks.repelling, points)
         sheet.finish()
@@ -203,9 +222,9 @@ class Overlay:
         key = (None if found is None else found.key,)
         if self._gaps[0] == key:
             return self._gaps[1]
-        sheet = _Sheet(self._points)
+        sheet = _Sheet(self._pose)
         for gap in () if found is None else found.gaps:
-            sheet.curve(self._looks.gap, self._points[list(gap.path)])
+            sheet.path(self._looks.gap, gap.path)
             sheet.dot(self._looks.open_end, gap.end)
         sheet.finish()
         self._gaps = (key, sheet)
@@ -216,7 +235,7 @@ class Overlay:
         key = (picture.network_revision, tuple(wire.id for wire in picture.all(Role.MOVED)))
         if self._kept[0] == key:
             return self._kept[1]
-        looks, sheet = self._looks, _Sheet(self._points)
+        looks, sheet = self._looks, _Sheet(self._pose)
         kept = [shown for shown in picture.wires if shown.role is Role.KEPT]
         for shown in kept:
             sheet.edges(looks.mirrored if shown.wire.marks else looks.clear, shown.images)
@@ -233,7 +252,7 @@ class Overlay:
         """Return what changes with every move of the cursor."""
         if self._live[0] == picture.revision:
             return self._live[1]
-        looks, sheet = self._looks, _Sheet(self._points)
+        looks, sheet = self._looks, _Sheet(self._pose)
         for shown in picture.wires:
             if shown.role is Role.HOVERED:
                 sheet.curve(looks.hovered, shown.wire.points)

@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
-import sys
 from contextlib import suppress
+from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import bpy
@@ -13,7 +14,9 @@ import numpy as np
 from ..core.base import native
 from ..core.islands.islands import IslandMaker
 from ..mesh import settings as chosen
+from ..mesh.pose import Pose
 from .edited_objects import edited
+from .failures import failures
 from .gpu_draw import Eye, Faces, Lines, blended
 from .theme import HUES, Looks, hue_colors
 
@@ -40,8 +43,8 @@ class _Shown:
     def __init__(self, obj: bpy.types.Object, arrays: Arrays) -> None:
         core = native.load()
         self.obj = obj
-        self._points = arrays.in_object
-        surface = core.Surface(self._points, arrays.triangles, arrays.edges)
+        self._pose = Pose(replace(arrays, points=arrays.in_object, to_object=np.eye(3)))
+        surface = core.Surface(arrays.in_object, arrays.triangles, arrays.edges)
         self._islands = IslandMaker(arrays.triangles, lambda cuts: np.asarray(core.face_segments(surface, cuts)), HUES)
         self._curves: Sequence[NDArray[np.float64]] = ()
         self._lines: Lines | None = None
@@ -57,9 +60,15 @@ class _Shown:
 
     def follow(self, curves: Sequence[NDArray[np.float64]], cuts: NDArray[np.int32]) -> None:
         """Show other wires, and ask for their islands."""
-        self._curves, self._lines = curves, None
+        if self._pose.follow(self.obj):
+            self._faces = self._tinted = None
+        self._curves, self._lines = [self._pose.places(curve) for curve in curves], None
         self._count += 1
         self._islands.want(self._count, cuts)
+
+    def check(self) -> None:
+        """Raise what went wrong while islands were computed."""
+        self._islands.check()
 
     def close(self) -> None:
         """Let go of the thread that computes islands."""
@@ -70,7 +79,7 @@ class _Shown:
         eye = Eye(bpy.context.region_data, self.obj.matrix_world)
         found = self._islands.newest
         if self._faces is None:
-            self._faces = Faces(self._points)
+            self._faces = Faces(self._pose.points)
         if found is not None and found.key != self._tinted:
             self._faces.clear()
             for hue, triangles in found.pieces:
@@ -112,11 +121,15 @@ class PlanPreview:
             edited.covered = True
         if obj.name_full not in self._shown:
             self._shown[obj.name_full] = _Shown(obj, arrays)
-        self._shown[obj.name_full].follow(curves, cuts)
+        shown = self._shown[obj.name_full]
+        failures.take("preview")  # another plan is another try
+        failures.attempt(("preview", "follow", obj.name_full), partial(shown.follow, curves, cuts))
         edited.redraw()
 
     def poll(self) -> None:
         """Show islands that were computed."""
+        for name, shown in self._shown.items():
+            failures.attempt(("preview", "islands", name), shown.check)
         if any(shown.is_new for shown in self._shown.values()):
             edited.redraw()
 
@@ -135,13 +148,8 @@ class PlanPreview:
         context = bpy.context
         if not self._shown or not context.space_data.overlay.show_overlays:
             return
-        try:
-            looks = Looks.of(context.preferences.themes[0].view_3d, chosen.preferences())
-            for shown in self._shown.values():
-                with suppress(ReferenceError):  # the object may be gone
-                    if shown.obj.visible_in_viewport_get(context.space_data):
-                        shown.draw(looks)
-        except Exception:
-            # Printed once: it would come with every redraw.
-            self._shown.clear()
-            sys.excepthook(*sys.exc_info())
+        looks = Looks.of(context.preferences.themes[0].view_3d, chosen.preferences())
+        for name, shown in self._shown.items():
+            with suppress(ReferenceError):  # the object may be gone
+                if shown.obj.visible_in_viewport_get(context.space_data):
+                    failures.attempt(("preview", "draw", name), partial(shown.draw, looks))

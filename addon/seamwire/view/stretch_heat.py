@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
     from ..core.base.mesh_arrays import Arrays
     from ..core.islands.islands import IslandMaker
+    from ..mesh.pose import Pose
     from .gpu_draw import Eye
     from .theme import Color
 
@@ -72,10 +73,13 @@ class StretchHeat:
         The mesh.
     islands
         Computes the islands of its triangles.
+    pose
+        Where the mesh is seen.
     """
 
-    def __init__(self, arrays: Arrays, islands: IslandMaker) -> None:
+    def __init__(self, arrays: Arrays, islands: IslandMaker, pose: Pose) -> None:
         self._arrays = arrays
+        self._pose = pose
         self._islands = islands
         self._kind = "NONE"
         self._stretch: Stretch | None = None
@@ -161,10 +165,14 @@ class StretchHeat:
 
     # Drawing
 
+    def repose(self) -> None:
+        """Draw everything where it is seen now."""
+        self._faces, self._drawn, self._outline = None, -1, (None, None)
+
     def draw(self, eye: Eye) -> None:
         """Draw the heat over the faces, and the outline of the worst island."""
         if self._faces is None:
-            self._faces = gpu_draw.Faces(self._arrays.points)
+            self._faces = gpu_draw.Faces(self._pose.points)
         if self._drawn != self._revision:
             self._drawn = self._revision
             self._fill(self._faces)
@@ -191,7 +199,7 @@ class StretchHeat:
             triangles = self._arrays.triangles[summary.triangles].astype(np.int64)
             sides = np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=2).reshape(-1, 2)
             _, first, counts = np.unique(np.sort(sides, axis=1), axis=0, return_index=True, return_counts=True)
-            ends = self._arrays.points[sides[first[counts == 1]]]
+            ends = self._pose.points[sides[first[counts == 1]]]
             self._outline = summary, gpu_draw.Lines(_OUTLINE, ends) if len(ends) else None
         return self._outline[1]
 

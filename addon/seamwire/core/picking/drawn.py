@@ -119,7 +119,7 @@ class DrawnPicker:
             picks,
             Projected(surface.in_object(np.array(places).reshape(-1, 3))),
             wires,
-            Segments([surface.in_object(wire.points) for wire in wires]),
+            Segments([surface.curve_in_object(wire.points) for wire in wires]),
         )
         return self._drawn
 
@@ -138,7 +138,7 @@ def stroke_at(strokes: Sequence[Stroke], sight: Sight, surface: Surface) -> Stro
     """
     best: tuple[float, Stroke | None] = (STROKE_REACH * sight.scale, None)
     for stroke in strokes:
-        places = surface.in_object(stroke.points)
+        places = surface.curve_in_object(stroke.points)
         pixels = sight.pixels(places)
         part, gaps = nearest_on_segments(sight.cursor, pixels[:-1], pixels[1:])
         gaps = np.where(np.isnan(gaps), np.inf, gaps)

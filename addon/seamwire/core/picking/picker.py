@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from ..fields.crests import Crests
     from ..network.picks import Pick
     from ..network.strokes import Stroke
+    from .surface import Bend
     from .view import View
 
 
@@ -40,10 +41,12 @@ class Picker:
         The edit mesh.
     seams
         (s, 2) the edges that are seams and that no wire runs along.
+    bend
+        As in `Surface`.
     """
 
-    def __init__(self, arrays: Arrays, seams: ArrayLike = ()) -> None:
-        self._surface = Surface(arrays)
+    def __init__(self, arrays: Arrays, seams: ArrayLike = (), bend: Bend | None = None) -> None:
+        self._surface = Surface(arrays, bend)
         self._plain = PlainPicker(self._surface)
         self._features = FeaturePicker(self._surface)
         self._drawn = DrawnPicker(self._surface, seams)

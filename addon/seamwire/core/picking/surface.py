@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from ..network.picks import Pick
     from .sight import Sight
 
+Bend = Callable[["NDArray[np.float64]"], "NDArray[np.float64]"]
 MAX_NEAR = 400
 """Vertices that are looked at near the cursor. Of more within a few pixels, as in a far view, nobody can tell which is meant."""
 
@@ -29,6 +31,8 @@ class Surface:
     ----------
     arrays
         The edit mesh.
+    bend
+        Takes the points of a curve on the mesh, (k, 3), to where they are seen on the surface. None: they are seen where they are.
 
     Attributes
     ----------
@@ -45,7 +49,8 @@ class Surface:
     waits for the tables.
     """
 
-    def __init__(self, arrays: Arrays) -> None:
+    def __init__(self, arrays: Arrays, bend: Bend | None = None) -> None:
+        self._bend = bend
         self.points = arrays.points
         self.edges = arrays.edges
         self.triangles = arrays.triangles
@@ -65,6 +70,10 @@ class Surface:
     def in_object(self, points: ArrayLike) -> NDArray[np.float64]:
         """Return (..., 3) points, as the mesh has them, in object coordinates."""
         return np.asarray(points) @ self.to_object.T
+
+    def curve_in_object(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return where the points of a curve on the mesh, (k, 3), are seen, in object coordinates."""
+        return self.in_object(points if self._bend is None else self._bend(points))
 
     def pixels(self, sight: Sight, vertices: ArrayLike) -> NDArray[np.float64]:
         """Return where vertices are seen, (k, 2)."""

@@ -153,10 +153,13 @@ def test_what_goes_wrong_on_the_thread_is_raised_where_it_is_looked_at() -> None
     fields = FieldMaker(sw, lambda: sw.Surface(np.zeros((2, 3)), np.zeros((0, 3), dtype=int)))
     fields.want(Request(frozenset({"STRENGTH"})))
     end = time.monotonic() + 30.0
-    while fields.busy and time.monotonic() < end:
-        time.sleep(0.01)
     with pytest.raises(ValueError, match="edge"):
-        _ = fields.newest
+        while fields.busy and time.monotonic() < end:
+            fields.check()
+            time.sleep(0.01)
+    assert not fields.busy
+    fields.want(Request(frozenset({"STRENGTH"})))
+    assert fields.busy, "the same fields can be asked for again"
 
 
 def test_paths_in_pieces_join_no_two_paths() -> None:

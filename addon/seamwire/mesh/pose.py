@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where Blender shows an edit mesh that modifiers bend, such as an armature with *On Cage*."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+from mathutils.bvhtree import BVHTree
+
+from ..core.base.geometry import barycentric
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..core.base.mesh_arrays import Arrays
+
+_MOST_CURVES = 2_000
+"""Curves whose triangles are remembered."""
+
+
+class Pose:
+    """Where the vertices of an edit mesh are seen, and any point of its surface with them.
+
+    Parameters
+    ----------
+    arrays
+        The edit mesh as it is without modifiers.
+
+    Attributes
+    ----------
+    points
+        (n, 3) the vertices as they are seen, in the coordinates of the arrays.
+    is_bent
+        Whether they are seen elsewhere than the mesh has them.
+    """
+
+    def __init__(self, arrays: Arrays) -> None:
+        self._arrays = arrays
+        self._found: dict[int, tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.float64]]] = {}
+        self.points: NDArray[np.float64] = arrays.points
+        self.is_bent = False
+
+    def follow(self, obj: bpy.types.Object) -> bool:
+        """Read where the vertices are seen now, and return whether that has changed."""
+        seen = _cage_points(obj, len(self._arrays.points))
+        if seen is None and not self.is_bent:
+            return False
+        points = self._arrays.points if seen is None else seen @ np.linalg.inv(self._arrays.to_object).T
+        if np.array_equal(points, self.points):
+            return False
+        self.points, self.is_bent = points, seen is not None
+        return True
+
+    def places(self, curve: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return where the points of a curve on the surface, (k, 3), are seen."""
+        if not self.is_bent or not len(curve) or not len(self._arrays.triangles):
+            return curve
+        _, triangles, weights = self._on_surface(curve)
+        return np.einsum("kc,kcx->kx", weights, self.points[self._arrays.triangles[triangles]])
+
+    def at_rest(self, place: NDArray[np.float64], triangle: int) -> NDArray[np.float64]:
+        """Return where a point, (3,), that is seen in a triangle is on the mesh without modifiers."""
+        if not self.is_bent:
+            return place
+        corners = self._arrays.triangles[triangle]
+        (weights,), (off,) = barycentric(self.points[corners][None], place)
+        return weights @ self._arrays.points[corners] if np.isfinite(off) else self._arrays.points[corners[0]]
+
+    @cached_property
+    def _tree(self) -> BVHTree:
+        triangles = self._arrays.triangles.tolist()
+        return BVHTree.FromPolygons(self._arrays.points.tolist(), triangles, all_triangles=True)
+
+    def _on_surface(
+        self, curve: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.float64]]:
+        """Return a curve, the triangle nearest to each of its points, (k,), and their barycentric coordinates, (k, 3)."""
+        # The curve itself is held: its number alone could come again.
+        if id(curve) not in self._found:
+            if len(self._found) >= _MOST_CURVES:
+                self._found.clear()
+            rest, corners = self._arrays.points, self._arrays.triangles
+            rows = np.array([self._tree.find_nearest(point)[2] for point in curve.tolist()], dtype=np.int64)
+            # The triangles are moved, so that all points are the same one.
+            weights, off = barycentric(rest[corners[rows]] - curve[:, None], np.zeros(3))
+            weights[~np.isfinite(off)] = 1.0 / 3.0
+            self._found[id(curve)] = curve, rows, weights
+        return self._found[id(curve)]
+
+
+def _cage_points(obj: bpy.types.Object, count: int) -> NDArray[np.float64] | None:
+    """Return the vertices of an edit cage as modifiers bend it, (count, 3), in object coordinates. None: as the mesh has them.
+
+    Blender shows the cage after the last modifier with *On Cage*, and tells only what is left after all modifiers. Both are the same if
+    that modifier is the last one and none has changed the number of vertices.
+    """
+    active = [modifier for modifier in obj.modifiers if modifier.show_viewport and modifier.show_in_editmode]
+    if not active or not active[-1].show_on_cage:
+        return None
+    evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    mesh = evaluated.to_mesh()
+    try:
+        if len(mesh.vertices) != count:
+            return None
+        points = np.empty(3 * count, dtype=np.float32)
+        mesh.vertices.foreach_get("co", points)
+        return points.reshape(-1, 3).astype(np.float64)
+    finally:
+        evaluated.to_mesh_clear()

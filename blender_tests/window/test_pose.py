@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is drawn and what is picked follows an armature that bends the edit cage, played or paused."""
+
+from collections.abc import Iterator
+
+import bpy
+import numpy as np
+import pytest
+import ui as driver
+from desk import WHITE, Desk, choose, draw, leave, reset_settings, shows
+from scene import add_grid, chain, edit, seams
+from seamwire.mesh.settings import settings
+from seamwire.view.edited_objects import edited
+
+SIDE = 9
+ACROSS = 0.6
+"""How far the armature moves the mesh along x."""
+
+
+class Posed(Desk):
+    """A grid that an armature moves along x, in edit mode and seen from above."""
+
+    def __init__(self, ui: driver.Ui) -> None:
+        self.ui = ui
+        obj = add_grid(SIDE)
+        self.name = obj.name
+        reset_settings()
+        armature = bpy.data.objects.new("Rig", bpy.data.armatures.new("Rig"))
+        bpy.context.collection.objects.link(armature)
+        bpy.context.view_layer.objects.active = armature
+        with ui.override():
+            bpy.ops.object.mode_set(mode="EDIT")
+            bone = armature.data.edit_bones.new("Bone")
+            bone.head, bone.tail = (0.0, 0.0, 0.0), (0.0, 0.0, 1.0)
+            bpy.ops.object.mode_set(mode="OBJECT")
+        armature.hide_set(True)
+        obj.vertex_groups.new(name="Bone").add(list(range(SIDE * SIDE)), 1.0, "REPLACE")
+        modifier = obj.modifiers.new("Rig", "ARMATURE")
+        modifier.object = armature
+        modifier.show_in_editmode = modifier.show_on_cage = True
+        self.bone = armature.pose.bones["Bone"]
+        bpy.context.view_layer.objects.active = obj
+        obj.select_set(True)
+        with ui.override():
+            edit()
+            bpy.ops.mesh.select_all(action="DESELECT")
+        ui.look_from_top(distance=5.0)
+
+    def seen_at(self, vertex: int, moved: float = ACROSS) -> tuple[float, float]:
+        """Return where a vertex is seen that the armature has moved."""
+        return self.ui.on_screen((vertex % SIDE / 4.0 - 1.0 + moved, vertex // SIDE / 4.0 - 1.0, 0.0))
+
+    def tint_ends(self) -> tuple[float, float]:
+        """Return the columns between which the islands above and below the seam differ in color."""
+        seen = self.ui.screen()
+        above, below = (self.ui.on_screen((0.0, y, 0.0))[1] for y in (0.6, -0.4))  # both lie between rows of edges
+        apart = np.abs(seen[round(above) - 2] - seen[round(below) - 2]).max(axis=-1) > 0.04
+        left, right = self.ui.on_screen((-1.9, 0.0, 0.0))[0], self.ui.on_screen((1.9, 0.0, 0.0))[0]
+        columns = np.flatnonzero(apart[round(left) : round(right)]) + round(left)
+        assert len(columns), "nothing is tinted"
+        return float(columns.min()), float(columns.max())
+
+
+@pytest.fixture
+def posed(ui: driver.Ui) -> Iterator[Posed]:
+    """A grid that an armature moves."""
+    yield Posed(ui)
+    leave(ui)
+    for kind in (bpy.data.actions, bpy.data.armatures):
+        bpy.data.batch_remove(list(kind))
+
+
+def near(found: tuple[float, float], wanted: tuple[float, float]) -> bool:
+    return bool(np.abs(np.subtract(found, wanted)).max() < 6.0)
+
+
+@pytest.mark.smoke
+@pytest.mark.oldest_and_newest
+def test_tint_wires_and_seeds_lie_where_the_armature_shows_the_mesh(posed: Posed) -> None:
+    ui = posed.ui
+    choose(ui)
+    draw(posed, 36, 44)
+    ui.move((3.0, ui.region.height - 3.0))
+    ui.wait_until(lambda: near(posed.tint_ends(), (posed.seen_at(36, 0.0)[0], posed.seen_at(44, 0.0)[0])))
+    posed.bone.location.x = ACROSS
+    ui.wait_until(lambda: near(posed.tint_ends(), (posed.seen_at(36)[0], posed.seen_at(44)[0])))
+    pixels = ui.pixels()
+    for vertex in (36, 44):
+        assert shows(pixels, posed.seen_at(vertex), WHITE), "the seeds are there"
+    assert not shows(pixels, posed.seen_at(36, 0.0), WHITE), "and not where the mesh is at rest"
+
+
+def test_what_is_under_the_mouse_is_picked(posed: Posed) -> None:
+    ui = posed.ui
+    posed.bone.location.x = ACROSS
+    choose(ui)
+    ui.wait_until(lambda: edited.front is not None)
+    for vertex in (40, 20, 60):
+        ui.move(posed.seen_at(vertex))
+        assert edited.front.session.target.pick == vertex
+    ui.click(posed.seen_at(36))
+    session = posed.session
+    ui.click(posed.seen_at(44))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    ui.key("RET")
+    assert seams(posed.obj) == chain(*range(36, 45))
+    ui.move(posed.seen_at(38))
+    assert session.target.to == "WIRE"
+    np.testing.assert_allclose(session.wires[0].points[0], (-1.0, 0.0, 0.0), atol=1e-6)
+
+
+def test_a_stroke_stays_on_the_mesh(posed: Posed) -> None:
+    ui = posed.ui
+    posed.bone.location.x = ACROSS
+    choose(ui)
+    ui.wait_until(lambda: edited.front is not None)
+    settings().along = "SURFACE"
+    first, last = posed.seen_at(20), posed.seen_at(24)
+    ui.move(first)
+    ui.event("LEFTMOUSE", "PRESS", first, shift=True)
+    for part in (0.3, 0.7, 1.0):
+        ui.move((first[0] + part * (last[0] - first[0]), first[1]), shift=True)
+    ui.event("LEFTMOUSE", "RELEASE", last, shift=True)
+    (stroke,) = edited.front.session.strokes
+    assert abs(stroke.points[:, 0].min() + 0.5) < 0.05
+    assert abs(stroke.points[:, 0].max() - 0.5) < 0.05
+
+
+@pytest.mark.oldest_and_newest
+def test_the_drawing_follows_while_the_animation_plays(posed: Posed) -> None:
+    ui, scene = posed.ui, bpy.context.scene
+    for frame, x in ((1, 0.0), (11, ACROSS)):
+        posed.bone.location.x = x
+        posed.bone.keyframe_insert("location", frame=frame)
+    for curve in getattr(posed.bone.id_data.animation_data.action, "fcurves", ()):
+        for key in curve.keyframe_points:
+            key.interpolation = "LINEAR"
+    scene.frame_set(1)
+    choose(ui)
+    draw(posed, 36, 44)
+    ui.move((3.0, ui.region.height - 3.0))
+    view = edited.front
+    scene.frame_set(11)
+    ui.wait_until(lambda: near(posed.tint_ends(), (posed.seen_at(36)[0], posed.seen_at(44)[0])))
+    scene.frame_set(1)
+    ui.wait_until(lambda: near(posed.tint_ends(), (posed.seen_at(36, 0.0)[0], posed.seen_at(44, 0.0)[0])))
+    assert edited.front is view
+    assert not view.stale, "the mesh itself has not changed, so it is not read again"
