@@ -11,6 +11,7 @@ from mathutils import Matrix
 
 from ..core.drawing.picture import LIVE, Role, SeedRole
 from ..core.network.picks import place_of, undirected
+from ..words import corner
 from . import legend, text_overlay
 from .gpu_draw import Eye, Faces, Lines, blended, draw_dots
 from .theme import Looks, Style, hue_colors
@@ -169,7 +170,7 @@ class Overlay:
         scale = bpy.context.preferences.system.ui_scale
         with blended("NONE"):
             if self._looks.text:
-                lines = text_overlay.lines(picture)
+                lines = corner.lines(picture)
                 text_overlay.draw(lines, (left, bottom), scale, bpy.context.preferences.themes[0].view_3d.space.text_hi)
             legend.draw(self._legends(), room, scale)
             if picture.keys is not None:

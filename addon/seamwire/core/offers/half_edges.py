@@ -68,7 +68,9 @@ class HalfEdges:
         turns[other] = right[other] - np.pi
         return turns
 
-    def _angles(self, here: NDArray[np.int64], first: NDArray[np.int64], last: NDArray[np.int64]) -> NDArray[np.float64]:
+    def _angles(
+        self, here: NDArray[np.int64], first: NDArray[np.int64], last: NDArray[np.int64]
+    ) -> NDArray[np.float64]:
         """Return the face angles at vertices, (k,), from one edge to the left up to another, infinite where the fan ends before."""
         found = np.full(len(here), np.inf)
         angles = np.zeros(len(here))

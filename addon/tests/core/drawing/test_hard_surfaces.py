@@ -135,7 +135,10 @@ def test_over_the_rim_of_a_cylinder_the_rim_comes_first_and_no_hairpin_crosses_i
 
 def test_on_a_wavy_ball_no_loop_of_a_few_edges_comes_first_or_crosses() -> None:
     session, arrays = session_of(*wavy_ball())
-    for edge in ((438, 439), (352, 384)):  # without the rule, the first has such a loop first, and the second has one that crosses
+    for edge in (
+        (438, 439),
+        (352, 384),
+    ):  # without the rule, the first has such a loop first, and the second has one that crosses
         for target in snaps(arrays, edge):
             found = offers(session, target)
             assert len(found[0][1]) > 6

@@ -55,7 +55,8 @@ def test_a_ring_over_the_rims_of_a_thin_plate_goes_straight_on() -> None:
 
 
 @pytest.mark.parametrize(
-    ("width", "height", "hairpin"), [(1, 6, True), (6, 1, True), (3, 1, True), (2, 1, False), (6, 3, False), (1, 1, False)]
+    ("width", "height", "hairpin"),
+    [(1, 6, True), (6, 1, True), (3, 1, True), (2, 1, False), (6, 3, False), (1, 1, False)],
 )
 def test_a_narrow_box_is_a_hairpin(width: int, height: int, hairpin: bool) -> None:
     for way in (1, -1):
