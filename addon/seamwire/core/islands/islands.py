@@ -145,7 +145,11 @@ class IslandMaker:
             if bounds[hue] < bounds[hue + 1]
         )
         missing = np.zeros(count, dtype=np.int32) if self._count is None else self._count(cuts, labels)
-        gaps = () if self._gaps is None else tuple(self._gaps.find(cuts, most_looked_at=_MOST_LOOKED_AT, longest_of_several=_CLOSE))
+        gaps = (
+            ()
+            if self._gaps is None
+            else tuple(self._gaps.find(cuts, most_looked_at=_MOST_LOOKED_AT, longest_of_several=_CLOSE))
+        )
         return Islands(key, count, labels, hues, missing, len(cuts) > 0, pieces, gaps)
 
     def _inherited(self, labels: NDArray[np.int32], count: int) -> NDArray[np.int64]:
