@@ -5,11 +5,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
+from types import SimpleNamespace
 
 import bpy
 import pytest
 from desk import Desk, choose, dismiss, drag, draw, undo_steps
 from scene import chain, seams
+from seamwire.operators import undo_steps as undo_steps_of_chains
 
 MIDDLE = chain(*range(36, 45))
 
@@ -158,7 +160,7 @@ def test_a_loop_stays_whatever_operator_came_before_it(desk: Desk, name: str, op
     assert seams(desk.obj) == after
 
 
-def test_f9_after_a_loop_shows_nothing_to_adjust_and_leaves_it(unwrapped: Desk) -> None:
+def test_f9_after_a_loop_says_how_to_change_it_and_leaves_it(unwrapped: Desk) -> None:
     add_loop(unwrapped)
     unwrapped.ui.wait_until(lambda: not unwrapped.running)
     after = seams(unwrapped.obj)
@@ -167,3 +169,12 @@ def test_f9_after_a_loop_shows_nothing_to_adjust_and_leaves_it(unwrapped: Desk) 
     dismiss(unwrapped.ui)
     assert seams(unwrapped.obj) == after
     assert set(MIDDLE) <= set(after)
+
+
+def test_the_panel_of_no_step_is_empty() -> None:
+    for title in undo_steps_of_chains._TITLES:
+        said: list[str] = []
+        layout = SimpleNamespace(column=lambda said=said: SimpleNamespace(label=lambda text: said.append(text)))
+        step = getattr(bpy.types, f"MESH_OT_{undo_steps_of_chains._name(title)}")
+        step.draw(SimpleNamespace(layout=layout), bpy.context)
+        assert said, title

@@ -163,3 +163,16 @@ def test_the_offer_that_is_shown_is_seen(ui: driver.Ui, desk: Desk) -> None:
     assert shows(ui.pixels(), desk.at(*new), GREEN)
     assert not shows(before, desk.at(*new), GREEN)
     ui.event("LEFT_ALT", "RELEASE", place)
+
+
+def test_an_offer_of_one_edge_is_seen_though_the_edge_is_highlighted(desk: Desk) -> None:
+    bm = bmesh.from_edit_mesh(desk.obj.data)
+    for edge in bm.edges:
+        columns = {round(4.0 * (vertex.co.x + 1.0)) for vertex in edge.verts}
+        edge.seam = columns in ({4}, {5})
+    bmesh.update_edit_mesh(desk.obj.data)
+    offer(desk, 40, 41)
+    turn_to(desk, "STRIP")
+    assert desk.session.picture.one(Role.OFFER).edges() == [(40, 41)]
+    desk.ui.wait(2, redraw=True)
+    assert shows(desk.ui.pixels(), desk.at(40, 41), GREEN)

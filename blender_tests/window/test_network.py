@@ -14,8 +14,8 @@ from seamwire.core.drawing.picture import Role
 from seamwire.mesh.settings import preferences, settings
 from seamwire.operators import bindings
 from seamwire.ui import status_bar
-from seamwire.view import text_overlay
 from seamwire.view.edited_objects import edited
+from seamwire.words import corner
 
 
 def said(desk: Desk) -> str:
@@ -138,12 +138,11 @@ def test_across_the_surface_w_goes_through_three_candidates_live_and_kept(cone: 
     ui.click(cone.at(20))
     ui.move(cone.at(61))
     ui.wait_until(lambda: len(session.picture.others) == 2)
-    names = ("Least curvature", "Most curvature", "Concave creases")
     seen = []
     for number in range(3):
         assert f"Next Candidate ({(number + 1) % 3 + 1} of 3)" in said(cone)
         seen.append(session.picture.active.follow)
-        assert f"{names[seen[-1]]} ({number + 1} of 3)" in text_overlay.lines(session.picture)
+        assert f"{corner.FOLLOWS[seen[-1]]} ({number + 1} of 3)" in corner.lines(session.picture)
         ui.key("W")
     assert seen == [2, 0, 1], "that along creases first"
     ui.click(cone.at(61))

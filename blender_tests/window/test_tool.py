@@ -11,8 +11,8 @@ from desk import Desk, choose, leave
 from scene import add_grid, chain, edit, seams
 from seamwire.mesh.settings import TOOL
 from seamwire.operators.report import running
-from seamwire.view import text_overlay
 from seamwire.view.edited_objects import edited
+from seamwire.words import corner
 
 
 @pytest.mark.parametrize("modifiers", [{}, {"ctrl": True}])
@@ -45,14 +45,14 @@ def test_the_island_under_the_mouse_is_named(desk: Desk) -> None:
     def named(place: tuple[float, float, float]) -> list[str]:
         ui.move(ui.on_screen(place))
         ui.wait_until(lambda: not edited.front.islands.busy)
-        lines = text_overlay.lines(edited.front.picture)
+        lines = corner.lines(edited.front.picture)
         return [line for line in lines if line.startswith("Island ")]
 
     larger, smaller = (0.03, 0.55, 0.0), (0.03, -0.7, 0.0)
-    assert named(larger) == ["Island 1: 80 triangles, a disc"], "while a chain is drawn"
+    assert named(larger) == ["Island 1: 80 triangles"], "while a chain is drawn"
     ui.key("RET")
-    assert named(smaller) == ["Island 2: 48 triangles, a disc"]
-    assert named(larger) == ["Island 1: 80 triangles, a disc"]
+    assert named(smaller) == ["Island 2: 48 triangles"]
+    assert named(larger) == ["Island 1: 80 triangles"]
     ui.move((ui.region.width - 140.0, 60.0))
     assert edited.front.islands.pointed_island is None
 

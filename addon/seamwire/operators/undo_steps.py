@@ -4,13 +4,20 @@
 Blender's *Adjust Last Operation* undoes everything back to the operator that was registered last, then runs that operator again.
 A plain `ed.undo_push` registers nothing, so adjusting an operator from before the chain would remove the chain. Therefore each step
 has an operator that pushes it. These operators have no properties and no `execute`, so Blender offers nothing to adjust or repeat.
+Where the artist asks for it (F9), they say how to change what was drawn.
 """
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import bpy
 
 from ..mesh.registration import classes, together
+from ..words.reports import ADJUST_STROKE, ADJUST_WIRE, NOTHING_TO_ADJUST
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
 
 DRAW_SEVERAL = "Draw Seamwires"
 """The step of a chain that did several of these."""
@@ -40,6 +47,15 @@ _TITLES = (
 )
 
 
+_HINTS = {
+    REMOVE_WIRE: NOTHING_TO_ADJUST,
+    REMOVE_STROKE: NOTHING_TO_ADJUST,
+    GUIDE_STROKE: ADJUST_STROKE,
+    AVOID_STROKE: ADJUST_STROKE,
+}
+"""What the panel says of a step; of all others, how to change a wire."""
+
+
 def _name(title: str) -> str:
     return f"seamwire_step_{title.lower().replace(' ', '_')}"
 
@@ -47,6 +63,17 @@ def _name(title: str) -> str:
 def _invoke(_self: bpy.types.Operator, _context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
     """Let Blender push a step of undo."""
     return {"FINISHED"}
+
+
+def _drawer(hints: Sequence[str]) -> Callable[[bpy.types.Operator, bpy.types.Context], None]:
+    """Return what draws the panel of a step."""
+
+    def draw(self: bpy.types.Operator, _context: bpy.types.Context) -> None:
+        column = self.layout.column()
+        for hint in hints:
+            column.label(text=hint)
+
+    return draw
 
 
 def _operator(title: str) -> type[bpy.types.Operator]:
@@ -57,6 +84,7 @@ def _operator(title: str) -> type[bpy.types.Operator]:
         "bl_label": title,
         "bl_options": {"REGISTER", "UNDO", "INTERNAL"},
         "invoke": _invoke,
+        "draw": _drawer(_HINTS.get(title, ADJUST_WIRE)),
     }
     return type(f"MESH_OT_{_name(title)}", (bpy.types.Operator,), body)
 

@@ -15,6 +15,8 @@ from . import keymap, properties
 OPERATOR = "mesh.seamwire_draw"
 KEYMAP = f"3D View Tool: Edit Mesh, {NAME}"
 """The name of the tool's keymap in Blender."""
+_MODE = "EDIT_MESH"
+_OTHER = "builtin.select_box"
 _ICON = Path(__file__).parent.parent / "icons" / "seamwire.draw"
 
 
@@ -26,7 +28,7 @@ class SeamwireTool(bpy.types.WorkSpaceTool):
     """The tool in the toolbar. A click begins a chain, and most other keys keep Blender's meaning."""
 
     bl_space_type = "VIEW_3D"
-    bl_context_mode = "EDIT_MESH"
+    bl_context_mode = _MODE
     bl_idname = TOOL
     bl_label = NAME
     bl_description = (
@@ -71,8 +73,21 @@ def register() -> None:
         bpy.utils.register_tool(SeamwireTool)
 
 
+def leave() -> None:
+    """Let windows in which the tool is active go on with Blender's first tool: a tool without keys fills the console."""
+    for window in bpy.context.window_manager.windows:
+        area = next((area for area in window.screen.areas if area.type == "VIEW_3D"), None)
+        if area is None:
+            continue
+        with bpy.context.temp_override(window=window, area=area, region=area.regions[-1]):
+            tool = bpy.context.workspace.tools.from_space_view3d_mode(bpy.context.mode, create=False)
+            if tool is not None and tool.idname == TOOL:
+                bpy.ops.wm.tool_set_by_id(name=_OTHER)
+
+
 def unregister() -> None:
     """Remove it."""
     if hasattr(SeamwireTool, "_bl_tool"):
+        leave()
         keymap.empty(KEYMAP)
         bpy.utils.unregister_tool(SeamwireTool)

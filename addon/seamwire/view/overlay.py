@@ -11,7 +11,8 @@ import numpy as np
 from mathutils import Matrix
 
 from ..core.drawing.picture import LIVE, Role, SeedRole
-from ..core.network.picks import place_of
+from ..core.network.picks import place_of, undirected
+from ..words import corner
 from . import legend, text_overlay
 from .gpu_draw import Eye, Faces, Lines, blended, draw_dots
 from .theme import Looks, Style, hue_colors
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from ..core.islands.islands import Islands
     from ..core.network.network import Snap
     from ..core.network.picks import Edge, Pick
+    from ..core.network.wires import Wire
     from ..mesh.pose import Pose
     from .metric_views import MetricViews
     from .stretch_heat import StretchHeat
@@ -187,7 +189,7 @@ class Overlay:
         scale = bpy.context.preferences.system.ui_scale
         with blended("NONE"):
             if self._looks.text:
-                lines = text_overlay.lines(picture)
+                lines = corner.lines(picture)
                 text_overlay.draw(lines, (left, bottom), scale, bpy.context.preferences.themes[0].view_3d.space.text_hi)
             legend.draw(self._legends(), room, scale)
             if picture.keys is not None:
@@ -266,7 +268,7 @@ class Overlay:
         styles = {SeedRole.LIVE: looks.live_seed, SeedRole.CLOSING: looks.closing, SeedRole.HOVERED: looks.hovered_seed}
         for seed in picture.seeds:
             sheet.dot(styles.get(seed.role, looks.seed), seed.pick)
-        self._add_target(sheet, picture.target)
+        self._add_target(sheet, picture.target, picture.one(Role.OFFER))
         sheet.finish()
         self._live = (picture.revision, sheet)
         return sheet
@@ -282,12 +284,14 @@ class Overlay:
         if not wire.marks and wire.along == "EDGES":
             sheet.curve(looks.clear, wire.points)
 
-    def _add_target(self, sheet: _Sheet, snap: Snap | None) -> None:
+    def _add_target(self, sheet: _Sheet, snap: Snap | None, offer: Wire | None) -> None:
         looks = self._looks
         if snap is None or snap.to == "SEED":
             return
         if isinstance(snap.pick, tuple):
-            sheet.edges(looks.target, [snap.pick])
+            # An offer along the edge shows which edge is meant, and must not be hidden.
+            if offer is None or undirected(snap.pick) not in offer.edges():
+                sheet.edges(looks.target, [snap.pick])
             return
         styles = {"WIRE": looks.dot_on_wire, "SEAM": looks.dot_on_seam, "FEATURE": looks.dot_on_feature}
         sheet.dot(styles.get(snap.to, looks.dot), snap.pick)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The text over the viewport: a few lines in its corner that say how wires are drawn, and the table of keys."""
+"""The text over the viewport: a few lines in its corner, and the table of keys."""
 
 from __future__ import annotations
 
@@ -7,77 +7,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ..words.names import LOOP_NAMES
 from . import gpu_draw
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ..core.drawing.picture import Picture
-    from ..core.islands.islands import Islands
     from .theme import Color
-
-_METRICS = {
-    "feature": "",
-    "campen": "Campen's metric",
-    "pottmann_kovacs": "Pottmann and Kovacs' metric",
-    "concave": "concave creases",
-    "euclidean": "shortest paths",
-}
-_FOLLOWS = ("Least curvature", "Most curvature", "Concave creases")
-_FOLLOWS_IN = {"concave": ("Concave creases", "Shortest path"), "euclidean": ("Shortest path",)}
-
-
-def _islands(islands: Islands) -> str:
-    """Say how many islands there are, and, once something is cut, which do not unwrap yet."""
-    found = f"{islands.count} island" + ("s" if islands.count != 1 else "")
-    if islands.gaps:
-        found += f", {len(islands.gaps)} gap{'s' if len(islands.gaps) != 1 else ''} in seams"
-    no_discs = int((islands.missing > 0).sum())
-    if not islands.cut or not no_discs:
-        return found
-    cuts = int(islands.missing.sum())
-    return f"{found}, {no_discs} still need{'s' if no_discs == 1 else ''} {cuts} cut{'s' if cuts != 1 else ''}"
-
-
-def _island(islands: Islands, number: int) -> str:
-    """Say which island that is, and what it needs."""
-    size, cuts = int(islands.sizes[number]), int(islands.missing[number])
-    needs = f"needs {cuts} more cut{'s' if cuts != 1 else ''}" if cuts else "a disc"
-    return f"Island {number + 1}: {size} triangle{'s' if size != 1 else ''}, {needs}"
-
-
-def lines(picture: Picture) -> list[str]:
-    """Return what is to be read, top line first."""
-    found = []
-    options, offered, choice, islands = picture.options, picture.offered, picture.choice, picture.islands
-    if offered.kind is not None:
-        which = f" ({offered.number + 1} of {len(offered.kinds)})" if len(offered.kinds) > 1 else ""
-        found.append(LOOP_NAMES[offered.kind].capitalize() + which)
-    if picture.active is not None and choice.count > 1:
-        follows = _FOLLOWS_IN.get(options.metric, _FOLLOWS)
-        which = follows[picture.active.follow]
-        if choice.straight:
-            which = "Straight in the view"
-        elif choice.around:
-            which = "Around the limb"
-        found.append(f"{which} ({choice.number + 1} of {choice.count})")
-    if islands is not None:
-        found.append(_islands(islands))
-        if picture.pointed_island is not None:
-            found.append(_island(islands, picture.pointed_island))
-    way = "Along edges" if options.along == "EDGES" else "Across the surface"
-    metric = _METRICS.get(options.metric, options.metric)
-    strength = "" if options.metric == "euclidean" else f"strength {picture.strength:.3g}"
-    found.append(", ".join(part for part in (way, strength, metric) if part))
-    modes = [
-        "" if options.marking else "Clearing seams",
-        "Mirror " + " ".join("XYZ"[axis] for axis in options.mirror) if options.mirror else "",
-        "X-ray" if options.xray else "",
-        "Snapping to features" if options.snap else "",
-    ]
-    said = ", ".join(mode for mode in modes if mode)
-    return [*found, said] if said else found
 
 
 def draw(text: Sequence[str], corner: tuple[float, float], scale: float, color: Sequence[float]) -> None:

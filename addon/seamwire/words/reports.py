@@ -5,6 +5,11 @@ from __future__ import annotations
 
 from .names import count
 
+ADJUST_WIRE = ("Point at a wire to change it:", "swap its path, drag its seeds, or remove it")
+"""What the panel Adjust Last Operation says after wires were drawn."""
+ADJUST_STROKE = ("Point at a stroke to remove it",)
+NOTHING_TO_ADJUST = ("Undo brings it back",)
+
 
 def summary(wires: int, marked: int, cleared: int, touched: int = 0) -> str:
     """Return a report. `touched` is the number of edges below new wires, including edges that were already seams."""

@@ -25,6 +25,8 @@ Count = Callable[["NDArray[np.int32]", "NDArray[np.int32]"], "NDArray[np.int32]"
 
 _MOST_LOOKED_AT = 3_000
 """Vertices around the end of a cut for what it nearly meets: less than where gaps are to be closed, for this is asked at each change."""
+_CLOSE = 0.2
+"""The longest gap of several edges, in lengths of the cut that ends there: the artist may go on at an end farther from others."""
 AT_ONCE = 20_000
 """Triangles up to which the answer takes a few milliseconds, so that a thread would only make it late."""
 _TOLD_APART = 4096
@@ -147,7 +149,11 @@ class IslandMaker:
             if bounds[hue] < bounds[hue + 1]
         )
         missing = np.zeros(count, dtype=np.int32) if self._count is None else self._count(cuts, labels)
-        gaps = () if self._gaps is None else tuple(self._gaps.find(cuts, most_looked_at=_MOST_LOOKED_AT))
+        gaps = (
+            ()
+            if self._gaps is None
+            else tuple(self._gaps.find(cuts, most_looked_at=_MOST_LOOKED_AT, longest_of_several=_CLOSE))
+        )
         return Islands(key, count, labels, hues, missing, len(cuts) > 0, pieces, gaps)
 
     def _inherited(self, labels: NDArray[np.int32], count: int) -> NDArray[np.int64]:

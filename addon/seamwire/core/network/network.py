@@ -40,6 +40,8 @@ class Snap:
         The edge that crosses a picked edge at its end nearer to the cursor. Only loops need it.
     is_close_call
         Whether these two edges are too short on the screen to point at one of them.
+    triangle
+        The triangle under the cursor of a picked edge; None: the cursor is beside the mesh. Only loops need it.
     """
 
     pick: Pick
@@ -48,6 +50,7 @@ class Snap:
     seen_along: tuple[float, float, float] | None = field(default=None, compare=False)
     crossing: Edge | None = field(default=None, compare=False)
     is_close_call: bool = field(default=False, compare=False)
+    triangle: int | None = field(default=None, compare=False)
 
     @classmethod
     def of(cls, what: Snap | Pick) -> Snap:

@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..base.geometry import nearest_on_segments
 from ..base.messages import Message
 from ..network.picks import undirected
 from ..network.stops import ranked
 from ..network.symmetry import among
 from ..network.wires import Wire
 from .crossing import Direction, Directions, as_crossing, as_kept, is_loop_of
+from .hairpins import is_hairpin
 from .offers import Offers
 
 if TYPE_CHECKING:
@@ -75,10 +77,10 @@ class LoopOffers(Offers):
         self._taken: tuple[Pick | None, Wire | None] = (None, None)
 
     def point_at(self, snap: Snap | None) -> None:
-        """Learn which edge crosses the picked one at the cursor."""
+        """Learn which edge crosses the picked one at the cursor, and which face is under it."""
         before, self._snap = self._snap, snap
         if before is not None and snap is not None and self.edge == undirected(snap.pick):
-            self.final = self.final and before.crossing == snap.crossing
+            self.final = self.final and (before.crossing, before.triangle) == (snap.crossing, snap.triangle)
 
     def aim(self, pick: Pick | None) -> bool:
         """Ask for the offers for a pick, or for none; return whether others vanish because of that."""
@@ -142,7 +144,7 @@ class LoopOffers(Offers):
             return ()
         if own is not None:
             return (replace(own, offers=()), *others(own, offers))
-        return self._with_crossing(pick, offers, network)
+        return self._with_crossing(pick, self._with_face(pick, offers, network), network)
 
     def _through(self, edge: Edge, network: Network) -> tuple[Wire, ...]:
         """Return what leads through an edge, the likeliest first; nothing, too, while it is computed, see `final`.
@@ -175,6 +177,28 @@ class LoopOffers(Offers):
             flat=self._flat,
         )
 
+    def _with_face(self, edge: Edge, offers: tuple[Wire, ...], network: Network) -> tuple[Wire, ...]:
+        """Return offers with the border of the flat face under the cursor, even if the edge lies inside that face."""
+        snap = self._snap
+        if self._flat is None or snap is None or snap.triangle is None or undirected(snap.pick) != undirected(edge):
+            return offers
+        border = self._flat.border_around(snap.triangle)
+        if not border or not offers:
+            return offers
+        sides = [undirected(pair) for pair in zip(border, border[1:] + border[:1], strict=True)]
+        middle = self._points[[*edge]].mean(axis=0)
+        gaps = nearest_on_segments(middle, *self._points[np.array(sides)].transpose(1, 0, 2))[1]
+        through = edge if undirected(edge) in sides else sides[int(np.nanargmin(gaps))]
+        wire = _wire("FLAT", border, True, through, self._points, self._engines.strengths["EDGES"])
+        if wire is None or any(set(offer.edges()) == set(sides) for offer in offers):
+            return offers
+        if is_hairpin(border, self._points, self._flat.half_edges):
+            return (*offers, wire)
+        kept = ranked(self._stops.kept(network))
+        return _likeliest_first(
+            self._engines.get("EDGES"), (*offers, wire), self._points, kept, _last_kind(network), self._flat
+        )
+
     def _with_crossing(self, edge: Edge, offers: tuple[Wire, ...], network: Network) -> tuple[Wire, ...]:
         """Return offers with the loop that crosses the edge at the cursor: second, or first where edges are short."""
         snap = self._snap
@@ -184,8 +208,10 @@ class LoopOffers(Offers):
         if not self.final:
             return () if snap.is_close_call else offers
         known = [set(offer.edges()) for offer in offers]
+        live = self._engines.get("EDGES")
         across = (wire for wire in found if wire.kind != "FLAT" and not is_loop_of(wire, edge))
-        crossing = next((wire for wire in across if set(wire.edges()) not in known), None)
+        others = (wire for wire in across if set(wire.edges()) not in known)
+        crossing = next((wire for wire in others if not _doubles_back(live, wire, self._points, self._flat)), None)
         if crossing is None:
             return offers
         first, *rest = offers
@@ -273,10 +299,39 @@ def find_offers(
     # Of those that run along the same edges the first.
     different = {frozenset(wire.edges()): wire for wire in reversed(found) if wire is not None}
     offers = [wire for wire in found if wire in different.values()]
-    if len(offers) > 1:
-        kept = ranked(kept)
-        offers.sort(key=lambda wire: _unlikeliness(live, wire, points, kept, last or "CLOSED"))
-    return tuple(offers), True
+    return _likeliest_first(live, offers, points, ranked(kept), last, flat), True
+
+
+def _likeliest_first(
+    live: LiveWire,
+    offers: Sequence[Wire],
+    points: NDArray[np.float64],
+    kept: NDArray[np.int64],
+    last: LoopKind | None,
+    flat: FlatRegions | None,
+) -> tuple[Wire, ...]:
+    """Return offers in the order in which they are shown: hairpins come last."""
+    if len(offers) < 2:
+        return tuple(offers)
+
+    def order(wire: Wire) -> tuple[bool, float]:
+        return _doubles_back(live, wire, points, flat), _unlikeliness(live, wire, points, kept, last or "CLOSED")
+
+    return tuple(sorted(offers, key=order))
+
+
+def _doubles_back(live: LiveWire, wire: Wire, points: NDArray[np.float64], flat: FlatRegions | None) -> bool:
+    """Return whether a loop is a hairpin.
+
+    A ring that the edges themselves form is none, however narrow it is: so are rings around a mouth. The border of a flat
+    region is as narrow as the region.
+    """
+    if flat is None or not wire.closed or wire.kind == "FLAT" or wire.through is None:
+        return False
+    ring = live.edge_loop(wire.through, ())
+    if ring.closed and set(map(int, ring.vertices)) == set(wire.vertices):
+        return False
+    return is_hairpin(wire.vertices, points, flat.half_edges)
 
 
 def _unlikeliness(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Ridges, valleys and strong features near the cursor."""
+"""Corners, ridges, valleys and strong features near the cursor."""
 
 from __future__ import annotations
 
@@ -24,6 +24,10 @@ FEATURE_REACH = 10.0
 """Pixels in which the strongest feature is looked for."""
 FEATURE_QUANTILE = 0.75
 """A vertex counts as a feature from this share of all vertices' strengths on: on a plain nothing is stronger than noise."""
+_SHARP_COSINE = float(np.cos(np.radians(30.0)))
+"""An edge counts as a feature if its faces meet at 30 degrees or more, as Blender's Select Sharp Edges takes it."""
+_CORNER = 3
+"""So many such edges meet at a corner."""
 _MOST_TRIED = 4
 """So many of the vertices near the cursor are tried for one that is not hidden."""
 
@@ -45,10 +49,42 @@ class FeaturePicker:
     def preferred_at(self, sight: Sight, pick: Pick, preferred: Collection[int]) -> int | None:
         """Return the nearest of the preferred vertices within reach, going over the mesh from what is under the cursor."""
         near = self._surface.vertices_near(sight, pick, FEATURE_REACH * sight.scale)
-        for vertex in sorted((v for v in near if v in preferred), key=near.__getitem__)[:_MOST_TRIED]:
-            if self._can_pick(sight, vertex):
-                return vertex
-        return None
+        return self._nearest(sight, {vertex: gap for vertex, gap in near.items() if vertex in preferred})
+
+    def corner_at(self, sight: Sight, pick: Pick) -> int | None:
+        """Return the nearest vertex within reach where three or more sharp edges meet, going over the mesh from a pick."""
+        near = self._surface.vertices_near(sight, pick, FEATURE_REACH * sight.scale)
+        count = dict.fromkeys(near, 0)
+        for edge in self._sharp_edges(near):
+            for vertex in edge:
+                if vertex in count:
+                    count[vertex] += 1
+        return self._nearest(sight, {vertex: gap for vertex, gap in near.items() if count[vertex] >= _CORNER})
+
+    def _sharp_edges(self, vertices: Collection[int]) -> list[tuple[int, int]]:
+        """Return the edges at vertices where the mesh ends, where faces meet at a sharp angle, or where more than two meet."""
+        surface = self._surface
+        triangles = surface.triangles[surface.triangles_at.rows(vertices)]
+        a, b, c = (surface.points[triangles[:, i]] for i in range(3))
+        normals = np.cross(b - a, c - a)
+        lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+        normals = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0.0)
+        sides: dict[tuple[int, int], list[NDArray[np.float64]]] = {}
+        for (one, two, three), normal in zip(triangles.tolist(), normals, strict=True):
+            for tail, tip in ((one, two), (two, three), (three, one)):
+                # Faces that agree which side is out have the edge in opposite directions.
+                sides.setdefault((min(tail, tip), max(tail, tip)), []).append(normal if tail < tip else -normal)
+        found = []
+        for one, two in surface.edges[surface.edges_at.rows(vertices)].tolist():
+            beside = sides.get((min(one, two), max(one, two)), [])
+            if len(beside) != 2 or -float(beside[0] @ beside[1]) <= _SHARP_COSINE:
+                found.append((one, two))
+        return found
+
+    def _nearest(self, sight: Sight, gaps: dict[int, float]) -> int | None:
+        """Return the nearest vertex that can be picked. `gaps` tells how far each one is from the cursor."""
+        nearest = sorted(gaps, key=gaps.__getitem__)[:_MOST_TRIED]
+        return next((vertex for vertex in nearest if self._can_pick(sight, vertex)), None)
 
     def strongest_at(self, sight: Sight, pick: Pick, strength: NDArray[np.float64]) -> int | None:
         """Return the vertex of the strongest feature within reach, going over the mesh from what is under the cursor."""

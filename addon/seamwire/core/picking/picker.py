@@ -92,7 +92,8 @@ class Picker:
         preferred
             Vertices that are taken before anything else of the plain mesh if they are as near as features may be.
         strength
-            (n,) how strong the feature is at each vertex. The strongest one nearby is taken.
+            (n,) how strong the feature is at each vertex. The nearest corner is taken, where three sharp edges meet, and otherwise the
+            strongest feature nearby.
         crests
             Ridges and valleys. What lies on one nearby is taken before anything else of the plain mesh.
         scale
@@ -116,6 +117,9 @@ class Picker:
         vertex = self._features.preferred_at(sight, pick, preferred) if preferred else None
         if vertex is not None:
             return Snap(vertex)
+        corner = None if strength is None else self._features.corner_at(sight, pick)
+        if corner is not None:
+            return Snap(corner, "FEATURE")
         crest = None if crests is None else self._features.crest_at(sight, crests, anywhere)
         if crest is not None:
             return Snap(crest, "FEATURE")

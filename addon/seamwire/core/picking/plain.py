@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -113,8 +114,10 @@ class PlainPicker:
         return FacePoint.at(surface.to_points @ hit[1], hit[0], surface.triangles, surface.points)
 
     def with_crossing(self, sight: Sight, edge: Edge) -> Snap:
-        """Return the snap of an edge with the edge that crosses it at its end nearer to the cursor."""
+        """Return the snap of an edge with the edge that crosses it at its end nearer to the cursor, and the triangle there."""
         surface = self._surface
+        hit = None if sight.xray else surface.cast(sight, sight.cursor)
+        plain = Snap(edge, triangle=None if hit is None else hit[0])
         seen = surface.pixels(sight, [*edge])
         end = edge[int(np.argmin(np.linalg.norm(seen - np.asarray(sight.cursor), axis=1)))]
         start = edge[0] if end == edge[1] else edge[1]
@@ -124,17 +127,18 @@ class PlainPicker:
         ways = surface.in_object(surface.points[[start, *ends]]) - surface.in_object(surface.points[end])
         lengths = np.linalg.norm(ways, axis=1)
         if not len(ends) or lengths.min() <= 0.0:
-            return Snap(edge)
+            return plain
         cosines = np.abs(ways[1:] @ ways[0]) / (lengths[1:] * lengths[0])
         if cosines.min() > _STRAIGHT_COSINE:
-            return Snap(edge)
+            return plain
         best = ends[cosines <= cosines.min() + _SAME_COSINE]
         places = surface.pixels(sight, best)
         here = surface.pixels(sight, [end])
         _, gaps = nearest_on_segments(sight.cursor, np.broadcast_to(here, places.shape), places)
         at = int(np.argmin(np.where(np.isnan(gaps), np.inf, gaps)))
         sizes = np.linalg.norm([seen[1] - seen[0], places[at] - here[0]], axis=1)
-        return Snap(edge, crossing=(end, int(best[at])), is_close_call=bool(sizes.min() < SHORT_EDGE * sight.scale))
+        is_close_call = bool(sizes.min() < SHORT_EDGE * sight.scale)
+        return replace(plain, crossing=(end, int(best[at])), is_close_call=is_close_call)
 
     # Edges near the cursor
 

@@ -84,7 +84,13 @@ class GapFinder:
     def _mesh(self) -> _Ways:
         return _Ways(self._points, self._edges)
 
-    def find(self, seams: NDArray[np.int32], longest: float = 0.5, most_looked_at: int = MOST_LOOKED_AT) -> list[Gap]:
+    def find(
+        self,
+        seams: NDArray[np.int32],
+        longest: float = 0.5,
+        most_looked_at: int = MOST_LOOKED_AT,
+        longest_of_several: float = math.inf,
+    ) -> list[Gap]:
         """Find the gaps, shortest first; where two ends face each other there is one for both.
 
         Parameters
@@ -96,6 +102,8 @@ class GapFinder:
             the middle of a face on purpose, has none.
         most_looked_at
             Vertices around an end.
+        longest_of_several
+            As `longest`, of gaps that are more than one edge.
         """
         points, cuts = self._points, _Ways(self._points, np.concatenate([seams, self._border]))
         on_border = {*self._border.ravel().tolist(), *self._partly_hidden.ravel().tolist()}
@@ -105,7 +113,7 @@ class GapFinder:
             for end in {chain[0], chain[-1]} - on_border:
                 if len(cuts.beside(end)) == 1:
                     gap = _gap_at(self._mesh, cuts, end, longest * length, most_looked_at)
-                    if gap is not None:
+                    if gap is not None and (len(gap.path) == 2 or gap.length <= longest_of_several * length):
                         found.setdefault(frozenset((gap.end, gap.target)), gap)
         return sorted(found.values(), key=lambda gap: (gap.length, gap.end))
 

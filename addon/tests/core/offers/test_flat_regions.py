@@ -82,3 +82,17 @@ def test_what_is_not_manifold_or_turned_inside_out_ends_a_region() -> None:
         list(FlatRegions(np.zeros((0, 3)), np.zeros((0, 3), np.int32), np.zeros((0, 2), np.int32)).borders((0, 1)))
         == []
     )
+
+
+def test_around_a_polygon_lies_the_border_of_all_in_its_plane() -> None:
+    bent = plate(20.0)
+    for triangle, columns in ((0, range(3)), (2 * (SIZE - 2), range(2, SIZE))):
+        assert set(bent.border_around(triangle)) == around(columns)
+    assert set(plate().border_around(7)) == around(range(SIZE))
+
+
+def test_around_a_face_with_a_hole_its_outer_border_counts() -> None:
+    triangles = grid_triangles(SIZE)
+    kept = triangles[[not set(triangle) <= {14, 15, 20, 21} for triangle in triangles.tolist()]]
+    ring = FlatRegions(grid_points(SIZE), kept, grid_edges(SIZE))
+    assert set(ring.border_around(0)) == around(range(SIZE))

@@ -458,3 +458,36 @@ def test_edges_of_a_few_pixels_are_a_close_call() -> None:
         at = pixel(view, (0.025, 0.004, 0.0))
         assert picker.snap(view, HERE, at, vertices_only=False, edges_only=True).is_close_call is is_close
         assert not picker.snap(view, HERE, at, vertices_only=False).is_close_call, "only loops need to know"
+
+
+def three_planes() -> Arrays:
+    """Return a fine grid of triangles, bent at the middle along three edges: left, down, and up to the right."""
+    places = grid_places(81)
+    places[:, 2] = np.minimum(0.0, -np.maximum(places[:, 0], places[:, 1]))
+    return arrays_of(places, [half for a, b, c, d in grid_polygons(81) for half in ((a, b, c), (a, c, d))])
+
+
+def test_a_corner_is_taken_before_a_stronger_point_of_a_ridge() -> None:
+    arrays = three_planes()
+    find, view = Picker(arrays), from_above()
+    corner = 40 * 81 + 40
+    strength = np.zeros(81 * 81)
+    strength[40 * 81 + 39] = 5.0
+    at = beside(view, arrays.points[corner], -3.0, -1.0)
+    assert find.snap(view, HERE, at, vertices_only=True, strength=strength) == Snap(corner, "FEATURE")
+    far = beside(view, arrays.points[corner], -40.0, -1.0)
+    strength[40 * 81 + 30] = 5.0
+    assert find.snap(view, HERE, far, vertices_only=True, strength=strength) == Snap(40 * 81 + 30, "FEATURE")
+
+
+def test_of_two_corners_the_nearer_one_is_taken() -> None:
+    size = 0.03
+    square = np.array([[-size, -size], [size, -size], [size, size], [-size, size]])
+    low, high = (np.column_stack([square * part, np.full(4, z)]) for part, z in ((1.0, 0.0), (0.9, 0.1)))
+    polygons = [(4, 5, 6, 7), *((i, (i + 1) % 4, 4 + (i + 1) % 4, 4 + i) for i in range(4))]
+    find, view = Picker(arrays_of(np.concatenate([low, high]), polygons)), from_above()
+    strength = np.arange(8.0)
+    for corner in range(4, 8):
+        x, y, _ = np.concatenate([low, high])[corner]
+        at = pixel(view, (0.6 * x, 0.7 * y, 0.1))
+        assert find.snap(view, HERE, at, vertices_only=True, strength=strength) == Snap(corner, "FEATURE")

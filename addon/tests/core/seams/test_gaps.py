@@ -85,3 +85,10 @@ def test_islands_tell_of_gaps_where_they_are_asked_for() -> None:
     assert maker.newest.gaps == (Gap(31, 40, 1.0),)
     maker.want("closed", seams(ROW, (4, 13, 22, 31, 40)))
     assert maker.newest.gaps == ()
+
+
+def test_while_seams_are_drawn_an_end_some_edges_from_another_cut_is_no_gap_yet() -> None:
+    finder = GapFinder(grid_points(SIZE), grid_triangles(SIZE), grid_edges(SIZE))
+    drawn = seams(ROW, (4, 13, 22))
+    assert finder.find(drawn, longest=2.0) == [Gap(22, 40, 2.0)]
+    assert finder.find(drawn, longest=2.0, longest_of_several=0.2) == []

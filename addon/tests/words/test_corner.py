@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the corner of the view says of islands: nothing before the first seam, and nothing that sounds wrong while nothing is."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from seamwire.core.islands.islands import Islands
+from seamwire.core.seams.gaps import Gap
+from seamwire.words.corner import FOLLOWS, lines
+from table import Table
+
+
+def said(count: int, missing: int = 0, gaps: int = 0, cut: bool = True, pointed: int | None = None) -> list[str]:
+    """Return the lines about islands; each has three triangles."""
+    islands = Islands(
+        key=None,
+        count=count,
+        labels=np.repeat(np.arange(count, dtype=np.int32), 3),
+        hues=np.zeros(count, dtype=np.uint8),
+        missing=np.full(count, missing, dtype=np.int32),
+        cut=cut,
+        pieces=(),
+        gaps=tuple(Gap(i, i + 1, 1.0) for i in range(gaps)),
+    )
+    picture = replace(Table().session.picture, islands=islands, pointed_island=pointed)
+    return [line for line in lines(picture) if "sland" in line]
+
+
+def test_before_the_first_seam_nothing_is_said_of_the_parts_of_a_mesh() -> None:
+    assert said(3, cut=False, pointed=0) == []
+
+
+def test_after_a_first_open_wire_no_cuts_are_asked_for() -> None:
+    assert said(1, missing=2, pointed=0) == ["1 island", "Island 1: 3 triangles"]
+
+
+@pytest.mark.parametrize(("gaps", "text"), [(0, "4 islands"), (1, "4 islands, 1 gap in seams")])
+def test_islands_and_gaps_are_counted(gaps: int, text: str) -> None:
+    assert said(4, missing=1, gaps=gaps) == [text]
+
+
+def test_the_island_under_the_mouse_says_what_it_needs_once_the_mesh_is_parted() -> None:
+    assert said(2, missing=1, pointed=1)[1] == "Island 2: 3 triangles, flat with 1 more cut"
+    assert said(2, pointed=1)[1] == "Island 2: 3 triangles"
+
+
+def test_candidates_have_names_of_what_is_seen() -> None:
+    assert not any("curvature" in name for name in FOLLOWS)
