@@ -38,33 +38,11 @@ def flipped(obj: bpy.types.Object) -> int:
     return int(((signed_areas(uvs) <= 0.0) & (areas(corners) > 1e-9)).sum())
 
 
-def covered_twice(*objects: bpy.types.Object, samples: int = 3000) -> int:
-    """Return how many of some places in the maps of objects, taken together, lie well within two triangles or more."""
-    uvs = np.concatenate([triangles(obj)[0] for obj in objects])
-    area = signed_areas(uvs)
-    uvs = uvs[area != 0.0]
-    area = area[area != 0.0]
-    dice = np.random.default_rng(4)
-    chosen = dice.choice(len(uvs), samples, p=np.abs(area) / np.abs(area).sum())
-    weights = dice.dirichlet((1.0, 1.0, 1.0), samples)
-    places = (weights[:, :, None] * uvs[chosen]).sum(axis=1)
-    count = np.zeros(samples, dtype=int)
-    for corners, doubled in zip(uvs, 2.0 * area, strict=True):
-        to_corners = corners - places[:, None]
-        following = np.roll(to_corners, -1, axis=1)
-        parts = (to_corners[..., 0] * following[..., 1] - to_corners[..., 1] * following[..., 0]) / doubled
-        count += (parts > 1e-3).all(axis=1)
-    return int((count > 1).sum())
-
-
-_DEEP = 2e-7
-"""Triangles that reach into each other by less, in the UV square, touch up to the rounding of single precision."""
-
-
-def overlapping_pairs(*objects: bpy.types.Object) -> int:
+def overlapping_pairs(*objects: bpy.types.Object, deep: float = 2e-7) -> int:
     """Return how many pairs of triangles reach into each other in the maps of objects, taken together.
 
     Two triangles are apart if the line along a side of either parts them. Triangles without area in the map are left out.
+    Triangles that reach into each other by less than `deep`, in the UV square, touch up to the rounding of single precision.
     """
     uvs = np.concatenate([triangles(obj)[0] for obj in objects])
     area = signed_areas(uvs)
@@ -76,15 +54,15 @@ def overlapping_pairs(*objects: bpy.types.Object) -> int:
     sides = np.roll(uvs, -1, axis=1) - uvs
     outwards = np.stack([sides[..., 1], -sides[..., 0]], axis=2) / np.linalg.norm(sides, axis=2)[..., None]
     reach = np.einsum("tij,tij->ti", outwards, uvs)
-    ends = np.searchsorted(low[:, 0], high[:, 0] - _DEEP)
+    ends = np.searchsorted(low[:, 0], high[:, 0] - deep)
     found = 0
     for row, end in enumerate(ends.tolist()):
         near = np.arange(row + 1, end)
-        near = near[(low[near, 1] < high[row, 1] - _DEEP) & (high[near, 1] > low[row, 1] + _DEEP)]
+        near = near[(low[near, 1] < high[row, 1] - deep) & (high[near, 1] > low[row, 1] + deep)]
         from_own = np.einsum("ij,tkj->tik", outwards[row], uvs[near]).min(axis=2) - reach[row]
         from_others = np.einsum("tij,kj->tik", outwards[near], uvs[row]).min(axis=2) - reach[near]
         gap = np.maximum(from_own.max(axis=1), from_others.max(axis=1))
-        found += int((gap < -_DEEP).sum())
+        found += int((gap < -deep).sum())
     return found
 
 
@@ -153,39 +131,3 @@ def folded(obj: bpy.types.Object, least_height: float = 1e-6) -> int:
         if len(found) == 2 and found[0][0] == found[1][0]:
             folds += found[0][1] * found[1][1] > 0.0
     return flat + folds
-
-
-def has_overlap(*objects: bpy.types.Object, least_depth: float = 1e-5) -> bool:
-    """Return whether two triangles in the maps of objects, taken together, cover the same place.
-
-    Two triangles overlap if no line parts them. `least_depth` is how far they have to be moved apart at least, in lengths of the UV
-    square: what is less comes from rounding.
-    """
-    uvs = np.concatenate([triangles(obj)[0] for obj in objects])
-    low, high = uvs.min(axis=1), uvs.max(axis=1)
-    order = np.argsort(low[:, 0])
-    uvs, low, high = uvs[order], low[order], high[order]
-    ends = np.searchsorted(low[:, 0], high[:, 0] - least_depth)
-    for i, end in enumerate(ends.tolist()):
-        others = slice(i + 1, end)
-        near = (low[others, 1] < high[i, 1] - least_depth) & (high[others, 1] > low[i, 1] + least_depth)
-        rows = i + 1 + np.flatnonzero(near)
-        if len(rows) and (_depths(uvs[i], uvs[rows]) > least_depth).any():
-            return True
-    return False
-
-
-def _depths(one: NDArray[np.float64], others: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return how far a triangle, (3, 2), and others, (k, 3, 2), have to be moved apart, at most 0 where they are apart, (k,)."""
-    ones = np.broadcast_to(one, others.shape)
-    depths = np.full(len(others), np.inf)
-    for corners in (ones, others):
-        sides = np.roll(corners, -1, axis=1) - corners
-        lengths = np.linalg.norm(sides, axis=2)
-        for k in range(3):
-            normal = np.stack([-sides[:, k, 1], sides[:, k, 0]], axis=1)
-            normal /= np.maximum(lengths[:, k], 1e-300)[:, None]
-            a, b = (np.einsum("ijk,ik->ij", each, normal) for each in (ones, others))
-            depth = np.minimum(a.max(axis=1) - b.min(axis=1), b.max(axis=1) - a.min(axis=1))
-            depths = np.minimum(depths, np.where(lengths[:, k] > 0.0, depth, np.inf))
-    return depths

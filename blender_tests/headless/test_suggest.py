@@ -9,7 +9,7 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from maps import covered_twice, energy, flipped, in_square, overlapping_pairs, triangles
+from maps import energy, flipped, in_square, overlapping_pairs, triangles
 from mathutils import Matrix
 from scene import add_grid, add_object, add_suzanne, edit, seams, snapshot
 from seamwire.core.base import native
@@ -556,7 +556,7 @@ def test_several_objects_and_what_is_hidden() -> None:
     assert len(heights) and (heights.max(axis=1) < 0.3).all()
     together = np.concatenate([triangles(obj)[0] for obj in (one, other)])
     assert is_good_map(one)
-    assert not flipped(other) and not covered_twice(other)
+    assert not flipped(other) and not overlapping_pairs(other)
     assert together.max() - together.min() > 0.5
     layer = bm.loops.layers.uv.active
     assert {tuple(loop[layer].uv) for face in bm.faces if face.hide for loop in face.loops} == {(0.0, 0.0)}

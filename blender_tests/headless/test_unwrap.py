@@ -8,7 +8,7 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from maps import areas, covered_twice, energy, flipped, in_square, signed_areas, triangles
+from maps import areas, energy, flipped, in_square, overlapping_pairs, signed_areas, triangles
 from scene import add_grid, add_layers, add_object, add_suzanne, edit, snapshot
 from seamwire.core.base import native
 from seamwire.core.drawing.change import Change
@@ -123,7 +123,7 @@ def test_a_mesh_without_uvs_is_flattened_and_packed() -> None:
     cut_at(obj, "x")
     assert unwrap() == {"FINISHED"}
     assert not flipped(obj)
-    assert not covered_twice(obj)
+    assert not overlapping_pairs(obj)
     assert in_square(obj)
     low, high = boxes(triangles(obj)[0])
     assert (high - low).max() > 0.9, "it fills the square one way"
@@ -478,7 +478,7 @@ def test_all_objects_in_edit_mode_are_unwrapped_among_each_other() -> None:
     assert unwrap() == {"FINISHED"}
     assert np.array_equal(uvs(objects[0]), first)
     assert not np.array_equal(uvs(objects[1]), second)
-    assert not covered_twice(*objects)
+    assert not overlapping_pairs(*objects)
     assert OWN.rpartition(" ")[2] in bmesh.from_edit_mesh(objects[0].data).edges.layers.int
 
 
