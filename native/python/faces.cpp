@@ -31,6 +31,8 @@ void bind_segments(py::module_& module) {
   module.def("face_segments", &segments_of, py::arg("surface"), py::arg("cut_edges"),
              R"(Find the segments into which cuts along edges divide a surface.
 
+Edges with three or more triangles, and edges whose triangles cannot be oriented alike, join nothing.
+
 Parameters
 ----------
 surface : Surface
@@ -51,7 +53,7 @@ ValueError
              R"(Count how many more cuts each segment needs to become a disc.
 
 Each cut leads from border to border. A segment without a border, such as a ball, needs another cut first to get one.
-Edges with three or more triangles are borders.
+Edges with three or more triangles are borders. So are edges whose triangles cannot be oriented alike.
 
 Parameters
 ----------

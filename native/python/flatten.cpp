@@ -128,9 +128,8 @@ void bind_flatten_function(py::module_& module) {
       R"(Map each island of a surface to the plane.
 
 No triangle is flipped, and the symmetric Dirichlet energy is minimized (Smith and Schaefer, "Bijective Parameterization
-with Free Boundaries", 2015). Islands are the segments of `face_segments`, but the surface is cut open along edges with
-three or more triangles, too. Parts that only such edges join are islands of their own, numbered after all segments. An
-island without a boundary or with handles is opened along short paths of edges.
+with Free Boundaries", 2015). Islands are the segments of `face_segments`. An island without a boundary or with handles
+is opened along short paths of real edges.
 
 Parameters
 ----------

@@ -135,7 +135,7 @@ def test_real_edges_keep_polygons_whole() -> None:
 
 def test_islands_on_other_islands_collide() -> None:
     points, triangles = meshes.grid(1)
-    points = np.concatenate([points + (place, 0, 0) for place in (0.0, 1.0, 1.5, 5.0)])
+    points = np.concatenate([points + np.array([place, 0, 0]) for place in (0.0, 1.0, 1.5, 5.0)])
     triangles = np.concatenate([triangles + 4 * i for i in range(4)])
     report = sw.measure_map(points, triangles, points[triangles][:, :, :2])
     assert report.colliding.tolist() == [1, 2]

@@ -215,7 +215,18 @@ OpenedIsland open_to_farthest(const Island& island, std::span<const std::uint8_t
   Paths paths(island, is_real, points);
   paths.search(boundary_vertices(island.boundaries()), task);
   std::vector<std::uint8_t> is_cut(island.twins.size(), 0);
-  paths.mark(paths.farthest(), is_cut);
+  std::vector<std::int32_t> triangles(island.vertices.size(), 0);
+  for (const Triangle& t : island.triangles) {
+    for (const std::int32_t v : t) ++triangles[v];
+  }
+  bool is_pinched = false;
+  for (std::int32_t v = 0; index(v) < triangles.size(); ++v) {
+    const double distance = paths.distance(v);
+    if (triangles[v] != 2 || !(distance > 0.0 && distance < kFar)) continue;
+    paths.mark(v, is_cut);
+    is_pinched = true;
+  }
+  if (!is_pinched) paths.mark(paths.farthest(), is_cut);
   OpenedIsland opened = open_along(island, is_cut);
   if (opened.opened == 0) fail(island);
   return opened;

@@ -29,8 +29,9 @@ struct OpenedIsland {
 OpenedIsland open_to_plane(const Island& island, std::span<const std::uint8_t> is_real, std::span<const Vector> points,
                            const Task& task);
 
-/// Cuts a planar island along a shortest path of real edges from its boundary to the vertex farthest from it. Throws
-/// InvalidInput if all vertices are on the boundary; Cancelled.
+/// Cuts a planar island along a shortest path of real edges from its boundary to the vertex farthest from it. If inner
+/// vertices have two triangles only, it cuts along paths to them, because one of the two would be flipped in any map.
+/// Throws InvalidInput if all vertices are on the boundary; Cancelled.
 OpenedIsland open_to_farthest(const Island& island, std::span<const std::uint8_t> is_real,
                               std::span<const Vector> points, const Task& task);
 

@@ -192,6 +192,28 @@ TEST(FlattenPolygons, PolygonsWithACommonTriangleStayWhole) {
             (std::vector<std::int32_t>{2, 3}));
 }
 
+TEST(FlattenPolygons, AnInnerVertexOfTwoTrianglesIsReachedByACut) {
+  // A sheet of quads. One side has a bend, which is a corner of two polygons only. Both have a triangle there.
+  shapes::PolygonMesh mesh = shapes::of_quads(shapes::quad_grid(6));
+  const auto bend = static_cast<std::int32_t>(mesh.points.size());
+  mesh.points.emplace_back(0.55, 0.6, 0.1);
+  for (auto& polygon : mesh.polygons) {
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const auto [a, b] = std::minmax(polygon[i], polygon[(i + 1) % polygon.size()]);
+      if (a != 24 || b != 31) continue;
+      polygon.insert(polygon.begin() + static_cast<std::ptrdiff_t>(i) + 1, bend);
+      // The triangle at the bend comes first.
+      std::ranges::rotate(polygon, polygon.begin() + static_cast<std::ptrdiff_t>(i));
+      break;
+    }
+  }
+  const Surface surface = mesh.surface();
+  const Flattening flat = flatten(surface, {});
+  EXPECT_GT(flat.by_island[0].opened, 0U);
+  EXPECT_LT(flat.by_island[0].opened, 10U);
+  expect_map_of_polygons(mesh, surface, {});
+}
+
 /// A flat sheet of n x n quads, with a fin upon each of some edges.
 shapes::PolygonMesh sheet_with_fins(int n, int fins) {
   shapes::PolygonMesh mesh = shapes::of_quads(shapes::quad_grid(n));
