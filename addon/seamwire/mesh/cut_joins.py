@@ -61,7 +61,7 @@ def holding(bm: bmesh.types.BMesh, verts: Iterable[bmesh.types.BMVert]) -> list[
 
 
 def is_left_behind(bm: bmesh.types.BMesh, edge: bmesh.types.BMEdge) -> bool:
-    """Whether a cut made an edge that is no seam, or a vertex on it that only joins two edges without wires."""
+    """Whether a cut made an edge without a seam, or a vertex on the edge that only joins two edges without wires."""
     of_verts, of_edges = bm.verts.layers.int.get(CUT_VERTS), bm.edges.layers.int.get(CUT_EDGES)
     if of_verts is None or of_edges is None:
         return False
@@ -75,7 +75,7 @@ def join(
 ) -> int:
     """Join what cuts along some edges parted, and return how many of these edges went.
 
-    Only edges that cuts made are removed, except seams and those on hidden faces. A vertex that a cut made on an edge is removed if only
+    Only edges that cuts made are removed. Seams and edges on hidden faces stay. A vertex that a cut made on an edge is removed if only
     that edge is left there, no wire uses it, and it is not among those `kept`.
 
     Edges cannot end inside faces. Where another seam would, the cut that leads on from its end cannot go: it holds the end, or an edge
