@@ -134,11 +134,8 @@ class EditedObjects:
         failures.retry()
         let_blender_tell()
         self.refresh()
-        self._choose_front(bpy.context.active_object)
-
-    def _choose_front(self, active: bpy.types.Object) -> None:
         if self.front is None or not self.front.mesh.alive():
-            self.front = self.of(active)
+            self.front = self.of(bpy.context.active_object)
 
     def clear(self) -> None:
         """Forget all objects, draw nothing any more and follow Blender no more."""
