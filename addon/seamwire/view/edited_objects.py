@@ -363,6 +363,8 @@ class EditedObjects:
             handlers = getattr(bpy.app.handlers, name)
             if handler not in handlers:
                 handlers.append(handler)
+        if self._on_settings not in chosen.listeners:
+            chosen.listeners.append(self._on_settings)
 
     def draw(self, part: str) -> None:
         """Draw in the view that Blender is drawing now, and have what is missing read.
