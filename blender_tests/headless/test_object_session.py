@@ -145,6 +145,21 @@ def test_records_of_wires_that_undo_brings_back_end_with_the_file(grid: bpy.type
     assert session_on(bpy.data.objects[name]).session.wires == ()
 
 
+def test_symmetry_is_looked_for_again_after_an_error(grid: bpy.types.Object, monkeypatch: pytest.MonkeyPatch) -> None:
+    def found(mesh: ObjectSession) -> tuple[int, ...]:
+        return next(axes for axes in iter(mesh.symmetric_soon, ()) if axes is not None)
+
+    def fail(_symmetry: object) -> None:
+        raise RuntimeError("as the test wants it")
+
+    mesh = session_on(grid)
+    with monkeypatch.context() as patch:
+        patch.setattr(type(mesh.session.drawing.symmetry), "symmetric_axes", property(fail))
+        with pytest.raises(ValueError, match="as the test wants it"):
+            found(mesh)
+    assert 0 in found(mesh)
+
+
 # What is written
 
 

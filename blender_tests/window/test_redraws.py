@@ -102,7 +102,7 @@ def test_progress_is_told_without_a_picture(desk: Desk, calls: Counter[str], mon
     )
     redraws = calls["redraw"]
     for percent in (10, 20, 30):
-        monkeypatch.setattr(session, "_progress", percent / 100.0)
+        monkeypatch.setattr(session.drawing, "progress", percent / 100.0)
         desk.chain.show()
         desk.chain.show()
     assert told == [0.1, 0.2, 0.3]

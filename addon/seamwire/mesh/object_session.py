@@ -155,8 +155,10 @@ class ObjectSession:
         self.look_for_symmetry()
         if self._looking is not None:
             self._looking.join(_MOMENT)
-        if self._symmetry_error is not None:
-            raise ValueError(f"The mesh could not be checked for symmetry: {self._symmetry_error}")
+        error, self._symmetry_error = self._symmetry_error, None
+        if error is not None:
+            self._looking = self.symmetric = None  # the next call tries again
+            raise ValueError(f"The mesh could not be checked for symmetry: {error}")
         return self.symmetric
 
     @property

@@ -134,11 +134,8 @@ class EditedObjects:
         failures.retry()
         let_blender_tell()
         self.refresh()
-        self._choose_front(bpy.context.active_object)
-
-    def _choose_front(self, active: bpy.types.Object) -> None:
         if self.front is None or not self.front.mesh.alive():
-            self.front = self.of(active)
+            self.front = self.of(bpy.context.active_object)
 
     def clear(self) -> None:
         """Forget all objects, draw nothing any more and follow Blender no more."""
@@ -367,6 +364,8 @@ class EditedObjects:
             handlers = getattr(bpy.app.handlers, name)
             if handler not in handlers:
                 handlers.append(handler)
+        if self._on_settings not in chosen.listeners:
+            chosen.listeners.append(self._on_settings)
 
     def draw(self, part: str) -> None:
         """Draw in the view that Blender is drawing now, and have what is missing read.
