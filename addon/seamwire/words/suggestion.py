@@ -57,7 +57,7 @@ class Outcome:
             parts.append(f"{count(self.marked, 'edge')} marked")
         parts.append(count(len(self.missing), "island"))
         if self.islands_wanted:
-            parts.append(f"fewer than {self.islands_wanted} because there are no more limbs to part")
+            parts.append(f"fewer than {self.islands_wanted} because no island can be cut further")
         holed = sum(cuts > 0 for cuts in self.missing)
         if holed and self.discs_wanted:
             parts.append(

@@ -75,6 +75,7 @@ class GroupPlanning {
   std::vector<std::int32_t> missed_pieces(const SlitPlan& plan, double bound) const;
   const SlitProblem& problem() const { return parted_ ? *parted_ : group_->searched(); }
   std::vector<Slit> on_original(const std::vector<Slit>& slits) const;
+  std::vector<Slit> completed(std::vector<Slit> slits, const std::vector<Slit>& simple) const;
   Result solved_on_original(std::vector<Slit> slits, const Task& task) const;
   void show(const SlitPlan& plan);
 
