@@ -17,12 +17,13 @@ namespace {
 
 /// How often a search is repeated because the original mesh distorts more than the simplified one.
 constexpr int kRounds = 2;
-constexpr int kHalvings = 4;  // how often pieces without a map are parted
+constexpr int kHalvings = 4;         // how often pieces without a map are parted
 constexpr double kNearBound = 0.02;  // a map whose energy is this far below the bound may have too many seams
 constexpr double kMargin = 3e-3;
 constexpr double kLaterBudget = 0.5;  // of a repetition, as a share of the one before
 /// Where the search of each round begins and ends as a share of all work. The map of the original mesh follows.
-constexpr std::array<std::array<double, 2>, kRounds + 1> kSimplifiedRounds = {{{0.0, 0.55}, {0.62, 0.77}, {0.84, 0.92}}};
+constexpr std::array<std::array<double, 2>, kRounds + 1> kSimplifiedRounds = {
+    {{0.0, 0.55}, {0.62, 0.77}, {0.84, 0.92}}};
 constexpr std::array<double, 2> kOnlyRound = {0.0, 0.95};
 
 /// Which of two plans on the original mesh is better: the cheaper one within the bound, or else the one with less
@@ -102,8 +103,8 @@ void GroupPlanning::search(const SlitGoal& goal, const std::function<void()>& fo
   // it is also parted into halves.
   for (int round = 0; round <= kHalvings && !result_.is_within(goal.energy); ++round) {
     if (round > 0 && std::isfinite(result_.energy)) return;
-    std::vector<Slit> cuts = round == 0 ? rim_cuts(problem(), missed_)
-                                        : halving_cuts(problem(), 2 * index(problem().pieces.count), task);
+    std::vector<Slit> cuts =
+        round == 0 ? rim_cuts(problem(), missed_) : halving_cuts(problem(), 2 * index(problem().pieces.count), task);
     if (cuts.empty()) continue;
     add_rings(std::move(cuts));
     const Result before = std::move(result_);
@@ -128,7 +129,8 @@ void GroupPlanning::search_once(const SlitGoal& goal, const std::function<void()
     const SlitPlan plan = search_slits(problem(), std::move(start_), roots_, aim, tell, part_of(task, begin, end));
     steps_ += plan.work;
     if (round == 0) missed_ = missed_pieces(plan, goal.energy);
-    Result solved = solved_on_original(completed(on_original(plan.slits), plan.slits), part_of(task, end, round < kRounds ? end + 0.05 : 1.0));
+    Result solved = solved_on_original(completed(on_original(plan.slits), plan.slits),
+                                       part_of(task, end, round < kRounds ? end + 0.05 : 1.0));
     // The simplified mesh distorts less or more than the original one. The bound is moved by as much.
     const double excess = solved.energy - goal.energy;
     const bool is_near = excess <= 0.0 && (excess > -kNearBound || plan.slits.empty());

@@ -54,7 +54,8 @@ class GroupPlanning {
 
   /// Grows the tree of slits and solves its maps. Throws Cancelled.
   void grow(bool has_tips, const Task& task);
-  /// Looks for a better plan within `goal.energy`. `found` is called whenever result() is a better plan, except at the end. Throws Cancelled.
+  /// Looks for a better plan within `goal.energy`. `found` is called whenever result() is a better plan, except at the
+  /// end. Throws Cancelled.
   void search(const SlitGoal& goal, const std::function<void()>& found, const Task& task);
 
   /// The best plan so far.

@@ -15,17 +15,18 @@
 namespace seamwire::detail {
 namespace {
 
-constexpr std::size_t kManyCorners = 16;                 // of a rim
-constexpr double kLeastRegion = 2e-3;                    // of the area of its piece
-constexpr double kFlatBelow = 1.5, kSharpAbove = 30.0;   // degrees
-constexpr double kSafeShare = 0.3;                       // of a piece, which a halving cut leaves at each end
+constexpr std::size_t kManyCorners = 16;                // of a rim
+constexpr double kLeastRegion = 2e-3;                   // of the area of its piece
+constexpr double kFlatBelow = 1.5, kSharpAbove = 30.0;  // degrees
+constexpr double kSafeShare = 0.3;                      // of a piece, which a halving cut leaves at each end
 
 /// Marked edges as slits that have to stay. Chains end where more or fewer than two of the edges meet. Closed chains
 /// are divided into parts that can be carried to another mesh.
 std::vector<Slit> slits_along(const PlanMesh& mesh, std::vector<std::uint8_t> is_marked) {
   constexpr std::size_t kParts = 4;
   const auto degree = [&](std::int32_t v) {
-    return std::ranges::count_if(mesh.neighbors[v], [&](const PlanNeighbor& next) { return is_marked[next.edge] != 0; });
+    return std::ranges::count_if(mesh.neighbors[v],
+                                 [&](const PlanNeighbor& next) { return is_marked[next.edge] != 0; });
   };
   std::vector<std::uint8_t> is_node(mesh.vertex_count(), 0);
   for (std::int32_t v = 0; index(v) < mesh.vertex_count(); ++v) is_node[v] = degree(v) == 2 ? 0 : 1;
