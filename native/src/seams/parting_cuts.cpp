@@ -162,7 +162,7 @@ bool mark_half(const SlitProblem& problem, std::int32_t number, std::vector<std:
     if (one != other) network.add(one, other, problem.prices.of_edge[edge_of(h)]);
   }
   const std::vector<std::uint8_t> side = network.source_side(source, sink);
-  // The largest connected part of the other side. What is left is connected too.
+  // The largest connected part of the other side. The rest of the piece is connected too.
   DisjointSets parts(island.triangles.size());
   for (std::int32_t h = 0; h < 3 * count; ++h) {
     const std::int32_t twin = island.twins[h];
