@@ -23,8 +23,8 @@ struct LongEnds {
   double length = 0.0;              ///< of the way between them
 };
 
-/// The ends of an island: vertices of its outer loop `outer`, far from each other along edges. nullopt unless the way
-/// between them is so long that a circle squeezes the island too much. `area`: of the island.
+/// The ends of an island: vertices of its outer loop, far from each other along edges. nullopt if the way between them
+/// is so short that a circle is a good start. `outer`: the loop. `area`: of the island.
 std::optional<LongEnds> long_ends(const Island& island, std::span<const Vector> points,
                                   std::span<const std::int32_t> outer, double area);
 
