@@ -170,7 +170,8 @@ distortion : float
     The bound on the symmetric Dirichlet energy of the map, averaged over the area; above 4, the energy of an isometry.
     Infinity: islands only have to be discs.
 islands : int
-    The smallest number of islands, if the surface has enough limbs to separate.
+    The smallest number of islands. Limbs are separated first, then large islands are cut into halves. There are fewer
+    islands only if no seam may run inside of any.
 parts : bool
     Whether limbs are separated at their necks, as islands.
 steps : int

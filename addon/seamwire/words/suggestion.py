@@ -101,6 +101,6 @@ class Outcome:
         """Return what was asked for and not reached."""
         parts = []
         if self.islands_wanted:
-            parts.append(f"fewer than {self.islands_wanted} because there are no more limbs to part")
+            parts.append(f"fewer than {self.islands_wanted} because no island can be cut further")
         missed = not_reached(self.stretches, self.stretch_wanted) if self.stretch_wanted else ""
         return [*parts, missed] if missed else parts

@@ -113,9 +113,7 @@ class Problem {
   /// The better one of Tutte's embeddings on a circle and, for a long island, on a rectangle.
   std::vector<double> tutte(const Task& task) {
     TutteOutline outline{.outer = outer_, .area = energy_.area()};
-    const auto embed = [&] {
-      return tutte_embedding(island_, local_.points, boundaries_, outline, *solver_, task);
-    };
+    const auto embed = [&] { return tutte_embedding(island_, local_.points, boundaries_, outline, *solver_, task); };
     const std::vector<double> map = embed();
     const double unit = energy_.unit();
     outline.ends = long_ends(island_, local_.points, boundaries_[outer_], energy_.area() * unit * unit);

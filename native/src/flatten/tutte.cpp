@@ -209,8 +209,8 @@ std::optional<LongEnds> long_ends(const Island& island, std::span<const Vector> 
 }
 
 std::vector<double> tutte_embedding(const Island& island, std::span<const Vector> points,
-                                    const std::vector<std::vector<std::int32_t>>& boundaries, const TutteOutline& outline,
-                                    BlockCholesky& solver, const Task& task) {
+                                    const std::vector<std::vector<std::int32_t>>& boundaries,
+                                    const TutteOutline& outline, BlockCholesky& solver, const Task& task) {
   const std::size_t count = island.vertices.size() + boundaries.size() - 1;
   std::vector<std::uint8_t> is_fixed(count, 0);
   for (const std::int32_t v : boundaries[outline.outer]) is_fixed[v] = 1;

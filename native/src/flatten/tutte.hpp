@@ -23,8 +23,8 @@ struct LongEnds {
   double length = 0.0;              ///< of the way between them
 };
 
-/// The ends of an island: vertices of its outer loop `outer`, far from each other along edges. nullopt unless the way
-/// between them is so long that a circle squeezes the island too much. `area`: of the island.
+/// The ends of an island: vertices of its outer loop, far from each other along edges. nullopt if the way between them
+/// is so short that a circle is a good start. `outer`: the loop. `area`: of the island.
 std::optional<LongEnds> long_ends(const Island& island, std::span<const Vector> points,
                                   std::span<const std::int32_t> outer, double area);
 
@@ -36,15 +36,15 @@ struct TutteOutline {
 };
 
 /// Tutte's embedding (1963, "How to draw a graph"). A boundary loop lies on a convex outline around the origin, with
-/// its vertices spaced as its edges are long. Every other vertex is at the weighted mean of its neighbors. Other loops are
-/// filled with a virtual vertex each. Weights are cotangents (Pinkall and Polthier 1993) clamped to [.1, 10]. If
+/// its vertices spaced as its edges are long. Every other vertex is at the weighted mean of its neighbors. Other loops
+/// are filled with a virtual vertex each. Weights are cotangents (Pinkall and Polthier 1993) clamped to [.1, 10]. If
 /// rounding spoils the result, all weights are equal instead. Returns two numbers for each own vertex. Returns nothing
 /// if a triangle is not counter-clockwise, because double precision cannot hold the embedding.
 ///
 /// `points`: of own vertices. `boundaries`: Island::boundaries(). `solver`: of the graph of island_edges(); its values
 /// are overwritten. Throws Cancelled.
 std::vector<double> tutte_embedding(const Island& island, std::span<const Vector> points,
-                                    const std::vector<std::vector<std::int32_t>>& boundaries, const TutteOutline& outline,
-                                    BlockCholesky& solver, const Task& task);
+                                    const std::vector<std::vector<std::int32_t>>& boundaries,
+                                    const TutteOutline& outline, BlockCholesky& solver, const Task& task);
 
 }  // namespace seamwire::detail

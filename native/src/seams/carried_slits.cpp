@@ -70,8 +70,8 @@ class Carrying {
       while (end > begin + 1 && is_bent(path.subspan(begin, end - begin + 1))) end = begin + (end - begin + 1) / 2;
       const std::vector<std::int32_t> part = section(path.subspan(begin, end - begin + 1), barred);
       if (part.size() < 2) return {};
-      // The section may start earlier on this chain. If it starts elsewhere on the cut, the chain before is of no use.
-      while (!whole.empty() && part.front() != whole.back()) whole.pop_back();
+      // What came before is of no use if this section starts elsewhere on the cut.
+      if (!whole.empty() && part.front() != whole.back()) whole.clear();
       whole.insert(whole.end(), part.begin() + (whole.empty() ? 0 : 1), part.end());
       for (const std::int32_t v : part) barred[v] = 1;
       begin = end;

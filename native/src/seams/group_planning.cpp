@@ -10,24 +10,43 @@
 #include "detail/poll.hpp"
 #include "seams/carried_slits.hpp"
 #include "seams/parting_cuts.hpp"
+#include "seams/piece_body.hpp"
 
 namespace seamwire::detail {
 namespace {
 
 /// How often a search is repeated because the original mesh distorts more than the simplified one.
 constexpr int kRounds = 2;
-constexpr int kHalvings = 4;  // how often pieces without a map are parted
+constexpr int kHalvings = 4;         // how often pieces without a map are parted
 constexpr double kNearBound = 0.02;  // a map whose energy is this far below the bound may have too many seams
 constexpr double kMargin = 3e-3;
 constexpr double kLaterBudget = 0.5;  // of a repetition, as a share of the one before
 /// Where the search of each round begins and ends as a share of all work. The map of the original mesh follows.
-constexpr std::array<std::array<double, 2>, kRounds + 1> kSimplifiedRounds = {{{0.0, 0.55}, {0.62, 0.77}, {0.84, 0.92}}};
+constexpr std::array<std::array<double, 2>, kRounds + 1> kSimplifiedRounds = {
+    {{0.0, 0.55}, {0.62, 0.77}, {0.84, 0.92}}};
 constexpr std::array<double, 2> kOnlyRound = {0.0, 0.95};
 
 /// Which of two plans on the original mesh is better: the cheaper one within the bound, or else the one with less
 /// energy.
 std::pair<double, double> rank(const GroupPlanning::Result& solved, double bound) {
   return solved.is_within(bound) ? std::pair(0.0, solved.price) : std::pair(1.0, solved.energy);
+}
+
+/// A problem with slits as its seams.
+SlitProblem with_seams(SlitProblem problem, std::span<const Slit> slits) {
+  problem.is_seam = cut_of(problem, slits, {}).is_cut;
+  find_pieces_of(problem);
+  return problem;
+}
+
+/// How many more cuts all pieces together need to become discs.
+std::int64_t missing_cuts_of(const SlitProblem& problem) {
+  std::int64_t missing = 0;
+  for (std::int32_t p = 0; p < problem.pieces.count; ++p) {
+    const PieceBody body(problem, p);
+    missing += 2 * body.genus() + std::abs(std::ssize(body.loops) - 1);
+  }
+  return missing;
 }
 
 }  // namespace
@@ -60,9 +79,7 @@ std::size_t GroupPlanning::most_pieces() const { return count_blocks(problem());
 void GroupPlanning::add_rings(std::vector<Slit> rings) {
   if (rings.empty()) return;
   std::ranges::move(rings, std::back_inserter(rings_));
-  parted_ = group_->searched();
-  parted_->is_seam = cut_of(*parted_, rings_, {}).is_cut;
-  find_pieces_of(*parted_);
+  parted_ = with_seams(group_->searched(), rings_);
 }
 
 void GroupPlanning::grow(bool has_tips, const Task& task) {
@@ -86,8 +103,8 @@ void GroupPlanning::search(const SlitGoal& goal, const std::function<void()>& fo
   // it is also parted into halves.
   for (int round = 0; round <= kHalvings && !result_.is_within(goal.energy); ++round) {
     if (round > 0 && std::isfinite(result_.energy)) return;
-    std::vector<Slit> cuts = round == 0 ? rim_cuts(problem(), missed_)
-                                        : halving_cuts(problem(), 2 * index(problem().pieces.count), task);
+    std::vector<Slit> cuts =
+        round == 0 ? rim_cuts(problem(), missed_) : halving_cuts(problem(), 2 * index(problem().pieces.count), task);
     if (cuts.empty()) continue;
     add_rings(std::move(cuts));
     const Result before = std::move(result_);
@@ -112,7 +129,8 @@ void GroupPlanning::search_once(const SlitGoal& goal, const std::function<void()
     const SlitPlan plan = search_slits(problem(), std::move(start_), roots_, aim, tell, part_of(task, begin, end));
     steps_ += plan.work;
     if (round == 0) missed_ = missed_pieces(plan, goal.energy);
-    Result solved = solved_on_original(on_original(plan.slits), part_of(task, end, round < kRounds ? end + 0.05 : 1.0));
+    Result solved = solved_on_original(completed(on_original(plan.slits), plan.slits),
+                                       part_of(task, end, round < kRounds ? end + 0.05 : 1.0));
     // The simplified mesh distorts less or more than the original one. The bound is moved by as much.
     const double excess = solved.energy - goal.energy;
     const bool is_near = excess <= 0.0 && (excess > -kNearBound || plan.slits.empty());
@@ -133,13 +151,22 @@ std::vector<Slit> GroupPlanning::on_original(const std::vector<Slit>& slits) con
   all.insert(all.end(), slits.begin(), slits.end());
   if (!group_->simplified_mesh) return all;
   all = carried_slits(problem(), *group_->simplified_mesh, group_->original, all);
-  if (least_pieces_ > 0) {  // a closed cut may not have been carried whole
-    SlitProblem original = group_->original;
-    original.is_seam = cut_of(original, all, {}).is_cut;
-    find_pieces_of(original);
-    std::ranges::move(halving_cuts(std::move(original), least_pieces_, {}), std::back_inserter(all));
+  // A closed cut may not have been carried whole.
+  if (least_pieces_ > 0) {
+    std::ranges::move(halving_cuts(with_seams(group_->original, all), least_pieces_, {}), std::back_inserter(all));
   }
   return all;
+}
+
+/// Adds the cuts that pieces of the original mesh need where slits were not carried whole. `simple`: the slits that
+/// were carried, beside the rings.
+std::vector<Slit> GroupPlanning::completed(std::vector<Slit> slits, const std::vector<Slit>& simple) const {
+  if (!group_->simplified_mesh) return slits;
+  const SlitProblem original = with_seams(group_->original, slits);
+  if (missing_cuts_of(original) > missing_cuts_of(with_seams(problem(), simple))) {
+    std::ranges::move(grow_tree(original, false, {}).slits, std::back_inserter(slits));
+  }
+  return slits;
 }
 
 std::vector<std::int32_t> GroupPlanning::missed_pieces(const SlitPlan& plan, double bound) const {

@@ -54,7 +54,8 @@ class GroupPlanning {
 
   /// Grows the tree of slits and solves its maps. Throws Cancelled.
   void grow(bool has_tips, const Task& task);
-  /// Looks for a better plan within `goal.energy`. `found` is called whenever result() is a better plan, except at the end. Throws Cancelled.
+  /// Looks for a better plan within `goal.energy`. `found` is called whenever result() is a better plan, except at the
+  /// end. Throws Cancelled.
   void search(const SlitGoal& goal, const std::function<void()>& found, const Task& task);
 
   /// The best plan so far.
@@ -75,6 +76,7 @@ class GroupPlanning {
   std::vector<std::int32_t> missed_pieces(const SlitPlan& plan, double bound) const;
   const SlitProblem& problem() const { return parted_ ? *parted_ : group_->searched(); }
   std::vector<Slit> on_original(const std::vector<Slit>& slits) const;
+  std::vector<Slit> completed(std::vector<Slit> slits, const std::vector<Slit>& simple) const;
   Result solved_on_original(std::vector<Slit> slits, const Task& task) const;
   void show(const SlitPlan& plan);
 

@@ -15,17 +15,18 @@
 namespace seamwire::detail {
 namespace {
 
-constexpr std::size_t kManyCorners = 16;                 // of a rim
-constexpr double kLeastRegion = 2e-3;                    // of the area of its piece
-constexpr double kFlatBelow = 1.5, kSharpAbove = 30.0;   // degrees
-constexpr double kSafeShare = 0.3;                       // of a piece, which a halving cut leaves at each end
+constexpr std::size_t kManyCorners = 16;                // of a rim
+constexpr double kLeastRegion = 2e-3;                   // of the area of its piece
+constexpr double kFlatBelow = 1.5, kSharpAbove = 30.0;  // degrees
+constexpr double kSafeShare = 0.3;                      // of a piece, which a halving cut leaves at each end
 
 /// Marked edges as slits that have to stay. Chains end where more or fewer than two of the edges meet. Closed chains
 /// are divided into parts that can be carried to another mesh.
 std::vector<Slit> slits_along(const PlanMesh& mesh, std::vector<std::uint8_t> is_marked) {
   constexpr std::size_t kParts = 4;
   const auto degree = [&](std::int32_t v) {
-    return std::ranges::count_if(mesh.neighbors[v], [&](const PlanNeighbor& next) { return is_marked[next.edge] != 0; });
+    return std::ranges::count_if(mesh.neighbors[v],
+                                 [&](const PlanNeighbor& next) { return is_marked[next.edge] != 0; });
   };
   std::vector<std::uint8_t> is_node(mesh.vertex_count(), 0);
   for (std::int32_t v = 0; index(v) < mesh.vertex_count(); ++v) is_node[v] = degree(v) == 2 ? 0 : 1;
@@ -161,7 +162,7 @@ bool mark_half(const SlitProblem& problem, std::int32_t number, std::vector<std:
     if (one != other) network.add(one, other, problem.prices.of_edge[edge_of(h)]);
   }
   const std::vector<std::uint8_t> side = network.source_side(source, sink);
-  // The largest connected part of the other side. What is left is connected too.
+  // The largest connected part of the other side. The rest of the piece is connected too.
   DisjointSets parts(island.triangles.size());
   for (std::int32_t h = 0; h < 3 * count; ++h) {
     const std::int32_t twin = island.twins[h];

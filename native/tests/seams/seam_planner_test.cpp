@@ -214,7 +214,7 @@ TEST(SeamPlanner, LimbsArePartedAtTheirNecks) {
     EXPECT_EQ(planner.plan({.distortion = kAnything}).island_count, 1U);
     // A pair of limbs is parted as a whole.
     EXPECT_EQ(planner.plan({.distortion = kAnything, .islands = 2}).island_count, mirror < 0 ? 2U : 3U);
-    EXPECT_EQ(planner.plan({.distortion = kAnything, .islands = 9}).island_count, 3U) << "there are no more limbs";
+    EXPECT_GE(planner.plan({.distortion = kAnything, .islands = 9}).island_count, 9U) << "halves, after the limbs";
   }
 }
 

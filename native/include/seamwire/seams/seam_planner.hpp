@@ -40,7 +40,8 @@ struct SeamGoal {
   /// The bound on the symmetric Dirichlet energy E_d of the surface's map, mean over the area: 4 for an isometry.
   /// Infinity: islands only have to be discs.
   double distortion = 4.2;
-  /// Minimum number of islands. There are fewer if too few limbs can be separated.
+  /// Minimum number of islands. Limbs are parted first, then large islands are cut into halves. There are fewer islands
+  /// only if no seam may run inside of any.
   std::size_t islands = 0;
   /// Whether limbs are parted at their necks, as separate islands.
   bool parts = false;
