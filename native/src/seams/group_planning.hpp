@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "seams/neck_rings.hpp"
+#include "seams/piece_groups.hpp"
 #include "seams/simplified_mesh.hpp"
 #include "seams/slit_plan.hpp"
 #include "seams/slit_search.hpp"
@@ -24,11 +25,6 @@ struct GroupProblem {
   std::optional<SimplifiedMesh> simplified_mesh;  ///< of the original, if that is large
   SlitProblem simple;                             ///< on that
   double size = 1.0;                              ///< the root of each copy's share of the surface's area
-
-  /// One copy: the whole mesh's vertices and faces of the original's.
-  struct Place {
-    std::vector<std::int32_t> vertices, faces;
-  };
   std::vector<Place> places;
 
   const SlitProblem& searched() const { return simplified_mesh ? simple : original; }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -146,7 +147,7 @@ void SeamPlanner::Impl::find_meshes(const Task& task) {
     GroupProblem& group = groups.emplace_back();
     const std::size_t count = piece_group.faces.size();
     group.original.reflection = std::move(piece_group.reflection);
-    if (found.size() == 1) {
+    if (count == all) {
       std::vector<std::int32_t> vertices(whole.vertex_count());
       std::iota(vertices.begin(), vertices.end(), 0);
       group.places.push_back({std::move(vertices), std::move(piece_group.faces)});
@@ -160,6 +161,7 @@ void SeamPlanner::Impl::find_meshes(const Task& task) {
       group.original.mesh = std::move(part.mesh);
       group.original.is_seam = std::move(part.is_seam);
     }
+    if (piece_group.image) group.places.push_back(std::move(*piece_group.image));
     const Task own = part_of(task, 0.3 + 0.7 * static_cast<double>(done) / static_cast<double>(all),
                              0.3 + 0.7 * static_cast<double>(done + count) / static_cast<double>(all));
     done += count;
@@ -176,17 +178,33 @@ void SeamPlanner::Impl::find_meshes(const Task& task) {
   }
 }
 
-/// The visibility of the vertices of the meshes of all groups on which seams are searched, one after another.
+/// The visibility of the vertices of the meshes of all groups on which seams are searched, one after another, then of
+/// mirror images.
 Visibility SeamPlanner::Impl::visibility_of_all(const Task& task) const {
-  if (groups.size() == 1) return find_visibility(groups.front().searched().mesh, options.front, task);
-  PlanMesh all;
-  for (const GroupProblem& group : groups) {
-    const auto first = static_cast<std::int32_t>(all.points.size());
-    const PlanMesh& own = group.searched().mesh;
-    for (const Vector& point : own.points) all.points.push_back(group.size * point);
-    for (const auto& [a, b, c] : own.triangles) all.triangles.push_back({first + a, first + b, first + c});
+  if (whole.triangles.empty()) {
+    return groups.empty() ? Visibility() : find_visibility(groups.front().searched().mesh, options.front, task);
   }
-  return find_visibility(all, options.front, task);
+  PlanMesh all;
+  std::vector<double> sizes;
+  const auto add = [&](const PlanMesh& own, double size, const auto& at) {
+    const auto first = static_cast<std::int32_t>(all.points.size());
+    for (std::int32_t v = 0; index(v) < own.vertex_count(); ++v) all.points.push_back(at(v));
+    for (const auto& [a, b, c] : own.triangles) all.triangles.push_back({first + a, first + b, first + c});
+    sizes.resize(all.points.size(), size);
+  };
+  for (const GroupProblem& group : groups) {
+    const PlanMesh& own = group.searched().mesh;
+    add(own, group.size, [&](std::int32_t v) { return Vector(group.size * own.points[v]); });
+  }
+  // Mirror images hide others, but have no prices of their own.
+  for (const GroupProblem& group : groups) {
+    const PlanMesh& own = group.searched().mesh;
+    for (std::size_t k = 1; k < group.places.size(); ++k) {
+      const auto vertex = [&](std::int32_t v) { return group.simplified_mesh ? group.simplified_mesh->vertices[v] : v; };
+      add(own, group.size, [&](std::int32_t v) { return whole.points[group.places[k].vertices[vertex(v)]]; });
+    }
+  }
+  return find_visibility(all, options.front, task, sizes);
 }
 
 void SeamPlanner::Impl::find_prices_of_all(const Visibility& visibility) {
@@ -226,7 +244,7 @@ void SeamPlanner::Impl::join_copies() {
       return is_same_size(joined[other].size, group.size) && are_alike(joined[other].original, group.original);
     });
     if (like != candidates.end()) {
-      joined[*like].places.push_back(std::move(group.places.front()));
+      std::ranges::move(group.places, std::back_inserter(joined[*like].places));
       continue;
     }
     candidates.push_back(joined.size());
@@ -327,7 +345,7 @@ class Planning {
   void tell() const;
   SeamPlan finished(const Task& task);
   std::vector<std::uint8_t> are_kept(const CutMaps& maps) const;
-  void add_maps(SeamPlan& plan, const PlanMesh& mesh, const GroupProblem::Place* place, const CutMaps& maps);
+  void add_maps(SeamPlan& plan, const PlanMesh& mesh, const Place* place, const CutMaps& maps);
   void measure(SeamPlan& plan, const Task& task) const;
 
   const SeamPlanner::Impl& planner_;
@@ -450,7 +468,7 @@ std::vector<SlitChains> Planning::chains() const {
   std::vector<SlitChains> found;
   for (std::size_t g = 0; g < plans_.size(); ++g) {
     const SlitChains own(plans_[g].result().slits);
-    for (const GroupProblem::Place& place : groups()[g].places) {
+    for (const Place& place : groups()[g].places) {
       SlitChains& moved = found.emplace_back(own);
       moved.size = groups()[g].size;
       for (SlitChains::Chain& chain : moved.chains) {
@@ -568,7 +586,7 @@ std::vector<std::uint8_t> Planning::are_kept(const CutMaps& maps) const {
 }
 
 /// Adds UVs. `place`: where the faces and vertices of the maps' mesh are on the whole mesh; null: in the same place.
-void Planning::add_maps(SeamPlan& plan, const PlanMesh& mesh, const GroupProblem::Place* place, const CutMaps& maps) {
+void Planning::add_maps(SeamPlan& plan, const PlanMesh& mesh, const Place* place, const CutMaps& maps) {
   const PlanMesh& whole = planner_.mesh();
   const auto whole_face = [&](std::int32_t f) { return place != nullptr ? place->faces[f] : f; };
   for (std::size_t i = 0; i < maps.maps.size(); ++i) {
@@ -580,11 +598,12 @@ void Planning::add_maps(SeamPlan& plan, const PlanMesh& mesh, const GroupProblem
       const std::int32_t face = whole_face(map->island.faces[k]), own_face = whole.faces[face];
       const Triangle& corners = planner_.surface->triangles()[own_face];
       for (std::size_t c = 0; c < 3; ++c) {
+        const std::int32_t own = map->island.triangles[k][c], v = map->island.vertices[own];
+        const std::int32_t vertex = whole.sources[place != nullptr ? place->vertices[v] : v];
         // The triangle may be turned over.
-        const std::int32_t vertex = whole.sources[whole.triangles[face][c]];
-        const auto corner = std::ranges::find(corners, vertex) - corners.begin();
-        const Point2& uv = map->map.uvs[map->island.triangles[k][c]];
-        plan.uvs[own_face][static_cast<std::size_t>(corner)] = uv / mesh.scale;
+        const auto corner = static_cast<std::size_t>(std::ranges::find(corners, vertex) - corners.begin());
+        Point2& uv = plan.uvs[own_face][corner] = map->map.uvs[own] / mesh.scale;
+        if (place != nullptr && place->is_mirrored) uv.x() = -uv.x();
       }
       if (is_counted) energies_.emplace_back(map->energies[k], areas_[face]);
     }
