@@ -28,9 +28,14 @@ struct GroupProblem {
   std::vector<Place> places;
 
   const SlitProblem& searched() const { return simplified_mesh ? simple : original; }
+  /// About how many times a Newton step moves a triangle, if the search takes all of its budget and every round.
+  double work(double budget) const;
   /// The share of the whole surface's area that all copies have, without pieces that may not be cut.
   double counted_area() const;
 };
+
+/// About how many Newton steps a map takes from Tutte's embedding.
+inline constexpr double kStepsOfMap = 40.0;
 
 /// Plans one group.
 class GroupPlanning {
@@ -46,7 +51,8 @@ class GroupPlanning {
 
   /// Grows the tree of slits and solves its maps. Throws Cancelled.
   void grow(bool has_tips, const Task& task);
-  /// Looks for a better plan within `goal.energy`. `found` is called whenever result() is a better plan, except at the end. Throws Cancelled.
+  /// Looks for a better plan within `goal.energy`. `found` is called whenever result() is a better plan, except at the
+  /// end. Throws Cancelled.
   void search(const SlitGoal& goal, const std::function<void()>& found, const Task& task);
 
   /// The best plan so far.

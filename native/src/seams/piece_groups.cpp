@@ -97,8 +97,7 @@ std::optional<Place> image_of_part(const PlanMesh& whole, std::span<const std::u
   }
   for (std::int32_t e = 0; index(e) < part.mesh.edge_count(); ++e) {
     const std::int32_t h = part.mesh.half_edge_of[e];
-    const std::int32_t image =
-        whole.edge_between(place.vertices[part.mesh.start(h)], place.vertices[part.mesh.end(h)]);
+    const std::int32_t image = whole.edge_between(place.vertices[part.mesh.start(h)], place.vertices[part.mesh.end(h)]);
     if (part.mesh.is_real[e] == 0 || image < 0) {
       if (part.mesh.is_real[e] != 0 || image >= 0) return std::nullopt;
       continue;
@@ -194,8 +193,8 @@ std::vector<PieceGroup> find_groups(const PlanMesh& whole, std::span<const std::
     }
     if ((is_pair || image == p) && diagonal > 0.0) {
       const MeshPart part = parts.part(group.faces);
-      group.reflection = reflection_in(part.mesh, reflection->axis, reflection->offset / part.size,
-                                       diagonal / part.size, task);
+      group.reflection =
+          reflection_in(part.mesh, reflection->axis, reflection->offset / part.size, diagonal / part.size, task);
     }
     if (is_pair && !group.reflection) {
       groups.push_back({.faces = by_piece[p]});
@@ -214,9 +213,9 @@ bool are_alike(const SlitProblem& one, const SlitProblem& other) {
   if (one.prices.is_face != other.prices.is_face || one.reflection.has_value() != other.reflection.has_value()) {
     return false;
   }
-  if (one.reflection && (one.reflection->images != other.reflection->images ||
-                         one.reflection->sides != other.reflection->sides ||
-                         one.reflection->is_exact != other.reflection->is_exact)) {
+  if (one.reflection &&
+      (one.reflection->images != other.reflection->images || one.reflection->sides != other.reflection->sides ||
+       one.reflection->is_exact != other.reflection->is_exact)) {
     return false;
   }
   for (std::size_t e = 0; e < one.mesh.edge_count(); ++e) {
@@ -227,7 +226,8 @@ bool are_alike(const SlitProblem& one, const SlitProblem& other) {
 }
 
 std::uint64_t likeness(const SlitProblem& problem) {
-  constexpr double kCoarse = 1e3;  // like problems with a value near the limit between two numbers are told apart, which only costs time
+  constexpr double kCoarse =
+      1e3;  // like problems with a value near the limit between two numbers are told apart, which only costs time
   std::uint64_t hash = 14695981039346656037U;
   const auto add = [&](std::uint64_t value) { hash = (hash ^ value) * 1099511628211U; };
   add(problem.mesh.face_count());

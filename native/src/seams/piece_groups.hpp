@@ -22,9 +22,9 @@ struct Place {
 /// Faces that are planned together: a piece into which seams part the mesh, or a piece and its mirror image if they do
 /// not have the same triangles.
 struct PieceGroup {
-  std::vector<std::int32_t> faces;                       ///< of the whole mesh, ascending
-  std::optional<Reflection> reflection = std::nullopt;   ///< of the group's own mesh, if that is symmetric
-  std::optional<Place> image = std::nullopt;             ///< the mirror image, triangle by triangle, if it lies elsewhere
+  std::vector<std::int32_t> faces;                      ///< of the whole mesh, ascending
+  std::optional<Reflection> reflection = std::nullopt;  ///< of the group's own mesh, if that is symmetric
+  std::optional<Place> image = std::nullopt;  ///< the mirror image, triangle by triangle, if it lies elsewhere
 };
 
 /// The part of a mesh with some faces, scaled so that it has area 1.

@@ -106,7 +106,9 @@ struct SeamPlanner::Impl {
   std::unique_ptr<const PlannedWires> wires;
 
   /// The mesh of the whole surface.
-  const PlanMesh& mesh() const { return whole.triangles.empty() && !groups.empty() ? groups.front().original.mesh : whole; }
+  const PlanMesh& mesh() const {
+    return whole.triangles.empty() && !groups.empty() ? groups.front().original.mesh : whole;
+  }
 
   void prepare(const Task& task);
   void find_meshes(const Task& task);
@@ -200,7 +202,9 @@ Visibility SeamPlanner::Impl::visibility_of_all(const Task& task) const {
   for (const GroupProblem& group : groups) {
     const PlanMesh& own = group.searched().mesh;
     for (std::size_t k = 1; k < group.places.size(); ++k) {
-      const auto vertex = [&](std::int32_t v) { return group.simplified_mesh ? group.simplified_mesh->vertices[v] : v; };
+      const auto vertex = [&](std::int32_t v) {
+        return group.simplified_mesh ? group.simplified_mesh->vertices[v] : v;
+      };
       add(own, group.size, [&](std::int32_t v) { return whole.points[group.places[k].vertices[vertex(v)]]; });
     }
   }
@@ -317,26 +321,29 @@ class Planning {
   SeamPlan run() {
     part_limbs(part_of(task_, 0.0, kLimbsEnd));
     const bool is_bounded = std::isfinite(goal_.distortion);
+    const double budget = goal_.steps > 0 ? static_cast<double>(goal_.steps) : kBudget;
+    const double search_end = kTreesEnd + (1.0 - kTreesEnd) * share_of_search(budget);
     for_each_group(part_of(task_, kLimbsEnd, kTreesEnd),
                    [&](std::size_t g, const Task& own) { plans_[g].grow(is_bounded, own); });
     tell();
     bound_ = bound_of_groups();
-    const SlitGoal aim{.energy = bound_,
-                       .may_cross_faces = goal_.distortion < kLowStretch,
-                       .budget = goal_.steps > 0 ? static_cast<double>(goal_.steps) : kBudget};
-    for_each_group(part_of(task_, kTreesEnd, kSearchEnd), [&](std::size_t g, const Task& own) {
-      plans_[g].search(aim, is_small(g) ? std::function<void()>() : [&] { tell(); }, own);
+    const SlitGoal aim{.energy = bound_, .may_cross_faces = goal_.distortion < kLowStretch, .budget = budget};
+    for_each_group(part_of(task_, kTreesEnd, search_end), [&](std::size_t g, const Task& own) {
+      plans_[g].search(
+          aim, is_small(g) ? std::function<void()>() : [&] { tell(); }, own);
     });
-    return finished(part_of(task_, kSearchEnd, 1.0));
+    return finished(part_of(task_, search_end, 1.0));
   }
 
  private:
-  static constexpr double kLimbsEnd = 0.02, kTreesEnd = 0.06, kSearchEnd = 0.93;  // shares of all work
+  static constexpr double kLimbsEnd = 0.02, kTreesEnd = 0.06;  // shares of all work
 
   bool is_small(std::size_t group) const {
     return plans_.size() > 1 && groups()[group].searched().mesh.face_count() < kSmallGroup;
   }
   const std::vector<GroupProblem>& groups() const { return planner_.groups; }
+  /// The share of the search in the work of the search and of what follows.
+  double share_of_search(double budget) const;
   void part_limbs(const Task& task);
   void for_each_group(const Task& task, const std::function<void(std::size_t, const Task&)>& work) const;
   double bound_of_groups() const;
@@ -359,11 +366,11 @@ class Planning {
     std::size_t group, place;
   };
   std::vector<Placed> places_;
-  std::vector<std::int32_t> place_of_face_;  // of each face of the whole mesh
-  std::vector<std::uint8_t> is_counted_;     // the same: 0 in pieces that may not be cut
-  std::vector<double> areas_;                // the same
+  std::vector<std::int32_t> place_of_face_;          // of each face of the whole mesh
+  std::vector<std::uint8_t> is_counted_;             // the same: 0 in pieces that may not be cut
+  std::vector<double> areas_;                        // the same
   std::vector<std::pair<double, double>> energies_;  // with areas, of the counted triangles of the planned map
-  bool is_mapped_ = true;                    // whether all counted triangles have a map
+  bool is_mapped_ = true;                            // whether all counted triangles have a map
 };
 
 Planning::Planning(const SeamPlanner::Impl& planner, const SeamGoal& goal,
@@ -387,6 +394,18 @@ Planning::Planning(const SeamPlanner::Impl& planner, const SeamGoal& goal,
       places_.push_back({g, k});
     }
   }
+}
+
+double Planning::share_of_search(double budget) const {
+  constexpr double kStepsOfMeasuring = 4.0;  // wires, islands and the measure, in Newton steps on the surface
+  double search = 0.0;
+  if (std::isfinite(goal_.distortion)) {
+    for (const GroupProblem& group : groups()) search += group.work(budget);
+  }
+  double after = kStepsOfMeasuring;
+  if (planner_.wires->are_across()) after += (SlitChains::kClosest + 1) * (kStepsOfMap + kStepsOfMeasuring);
+  after *= static_cast<double>(planner_.mesh().face_count());
+  return after > 0.0 ? search / (search + after) : 1.0;
 }
 
 /// Cuts around limbs at their necks, as many as the goal asks for.
@@ -522,17 +541,20 @@ void Planning::tell() const {
 /// The plan with the map that belongs to its wires. Wires that leave a piece without a good map come nearer to the
 /// slits.
 SeamPlan Planning::finished(const Task& task) {
-  constexpr double kMapBegins = 0.3, kMapEnds = 0.8;
+  constexpr double kMapBegins = 0.3, kMeasureBegins = 0.95;
+  constexpr int kMostTries = SlitChains::kClosest + 1;
   std::vector<SlitChains> slits = chains();
   const PlanMesh& mesh = planner_.mesh();
-  for (bool is_again = false;; is_again = false) {
-    SeamPlan plan = plan_with(slits, part_of(task, 0.0, kMapBegins));
+  for (int attempt = 0;; ++attempt) {
+    const auto place = [&](double share) { return kMeasureBegins * (attempt + share) / kMostTries; };
+    SeamPlan plan = plan_with(slits, part_of(task, place(0.0), place(kMapBegins)));
+    bool is_again = false;
     plan.uvs.assign(planner_.surface->face_count(), {Point2::Zero(), Point2::Zero(), Point2::Zero()});
     energies_.clear();
     is_mapped_ = true;
     if (planner_.wires->are_across()) {
       const std::vector<std::uint8_t> is_cut = marked_edges(mesh, cuts_of(plan, planner_.options.seams));
-      const CutMaps maps = solve_cut(mesh, is_cut, part_of(task, kMapBegins, kMapEnds));
+      const CutMaps maps = solve_cut(mesh, is_cut, part_of(task, place(kMapBegins), place(1.0)));
       const std::vector<std::uint8_t> is_kept = are_kept(maps);
       for (std::size_t i = 0; i < places_.size(); ++i) {
         if (slits[i].closeness >= SlitChains::kClosest || is_kept[i] != 0) continue;
@@ -547,7 +569,7 @@ SeamPlan Planning::finished(const Task& task) {
         add_maps(plan, own.original.mesh, &own.places[place], plans_[group].result().maps);
       }
     }
-    measure(plan, part_of(task, kMapEnds, 1.0));
+    measure(plan, part_of(task, kMeasureBegins, 1.0));
     return plan;
   }
 }

@@ -3,8 +3,8 @@
 // Who calls Task::progress, and what becomes of an exception that it throws.
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <algorithm>
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <stdexcept>

@@ -123,8 +123,7 @@ TEST(PieceGroups, HaveAnExactImageIfTheTrianglesAreMirrored) {
 }
 
 TEST(PieceGroups, AreAlikeIfOneIsMovedOrScaled) {
-  const Surface surface =
-      cylinders({{0, 0, 0}, {90, 40, 7}, {0, 200, 0}, {0, 0, 300}}, {1.0, 1.0, 0.5, 1.0}).surface();
+  const Surface surface = cylinders({{0, 0, 0}, {90, 40, 7}, {0, 200, 0}, {0, 0, 300}}, {1.0, 1.0, 0.5, 1.0}).surface();
   PlanMesh whole = plan_mesh(surface);
   const std::vector<std::uint8_t> is_seam(whole.edge_count(), 0);
   for (std::size_t v = 3 * whole.vertex_count() / 4; v < whole.vertex_count(); ++v) whole.points[v].z() *= 1.001;

@@ -71,7 +71,7 @@ struct SeamPlan {
   std::vector<std::int32_t> islands;  ///< of each of the caller's triangles, as face_segments() numbers them
   std::size_t island_count = 0;       ///< how many islands there are
   std::size_t not_discs = 0;          ///< how many islands are not discs, see missing_cuts()
-  double cost = 0.0;        ///< length times visibility of all wires, for a surface of area 1; lower is better
+  double cost = 0.0;  ///< length times visibility of all wires, for a surface of area 1; lower is better
   /// E_d of the planned map, mean over the area; infinite if some island has no map. Pieces in which no seam may run do
   /// not count.
   double energy = 0.0;
