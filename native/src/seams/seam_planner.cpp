@@ -198,7 +198,7 @@ Visibility SeamPlanner::Impl::visibility_of_all(const Task& task) const {
     const PlanMesh& own = group.searched().mesh;
     add(own, group.size, [&](std::int32_t v) { return Vector(group.size * own.points[v]); });
   }
-  // Mirror images hide others, but have no prices of their own.
+  // Copies and mirror images hide others, but need no prices.
   for (const GroupProblem& group : groups) {
     const PlanMesh& own = group.searched().mesh;
     for (std::size_t k = 1; k < group.places.size(); ++k) {
