@@ -176,7 +176,7 @@ def test_uvs_from_before_there_were_seams_are_replaced_and_later_ones_kept() -> 
     arrays = edit_mesh.read(obj)
     corners, _ = uv_map.read(obj)
     eyes = np.unique(corners.of_triangles(arrays)[seam_islands.labels_of(arrays) > 0])
-    assert suggest(distortion=17.0) == {"FINISHED"}
+    assert suggest(distortion=28.0) == {"FINISHED"}
     after = uv_map.read_uvs(obj)
     assert np.array_equal(after[eyes], before[eyes]), "they needed no seam"
     assert not np.array_equal(after, before)

@@ -97,7 +97,7 @@ void bind_seam_plan(py::module_& module) {
       .def_readonly("energy", &SeamPlan::energy,
                     "The symmetric Dirichlet energy of the planned map, mean over the area. 4 for an isometry.")
       .def_readonly("is_reached", &SeamPlan::is_reached,
-                    "Whether the energy is within the bound and no island overlaps itself.")
+                    "Whether the energy is within the bound, and no island that may be cut overlaps itself.")
       .def_readonly("steps", &SeamPlan::steps, "Newton steps that planning took, each times the share of the surface.")
       .def_property_readonly(
           "uvs", &uvs_of,
@@ -134,7 +134,8 @@ max_anisotropy, clamp_percentile : float
 front : (3,) array_like of float, optional
     The direction from the surface towards a viewer. Seams hide from there. None: they hide from ambient light only.
 mirror : {0, 1, 2}, optional
-    The axis whose plane through the origin mirrors the surface. Seams come in pairs if the surface is symmetric.
+    The axis along which a plane mirrors the surface: through the origin, or else through the middle of its box. Seams
+    come in pairs if the surface is symmetric.
 weights : (n,) array_like of float, optional
     The cost of seams at each vertex, as a factor. Infinity keeps seams away.
 seams : (k, 2) array_like of int, optional
@@ -175,7 +176,7 @@ islands : int
 parts : bool
     Whether limbs are separated at their necks, as islands.
 steps : int
-    The largest number of Newton steps on the whole surface. 0: 4000.
+    The largest number of Newton steps in each piece. 0: 4000.
 progress : callable, optional
     Called repeatedly with the fraction done. Returning False cancels, and `best_so_far` keeps the best plan.
 

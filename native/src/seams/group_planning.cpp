@@ -21,10 +21,22 @@ constexpr int kHalvings = 4;         // how often pieces without a map are parte
 constexpr double kNearBound = 0.02;  // a map whose energy is this far below the bound may have too many seams
 constexpr double kMargin = 3e-3;
 constexpr double kLaterBudget = 0.5;  // of a repetition, as a share of the one before
-/// Where the search of each round begins and ends as a share of all work. The map of the original mesh follows.
-constexpr std::array<std::array<double, 2>, kRounds + 1> kSimplifiedRounds = {
-    {{0.0, 0.55}, {0.62, 0.77}, {0.84, 0.92}}};
-constexpr std::array<double, 2> kOnlyRound = {0.0, 0.95};
+
+/// The work of each part of a round: the search, and the map of the original mesh.
+struct RoundWork {
+  double search, map;
+};
+std::array<RoundWork, kRounds + 1> work_of_rounds(const GroupProblem& group, double budget) {
+  const auto faces = static_cast<double>(group.searched().mesh.face_count());
+  const double map = kStepsOfMap * static_cast<double>(group.original.mesh.face_count());
+  std::array<RoundWork, kRounds + 1> rounds{};
+  for (RoundWork& round : rounds) {
+    round = {budget * faces, map};
+    if (!group.simplified_mesh) break;
+    budget *= kLaterBudget;
+  }
+  return rounds;
+}
 
 /// Which of two plans on the original mesh is better: the cheaper one within the bound, or else the one with less
 /// energy.
@@ -50,6 +62,12 @@ std::int64_t missing_cuts_of(const SlitProblem& problem) {
 }
 
 }  // namespace
+
+double GroupProblem::work(double budget) const {
+  double sum = 0.0;
+  for (const RoundWork& round : work_of_rounds(*this, budget)) sum += round.search + round.map;
+  return sum;
+}
 
 double GroupProblem::counted_area() const {
   double counted = 0.0, all = 0.0;
@@ -117,20 +135,28 @@ void GroupPlanning::search(const SlitGoal& goal, const std::function<void()>& fo
 void GroupPlanning::search_once(const SlitGoal& goal, const std::function<void()>& found, const Task& task) {
   SlitGoal aim = goal;
   Result best;
+  const std::array<RoundWork, kRounds + 1> work = work_of_rounds(*group_, goal.budget);
+  const double all = group_->work(goal.budget);
+  double done = 0.0;
+  const auto next = [&](double amount) {
+    const double begin = done / all;
+    done += amount;
+    return part_of(task, begin, done / all);
+  };
   for (int round = 0;; ++round) {
     const bool is_simplified = group_->simplified_mesh.has_value();
-    const auto [begin, end] = is_simplified ? kSimplifiedRounds[index(round)] : kOnlyRound;
     bool is_start = true;  // which grow() has shown
     const auto tell = [&](const SlitPlan& plan) {
       if (std::exchange(is_start, false) || round > 0 || !found) return;
       show(plan);
       found();
     };
-    const SlitPlan plan = search_slits(problem(), std::move(start_), roots_, aim, tell, part_of(task, begin, end));
+    if (round > 0) start_ = SlitSolver(problem(), roots_).solve(std::move(start_.slits), next(0.0));
+    const SlitPlan plan =
+        search_slits(problem(), std::move(start_), roots_, aim, tell, next(work[index(round)].search));
     steps_ += plan.work;
     if (round == 0) missed_ = missed_pieces(plan, goal.energy);
-    Result solved = solved_on_original(completed(on_original(plan.slits), plan.slits),
-                                       part_of(task, end, round < kRounds ? end + 0.05 : 1.0));
+    Result solved = solved_on_original(completed(on_original(plan.slits), plan.slits), next(work[index(round)].map));
     // The simplified mesh distorts less or more than the original one. The bound is moved by as much.
     const double excess = solved.energy - goal.energy;
     const bool is_near = excess <= 0.0 && (excess > -kNearBound || plan.slits.empty());
@@ -141,7 +167,8 @@ void GroupPlanning::search_once(const SlitGoal& goal, const std::function<void()
     if (is_last) break;
     aim.energy = energy;
     aim.budget *= kLaterBudget;
-    start_ = SlitSolver(problem(), roots_).solve(plan.slits, part_of(task, end + 0.05, end + 0.07));
+    start_ = {};
+    start_.slits = plan.slits;
   }
   result_ = std::move(best);
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "seams/neck_rings.hpp"
+#include "seams/piece_groups.hpp"
 #include "seams/simplified_mesh.hpp"
 #include "seams/slit_plan.hpp"
 #include "seams/slit_search.hpp"
@@ -24,17 +25,17 @@ struct GroupProblem {
   std::optional<SimplifiedMesh> simplified_mesh;  ///< of the original, if that is large
   SlitProblem simple;                             ///< on that
   double size = 1.0;                              ///< the root of each copy's share of the surface's area
-
-  /// One copy: the whole mesh's vertices and faces of the original's.
-  struct Place {
-    std::vector<std::int32_t> vertices, faces;
-  };
   std::vector<Place> places;
 
   const SlitProblem& searched() const { return simplified_mesh ? simple : original; }
+  /// About how many times a Newton step moves a triangle, if the search takes all of its budget and every round.
+  double work(double budget) const;
   /// The share of the whole surface's area that all copies have, without pieces that may not be cut.
   double counted_area() const;
 };
+
+/// About how many Newton steps a map takes from Tutte's embedding.
+inline constexpr double kStepsOfMap = 40.0;
 
 /// Plans one group.
 class GroupPlanning {

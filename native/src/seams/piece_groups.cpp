@@ -16,6 +16,22 @@ namespace {
 
 constexpr double kSameLength = 1e-6;  // of edges in parts of area 1
 constexpr double kSamePrice = 1e-6;   // of edges, as a share
+constexpr double kSamePlace = 1e-5;   // of an exact mirror image, in roots of a part's area
+
+/// The face whose corners are the mirror images of a face's corners; -1 without one.
+std::int32_t exact_image(const PlanMesh& mesh, const Reflection& reflection, std::int32_t f) {
+  const auto& [a, b, c] = mesh.triangles[f];
+  const std::int32_t one = reflection.images[a], two = reflection.images[b], three = reflection.images[c];
+  if (one < 0 || two < 0 || three < 0) return -1;
+  for (const PlanNeighbor& next : mesh.all_neighbors[one]) {
+    if (next.vertex != two) continue;
+    const std::int32_t h = mesh.half_edge_of[next.edge];
+    for (const std::int32_t side : {h, mesh.twins[h]}) {
+      if (side >= 0 && mesh.triangles[side / 3][(side + 2) % 3] == three) return side / 3;
+    }
+  }
+  return -1;
+}
 
 /// How often the mirror images of one piece lie in another.
 class Votes {
@@ -41,22 +57,12 @@ class Votes {
   }
 
  private:
-  /// A face at the mirror image of a face: with the images of its corners if there is one, or else at one of them.
+  /// A face at the mirror image of a face.
   std::int32_t image_of(std::int32_t f) const {
-    const auto& [a, b, c] = mesh_.triangles[f];
-    const std::int32_t one = reflection_.images[a], two = reflection_.images[b], three = reflection_.images[c];
-    if (one < 0 || two < 0 || three < 0) return -1;
-    std::int32_t any = -1;
-    for (const PlanNeighbor& next : mesh_.all_neighbors[one]) {
-      const std::int32_t h = mesh_.half_edge_of[next.edge];
-      for (const std::int32_t side : {h, mesh_.twins[h]}) {
-        if (side < 0) continue;
-        if (any < 0) any = side / 3;
-        const std::int32_t apex = mesh_.triangles[side / 3][(side + 2) % 3];
-        if (next.vertex == two && apex == three) return side / 3;
-      }
-    }
-    return any;
+    const std::int32_t exact = exact_image(mesh_, reflection_, f);
+    const std::int32_t corner = reflection_.images[mesh_.triangles[f][0]];
+    if (exact >= 0 || corner < 0 || mesh_.all_neighbors[corner].empty()) return exact;
+    return mesh_.half_edge_of[mesh_.all_neighbors[corner].begin()->edge] / 3;
   }
 
   const PlanMesh& mesh_;
@@ -69,6 +75,36 @@ std::vector<std::vector<std::int32_t>> faces_by(std::span<const std::int32_t> la
   std::vector<std::vector<std::int32_t>> faces(index(count));
   for (std::int32_t f = 0; index(f) < labels.size(); ++f) faces[labels[f]].push_back(f);
   return faces;
+}
+
+/// The mirror image of a part of a mesh, if it has the same triangles, seams and shape.
+std::optional<Place> image_of_part(const PlanMesh& whole, std::span<const std::uint8_t> is_seam,
+                                   const Reflection& reflection, const MeshPart& part,
+                                   std::span<const std::int32_t> faces, std::span<const std::int32_t> image_faces) {
+  if (faces.size() != image_faces.size()) return std::nullopt;
+  Place place{.vertices = {}, .faces = {}, .is_mirrored = true};
+  for (const std::int32_t v : part.vertices) {
+    const std::int32_t image = reflection.images[v];
+    if (image < 0 || reflection.images[image] != v) return std::nullopt;
+    const double away = (reflection.mirrored(whole.points[v]) - whole.points[image]).norm();
+    if (!(away <= kSamePlace * part.size)) return std::nullopt;
+    place.vertices.push_back(image);
+  }
+  for (const std::int32_t f : faces) {
+    const std::int32_t image = exact_image(whole, reflection, f);
+    if (!std::ranges::binary_search(image_faces, image)) return std::nullopt;
+    place.faces.push_back(image);
+  }
+  for (std::int32_t e = 0; index(e) < part.mesh.edge_count(); ++e) {
+    const std::int32_t h = part.mesh.half_edge_of[e];
+    const std::int32_t image = whole.edge_between(place.vertices[part.mesh.start(h)], place.vertices[part.mesh.end(h)]);
+    if (part.mesh.is_real[e] == 0 || image < 0) {
+      if (part.mesh.is_real[e] != 0 || image >= 0) return std::nullopt;
+      continue;
+    }
+    if (part.mesh.twins[h] >= 0 && part.is_seam[e] != is_seam[image]) return std::nullopt;
+  }
+  return place;
 }
 
 bool is_same_price(double one, double other) {
@@ -130,7 +166,7 @@ std::vector<PieceGroup> find_groups(const PlanMesh& whole, std::span<const std::
   const std::vector<std::vector<std::int32_t>> by_piece = faces_by(pieces.of_face, pieces.count);
   std::vector<PieceGroup> groups;
   if (reflection == nullptr || pieces.count < 2) {
-    for (const auto& faces : by_piece) groups.push_back({faces, {}});
+    for (const auto& faces : by_piece) groups.push_back({.faces = faces});
     if (reflection != nullptr && !groups.empty()) groups.front().reflection = *reflection;
     return groups;
   }
@@ -141,25 +177,28 @@ std::vector<PieceGroup> find_groups(const PlanMesh& whole, std::span<const std::
     const std::int32_t image = votes.image_of_piece(p);
     const bool is_pair = image >= 0 && image != p && votes.image_of_piece(image) == p;
     if (is_pair && image < p) continue;  // comes with its image
-    PieceGroup group{by_piece[p], {}};
-    double diagonal = 0.0;
-    for (const std::int32_t one : {p, image}) {
-      if (one == image && !is_pair) continue;
-      const MeshPart part = parts.part(by_piece[one]);
-      diagonal = std::max(diagonal, diagonal_of(part.mesh) * part.size);
-    }
+    PieceGroup group{.faces = by_piece[p]};
+    const MeshPart own = parts.part(by_piece[p]);
+    double diagonal = diagonal_of(own.mesh) * own.size;
     if (is_pair) {
+      group.image = image_of_part(whole, is_seam, *reflection, own, by_piece[p], by_piece[image]);
+      if (group.image) {
+        groups.push_back(std::move(group));
+        continue;
+      }
+      const MeshPart other = parts.part(by_piece[image]);
+      diagonal = std::max(diagonal, diagonal_of(other.mesh) * other.size);
       group.faces.insert(group.faces.end(), by_piece[image].begin(), by_piece[image].end());
       std::ranges::sort(group.faces);
     }
-    const MeshPart part = parts.part(group.faces);
-    if (image >= 0 && (is_pair || image == p) && diagonal > 0.0) {
-      group.reflection = reflection_in(part.mesh, reflection->axis, reflection->offset / part.size,
-                                       diagonal / part.size, task);
+    if ((is_pair || image == p) && diagonal > 0.0) {
+      const MeshPart part = parts.part(group.faces);
+      group.reflection =
+          reflection_in(part.mesh, reflection->axis, reflection->offset / part.size, diagonal / part.size, task);
     }
     if (is_pair && !group.reflection) {
-      groups.push_back({by_piece[p], {}});
-      groups.push_back({by_piece[image], {}});
+      groups.push_back({.faces = by_piece[p]});
+      groups.push_back({.faces = by_piece[image]});
     } else {
       groups.push_back(std::move(group));
     }
@@ -174,9 +213,9 @@ bool are_alike(const SlitProblem& one, const SlitProblem& other) {
   if (one.prices.is_face != other.prices.is_face || one.reflection.has_value() != other.reflection.has_value()) {
     return false;
   }
-  if (one.reflection && (one.reflection->images != other.reflection->images ||
-                         one.reflection->sides != other.reflection->sides ||
-                         one.reflection->is_exact != other.reflection->is_exact)) {
+  if (one.reflection &&
+      (one.reflection->images != other.reflection->images || one.reflection->sides != other.reflection->sides ||
+       one.reflection->is_exact != other.reflection->is_exact)) {
     return false;
   }
   for (std::size_t e = 0; e < one.mesh.edge_count(); ++e) {
@@ -187,7 +226,8 @@ bool are_alike(const SlitProblem& one, const SlitProblem& other) {
 }
 
 std::uint64_t likeness(const SlitProblem& problem) {
-  constexpr double kCoarse = 1e3;  // like problems with a value near the limit between two numbers are told apart, which only costs time
+  constexpr double kCoarse =
+      1e3;  // like problems with a value near the limit between two numbers are told apart, which only costs time
   std::uint64_t hash = 14695981039346656037U;
   const auto add = [&](std::uint64_t value) { hash = (hash ^ value) * 1099511628211U; };
   add(problem.mesh.face_count());

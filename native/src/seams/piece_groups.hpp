@@ -13,10 +13,18 @@
 
 namespace seamwire::detail {
 
-/// Faces that are planned together: a piece into which seams part the mesh, or a piece and its mirror image.
+/// Where a copy of some faces lies on the whole mesh: its vertices and faces, in the order of the faces' own ones.
+struct Place {
+  std::vector<std::int32_t> vertices, faces;
+  bool is_mirrored = false;
+};
+
+/// Faces that are planned together: a piece into which seams part the mesh, or a piece and its mirror image if they do
+/// not have the same triangles.
 struct PieceGroup {
-  std::vector<std::int32_t> faces;          ///< of the whole mesh, ascending
-  std::optional<Reflection> reflection;     ///< of the group's own mesh; nullopt if the group is not symmetric
+  std::vector<std::int32_t> faces;                      ///< of the whole mesh, ascending
+  std::optional<Reflection> reflection = std::nullopt;  ///< of the group's own mesh, if that is symmetric
+  std::optional<Place> image = std::nullopt;  ///< the mirror image, triangle by triangle, if it lies elsewhere
 };
 
 /// The part of a mesh with some faces, scaled so that it has area 1.

@@ -15,7 +15,7 @@ namespace {
 
 /// Wires across a surface of area 1 stay as near as this to their slits, by closeness.
 constexpr std::array<double, SlitChains::kClosest> kNearSlit = {0.04, 0.015};
-constexpr double kStraight = 0.1;   // seeds along edges are where a slit bends by more than this
+constexpr double kStraight = 0.1;  // seeds along edges are where a slit bends by more than this
 
 using Chain = SlitChains::Chain;
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -105,7 +106,9 @@ struct SeamPlanner::Impl {
   std::unique_ptr<const PlannedWires> wires;
 
   /// The mesh of the whole surface.
-  const PlanMesh& mesh() const { return whole.triangles.empty() && !groups.empty() ? groups.front().original.mesh : whole; }
+  const PlanMesh& mesh() const {
+    return whole.triangles.empty() && !groups.empty() ? groups.front().original.mesh : whole;
+  }
 
   void prepare(const Task& task);
   void find_meshes(const Task& task);
@@ -146,7 +149,7 @@ void SeamPlanner::Impl::find_meshes(const Task& task) {
     GroupProblem& group = groups.emplace_back();
     const std::size_t count = piece_group.faces.size();
     group.original.reflection = std::move(piece_group.reflection);
-    if (found.size() == 1) {
+    if (count == all) {
       std::vector<std::int32_t> vertices(whole.vertex_count());
       std::iota(vertices.begin(), vertices.end(), 0);
       group.places.push_back({std::move(vertices), std::move(piece_group.faces)});
@@ -160,6 +163,7 @@ void SeamPlanner::Impl::find_meshes(const Task& task) {
       group.original.mesh = std::move(part.mesh);
       group.original.is_seam = std::move(part.is_seam);
     }
+    if (piece_group.image) group.places.push_back(std::move(*piece_group.image));
     const Task own = part_of(task, 0.3 + 0.7 * static_cast<double>(done) / static_cast<double>(all),
                              0.3 + 0.7 * static_cast<double>(done + count) / static_cast<double>(all));
     done += count;
@@ -176,17 +180,35 @@ void SeamPlanner::Impl::find_meshes(const Task& task) {
   }
 }
 
-/// The visibility of the vertices of the meshes of all groups on which seams are searched, one after another.
+/// The visibility of the vertices of the meshes of all groups on which seams are searched, one after another, then of
+/// mirror images.
 Visibility SeamPlanner::Impl::visibility_of_all(const Task& task) const {
-  if (groups.size() == 1) return find_visibility(groups.front().searched().mesh, options.front, task);
-  PlanMesh all;
-  for (const GroupProblem& group : groups) {
-    const auto first = static_cast<std::int32_t>(all.points.size());
-    const PlanMesh& own = group.searched().mesh;
-    for (const Vector& point : own.points) all.points.push_back(group.size * point);
-    for (const auto& [a, b, c] : own.triangles) all.triangles.push_back({first + a, first + b, first + c});
+  if (whole.triangles.empty()) {
+    return groups.empty() ? Visibility() : find_visibility(groups.front().searched().mesh, options.front, task);
   }
-  return find_visibility(all, options.front, task);
+  PlanMesh all;
+  std::vector<double> sizes;
+  const auto add = [&](const PlanMesh& own, double size, const auto& at) {
+    const auto first = static_cast<std::int32_t>(all.points.size());
+    for (std::int32_t v = 0; index(v) < own.vertex_count(); ++v) all.points.push_back(at(v));
+    for (const auto& [a, b, c] : own.triangles) all.triangles.push_back({first + a, first + b, first + c});
+    sizes.resize(all.points.size(), size);
+  };
+  for (const GroupProblem& group : groups) {
+    const PlanMesh& own = group.searched().mesh;
+    add(own, group.size, [&](std::int32_t v) { return Vector(group.size * own.points[v]); });
+  }
+  // Copies and mirror images hide others, but need no prices.
+  for (const GroupProblem& group : groups) {
+    const PlanMesh& own = group.searched().mesh;
+    for (std::size_t k = 1; k < group.places.size(); ++k) {
+      const auto vertex = [&](std::int32_t v) {
+        return group.simplified_mesh ? group.simplified_mesh->vertices[v] : v;
+      };
+      add(own, group.size, [&](std::int32_t v) { return whole.points[group.places[k].vertices[vertex(v)]]; });
+    }
+  }
+  return find_visibility(all, options.front, task, sizes);
 }
 
 void SeamPlanner::Impl::find_prices_of_all(const Visibility& visibility) {
@@ -226,7 +248,7 @@ void SeamPlanner::Impl::join_copies() {
       return is_same_size(joined[other].size, group.size) && are_alike(joined[other].original, group.original);
     });
     if (like != candidates.end()) {
-      joined[*like].places.push_back(std::move(group.places.front()));
+      std::ranges::move(group.places, std::back_inserter(joined[*like].places));
       continue;
     }
     candidates.push_back(joined.size());
@@ -299,26 +321,29 @@ class Planning {
   SeamPlan run() {
     part_limbs(part_of(task_, 0.0, kLimbsEnd));
     const bool is_bounded = std::isfinite(goal_.distortion);
+    const double budget = goal_.steps > 0 ? static_cast<double>(goal_.steps) : kBudget;
+    const double search_end = kTreesEnd + (1.0 - kTreesEnd) * share_of_search(budget);
     for_each_group(part_of(task_, kLimbsEnd, kTreesEnd),
                    [&](std::size_t g, const Task& own) { plans_[g].grow(is_bounded, own); });
     tell();
     bound_ = bound_of_groups();
-    const SlitGoal aim{.energy = bound_,
-                       .may_cross_faces = goal_.distortion < kLowStretch,
-                       .budget = goal_.steps > 0 ? static_cast<double>(goal_.steps) : kBudget};
-    for_each_group(part_of(task_, kTreesEnd, kSearchEnd), [&](std::size_t g, const Task& own) {
-      plans_[g].search(aim, is_small(g) ? std::function<void()>() : [&] { tell(); }, own);
+    const SlitGoal aim{.energy = bound_, .may_cross_faces = goal_.distortion < kLowStretch, .budget = budget};
+    for_each_group(part_of(task_, kTreesEnd, search_end), [&](std::size_t g, const Task& own) {
+      plans_[g].search(
+          aim, is_small(g) ? std::function<void()>() : [&] { tell(); }, own);
     });
-    return finished(part_of(task_, kSearchEnd, 1.0));
+    return finished(part_of(task_, search_end, 1.0));
   }
 
  private:
-  static constexpr double kLimbsEnd = 0.02, kTreesEnd = 0.06, kSearchEnd = 0.93;  // shares of all work
+  static constexpr double kLimbsEnd = 0.02, kTreesEnd = 0.06;  // shares of all work
 
   bool is_small(std::size_t group) const {
     return plans_.size() > 1 && groups()[group].searched().mesh.face_count() < kSmallGroup;
   }
   const std::vector<GroupProblem>& groups() const { return planner_.groups; }
+  /// The share of the search in the work of the search and of what follows.
+  double share_of_search(double budget) const;
   void part_limbs(const Task& task);
   void halve_groups(const Task& task);
   void for_each_group(const Task& task, const std::function<void(std::size_t, const Task&)>& work) const;
@@ -328,7 +353,7 @@ class Planning {
   void tell() const;
   SeamPlan finished(const Task& task);
   std::vector<std::uint8_t> are_kept(const CutMaps& maps) const;
-  void add_maps(SeamPlan& plan, const PlanMesh& mesh, const GroupProblem::Place* place, const CutMaps& maps);
+  void add_maps(SeamPlan& plan, const PlanMesh& mesh, const Place* place, const CutMaps& maps);
   void measure(SeamPlan& plan, const Task& task) const;
 
   const SeamPlanner::Impl& planner_;
@@ -342,11 +367,11 @@ class Planning {
     std::size_t group, place;
   };
   std::vector<Placed> places_;
-  std::vector<std::int32_t> place_of_face_;  // of each face of the whole mesh
-  std::vector<std::uint8_t> is_counted_;     // the same: 0 in pieces that may not be cut
-  std::vector<double> areas_;                // the same
+  std::vector<std::int32_t> place_of_face_;          // of each face of the whole mesh
+  std::vector<std::uint8_t> is_counted_;             // the same: 0 in pieces that may not be cut
+  std::vector<double> areas_;                        // the same
   std::vector<std::pair<double, double>> energies_;  // with areas, of the counted triangles of the planned map
-  bool is_mapped_ = true;                    // whether all counted triangles have a map
+  bool is_mapped_ = true;                            // whether all counted triangles have a map
 };
 
 Planning::Planning(const SeamPlanner::Impl& planner, const SeamGoal& goal,
@@ -370,6 +395,18 @@ Planning::Planning(const SeamPlanner::Impl& planner, const SeamGoal& goal,
       places_.push_back({g, k});
     }
   }
+}
+
+double Planning::share_of_search(double budget) const {
+  constexpr double kStepsOfMeasuring = 4.0;  // wires, islands and the measure, in Newton steps on the surface
+  double search = 0.0;
+  if (std::isfinite(goal_.distortion)) {
+    for (const GroupProblem& group : groups()) search += group.work(budget);
+  }
+  double after = kStepsOfMeasuring;
+  if (planner_.wires->are_across()) after += (SlitChains::kClosest + 1) * (kStepsOfMap + kStepsOfMeasuring);
+  after *= static_cast<double>(planner_.mesh().face_count());
+  return after > 0.0 ? search / (search + after) : 1.0;
 }
 
 /// Cuts around limbs at their necks, as many as the goal asks for.
@@ -477,7 +514,7 @@ std::vector<SlitChains> Planning::chains() const {
   std::vector<SlitChains> found;
   for (std::size_t g = 0; g < plans_.size(); ++g) {
     const SlitChains own(plans_[g].result().slits);
-    for (const GroupProblem::Place& place : groups()[g].places) {
+    for (const Place& place : groups()[g].places) {
       SlitChains& moved = found.emplace_back(own);
       moved.size = groups()[g].size;
       for (SlitChains::Chain& chain : moved.chains) {
@@ -531,17 +568,20 @@ void Planning::tell() const {
 /// The plan with the map that belongs to its wires. Wires that leave a piece without a good map come nearer to the
 /// slits.
 SeamPlan Planning::finished(const Task& task) {
-  constexpr double kMapBegins = 0.3, kMapEnds = 0.8;
+  constexpr double kMapBegins = 0.3, kMeasureBegins = 0.95;
+  constexpr int kMostTries = SlitChains::kClosest + 1;
   std::vector<SlitChains> slits = chains();
   const PlanMesh& mesh = planner_.mesh();
-  for (bool is_again = false;; is_again = false) {
-    SeamPlan plan = plan_with(slits, part_of(task, 0.0, kMapBegins));
+  for (int attempt = 0;; ++attempt) {
+    const auto place = [&](double share) { return kMeasureBegins * (attempt + share) / kMostTries; };
+    SeamPlan plan = plan_with(slits, part_of(task, place(0.0), place(kMapBegins)));
+    bool is_again = false;
     plan.uvs.assign(planner_.surface->face_count(), {Point2::Zero(), Point2::Zero(), Point2::Zero()});
     energies_.clear();
     is_mapped_ = true;
     if (planner_.wires->are_across()) {
       const std::vector<std::uint8_t> is_cut = marked_edges(mesh, cuts_of(plan, planner_.options.seams));
-      const CutMaps maps = solve_cut(mesh, is_cut, part_of(task, kMapBegins, kMapEnds));
+      const CutMaps maps = solve_cut(mesh, is_cut, part_of(task, place(kMapBegins), place(1.0)));
       const std::vector<std::uint8_t> is_kept = are_kept(maps);
       for (std::size_t i = 0; i < places_.size(); ++i) {
         if (slits[i].closeness >= SlitChains::kClosest || is_kept[i] != 0) continue;
@@ -556,7 +596,7 @@ SeamPlan Planning::finished(const Task& task) {
         add_maps(plan, own.original.mesh, &own.places[place], plans_[group].result().maps);
       }
     }
-    measure(plan, part_of(task, kMapEnds, 1.0));
+    measure(plan, part_of(task, kMeasureBegins, 1.0));
     return plan;
   }
 }
@@ -595,7 +635,7 @@ std::vector<std::uint8_t> Planning::are_kept(const CutMaps& maps) const {
 }
 
 /// Adds UVs. `place`: where the faces and vertices of the maps' mesh are on the whole mesh; null: in the same place.
-void Planning::add_maps(SeamPlan& plan, const PlanMesh& mesh, const GroupProblem::Place* place, const CutMaps& maps) {
+void Planning::add_maps(SeamPlan& plan, const PlanMesh& mesh, const Place* place, const CutMaps& maps) {
   const PlanMesh& whole = planner_.mesh();
   const auto whole_face = [&](std::int32_t f) { return place != nullptr ? place->faces[f] : f; };
   for (std::size_t i = 0; i < maps.maps.size(); ++i) {
@@ -607,11 +647,12 @@ void Planning::add_maps(SeamPlan& plan, const PlanMesh& mesh, const GroupProblem
       const std::int32_t face = whole_face(map->island.faces[k]), own_face = whole.faces[face];
       const Triangle& corners = planner_.surface->triangles()[own_face];
       for (std::size_t c = 0; c < 3; ++c) {
+        const std::int32_t own = map->island.triangles[k][c], v = map->island.vertices[own];
+        const std::int32_t vertex = whole.sources[place != nullptr ? place->vertices[v] : v];
         // The triangle may be turned over.
-        const std::int32_t vertex = whole.sources[whole.triangles[face][c]];
-        const auto corner = std::ranges::find(corners, vertex) - corners.begin();
-        const Point2& uv = map->map.uvs[map->island.triangles[k][c]];
-        plan.uvs[own_face][static_cast<std::size_t>(corner)] = uv / mesh.scale;
+        const auto corner = static_cast<std::size_t>(std::ranges::find(corners, vertex) - corners.begin());
+        Point2& uv = plan.uvs[own_face][corner] = map->map.uvs[own] / mesh.scale;
+        if (place != nullptr && place->is_mirrored) uv.x() = -uv.x();
       }
       if (is_counted) energies_.emplace_back(map->energies[k], areas_[face]);
     }

@@ -88,7 +88,8 @@ bool crosses_face(const SlitProblem& problem, const Slit& slit);
 /// The pieces in which a slit lies, ascending.
 std::vector<std::int32_t> pieces_of(const SlitProblem& problem, const Slit& slit);
 
-/// Whether an island has a map without flips: it is a disc, or a disc with holes, with an outline of three or more edges.
+/// Whether an island has a map without flips: it is a disc, or a disc with holes, with an outline of three or more
+/// edges.
 bool is_mappable(const Island& island);
 
 /// The island of a piece with a cut; nullopt if it is not a disc, or a disc with holes.

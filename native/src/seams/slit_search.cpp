@@ -21,6 +21,7 @@ namespace {
 
 constexpr double kBelow = 0.03;        // grow this far below the bound, so that there is something to give away
 constexpr double kLeastGain = 2e-3;    // of the energy: a slit that gains less is of no use
+constexpr double kFinestGain = 1e-4;   // the same while the bound is not reached and no other slit helps
 constexpr double kChoicePrice = 2.5;   // prices of a slit; added when slits are compared, so that tiny slits do not win
 constexpr double kLeastSaving = 1e-3;  // of the price: an exchange that saves less is of no use
 constexpr double kSame = 0.03;         // slits to places nearer to each other than this are one candidate
@@ -72,6 +73,11 @@ class Search {
     offer(plan);
     if (std::isfinite(goal_.energy)) {  // without a bound, the tree is all that is asked for
       grow(plan, goal_.energy - kBelow);
+      while (!is_within(plan) && !is_spent() && least_gain_ > kFinestGain) {
+        least_gain_ = std::max(0.25 * least_gain_, kFinestGain);
+        grow(plan, goal_.energy - kBelow);
+      }
+      least_gain_ = kLeastGain;
       shrink(plan);
       while (is_within(best_) && exchange(best_)) continue;
     }
@@ -134,6 +140,7 @@ class Search {
   SlitPlan best_;
   std::vector<Slit> tails_;  // what was cut off slits
   double steps_ = 0.0;
+  double least_gain_ = kLeastGain;
 };
 
 /// Slits that might be added.
@@ -199,7 +206,7 @@ bool Search::grow_once(SlitPlan& plan, double bound, bool is_thorough) {
     // the relaxed plan.
     const double gain = loose.energy - trials[i].energy;
     const bool is_repaired = plan.overlaps && !trials[i].overlaps;
-    if (!(gain >= kLeastGain) && !is_repaired) continue;
+    if (!(gain >= least_gain_) && !is_repaired) continue;
     double ratio = gain_ratio(plan, {plan.energy - gain, trials[i].price, trials[i].overlaps}, bound);
     if (trials[i].overlaps && !loose.overlaps) ratio *= kOverlapping;
     if (is_repaired) ratio = std::max(ratio, 0.0) + 1.0;
@@ -216,7 +223,7 @@ bool Search::grow_once(SlitPlan& plan, double bound, bool is_thorough) {
     std::size_t best = full.size();
     double most = 0.0;
     for (std::size_t k = 0; k < full.size(); ++k) {
-      if ((full[k].overlaps && !plan.overlaps) || !(plan.energy - full[k].energy >= kLeastGain)) continue;
+      if ((full[k].overlaps && !plan.overlaps) || !(plan.energy - full[k].energy >= least_gain_)) continue;
       const double ratio = plan.overlaps && !full[k].overlaps
                                ? kNever
                                : gain_ratio(plan, {full[k].energy, full[k].price, full[k].overlaps}, bound);

@@ -19,15 +19,15 @@ struct SlitGoal {
 
 /// Searches for the cheapest slits whose map stays within a bound on the symmetric Dirichlet energy.
 ///
-/// It starts from a solved tree of slits. While the energy is above the bound, it adds the slit that lowers it most for its
-/// price, out of several that lead to where the map is distorted. Then it shortens and removes slits while the bound
-/// holds, those first that save most for what they cost in energy. At last it takes away the slits that are the worst
-/// bargain and looks for others in their place. The work is bounded by a number of steps, not by a time, so that the
-/// result is the same on every machine.
+/// It starts from a solved tree of slits. While the energy is above the bound, it adds the slit that lowers it most for
+/// its price, out of several that lead to where the map is distorted. Then it shortens and removes slits while the
+/// bound holds, those first that save most for what they cost in energy. At last it takes away the slits that are the
+/// worst bargain and looks for others in their place. The work is bounded by a number of steps, not by a time, so that
+/// the result is the same on every machine.
 ///
-/// `roots`: as cut_of(). `found` is called with the start and with every better plan, on the calling thread. Returns the
-/// best plan: the cheapest within the bound, or the one with the least energy if none is. Its work includes that of the
-/// start. On several threads. Throws Cancelled.
+/// `roots`: as cut_of(). `found` is called with the start and with every better plan, on the calling thread. Returns
+/// the best plan: the cheapest within the bound, or the one with the least energy if none is. Its work includes that of
+/// the start. On several threads. Throws Cancelled.
 SlitPlan search_slits(const SlitProblem& problem, SlitPlan start, std::vector<std::int32_t> roots, const SlitGoal& goal,
                       const std::function<void(const SlitPlan&)>& found, const Task& task);
 

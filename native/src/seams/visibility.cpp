@@ -33,8 +33,9 @@ Vector by_cosine(int i, int count, const Vector& axis) {
 
 }  // namespace
 
-Visibility find_visibility(const PlanMesh& mesh, const std::optional<Vector>& front, const Task& task) {
-  constexpr double kAbove = 2e-3;  // start this far above the surface, to miss the faces around the vertex
+Visibility find_visibility(const PlanMesh& mesh, const std::optional<Vector>& front, const Task& task,
+                           std::span<const double> sizes) {
+  constexpr double kAbove = 2e-3;  // start this far above a part of area 1, to miss the faces around the vertex
   const RayTree rays(mesh.points, mesh.triangles);
   rays.wait(task);
   const std::vector<Vector> normals = vertex_normals(mesh, face_frames(mesh));
@@ -46,7 +47,7 @@ Visibility find_visibility(const PlanMesh& mesh, const std::optional<Vector>& fr
   const auto look = [&](std::size_t v) {
     const Vector& normal = normals[v];
     if (normal.isZero()) return;
-    const Vector origin = mesh.points[v] + kAbove * normal;
+    const Vector origin = mesh.points[v] + kAbove * (sizes.empty() ? 1.0 : sizes[v]) * normal;
     const auto is_free = [&](const Vector& direction) {
       return direction.dot(normal) > 0.0 && rays.first_hit(origin, direction).triangle < 0;
     };

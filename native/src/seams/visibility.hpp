@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "seams/plan_mesh.hpp"
@@ -16,7 +17,9 @@ struct Visibility {
   std::vector<double> ambient;  ///< the share of the sky above the vertex that the mesh does not cover, cosine-weighted
 };
 
-/// `front`: the direction towards the viewer; nullopt if no side is the front. On several threads. Throws Cancelled.
-Visibility find_visibility(const PlanMesh& mesh, const std::optional<Vector>& front, const Task& task);
+/// `front`: the direction towards the viewer; nullopt if no side is the front. `sizes`: of each vertex the size of its
+/// part, the root of the area; empty: 1. On several threads. Throws Cancelled.
+Visibility find_visibility(const PlanMesh& mesh, const std::optional<Vector>& front, const Task& task,
+                           std::span<const double> sizes = {});
 
 }  // namespace seamwire::detail

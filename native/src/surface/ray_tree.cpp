@@ -259,6 +259,7 @@ bool RayTree::ready() const { return parts_->state.load(std::memory_order_acquir
 
 void RayTree::wait(const Task& task) const {
   constexpr std::chrono::milliseconds kPeriod{5};
+  task.check(0.0);
   if (!task.progress && !task.stop.stop_possible()) {
     parts_->state.wait(Parts::State::kBuilding, std::memory_order_acquire);
     return;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <stdexcept>
@@ -85,6 +86,21 @@ TEST(Progress, IsReportedOnTheThreadThatCalls) {
           }});
     EXPECT_GT(calls, 0);
   }
+}
+
+TEST(Progress, WorkOnThreadsThatIsSharedAgainStaysOnItsThread) {
+  const std::thread::id caller = std::this_thread::get_id();
+  std::atomic<int> done = 0;
+  const auto fraction = [](std::size_t) { return 0.0; };
+  detail::run_on_threads(4, {}, fraction, [&](std::size_t, const Task& own) {
+    const std::thread::id outer = std::this_thread::get_id();
+    EXPECT_NE(outer, caller);
+    detail::run_on_threads(5, own, fraction, [&](std::size_t, const Task&) {
+      EXPECT_EQ(std::this_thread::get_id(), outer);
+      ++done;
+    });
+  });
+  EXPECT_EQ(done, 20);
 }
 
 TEST(Progress, NeverFalls) {

@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <set>
@@ -16,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "detail/index.hpp"
 #include "seams/seam_problems.hpp"
 #include "seamwire/seams/missing_cuts.hpp"
 #include "seamwire/surface/segments.hpp"
@@ -50,6 +53,55 @@ double length_of(const Surface& surface, const SeamPlan& plan) {
   double sum = 0.0;
   for (const auto& [a, b] : edges_of(plan)) sum += (surface.points()[a] - surface.points()[b]).norm();
   return sum;
+}
+
+/// Adds a mesh to another one.
+void add(shapes::Mesh& mesh, const shapes::Mesh& other, const Vector& by) {
+  const auto first = static_cast<std::int32_t>(mesh.points.size());
+  for (const Vector& point : other.points) mesh.points.push_back(point + by);
+  for (const auto& [a, b, c] : other.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
+}
+
+/// Boxes apart from each other, with the sides that `sides` gives for each number.
+template <class Sides>
+shapes::QuadMesh boxes(int count, const Sides& sides) {
+  const shapes::QuadMesh cube = shapes::quad_cube(1);
+  shapes::QuadMesh all;
+  for (int i = 0; i < count; ++i) {
+    const auto first = static_cast<std::int32_t>(all.points.size());
+    const Vector own = sides(i);
+    for (const Vector& point : cube.points) all.points.push_back(point.cwiseProduct(own) + Vector(3.0 * i, 0, 0));
+    for (auto quad : cube.quads) {
+      for (std::int32_t& v : quad) v += first;
+      all.quads.push_back(quad);
+    }
+  }
+  return all;
+}
+
+/// How many seams of a plan lie in each of several copies of a mesh.
+std::vector<std::size_t> seams_by_copy(const SeamPlan& plan, std::size_t vertices, std::size_t copies) {
+  std::vector<std::size_t> counts(copies, 0);
+  for (const Edge& edge : edges_of(plan)) ++counts[static_cast<std::size_t>(edge[0]) / vertices];
+  return counts;
+}
+
+/// Triangles agree on the UVs of an edge that they share, unless a wire or a seam runs along it.
+void expect_cut_along_wires(const Surface& surface, const SeamPlan& plan) {
+  const std::set<Edge> cuts = edges_of(plan);
+  std::map<Edge, std::array<Eigen::Vector2d, 2>> seen;
+  std::size_t torn = 0;
+  for (std::size_t f = 0; f < surface.face_count(); ++f) {
+    const Triangle& t = surface.triangles()[f];
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::array<Eigen::Vector2d, 2> ends = {plan.uvs[f][i], plan.uvs[f][(i + 1) % 3]};
+      if (t[i] > t[(i + 1) % 3]) std::swap(ends[0], ends[1]);
+      const Edge edge = sorted(t[i], t[(i + 1) % 3]);
+      const auto [first, is_new] = seen.emplace(edge, ends);
+      if (!is_new && !cuts.contains(edge) && first->second != ends) ++torn;
+    }
+  }
+  EXPECT_EQ(torn, 0U) << "edges that are cut in the map only";
 }
 
 /// What holds for every plan.
@@ -299,7 +351,23 @@ TEST(SeamPlanner, WiresAcrossTheSurfaceStayNearTheSlits) {
       EXPECT_LT(scale * least, 0.1);
     }
   }
-  EXPECT_EQ(across.energy, edges.energy);
+  EXPECT_NEAR(across.energy, edges.energy, 0.01 * edges.energy);
+  expect_map(*surface, across);
+}
+
+TEST(SeamPlanner, TheMapIsCutWhereTheWiresAre) {
+  const Surfaces surfaces = {shared(shapes::bumpy(shapes::dumbbell(16, 24), 0.01)),
+                             shared(shapes::bumpy(shapes::grid(24), 0.02))};
+  for (const auto& surface : surfaces) {
+    const SeamPlanner planner(surface);
+    for (const double distortion : {4.05, 4.3, kAnything}) {
+      const SeamPlan plan = planner.plan({.distortion = distortion, .steps = 200});
+      expect_sound(*surface, plan);
+      expect_map(*surface, plan);
+      expect_cut_along_wires(*surface, plan);
+      EXPECT_EQ(plan.is_reached, plan.energy <= distortion);
+    }
+  }
 }
 
 TEST(SeamPlanner, LargeSurfacesArePlannedOnASimplifiedMesh) {
@@ -319,41 +387,157 @@ TEST(SeamPlanner, LargeSurfacesArePlannedOnASimplifiedMesh) {
 
 TEST(SeamPlanner, SeveralPiecesArePlannedTogether) {
   shapes::Mesh mesh = shapes::icosphere(1);
-  const auto add = [&](const shapes::Mesh& other, const Vector& by) {
-    const auto first = static_cast<std::int32_t>(mesh.points.size());
-    for (const Vector& point : other.points) mesh.points.push_back(point + by);
-    for (const auto& [a, b, c] : other.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
-  };
-  add(shapes::cylinder(12, 4), {3, 0, 0});
-  add(shapes::grid(3), {0, 3, 0});
-  add(shapes::torus(12, 8), {0, 0, 3});
+  add(mesh, shapes::cylinder(12, 4), {3, 0, 0});
+  add(mesh, shapes::grid(3), {0, 3, 0});
+  add(mesh, shapes::torus(12, 8), {0, 0, 3});
   const auto surface = shared(mesh);
-  const SeamPlan plan = SeamPlanner(surface, along_edges()).plan({.distortion = 4.6, .steps = 300});
+  std::vector<SeamPlan> found;
+  const auto keep = [&](const SeamPlan& plan) { found.push_back(plan); };
+  const SeamPlan plan = SeamPlanner(surface, along_edges()).plan({.distortion = 4.6, .steps = 300}, keep);
   expect_discs(*surface, plan);
   expect_map(*surface, plan);
   EXPECT_EQ(plan.island_count, 4U);
   EXPECT_TRUE(plan.is_reached);
+  ASSERT_FALSE(found.empty());
+  for (const SeamPlan& one : found) expect_discs(*surface, one);
 }
 
-TEST(SeamPlanner, HundredsOfSmallPiecesTakeLittleTime) {
-  const shapes::QuadMesh cube = shapes::quad_cube(1);
-  shapes::QuadMesh all;
-  const int count = sized(300, 30);
-  for (int i = 0; i < count; ++i) {
-    const auto first = static_cast<std::int32_t>(all.points.size());
-    for (const Vector& point : cube.points) all.points.push_back(point + Vector(2.0 * i, 0, 0));
-    for (auto quad : cube.quads) {
-      for (std::int32_t& v : quad) v += first;
-      all.quads.push_back(quad);
+TEST(SeamPlanner, ManyUnequalPiecesReachTheBound) {
+  const int count = sized(200, 20);
+  const auto sides = [](int i) { return Vector(0.4 + 0.05 * (i % 7), 0.5 + 0.07 * (i % 11), 0.6 + 0.03 * (i % 13)); };
+  const auto surface = shared(boxes(count, sides));
+  const SeamPlan plan = SeamPlanner(surface, along_edges()).plan();
+  expect_discs(*surface, plan);
+  expect_map(*surface, plan);
+  EXPECT_TRUE(plan.is_reached);
+  EXPECT_EQ(plan.island_count, static_cast<std::size_t>(count));
+  for (const std::size_t seams : seams_by_copy(plan, 8, index(count))) EXPECT_GE(seams, 2U);
+}
+
+TEST(SeamPlanner, CongruentPiecesArePlannedOnce) {
+  const int count = sized(1000, 50);
+  const auto surface = shared(boxes(count, [](int) { return Vector(1, 1, 1); }));
+  for (const double distortion : {4.2, kAnything}) {
+    const SeamPlan plan = SeamPlanner(surface, along_edges()).plan({.distortion = distortion});
+    expect_discs(*surface, plan);
+    expect_map(*surface, plan);
+    EXPECT_TRUE(plan.is_reached);
+    EXPECT_EQ(plan.island_count, static_cast<std::size_t>(count));
+    EXPECT_LT(plan.steps, sized(20.0, 200.0)) << "a box alone takes some hundreds";
+    for (const std::size_t seams : seams_by_copy(plan, 8, index(count))) EXPECT_GE(seams, 2U);
+  }
+}
+
+TEST(SeamPlanner, SmallPiecesAreWithinTheBoundToo) {
+  const shapes::Mesh ball = shapes::bumpy(shapes::icosphere(1), 0.04);
+  shapes::Mesh mesh;
+  for (const double size : {1.0, 0.2, 0.04}) {
+    shapes::Mesh own = ball;
+    for (Vector& point : own.points) point *= size;
+    add(mesh, own, {10.0 * size, 0, 0});
+  }
+  const auto surface = shared(mesh);
+  const SeamPlan plan = SeamPlanner(surface, along_edges()).plan({.distortion = 4.3, .steps = 300});
+  expect_discs(*surface, plan);
+  EXPECT_TRUE(plan.is_reached);
+  const MapReport report = measure_map(*surface, plan.uvs, plan.islands);
+  for (std::size_t i = 0; i < 3; ++i) {
+    double sum = 0.0, area = 0.0;
+    for (std::size_t f = i * ball.triangles.size(); f < (i + 1) * ball.triangles.size(); ++f) {
+      const Triangle& t = surface->triangles()[f];
+      const Vector &a = surface->points()[t[0]], &b = surface->points()[t[1]], &c = surface->points()[t[2]];
+      const double own = (b - a).cross(c - a).norm();
+      sum += own * report.energies[f];
+      area += own;
+    }
+    EXPECT_LT(sum / area, 4.33) << "piece " << i;
+  }
+}
+
+TEST(SeamPlanner, FlatPiecesLeaveMoreDistortionToOthers) {
+  const shapes::Mesh ball = shapes::icosphere(2);
+  shapes::Mesh mesh = ball;
+  shapes::Mesh sheet = shapes::grid(4);
+  for (Vector& point : sheet.points) point *= 4.0;
+  add(mesh, sheet, {5, 0, 0});
+  const SeamGoal goal{.distortion = 4.2, .steps = 300};
+  const auto alone = shared(ball), both = shared(mesh);
+  const SeamPlan one = SeamPlanner(alone, along_edges()).plan(goal), plan = SeamPlanner(both, along_edges()).plan(goal);
+  EXPECT_TRUE(one.is_reached && plan.is_reached);
+  EXPECT_LT(length_of(*both, plan), length_of(*alone, one));
+}
+
+TEST(SeamPlanner, MirroredPiecesGetMirroredSeams) {
+  // Two balls that are each other's image, a dumbbell that is its own, and a ball without an image.
+  const shapes::Mesh ball = shapes::bumpy(shapes::icosphere(2), 0.05);
+  shapes::Mesh image = ball;
+  for (Vector& point : image.points) point.x() = -point.x();
+  for (Triangle& t : image.triangles) std::swap(t[1], t[2]);
+  shapes::Mesh mesh = shapes::dumbbell(12, 20);
+  const auto first = static_cast<std::int32_t>(mesh.points.size());
+  add(mesh, ball, {3, 2, 0});
+  add(mesh, image, {-3, 2, 0});
+  shapes::Mesh small = shapes::icosphere(1);
+  for (Vector& point : small.points) point *= 0.2;
+  const auto lonely = static_cast<std::int32_t>(mesh.points.size());
+  add(mesh, small, {2, -2, 0});
+  const auto surface = shared(mesh);
+  const SeamPlan plan = SeamPlanner(surface, along_edges(0)).plan({.distortion = 4.25, .steps = 300});
+  expect_discs(*surface, plan);
+  EXPECT_EQ(plan.island_count, 4U);
+  EXPECT_TRUE(plan.is_reached);
+  const PlanMesh whole = plan_mesh(*surface);
+  const std::optional<Reflection> reflection = find_reflection(whole, 0);
+  ASSERT_TRUE(reflection);
+  const std::set<Edge> edges = edges_of(plan);
+  std::size_t in_balls = 0;
+  for (const auto& [a, b] : edges) {
+    if (a >= lonely) continue;
+    in_balls += a >= first ? 1 : 0;
+    EXPECT_TRUE(edges.contains(sorted(reflection->images[a], reflection->images[b])));
+  }
+  EXPECT_GT(in_balls, 0U);
+}
+
+TEST(SeamPlanner, OverlapsThatTheMapHasAreNotReached) {
+  // Three sheets at one edge: in whatever way faces are joined there, the plan says what holds for its islands.
+  shapes::Mesh mesh = shapes::grid(4);
+  const auto on_edge = [](const Vector& point) { return point.x() == 0.0; };
+  const shapes::Mesh sheet = mesh;
+  for (const Vector& direction : {Vector(-1, 0, 0.2), Vector(-0.2, 0, 1)}) {
+    std::vector<std::int32_t> number;
+    for (std::size_t v = 0; v < sheet.points.size(); ++v) {
+      if (on_edge(sheet.points[v])) {
+        number.push_back(static_cast<std::int32_t>(v));
+        continue;
+      }
+      number.push_back(static_cast<std::int32_t>(mesh.points.size()));
+      mesh.points.push_back(sheet.points[v].x() * direction + Vector(0, sheet.points[v].y(), 0));
+    }
+    for (const Triangle& t : sheet.triangles) {
+      mesh.triangles.push_back({number[index(t[0])], number[index(t[2])], number[index(t[1])]});
     }
   }
-  const auto surface = shared(all);
-  const auto begun = std::chrono::steady_clock::now();
-  const SeamPlan plan = SeamPlanner(surface, along_edges()).plan({.distortion = kAnything});
-  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begun;
-  EXPECT_LT(spent.count(), 20.0);
-  expect_discs(*surface, plan);
-  EXPECT_EQ(plan.island_count, static_cast<std::size_t>(count));
+  const auto surface = shared(mesh);
+  const SeamPlan plan = SeamPlanner(surface, along_edges()).plan();
+  const MapReport report = measure_map(*surface, plan.uvs, plan.islands);
+  EXPECT_EQ(plan.is_reached, report.overlapping.empty());
+}
+
+TEST(SeamPlanner, ProgressGrowsWithTheWork) {
+  const auto surface = shared(shapes::bumpy(shapes::torus(80, 60), 0.01));
+  ASSERT_GT(surface->face_count(), 9000U);
+  std::size_t all = 0, at_the_end = 0;
+  const Task watched{.stop = {}, .progress = [&](double fraction) {
+                       ++all;
+                       at_the_end += fraction > 0.93 ? 1 : 0;
+                       return true;
+                     }};
+  const SeamPlanner planner(surface, {}, watched);
+  EXPECT_LT(at_the_end, all / 4) << "while measuring";
+  all = at_the_end = 0;
+  planner.plan({.distortion = 4.3, .steps = 100}, {}, watched);
+  EXPECT_LT(at_the_end, all / 4) << "while planning";
 }
 
 TEST(SeamPlanner, SizeAndPlaceDoNotMatter) {

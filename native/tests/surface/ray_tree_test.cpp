@@ -6,6 +6,7 @@
 #include <deque>
 #include <limits>
 #include <random>
+#include <stop_token>
 
 #include "shapes.hpp"
 
@@ -24,6 +25,13 @@ TEST(Rays, meet_a_sphere_at_its_near_side) {
   EXPECT_EQ(tree.first_hit({0, 0, 3}, {0, 0, 1}).triangle, -1) << "it lies behind";
   EXPECT_EQ(tree.first_hit({0.6, 0, 3}, {0, 0, -1}).triangle, -1) << "beside it";
   EXPECT_NEAR(tree.first_hit({0, 0, 0}, {0, 0, 1}).distance, 0.5, 1e-2) << "from inside, the far side of a face";
+}
+
+TEST(Rays, waiting_for_the_tree_can_be_cancelled) {
+  const shapes::Mesh mesh = shapes::icosphere(2);
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_THROW(RayTree(mesh.points, mesh.triangles).wait({.stop = stop.get_token(), .progress = {}}), Cancelled);
 }
 
 TEST(Rays, pass_between_no_two_triangles_of_a_flat_grid) {
