@@ -69,7 +69,7 @@ def test_shells_that_meet_in_a_vertex_need_a_cut_each_and_faces_on_one_edge_none
     edit()
     faces, missing = faces_to_cut(obj)
     assert (faces.tolist(), missing.tolist()) == ([], [])
-    assert missing_cuts(obj).tolist() == [0]
+    assert missing_cuts(obj).tolist() == [0, 0, 0], "each face is an island"
 
 
 def test_islands_are_stored_as_an_attribute_and_nothing_else_changes() -> None:

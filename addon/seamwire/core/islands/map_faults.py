@@ -166,12 +166,14 @@ def find_faults(
 
 def _outside(surface: MappedSurface, rows: NDArray[np.int64], homes: NDArray[np.float64]) -> NDArray[np.bool_]:
     """Return which islands lie neither in the UV square nor in their home, (count,)."""
-    low, high = np.full((surface.count, 2), np.inf), np.full((surface.count, 2), -np.inf)
-    uvs, labels = surface.uvs[rows].astype(np.float64), surface.labels[rows]
-    np.minimum.at(low, labels, uvs.min(axis=1))
-    np.maximum.at(high, labels, uvs.max(axis=1))
+    order = rows[np.argsort(surface.labels[rows], kind="stable")]
+    islands, starts = np.unique(surface.labels[order], return_index=True)
+    uvs = surface.uvs[order].astype(np.float64)
+    low, high = np.minimum.reduceat(uvs.min(axis=1), starts), np.maximum.reduceat(uvs.max(axis=1), starts)
+    found = np.zeros(surface.count, dtype=bool)
 
     def in_tile(corner: NDArray[np.float64] | float) -> NDArray[np.bool_]:
         return ((low >= corner - _ON_BORDER) & (high <= corner + 1.0 + _ON_BORDER)).all(axis=1)
 
-    return ~(in_tile(0.0) | in_tile(homes))
+    found[islands] = ~(in_tile(0.0) | in_tile(homes[islands]))
+    return found
