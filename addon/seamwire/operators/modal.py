@@ -136,6 +136,11 @@ class Chain:
         self.show()
         return done
 
+    def is_on_mirrored_half(self, event: bpy.types.Event) -> bool:
+        """Return whether the mouse is over faces that only a Mirror modifier shows."""
+        place = place_of(self._window.window, event)
+        return place is not None and any(view.is_on_mirrored_half(place.view, place.cursor) for view in edited.views())
+
     def peek(self, event: bpy.types.Event) -> bool:
         """Show the loop under the mouse while the key of an event is held, and return whether it shows loops."""
         given = Given(Sign.HOVER, event, place_of(self._window.window, event))
