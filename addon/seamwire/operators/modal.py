@@ -184,7 +184,7 @@ class Chain:
         )
         before, self._shown = self._shown, (picture, words)
         if before is None or picture != before[0]:
-            edited.show(state.keys.rows() if state.shows_keys else None)
+            edited.show(state.keys.help_rows() if state.shows_keys else None)
             edited.redraw()
         if self._shown != before:
             for make in status_makers:
