@@ -7,9 +7,10 @@ import bpy
 import numpy as np
 import pytest
 import ui as driver
-from desk import Desk, choose, leave, reset_settings
+from desk import Desk, choose, draw, leave, reset_settings
 from scene import add_grid, edit
 from seamwire.mesh.settings import preferences, settings
+from seamwire.operators import card as operator
 from seamwire.ui.properties import along_of
 from seamwire.view import card as drawing
 from seamwire.view.edited_objects import edited
@@ -105,7 +106,7 @@ def test_a_grid_of_quads_starts_along_edges(desk: Desk) -> None:
 def card(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> Iterator[Desk]:
     """A grid with the tool chosen for the first time."""
     monkeypatch.setattr(words, "guide", lambda: "file:///guide/index.md")
-    preferences().show_card = True
+    preferences().show_card, preferences().chains_drawn = True, 0
     bpy.context.preferences.is_dirty = False
     choose(desk.ui)
     desk.ui.wait(3, redraw=True)
@@ -168,3 +169,31 @@ def test_with_another_tool_there_is_no_card(card: Desk) -> None:
     assert dark_pixels(card) > 500
     choose(card.ui, "builtin.select_box")
     assert dark_pixels(card) < 50
+
+
+def test_after_a_few_chains_the_card_is_gone(card: Desk) -> None:
+    for number in range(3):
+        assert preferences().show_card
+        draw(card, 9 * number, 9 * number + 8)
+    assert not preferences().show_card
+    assert bpy.context.preferences.is_dirty, "Blender is to save that"
+    assert dark_pixels(card) < 50
+
+
+def test_in_a_quad_view_the_card_is_in_one_view(card: Desk) -> None:
+    ui = card.ui
+    with ui.override():
+        bpy.ops.screen.region_quadview()
+    try:
+        ui.wait(4, redraw=True)
+        views = [region for region in ui.area.regions if region.type == "WINDOW"]
+        assert len(views) == 4
+        with_card = []
+        for region in views:
+            with bpy.context.temp_override(window=ui.window, area=ui.area, region=region):
+                with_card.append(operator.shows_in(bpy.context))
+        assert with_card == [False, False, False, True], "in the user's view"
+    finally:
+        with ui.override():
+            bpy.ops.screen.region_quadview()
+        ui.wait(4)

@@ -10,6 +10,7 @@ import ui as driver
 from desk import Desk, choose, leave
 from scene import add_grid, chain, edit, seams
 from seamwire.mesh.settings import TOOL
+from seamwire.operators import draw
 from seamwire.operators.report import running
 from seamwire.view.edited_objects import edited
 from seamwire.words import corner
@@ -61,6 +62,31 @@ def test_a_click_beside_the_mesh_begins_nothing(desk: Desk) -> None:
     desk.choose()
     desk.ui.click((desk.ui.region.width - 140.0, 60.0))
     assert not desk.running
+
+
+def test_over_the_half_that_a_modifier_mirrors_a_click_says_where_to_click(
+    desk: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ui = desk.ui
+    center = bpy.data.objects.new("Center", None)
+    bpy.context.scene.collection.objects.link(center)
+    center.location.y = 1.2
+    modifier = desk.obj.modifiers.new("Mirror", "MIRROR")
+    modifier.use_axis = False, True, False
+    modifier.mirror_object = center
+    desk.choose()
+    ui.look_from_top(distance=9.0)
+    ui.wait(3, redraw=True)
+    said = []
+    monkeypatch.setattr(draw, "tell_mirrored", lambda operator: said.append(operator.first))
+    ui.click(ui.on_screen((0.03, -1.5, 0.0)))
+    assert said == []
+    ui.click(ui.on_screen((0.03, 2.3, 0.0)))
+    assert said == ["CLICK"]
+    assert not desk.running
+    ui.click(desk.at(36))
+    assert desk.running
+    assert said == ["CLICK"]
 
 
 @pytest.mark.smoke

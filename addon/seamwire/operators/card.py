@@ -12,6 +12,8 @@ from .report import running
 OPERATOR = "mesh.seamwire_card"
 _PARTS = ("CLOSE", "LINK")
 _NOWHERE = -1
+_ENOUGH = 3
+"""Chains after which nobody needs the first steps."""
 
 
 class MESH_OT_seamwire_card(bpy.types.Operator):
@@ -38,7 +40,7 @@ class MESH_OT_seamwire_card(bpy.types.Operator):
 
 
 class SEAMWIRE_GT_card(bpy.types.Gizmo):
-    """The card in one view."""
+    """The card in the largest view of a window."""
 
     bl_idname = "SEAMWIRE_GT_card"
     _part: str | None = None
@@ -48,7 +50,7 @@ class SEAMWIRE_GT_card(bpy.types.Gizmo):
         # Not before the tool is used: Blender's start is not to wait for NumPy.
         from ..view import card
 
-        placed = card.placed(context.area, context.region)
+        placed = card.placed(context.area, context.region) if shows_in(context) else None
         if placed is not None:
             card.draw(placed, self._part if self.is_highlight else None)
 
@@ -56,7 +58,7 @@ class SEAMWIRE_GT_card(bpy.types.Gizmo):
         """Take the mouse over the close button and the link only."""
         from ..view import card
 
-        placed = card.placed(context.area, context.region)
+        placed = card.placed(context.area, context.region) if shows_in(context) else None
         before, self._part = self._part, None if placed is None else placed.part_at(tuple(location))
         if self._part != before:
             context.area.tag_redraw()
@@ -89,9 +91,30 @@ class SEAMWIRE_GGT_card(bpy.types.GizmoGroup):
             gizmo.target_set_operator(OPERATOR, index=number).part = part
 
 
+def shows_in(context: bpy.types.Context) -> bool:
+    """Return whether the card is shown in the region: in the window's largest 3D view, and in a quad view in the user's."""
+    areas = [area for area in context.window.screen.areas if area.type == "VIEW_3D"]
+    area = max(areas, key=lambda area: area.width * area.height, default=None)
+    if area is None or area != context.area:
+        return False
+    # Of the four views of a quad view, Blender lists the user's last.
+    return [region for region in area.regions if region.type == "WINDOW"][-1] == context.region
+
+
+def chain_drawn(context: bpy.types.Context) -> None:
+    """Count a chain that was kept, and close the card after a few."""
+    chosen = preferences(context)
+    if not chosen.show_card:
+        return
+    chosen.chains_drawn += 1
+    if chosen.chains_drawn >= _ENOUGH:
+        close(context)
+
+
 def close(context: bpy.types.Context) -> None:
     """Close the card for good."""
-    preferences(context).show_card = False
+    chosen = preferences(context)
+    chosen.show_card, chosen.chains_drawn = False, 0
     context.preferences.is_dirty = True
     for window in context.window_manager.windows:
         for area in window.screen.areas:

@@ -11,7 +11,7 @@ import bpy
 from ..core.base.native import NativeError
 from ..mesh.settings import ALONG_ITEMS, notices, settings
 from ..words.keys import Action, Key
-from . import undo_steps
+from . import card, undo_steps
 from .edit_mesh_operator import NeedsEditMode
 from .navigation import takes
 from .report import running
@@ -98,7 +98,11 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
                 self._chain.drop()
                 return {"PASS_THROUGH"}
             if self._chain.state.is_idle and self.first != "NONE":
-                return self._finish(context)
+                mirrored = self._chain.is_on_mirrored_half(event)
+                result = self._finish(context)
+                if mirrored and result == {"CANCELLED"}:
+                    tell_mirrored(self)
+                return result
         except Exception as error:
             return self._failed(error)
         self._chain.show()
@@ -144,6 +148,8 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
             self.report({"WARNING"}, f"{error}: the wires of this chain were not kept")
             return {"CANCELLED"}
         self._chain.state.notices.tell(self.report)
+        if has_kept:
+            card.chain_drawn(context)
         return {"FINISHED"} if has_kept else {"CANCELLED"}
 
     def _failed(self, error: Exception) -> set[str]:
@@ -175,6 +181,11 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
         except Exception:
             traceback.print_exc()
             chain.close()
+
+
+def tell_mirrored(operator: bpy.types.Operator) -> None:
+    """Say why a click on a half that a modifier mirrors does nothing."""
+    operator.report({"INFO"}, "This half comes from the Mirror modifier: click the other half")
 
 
 def register() -> None:

@@ -136,6 +136,11 @@ class Chain:
         self.show()
         return done
 
+    def is_on_mirrored_half(self, event: bpy.types.Event) -> bool:
+        """Return whether the mouse is over faces that only a Mirror modifier shows."""
+        place = place_of(self._window.window, event)
+        return place is not None and any(view.is_on_mirrored_half(place.view, place.cursor) for view in edited.views())
+
     def peek(self, event: bpy.types.Event) -> bool:
         """Show the loop under the mouse while the key of an event is held, and return whether it shows loops."""
         given = Given(Sign.HOVER, event, place_of(self._window.window, event))
@@ -179,7 +184,7 @@ class Chain:
         )
         before, self._shown = self._shown, (picture, words)
         if before is None or picture != before[0]:
-            edited.show(state.keys.rows() if state.shows_keys else None)
+            edited.show(state.keys.help_rows() if state.shows_keys else None)
             edited.redraw()
         if self._shown != before:
             for make in status_makers:

@@ -53,7 +53,7 @@ _HINTS = {
     GUIDE_STROKE: ADJUST_STROKE,
     AVOID_STROKE: ADJUST_STROKE,
 }
-"""What the panel says of a step; of all others, how to change a wire."""
+"""The text of the panel after a step. After all other steps it says how to change a wire."""
 
 
 def _name(title: str) -> str:

@@ -60,8 +60,11 @@ class _Properties:
     )
     show_card: bpy.props.BoolProperty(
         name="First Steps",
-        description="Show a card with the first steps in the 3D view until it is closed",
+        description="Show a card with the first steps in the 3D view until it is closed, or until a few chains are drawn",
         default=True,
+    )
+    chains_drawn: bpy.props.IntProperty(
+        name="Chains Drawn", description="Chains drawn while the card was shown", options={"HIDDEN"}
     )
 
 

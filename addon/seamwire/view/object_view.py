@@ -3,12 +3,14 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import replace
 from typing import TYPE_CHECKING
 from weakref import WeakMethod
 
 import bpy
 import numpy as np
+from mathutils import Matrix
 
 from ..core.base import native
 from ..core.islands import islands
@@ -28,7 +30,7 @@ from .stretch_heat import StretchHeat
 from .theme import HUES
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Sequence
+    from collections.abc import Callable, Collection, Iterator, Sequence
 
     from numpy.typing import NDArray
 
@@ -318,6 +320,11 @@ class ObjectView:
         found = self._picker.surface_at(view, self.obj.matrix_world, cursor)
         return None if found is None else (self.pose.at_rest(*found), found[1])
 
+    def is_on_mirrored_half(self, view: View, cursor: tuple[float, float]) -> bool:
+        """Return whether the cursor is over faces that only a Mirror modifier shows."""
+        flipped = (self.obj.matrix_world @ flip for flip in _flips(self.obj))
+        return any(self._picker.surface_at(view, matrix, cursor) is not None for matrix in flipped)
+
     @property
     def stroke_radius(self) -> float | None:
         """How far strokes reach; None: as many rings as the library takes."""
@@ -333,3 +340,19 @@ class ObjectView:
         """Let the overlay follow."""
         self._follow_views()
         self._front, self._keys = front, None if help_rows is None else tuple(help_rows)
+
+
+def _flips(obj: bpy.types.Object) -> Iterator[Matrix]:
+    """Yield what takes the mesh to each mirrored part that its Mirror modifiers show in Edit Mode, in object coordinates."""
+    for modifier in obj.modifiers:
+        if modifier.type != "MIRROR" or not (modifier.show_viewport and modifier.show_in_editmode):
+            continue
+        axes = [axis for axis in range(3) if modifier.use_axis[axis]]
+        center = modifier.mirror_object
+        frame = Matrix() if center is None else obj.matrix_world.inverted_safe() @ center.matrix_world
+        for signs in itertools.product((1.0, -1.0), repeat=len(axes)):
+            if min(signs, default=1.0) < 0.0:
+                flip = Matrix.Identity(4)
+                for axis, sign in zip(axes, signs, strict=True):
+                    flip[axis][axis] = sign
+                yield frame @ flip @ frame.inverted_safe()

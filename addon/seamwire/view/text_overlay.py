@@ -70,7 +70,7 @@ class Table:
 def laid_out(
     rows: Sequence[Row], room: tuple[float, float], size: float, measure: Callable[[str, float], float]
 ) -> Table:
-    """Place rows in as many columns as they need; where they do not fit, in smaller text.
+    """Place rows in two columns, so that the table is low, or in as many as they need; where they do not fit, in smaller text.
 
     Parameters
     ----------
@@ -94,11 +94,15 @@ def laid_out(
 def _columns(rows: Sequence[Row], height: float, size: float, measure: Callable[[str, float], float]) -> Table:
     margin, gap, pitch = 1.8 * size, 1.0 * size, 1.75 * size
     fit = max(1, int((height - 2.0 * margin) // pitch))
-    count = -(-len(rows) // fit)
-    long = -(-len(rows) // count) if count else 0
+    long = -(-len(rows) // max(2, -(-len(rows) // fit)))
+    columns: list[list[Row]] = []
+    for row in rows:
+        # A group stays together if the height allows it.
+        if not columns or len(columns[-1]) >= fit or (len(columns[-1]) >= long and not row[0]):
+            columns.append([])
+        columns[-1].append(row)
     placed, left, tallest = [], margin, 0.0
-    for start in range(0, len(rows), max(long, 1)):
-        column = rows[start : start + long]
+    for column in columns:
         keys = max((measure(key, size) for key, _ in column if key), default=0.0)
         whats = max(
             max((measure(what, size) for key, what in column if key), default=0.0),
@@ -113,7 +117,7 @@ def _columns(rows: Sequence[Row], height: float, size: float, measure: Callable[
 
 
 def draw_table(rows: Sequence[Row], room: tuple[float, float, float, float], scale: float) -> None:
-    """Draw the table in the middle of the room there is.
+    """Draw the table at the bottom of the room there is, so that it leaves the middle to the model.
 
     Parameters
     ----------
@@ -133,7 +137,7 @@ def draw_table(rows: Sequence[Row], room: tuple[float, float, float, float], sca
     border = 12.0 * scale
     table = laid_out(rows, (width - 2.0 * border, height - 2.0 * border), gpu_draw.text_size(scale, 1.1), measure)
     x = left + max(0.0, (width - table.width) / 2)
-    top = bottom + (height + table.height) / 2
+    top = bottom + min(border + table.height, (height + table.height) / 2)
     gpu_draw.draw_rectangle((x, top - table.height), (x + table.width, top), BACKGROUND, 6.0 * scale)
     gpu_draw.set_text(table.size)
     for place in table.rows:

@@ -37,7 +37,7 @@ def _island(islands: Islands, number: int) -> str:
 
 
 def lines(picture: Picture) -> list[str]:
-    """Return what is to be read, top line first. Of islands nothing is said before something is cut."""
+    """Return what is to be read, top line first. Lines about islands appear once something is cut."""
     found = []
     options, offered, choice, islands = picture.options, picture.offered, picture.choice, picture.islands
     if offered.kind is not None:

@@ -138,6 +138,14 @@ class Key:
         return f"EVENT_{self.type}" if letter or function else ""
 
 
+GROUPS = {
+    "Draw": (Action.CLICK, Action.LOOP, Action.BEND, Action.NEW_CHAIN, Action.GUIDE, Action.AVOID),
+    "Change the Wire": (Action.NEXT, Action.STRONGER, Action.WEAKER, Action.EXTEND, Action.CLOSE, Action.REMOVE),
+    "Set": (Action.SWITCH, Action.CLEAR, Action.MIRROR, Action.SNAP, Action.XRAY),
+    "End and Undo": (Action.END, Action.CANCEL, Action.UNDO, Action.REDO, Action.KEYS),
+}
+"""All actions, in the groups in which the table over the view shows them."""
+
 _ANY = {"ctrl": -1, "shift": -1, "alt": -1, "oskey": -1}
 
 KEYS: tuple[tuple[Action, Key], ...] = (
@@ -277,6 +285,14 @@ class Bindings:
     def rows(self) -> list[tuple[str, str]]:
         """Return each action with its keys, in words, for a table."""
         return [(self.text(action), action.value) for action in Action if self.keys_of(action)]
+
+    def help_rows(self) -> list[tuple[str, str]]:
+        """Return the rows in groups, each below a heading: a row without keys."""
+        found: list[tuple[str, str]] = []
+        for heading, actions in GROUPS.items():
+            rows = [(self.text(action), action.value) for action in actions if self.keys_of(action)]
+            found += [("", heading), *rows] if rows else []
+        return found
 
 
 class DoubleClicks:

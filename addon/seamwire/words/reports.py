@@ -6,7 +6,7 @@ from __future__ import annotations
 from .names import count
 
 ADJUST_WIRE = ("Point at a wire to change it:", "swap its path, drag its seeds, or remove it")
-"""What the panel Adjust Last Operation says after wires were drawn."""
+"""The text of the panel Adjust Last Operation after wires were drawn."""
 ADJUST_STROKE = ("Point at a stroke to remove it",)
 NOTHING_TO_ADJUST = ("Undo brings it back",)
 

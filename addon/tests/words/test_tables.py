@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import get_args
 
 from seamwire.core.network.wires import LoopKind
-from seamwire.words.keys import NUMBERS, Action
+from seamwire.words.keys import GROUPS, NUMBERS, Action, Bindings, Key
 from seamwire.words.names import LOOP_NAMES
 
 
@@ -17,3 +17,16 @@ def test_each_action_has_a_number() -> None:
 
 def test_each_loop_has_a_name() -> None:
     assert set(LOOP_NAMES) == set(get_args(LoopKind))
+
+
+def test_each_action_is_in_one_group_of_the_table_of_keys() -> None:
+    grouped = [action for group in GROUPS.values() for action in group]
+    assert len(grouped) == len(set(grouped))
+    assert set(grouped) == set(Action)
+
+
+def test_the_table_of_keys_has_all_rows_below_headings() -> None:
+    rows = Bindings().help_rows()
+    assert [what for key, what in rows if not key] == list(GROUPS)
+    assert sorted(row for row in rows if row[0]) == sorted(Bindings().rows())
+    assert Bindings([(Action.CLEAR, Key("J"))]).help_rows() == [("", "Set"), ("J", Action.CLEAR.value)]

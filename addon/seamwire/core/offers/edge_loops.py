@@ -323,8 +323,7 @@ def _likeliest_first(
 def _doubles_back(live: LiveWire, wire: Wire, points: NDArray[np.float64], flat: FlatRegions | None) -> bool:
     """Return whether a loop is a hairpin.
 
-    A ring that the edges themselves form is none, however narrow it is: so are rings around a mouth. The border of a flat
-    region is as narrow as the region.
+    The exceptions are edge loops, which may be narrow, such as those around a mouth, and borders of flat regions.
     """
     if flat is None or not wire.closed or wire.kind == "FLAT" or wire.through is None:
         return False

@@ -48,7 +48,7 @@ def is_hairpin(chain: Sequence[int], points: NDArray[np.float64], half_edges: Ha
 
 
 def _doubles_back(turns: NDArray[np.float64], lengths: NDArray[np.float64], way: float) -> bool:
-    """Return whether a closed chain turns far enough to one side from one vertex to another that is no farther along it."""
+    """Return whether a closed chain turns back on a part of it that is at most `way` long."""
     begins = np.concatenate([[0.0], np.cumsum(lengths)])
     if np.abs(turns).sum() < _BEND:
         return False

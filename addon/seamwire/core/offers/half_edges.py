@@ -96,7 +96,7 @@ class HalfEdges:
         return np.arctan2(np.linalg.norm(np.cross(one, two), axis=1), np.einsum("ij,ij->i", one, two))
 
     def _half_edges(self, tails: NDArray[np.int64], tips: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Return the half-edges from vertices to others, (k,), or -1 where there is none."""
+        """Return the half-edges from vertices to others, (k,), or -1 if there is no such half-edge."""
         keys, order = self._by_edge
         wanted = self._keys(np.stack([tails, tips], axis=1))
         begin = np.searchsorted(keys, wanted)
