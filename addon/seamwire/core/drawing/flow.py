@@ -394,7 +394,6 @@ class Flow:
         gestures = self.gestures
         rounds, before = 0, None
         while rounds < MOST_WAITS:
-            gestures.loop.edges.wait()
             for live in gestures.lives():
                 try:
                     live.wait()

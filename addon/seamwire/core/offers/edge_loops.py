@@ -76,11 +76,6 @@ class LoopOffers(Offers):
         self._directions = Directions()
         self._taken: tuple[Pick | None, Wire | None] = (None, None)
 
-    def wait(self) -> None:
-        """Wait for what is computed outside the library."""
-        if self._flat is not None:
-            self._flat.wait()
-
     def point_at(self, snap: Snap | None) -> None:
         """Learn which edge crosses the picked one at the cursor, and which face is under it."""
         before, self._snap = self._snap, snap
