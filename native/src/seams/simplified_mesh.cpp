@@ -36,6 +36,12 @@ struct Quadric {
   double at(const Vector& point) const { return point.dot(a * point) + 2.0 * b.dot(point) + c; }
 };
 
+/// The square of the length of a triangle's longest edge.
+double longest_square(const std::array<Vector, 3>& corners) {
+  const auto& [a, b, c] = corners;
+  return std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+}
+
 /// A mesh whose edges are being collapsed.
 class Collapsing {
  public:
@@ -45,12 +51,13 @@ class Collapsing {
         triangles_(mesh.triangles),
         is_gone_(mesh.face_count(), 0),
         faces_(mesh.vertex_count()),
+        valences_(mesh.vertex_count()),
         quadrics_(mesh.vertex_count()),
         version_(mesh.vertex_count(), 0),
         features_(mesh.vertex_count()),
         left_(mesh.face_count()) {
     for (std::int32_t f = 0; index(f) < mesh.face_count(); ++f) {
-      for (const std::int32_t v : triangles_[f]) faces_[v].push_back(f);
+      for (const std::int32_t v : triangles_[f]) add_face(v, f);
     }
     add_quadrics(is_seam);
   }
@@ -80,9 +87,27 @@ class Collapsing {
   };
 
   void add_quadrics(std::span<const std::uint8_t> is_seam);
+  void add_face(std::int32_t v, std::int32_t face) {
+    faces_[v].push_back(face);
+    ++valences_[v];
+  }
+  /// Takes a removed triangle from a vertex. Its list is put in order when half of it is gone, so a step of a collapse
+  /// does not depend on the number of triangles around the vertex.
+  void drop_face(std::int32_t v) {
+    --valences_[v];
+    if (2 * valences_[v] < faces_[v].size()) std::erase_if(faces_[v], [&](std::int32_t f) { return is_gone_[f] != 0; });
+  }
+  bool has_corner(std::int32_t face, std::int32_t v) const {
+    return is_gone_[face] == 0 && std::ranges::find(triangles_[face], v) != triangles_[face].end();
+  }
+  bool are_neighbors(std::int32_t a, std::int32_t b) const {
+    if (valences_[b] < valences_[a]) std::swap(a, b);
+    return std::ranges::any_of(faces_[a], [&](std::int32_t f) { return has_corner(f, b); });
+  }
   std::vector<std::int32_t> neighbors(std::int32_t v) const {
     std::vector<std::int32_t> found;
     for (const std::int32_t f : faces_[v]) {
+      if (is_gone_[f] != 0) continue;
       for (const std::int32_t other : triangles_[f]) {
         if (other != v) found.push_back(other);
       }
@@ -128,7 +153,8 @@ class Collapsing {
   const Reflection* reflection_;
   std::vector<Triangle> triangles_;
   std::vector<std::uint8_t> is_gone_;
-  std::vector<std::vector<std::int32_t>> faces_;
+  std::vector<std::vector<std::int32_t>> faces_;  // of each vertex, with some that are gone
+  std::vector<std::size_t> valences_;              // of each vertex: how many faces it has
   std::vector<Quadric> quadrics_;
   std::vector<std::int64_t> version_;
   std::vector<std::vector<std::int32_t>> features_;  // neighbors over boundary edges and seams
@@ -161,32 +187,33 @@ void Collapsing::add_quadrics(std::span<const std::uint8_t> is_seam) {
 
 /// Whether the topology allows it, and features and the mirror plane stay.
 bool Collapsing::may_collapse(std::int32_t from, std::int32_t to) const {
+  constexpr std::size_t kMostMoved = 64, kFewFaces = 6;  // vertices with more faces have more than three neighbors
   if (is_on_plane(from) && !is_on_plane(to)) return false;
   if (!features_[from].empty() && (features_[from].size() != 2 || !is_feature(from, to))) return false;
-  const std::vector<std::int32_t> one = neighbors(from), other = neighbors(to);
-  if (!std::ranges::binary_search(one, to)) return false;
-  std::vector<std::int32_t> common;
-  std::ranges::set_intersection(one, other, std::back_inserter(common));
-  const auto shared = std::ranges::count_if(
-      faces_[from], [&](std::int32_t f) { return std::ranges::find(triangles_[f], to) != triangles_[f].end(); });
+  // Vertices with many triangles stay, and get no more of them: each collapse there takes long.
+  if (valences_[from] > kMostMoved || valences_[to] > kMostMoved) return false;
+  const auto shared = std::ranges::count_if(faces_[from], [&](std::int32_t f) { return has_corner(f, to); });
+  if (shared == 0) return false;
+  std::vector<std::int32_t> common = neighbors(from);
+  std::erase_if(common, [&](std::int32_t v) { return v == to || !are_neighbors(v, to); });
   // Link condition: the ends have only the corners of the edge's triangles in common.
   if (common.size() != static_cast<std::size_t>(shared)) return false;
   // A feature may not be folded onto another one.
   if (std::ranges::any_of(common, [&](std::int32_t v) { return is_feature(from, v) && is_feature(to, v); }))
     return false;
   if (features_[from].empty() &&
-      std::ranges::any_of(common, [&](std::int32_t v) { return neighbors(v).size() <= 3; })) {
+      std::ranges::any_of(common, [&](std::int32_t v) { return valences_[v] <= kFewFaces && neighbors(v).size() <= 3; })) {
     return false;
   }
   return !folds(from, to);
 }
 
-/// Whether a triangle would turn over, or become needle-thin.
+/// Whether a triangle would turn over, or become needle-thin and thinner than it is.
 bool Collapsing::folds(std::int32_t from, std::int32_t to) const {
   constexpr double kLeastCosine = 0.2, kLeastShape = 0.02;
   for (const std::int32_t f : faces_[from]) {
     const Triangle& t = triangles_[f];
-    if (std::ranges::find(t, to) != t.end()) continue;
+    if (is_gone_[f] != 0 || has_corner(f, to)) continue;
     std::array<Vector, 3> before, after;
     for (std::size_t i = 0; i < 3; ++i) {
       before[i] = mesh_.points[t[i]];
@@ -194,28 +221,30 @@ bool Collapsing::folds(std::int32_t from, std::int32_t to) const {
     }
     const Vector was = (before[1] - before[0]).cross(before[2] - before[0]);
     const Vector is = (after[1] - after[0]).cross(after[2] - after[0]);
-    const double longest = std::max({(after[1] - after[0]).squaredNorm(), (after[2] - after[0]).squaredNorm(),
-                                     (after[2] - after[1]).squaredNorm()});
-    if (is.norm() <= kLeastShape * longest || was.dot(is) < kLeastCosine * was.norm() * is.norm()) return true;
+    const bool is_thin = is.norm() <= kLeastShape * longest_square(after);
+    const bool is_thinner = is.norm() * longest_square(before) <= was.norm() * longest_square(after);
+    if ((is_thin && is_thinner) || was.dot(is) < kLeastCosine * was.norm() * is.norm()) return true;
   }
   return false;
 }
 
 void Collapsing::collapse(std::int32_t from, std::int32_t to) {
   for (const std::int32_t f : faces_[from]) {
+    if (is_gone_[f] != 0) continue;
     Triangle& t = triangles_[f];
-    if (std::ranges::find(t, to) != t.end()) {
+    if (has_corner(f, to)) {
       is_gone_[f] = 1;
       --left_;
       for (const std::int32_t v : t) {
-        if (v != from) std::erase(faces_[v], f);
+        if (v != from) drop_face(v);
       }
       continue;
     }
     std::ranges::replace(t, from, to);
-    faces_[to].push_back(f);
+    add_face(to, f);
   }
   faces_[from].clear();
+  valences_[from] = 0;
   for (const std::int32_t other : features_[from]) {
     std::erase(features_[other], from);
     if (other == to) continue;
@@ -230,17 +259,17 @@ void Collapsing::collapse(std::int32_t from, std::int32_t to) {
 
 /// Collapses an edge and its mirror image, or neither.
 void Collapsing::collapse_with_image(std::int32_t from, std::int32_t to) {
-  if (faces_[from].empty() || faces_[to].empty() || !may_collapse(from, to)) return;
+  if (valences_[from] == 0 || valences_[to] == 0 || !may_collapse(from, to)) return;
   const std::int32_t from_image = image(from), to_image = image(to);
   if (reflection_ == nullptr || from_image == from) {
     collapse(from, to);
     push_all(to);
     return;
   }
-  if (from_image < 0 || to_image < 0 || faces_[from_image].empty() || faces_[to_image].empty()) return;
+  if (from_image < 0 || to_image < 0 || valences_[from_image] == 0 || valences_[to_image] == 0) return;
   // The neighborhoods have to be apart: else one collapse changes what the other was checked for.
-  const std::vector<std::int32_t> one = neighbors(from), other = neighbors(from_image);
-  if (std::ranges::binary_search(one, from_image) || (to == to_image && (one.size() < 5 || other.size() < 5))) return;
+  const auto has_few = [&](std::int32_t v) { return neighbors(v).size() < 5; };
+  if (are_neighbors(from, from_image) || (to == to_image && (has_few(from) || has_few(from_image)))) return;
   if (!may_collapse(from_image, to_image)) return;
   collapse(from, to);
   if (may_collapse(from_image, to_image)) collapse(from_image, to_image);
@@ -252,7 +281,7 @@ SimplifiedMesh Collapsing::result() const {
   SimplifiedMesh out;
   std::vector<std::int32_t> number(mesh_.vertex_count(), -1);
   for (std::int32_t v = 0; index(v) < mesh_.vertex_count(); ++v) {
-    if (faces_[v].empty()) continue;
+    if (valences_[v] == 0) continue;
     number[v] = static_cast<std::int32_t>(out.vertices.size());
     out.vertices.push_back(v);
     out.mesh.points.push_back(mesh_.points[v]);
