@@ -17,8 +17,10 @@ from scene import add_grid, add_layers, chain, edit, seams, snapshot
 from seamwire.core.solver.live_maker import LiveMaker
 from seamwire.mesh import edit_mesh
 from seamwire.mesh.object_session import ObjectSession
+from seamwire.mesh.settings import settings
 from seamwire.view import edited_objects
 from seamwire.view.edited_objects import edited
+from seamwire.view.failures import failures
 from stored import agree, chains, forget, session_on, wired, write
 
 ROW = tuple(range(36, 45))
@@ -132,6 +134,36 @@ def test_objects_that_are_not_edited_stay_prepared_as_far_as_there_is_room(monke
     del view
     gc.collect()
     assert [one() is None for one in prepared] == [True, False, False]
+
+
+@pytest.mark.usefixtures("unprepared")
+def test_a_prepared_object_follows_settings_that_changed_outside_edit_mode(grid: bpy.types.Object) -> None:
+    view = edited.of(grid)
+    assert view.options.along == "EDGES"
+    bpy.ops.object.mode_set(mode="OBJECT")
+    settings().along = "SURFACE"
+    try:
+        bpy.ops.object.mode_set(mode="EDIT")
+        assert edited.of(grid) is view, "the mesh is the same"
+        assert view.options.along == "SURFACE"
+    finally:
+        settings().property_unset("along")
+
+
+@pytest.mark.usefixtures("unprepared")
+def test_an_object_that_is_scaled_while_it_is_not_edited_lets_no_failed_part_be_tried_again(
+    grid: bpy.types.Object,
+) -> None:
+    edited.of(grid)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    grid.scale.x = 2.0
+    add_grid(3, name="Other")
+    edit()
+    bpy.context.view_layer.update()
+    failures.skip("hover")
+    bpy.context.active_object.location.x = 1.0
+    bpy.context.view_layer.update()
+    assert failures.has("hover")
 
 
 def test_records_of_wires_that_undo_brings_back_end_with_the_file(grid: bpy.types.Object, tmp_path: Path) -> None:

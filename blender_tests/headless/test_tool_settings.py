@@ -27,6 +27,12 @@ class Layout:
         assert hasattr(owner, name)
         self.shown.append(name)
 
+    def prop_enum(self, owner: object, name: str, value: str, **_options: object) -> None:
+        """Note a property once, though each of its values has a button."""
+        assert value in owner.bl_rna.properties[name].enum_items
+        if name not in self.shown:
+            self.shown.append(name)
+
     def popover(self, panel: str, **_options: object) -> None:
         """Note a popover that there is."""
         assert hasattr(bpy.types, panel)

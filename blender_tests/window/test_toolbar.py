@@ -4,11 +4,12 @@
 from collections.abc import Iterator
 
 import bpy
+import numpy as np
 import pytest
 import traces
 import ui as driver
 from scene import add_grid, edit
-from seamwire.mesh.settings import TOOL
+from seamwire.mesh.settings import TOOL, settings
 from toolbar import slots
 
 
@@ -68,3 +69,30 @@ def test_disabled_while_it_is_chosen_it_leaves_a_view_that_works(view: driver.Ui
     finally:
         traces.enable()
     assert choose(view, TOOL) == TOOL
+
+
+@pytest.mark.parametrize(("along", "is_full"), [("AUTO", False), ("SURFACE", True)])
+def test_blenders_controls_have_room_beside_ours(view: driver.Ui, along: str, is_full: bool) -> None:
+    choose(view, TOOL)
+    settings().along = along
+    if is_full:
+        with view.override():
+            bpy.ops.screen.screen_full_area()
+    try:
+        view.wait(4, redraw=True)
+        area = next(area for area in view.window.screen.areas if area.type == "VIEW_3D")
+        header = next(region for region in area.regions if region.type == "TOOL_HEADER")
+        area.tag_redraw()
+        view.wait(4)
+        assert header.width <= 960
+        x, y = view.window.x + header.x, view.window.y + header.y
+        shown = driver.display()[y + 4 : y + header.height - 4, x : x + header.width]
+        # A control that is cut off lies over the ground at the header's end.
+        assert np.ptp(shown[:, -5:-2], axis=(0, 1)).max() < 0.02
+        assert np.ptp(shown, axis=(0, 1)).max() > 0.5, "the header has controls"
+    finally:
+        settings().property_unset("along")
+        if is_full:
+            with bpy.context.temp_override(window=view.window, screen=view.window.screen, area=area):
+                bpy.ops.screen.back_to_previous()
+            view.wait(4, redraw=True)

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 VIEWS = ("show_crests", "show_silhouette", "show_ellipses", "show_paths", "show_bands", "show_invalid")
 """The toggles of views that are lines on the mesh."""
+_SHORT_ALONG = (("AUTO", "Auto"), ("EDGES", "Edges"), ("SURFACE", "Surface"))
+"""How the header names the choices of *Along*, so that Blender's controls have room beside ours."""
 
 
 def draw_views(chosen: SeamwireSettings, layout: bpy.types.UILayout) -> None:
@@ -32,12 +34,18 @@ def draw_views(chosen: SeamwireSettings, layout: bpy.types.UILayout) -> None:
 def draw_header(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
     """Show at most six controls in a row. Blender shows the mirror of the mesh beside them."""
     chosen, along = settings(context), along_of(context)
-    layout.row(align=True).prop(chosen, "along", expand=True)
+    row = layout.row(align=True)
+    for name, label in _SHORT_ALONG:
+        row.prop_enum(chosen, "along", name, text=label)
     if along == "SURFACE":
-        layout.prop(chosen, "finish")
-    layout.prop(chosen, strength_name(along))
+        finish = layout.row()
+        finish.ui_units_x = 5
+        finish.prop(chosen, "finish")
+    strength = layout.row()
+    strength.ui_units_x = 5.5
+    strength.prop(chosen, strength_name(along))
     if along == "SURFACE":
-        layout.prop(chosen, "straight", toggle=True)
+        layout.prop(chosen, "straight", text="Straight", toggle=True)
     layout.prop(chosen, "clear", toggle=True)
     layout.popover(VIEW3D_PT_seamwire_overlays.bl_idname, text="Views", icon="OVERLAY")
 

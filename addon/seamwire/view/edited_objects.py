@@ -247,7 +247,8 @@ class EditedObjects:
             if view.name in moved:
                 view.has_moved()
         meshes = _changed_meshes(depsgraph)
-        changed = [view for view in self._views.values() if view.shows_any(meshes) or view.is_stretched_anew]
+        # A view whose edit mesh is gone is read anew in any case.
+        changed = [view for view in self.views() if view.obj.data in meshes or view.is_stretched_anew]
         if not meshes and not changed:
             return
         failures.retry()

@@ -30,7 +30,7 @@ from .stretch_heat import StretchHeat
 from .theme import HUES
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Iterator, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
     from numpy.typing import NDArray
 
@@ -166,6 +166,7 @@ class ObjectView:
         """Take over what the mesh holds now; return False where it is another one, see `ObjectSession.refresh`."""
         if not self.mesh.refresh(obj):
             return False
+        self.mesh.follow(chosen.settings())  # it does not follow them outside Edit Mode
         self.was_read()
         self.renew()
         return True
@@ -248,20 +249,10 @@ class ObjectView:
         self.session.poll()
         return any((self.session.revision != seen, self.islands.poll(), told))
 
-    def shows_any(self, meshes: Collection[bpy.types.Mesh]) -> bool:
-        """Whether its mesh is among some meshes."""
-        try:
-            return self.mesh.cage.mesh in meshes
-        except ReferenceError:
-            return False
-
     @property
     def is_stretched_anew(self) -> bool:
         """Whether the object scales its mesh otherwise than when it was read."""
-        try:
-            stretch = visible_stretch(self.obj.matrix_world)
-        except ReferenceError:
-            return False
+        stretch = visible_stretch(self.obj.matrix_world)
         return not np.allclose(stretch @ self.mesh.arrays.to_object, np.eye(3), atol=1e-5)
 
     @property
