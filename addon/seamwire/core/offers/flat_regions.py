@@ -94,6 +94,8 @@ class FlatRegions:
         chains: list[tuple[int, ...]] = []
         while left:
             border = self._walk(left.pop(), is_inner)
+            if not border:
+                return ()
             left.difference_update(border)
             chains.append(tuple(self.half_edges.tails[border].tolist()))
         outer = max(chains, key=self._length, default=())
