@@ -62,6 +62,11 @@ class FlatRegions:
                 self._thread.join()
         return not self._thread.is_alive()
 
+    def wait(self) -> None:
+        """Wait until `borders` need not wait, if `ready` was called."""
+        if self._thread is not None:
+            self._thread.join()
+
     def borders(self, edge: Edge) -> Iterator[tuple[int, ...]]:
         """Yield the closed chains through an edge that are borders of flat regions beside it.
 
