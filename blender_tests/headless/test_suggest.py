@@ -3,6 +3,7 @@
 
 import math
 import re
+from collections.abc import Callable
 from dataclasses import replace
 
 import bmesh
@@ -13,9 +14,13 @@ from maps import energy, flipped, in_square, overlapping_pairs, triangles
 from mathutils import Matrix
 from scene import add_grid, add_object, add_suzanne, edit, seams, snapshot
 from seamwire.core.base import native
+from seamwire.core.islands.islands import IslandMaker
+from seamwire.core.seams.gaps import Gap, GapFinder
 from seamwire.core.seams.suggestion import Request, energy_of, stretch_of
 from seamwire.mesh import edit_mesh, seam_islands, suggestion, suggestions, uv_map
+from seamwire.mesh.object_session import ObjectSession
 from seamwire.mesh.seam_islands import island_count as islands
+from seamwire.view.shown_islands import ShownIslands
 from stored import agree, chains, session_on
 
 
@@ -41,6 +46,18 @@ def clear(obj: bpy.types.Object) -> None:
 
 def suggest(**options: object) -> set[str]:
     return bpy.ops.mesh.seamwire_suggest(**options)
+
+
+def gaps_in(mesh: ObjectSession) -> tuple[Gap, ...]:
+    """Return the gaps that the corner of the view counts."""
+    arrays, make = mesh.arrays, mesh.make_live
+    finder = GapFinder(arrays.points, arrays.triangles, arrays.edges, arrays.partly_hidden)
+    maker = IslandMaker(arrays.triangles, make.face_segments, gaps=finder)
+    shown = ShownIslands(maker, mesh.session, arrays.seams)
+    shown.poll()
+    while shown.busy:
+        shown.poll()
+    return shown.newest.gaps
 
 
 def is_good_map(obj: bpy.types.Object) -> bool:
@@ -604,3 +621,12 @@ def test_an_objects_scale_changes_nothing() -> None:
         vertices = np.array([bmesh.from_edit_mesh(obj.data).verts[v].co[:] for v in (wire.start, wire.end)])
         ends = np.asarray(wire.points)[[0, -1]] @ session_on(obj).arrays.to_object.T
         assert ends == pytest.approx(vertices, abs=1e-5)
+
+
+@pytest.mark.parametrize("options", [{"along": "EDGES"}, {"finish": "CUT"}, {"finish": "SLIDE"}], ids=str)
+@pytest.mark.parametrize("add", [lambda: add_cube(0), add_suzanne, add_figure], ids=["cube", "suzanne", "figure"])
+def test_suggested_seams_have_no_gaps(add: Callable[[], bpy.types.Object], options: dict[str, str]) -> None:
+    obj = add()
+    edit()
+    assert suggest(**{"along": "SURFACE", **options}) == {"FINISHED"}
+    assert gaps_in(session_on(obj)) == ()

@@ -15,12 +15,13 @@ from desk import ORANGE, Desk, choose, dismiss, draw, shows, undo_steps
 from scene import chain, edit, seams
 from seamwire.core.drawing.picture import Role, SeedRole
 from seamwire.core.drawing.session import Session
-from seamwire.mesh import edit_mesh
+from seamwire.mesh import edit_mesh, finish
 from seamwire.mesh.object_session import ObjectSession
 from seamwire.mesh.settings import TOOL
 from seamwire.operators import chain_record
 from seamwire.operators.report import running
 from seamwire.view.edited_objects import edited
+from seamwire.view.object_view import ObjectView
 from seamwire.words.notices import Notices
 
 ROW = chain(*range(36, 45))
@@ -653,6 +654,25 @@ def test_wires_are_kept_with_a_step_of_undo_if_unwrapping_fails(desk: Desk, monk
     assert desk.unchanged()
 
 
+def test_wires_are_kept_with_a_step_of_undo_if_drawing_and_cutting_them_fail(
+    desk: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise TypeError("as the test wants it")
+
+    desk.choose()
+    monkeypatch.setattr(ObjectView, "renew", fail)
+    monkeypatch.setattr(finish, "apply", fail)
+    draw(desk, 36, 44)
+    monkeypatch.undo()
+    dismiss(desk.ui)
+    driver.take_errors()
+    assert seams(desk.obj) == ROW
+    desk.ui.key("Z", ctrl=True)
+    desk.ui.wait(3)
+    assert desk.unchanged()
+
+
 def test_a_chain_whose_wires_are_written_in_part_leaves_the_mesh_as_it_was(
     desk: Desk, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -715,6 +735,29 @@ def test_one_chain_at_a_time_and_only_in_edit_mode(desk: Desk) -> None:
     desk.ui.key("ESC")
     with desk.ui.override():
         assert bpy.ops.mesh.seamwire_draw.poll()
+
+
+def test_beside_a_chain_another_window_says_that_it_must_end_first(
+    desk: Desk, capfd: pytest.CaptureFixture[str]
+) -> None:
+    with desk.ui.override():
+        bpy.ops.wm.window_new()
+    other = bpy.context.window_manager.windows[-1]
+    desk.ui.wait(5)
+    try:
+        desk.start()
+        area = next(area for area in other.screen.areas if area.type == "VIEW_3D")
+        region = next(region for region in area.regions if region.type == "WINDOW")
+        with bpy.context.temp_override(window=other, area=area, region=region):
+            capfd.readouterr()
+            assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT", first="CLICK") == {"CANCELLED"}
+        assert "A chain is being drawn in another window" in "".join(capfd.readouterr())
+        assert len(running) == 1
+        running[0].drop()
+    finally:
+        with bpy.context.temp_override(window=other):
+            bpy.ops.wm.window_close()
+        desk.ui.wait(3)
 
 
 @pytest.mark.oldest_and_newest

@@ -506,8 +506,8 @@ class MapReport:
     energy: float  # symmetric Dirichlet energy at the best uniform scale, 4 for an isometry
     energies: NDArray[np.float64]  # of each triangle
     flipped: NDArray[np.int32]  # triangles
-    overlapping: NDArray[np.int32]  # islands that cover a part of the plane twice
-    colliding: NDArray[np.int32]  # islands that cover a part of another island, and those other islands
+    overlapping: NDArray[np.int32]  # islands that cover themselves
+    colliding: NDArray[np.int32]  # islands that cover each other
 
 def flatten(
     points: ArrayLike,

@@ -299,6 +299,7 @@ def _cut_wires(
     origin = {frozenset((seeds.get(wire.start), seeds.get(wire.end))): wire for wire in wires}
     mirrors = {wire.mirror for wire in wires}
     shared = mirrors.pop() if len(mirrors) == 1 else ()
+    planned = all(wire.planned for wire in wires)
     between.sort(key=lambda wire: frozenset((wire.start, wire.end)) not in origin)
     left = set(edges)
     for wire in between:
@@ -306,9 +307,9 @@ def _cut_wires(
             continue
         own = origin.get(frozenset((wire.start, wire.end)))
         left.difference_update(wire.edges())
-        wire = replace(wire, finish="CUT", mirror=shared, images=())
+        wire = replace(wire, finish="CUT", mirror=shared, images=(), planned=planned)
         if own is not None:
-            wire = replace(wire, follow=own.follow, strength=own.strength, mirror=own.mirror)
+            wire = replace(wire, follow=own.follow, strength=own.strength, mirror=own.mirror, planned=own.planned)
         images = {edge for image in mesh.session.mirrored(wire) for edge in image.edges()}
         if left.issuperset(images):
             left.difference_update(images)

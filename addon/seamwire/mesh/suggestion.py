@@ -10,6 +10,7 @@ import numpy as np
 from mathutils import Vector
 
 from ..core.base import native
+from ..core.base.geometry import triangle_areas
 from ..core.seams.suggestion import (
     CRUMB,
     best_along,
@@ -223,8 +224,7 @@ class Suggestion:
         return float(self._areas().sum())
 
     def _areas(self) -> NDArray[np.float64]:
-        corners = self.mesh.arrays.in_object[self.mesh.arrays.triangles]
-        return 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+        return triangle_areas(self.mesh.arrays.in_object, self.mesh.arrays.triangles)
 
     def smallest(self) -> float:
         """Return the least part of the mesh's area that an island has: of those planned, or of those that may be."""

@@ -20,6 +20,7 @@ import bpy
 import numpy as np
 
 from ..core.base import native
+from ..core.base.geometry import triangle_areas
 from ..core.islands.map_faults import NO_FAULTS, MapFaults, MappedSurface, find_faults, joined
 from ..core.islands.rounded_flips import turn_back
 from ..core.islands.uv_islands import NewIsland, boxes_of, families, in_rows, place, split_edges, uv_areas
@@ -72,8 +73,7 @@ class _Map:
         self._triangles = self.corners.of_triangles(arrays)
         self._labels = labels_of(arrays)
         self.count = int(self._labels.max(initial=-1)) + 1
-        p = arrays.in_object[arrays.triangles]
-        self._areas = 0.5 * np.linalg.norm(np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), axis=1)
+        self._areas = triangle_areas(arrays.in_object, arrays.triangles)
         self._of_face = np.full(int(self.corners.faces.max(initial=-1)) + 1, -1, dtype=np.int64)
         self._of_face[arrays.polygons] = self._labels
         changed = self._find_changed()

@@ -34,6 +34,9 @@ _FIRST = (
 _FOR_BLENDER = {"REMOVE", "NEXT", "PEEK", "BEND"}
 """If these find nothing to do, the key keeps Blender's meaning."""
 
+_CHAIN_ELSEWHERE = "A chain is being drawn in another window: end it there first"
+_SEARCH_RUNS = "A search for seams is running: wait for it, or press Esc in its window"
+
 
 class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
     """Draw seams with live wires that follow the shape of the mesh"""  # noqa: D400 - a tooltip
@@ -55,10 +58,10 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Return whether a mesh is in Edit Mode and no chain is being drawn."""
+        """Return whether a mesh is in Edit Mode and no chain is being drawn in the window."""
         if not super().poll(context):
             return False
-        if running:
+        if any(chain.window == context.window for chain in running):
             cls.poll_message_set("A chain is already being drawn")
             return False
         return True
@@ -70,10 +73,10 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
 
         if self.first != "NONE" and takes(Key.of(event), context):
             return {"PASS_THROUGH"}
-        if searches:
+        if running or searches:
             if self.first in _FOR_BLENDER:
                 return {"PASS_THROUGH"}
-            self.report({"WARNING"}, "A search for seams is running: wait for it, or press Esc in its window")
+            self.report({"WARNING"}, _CHAIN_ELSEWHERE if running else _SEARCH_RUNS)
             return {"CANCELLED"}
         if not any(area.type == "VIEW_3D" for area in context.window.screen.areas):
             self.report({"ERROR"}, "Drawing needs a 3D view in this window")

@@ -84,6 +84,11 @@ class Chain:
         return self.state.session
 
     @property
+    def window(self) -> bpy.types.Window:
+        """The window that it is drawn in."""
+        return self._window.window
+
+    @property
     def open(self) -> bool:
         """Whether it goes on."""
         return self in running

@@ -102,7 +102,9 @@ class EditedObjects:
             return False
 
     def _remove(self, name: str) -> None:
-        view = self._views.pop(name)
+        view = self._views.pop(name, None)
+        if view is None:
+            return
         view.close()
         if self.front is view:
             self.front, self._was_front = None, name
@@ -377,6 +379,8 @@ class EditedObjects:
             The method of overlays to call.
         """
         context = bpy.context
+        if context.window is None or context.space_data is None:
+            return  # another add-on draws the view, into a picture of its own
         has_tool = chosen.tool_is_active(context)
         self._follow_window(context.window, (context.mode, has_tool))
         if has_tool and not self.chain and self._unread():

@@ -37,6 +37,7 @@ class ShownIslands:
         self._seams_read = 0
         self._asked: object = None
         self._cuts: NDArray[np.int32] | None = None
+        self._meant: frozenset[int] = frozenset()
         self._told: object = None
         self._part = ("islands", object())
         self.pointed: int | None = None
@@ -100,7 +101,9 @@ class ShownIslands:
             self._asked = (self._session.network_revision, self._seams_read)
             session = self._session
             wanted = edges_after(self._seams, session.edges_to_mark(), session.edges_to_clear())
+            planned = (wire for wire in session.wires if wire.planned)
+            meant = frozenset(vertex for wire in planned for edge in wire.claims() for vertex in edge)
             # A chain that ends turns cuts of wires into seams: the islands stay the same.
-            if self._cuts is None or not np.array_equal(wanted, self._cuts):
-                self._cuts = wanted
-                self._maker.want(self._asked, wanted)
+            if self._cuts is None or meant != self._meant or not np.array_equal(wanted, self._cuts):
+                self._cuts, self._meant = wanted, meant
+                self._maker.want(self._asked, wanted, meant)

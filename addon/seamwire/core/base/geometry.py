@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Distances from points to the straight pieces of curves."""
+"""Geometry of points, straight pieces of curves, and triangles."""
 
 from __future__ import annotations
 
@@ -70,6 +70,20 @@ def barycentric(
     return weights, np.where(np.isfinite(off), off, np.inf)
 
 
+def triangle_areas(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:
+    """Return the areas of triangles, (m,).
+
+    Parameters
+    ----------
+    points
+        (n, 3)
+    triangles
+        (m, 3)
+    """
+    corners = points[triangles]
+    return 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+
+
 def vertex_normals(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:
     """Return unit normals of vertices, (n, 3), weighted by the areas of their triangles. Vertices without triangles have zero.
 
@@ -132,8 +146,7 @@ class Moments:
     @classmethod
     def of(cls, points: NDArray[np.float64], triangles: NDArray[np.int32]) -> Moments:
         """Return those of a mesh; of one without an area, zeros."""
-        corners = points[triangles]
-        areas = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+        corners, areas = points[triangles], triangle_areas(points, triangles)
         total = float(areas.sum())
         if not total > 0.0:
             return cls(np.zeros(3), np.zeros((3, 3)))

@@ -399,6 +399,7 @@ class Flow:
                     live.wait()
                 except ValueError as error:  # what it is to compute cannot be computed
                     self.refuse(message_of(error))
+            gestures.loop.edges.wait()
             self.poll()
             if not gestures.queue and not gestures.retraces and not gestures.computing:
                 return

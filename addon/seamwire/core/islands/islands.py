@@ -22,6 +22,8 @@ Label = Callable[["NDArray[np.int32]"], "NDArray[np.int32]"]
 """Takes cut edges, (c, 2), and returns a label for every triangle: 0, 1, ..., largest island first."""
 Count = Callable[["NDArray[np.int32]", "NDArray[np.int32]"], "NDArray[np.int32]"]
 """Takes cut edges, (c, 2), and the labels they make; returns how many more cuts each island needs to become a disc."""
+_Request = tuple[object, "NDArray[np.int32]", frozenset[int]]
+"""The key, the cuts, and the vertices where cuts end on purpose."""
 
 _MOST_LOOKED_AT = 3_000
 """Vertices around the end of a cut for what it nearly meets: less than where gaps are to be closed, for this is asked at each change."""
@@ -104,7 +106,7 @@ class IslandMaker:
         self._label = label
         self._hues = hues
         self._gaps = gaps
-        self._maker: Newest[tuple[object, NDArray[np.int32]], Islands] = Newest(self._make, "seamwire-islands")
+        self._maker: Newest[_Request, Islands] = Newest(self._make, "seamwire-islands")
         self._count = count
 
     @property
@@ -121,20 +123,32 @@ class IslandMaker:
         """Raise what went wrong on the thread since the last call."""
         self._maker.check()
 
-    def want(self, key: object, cuts: Iterable[tuple[int, int]] | NDArray[np.int32]) -> None:
-        """Ask for the islands that cut edges make; `key` is how the answer is known."""
+    def want(
+        self, key: object, cuts: Iterable[tuple[int, int]] | NDArray[np.int32], meant: frozenset[int] = frozenset()
+    ) -> None:
+        """Ask for the islands that cut edges make.
+
+        Parameters
+        ----------
+        key
+            How the answer is known.
+        cuts
+            The edges.
+        meant
+            Vertices where cuts end on purpose: these are no gaps.
+        """
         edges = np.array(cuts if isinstance(cuts, np.ndarray) else list(cuts), dtype=np.int32).reshape(-1, 2)
         if len(self._triangles) <= AT_ONCE:
-            self._maker.answer_now((key, edges))
+            self._maker.answer_now((key, edges, meant))
         else:
-            self._maker.want((key, edges))
+            self._maker.want((key, edges, meant))
 
     def close(self) -> None:
         """Drop what is asked for; a running computation ends unseen."""
         self._maker.close()
 
-    def _make(self, request: tuple[object, NDArray[np.int32]]) -> Islands:
-        key, cuts = request
+    def _make(self, request: _Request) -> Islands:
+        key, cuts, meant = request
         labels = np.asarray(self._label(cuts), dtype=np.int32)
         if labels.shape != (len(self._triangles),):
             raise ValueError(f"{labels.shape} labels for {len(self._triangles)} triangles")
@@ -152,7 +166,7 @@ class IslandMaker:
         gaps = (
             ()
             if self._gaps is None
-            else tuple(self._gaps.find(cuts, most_looked_at=_MOST_LOOKED_AT, longest_of_several=_CLOSE))
+            else tuple(self._gaps.find(cuts, most_looked_at=_MOST_LOOKED_AT, longest_of_several=_CLOSE, meant=meant))
         )
         return Islands(key, count, labels, hues, missing, len(cuts) > 0, pieces, gaps)
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base import native
+from ..base.geometry import triangle_areas
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -80,10 +81,7 @@ class MappedSurface:
     @property
     def area(self) -> float:
         """The area on the model."""
-        corners = self.points[self.triangles]
-        return 0.5 * float(
-            np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum()
-        )
+        return float(triangle_areas(self.points, self.triangles).sum())
 
     def energy(self, aspect: float = 1.0) -> float:
         """Return the mean symmetric Dirichlet energy E_d: 4 if nothing is stretched, infinite if there is nothing to measure.

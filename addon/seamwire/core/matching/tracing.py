@@ -259,6 +259,7 @@ class Tracing:
         return Wire(
             record["along"], vertices, np.array(candidate.points), vertices[0], vertices[-1],
             follow=follow, strength=float(record["strength"]), finish=record.get("finish", "SNAP"), images=(),
+            planned=record.get("planned", False),
         )  # fmt: skip
 
     def _loop(self, piece: _Piece) -> list[Wire]:

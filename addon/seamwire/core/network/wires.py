@@ -72,6 +72,8 @@ class Wire:
         The kind of loop that one click on an edge offered, or None if the wire was drawn.
     through
         The edge of that click, smaller vertex first.
+    planned
+        Whether *Suggest Seamwires* found its course: it ends where it is meant to end.
     offers
         What else that click offered, the next one first; they have no offers themselves.
     stored
@@ -96,6 +98,7 @@ class Wire:
     finish: Finish = "SNAP"
     kind: LoopKind | None = None
     through: Edge | None = None
+    planned: bool = False
     offers: tuple[Wire, ...] = ()
     stored: int = 0
     id: int = field(default_factory=_ids.__next__)
@@ -152,7 +155,7 @@ class Wire:
 
     def drawn(self, **course: object) -> Wire:
         """Return the wire with another course, which no click on an edge offered."""
-        return self.changed(**course, images=None, alternatives=(), kind=None, through=None, offers=())
+        return self.changed(**course, images=None, alternatives=(), kind=None, through=None, planned=False, offers=())
 
     def anew(self, **changes: object) -> Wire:
         """Return it as another wire, with changes."""

@@ -82,6 +82,11 @@ class LoopOffers(Offers):
         if before is not None and snap is not None and self.edge == undirected(snap.pick):
             self.final = self.final and (before.crossing, before.triangle) == (snap.crossing, snap.triangle)
 
+    def wait(self) -> None:
+        """Wait for what the offers need beside the library."""
+        if self._flat is not None:
+            self._flat.wait()
+
     def aim(self, pick: Pick | None) -> bool:
         """Ask for the offers for a pick, or for none; return whether others vanish because of that."""
         if pick is None:

@@ -62,6 +62,11 @@ class FlatRegions:
                 self._thread.join()
         return not self._thread.is_alive()
 
+    def wait(self) -> None:
+        """Wait until `borders` need not wait, if `ready` was called."""
+        if self._thread is not None:
+            self._thread.join()
+
     def borders(self, edge: Edge) -> Iterator[tuple[int, ...]]:
         """Yield the closed chains through an edge that are borders of flat regions beside it.
 
@@ -94,6 +99,8 @@ class FlatRegions:
         chains: list[tuple[int, ...]] = []
         while left:
             border = self._walk(left.pop(), is_inner)
+            if not border:
+                return ()
             left.difference_update(border)
             chains.append(tuple(self.half_edges.tails[border].tolist()))
         outer = max(chains, key=self._length, default=())

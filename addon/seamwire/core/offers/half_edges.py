@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
+from ..base.geometry import triangle_areas
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -116,8 +118,7 @@ class HalfEdges:
     @cached_property
     def area(self) -> float:
         """The area of all triangles."""
-        a, b, c = (self._points[self._triangles[:, i]] for i in range(3))
-        return 0.5 * float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum())
+        return float(triangle_areas(self._points, self._triangles).sum())
 
     @cached_property
     def normals(self) -> NDArray[np.float64]:

@@ -15,7 +15,7 @@ import numpy as np
 from .seam_wires import seam_chains
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Collection, Iterator
 
     from numpy.typing import NDArray
 
@@ -90,6 +90,7 @@ class GapFinder:
         longest: float = 0.5,
         most_looked_at: int = MOST_LOOKED_AT,
         longest_of_several: float = math.inf,
+        meant: Collection[int] = (),
     ) -> list[Gap]:
         """Find the gaps, shortest first; where two ends face each other there is one for both.
 
@@ -104,13 +105,15 @@ class GapFinder:
             Vertices around an end.
         longest_of_several
             As `longest`, of gaps that are more than one edge.
+        meant
+            Vertices where cuts end on purpose.
         """
         points, cuts = self._points, _Ways(self._points, np.concatenate([seams, self._border]))
         on_border = {*self._border.ravel().tolist(), *self._partly_hidden.ravel().tolist()}
         found: dict[frozenset[int], Gap] = {}
         for chain in seam_chains(seams):
             length = float(np.linalg.norm(np.diff(points[chain], axis=0), axis=1).sum())
-            for end in {chain[0], chain[-1]} - on_border:
+            for end in {chain[0], chain[-1]} - on_border.union(meant):
                 if len(cuts.beside(end)) == 1:
                     gap = _gap_at(self._mesh, cuts, end, longest * length, most_looked_at)
                     if gap is not None and (len(gap.path) == 2 or gap.length <= longest_of_several * length):

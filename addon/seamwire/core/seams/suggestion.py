@@ -123,7 +123,7 @@ def planned_wires(
     return [
         Wire(
             along, tuple(wire.vertices.tolist()), np.asarray(wire.points) @ from_object.T, *wire.seeds,
-            follow=FOLLOWS.index(wire.follow), strength=strength,
+            follow=FOLLOWS.index(wire.follow), strength=strength, planned=True,
         )
         for wire in plan.wires
     ]  # fmt: skip

@@ -250,6 +250,7 @@ class _Wires:
             finish=record.get("finish", "SNAP"),
             kind=None if through is None else record["kind"],
             through=through,
+            planned=record.get("planned", False),
             # A copy of a wire, or one whose vertices have other numbers now, is still that of its record.
             stored=piece.number if piece.unchanged else 0,
         )

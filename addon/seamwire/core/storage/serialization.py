@@ -242,6 +242,8 @@ def wire_record(wire: Wire, places: NDArray[np.float64], to_object: NDArray[np.f
         record["kind"], record["through"] = wire.kind, wire.through
     if wire.finish != "SNAP":
         record["finish"] = wire.finish
+    if wire.planned:
+        record["planned"] = True
     if wire.along == "SURFACE":
         record["curve"] = packed(wire.points @ to_object.T)
         record["places"] = packed(places[chain])
@@ -263,6 +265,7 @@ def checked_wire(record: Record) -> Record:
         and np.isfinite(float(record["strength"]))
         and all(axis in (0, 1, 2) for axis in record["mirror"])
         and record.get("finish", "SNAP") in ("SNAP", "SLIDE", "CUT")
+        and type(record.get("planned", False)) is bool
         and (record["heading"] is None or isinstance(pick_of(record["heading"]), tuple))
     )
     if not sound:
@@ -343,6 +346,7 @@ def wire_of(record: Record, points: NDArray[np.float64], to_object: NDArray[np.f
         finish=record.get("finish", "SNAP"),
         kind=record["kind"] if isinstance(through, tuple) else None,
         through=through if isinstance(through, tuple) else None,
+        planned=record.get("planned", False),
     )
 
 

@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
+from seamwire.core.offers import flat_regions
 from seamwire.core.offers.flat_regions import FlatRegions
+from seamwire.core.offers.half_edges import after
 
 SIZE = 6
 """Vertices along a side of the plate; vertex SIZE * row + column."""
@@ -96,3 +98,24 @@ def test_around_a_face_with_a_hole_its_outer_border_counts() -> None:
     kept = triangles[[not set(triangle) <= {14, 15, 20, 21} for triangle in triangles.tolist()]]
     ring = FlatRegions(grid_points(SIZE), kept, grid_edges(SIZE))
     assert set(ring.border_around(0)) == around(range(SIZE))
+
+
+def test_a_border_that_is_too_long_is_given_up_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    count = 20_100
+    turns = np.linspace(0.0, 2.0 * np.pi, count, endpoint=False)
+    ring = np.stack([np.cos(turns), np.sin(turns), np.zeros(count)], axis=1)
+    here = np.arange(count, dtype=np.int32) + 1
+    following = np.roll(here, -1)
+    disc = FlatRegions(
+        np.concatenate([np.zeros((1, 3)), ring]),
+        np.stack([np.zeros_like(here), here, following], axis=1),
+        np.stack([here, following], axis=1),
+    )
+    steps = itertools.count()
+
+    def counted(half_edge: int) -> int:
+        assert next(steps) < 3 * count
+        return after(half_edge)
+
+    monkeypatch.setattr(flat_regions, "after", counted)
+    assert disc.border_around(0) == ()

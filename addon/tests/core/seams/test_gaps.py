@@ -92,3 +92,12 @@ def test_while_seams_are_drawn_an_end_some_edges_from_another_cut_is_no_gap_yet(
     drawn = seams(ROW, (4, 13, 22))
     assert finder.find(drawn, longest=2.0) == [Gap(22, 40, 2.0)]
     assert finder.find(drawn, longest=2.0, longest_of_several=0.2) == []
+
+
+def test_a_cut_that_ends_on_purpose_has_no_gap_there() -> None:
+    finder = GapFinder(grid_points(SIZE), grid_triangles(SIZE), grid_edges(SIZE))
+    maker = IslandMaker(grid_triangles(SIZE), lambda _: np.zeros(2 * (SIZE - 1) ** 2, dtype=np.int32), gaps=finder)
+    drawn = seams(ROW, (4, 13, 22, 31), (50, 59, 68, 77))
+    maker.want("planned", drawn, frozenset({4, 13, 22, 31}))
+    assert maker.newest is not None
+    assert maker.newest.gaps == (Gap(50, 41, 1.0),)

@@ -44,7 +44,7 @@ def network() -> Network:
     return Network(
         (
             wire(0, 1, 2, end=(1, 2), strength=10.0, follow=1, mirror=(0,)),
-            wire(2, 3, 4, start=(1, 2), heading=(1, 2)),
+            wire(2, 3, 4, start=(1, 2), heading=(1, 2), planned=True),
             Wire("EDGES", loop, POINTS[[*loop, 7]], (7, 8), (7, 8), closed=True, kind="CLOSED", through=(7, 8)),
             Wire("SURFACE", (30, 24, 25, 26), curve, 30, FacePoint(3, (26, 27, 33), (0.5, 0.25, 0.25)), finish="CUT"),
             wire(28, 29, marks=False),
@@ -65,7 +65,7 @@ def test_what_is_read_is_what_was_written(network: Network) -> None:
     wires = file.wires(POINTS, STRETCH)
     kept = [one for one in network.wires if one.marks]
     names = ("along", "vertices", "start", "closed", "heading", "follow", "strength", "mirror", "kind", "through")
-    for name in (*names, "finish"):
+    for name in (*names, "finish", "planned"):
         assert [getattr(one, name) for one in wires] == [getattr(one, name) for one in kept], name
     assert [one.end for one in wires] == [(1, 2), 4, (7, 8), 26], "a seam ends at vertices"
     for one, before in zip(wires, kept, strict=True):
