@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Vertices in the middle of a straight side of two faces.
+
+Blender may cut both faces such that the vertex is in a triangle without area, once on either side. No map has both triangles the right
+way around. So the vertex is left out of the map, and then put on the straight line between its neighbors.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+_STRAIGHT = 1e-4
+"""How far a vertex may lie beside the line between its neighbors, as a part of the line."""
+_NEARLY = 1e-2
+"""The same, if both faces have only the triangle that it makes with these neighbors. Single precision bends short sides so far."""
+
+
+@dataclass(frozen=True)
+class StraightCorners:
+    """Corners of faces that are left out of a map.
+
+    Parameters
+    ----------
+    corners
+        (s,) the corners.
+    ends
+        (s, 2) the next corners on both sides that stay in the map.
+    shares
+        (s,) how far along the side from the first end to the second they lie, from 0 to 1.
+    onto
+        (s,) the end that replaces each.
+    """
+
+    corners: NDArray[np.int64]
+    ends: NDArray[np.int64]
+    shares: NDArray[np.float64]
+    onto: NDArray[np.int64]
+
+    def without(self, triangles: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Return triangles, (t, 3) corners, with each left-out corner replaced. Some have a corner twice then: they vanish."""
+        if not len(self.corners):
+            return triangles
+        replaced = np.arange(max(int(triangles.max(initial=-1)), int(self.corners.max())) + 1)
+        replaced[self.corners] = self.onto
+        return replaced[triangles]
+
+    def vanish(self, triangles: NDArray[np.int64]) -> NDArray[np.bool_]:
+        """Return which triangles have a corner twice without the left-out corners, (t,)."""
+        a, b, c = self.without(triangles).T
+        return (a == b) | (b == c) | (c == a)
+
+    def place(self, uvs: NDArray[np.float64]) -> None:
+        """Put the left-out corners on their straight lines in a map, (c, 2) for all corners."""
+        ends = uvs[self.ends]
+        uvs[self.corners] = ends[:, 0] + self.shares[:, None] * (ends[:, 1] - ends[:, 0])
+
+
+def find_straight(
+    points: NDArray[np.float64],
+    vertices: NDArray[np.int32],
+    faces: NDArray[np.int64],
+    following: NDArray[np.int64],
+    is_seam: NDArray[np.bool_],
+    triangles: NDArray[np.int64],
+) -> StraightCorners:
+    """Find the corners whose vertex has two edges and two faces, and lies between its neighbors.
+
+    A vertex where a seam ends stays in the map.
+
+    Parameters
+    ----------
+    points
+        (n, 3) vertices.
+    vertices, faces, following
+        (c,) the vertex and the face of each corner, and the next corner of the face.
+    is_seam
+        (c,) whether the edge to the next corner is a seam.
+    triangles
+        (t, 3) the corners of the triangles that the visible faces are drawn as.
+    """
+    uses = np.bincount(triangles.reshape(-1), minlength=len(vertices))
+    preceding = np.empty_like(following)
+    preceding[following] = np.arange(len(following))
+    used = np.flatnonzero(uses)
+    order = used[np.argsort(vertices[used], kind="stable")]
+    _, first, counts = np.unique(vertices[order], return_index=True, return_counts=True)
+    pairs = order[first[counts == 2][:, None] + np.arange(2)]
+    around = vertices[np.stack([preceding[pairs], following[pairs]], axis=2)]  # (k, 2, 2)
+    a, m, b = points[around[:, 0, 0]], points[vertices[pairs[:, 0]]], points[around[:, 0, 1]]
+    squares = np.einsum("ij,ij->i", b - a, b - a)
+    beside = np.linalg.norm(np.cross(m - a, b - a), axis=1)
+    are_ears = (uses[pairs] == 1).all(axis=1)
+    found = (np.sort(around[:, 0], axis=1) == np.sort(around[:, 1], axis=1)).all(axis=1)
+    found &= faces[pairs[:, 0]] != faces[pairs[:, 1]]
+    found &= is_seam[preceding[pairs[:, 0]]] == is_seam[pairs[:, 0]]
+    found &= np.einsum("ij,ij->i", m - a, b - m) >= 0.0
+    found &= beside <= np.where(are_ears, _NEARLY, _STRAIGHT) * squares
+    is_straight = np.zeros(len(vertices), dtype=bool)
+    is_straight[pairs[found]] = True
+    while True:
+        straight = _chains(points, vertices, following, preceding, is_straight)
+        gone = np.setdiff1d(faces[triangles[:, 0]], faces[triangles[~straight.vanish(triangles), 0]])
+        if not len(gone):
+            return straight
+        # A face without any triangle would have no place in the map.
+        is_straight[np.isin(vertices, vertices[is_straight & np.isin(faces, gone)])] = False
+
+
+def _chains(
+    points: NDArray[np.float64],
+    vertices: NDArray[np.int32],
+    following: NDArray[np.int64],
+    preceding: NDArray[np.int64],
+    is_straight: NDArray[np.bool_],
+) -> StraightCorners:
+    """Find the ends that stay on both sides of the straight corners. Faces with straight corners only keep them."""
+    rows = []
+    for begin in np.flatnonzero(is_straight & ~is_straight[preceding]).tolist():
+        chain = [begin]
+        while is_straight[following[chain[-1]]]:
+            chain.append(int(following[chain[-1]]))
+        ends = int(preceding[begin]), int(following[chain[-1]])
+        rows += [(corner, *ends) for corner in chain]
+    table = np.array(rows, dtype=np.int64).reshape(-1, 3)
+    place, low, high = (points[vertices[column]] for column in table.T)
+    to_low, to_high = np.linalg.norm(place - low, axis=1), np.linalg.norm(high - place, axis=1)
+    whole = to_low + to_high
+    shares = np.divide(to_low, whole, out=np.full(len(whole), 0.5), where=whole > 0.0)
+    # Both faces of a vertex replace it by the same one.
+    is_first = (to_low < to_high) | ((to_low == to_high) & (vertices[table[:, 1]] < vertices[table[:, 2]]))
+    return StraightCorners(table[:, 0], table[:, 1:], shares, np.where(is_first, table[:, 1], table[:, 2]))
