@@ -22,7 +22,7 @@ import numpy as np
 from ..core.base import native
 from ..core.islands.map_faults import NO_FAULTS, MapFaults, MappedSurface, find_faults, joined
 from ..core.islands.rounded_flips import turn_back
-from ..core.islands.straight_corners import find_straight
+from ..core.islands.straight_corners import CornerRing, find_straight
 from ..core.islands.uv_islands import NewIsland, boxes_of, families, in_rows, place, split_edges, uv_areas
 from . import edit_mesh, uv_map
 from .seam_islands import labels_of
@@ -80,16 +80,10 @@ class _Map:
         labels = self._of_face[self.corners.faces[read.triangles[:, 0]]]
         self._triangles = read.triangles[labels >= 0].astype(np.int64)
         self._labels = labels[labels >= 0]
-        p = arrays.in_object[self.corners.vertices[self._triangles]]
-        self._areas = 0.5 * np.linalg.norm(np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), axis=1)
-        self._straight = find_straight(
-            arrays.in_object,
-            self.corners.vertices,
-            self.corners.faces,
-            self.corners.following,
-            read.seams[self.corners.edges],
-            self._triangles,
-        )
+        self._areas = _areas(arrays.in_object[self.corners.vertices[self._triangles]])
+        self._ring = CornerRing(self.corners.vertices, self.corners.faces, self.corners.following)
+        is_seam = read.seams[self.corners.edges]
+        self._straight = find_straight(arrays.in_object, self._ring, is_seam, self._triangles)
         changed = self._find_changed()
         self.changed = np.arange(self.count) if every else np.flatnonzero(changed)
         pinned = read.pinned[self._triangles].any(axis=1)
@@ -158,8 +152,8 @@ class _Map:
         ValueError
             If a coordinate is not a number.
         """
-        rows = np.flatnonzero(np.isin(self._labels, islands) & ~self._straight.vanish(self._triangles))
-        corners = self._straight.without(self._triangles[rows])
+        drawn = self._triangles[np.isin(self._labels, islands)]
+        corners = self._straight.to_map(self._arrays.in_object, self._ring, drawn)
         vertices, triangles = np.unique(self.corners.vertices[corners], return_inverse=True)
         number = np.full(len(self._arrays.points), -1, dtype=np.int32)
         number[vertices] = np.arange(len(vertices))
@@ -182,7 +176,7 @@ class _Map:
             edges=own(self._arrays.edges),
         )
         # A corner of several triangles is where the largest has it: one without area may be anywhere.
-        smallest_first = np.argsort(self._areas[rows], kind="stable")
+        smallest_first = np.argsort(_areas(self._arrays.in_object[self.corners.vertices[corners]]), kind="stable")
         uvs = np.zeros((len(self.corners.vertices), 2))
         uvs[corners[smallest_first]] = np.asarray(flat.uvs)[smallest_first]
         labels = np.full(len(uvs), -1, dtype=np.int64)
@@ -321,6 +315,11 @@ class _Map:
             if not edge.hide:
                 edge[layer] = seam if edge.seam else plain
         bmesh.update_edit_mesh(self.obj.data, loop_triangles=False, destructive=False)
+
+
+def _areas(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the areas of triangles in space, (m, 3, 3)."""
+    return 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
 
 
 def unwrap_changed(

@@ -22,6 +22,22 @@ _NEARLY = 1e-2
 
 
 @dataclass(frozen=True)
+class CornerRing:
+    """The corners of faces: (c,) the vertex of each, its face, and the next corner of the face."""
+
+    vertices: NDArray[np.int32]
+    faces: NDArray[np.int64]
+    following: NDArray[np.int64]
+
+    @property
+    def preceding(self) -> NDArray[np.int64]:
+        """(c,) the corner before each."""
+        preceding = np.empty_like(self.following)
+        preceding[self.following] = np.arange(len(self.following))
+        return preceding
+
+
+@dataclass(frozen=True)
 class StraightCorners:
     """Corners of faces that are left out of a map.
 
@@ -50,6 +66,31 @@ class StraightCorners:
         replaced[self.corners] = self.onto
         return replaced[triangles]
 
+    def to_map(self, points: NDArray[np.float64], ring: CornerRing, triangles: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Return the triangles that a map is made of, (t, 3): without the left-out corners, and convex at the other straight ones.
+
+        Where a straight corner has two triangles, it gets the flat one with its neighbors instead. A map that has this triangle the right
+        way around has all triangles right that the face may be cut into there.
+        """
+        triangles = self.without(triangles[~self.vanish(triangles)]).copy()
+        following, preceding = ring.following.copy(), ring.preceding
+        following[self.ends[:, 0]], preceding[self.ends[:, 1]] = self.ends[:, 1], self.ends[:, 0]
+        uses = np.bincount(triangles.reshape(-1), minlength=len(following))
+        corners = np.flatnonzero(uses == 2)
+        places = (points[ring.vertices[each]] for each in (preceding[corners], corners, following[corners]))
+        corners = corners[_are_straight(*places, _STRAIGHT)]
+        order = np.argsort(triangles.reshape(-1), kind="stable")
+        first = np.searchsorted(triangles.reshape(-1)[order], corners)
+        for corner, (one, other) in zip(corners.tolist(), (order[first[:, None] + np.arange(2)] // 3).tolist(), strict=True):
+            before, after = int(preceding[corner]), int(following[corner])
+            rest = {*triangles[one].tolist(), *triangles[other].tolist()} - {before, corner, after}
+            if uses[corner] != 2 or len(rest) != 1 or corner not in triangles[one] or corner not in triangles[other]:
+                continue
+            (third,) = rest
+            triangles[one], triangles[other] = (before, corner, after), (before, after, third)
+            uses[[corner, before, after, third]] += (-1, 1, 1, -1)
+        return triangles
+
     def vanish(self, triangles: NDArray[np.int64]) -> NDArray[np.bool_]:
         """Return which triangles have a corner twice without the left-out corners, (t,)."""
         a, b, c = self.without(triangles).T
@@ -62,12 +103,7 @@ class StraightCorners:
 
 
 def find_straight(
-    points: NDArray[np.float64],
-    vertices: NDArray[np.int32],
-    faces: NDArray[np.int64],
-    following: NDArray[np.int64],
-    is_seam: NDArray[np.bool_],
-    triangles: NDArray[np.int64],
+    points: NDArray[np.float64], ring: CornerRing, is_seam: NDArray[np.bool_], triangles: NDArray[np.int64]
 ) -> StraightCorners:
     """Find the corners whose vertex has two edges and two faces, and lies between its neighbors.
 
@@ -77,34 +113,34 @@ def find_straight(
     ----------
     points
         (n, 3) vertices.
-    vertices, faces, following
-        (c,) the vertex and the face of each corner, and the next corner of the face.
+    ring
+        The corners of the faces.
     is_seam
         (c,) whether the edge to the next corner is a seam.
     triangles
         (t, 3) the corners of the triangles that the visible faces are drawn as.
     """
+    vertices, faces, following, preceding = ring.vertices, ring.faces, ring.following, ring.preceding
     uses = np.bincount(triangles.reshape(-1), minlength=len(vertices))
-    preceding = np.empty_like(following)
-    preceding[following] = np.arange(len(following))
     used = np.flatnonzero(uses)
     order = used[np.argsort(vertices[used], kind="stable")]
     _, first, counts = np.unique(vertices[order], return_index=True, return_counts=True)
     pairs = order[first[counts == 2][:, None] + np.arange(2)]
     around = vertices[np.stack([preceding[pairs], following[pairs]], axis=2)]  # (k, 2, 2)
-    a, m, b = points[around[:, 0, 0]], points[vertices[pairs[:, 0]]], points[around[:, 0, 1]]
-    squares = np.einsum("ij,ij->i", b - a, b - a)
-    beside = np.linalg.norm(np.cross(m - a, b - a), axis=1)
     are_ears = (uses[pairs] == 1).all(axis=1)
     found = (np.sort(around[:, 0], axis=1) == np.sort(around[:, 1], axis=1)).all(axis=1)
     found &= faces[pairs[:, 0]] != faces[pairs[:, 1]]
     found &= is_seam[preceding[pairs[:, 0]]] == is_seam[pairs[:, 0]]
-    found &= np.einsum("ij,ij->i", m - a, b - m) >= 0.0
-    found &= beside <= np.where(are_ears, _NEARLY, _STRAIGHT) * squares
+    found &= _are_straight(
+        points[around[:, 0, 0]],
+        points[vertices[pairs[:, 0]]],
+        points[around[:, 0, 1]],
+        np.where(are_ears, _NEARLY, _STRAIGHT),
+    )
     is_straight = np.zeros(len(vertices), dtype=bool)
     is_straight[pairs[found]] = True
     while True:
-        straight = _chains(points, vertices, following, preceding, is_straight)
+        straight = _chains(points, ring, is_straight)
         gone = np.setdiff1d(faces[triangles[:, 0]], faces[triangles[~straight.vanish(triangles), 0]])
         if not len(gone):
             return straight
@@ -112,14 +148,22 @@ def find_straight(
         is_straight[np.isin(vertices, vertices[is_straight & np.isin(faces, gone)])] = False
 
 
-def _chains(
-    points: NDArray[np.float64],
-    vertices: NDArray[np.int32],
-    following: NDArray[np.int64],
-    preceding: NDArray[np.int64],
-    is_straight: NDArray[np.bool_],
-) -> StraightCorners:
+def _are_straight(
+    before: NDArray[np.float64],
+    places: NDArray[np.float64],
+    after: NDArray[np.float64],
+    tolerance: NDArray[np.float64] | float,
+) -> NDArray[np.bool_]:
+    """Return which places, (k, 3), lie on the lines between others, up to a part of their lengths."""
+    along = after - before
+    beside = np.linalg.norm(np.cross(places - before, along), axis=1)
+    is_between = np.einsum("ij,ij->i", places - before, after - places) >= 0.0
+    return is_between & (beside <= tolerance * np.einsum("ij,ij->i", along, along))
+
+
+def _chains(points: NDArray[np.float64], ring: CornerRing, is_straight: NDArray[np.bool_]) -> StraightCorners:
     """Find the ends that stay on both sides of the straight corners. Faces with straight corners only keep them."""
+    preceding, following = ring.preceding, ring.following
     rows = []
     for begin in np.flatnonzero(is_straight & ~is_straight[preceding]).tolist():
         chain = [begin]
@@ -128,10 +172,10 @@ def _chains(
         ends = int(preceding[begin]), int(following[chain[-1]])
         rows += [(corner, *ends) for corner in chain]
     table = np.array(rows, dtype=np.int64).reshape(-1, 3)
-    place, low, high = (points[vertices[column]] for column in table.T)
+    place, low, high = (points[ring.vertices[column]] for column in table.T)
     to_low, to_high = np.linalg.norm(place - low, axis=1), np.linalg.norm(high - place, axis=1)
     whole = to_low + to_high
     shares = np.divide(to_low, whole, out=np.full(len(whole), 0.5), where=whole > 0.0)
     # Both faces of a vertex replace it by the same one.
-    is_first = (to_low < to_high) | ((to_low == to_high) & (vertices[table[:, 1]] < vertices[table[:, 2]]))
+    is_first = (to_low < to_high) | ((to_low == to_high) & (ring.vertices[table[:, 1]] < ring.vertices[table[:, 2]]))
     return StraightCorners(table[:, 0], table[:, 1:], shares, np.where(is_first, table[:, 1], table[:, 2]))
