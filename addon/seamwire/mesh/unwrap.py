@@ -157,12 +157,10 @@ class _Map:
         vertices, triangles = np.unique(self.corners.vertices[corners], return_inverse=True)
         number = np.full(len(self._arrays.points), -1, dtype=np.int32)
         number[vertices] = np.arange(len(vertices))
-        vertex_onto = np.arange(len(self._arrays.points))
-        vertex_onto[self.corners.vertices[self._straight.corners]] = self.corners.vertices[self._straight.onto]
 
         def own(edges: NDArray[np.int32]) -> NDArray[np.int32]:
-            ends = number[vertex_onto[edges]]
-            return ends[(ends >= 0).all(axis=1) & (ends[:, 0] != ends[:, 1])]
+            ends = number[edges]
+            return ends[(ends >= 0).all(axis=1)]
 
         places = self._present()
         if start is not None:
@@ -171,9 +169,9 @@ class _Map:
         flat = native.load().flatten(
             self._arrays.in_object[vertices],
             triangles.reshape(-1, 3).astype(np.int32),
-            own(self._arrays.seams),
+            own(self._straight.seams_in_map(self.corners.vertices, self._arrays.seams)),
             start=None if places is None else places[corners],
-            edges=own(self._arrays.edges),
+            edges=own(self._straight.edges_in_map(self.corners.vertices, self._arrays.edges)),
         )
         # A corner of several triangles is where the largest has it: one without area may be anywhere.
         smallest_first = np.argsort(_areas(self._arrays.in_object[self.corners.vertices[corners]]), kind="stable")

@@ -51,12 +51,15 @@ class StraightCorners:
         (s,) how far along the side from the first end to the second they lie, from 0 to 1.
     onto
         (s,) the end that replaces each.
+    is_cut
+        (s,) whether all edges of the side between the ends are seams. A seam that ends at a left-out vertex ends before it in the map.
     """
 
     corners: NDArray[np.int64]
     ends: NDArray[np.int64]
     shares: NDArray[np.float64]
     onto: NDArray[np.int64]
+    is_cut: NDArray[np.bool_]
 
     def without(self, triangles: NDArray[np.int64]) -> NDArray[np.int64]:
         """Return triangles, (t, 3) corners, with each left-out corner replaced. Some have a corner twice then: they vanish."""
@@ -96,6 +99,20 @@ class StraightCorners:
         a, b, c = self.without(triangles).T
         return (a == b) | (b == c) | (c == a)
 
+    def edges_in_map(self, vertices: NDArray[np.int32], edges: NDArray[np.int32]) -> NDArray[np.int32]:
+        """Return edges, (e, 2) vertices, with each left-out vertex replaced. `vertices`: (c,) the vertex of each corner."""
+        replaced = np.arange(int(vertices.max(initial=-1)) + 1, dtype=np.int32)
+        replaced = np.append(replaced, np.arange(len(replaced), int(edges.max(initial=-1)) + 1, dtype=np.int32))
+        replaced[vertices[self.corners]] = vertices[self.onto]
+        edges = replaced[edges]
+        return edges[edges[:, 0] != edges[:, 1]]
+
+    def seams_in_map(self, vertices: NDArray[np.int32], seams: NDArray[np.int32]) -> NDArray[np.int32]:
+        """Return seams as `edges_in_map` does, without the sides that only a part of is a seam."""
+        seams = np.sort(self.edges_in_map(vertices, seams), axis=1)
+        partly = {tuple(pair) for pair in np.sort(vertices[self.ends[~self.is_cut]], axis=1).tolist()}
+        return seams[[tuple(pair) not in partly for pair in seams.tolist()]] if partly else seams
+
     def place(self, uvs: NDArray[np.float64]) -> None:
         """Put the left-out corners on their straight lines in a map, (c, 2) for all corners."""
         ends = uvs[self.ends]
@@ -106,8 +123,6 @@ def find_straight(
     points: NDArray[np.float64], ring: CornerRing, is_seam: NDArray[np.bool_], triangles: NDArray[np.int64]
 ) -> StraightCorners:
     """Find the corners whose vertex has two edges and two faces, and lies between its neighbors.
-
-    A vertex where a seam ends stays in the map.
 
     Parameters
     ----------
@@ -130,7 +145,6 @@ def find_straight(
     are_ears = (uses[pairs] == 1).all(axis=1)
     found = (np.sort(around[:, 0], axis=1) == np.sort(around[:, 1], axis=1)).all(axis=1)
     found &= faces[pairs[:, 0]] != faces[pairs[:, 1]]
-    found &= is_seam[preceding[pairs[:, 0]]] == is_seam[pairs[:, 0]]
     found &= _are_straight(
         points[around[:, 0, 0]],
         points[vertices[pairs[:, 0]]],
@@ -140,7 +154,7 @@ def find_straight(
     is_straight = np.zeros(len(vertices), dtype=bool)
     is_straight[pairs[found]] = True
     while True:
-        straight = _chains(points, ring, is_straight)
+        straight = _chains(points, ring, is_seam, is_straight)
         gone = np.setdiff1d(faces[triangles[:, 0]], faces[triangles[~straight.vanish(triangles), 0]])
         if not len(gone):
             return straight
@@ -161,7 +175,9 @@ def _are_straight(
     return is_between & (beside <= tolerance * np.einsum("ij,ij->i", along, along))
 
 
-def _chains(points: NDArray[np.float64], ring: CornerRing, is_straight: NDArray[np.bool_]) -> StraightCorners:
+def _chains(
+    points: NDArray[np.float64], ring: CornerRing, is_seam: NDArray[np.bool_], is_straight: NDArray[np.bool_]
+) -> StraightCorners:
     """Find the ends that stay on both sides of the straight corners. Faces with straight corners only keep them."""
     preceding, following = ring.preceding, ring.following
     rows = []
@@ -170,12 +186,14 @@ def _chains(points: NDArray[np.float64], ring: CornerRing, is_straight: NDArray[
         while is_straight[following[chain[-1]]]:
             chain.append(int(following[chain[-1]]))
         ends = int(preceding[begin]), int(following[chain[-1]])
-        rows += [(corner, *ends) for corner in chain]
-    table = np.array(rows, dtype=np.int64).reshape(-1, 3)
-    place, low, high = (points[ring.vertices[column]] for column in table.T)
+        is_cut = bool(is_seam[[ends[0], *chain]].all())
+        rows += [(corner, *ends, is_cut) for corner in chain]
+    table = np.array(rows, dtype=np.int64).reshape(-1, 4)
+    place, low, high = (points[ring.vertices[column]] for column in table.T[:3])
     to_low, to_high = np.linalg.norm(place - low, axis=1), np.linalg.norm(high - place, axis=1)
     whole = to_low + to_high
     shares = np.divide(to_low, whole, out=np.full(len(whole), 0.5), where=whole > 0.0)
     # Both faces of a vertex replace it by the same one.
     is_first = (to_low < to_high) | ((to_low == to_high) & (ring.vertices[table[:, 1]] < ring.vertices[table[:, 2]]))
-    return StraightCorners(table[:, 0], table[:, 1:], shares, np.where(is_first, table[:, 1], table[:, 2]))
+    onto = np.where(is_first, table[:, 1], table[:, 2])
+    return StraightCorners(table[:, 0], table[:, 1:3], shares, onto, table[:, 3] > 0)
