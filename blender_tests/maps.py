@@ -104,7 +104,8 @@ def folded(obj: bpy.types.Object, least_height: float = 1e-6) -> int:
     """Return how many edges a map is folded at, plus the number of triangles without an area in it.
 
     The map is folded where two triangles are joined in it and lie on the same side of their common edge, whichever way their faces are
-    turned. Triangles whose height is less than `least_height` of their longest side do not count.
+    turned. Triangles whose height is less than `least_height` of their longest side do not count. Nor do triangles lower than a hundredth
+    of it that lie on a line in the map, up to the rounding of single precision.
     """
     bm = bmesh.from_edit_mesh(obj.data)
     bm.verts.index_update()
@@ -119,7 +120,11 @@ def folded(obj: bpy.types.Object, least_height: float = 1e-6) -> int:
         doubled = np.linalg.norm(np.cross(corners[1] - corners[0], corners[2] - corners[0]))
         if doubled <= least_height * longest**2:
             continue
-        signed = signed_areas(np.array([[loop[layer].uv[:] for loop in loops]], dtype=np.float64))[0]
+        uvs = np.array([loop[layer].uv[:] for loop in loops], dtype=np.float64)
+        signed = signed_areas(uvs[None])[0]
+        is_on_line = 2.0 * abs(signed) <= 2e-7 * max(np.linalg.norm(uvs - np.roll(uvs, 1, axis=0), axis=1))
+        if is_on_line and doubled <= 0.01 * longest**2:
+            continue
         flat += signed == 0.0
         for one, other in pairwise([*loops, loops[0]]):
             is_up = one.vert.index < other.vert.index

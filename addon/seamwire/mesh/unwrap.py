@@ -23,6 +23,7 @@ from ..core.base import native
 from ..core.base.geometry import triangle_areas
 from ..core.islands.map_faults import NO_FAULTS, MapFaults, MappedSurface, find_faults, joined
 from ..core.islands.rounded_flips import turn_back
+from ..core.islands.straight_corners import CornerRing, find_straight
 from ..core.islands.uv_islands import NewIsland, boxes_of, families, in_rows, place, split_edges, uv_areas
 from . import edit_mesh, uv_map
 from .seam_islands import labels_of
@@ -38,6 +39,8 @@ JOINED = 1
 """The value for edges around faces that were joined later. Their corners may belong to several islands in the map."""
 
 
+_ON_LINE = 1e-6
+"""How far a UV may lie beside a line that it should lie on: UVs are rounded."""
 _MARGIN = 0.01
 """Between packed islands, as a share of the UV square; Blender counts it in parts of the islands' size."""
 
@@ -70,12 +73,18 @@ class _Map:
         self._aspect = uv_map.aspect(obj)
         self._read = read = uv_map.read_with_edges(obj, UNWRAPPED)
         self.corners, self._uvs = read.corners, read.uvs
-        self._triangles = self.corners.of_triangles(arrays)
-        self._labels = labels_of(arrays)
-        self.count = int(self._labels.max(initial=-1)) + 1
-        self._areas = triangle_areas(arrays.in_object, arrays.triangles)
-        self._of_face = np.full(int(self.corners.faces.max(initial=-1)) + 1, -1, dtype=np.int64)
-        self._of_face[arrays.polygons] = self._labels
+        labels = labels_of(arrays)
+        self.count = int(labels.max(initial=-1)) + 1
+        self._of_face = np.full(int(self.corners.faces.max(initial=-1)) + 1, -1, dtype=np.int32)
+        self._of_face[arrays.polygons] = labels
+        # The map is made and measured for the triangles that Blender draws.
+        labels = self._of_face[self.corners.faces[read.triangles[:, 0]]]
+        self._triangles = read.triangles[labels >= 0].astype(np.int64)
+        self._labels = labels[labels >= 0]
+        self._areas = triangle_areas(arrays.in_object, self.corners.vertices[self._triangles])
+        self._ring = CornerRing(self.corners.vertices, self.corners.faces, self.corners.following)
+        is_seam = read.seams[self.corners.edges]
+        self._straight = find_straight(arrays.in_object, self._ring, is_seam, self._triangles)
         changed = self._find_changed()
         self.changed = np.arange(self.count) if every else np.flatnonzero(changed)
         pinned = read.pinned[self._triangles].any(axis=1)
@@ -144,35 +153,48 @@ class _Map:
         ValueError
             If a coordinate is not a number.
         """
-        rows = np.flatnonzero(np.isin(self._labels, islands))
-        vertices, triangles = np.unique(self._arrays.triangles[rows], return_inverse=True)
+        drawn = self._triangles[np.isin(self._labels, islands)]
+        corners = self._straight.to_map(self._arrays.in_object, self._ring, drawn)
+        vertices, triangles = np.unique(self.corners.vertices[corners], return_inverse=True)
         number = np.full(len(self._arrays.points), -1, dtype=np.int32)
         number[vertices] = np.arange(len(vertices))
-        cuts, edges = number[self._arrays.seams], number[self._arrays.edges]
-        if start is None:
-            start = self._present()
+
+        def own(edges: NDArray[np.int32]) -> NDArray[np.int32]:
+            ends = number[edges]
+            return ends[(ends >= 0).all(axis=1)]
+
+        places = self._present()
+        if start is not None:
+            places = np.zeros((len(self.corners.vertices), 2))
+            places[self.corners.of_triangles(self._arrays)] = start
         flat = native.load().flatten(
             self._arrays.in_object[vertices],
             triangles.reshape(-1, 3).astype(np.int32),
-            cuts[(cuts >= 0).all(axis=1)],
-            start=None if start is None else start[rows],
-            edges=edges[(edges >= 0).all(axis=1)],
+            own(self._straight.seams_in_map(self.corners.vertices, self._arrays.seams)),
+            start=None if places is None else places[corners],
+            edges=own(self._straight.edges_in_map(self.corners.vertices, self._arrays.edges)),
         )
         # A corner of several triangles is where the largest has it: one without area may be anywhere.
-        largest = np.argsort(-self._areas[rows], kind="stable")
-        corners, first = np.unique(self._triangles[rows][largest], return_index=True)
-        uvs = np.asarray(flat.uvs)[largest].reshape(-1, 2)[first]
-        return corners, uvs, np.repeat(np.asarray(flat.islands)[largest], 3)[first]
+        smallest_first = np.argsort(_areas(self._arrays.in_object[self.corners.vertices[corners]]), kind="stable")
+        uvs = np.zeros((len(self.corners.vertices), 2))
+        uvs[corners[smallest_first]] = np.asarray(flat.uvs)[smallest_first]
+        labels = np.full(len(uvs), -1, dtype=np.int64)
+        labels[corners[smallest_first]] = np.repeat(np.asarray(flat.islands)[smallest_first], 3).reshape(-1, 3)
+        self._straight.place(uvs)
+        labels[self._straight.corners] = labels[self._straight.onto]
+        mapped = np.flatnonzero(labels >= 0)
+        return mapped, uvs[mapped], labels[mapped]
 
     def _present(self) -> NDArray[np.float64] | None:
-        """Return the present map in lengths on the model, (m, 3, 2), each island as large as its surface. None: the mesh has no UV map."""
+        """Return the present map in lengths on the model, (c, 2), each island as large as its surface. None: the mesh has no UV map."""
         if self._uvs is None:
             return None
-        uvs = self._uvs[self._triangles].astype(np.float64) * (self._aspect, 1.0)
-        in_map, on_model = (np.bincount(self._labels, areas, self.count) for areas in (uv_areas(uvs), self._areas))
+        uvs = self._uvs.astype(np.float64) * (self._aspect, 1.0)
+        areas = uv_areas(uvs[self._triangles])
+        in_map, on_model = (np.bincount(self._labels, each, self.count) for each in (areas, self._areas))
         scale = np.sqrt(np.divide(on_model, in_map, out=np.ones(self.count), where=(in_map > 0.0) & (on_model > 0.0)))
-        uvs *= scale[self._labels][:, None, None]
-        return uvs if np.isfinite(uvs).all() else None
+        uvs *= scale[self._of_face[self.corners.faces]][:, None]
+        return uvs if np.isfinite(uvs[self._triangles]).all() else None
 
     def staying(self) -> NDArray[np.float64]:
         """Return the bounds of the triangles that stay in the map, (b, 4); of hidden faces their own."""
@@ -247,8 +269,19 @@ class _Map:
     def mapped(self) -> MappedSurface:
         """Return the visible faces with the UVs that the mesh has."""
         arrays = self._arrays
-        uvs = uv_map.read_uvs(self.obj)[self._triangles]
-        return MappedSurface(arrays.in_object, arrays.triangles, arrays.polygons, self._labels, uvs, arrays.edges)
+        uvs = uv_map.read_uvs(self.obj)
+        rows = self._with_area(uvs)
+        corners = self._triangles[rows]
+        polygons = self.corners.faces[corners[:, 0]].astype(np.int32)
+        triangles = self.corners.vertices[corners]
+        return MappedSurface(arrays.in_object, triangles, polygons, self._labels[rows], uvs[corners], arrays.edges)
+
+    def _with_area(self, uvs: NDArray[np.float32]) -> NDArray[np.int64]:
+        """Return the triangles without those that lie on a straight line in the map and on the model."""
+        vanish = np.flatnonzero(self._straight.vanish(self._triangles))
+        places = uvs[self._triangles[vanish]].astype(np.float64)
+        longest = np.linalg.norm(places - np.roll(places, 1, axis=1), axis=2).max(axis=1, initial=0.0)
+        return np.delete(np.arange(len(self._labels)), vanish[2.0 * uv_areas(places) <= _ON_LINE * longest])
 
     def homes(self) -> NDArray[np.float64]:
         """Return the low corner of the tile of the UV plane that each island had before, (count, 2)."""
@@ -261,8 +294,9 @@ class _Map:
 
     def turn_back(self) -> bool:
         """Turn back what rounding has turned over in changed islands without pins; return whether anything has moved."""
-        rows = np.isin(self._labels, np.setdiff1d(self.changed, self._with_pins))
         uvs = uv_map.read_uvs(self.obj)
+        rows = self._with_area(uvs)
+        rows = rows[np.isin(self._labels[rows], np.setdiff1d(self.changed, self._with_pins))]
         corners, places = turn_back(uvs, self._triangles[rows], self.corners.vertices, self._labels[rows])
         self.write(corners, places)
         return len(corners) > 0
@@ -280,6 +314,11 @@ class _Map:
             if not edge.hide:
                 edge[layer] = seam if edge.seam else plain
         bmesh.update_edit_mesh(self.obj.data, loop_triangles=False, destructive=False)
+
+
+def _areas(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the areas of triangles in space, (m, 3, 3)."""
+    return 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
 
 
 def unwrap_changed(
