@@ -1287,28 +1287,6 @@ def test_undo_of_a_drag_brings_the_old_cut_back() -> None:
     assert snapshot(bpy.data.objects[name]) == before
 
 
-@pytest.mark.every_blender
-def test_a_cut_in_a_file_of_version_0_1_is_taken_back() -> None:
-    counts = []
-    for is_former in (False, True):
-        obj = add_grid(9)
-        edit()
-        cut("0 44")
-        bm = bmesh.from_edit_mesh(obj.data)
-        if is_former:
-            for items, name in ((bm.verts, CUT_VERTS), (bm.edges, CUT_EDGES)):
-                former = items.layers.int.new(".seamwire_cut")
-                own = items.layers.int[name]
-                for item in items:
-                    item[former] = item[own]
-                items.layers.int.remove(own)
-        drag(obj, 44, 62)
-        bm = bmesh.from_edit_mesh(obj.data)
-        counts.append((len(bm.verts), len(bm.faces)))
-        bpy.ops.object.mode_set(mode="OBJECT")
-    assert counts[0] == counts[1]
-
-
 def lines(obj: bpy.types.Object, *ends: tuple[tuple[float, float], tuple[float, float]]) -> ObjectSession:
     """Keep wires across the surface between the vertices nearest to places, and return the session that has them."""
     bm = bmesh.from_edit_mesh(obj.data)

@@ -26,32 +26,17 @@ CUT_EDGES = ".seamwire_cut_edge"
 
 The layer of vertices has another name, because Blender 5 loses one of two layers with the same name on undo and when it saves."""
 
-_FORMER = ".seamwire_cut"
-"""The name of both layers in files of version 0.1."""
-
 _HOLDS = 2
 """The value of an edge that holds the end of a seam inside a face, where the cut that led on from there was taken back."""
 
 
 def cut_layers(bm: bmesh.types.BMesh) -> tuple[bmesh.types.BMLayerItem, bmesh.types.BMLayerItem]:
     """Return the layers of vertices and of edges that tell what cuts made."""
-    of_verts, of_edges = _layer(bm.verts, CUT_VERTS), _layer(bm.edges, CUT_EDGES)
+    named = ((bm.verts.layers.int, CUT_VERTS), (bm.edges.layers.int, CUT_EDGES))
+    of_verts, of_edges = (layers.get(name) or layers.new(name) for layers, name in named)
     for items in (bm.verts, bm.edges, bm.faces):
         items.ensure_lookup_table()
     return of_verts, of_edges
-
-
-def _layer(items: bmesh.types.BMVertSeq | bmesh.types.BMEdgeSeq, name: str) -> bmesh.types.BMLayerItem:
-    """Return a layer, made if it is missing, with what the layer of version 0.1 holds."""
-    layers = items.layers.int
-    if name not in layers:
-        layers.new(name)
-        if _FORMER in layers:
-            former, own = layers[_FORMER], layers[name]
-            for item in items:
-                item[own] = item[former]
-            layers.remove(former)
-    return layers[name]
 
 
 def mark_seams(bm: bmesh.types.BMesh, edges: Iterable[bmesh.types.BMEdge]) -> None:
@@ -77,10 +62,7 @@ def holding(bm: bmesh.types.BMesh, verts: Iterable[bmesh.types.BMVert]) -> list[
 
 def is_left_behind(bm: bmesh.types.BMesh, edge: bmesh.types.BMEdge) -> bool:
     """Whether a cut made an edge without a seam, or a vertex on the edge that only joins two edges without wires."""
-    of_verts, of_edges = (
-        layers.get(name) or layers.get(_FORMER)
-        for layers, name in ((bm.verts.layers.int, CUT_VERTS), (bm.edges.layers.int, CUT_EDGES))
-    )
+    of_verts, of_edges = bm.verts.layers.int.get(CUT_VERTS), bm.edges.layers.int.get(CUT_EDGES)
     if of_verts is None or of_edges is None:
         return False
     return (bool(edge[of_edges]) and not edge.seam) or any(
