@@ -175,7 +175,9 @@ class _Map:
             edges=own(self._straight.edges_in_map(self.corners.vertices, self._arrays.edges)),
         )
         # A corner of several triangles is where the largest has it: one without area may be anywhere.
-        smallest_first = np.argsort(_areas(self._arrays.in_object[self.corners.vertices[corners]]), kind="stable")
+        smallest_first = np.argsort(
+            triangle_areas(self._arrays.in_object, self.corners.vertices[corners]), kind="stable"
+        )
         uvs = np.zeros((len(self.corners.vertices), 2))
         uvs[corners[smallest_first]] = np.asarray(flat.uvs)[smallest_first]
         labels = np.full(len(uvs), -1, dtype=np.int64)
@@ -314,11 +316,6 @@ class _Map:
             if not edge.hide:
                 edge[layer] = seam if edge.seam else plain
         bmesh.update_edit_mesh(self.obj.data, loop_triangles=False, destructive=False)
-
-
-def _areas(corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the areas of triangles in space, (m, 3, 3)."""
-    return 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
 
 
 def unwrap_changed(
