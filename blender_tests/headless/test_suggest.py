@@ -379,6 +379,20 @@ def test_seams_that_are_there_stay_and_are_no_wires(suzanne: bpy.types.Object) -
     assert agree(suzanne)
 
 
+@pytest.mark.parametrize("ends", ["150-109", "159-150", "98-182"])
+def test_a_seam_over_the_brow_leads_to_no_small_island(suzanne: bpy.types.Object, ends: str) -> None:
+    clear(suzanne)
+    bpy.ops.mesh.seamwire_mark(chains=ends.replace("-", " "), along="EDGES")
+    marked = set(seams(suzanne))
+    assert marked
+    assert islands(suzanne) == 3, "the head and the eyes"
+    assert suggest(view_direction=(0.0, -1.0, 0.0)) == {"FINISHED"}
+    assert marked < set(seams(suzanne))
+    assert islands(suzanne) == 3
+    assert is_good_map(suzanne)
+    assert energy(suzanne) < energy_of(0.17) + 0.02
+
+
 @pytest.mark.parametrize("symmetric", [True, False])
 def test_wires_come_in_pairs_where_the_mesh_is_symmetric(symmetric: bool) -> None:
     obj = add_figure()
