@@ -259,7 +259,10 @@ def test_there_are_at_least_so_many_islands_as_asked_for_or_the_report_says_why_
     assert 4 <= islands(obj) <= 6
     assert open_islands(obj) == 0
     assert "fewer than" not in capfd.readouterr().out
-    clear(obj)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.ops.object.select_all(action="DESELECT")
+    add_cube(cuts=0)
+    edit()
     assert suggest(limit="ISLANDS", islands=50, distortion=40.0) == {"FINISHED"}
     assert islands(obj) >= 50
     bpy.ops.object.mode_set(mode="OBJECT")
@@ -400,6 +403,20 @@ def test_seams_that_are_there_stay_and_are_no_wires(suzanne: bpy.types.Object) -
     assert set(before) <= set(seams(suzanne))
     assert set(wires) <= set(chains(suzanne))
     assert agree(suzanne)
+
+
+@pytest.mark.parametrize("ends", ["150-109", "159-150", "98-182"])
+def test_a_seam_over_the_brow_leads_to_no_small_island(suzanne: bpy.types.Object, ends: str) -> None:
+    clear(suzanne)
+    bpy.ops.mesh.seamwire_mark(chains=ends.replace("-", " "), along="EDGES")
+    marked = set(seams(suzanne))
+    assert marked
+    assert islands(suzanne) == 3, "the head and the eyes"
+    assert suggest(view_direction=(0.0, -1.0, 0.0)) == {"FINISHED"}
+    assert marked < set(seams(suzanne))
+    assert islands(suzanne) == 3
+    assert is_good_map(suzanne)
+    assert energy(suzanne) < energy_of(0.17) + 0.02
 
 
 @pytest.mark.parametrize("symmetric", [True, False])

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
@@ -20,6 +21,8 @@ constexpr int kRounds = 2;
 constexpr int kHalvings = 4;         // how often pieces without a map are parted
 constexpr double kNearBound = 0.02;  // a map whose energy is this far below the bound may have too many seams
 constexpr double kMargin = 3e-3;
+constexpr double kFirstEnd = 0.75;    // of the progress: where the first search ends
+constexpr double kGrowing = 0.05;     // share of a later search: the tree
 constexpr double kLaterBudget = 0.5;  // of a repetition, as a share of the one before
 
 /// The work of each part of a round: the search, and the map of the original mesh.
@@ -116,7 +119,8 @@ void GroupPlanning::show(const SlitPlan& plan) {
 }
 
 void GroupPlanning::search(const SlitGoal& goal, const std::function<void()>& found, const Task& task) {
-  search_once(goal, found, task);
+  double end = kFirstEnd;
+  search_once(goal, found, part_of(task, 0.0, end));
   // Without a good plan the group is parted further: along the rims of the pieces that miss the bound. Without any map,
   // it is also parted into halves.
   for (int round = 0; round <= kHalvings && !result_.is_within(goal.energy); ++round) {
@@ -126,8 +130,10 @@ void GroupPlanning::search(const SlitGoal& goal, const std::function<void()>& fo
     if (cuts.empty()) continue;
     add_rings(std::move(cuts));
     const Result before = std::move(result_);
-    grow(std::isfinite(goal.energy), task);
-    search_once(goal, {}, task);
+    // How many searches follow is not known: each takes half of what is left.
+    const double begin = std::exchange(end, 0.5 * (end + 1.0)), grown = begin + kGrowing * (end - begin);
+    grow(std::isfinite(goal.energy), part_of(task, begin, grown));
+    search_once(goal, {}, part_of(task, grown, end));
     if (rank(before, goal.energy) <= rank(result_, goal.energy)) result_ = before;
   }
 }

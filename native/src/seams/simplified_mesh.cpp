@@ -154,7 +154,7 @@ class Collapsing {
   std::vector<Triangle> triangles_;
   std::vector<std::uint8_t> is_gone_;
   std::vector<std::vector<std::int32_t>> faces_;  // of each vertex, with some that are gone
-  std::vector<std::size_t> valences_;              // of each vertex: how many faces it has
+  std::vector<std::size_t> valences_;             // of each vertex: how many faces it has
   std::vector<Quadric> quadrics_;
   std::vector<std::int64_t> version_;
   std::vector<std::vector<std::int32_t>> features_;  // neighbors over boundary edges and seams
@@ -201,8 +201,9 @@ bool Collapsing::may_collapse(std::int32_t from, std::int32_t to) const {
   // A feature may not be folded onto another one.
   if (std::ranges::any_of(common, [&](std::int32_t v) { return is_feature(from, v) && is_feature(to, v); }))
     return false;
-  if (features_[from].empty() &&
-      std::ranges::any_of(common, [&](std::int32_t v) { return valences_[v] <= kFewFaces && neighbors(v).size() <= 3; })) {
+  if (features_[from].empty() && std::ranges::any_of(common, [&](std::int32_t v) {
+        return valences_[v] <= kFewFaces && neighbors(v).size() <= 3;
+      })) {
     return false;
   }
   return !folds(from, to);

@@ -72,12 +72,13 @@ class Search {
     steps_ += plan.work;
     offer(plan);
     if (std::isfinite(goal_.energy)) {  // without a bound, the tree is all that is asked for
-      grow(plan, goal_.energy - kBelow);
-      while (!is_within(plan) && !is_spent() && least_gain_ > kFinestGain) {
-        least_gain_ = std::max(0.25 * least_gain_, kFinestGain);
-        grow(plan, goal_.energy - kBelow);
+      grow_finer(plan);
+      // Faces are cut only if the bound is out of reach otherwise.
+      const bool has_faces = std::ranges::any_of(problem_.prices.is_face, [](std::uint8_t face) { return face != 0; });
+      if (!is_within(plan) && !goal_.may_cross_faces && has_faces) {
+        goal_.may_cross_faces = true;
+        grow_finer(plan);
       }
-      least_gain_ = kLeastGain;
       shrink(plan);
       while (is_within(best_) && exchange(best_)) continue;
     }
@@ -121,6 +122,7 @@ class Search {
   double gain_ratio(const SlitPlan& before, const Trial& after, double bound) const;
   bool grow_once(SlitPlan& plan, double bound, bool is_thorough);
   void grow(SlitPlan& plan, double bound);
+  void grow_finer(SlitPlan& plan);
   SlitPlan cut_back(const SlitPlan& plan, std::size_t slit, double share, const Task& task) const;
   std::vector<Cutback> first_cutbacks(const SlitPlan& plan) const;
   void look_at_best(const SlitPlan& plan, std::vector<Cutback>& cutbacks);
@@ -244,6 +246,17 @@ void Search::grow(SlitPlan& plan, double bound) {
     if (!is_grown) return;
     offer(plan);
   }
+}
+
+/// Grows, and takes slits that gain less while the bound is not reached.
+void Search::grow_finer(SlitPlan& plan) {
+  least_gain_ = kLeastGain;
+  grow(plan, goal_.energy - kBelow);
+  while (!is_within(plan) && !is_spent() && least_gain_ > kFinestGain) {
+    least_gain_ = std::max(0.25 * least_gain_, kFinestGain);
+    grow(plan, goal_.energy - kBelow);
+  }
+  least_gain_ = kLeastGain;
 }
 
 SlitPlan Search::cut_back(const SlitPlan& plan, std::size_t slit, double share, const Task& task) const {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -190,18 +191,20 @@ class TreeGrowth {
   /// A piece, and how far its tree has grown.
   struct State {
     PieceBody body;
-    std::vector<Terminal> terminals;     ///< what the tree has not reached yet
-    std::vector<std::int32_t> vertices;  ///< of its cut; boundary loops that are not reached yet are left out
-    double cut_length = 0.0;             ///< with all of its boundary
+    std::vector<Terminal> terminals;               ///< what the tree has not reached yet
+    std::vector<std::vector<std::int32_t>> holes;  ///< loops that the tree need not reach, and has not reached
+    std::vector<std::int32_t> vertices;            ///< of its cut; boundary loops that are not reached yet are left out
+    double cut_length = 0.0;                       ///< with all of its boundary
   };
 
   void begin_piece(std::int32_t number) {
-    State& state = states_.emplace_back(State{.body = PieceBody(problem_, number), .terminals = {}, .vertices = {}});
+    State& state =
+        states_.emplace_back(State{.body = PieceBody(problem_, number), .terminals = {}, .holes = {}, .vertices = {}});
     const PieceBody& body = state.body;
     const std::vector<double> distances = body.graph.mean_distances(task_);
     std::int32_t root = -1;
     std::vector<std::vector<std::int32_t>> loops = body.loops;
-    if (has_tips_) leave_holes_in_faces(body, distances, loops);
+    if (has_tips_) state.holes = leave_holes_in_faces(body, distances, loops);
     if (loops.empty()) {
       root = find_root(problem_, body, distances);
       tree_.roots.push_back(root);
@@ -219,9 +222,22 @@ class TreeGrowth {
     for (const std::int32_t tip : find_tips(problem_, body, distances)) state.terminals.push_back({{tip}, false});
   }
 
-  /// Whether a loop is a hole in a wider surface, as an eye is, and not the end of a tube.
+  /// The length of a loop without the edges that it passes on both sides, as it does around an open seam.
+  double one_sided_length(const std::vector<std::int32_t>& loop) const {
+    std::map<std::int32_t, int> times;
+    double length = 0.0;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const std::int32_t edge = problem_.mesh.edge_between(loop[i], loop[(i + 1) % loop.size()]);
+      if (edge >= 0) ++times[edge];
+    }
+    for (const auto& [edge, count] : times) length += count == 1 ? problem_.mesh.lengths[edge] : 0.0;
+    return length;
+  }
+
+  /// Whether a loop is a hole in a wider surface, as an eye or an open seam is, and not the end of a tube.
   bool is_hole(const PieceBody& body, const std::vector<std::int32_t>& loop) const {
-    const double length = loop_length(problem_.mesh, loop);
+    const double length = one_sided_length(loop);
+    if (!(length > 0.0)) return true;
     const std::vector<double> away = edge_distances(problem_.mesh, loop);
     double area = 0.0;
     for (const std::int32_t f : body.island.faces) {
@@ -231,21 +247,25 @@ class TreeGrowth {
     return area > kLeastAround * length * length;
   }
 
-  /// Takes out the holes that a slit from the hidden middle of the piece could only reach across a face. An eye stays a
-  /// hole of its island.
-  void leave_holes_in_faces(const PieceBody& body, std::span<const double> distances,
-                            std::vector<std::vector<std::int32_t>>& loops) const {
+  /// Takes out and returns the holes that a slit from the hidden middle of the piece could only reach across a face. An
+  /// eye stays a hole of its island.
+  std::vector<std::vector<std::int32_t>> leave_holes_in_faces(const PieceBody& body, std::span<const double> distances,
+                                                              std::vector<std::vector<std::int32_t>>& loops) const {
     const auto is_face = [this](std::int32_t v) { return problem_.prices.is_face[v] != 0; };
-    if (loops.empty() || std::ranges::none_of(body.island.vertices, is_face)) return;
+    if (loops.empty() || std::ranges::none_of(body.island.vertices, is_face)) return {};
     std::vector<std::uint8_t> from(problem_.mesh.vertex_count(), 0);
     from[find_root(problem_, body, distances)] = 1;
     const SlitFinder finder(problem_, from, from);
-    std::erase_if(loops, [&](const std::vector<std::int32_t>& loop) {
+    std::vector<std::vector<std::int32_t>> holes;
+    std::erase_if(loops, [&](std::vector<std::int32_t>& loop) {
       if (!is_hole(body, loop)) return false;
       const std::int32_t nearest = cheapest(finder, {loop, true}).second;
       const std::optional<Slit> slit = nearest < 0 ? std::nullopt : finder.slit_to(nearest);
-      return slit && crosses_face(problem_, *slit);
+      const bool is_left = slit && crosses_face(problem_, *slit);
+      if (is_left) holes.push_back(std::move(loop));
+      return is_left;
     });
+    return holes;
   }
 
   /// Cuts the handles of a piece. A seam around a handle is two boundary loops with the same vertices: these are
@@ -282,6 +302,12 @@ class TreeGrowth {
       std::erase_if(state.terminals, [&](const Terminal& terminal) {
         if (std::ranges::none_of(terminal.vertices, [&](std::int32_t v) { return is_reached[v] != 0; })) return false;
         if (terminal.is_loop) vertices.insert(vertices.end(), terminal.vertices.begin(), terminal.vertices.end());
+        return true;
+      });
+      // A second slit to a hole would part the piece.
+      std::erase_if(state.holes, [&](const std::vector<std::int32_t>& hole) {
+        if (std::ranges::none_of(hole, [&](std::int32_t v) { return is_reached[v] != 0; })) return false;
+        vertices.insert(vertices.end(), hole.begin(), hole.end());
         return true;
       });
     }

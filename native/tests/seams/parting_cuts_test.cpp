@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "seams/group_planning.hpp"
 #include "seams/seam_problems.hpp"
 #include "seams/slit_tree.hpp"
 #include "seamwire/seams/seam_planner.hpp"
@@ -115,6 +116,25 @@ TEST(PartingCuts, RimsOfManyCornersAreCut) {
     EXPECT_LT(plan.energy, 4.001);
     EXPECT_LT(plan.steps, 100.0);
   }
+}
+
+TEST(PartingCuts, ALaterSearchHasItsOwnShareOfTheProgress) {
+  const Surface surface = prism(1500, 1.0, false);
+  GroupProblem group;
+  group.original = problem_on(surface);
+  GroupPlanning planning(group);
+  planning.grow(true, {});
+  std::vector<double> fractions;
+  const Task watched{.stop = {}, .progress = [&](double fraction) {
+                       fractions.push_back(fraction);
+                       return true;
+                     }};
+  planning.search({}, {}, watched);
+  ASSERT_GT(planning.result().maps.maps.size(), 1U) << "a later search has taken place";
+  // The first search gives up at once: it finds no map. The later one takes its share of what is left.
+  EXPECT_TRUE(std::ranges::all_of(fractions, [](double fraction) { return fraction < 0.01 || fraction >= 0.75; }));
+  EXPECT_GT(std::ranges::max(fractions), 0.8);
+  EXPECT_LT(std::ranges::max(fractions), 1.0);
 }
 
 TEST(PartingCuts, RimsOfFewCornersStay) {

@@ -100,6 +100,32 @@ TEST(SimplifiedMesh, StaysSymmetric) {
   }
 }
 
+/// A fan around a vertex, or a cone over it: the vertex is the last one.
+Surface fan(int count, double height) {
+  std::vector<Vector> points;
+  std::vector<Triangle> triangles;
+  for (std::int32_t i = 0; i < count; ++i) {
+    const double angle = 2 * std::numbers::pi * i / count;
+    points.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+    triangles.push_back({i, (i + 1) % count, count});
+  }
+  points.emplace_back(0.0, 0.0, height);
+  return {points, triangles};
+}
+
+TEST(SimplifiedMesh, AVertexMayHaveManyTriangles) {
+  // With work that grows with the square of their number, this test would not end.
+  for (const double height : {0.0, 2.0}) {
+    const PlanMesh mesh = plan_mesh(fan(100'000, height));
+    const SimplifiedMesh simple = simplified(mesh, std::vector<std::uint8_t>(mesh.edge_count(), 0), nullptr, 7000, {});
+    EXPECT_LE(simple.mesh.face_count(), 7000U);
+    EXPECT_EQ(euler(simple.mesh), 1);
+    double area = 0.0;
+    for (const FaceFrame& frame : face_frames(simple.mesh)) area += frame.area;
+    EXPECT_NEAR(area, 1.0, 1e-3);
+  }
+}
+
 TEST(SimplifiedMesh, IsTheMeshIfThatIsSmall) {
   const SlitProblem problem = problem_on(shapes::icosphere(1).surface());
   const SimplifiedMesh simple = simplify(problem, 100);
