@@ -259,7 +259,7 @@ def test_where_nothing_suggests_one_the_status_bar_says_so(desk: Desk) -> None:
     ui.look((0.0, 0.0, 0.7071, 0.7071), (0.0, 0.0, 0.0), 4.0)  # from behind
     place = offer(desk, ROWS * AROUND + 1)
     assert desk.session.picture.one(Role.OFFER) is None
-    assert SurfaceLoops.NONE in said()
+    assert str(SurfaceLoops.NONE) in said()
     ui.event("LEFT_ALT", "RELEASE", place)
     assert not desk.running
     assert desk.unchanged()
