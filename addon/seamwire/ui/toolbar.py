@@ -8,7 +8,7 @@ from pathlib import Path
 import bpy
 
 from ..mesh.settings import TOOL
-from ..operators import hover, islands
+from ..operators import hover, islands, undo_steps
 from ..operators.bindings import NAME
 from . import keymap, properties
 
@@ -60,6 +60,7 @@ class SeamwireTool(bpy.types.WorkSpaceTool):
             {"type": "W", "value": "PRESS", "shift": True, "ctrl": True},
             {"properties": [("which", "WORST")]},
         ),
+        (undo_steps.HINT, {"type": "F9", "value": "PRESS"}, None),
         (hover.OPERATOR, {"type": "MOUSEMOVE", "value": "ANY", "any": True}, None),
     )
 
