@@ -83,10 +83,11 @@ HINT = "mesh.seamwire_show_hint"
 
 
 class SeamwireShowHint(bpy.types.Operator):
-    """Say how to change what was drawn"""
+    """A box that says how to change what was drawn."""
 
     bl_idname = HINT
     bl_label = "Adjust Last Operation"
+    bl_description = "Say how to change what was drawn"
     bl_options = {"INTERNAL"}
 
     @classmethod

@@ -17,7 +17,9 @@ KEYMAP = f"3D View Tool: Edit Mesh, {NAME}"
 """The name of the tool's keymap in Blender."""
 _MODE = "EDIT_MESH"
 _OTHER = "builtin.select_box"
-_NOTHING_ELSE = dict.fromkeys(("keymap", "gizmo_group", "data_block", "operator", "idname_fallback", "keymap_fallback"), "")
+_NOTHING_ELSE = dict.fromkeys(
+    ("keymap", "gizmo_group", "data_block", "operator", "idname_fallback", "keymap_fallback"), ""
+)
 """Blender 3.4 crashes if a text is left out."""
 _ICON = Path(__file__).parent.parent / "icons" / "seamwire.draw"
 
