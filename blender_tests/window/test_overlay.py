@@ -568,6 +568,8 @@ def test_the_table_of_keys_is_laid_over_a_dark_ground(sight: Sight) -> None:
     seen = sight.pixels(keys=tuple(rows))
     assert np.median(around(seen, middle, 60)) < 0.5 * np.median(around(before, middle, 60))
     assert has(seen, middle, "orange", chroma=0.4, radius=180), "the keys"
+    assert text_pixels(before)[:, :110].any()
+    assert not text_pixels(sight.pixels(keys=tuple(rows[:3])))[:, :110].any(), "no text beside the table or below it"
     assert np.abs(sight.pixels(keys=None) - before).max() < 0.1
 
 

@@ -184,7 +184,7 @@ class Suggestion:
         assert self._planner is not None
 
         def go_on(fraction: float) -> bool:
-            return progress(fraction) and (self.best_so_far is None or not is_enough())
+            return progress(fraction) and not (is_enough() and self.best_so_far is not None)
 
         try:
             self.best = self._planner.plan(
@@ -202,8 +202,9 @@ class Suggestion:
 
     @property
     def best_so_far(self) -> seamwire_core.SeamPlan | None:
-        """The best plan that was found until now, while `plan` goes on too; any thread may read it."""
-        return None if self._planner is None else self._planner.best_so_far
+        """The best plan with seams so far, also while `plan` runs. Any thread may read it."""
+        found = None if self._planner is None else self._planner.best_so_far
+        return found if found is not None and found.wires else None
 
     def map(self) -> NDArray[np.float64] | None:
         """Return the map of the plan, (m, 3, 2), in the object's units; None if it has none, or the mesh is another one with the wires."""

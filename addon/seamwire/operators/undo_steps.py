@@ -4,7 +4,7 @@
 Blender's *Adjust Last Operation* undoes everything back to the operator that was registered last, then runs that operator again.
 A plain `ed.undo_push` registers nothing, so adjusting an operator from before the chain would remove the chain. Therefore each step
 has an operator that pushes it. These operators have no properties and no `execute`, so Blender offers nothing to adjust or repeat.
-Where the artist asks for it (F9), they say how to change what was drawn.
+Blender's own box would be empty, so `SeamwireShowHint` takes its key (F9) and says how to change what was drawn.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from ..mesh.registration import classes, together
 from ..words.reports import ADJUST_STROKE, ADJUST_WIRE, NOTHING_TO_ADJUST
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Sequence
 
 DRAW_SEVERAL = "Draw Seamwires"
 """The step of a chain that did several of these."""
@@ -53,7 +53,7 @@ _HINTS = {
     GUIDE_STROKE: ADJUST_STROKE,
     AVOID_STROKE: ADJUST_STROKE,
 }
-"""The text of the panel after a step. After all other steps it says how to change a wire."""
+"""The text after a step. After all other steps it says how to change a wire."""
 
 
 def _name(title: str) -> str:
@@ -65,17 +65,6 @@ def _invoke(_self: bpy.types.Operator, _context: bpy.types.Context, _event: bpy.
     return {"FINISHED"}
 
 
-def _drawer(hints: Sequence[str]) -> Callable[[bpy.types.Operator, bpy.types.Context], None]:
-    """Return what draws the panel of a step."""
-
-    def draw(self: bpy.types.Operator, _context: bpy.types.Context) -> None:
-        column = self.layout.column()
-        for hint in hints:
-            column.label(text=hint)
-
-    return draw
-
-
 def _operator(title: str) -> type[bpy.types.Operator]:
     """Return the operator that pushes the step with a title."""
     body = {
@@ -84,12 +73,44 @@ def _operator(title: str) -> type[bpy.types.Operator]:
         "bl_label": title,
         "bl_options": {"REGISTER", "UNDO", "INTERNAL"},
         "invoke": _invoke,
-        "draw": _drawer(_HINTS.get(title, ADJUST_WIRE)),
     }
     return type(f"MESH_OT_{_name(title)}", (bpy.types.Operator,), body)
 
 
 _CLASSES = tuple(_operator(title) for title in _TITLES)
+_TITLE_OF = {cls.__name__: cls.bl_label for cls in _CLASSES}
+HINT = "mesh.seamwire_show_hint"
+
+
+class SeamwireShowHint(bpy.types.Operator):
+    """A box that says how to change what was drawn."""
+
+    bl_idname = HINT
+    bl_label = "Adjust Last Operation"
+    bl_description = "Say how to change what was drawn"
+    bl_options = {"INTERNAL"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Whether the last operator pushed a step of undo for a chain. After other operators the key is Blender's."""
+        return _last_title(context) is not None
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        """Show the text until the mouse leaves it."""
+        title = _last_title(context)
+        hints: Sequence[str] = _HINTS.get(title, ADJUST_WIRE)
+
+        def show(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
+            for hint in hints:
+                menu.layout.label(text=hint)
+
+        context.window_manager.popup_menu(show, title=title)
+        return {"FINISHED"}
+
+
+def _last_title(context: bpy.types.Context) -> str | None:
+    operators = context.window_manager.operators
+    return _TITLE_OF.get(operators[-1].bl_idname) if operators else None
 
 
 def push(title: str) -> None:
@@ -103,4 +124,4 @@ def push(title: str) -> None:
     getattr(bpy.ops.mesh, _name(title))("INVOKE_DEFAULT", True)
 
 
-register, unregister = together(*classes(*_CLASSES))
+register, unregister = together(*classes(*_CLASSES, SeamwireShowHint))

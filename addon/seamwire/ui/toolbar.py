@@ -8,7 +8,7 @@ from pathlib import Path
 import bpy
 
 from ..mesh.settings import TOOL
-from ..operators import hover, islands
+from ..operators import hover, islands, undo_steps
 from ..operators.bindings import NAME
 from . import keymap, properties
 
@@ -17,6 +17,10 @@ KEYMAP = f"3D View Tool: Edit Mesh, {NAME}"
 """The name of the tool's keymap in Blender."""
 _MODE = "EDIT_MESH"
 _OTHER = "builtin.select_box"
+_NOTHING_ELSE = dict.fromkeys(
+    ("keymap", "gizmo_group", "data_block", "operator", "idname_fallback", "keymap_fallback"), ""
+)
+"""Blender 3.4 crashes if a text is left out."""
 _ICON = Path(__file__).parent.parent / "icons" / "seamwire.draw"
 
 
@@ -58,6 +62,7 @@ class SeamwireTool(bpy.types.WorkSpaceTool):
             {"type": "W", "value": "PRESS", "shift": True, "ctrl": True},
             {"properties": [("which", "WORST")]},
         ),
+        (undo_steps.HINT, {"type": "F9", "value": "PRESS"}, None),
         (hover.OPERATOR, {"type": "MOUSEMOVE", "value": "ANY", "any": True}, None),
     )
 
@@ -74,7 +79,7 @@ def register() -> None:
 
 
 def leave() -> None:
-    """Let windows in which the tool is active go on with Blender's first tool: a tool without keys fills the console."""
+    """Choose Blender's first tool wherever this tool is chosen, shown or not: a tool without keys fills the console."""
     for window in bpy.context.window_manager.windows:
         area = next((area for area in window.screen.areas if area.type == "VIEW_3D"), None)
         if area is None:
@@ -83,6 +88,12 @@ def leave() -> None:
             tool = bpy.context.workspace.tools.from_space_view3d_mode(bpy.context.mode, create=False)
             if tool is not None and tool.idname == TOOL:
                 bpy.ops.wm.tool_set_by_id(name=_OTHER)
+    # Blender sets up the tools of other workspaces and modes when it shows them.
+    with bpy.context.temp_override(window=bpy.context.window_manager.windows[0]):
+        for workspace in bpy.data.workspaces:
+            for tool in workspace.tools:
+                if tool.idname == TOOL:
+                    tool.setup(idname=_OTHER, **_NOTHING_ELSE)
 
 
 def unregister() -> None:

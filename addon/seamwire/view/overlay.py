@@ -188,7 +188,7 @@ class Overlay:
             return
         scale = bpy.context.preferences.system.ui_scale
         with blended("NONE"):
-            if self._looks.text:
+            if self._looks.text and picture.keys is None:  # the table would cover part of it
                 lines = corner.lines(picture)
                 text_overlay.draw(lines, (left, bottom), scale, bpy.context.preferences.themes[0].view_3d.space.text_hi)
             legend.draw(self._legends(), room, scale)
