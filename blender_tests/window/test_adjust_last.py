@@ -10,7 +10,6 @@ import bpy
 import pytest
 from desk import Desk, choose, dismiss, drag, draw, undo_steps
 from scene import chain, seams
-from seamwire.operators import undo_steps as undo_steps_of_chains
 
 MIDDLE = chain(*range(36, 45))
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import shutil
+from collections.abc import Iterable
 from pathlib import Path
 
 import bmesh
@@ -15,8 +16,8 @@ from desk import ORANGE, Desk, choose, dismiss, draw, shows, undo_steps
 from scene import chain, edit, seams
 from seamwire.core.drawing.picture import Role, SeedRole
 from seamwire.core.drawing.session import Session
+from seamwire.core.storage.serialization import Archive
 from seamwire.mesh import edit_mesh, finish
-from seamwire.mesh.object_session import ObjectSession
 from seamwire.mesh.settings import TOOL
 from seamwire.operators import chain_record
 from seamwire.operators.report import running
@@ -677,15 +678,15 @@ def test_a_chain_whose_wires_are_written_in_part_leaves_the_mesh_as_it_was(
     desk: Desk, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     desk.choose()
-    store, failed = ObjectSession._store, []
+    text, failed = Archive.text, []
 
-    def fail_once(self: ObjectSession) -> None:
+    def fail_once(archive: Archive, labels: Iterable[int]) -> str:
         if not failed:
             failed.append(seams(desk.obj))
             raise TypeError("as the test wants it")
-        store(self)
+        return text(archive, labels)
 
-    monkeypatch.setattr(ObjectSession, "_store", fail_once)
+    monkeypatch.setattr(Archive, "text", fail_once)
     draw(desk, 36, 44)
     dismiss(desk.ui)
     driver.take_errors()

@@ -380,7 +380,7 @@ class EditedObjects:
         """
         context = bpy.context
         if context.window is None or context.space_data is None:
-            return  # another add-on draws the view, into a picture of its own
+            return  # another add-on draws the view into a picture
         has_tool = chosen.tool_is_active(context)
         self._follow_window(context.window, (context.mode, has_tool))
         if has_tool and not self.chain and self._unread():

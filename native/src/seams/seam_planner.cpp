@@ -445,9 +445,7 @@ void Planning::halve_groups(const Task& task) {
     islands += groups()[g].places.size() * counts[g];
   }
   if (islands >= goal_.islands) return;
-  const auto size = [&](std::size_t g) {
-    return groups()[g].size * groups()[g].size / static_cast<double>(counts[g]);
-  };
+  const auto size = [&](std::size_t g) { return groups()[g].size * groups()[g].size / static_cast<double>(counts[g]); };
   while (islands < goal_.islands) {
     std::size_t largest = plans_.size();
     for (std::size_t g = 0; g < plans_.size(); ++g) {
