@@ -84,7 +84,9 @@ class StraightCorners:
         corners = corners[_are_straight(*places, _STRAIGHT)]
         order = np.argsort(triangles.reshape(-1), kind="stable")
         first = np.searchsorted(triangles.reshape(-1)[order], corners)
-        for corner, (one, other) in zip(corners.tolist(), (order[first[:, None] + np.arange(2)] // 3).tolist(), strict=True):
+        for corner, (one, other) in zip(
+            corners.tolist(), (order[first[:, None] + np.arange(2)] // 3).tolist(), strict=True
+        ):
             before, after = int(preceding[corner]), int(following[corner])
             rest = {*triangles[one].tolist(), *triangles[other].tolist()} - {before, corner, after}
             if uses[corner] != 2 or len(rest) != 1 or corner not in triangles[one] or corner not in triangles[other]:

@@ -4,7 +4,9 @@
 import numpy as np
 from seamwire.core.islands.straight_corners import CornerRing, StraightCorners, find_straight
 
-POINTS = np.array([(0, 0, 0), (1, 0, 0), (3, 0, 0), (4, 0, 0), (4, 2, 0), (0, 2, 0), (4, -2, 0), (0, -2, 0)], dtype=float)
+POINTS = np.array(
+    [(0, 0, 0), (1, 0, 0), (3, 0, 0), (4, 0, 0), (4, 2, 0), (0, 2, 0), (4, -2, 0), (0, -2, 0)], dtype=float
+)
 ABOVE, BELOW = (0, 1, 2, 3, 4, 5), (3, 2, 1, 0, 7, 6)
 """Two faces with the vertices 1 and 2 on their common side."""
 
