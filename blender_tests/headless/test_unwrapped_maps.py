@@ -8,7 +8,7 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from maps import flipped, in_square, overlapping_pairs, signed_areas, triangles
+from maps import flipped, folded, in_square, overlapping_pairs, signed_areas, triangles
 from scene import add_grid, add_object, edit, snapshot
 from seamwire.mesh import unwrap as unwrapping
 from seamwire.operators.unwrap import unwrap_after_chain
@@ -66,6 +66,28 @@ def test_a_single_seam_anywhere_leaves_the_map_valid(shape: str) -> None:
         if any(found):
             wrong.append((number, *found))
     assert wrong == []
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("is_joined", [False, True], ids=["split edges", "edges into the middle of sides"])
+def test_vertices_in_the_middle_of_sides_leave_the_map_valid_as_blender_cuts_the_faces(
+    shape: str, is_joined: bool
+) -> None:
+    obj = add_shape(shape)
+    for edge in bmesh.from_edit_mesh(obj.data).edges:
+        edge.seam = edge.index % 11 == 0
+    bm = bmesh.from_edit_mesh(obj.data)
+    for number, edge in enumerate(bm.edges[:][::3]):
+        _, vertex = bmesh.utils.edge_split(edge, edge.verts[0], (0.5, 0.3, 0.01)[number % 3])
+        face = vertex.link_faces[0]
+        neighbors = {each.other_vert(vertex) for each in vertex.link_edges}
+        others = [each for each in face.verts if each is not vertex and each not in neighbors]
+        if is_joined and others:
+            bmesh.utils.face_split(face, vertex, others[0])
+    bmesh.update_edit_mesh(obj.data)
+    assert unwrap() == {"FINISHED"}
+    assert (folded(obj), overlapping_pairs(obj, deep=1e-6)) == (0, 0)
 
 
 def add_capped_columns(caps: int = 12, width: float = 4e-4, height: float = 6e-8) -> bpy.types.Object:

@@ -7,7 +7,7 @@ way around. So the vertex is left out of the map, and then put on the straight l
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -53,6 +53,8 @@ class StraightCorners:
         (s,) the end that replaces each.
     is_cut
         (s,) whether all edges of the side between the ends are seams. A seam that ends at a left-out vertex ends before it in the map.
+    stays
+        Corners between two faces that lie on straight sides, but have triangles with an area.
     """
 
     corners: NDArray[np.int64]
@@ -60,6 +62,7 @@ class StraightCorners:
     shares: NDArray[np.float64]
     onto: NDArray[np.int64]
     is_cut: NDArray[np.bool_]
+    stays: NDArray[np.int64] = field(default_factory=lambda: np.empty(0, dtype=np.int64))
 
     def without(self, triangles: NDArray[np.int64]) -> NDArray[np.int64]:
         """Return triangles, (t, 3) corners, with each left-out corner replaced. Some have a corner twice then: they vanish."""
@@ -79,7 +82,7 @@ class StraightCorners:
         following, preceding = ring.following.copy(), ring.preceding
         following[self.ends[:, 0]], preceding[self.ends[:, 1]] = self.ends[:, 1], self.ends[:, 0]
         uses = np.bincount(triangles.reshape(-1), minlength=len(following))
-        corners = np.flatnonzero(uses == 2)
+        corners = np.setdiff1d(np.flatnonzero(uses == 2), self.stays)
         places = (points[ring.vertices[each]] for each in (preceding[corners], corners, following[corners]))
         corners = corners[_are_straight(*places, _STRAIGHT)]
         order = np.argsort(triangles.reshape(-1), kind="stable")
@@ -153,15 +156,27 @@ def find_straight(
         points[around[:, 0, 1]],
         np.where(are_ears, _NEARLY, _STRAIGHT),
     )
+    # Else a triangle with an area keeps the vertex in its place.
+    is_flat = _are_flat(points[vertices[triangles]])
+    flat_uses = np.bincount(triangles[is_flat].reshape(-1), minlength=len(vertices))
+    needed = are_ears | (flat_uses[pairs] == uses[pairs]).all(axis=1)
     is_straight = np.zeros(len(vertices), dtype=bool)
-    is_straight[pairs[found]] = True
+    is_straight[pairs[found & needed]] = True
+    stays = pairs[found & ~needed].reshape(-1)
     while True:
-        straight = _chains(points, ring, is_seam, is_straight)
+        straight = replace(_chains(points, ring, is_seam, is_straight), stays=stays)
         gone = np.setdiff1d(faces[triangles[:, 0]], faces[triangles[~straight.vanish(triangles), 0]])
         if not len(gone):
             return straight
         # A face without any triangle would have no place in the map.
         is_straight[np.isin(vertices, vertices[is_straight & np.isin(faces, gone)])] = False
+
+
+def _are_flat(corners: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Return which triangles, (t, 3, 3), are not higher than a part of their longest side."""
+    sides = np.roll(corners, -1, axis=1) - corners
+    squares = np.einsum("ijk,ijk->ij", sides, sides).max(axis=1, initial=0.0)
+    return np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1) <= _STRAIGHT * squares
 
 
 def _are_straight(
