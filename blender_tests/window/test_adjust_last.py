@@ -10,6 +10,7 @@ import bpy
 import pytest
 from desk import Desk, choose, dismiss, drag, draw, undo_steps
 from scene import chain, seams
+from seamwire.operators import undo_steps as undo_steps_of_chains
 
 MIDDLE = chain(*range(36, 45))
 
@@ -165,7 +166,7 @@ def test_f9_after_a_gesture_says_how_to_change_it_and_leaves_it(
     GESTURES[title](unwrapped)
     unwrapped.ui.wait_until(lambda: not unwrapped.running)
     after = seams(unwrapped.obj)
-    monkeypatch.setitem(undo_steps_of_chains._HINTS, title, said := Said(("A hint",)))
+    monkeypatch.setitem(undo_steps_of_chains.HINTS, title, said := Said(("A hint",)))
     unwrapped.ui.key("F9")
     unwrapped.ui.wait(3, redraw=True)
     assert said.was_shown

@@ -47,7 +47,7 @@ _TITLES = (
 )
 
 
-_HINTS = {
+HINTS = {
     REMOVE_WIRE: NOTHING_TO_ADJUST,
     REMOVE_STROKE: NOTHING_TO_ADJUST,
     GUIDE_STROKE: ADJUST_STROKE,
@@ -98,7 +98,7 @@ class SeamwireShowHint(bpy.types.Operator):
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         """Show the text until the mouse leaves it."""
         title = _last_title(context)
-        hints: Sequence[str] = _HINTS.get(title, ADJUST_WIRE)
+        hints: Sequence[str] = HINTS.get(title, ADJUST_WIRE)
 
         def show(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
             for hint in hints:
