@@ -201,8 +201,12 @@ class Suggestion:
 
     @property
     def best_so_far(self) -> seamwire_core.SeamPlan | None:
-        """The best plan that was found until now, while `plan` goes on too; any thread may read it."""
-        return None if self._planner is None else self._planner.best_so_far
+        """The best plan that was found until now, while `plan` goes on too; any thread may read it.
+
+        None while a part of the mesh has no map: such a plan is not worth keeping.
+        """
+        found = None if self._planner is None else self._planner.best_so_far
+        return found if found is not None and np.isfinite(found.energy) else None
 
     def map(self) -> NDArray[np.float64] | None:
         """Return the map of the plan, (m, 3, 2), in the object's units; None if it has none, or the mesh is another one with the wires."""

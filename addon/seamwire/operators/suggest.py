@@ -267,17 +267,17 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
             suggestions.write()
             slide_wires({suggestion.mesh: suggestion.wires for suggestion in suggestions.finished_by("SLIDE")})
             self._unwrap(context, suggestions)
-            self._tell(suggestions)
+            self._report(suggestions)
         return {"FINISHED"}
 
-    def _tell(self, suggestions: Suggestions) -> None:
+    def _report(self, suggestions: Suggestions) -> None:
         outcome = suggestions.outcome()
         self.report({"INFO"} if outcome.is_good else {"WARNING"}, outcome.text)
 
     def _unwrap_uncut(self, context: bpy.types.Context, suggestions: Suggestions) -> set[str]:
         """Unwrap although no seam is needed, report it, and return the operator's result."""
         unwrapped = self._unwrap(context, suggestions) if self.unwrap else 0
-        self._tell(suggestions)
+        self._report(suggestions)
         return {"FINISHED"} if unwrapped else {"CANCELLED"}
 
     def _unwrap(self, context: bpy.types.Context, suggestions: Suggestions) -> int:
