@@ -202,9 +202,9 @@ class Suggestion:
 
     @property
     def best_so_far(self) -> seamwire_core.SeamPlan | None:
-        """The best plan with seams so far, also while `plan` runs. Any thread may read it."""
+        """The best plan so far with seams and a map of every part of the mesh, also while `plan` runs. Any thread may read it."""
         found = None if self._planner is None else self._planner.best_so_far
-        return found if found is not None and found.wires else None
+        return found if found is not None and found.wires and np.isfinite(found.energy) else None
 
     def map(self) -> NDArray[np.float64] | None:
         """Return the map of the plan, (m, 3, 2), in the object's units; None if it has none, or the mesh is another one with the wires."""
