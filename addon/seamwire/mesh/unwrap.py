@@ -454,19 +454,25 @@ def _pack(context: bpy.types.Context, faces: Mapping[_Map, NDArray[np.integer]])
 def _with_uv_maps(context: bpy.types.Context, maps: Iterable[_Map]) -> Iterator[None]:
     """Let objects that are unwrapped have a UV map, and other objects none that they had not; on an error all as before."""
     # Blender would make missing UV maps while it unwraps, and what is selected would be other items then.
-    made = [(found.obj.data, found.obj.data.uv_layers.new()) for found in maps if not found.obj.data.uv_layers]
+    made = [found.obj.data for found in maps if not found.obj.data.uv_layers]
+    for mesh in made:
+        mesh.uv_layers.new()
     # It would make some, too, for objects of which nothing is selected.
     bare = [obj.data for obj in context.objects_in_mode_unique_data if not obj.data.uv_layers]
     try:
         yield
     except BaseException:
-        for mesh, layer in made:
-            mesh.uv_layers.remove(layer)
+        _remove_uv_maps(made)
         raise
     finally:
-        for mesh in bare:
-            for layer in list(mesh.uv_layers):
-                mesh.uv_layers.remove(layer)
+        _remove_uv_maps(bare)
+
+
+def _remove_uv_maps(meshes: Iterable[bpy.types.Mesh]) -> None:
+    # In Blender 5 references to layers do not last.
+    for mesh in meshes:
+        while mesh.uv_layers:
+            mesh.uv_layers.remove(mesh.uv_layers[0])
 
 
 @contextmanager
