@@ -63,7 +63,9 @@ Returns
     The triangle's number, and its distance in lengths of `direction`. None if the ray meets no triangle.
 )")
       .def_property_readonly("ready", &RayTree::ready, "bool: whether the tree is built.")
-      .def("wait", [](const RayTree& rays) { rays.wait(); }, py::call_guard<GilRelease>(), "Wait until the tree is built.");
+      .def(
+          "wait", [](const RayTree& tree) { tree.wait(); }, py::call_guard<GilRelease>(),
+          "Wait until the tree is built.");
 }
 
 }  // namespace seamwire::python
