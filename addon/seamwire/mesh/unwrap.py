@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import zlib
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
@@ -78,8 +78,9 @@ class _Map:
         self._of_face = np.full(int(self.corners.faces.max(initial=-1)) + 1, -1, dtype=np.int32)
         self._of_face[arrays.polygons] = labels
         # The map is made and measured for the triangles that Blender draws.
-        labels = self._of_face[self.corners.faces[read.triangles[:, 0]]]
-        self._triangles = read.triangles[labels >= 0].astype(np.int64)
+        drawn = self._drawn()
+        labels = self._of_face[self.corners.faces[drawn[:, 0]]]
+        self._triangles = drawn[labels >= 0]
         self._labels = labels[labels >= 0]
         self._areas = triangle_areas(arrays.in_object, self.corners.vertices[self._triangles])
         self._ring = CornerRing(self.corners.vertices, self.corners.faces, self.corners.following)
@@ -94,6 +95,17 @@ class _Map:
     def bm(self) -> bmesh.types.BMesh:
         """The edit mesh, by its numbers."""
         return edit_mesh.edit_bmesh(self.obj.data)
+
+    def _drawn(self) -> NDArray[np.int64]:
+        """Return the corners of the triangles that Blender draws in edit mode, (t, 3), hidden ones included."""
+        bm = self.bm  # kept, because its loops live as long
+        found = (
+            number
+            for a, b, c in bm.calc_loop_triangles()
+            for number in (a.face.index, a.vert.index, b.vert.index, c.vert.index)
+        )
+        table = np.fromiter(found, dtype=np.int32).reshape(-1, 4)
+        return self.corners.of_triangles(replace(self._arrays, triangles=table[:, 1:], polygons=table[:, 0]))
 
     def _find_changed(self) -> NDArray[np.bool_]:
         self._families = np.arange(self.count)

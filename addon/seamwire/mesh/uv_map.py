@@ -78,8 +78,6 @@ class EditedMap:
         (e,) whether the edges are seams.
     numbers
         (e,) the values of the edges in a layer; zeros: there is no such layer.
-    triangles
-        (t, 3) the corners of the triangles that Blender draws, hidden ones included.
     """
 
     corners: Corners
@@ -87,7 +85,6 @@ class EditedMap:
     pinned: NDArray[np.bool_]
     seams: NDArray[np.bool_]
     numbers: NDArray[np.int32]
-    triangles: NDArray[np.int32]
 
 
 def read_with_edges(obj: bpy.types.Object, layer: str) -> EditedMap:
@@ -100,10 +97,7 @@ def read_with_edges(obj: bpy.types.Object, layer: str) -> EditedMap:
         attribute = mesh.attributes.get(layer)
         if attribute is not None and len(attribute.data) == len(numbers):
             attribute.data.foreach_get("value", numbers)
-        mesh.calc_loop_triangles()
-        triangles = np.empty(3 * len(mesh.loop_triangles), dtype=np.int32)
-        mesh.loop_triangles.foreach_get("loops", triangles)
-        return EditedMap(corners, uvs, _pinned(mesh), seams, numbers, triangles.reshape(-1, 3))
+        return EditedMap(corners, uvs, _pinned(mesh), seams, numbers)
 
 
 def read(obj: bpy.types.Object) -> tuple[Corners, NDArray[np.float32] | None]:
