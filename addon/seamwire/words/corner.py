@@ -30,14 +30,14 @@ def _islands(islands: Islands) -> str:
 
 
 def _island(islands: Islands, number: int) -> str:
-    """Say which island that is, and once the seams have parted the mesh, what it needs to lie flat."""
+    """Say which island that is, and what it needs to lie flat."""
     size, cuts = int(islands.sizes[number]), int(islands.missing[number])
     found = f"Island {number + 1}: {count(size, 'triangle')}"
-    return f"{found}, flat with {count(cuts, 'more cut')}" if cuts and islands.count > 1 else found
+    return f"{found}, flat with {count(cuts, 'more cut')}" if cuts else found
 
 
 def lines(picture: Picture) -> list[str]:
-    """Return what is to be read, top line first. Lines about islands appear once something is cut."""
+    """Return what is to be read, top line first. Lines about islands appear once cuts part the mesh."""
     found = []
     options, offered, choice, islands = picture.options, picture.offered, picture.choice, picture.islands
     if offered.kind is not None:
@@ -50,7 +50,7 @@ def lines(picture: Picture) -> list[str]:
         elif choice.around:
             which = "Around the limb"
         found.append(f"{which} ({choice.number + 1} of {choice.count})")
-    if islands is not None and islands.cut:
+    if islands is not None and islands.parted:
         found.append(_islands(islands))
         if picture.pointed_island is not None:
             found.append(_island(islands, picture.pointed_island))

@@ -13,7 +13,7 @@ from seamwire.words.corner import FOLLOWS, lines
 from table import Table
 
 
-def said(count: int, missing: int = 0, gaps: int = 0, cut: bool = True, pointed: int | None = None) -> list[str]:
+def said(count: int, missing: int = 0, gaps: int = 0, parted: bool = True, pointed: int | None = None) -> list[str]:
     """Return the lines about islands; each has three triangles."""
     islands = Islands(
         key=None,
@@ -21,7 +21,7 @@ def said(count: int, missing: int = 0, gaps: int = 0, cut: bool = True, pointed:
         labels=np.repeat(np.arange(count, dtype=np.int32), 3),
         hues=np.zeros(count, dtype=np.uint8),
         missing=np.full(count, missing, dtype=np.int32),
-        cut=cut,
+        parted=parted,
         pieces=(),
         gaps=tuple(Gap(i, i + 1, 1.0) for i in range(gaps)),
     )
@@ -29,12 +29,12 @@ def said(count: int, missing: int = 0, gaps: int = 0, cut: bool = True, pointed:
     return [line for line in lines(picture) if "sland" in line]
 
 
-def test_before_the_first_seam_nothing_is_said_of_the_parts_of_a_mesh() -> None:
-    assert said(3, cut=False, pointed=0) == []
+def test_before_seams_part_a_mesh_nothing_is_said_of_its_parts() -> None:
+    assert said(3, parted=False, pointed=0) == []
 
 
-def test_after_a_first_open_wire_no_cuts_are_asked_for() -> None:
-    assert said(1, missing=2, pointed=0) == ["1 island", "Island 1: 3 triangles"]
+def test_after_a_first_open_wire_neither_cuts_nor_gaps_are_named() -> None:
+    assert said(1, missing=2, gaps=1, parted=False, pointed=0) == []
 
 
 @pytest.mark.parametrize(("gaps", "text"), [(0, "4 islands"), (1, "4 islands, 1 gap in seams")])

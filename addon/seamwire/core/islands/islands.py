@@ -54,8 +54,8 @@ class Islands:
         (count,) a number below the number of hues for each; those of neighbors across a cut are far apart, see `places_of`.
     missing
         (count,) how many more cuts each needs to become a disc.
-    cut
-        Whether anything was cut: else the islands are the parts that the mesh has anyway.
+    parted
+        Whether the cuts part the mesh. Otherwise the islands are the parts that it has anyway.
     pieces
         For each hue that is used: it, and its triangles, (k, 3).
     gaps
@@ -67,7 +67,7 @@ class Islands:
     labels: NDArray[np.int32]
     hues: NDArray[np.uint8]
     missing: NDArray[np.int32]
-    cut: bool
+    parted: bool
     pieces: tuple[tuple[int, NDArray[np.int32]], ...]
     gaps: tuple[Gap, ...] = ()
 
@@ -168,7 +168,12 @@ class IslandMaker:
             if self._gaps is None
             else tuple(self._gaps.find(cuts, most_looked_at=_MOST_LOOKED_AT, longest_of_several=_CLOSE, meant=meant))
         )
-        return Islands(key, count, labels, hues, missing, len(cuts) > 0, pieces, gaps)
+        return Islands(key, count, labels, hues, missing, count > self._parts, pieces, gaps)
+
+    @cached_property
+    def _parts(self) -> int:
+        """How many parts the mesh has without cuts."""
+        return int(np.max(self._label(np.empty((0, 2), dtype=np.int32)), initial=-1)) + 1
 
     def _inherited(self, labels: NDArray[np.int32], count: int) -> NDArray[np.int64]:
         """Return the hue that each island keeps, (count,), -1 for what was cut off or is new.
