@@ -199,7 +199,7 @@ def test_a_large_mesh_is_done_on_a_thread_and_the_newest_request_wins() -> None:
     finished(maker)
     assert maker.newest.key == 5
     assert maker.newest.count == 6
-    assert len(asked) <= 2
+    assert len([number for number in asked if number]) <= 2, "without cuts it is asked once more"
     assert threading.get_ident() not in threads
 
 
