@@ -304,7 +304,7 @@ class _Map:
         middles = self._uvs[self._triangles].astype(np.float64).mean(axis=1)
         sizes = np.bincount(self._labels, minlength=self.count)
         sums = np.stack([np.bincount(self._labels, column, self.count) for column in middles.T], axis=1)
-        return np.floor(sums / sizes[:, None])
+        return np.floor(sums / np.maximum(sizes, 1)[:, None])
 
     def turn_back(self) -> bool:
         """Turn back what rounding has turned over in changed islands without pins; return whether anything has moved."""

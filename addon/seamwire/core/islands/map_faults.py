@@ -101,8 +101,31 @@ class MappedSurface:
             return rows, None
         uvs = self.uvs[rows].astype(np.float64) * (aspect, 1.0)
         numbers = np.unique(self.labels[rows], return_inverse=True)[1].astype(np.int32)
-        report = native.load().measure_map(self.points, self.triangles[rows], uvs, islands=numbers, edges=self.edges)
+        points, triangles, edges = _with_doubles(self.points, self.triangles[rows], self.edges)
+        report = native.load().measure_map(points, triangles, uvs, islands=numbers, edges=edges)
         return rows, report
+
+
+def _with_doubles(
+    points: NDArray[np.float64], triangles: NDArray[np.int32], edges: NDArray[np.int32]
+) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int32]]:
+    """Return a mesh with vertices of their own for triangles that repeat another one: the library would leave these out.
+
+    Parameters
+    ----------
+    points, triangles, edges
+        (n, 3), (m, 3), (e, 2) the mesh.
+    """
+    vertices = np.sort(triangles, axis=1)
+    order = np.lexsort(vertices.T)
+    repeats = order[1:][(vertices[order[1:]] == vertices[order[:-1]]).all(axis=1)]
+    if not len(repeats):
+        return points, triangles, edges
+    own = (len(points) + np.arange(3 * len(repeats), dtype=np.int32)).reshape(-1, 3)
+    points = np.concatenate([points, points[triangles[repeats]].reshape(-1, 3)])
+    triangles = triangles.copy()
+    triangles[repeats] = own
+    return points, triangles, np.concatenate([edges, own[:, :2], own[:, 1:], own[:, [2, 0]]])
 
 
 def joined(surfaces: Sequence[MappedSurface]) -> MappedSurface:

@@ -37,6 +37,13 @@ def test_islands_that_overlap_count_if_they_are_looked_at() -> None:
     assert find_faults(surface, np.array([False, False, True])) == NO_FAULTS
 
 
+def test_a_face_that_doubles_another_one_is_measured_too() -> None:
+    apart, stacked = squares((0.0, 0.0), (0.3, 0.0)), squares((0.0, 0.0), (0.0, 0.0))
+    for surface, faults in ((apart, NO_FAULTS), (stacked, MapFaults(overlapping=2))):
+        surface.triangles[2:] = surface.triangles[:2]
+        assert find_faults(surface) == faults
+
+
 def test_an_island_may_lie_in_the_uv_square_or_in_its_former_tile() -> None:
     surface = squares((0.0, 0.0), (1.1, 0.5), (1.9, 0.5))
     assert find_faults(surface) == MapFaults(outside=2)
