@@ -105,12 +105,13 @@ def folded(obj: bpy.types.Object, least_height: float = 1e-6) -> int:
 
     The map is folded where two triangles are joined in it and lie on the same side of their common edge, whichever way their faces are
     turned. Triangles whose height is less than `least_height` of their longest side do not count. Nor do triangles lower than a hundredth
-    of it that lie on a line in the map, up to the rounding of single precision.
+    of it that lie on a line in the map, up to the rounding of single precision, or triangles smaller than that rounding.
     """
     bm = bmesh.from_edit_mesh(obj.data)
     bm.verts.index_update()
     layer = bm.loops.layers.uv.active
     flat = 0
+    smallest = 1e-5 * max(obj.dimensions)
     sides: dict[tuple[int, int], list[tuple[tuple[float, ...], float]]] = defaultdict(list)
     for loops in bm.calc_loop_triangles():
         if loops[0].face.hide:
@@ -118,7 +119,7 @@ def folded(obj: bpy.types.Object, least_height: float = 1e-6) -> int:
         corners = np.array([loop.vert.co[:] for loop in loops])
         longest = max(np.linalg.norm(corners - np.roll(corners, 1, axis=0), axis=1))
         doubled = np.linalg.norm(np.cross(corners[1] - corners[0], corners[2] - corners[0]))
-        if doubled <= least_height * longest**2:
+        if doubled <= least_height * longest**2 or longest < smallest:
             continue
         uvs = np.array([loop[layer].uv[:] for loop in loops], dtype=np.float64)
         signed = signed_areas(uvs[None])[0]
