@@ -21,6 +21,7 @@ def said(count: int, missing: int = 0, gaps: int = 0, parted: bool = True, point
         labels=np.repeat(np.arange(count, dtype=np.int32), 3),
         hues=np.zeros(count, dtype=np.uint8),
         missing=np.full(count, missing, dtype=np.int32),
+        cut=True,
         parted=parted,
         pieces=(),
         gaps=tuple(Gap(i, i + 1, 1.0) for i in range(gaps)),

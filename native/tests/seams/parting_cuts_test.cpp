@@ -131,9 +131,9 @@ TEST(PartingCuts, ALaterSearchHasItsOwnShareOfTheProgress) {
                      }};
   planning.search({}, {}, watched);
   ASSERT_GT(planning.result().maps.maps.size(), 1U) << "a later search has taken place";
-  // The first search gives up at once: it finds no map. The later one takes its share of what is left.
-  EXPECT_TRUE(std::ranges::all_of(fractions, [](double fraction) { return fraction < 0.01 || fraction >= 0.75; }));
-  EXPECT_GT(std::ranges::max(fractions), 0.8);
+  // How often progress is told depends on the time. The later search takes its share of what the first one leaves.
+  EXPECT_TRUE(std::ranges::is_sorted(fractions));
+  EXPECT_GE(std::ranges::max(fractions), 0.75);
   EXPECT_LT(std::ranges::max(fractions), 1.0);
 }
 

@@ -54,6 +54,8 @@ class Islands:
         (count,) a number below the number of hues for each; those of neighbors across a cut are far apart, see `places_of`.
     missing
         (count,) how many more cuts each needs to become a disc.
+    cut
+        Whether anything was cut.
     parted
         Whether the cuts part the mesh. Otherwise the islands are the parts that it has anyway.
     pieces
@@ -67,6 +69,7 @@ class Islands:
     labels: NDArray[np.int32]
     hues: NDArray[np.uint8]
     missing: NDArray[np.int32]
+    cut: bool
     parted: bool
     pieces: tuple[tuple[int, NDArray[np.int32]], ...]
     gaps: tuple[Gap, ...] = ()
@@ -168,7 +171,7 @@ class IslandMaker:
             if self._gaps is None
             else tuple(self._gaps.find(cuts, most_looked_at=_MOST_LOOKED_AT, longest_of_several=_CLOSE, meant=meant))
         )
-        return Islands(key, count, labels, hues, missing, count > self._parts, pieces, gaps)
+        return Islands(key, count, labels, hues, missing, len(cuts) > 0, count > self._parts, pieces, gaps)
 
     @cached_property
     def _parts(self) -> int:

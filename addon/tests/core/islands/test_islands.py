@@ -44,6 +44,7 @@ def test_pieces_are_all_triangles_once() -> None:
     found = maker.newest
     assert found.key == "a"
     assert found.count == 4
+    assert found.cut
     assert found.parted
     together = np.concatenate([piece for _, piece in found.pieces])
     assert sorted(map(tuple, together.tolist())) == sorted(map(tuple, triangles.tolist()))
