@@ -91,11 +91,11 @@ class EditedObjects:
         view = None if obj is None else self._views.get(obj.name_full)
         return "EDGES" if view is None else view.mesh.best_along
 
-    @staticmethod
-    def _is_current(view: ObjectView, obj: bpy.types.Object) -> bool:
+    def _is_current(self, view: ObjectView, obj: bpy.types.Object) -> bool:
         """Whether what is prepared for an object's mesh holds, having read it anew where it has changed."""
         if not view.stale and view.mesh.alive() and view.obj == obj:
             return True
+        self._shown = None  # Blender drew the views without it
         try:
             return view.refresh(obj)
         except ValueError:  # nothing of it is visible any more
