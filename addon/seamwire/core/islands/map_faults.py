@@ -109,7 +109,7 @@ class MappedSurface:
 def _with_doubles(
     points: NDArray[np.float64], triangles: NDArray[np.int32], edges: NDArray[np.int32]
 ) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int32]]:
-    """Return a mesh with vertices of their own for triangles that repeat another one: the library would leave these out.
+    """Return a mesh in which each triangle that repeats another one has separate vertices. Otherwise the library leaves it out.
 
     Parameters
     ----------
