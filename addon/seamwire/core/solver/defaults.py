@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How strongly wires follow the shape to begin with, in which limits, and the values that Auto has. Read at Blender's start: without NumPy."""
+"""How strongly wires follow the shape to begin with, in which limits, and what Auto stands for. Read at Blender's start: without NumPy."""
 
 from __future__ import annotations
 
