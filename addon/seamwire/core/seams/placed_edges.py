@@ -29,7 +29,7 @@ _BANDS = 8
 """The number of bands across the mesh in which they lie."""
 _FOLLOWS = 0.28
 """Placed edges follow the bends at least so well, see `EdgeSigns`."""
-_SPREAD = 0.31
+_SPREAD = 0.33
 """The lengths of placed edges differ at least so much, unless the mesh is regular."""
 _REGULAR = 0.96
 """The least share of regular vertices in a regular mesh."""
@@ -90,7 +90,7 @@ def _most_are_quads(polygons: NDArray[np.int32]) -> bool:
 
 @dataclass(frozen=True)
 class EdgeSigns:
-    """What the edges of triangles say about who placed them.
+    """Three numbers that tell whether an artist placed the edges of triangles.
 
     Parameters
     ----------
@@ -100,7 +100,7 @@ class EdgeSigns:
     spread
         The standard deviation of the logarithms of their lengths.
     regular
-        The share of vertices inside the mesh with six edges, or among quads with four edges that are no diagonals.
+        The share of regular vertices inside the mesh. They have six edges, or four edges beside the diagonals if all their faces are quads.
     """
 
     follows: float
