@@ -26,6 +26,7 @@ from .timer import Timer
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from ..core.base.mesh_arrays import Arrays
     from ..core.network.picks import Along
 
 _RHYTHM = 0.05
@@ -43,16 +44,18 @@ class _Shown:
 
     def __init__(self, obj: bpy.types.Object) -> None:
         self.problem = ""
+        self.arrays: Arrays | None = None
         self.auto = PLACED
         self.views: MetricViews | None = None
         try:
             core = native.load()
-            arrays, selected = edit_mesh.read_evaluated(obj)
+            self.arrays, selected = edit_mesh.read_evaluated(obj)
         except (ValueError, native.NativeError) as error:
             self.problem = str(error)
             return
         # Where all are selected, as new meshes are, none was chosen.
         self.source = int(selected.argmax()) if selected.any() and not selected.all() else None
+        arrays = self.arrays
         self.auto = auto_for(obj, arrays)
         self.views = MetricViews(arrays, core, lambda: core.Surface(arrays.points, arrays.triangles, arrays.edges))
 
