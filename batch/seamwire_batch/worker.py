@@ -196,10 +196,11 @@ class Run:
             named = f" called {job['object']}" if job["object"] else ""
             raise AssetError(f"There is no mesh object{named} with faces in it")
         objects = self._chosen(objects)
+        options = values_for(bpy.ops.mesh.seamwire_unwrap, job["unwrap"])
         for obj in objects:
             with _editing(obj):
                 self._mark(obj)
-                unwrap()
+                unwrap(**options)
                 self._check_map(obj)
                 bpy.ops.mesh.seamwire_store(what="ATTRIBUTE")
         numbers = self._measured(objects)

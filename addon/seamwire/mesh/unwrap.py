@@ -39,6 +39,10 @@ JOINED = 1
 """The value for edges around faces that were joined later. Their corners may belong to several islands in the map."""
 
 
+_STRAIGHT_COST = 0.05
+"""How much a straight layout may add to an island's symmetric Dirichlet energy."""
+_UP = (0.0, 0.0, 1.0)
+"""The direction of the object that points up in the map."""
 _ON_LINE = 1e-6
 """How far a UV may lie beside a line that it should lie on: UVs are rounded."""
 _MARGIN = 0.01
@@ -62,6 +66,22 @@ class Unwrapped:
     islands: int
     kept: int
     faults: MapFaults = NO_FAULTS
+
+
+@dataclass(frozen=True)
+class Layout:
+    """How the islands of the method ``SEAMWIRE`` are laid out.
+
+    Parameters
+    ----------
+    straight
+        Whether strips and rectangles of quads are straight and along the axes, if that hardly stretches them.
+    upright
+        Whether islands stand upright where Blender packs them. Otherwise Blender turns them as they need the least room.
+    """
+
+    straight: bool = True
+    upright: bool = True
 
 
 class _Map:
@@ -90,6 +110,7 @@ class _Map:
         self.changed = np.arange(self.count) if every else np.flatnonzero(changed)
         pinned = read.pinned[self._triangles].any(axis=1)
         self._with_pins = np.intersect1d(self.changed, self._labels[pinned])
+        self._are_straight = np.zeros(self.count, dtype=bool)
 
     @property
     def bm(self) -> bmesh.types.BMesh:
@@ -140,7 +161,7 @@ class _Map:
         return np.setdiff1d(self.changed, self._with_pins) if method == "SEAMWIRE" else self.changed[:0]
 
     def flattened(
-        self, islands: NDArray[np.integer], start: NDArray[np.float64] | None
+        self, islands: NDArray[np.integer], start: NDArray[np.float64] | None, layout: Layout
     ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64]]:
         """Flatten islands: without flips, and without overlaps where that can be reached.
 
@@ -150,6 +171,8 @@ class _Map:
             Which.
         start
             (m, 3, 2) a map to start from, in lengths on the model, where it is continuous; None: the present one.
+        layout
+            Whether islands are laid out straight and upright.
 
         Returns
         -------
@@ -185,7 +208,12 @@ class _Map:
             own(self._straight.seams_in_map(self.corners.vertices, self._arrays.seams)),
             start=None if places is None else places[corners],
             edges=own(self._straight.edges_in_map(self.corners.vertices, self._arrays.edges)),
+            straighten=_STRAIGHT_COST if layout.straight else None,
+            up=_UP if layout.upright else None,
         )
+        self._are_straight[islands] = True
+        bent = ~np.isin(np.asarray(flat.islands), flat.straight)
+        self._are_straight[self._of_face[self.corners.faces[corners[bent, 0]]]] = False
         # A corner of several triangles is where the largest has it: one without area may be anywhere.
         smallest_first = np.argsort(
             triangle_areas(self._arrays.in_object, self.corners.vertices[corners]), kind="stable"
@@ -255,7 +283,15 @@ class _Map:
             corners, triangles = np.unique(self._triangles[rows], return_inverse=True)
             one, other = (uvs[corners].astype(np.float64) for uvs in (before, after))
             triangles = triangles.reshape(-1, 3)
-            new = NewIsland(one, other, triangles, self._areas[rows], float(densities[label]), self._aspect)
+            new = NewIsland(
+                one,
+                other,
+                triangles,
+                self._areas[rows],
+                float(densities[label]),
+                self._aspect,
+                bool(self._are_straight[label]),
+            )
             islands.append((corners, new))
         return islands
 
@@ -335,6 +371,7 @@ def unwrap_changed(
     objects: Sequence[bpy.types.Object] | None = None,
     *,
     method: str = "SEAMWIRE",
+    layout: Layout = Layout(),
     every: bool = False,
     starts: Mapping[bpy.types.Object, NDArray[np.float64]] = MappingProxyType({}),
 ) -> Unwrapped:
@@ -352,6 +389,8 @@ def unwrap_changed(
     method
         ``SEAMWIRE``: least symmetric Dirichlet energy, without flips and overlaps, see ``seamwire_core.flatten``; islands with pinned
         corners are left to Blender. ``ANGLE_BASED`` or ``CONFORMAL``: Blender's unwrap of that name.
+    layout
+        How the islands of ``SEAMWIRE`` are laid out.
     every
         Whether all islands are unwrapped, changed or not.
     starts
@@ -376,14 +415,16 @@ def unwrap_changed(
     if unwrapped:
         flat = {found: found.flat_islands(method) for found in maps}
         solved = {
-            found: found.flattened(islands, starts.get(found.obj)) for found, islands in flat.items() if len(islands)
+            found: found.flattened(islands, starts.get(found.obj), layout)
+            for found, islands in flat.items()
+            if len(islands)
         }
         with _with_uv_maps(context, maps):
             blenders = {found: np.setdiff1d(found.changed, islands) for found, islands in flat.items()}
             try:
                 _unwrap_by_blender(context, blenders, "ANGLE_BASED" if method == "SEAMWIRE" else method)
                 _lay_out(solved)
-                _place(context, maps, flat)
+                _place(context, maps, flat, layout)
                 faults = _faults(maps)
                 if faults.flipped and any([found.turn_back() for found in maps]):
                     faults = _faults(maps)
@@ -431,13 +472,15 @@ def _lay_out(solved: Mapping[_Map, tuple[NDArray[np.int64], NDArray[np.float64],
         bmesh.update_edit_mesh(found.obj.data, loop_triangles=False, destructive=False)
 
 
-def _place(context: bpy.types.Context, maps: Sequence[_Map], flat: Mapping[_Map, NDArray[np.integer]]) -> None:
+def _place(
+    context: bpy.types.Context, maps: Sequence[_Map], flat: Mapping[_Map, NDArray[np.integer]], layout: Layout
+) -> None:
     """Move new islands to where there is room among those that stay, or have Blender pack those of `flat` where nothing stays."""
     taken = np.concatenate([boxes for found in maps for boxes in (found.staying(), found.pinned_down())])
     in_map, on_model = sum(np.delete(found.areas(), found.changed, axis=1).sum(axis=1) for found in maps)
     density = float(np.sqrt(in_map / on_model)) if on_model > 0.0 else 0.0
     if density == 0.0:
-        _pack(context, {found: found.faces(islands) for found, islands in flat.items() if len(islands)})
+        _pack(context, {found: found.faces(islands) for found, islands in flat.items() if len(islands)}, layout)
     if not len(taken):
         return
     new = [(found, *island) for found in maps if len(found.changed) for island in found.new_islands(density)]
@@ -445,17 +488,21 @@ def _place(context: bpy.types.Context, maps: Sequence[_Map], flat: Mapping[_Map,
         found.write(corners, uvs)
 
 
-def _pack(context: bpy.types.Context, faces: Mapping[_Map, NDArray[np.integer]]) -> None:
+def _pack(context: bpy.types.Context, faces: Mapping[_Map, NDArray[np.integer]], layout: Layout) -> None:
     """Have Blender pack the islands of some faces into the UV square; raises ValueError if it cannot."""
     if not faces:
         return
     settings = context.tool_settings
     sync = settings.use_uv_select_sync
+    options: dict[str, object] = {"rotate": not layout.upright, "margin": _MARGIN}
+    # Newer versions of Blender can turn a rectangle to any angle. Older ones turn its sides along the axes.
+    if layout.straight and "rotate_method" in bpy.ops.uv.pack_islands.get_rna_type().properties:
+        options["rotate_method"] = "AXIS_ALIGNED"
     with _only_selected(context, faces):
         # Then the UVs of the selected faces count as selected.
         settings.use_uv_select_sync = True
         try:
-            bpy.ops.uv.pack_islands(rotate=True, margin=_MARGIN)
+            bpy.ops.uv.pack_islands(**options)
         except RuntimeError as error:
             raise ValueError(f"Blender could not pack the islands: {str(error).strip()}") from error
         finally:
