@@ -21,12 +21,14 @@ import numpy as np
 
 from ..core.base import native
 from ..core.base.geometry import triangle_areas
+from ..core.islands.copies import ShapedIsland, shaped_islands
 from ..core.islands.map_faults import NO_FAULTS, MapFaults, MappedSurface, find_faults, joined
 from ..core.islands.rounded_flips import turn_back
 from ..core.islands.straight_corners import CornerRing, find_straight
 from ..core.islands.uv_islands import NewIsland, boxes_of, families, in_rows, place, split_edges, uv_areas
 from . import edit_mesh, uv_map
 from .seam_islands import labels_of
+from .uv_stacks import Stack, stacked
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -78,10 +80,13 @@ class Layout:
         Whether strips and rectangles of quads are straight and along the axes, if that hardly stretches them.
     upright
         Whether islands stand upright where Blender packs them. Otherwise Blender turns them as they need the least room.
+    stack
+        Whether islands of the same shape, mirrored or not, lie on each other.
     """
 
     straight: bool = True
     upright: bool = True
+    stack: bool = False
 
 
 class _Map:
@@ -90,7 +95,7 @@ class _Map:
     def __init__(self, obj: bpy.types.Object, every: bool = False) -> None:
         self.obj = obj
         self._arrays = arrays = edit_mesh.read(obj)
-        self._aspect = uv_map.aspect(obj)
+        self.aspect = uv_map.aspect(obj)
         self._read = read = uv_map.read_with_edges(obj, UNWRAPPED)
         self.corners, self._uvs = read.corners, read.uvs
         labels = labels_of(arrays)
@@ -111,6 +116,7 @@ class _Map:
         pinned = read.pinned[self._triangles].any(axis=1)
         self._with_pins = np.intersect1d(self.changed, self._labels[pinned])
         self._are_straight = np.zeros(self.count, dtype=bool)
+        self.stacked = np.empty(0, dtype=np.int64)
 
     @property
     def bm(self) -> bmesh.types.BMesh:
@@ -231,7 +237,7 @@ class _Map:
         """Return the present map in lengths on the model, (c, 2), each island as large as its surface. None: the mesh has no UV map."""
         if self._uvs is None:
             return None
-        uvs = self._uvs.astype(np.float64) * (self._aspect, 1.0)
+        uvs = self._uvs.astype(np.float64) * (self.aspect, 1.0)
         areas = uv_areas(uvs[self._triangles])
         in_map, on_model = (np.bincount(self._labels, each, self.count) for each in (areas, self._areas))
         scale = np.sqrt(np.divide(on_model, in_map, out=np.ones(self.count), where=(in_map > 0.0) & (on_model > 0.0)))
@@ -267,8 +273,15 @@ class _Map:
         known = (sums > 0.0).all(axis=0)
         return np.sqrt(np.divide(sums[0], sums[1], out=np.full(self.count, fallback**2), where=known))
 
+    def shapes(self, islands: NDArray[np.integer]) -> list[ShapedIsland]:
+        """Return the shapes of some islands."""
+        corners, labels = self.corners, self._of_face[self.corners.faces]
+        edges = np.where(self._read.seams[corners.edges], -1, corners.edges)
+        labels = np.where(np.isin(labels, islands), labels, -1)
+        return shaped_islands(self._arrays.in_object, corners.vertices, edges, corners.following, labels)
+
     def new_islands(self, density: float) -> list[tuple[NDArray[np.int64], NewIsland]]:
-        """Return the corners of each island that was unwrapped and may be moved, and what it has become.
+        """Return the corners of each island that was unwrapped and has a place to get, and what it has become.
 
         `density` is for those that had no place.
         """
@@ -278,7 +291,7 @@ class _Map:
         islands = []
         order = np.argsort(self._labels, kind="stable")
         starts = np.searchsorted(self._labels[order], np.arange(self.count + 1))
-        for label in np.setdiff1d(self.changed, self._with_pins).tolist():
+        for label in np.setdiff1d(self.changed, np.union1d(self._with_pins, self.stacked)).tolist():
             rows = order[starts[label] : starts[label + 1]]
             corners, triangles = np.unique(self._triangles[rows], return_inverse=True)
             one, other = (uvs[corners].astype(np.float64) for uvs in (before, after))
@@ -289,7 +302,7 @@ class _Map:
                 triangles,
                 self._areas[rows],
                 float(densities[label]),
-                self._aspect,
+                self.aspect,
                 bool(self._are_straight[label]),
             )
             islands.append((corners, new))
@@ -353,7 +366,7 @@ class _Map:
 
     def on_image(self, uvs: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return UVs, (c, 2), squeezed as the image is wide, so that they are not stretched on it."""
-        return uvs / (self._aspect, 1.0)
+        return uvs / (self.aspect, 1.0)
 
     def remember(self) -> None:
         """Let visible edges hold whether they were seams when they were unwrapped last."""
@@ -424,9 +437,12 @@ def unwrap_changed(
             try:
                 _unwrap_by_blender(context, blenders, "ANGLE_BASED" if method == "SEAMWIRE" else method)
                 _lay_out(solved)
+                stacks = _stacks(flat) if layout.stack else []
                 _place(context, maps, flat, layout)
+                _pile_up(maps, stacks)
                 faults = _faults(maps)
                 if faults.flipped and any([found.turn_back() for found in maps]):
+                    _pile_up(maps, stacks)
                     faults = _faults(maps)
             except BaseException:
                 for found in maps:
@@ -442,7 +458,10 @@ def _faults(maps: Sequence[_Map]) -> MapFaults:
     """Measure what is wrong with the changed islands in the UV maps that the meshes have."""
     chosen = np.concatenate([np.isin(np.arange(found.count), found.changed) for found in maps])
     return find_faults(
-        joined([found.mapped() for found in maps]), chosen, np.concatenate([found.homes() for found in maps])
+        joined([found.mapped() for found in maps]),
+        chosen,
+        np.concatenate([found.homes() for found in maps]),
+        may_stack=any(len(found.stacked) for found in maps),
     )
 
 
@@ -472,6 +491,27 @@ def _lay_out(solved: Mapping[_Map, tuple[NDArray[np.int64], NDArray[np.float64],
         bmesh.update_edit_mesh(found.obj.data, loop_triangles=False, destructive=False)
 
 
+def _stacks(flat: Mapping[_Map, NDArray[np.integer]]) -> list[Stack]:
+    """Find the islands that lie on others, for each width of the image that the UVs lie on."""
+    stacks = []
+    for aspect in dict.fromkeys(found.aspect for found in flat):
+        own = {found: islands for found, islands in flat.items() if found.aspect == aspect}
+        stack = stacked([(found.obj, island) for found, islands in own.items() for island in found.shapes(islands)])
+        for found in own:
+            found.stacked = stack.copies.get(found.obj, found.stacked)
+        stacks.append(stack)
+    return stacks
+
+
+def _pile_up(maps: Sequence[_Map], stacks: Sequence[Stack]) -> None:
+    """Lay copies on the islands that have a place."""
+    for stack in stacks:
+        uvs = stack.uvs()
+        for found in maps:
+            if found.obj in uvs:
+                found.write(*uvs[found.obj])
+
+
 def _place(
     context: bpy.types.Context, maps: Sequence[_Map], flat: Mapping[_Map, NDArray[np.integer]], layout: Layout
 ) -> None:
@@ -480,7 +520,8 @@ def _place(
     in_map, on_model = sum(np.delete(found.areas(), found.changed, axis=1).sum(axis=1) for found in maps)
     density = float(np.sqrt(in_map / on_model)) if on_model > 0.0 else 0.0
     if density == 0.0:
-        _pack(context, {found: found.faces(islands) for found, islands in flat.items() if len(islands)}, layout)
+        once = {found: np.setdiff1d(islands, found.stacked) for found, islands in flat.items()}
+        _pack(context, {found: found.faces(islands) for found, islands in once.items() if len(islands)}, layout)
     if not len(taken):
         return
     new = [(found, *island) for found in maps if len(found.changed) for island in found.new_islands(density)]

@@ -40,6 +40,11 @@ class MESH_OT_seamwire_unwrap(EditMeshOperator, bpy.types.Operator):
         description="Turn new islands so that the object's Z axis points up. Otherwise Blender turns them to save space",
         default=True,
     )
+    stack: bpy.props.BoolProperty(
+        name="Stack Copies",
+        description="Lay new islands of the same shape on each other, mirrored ones too, so that they share the texture",
+        default=False,
+    )
     changed_only: bpy.props.BoolProperty(
         name="Changed Only", description="Keep the UVs of islands with unchanged seams", default=True
     )
@@ -52,13 +57,14 @@ class MESH_OT_seamwire_unwrap(EditMeshOperator, bpy.types.Operator):
         if self.method == "SEAMWIRE":
             layout.prop(self, "straight")
             layout.prop(self, "upright")
+            layout.prop(self, "stack")
         layout.prop(self, "changed_only")
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Unwrap, and report the number of islands."""
         from ..mesh.unwrap import Layout, unwrap_changed
 
-        layout = Layout(self.straight, self.upright)
+        layout = Layout(self.straight, self.upright, self.stack)
         done = unwrap_changed(context, method=self.method, layout=layout, every=not self.changed_only)
         if not done.islands:
             self.report({"INFO"}, "Nothing to unwrap: no island has changed")

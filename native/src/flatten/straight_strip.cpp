@@ -87,7 +87,7 @@ class QuadFinder {
     return fold + off;
   }
 
-  /// Pairs the triangles that are no half of a polygon. Triangles with one possible partner get it first, because each
+  /// Pairs the triangles that have real edges only. Triangles with one possible partner get it first, because each
   /// complete pairing contains that pair (Karp and Sipser 1981). Then the pair that looks most like a quad follows.
   bool pair_free(const std::vector<std::uint8_t>& is_free) {
     std::vector<std::pair<double, std::int32_t>> pairs;

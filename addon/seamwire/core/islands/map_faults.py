@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -152,7 +152,11 @@ def joined(surfaces: Sequence[MappedSurface]) -> MappedSurface:
 
 
 def find_faults(
-    surface: MappedSurface, chosen: NDArray[np.bool_] | None = None, homes: NDArray[np.float64] | None = None
+    surface: MappedSurface,
+    chosen: NDArray[np.bool_] | None = None,
+    homes: NDArray[np.float64] | None = None,
+    *,
+    may_stack: bool = False,
 ) -> MapFaults:
     """Measure what is wrong with some islands of a map.
 
@@ -164,6 +168,8 @@ def find_faults(
         (count,) which islands are looked at. The others count only as what these may overlap. None: all islands.
     homes
         (count, 2) the low corner of the tile that each island had before. Islands may lie there or in the UV square. None: no other tile.
+    may_stack
+        Whether islands may lie exactly on each other, corner by corner.
     """
     chosen = np.ones(surface.count, dtype=bool) if chosen is None else chosen
     homes = np.zeros((surface.count, 2)) if homes is None else homes
@@ -174,8 +180,7 @@ def find_faults(
     outside = np.zeros(surface.count, dtype=bool)
     if report is not None:
         is_bad[rows[report.flipped]] = True
-        islands = np.unique(surface.labels[rows])
-        overlapping = islands[np.union1d(report.overlapping, report.colliding)]
+        overlapping = _overlapping(surface, rows, report, may_stack)
         outside = _outside(surface, rows, homes)
     is_bad &= chosen[surface.labels]
     return MapFaults(
@@ -183,6 +188,39 @@ def find_faults(
         overlapping=int(chosen[overlapping].sum()),
         outside=int((outside & chosen).sum()),
     )
+
+
+def _overlapping(
+    surface: MappedSurface, rows: NDArray[np.int64], report: seamwire_core.MapReport, may_stack: bool
+) -> NDArray[np.int32]:
+    """Return the islands that cover a part of themselves or of another island. `report`: on some triangles."""
+    under = _under(surface, rows) if may_stack else {}
+    if under:
+        shown = replace(
+            surface,
+            **{
+                name: getattr(surface, name)[~np.isin(surface.labels, list(under))]
+                for name in ("triangles", "polygons", "labels", "uvs")
+            },
+        )
+        rows, report = shown.measured()
+        surface = shown
+    islands = np.unique(surface.labels[rows])
+    found = islands[np.union1d(report.overlapping, report.colliding)]
+    return np.concatenate([found, [island for island, first in under.items() if first in found]]).astype(np.int32)
+
+
+def _under(surface: MappedSurface, rows: NDArray[np.int64]) -> dict[int, int]:
+    """Return the islands whose corners lie exactly where those of an earlier island do, and that island."""
+    order = rows[np.argsort(surface.labels[rows], kind="stable")]
+    islands, starts = np.unique(surface.labels[order], return_index=True)
+    firsts: dict[bytes, int] = {}
+    under: dict[int, int] = {}
+    for island, uvs in zip(islands.tolist(), np.split(surface.uvs[order], starts[1:]), strict=True):
+        first = firsts.setdefault(np.unique(uvs.reshape(-1, 2), axis=0).tobytes(), island)
+        if first != island:
+            under[island] = first
+    return under
 
 
 def _outside(surface: MappedSurface, rows: NDArray[np.int64], homes: NDArray[np.float64]) -> NDArray[np.bool_]:
