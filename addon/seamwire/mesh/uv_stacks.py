@@ -35,7 +35,8 @@ class Stack:
 
     def uvs(self) -> dict[bpy.types.Object, tuple[NDArray[np.int64], NDArray[np.float64]]]:
         """Return the corners of all copies, ascending, with the UVs of the islands that they lie on."""
-        present = {obj: uv_map.read_uvs(obj) for own in self.places.values() for _, obj, _ in own}
+        below = dict.fromkeys(obj for own in self.places.values() for _, obj, _ in own)
+        present = {obj: uv_map.read_uvs(obj) for obj in below}
         found = {}
         for obj, own in self.places.items():
             corners = np.concatenate([mine for mine, _, _ in own])

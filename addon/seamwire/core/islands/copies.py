@@ -147,6 +147,13 @@ def find_copies(shapes: Sequence[IslandShape]) -> list[tuple[int, NDArray[np.int
 
 def corresponding(shape: IslandShape, first: IslandShape) -> NDArray[np.int64] | None:
     """Return which corner of another island corresponds to each corner; None if the two are no copies of each other."""
+    own = np.arange(len(shape.lengths))
+    if (
+        np.array_equal(shape.following, first.following)
+        and np.array_equal(shape.mates, first.mates)
+        and shape.agrees(own, first, own).all()
+    ):
+        return own
     for image in (first, first.mirrored()):
         for start, place in _starts(shape, image):
             edges = _spread(shape, image, start, place)

@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..base import native
 from ..base.geometry import triangle_areas
+from .uv_islands import signed_uv_areas
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -91,12 +92,15 @@ class MappedSurface:
         _, report = self.measured(aspect)
         return np.inf if report is None else float(report.energy)
 
-    def measured(self, aspect: float = 1.0) -> tuple[NDArray[np.int64], seamwire_core.MapReport | None]:
+    def measured(
+        self, aspect: float = 1.0, shown: NDArray[np.bool_] | None = None
+    ) -> tuple[NDArray[np.int64], seamwire_core.MapReport | None]:
         """Return the triangles whose UVs are numbers, and the library's report on them; None if there are no such triangles.
 
-        The report numbers these triangles and their islands from 0.
+        The report numbers these triangles and their islands from 0. `shown`, (m,), leaves out triangles; None: all are measured.
         """
-        rows = np.flatnonzero(np.isfinite(self.uvs).all(axis=(1, 2)))
+        are_numbers = np.isfinite(self.uvs).all(axis=(1, 2))
+        rows = np.flatnonzero(are_numbers if shown is None else are_numbers & shown)
         if not len(rows):
             return rows, None
         uvs = self.uvs[rows].astype(np.float64) * (aspect, 1.0)
@@ -173,15 +177,21 @@ def find_faults(
     """
     chosen = np.ones(surface.count, dtype=bool) if chosen is None else chosen
     homes = np.zeros((surface.count, 2)) if homes is None else homes
-    rows, report = surface.measured()
-    is_bad = np.ones(len(surface.labels), dtype=bool)  # where a UV is no number
-    is_bad[rows] = False
+    under = _under(surface) if may_stack else {}
+    is_under = np.isin(surface.labels, list(under))
+    rows, report = surface.measured(shown=~is_under)
+    is_bad = ~np.isfinite(surface.uvs).all(axis=(1, 2))
+    if under:
+        is_bad |= is_under & _turned_over(surface)
     overlapping = np.empty(0, dtype=np.int32)
     outside = np.zeros(surface.count, dtype=bool)
     if report is not None:
         is_bad[rows[report.flipped]] = True
-        overlapping = _overlapping(surface, rows, report, may_stack)
-        outside = _outside(surface, rows, homes)
+        islands = np.unique(surface.labels[rows])
+        overlapping = islands[np.union1d(report.overlapping, report.colliding)]
+        below = [island for island, first in under.items() if first in overlapping]
+        overlapping = np.concatenate([overlapping, np.array(below, dtype=np.int32)])
+        outside = _outside(surface, np.flatnonzero(np.isfinite(surface.uvs).all(axis=(1, 2))), homes)
     is_bad &= chosen[surface.labels]
     return MapFaults(
         flipped=len(np.unique(surface.polygons[is_bad])),
@@ -190,29 +200,9 @@ def find_faults(
     )
 
 
-def _overlapping(
-    surface: MappedSurface, rows: NDArray[np.int64], report: seamwire_core.MapReport, may_stack: bool
-) -> NDArray[np.int32]:
-    """Return the islands that cover a part of themselves or of another island. `report`: on some triangles."""
-    under = _under(surface, rows) if may_stack else {}
-    if under:
-        shown = replace(
-            surface,
-            **{
-                name: getattr(surface, name)[~np.isin(surface.labels, list(under))]
-                for name in ("triangles", "polygons", "labels", "uvs")
-            },
-        )
-        rows, report = shown.measured()
-        surface = shown
-    islands = np.unique(surface.labels[rows])
-    found = islands[np.union1d(report.overlapping, report.colliding)]
-    return np.concatenate([found, [island for island, first in under.items() if first in found]]).astype(np.int32)
-
-
-def _under(surface: MappedSurface, rows: NDArray[np.int64]) -> dict[int, int]:
+def _under(surface: MappedSurface) -> dict[int, int]:
     """Return the islands whose corners lie exactly where those of an earlier island do, and that island."""
-    order = rows[np.argsort(surface.labels[rows], kind="stable")]
+    order = np.argsort(surface.labels, kind="stable")
     islands, starts = np.unique(surface.labels[order], return_index=True)
     firsts: dict[bytes, int] = {}
     under: dict[int, int] = {}
@@ -221,6 +211,12 @@ def _under(surface: MappedSurface, rows: NDArray[np.int64]) -> dict[int, int]:
         if first != island:
             under[island] = first
     return under
+
+
+def _turned_over(surface: MappedSurface) -> NDArray[np.bool_]:
+    """Return which triangles are turned over against most of their island, (m,)."""
+    areas = signed_uv_areas(surface.uvs.astype(np.float64))
+    return areas * np.bincount(surface.labels, areas, surface.count)[surface.labels] < 0.0
 
 
 def _outside(surface: MappedSurface, rows: NDArray[np.int64], homes: NDArray[np.float64]) -> NDArray[np.bool_]:

@@ -86,8 +86,3 @@ def test_symmetric_islands_are_copies_and_each_finds_the_first_of_its_shape() ->
     found = find_copies([island.shape for island in islands])
     assert [first for first, _ in found] == [0, 1, 0, 1, 0]
     assert all(sorted(corners.tolist()) == [0, 1, 2, 3] for _, corners in found)
-
-
-def test_an_island_in_two_parts_is_no_copy() -> None:
-    islands, _ = shaped([(POINTS, [FACES[0], FACES[2]]), (POINTS, [FACES[0], FACES[2]])])
-    assert [first for first, _ in find_copies([island.shape for island in islands])] == [0, 1]
