@@ -198,7 +198,7 @@ def test_any_error_leaves_all_uvs_as_they_were(where: str, with_map: bool, monke
         bmesh.from_edit_mesh(obj.data).edges[7].seam = True
     before = snapshot(obj)
 
-    def fail(*_: object) -> None:
+    def fail(*_: object, **__: object) -> None:
         raise TypeError("as the test wants it")
 
     monkeypatch.setattr(unwrapping, where, fail)
