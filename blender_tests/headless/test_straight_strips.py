@@ -55,6 +55,16 @@ def lines_of(obj: bpy.types.Object) -> list[int]:
     return [len(np.unique(np.round(column, 5))) for column in places.T]
 
 
+def density(obj: bpy.types.Object, are_lids: bool) -> float:
+    """Return the area in the map over the area on the model, of the wall or of the lids."""
+    on_model = sum(f.calc_area() for f in bmesh.from_edit_mesh(obj.data).faces if (len(f.verts) > 4) == are_lids)
+    in_map = 0.0
+    for corners in uvs_of(obj, are_lids):
+        after = np.roll(corners, -1, axis=0)
+        in_map += 0.5 * float((corners[:, 0] * after[:, 1] - corners[:, 1] * after[:, 0]).sum())
+    return in_map / on_model
+
+
 @pytest.mark.every_blender
 def test_the_wall_of_a_barrel_is_laid_out_straight_unless_it_is_not_wanted() -> None:
     obj = add_barrel()
@@ -64,6 +74,7 @@ def test_the_wall_of_a_barrel_is_laid_out_straight_unless_it_is_not_wanted() -> 
         assert (lines_of(obj) == [SIDES + 1, 5]) == straight
         assert (flipped(obj), overlapping_pairs(obj), in_square(obj)) == (0, 0, True)
         energies[straight] = energy(obj)
+        assert density(obj, False) == pytest.approx(density(obj, True), rel=0.02), "texels are even"
     assert energies[False] < energies[True] <= energies[False] + 0.05
     assert bpy.ops.mesh.seamwire_unwrap(changed_only=False) == {"FINISHED"}
     assert lines_of(obj) == [SIDES + 1, 5], "it is the default"

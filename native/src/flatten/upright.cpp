@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 #include "detail/index.hpp"
 
@@ -92,6 +93,12 @@ void turn(std::vector<Point2>& map, const Point2& up) {
   for (Point2& uv : map) uv = Point2(up.y() * uv.x() - up.x() * uv.y(), up.x() * uv.x() + up.y() * uv.y());
 }
 
+/// Whether all triangles are counter-clockwise.
+bool is_sound(const Island& island, const std::vector<Point2>& map) {
+  return std::ranges::all_of(
+      island.triangles, [&](const Triangle& t) { return cross(map[t[1]] - map[t[0]], map[t[2]] - map[t[0]]) > 0.0; });
+}
+
 /// The nearest direction along an axis.
 Point2 along_axis(const Point2& direction) {
   if (std::abs(direction.x()) > std::abs(direction.y())) return {std::copysign(1.0, direction.x()), 0.0};
@@ -105,7 +112,16 @@ void turn_upright(const Island& island, std::span<const Vector> points, const Ve
   Point2 direction = mean_direction(island, points, up.normalized(), map);
   if (!(direction.norm() >= kLeastUp)) direction = longest_direction(map);
   if (!(direction.norm() > 0.0)) return;
-  turn(map, is_straight ? along_axis(direction) : Point2(direction.normalized()));
+  if (!is_straight) {
+    std::vector<Point2> turned = map;
+    turn(turned, direction.normalized());
+    // Rounding may turn tiny triangles over. Turns by 90 degrees are exact.
+    if (is_sound(island, turned)) {
+      map = std::move(turned);
+      return;
+    }
+  }
+  turn(map, along_axis(direction));
 }
 
 void turn_by_quarters(const std::vector<Point2>& other, std::vector<Point2>& map) {

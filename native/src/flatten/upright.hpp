@@ -15,6 +15,7 @@ namespace seamwire::detail {
 /// run along the axes, and the longer side along v.
 ///
 /// `is_straight`: the map's rows run along the axes, and stay so. Then the map is turned by a multiple of 90 degrees.
+/// So is a map in which any other turn would flip a triangle by rounding.
 void turn_upright(const Island& island, std::span<const Vector> points, const Vector& up, bool is_straight,
                   std::vector<Point2>& map);
 

@@ -90,8 +90,8 @@ def shaped_islands(
     points
         (n, 3) vertices.
     vertices, edges, following, labels
-        (c,) of each corner its vertex, the edge to the next corner of its face, that corner, and its island. -1 as the edge: a border
-        of the island; -1 as the island: left out.
+        (c,) of each corner its vertex, the edge to the next corner of its face, that corner, and its island. The edge is -1 at a border
+        of the island. The island is -1 if the corner is left out.
     """
     preceding = np.empty_like(following)
     preceding[following] = np.arange(len(following))
@@ -125,8 +125,8 @@ def find_copies(shapes: Sequence[IslandShape]) -> list[tuple[int, NDArray[np.int
     Returns
     -------
     list of (int, (c,) array)
-        For each island the number of that island, and which of its corners corresponds to each corner. An island that is no copy of an
-        earlier one corresponds to itself.
+        For each island the number of that island, and which of its corners corresponds to each corner. The first island of each shape
+        corresponds to itself.
     """
     found: list[tuple[int, NDArray[np.int64]]] = []
     firsts: defaultdict[int, list[tuple[float, int]]] = defaultdict(list)
