@@ -67,9 +67,9 @@ struct Flattening {
 /// corner of a polygon has one UV. A triangle that the surface left out (degenerate or duplicate) gets the UVs that its
 /// vertices have in its island. A vertex that is not in the island gets the island's center.
 ///
-/// Throws InvalidInput for a vertex out of range, and for a start of the wrong size or with numbers that are not finite.
-/// Throws it, too, for an up direction that is zero or not finite, and for an island that no opening makes possible to
-/// map. Throws Cancelled within about 20 ms at 100,000 triangles, and within 50 ms at the beginning.
+/// Throws InvalidInput for a vertex out of range, and for a start of the wrong size or with numbers that are not
+/// finite. Throws it, too, for an up direction that is zero or not finite, and for an island that no opening makes
+/// possible to map. Throws Cancelled within about 20 ms at 100,000 triangles, and within 50 ms at the beginning.
 Flattening flatten(const Surface& surface, std::span<const Edge> cuts, const FlattenOptions& options = {},
                    const Task& task = {});
 
