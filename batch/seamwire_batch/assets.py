@@ -145,10 +145,13 @@ def mesh_objects() -> list[bpy.types.Object]:
     return list(found.values())
 
 
-def unwrap() -> None:
-    """Unwrap all of what is in edit mode along its seams, islands of one scale, packed; raises AssetError."""
+def unwrap(**options: object) -> None:
+    """Unwrap all of what is in edit mode along its seams, islands of one scale, packed; raises AssetError.
+
+    `options`: further arguments of the operator.
+    """
     try:
-        bpy.ops.mesh.seamwire_unwrap(changed_only=False)
+        bpy.ops.mesh.seamwire_unwrap(**{"changed_only": False, **options})
     except RuntimeError as error:
         raise AssetError(f"It cannot be unwrapped: {_first_line(error)}") from error
 

@@ -52,6 +52,13 @@ def parser() -> argparse.ArgumentParser:
     )
     how = command.add_argument_group("how")
     how.add_argument(
+        "--unwrap",
+        metavar="NAME=VALUE",
+        action="append",
+        default=[],
+        help="an argument of mesh.seamwire_unwrap; repeat it",
+    )
+    how.add_argument(
         "--place", choices=("auto", "numbers", "surface", "pairs"), default="auto", help="how seeds are placed"
     )
     how.add_argument(
@@ -114,14 +121,8 @@ def options_of(arguments: argparse.Namespace) -> Options:
     if len(ways) != 1:
         raise UsageError("Say where seams come from: one of --network, --source, --mark, --suggest")
     (way,) = ways
-    given: dict[str, str] = {}
-    for text in getattr(arguments, way) if way in {"mark", "suggest"} else []:
-        key, equals, value = text.partition("=")
-        if way == "suggest" and text == "-":
-            continue
-        if not equals:
-            raise UsageError(f"--{way} {text}: give NAME=VALUE")
-        given[key] = value
+    texts = getattr(arguments, way) if way in {"mark", "suggest"} else []
+    given = _values(way, [text for text in texts if (way, text) != ("suggest", "-")])
     for name in ("network", "source"):
         if getattr(arguments, name) and not Path(getattr(arguments, name)).is_file():
             raise UsageError(f"--{name}: there is no file {getattr(arguments, name)}")
@@ -142,11 +143,23 @@ def options_of(arguments: argparse.Namespace) -> Options:
         mirror=None if arguments.mirror is None else "xyz".index(arguments.mirror),
         align=not arguments.no_align,
         pairs=tuple(pairs),
+        unwrap=_values("unwrap", arguments.unwrap),
         object=arguments.object,
         format=arguments.format,
         pictures=not arguments.no_pictures,
         size=arguments.picture_size,
     )
+
+
+def _values(option: str, texts: Sequence[str]) -> dict[str, str]:
+    """Return the values by their names; raises UsageError."""
+    values: dict[str, str] = {}
+    for text in texts:
+        key, equals, value = text.partition("=")
+        if not equals:
+            raise UsageError(f"--{option} {text}: give NAME=VALUE")
+        values[key] = value
+    return values
 
 
 def machine_of(arguments: argparse.Namespace) -> Machine:

@@ -33,6 +33,7 @@ class Options:
     mirror: int | None = None
     align: bool = True
     pairs: tuple[tuple[int, int], ...] = ()
+    unwrap: dict[str, str] = field(default_factory=dict)
     object: str = ""
     format: str = ""
     pictures: bool = True

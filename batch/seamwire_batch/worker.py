@@ -143,6 +143,7 @@ class Run:
         self._folder = Path(job["folder"])
         self.warnings: list[str] = []
         self._stretch_wanted = 0.0
+        self._may_stack = False
 
     def source(self) -> dict[str, Any]:
         """Write the networks of a source asset, one file for each object that has seams, and return their names."""
@@ -196,10 +197,12 @@ class Run:
             named = f" called {job['object']}" if job["object"] else ""
             raise AssetError(f"There is no mesh object{named} with faces in it")
         objects = self._chosen(objects)
+        options = values_for(bpy.ops.mesh.seamwire_unwrap, job["unwrap"])
+        self._may_stack = bool(options.get("stack"))
         for obj in objects:
             with _editing(obj):
                 self._mark(obj)
-                unwrap()
+                unwrap(**options)
                 self._check_map(obj)
                 bpy.ops.mesh.seamwire_store(what="ATTRIBUTE")
         numbers = self._measured(objects)
@@ -317,7 +320,7 @@ class Run:
         surface = mapped(obj)
         if surface is None:
             return
-        told = in_words(find_faults(surface))
+        told = in_words(find_faults(surface, may_stack=self._may_stack))
         if self._stretch_wanted:
             stretch = 100.0 * stretch_of(surface.energy(uv_map.aspect(obj)))
             missed = not_reached([stretch], self._stretch_wanted)

@@ -222,6 +222,15 @@ def test_options_tell_results_apart() -> None:
     assert one.fingerprint() == Options("mark", arguments={"chains": "0 1"}).fingerprint()
     assert one.fingerprint() != Options("mark", arguments={"chains": "0 2"}).fingerprint()
     assert one.fingerprint() != Options("mark", arguments={"chains": "0 1"}, align=False).fingerprint()
+    assert one.fingerprint() != Options("mark", arguments={"chains": "0 1"}, unwrap={"upright": "0"}).fingerprint()
+
+
+def test_arguments_are_names_and_values(place: Place, capsys: pytest.CaptureFixture) -> None:
+    words = ["assets", "--out", "out", "--suggest", "-", "--unwrap", "straight=false", "--unwrap", "upright=true"]
+    options = cli.options_of(cli.parser().parse_args(words))
+    assert (options.arguments, options.unwrap) == ({}, {"straight": "false", "upright": "true"})
+    assert place.run("--unwrap", "straight") == 2
+    assert "--unwrap straight: give NAME=VALUE" in capsys.readouterr().err
 
 
 def test_a_job_is_told_as_json(tmp_path: Path) -> None:

@@ -148,6 +148,10 @@ def test_arguments_of_operators_are_read_and_what_is_wrong_is_said(tmp_path: Pat
     assert code == 1 and "no argument chain" in rows["a.obj"]["error"]
     code, rows = run(tmp_path, "--mark", "chains=10 99", "--no-pictures")
     assert code == 1 and "There is no vertex 99" in rows["a.obj"]["error"]
+    code, rows = run(tmp_path, "--mark", "chains=10 14", "--unwrap", "straight=false", "--no-pictures")
+    assert code == 0 and rows["a.obj"]["islands"] == "2"
+    code, rows = run(tmp_path, "--mark", "chains=10 14", "--unwrap", "bent=false", "--no-pictures")
+    assert code == 1 and "no argument bent" in rows["a.obj"]["error"]
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="memory is limited on Linux only")
@@ -176,7 +180,7 @@ def test_what_is_wrong_with_the_map_in_the_file_is_a_warning(tmp_path: Path, mon
     for edge in obj.data.edges:
         edge.use_seam = all(abs(obj.data.vertices[v].co.x) < 1e-6 for v in edge.vertices)
     export(tmp_path, ["halves.blend"])
-    monkeypatch.setattr(assets, "unwrap", lambda: None)
+    monkeypatch.setattr(assets, "unwrap", lambda **_: None)
     job = {
         "asset": str(tmp_path / "assets" / "halves.blend"),
         "folder": str(tmp_path),
@@ -184,6 +188,7 @@ def test_what_is_wrong_with_the_map_in_the_file_is_a_warning(tmp_path: Path, mon
         "name": "halves.blend",
         "way": "suggest",
         "arguments": {"distortion": "30"},
+        "unwrap": {},
         "object": None,
         "pictures": False,
     }

@@ -113,12 +113,12 @@ def test_faces_that_rounding_turns_over_are_turned_back(
     edit()
     with monkeypatch.context() as without:
         without.setattr(unwrapping, "turn_back", lambda *_: (np.empty(0, dtype=np.int64), np.empty((0, 2))))
-        assert unwrap() == {"FINISHED"}
+        assert unwrap(straight=False, upright=False) == {"FINISHED"}
     left = turned_over(obj)
     assert left > 0
     told = capfd.readouterr().out
     assert re.search(rf"Warning: 1 island unwrapped, 0 kept, 1 island overlaps, {left} faces? turned over\n", told)
-    assert unwrap(changed_only=False) == {"FINISHED"}
+    assert unwrap(changed_only=False, straight=False, upright=False) == {"FINISHED"}
     assert turned_over(obj) == 0
     assert "Info: 1 island unwrapped, 0 kept\n" in capfd.readouterr().out
 
@@ -198,7 +198,7 @@ def test_any_error_leaves_all_uvs_as_they_were(where: str, with_map: bool, monke
         bmesh.from_edit_mesh(obj.data).edges[7].seam = True
     before = snapshot(obj)
 
-    def fail(*_: object) -> None:
+    def fail(*_: object, **__: object) -> None:
         raise TypeError("as the test wants it")
 
     monkeypatch.setattr(unwrapping, where, fail)

@@ -24,7 +24,7 @@ namespace {
 struct FlatteningObject {
   Flattening map;
   std::vector<double> energies, areas;
-  std::vector<std::int32_t> overlapping, opened, steps;
+  std::vector<std::int32_t> overlapping, straight, opened, steps;
 };
 
 /// The part of the whole work from `begin` on.
@@ -50,6 +50,7 @@ Held<FlatteningObject> flattened(std::vector<Vector> points, std::vector<Triangl
     object->areas.push_back(island.area);
     object->opened.push_back(static_cast<std::int32_t>(island.opened));
     object->steps.push_back(static_cast<std::int32_t>(island.steps));
+    if (island.is_straight) object->straight.push_back(static_cast<std::int32_t>(i));
     if (island.overlaps) object->overlapping.push_back(static_cast<std::int32_t>(i));
   }
   return object;
@@ -73,6 +74,8 @@ void bind_flattening(py::module_& module) {
                              "(k,) float64: areas on the surface, in the points' unit squared.")
       .def_property_readonly("overlapping", array_of<FlatteningObject>(&FlatteningObject::overlapping),
                              "(j,) int32: the islands that cover a part of the plane twice.")
+      .def_property_readonly("straight", array_of<FlatteningObject>(&FlatteningObject::straight),
+                             "(j,) int32: the islands that were laid out straight.")
       .def_property_readonly("opened", array_of<FlatteningObject>(&FlatteningObject::opened),
                              "(k,) int32: how many edges of each island the map is opened along in addition to the "
                              "cuts.")
@@ -110,21 +113,23 @@ void bind_flatten_function(py::module_& module) {
   module.def(
       "flatten",
       [](const py::object& points, const py::object& triangles, const py::object& cuts, const py::object& start,
-         bool keep_apart, const py::object& edges, const py::object& progress) {
+         bool keep_apart, std::optional<double> straighten, const py::object& up, const py::object& edges,
+         const py::object& progress) {
         auto own_points = points_from(points, "points");
         auto own_triangles = triangles_from(triangles, "triangles");
         auto own_edges = real_edges_from(edges);
         const std::vector<Edge> own_cuts = edges_from(cuts, "cuts");
-        FlattenOptions options{.start = {}, .keep_apart = keep_apart};
+        FlattenOptions options{.start = {}, .keep_apart = keep_apart, .straighten = straighten};
         if (!start.is_none()) options.start = corner_uvs_from(start, "start");
+        if (!up.is_none()) options.up = vector_from(up, "up");
         return Watch(progress).run([&](const Task& task) {
           return flattened(std::move(own_points), std::move(own_triangles), std::move(own_edges), own_cuts, options,
                            task);
         });
       },
       py::arg("points"), py::arg("triangles"), py::arg("cuts") = py::tuple(), py::kw_only(),
-      py::arg("start") = py::none(), py::arg("keep_apart") = true, py::arg("edges") = py::none(),
-      py::arg("progress") = py::none(),
+      py::arg("start") = py::none(), py::arg("keep_apart") = true, py::arg("straighten") = py::none(),
+      py::arg("up") = py::none(), py::arg("edges") = py::none(), py::arg("progress") = py::none(),
       R"(Map each island of a surface to the plane.
 
 No triangle is flipped, and the symmetric Dirichlet energy is minimized (Smith and Schaefer, "Bijective Parameterization
@@ -143,6 +148,12 @@ start : (m, 3, 2) array_like of float, optional
     A former map. Islands start from it if it is continuous there and flips no triangle.
 keep_apart : bool
     Whether an island that overlaps itself is solved again with a barrier along its outline.
+straighten : float, optional
+    Lay an island that is a rectangle of quads out straight along the axes if that adds at most this to its energy. None:
+    islands stay as they are flattened.
+up : (3,) array_like of float, optional
+    A direction of the model, not zero. Islands are turned such that it points to +v in the mean. An island without a
+    clear up lies with its longer side along v. None: islands are not turned.
 edges : (e, 2) array_like of int, optional
     The real edges, if the triangles come from polygons. The map is continuous across all other edges of triangles. None:
     every edge of a triangle is real.

@@ -497,6 +497,7 @@ class Flattening:
     island_energies: NDArray[np.float64]  # symmetric Dirichlet energy of each island, 4 for an isometry
     island_areas: NDArray[np.float64]
     overlapping: NDArray[np.int32]  # islands
+    straight: NDArray[np.int32]  # islands that were laid out straight
     opened: NDArray[np.int32]  # edges opened in addition to the cuts, for each island
     steps: NDArray[np.int32]  # Newton steps, for each island
 
@@ -516,6 +517,8 @@ def flatten(
     *,
     start: ArrayLike | None = None,
     keep_apart: bool = True,
+    straighten: float | None = None,
+    up: ArrayLike | None = None,
     edges: ArrayLike | None = None,
     progress: Progress | None = None,
 ) -> Flattening:

@@ -21,12 +21,14 @@ import numpy as np
 
 from ..core.base import native
 from ..core.base.geometry import triangle_areas
+from ..core.islands.copies import ShapedIsland, shaped_islands
 from ..core.islands.map_faults import NO_FAULTS, MapFaults, MappedSurface, find_faults, joined
 from ..core.islands.rounded_flips import turn_back
 from ..core.islands.straight_corners import CornerRing, find_straight
 from ..core.islands.uv_islands import NewIsland, boxes_of, families, in_rows, place, split_edges, uv_areas
 from . import edit_mesh, uv_map
 from .seam_islands import labels_of
+from .uv_stacks import Stack, stacked
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -39,6 +41,10 @@ JOINED = 1
 """The value for edges around faces that were joined later. Their corners may belong to several islands in the map."""
 
 
+_STRAIGHT_COST = 0.05
+"""How much a straight layout may add to an island's symmetric Dirichlet energy."""
+_UP = (0.0, 0.0, 1.0)
+"""The direction of the object that points up in the map."""
 _ON_LINE = 1e-6
 """How far a UV may lie beside a line that it should lie on: UVs are rounded."""
 _MARGIN = 0.01
@@ -64,13 +70,32 @@ class Unwrapped:
     faults: MapFaults = NO_FAULTS
 
 
+@dataclass(frozen=True)
+class Layout:
+    """How the islands of the method ``SEAMWIRE`` are laid out.
+
+    Parameters
+    ----------
+    straight
+        Whether strips and rectangles of quads are straight and along the axes, if that hardly stretches them.
+    upright
+        Whether islands stand upright where Blender packs them. Otherwise Blender turns them as they need the least room.
+    stack
+        Whether islands of the same shape, mirrored or not, lie on each other.
+    """
+
+    straight: bool = True
+    upright: bool = True
+    stack: bool = False
+
+
 class _Map:
     """The UV map of one edit mesh, by the islands that the seams make."""
 
     def __init__(self, obj: bpy.types.Object, every: bool = False) -> None:
         self.obj = obj
         self._arrays = arrays = edit_mesh.read(obj)
-        self._aspect = uv_map.aspect(obj)
+        self.aspect = uv_map.aspect(obj)
         self._read = read = uv_map.read_with_edges(obj, UNWRAPPED)
         self.corners, self._uvs = read.corners, read.uvs
         labels = labels_of(arrays)
@@ -90,6 +115,8 @@ class _Map:
         self.changed = np.arange(self.count) if every else np.flatnonzero(changed)
         pinned = read.pinned[self._triangles].any(axis=1)
         self._with_pins = np.intersect1d(self.changed, self._labels[pinned])
+        self._are_straight = np.zeros(self.count, dtype=bool)
+        self.stacked = np.empty(0, dtype=np.int64)
 
     @property
     def bm(self) -> bmesh.types.BMesh:
@@ -140,7 +167,7 @@ class _Map:
         return np.setdiff1d(self.changed, self._with_pins) if method == "SEAMWIRE" else self.changed[:0]
 
     def flattened(
-        self, islands: NDArray[np.integer], start: NDArray[np.float64] | None
+        self, islands: NDArray[np.integer], start: NDArray[np.float64] | None, layout: Layout
     ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64]]:
         """Flatten islands: without flips, and without overlaps where that can be reached.
 
@@ -150,6 +177,8 @@ class _Map:
             Which.
         start
             (m, 3, 2) a map to start from, in lengths on the model, where it is continuous; None: the present one.
+        layout
+            Whether islands are laid out straight and upright.
 
         Returns
         -------
@@ -185,7 +214,12 @@ class _Map:
             own(self._straight.seams_in_map(self.corners.vertices, self._arrays.seams)),
             start=None if places is None else places[corners],
             edges=own(self._straight.edges_in_map(self.corners.vertices, self._arrays.edges)),
+            straighten=_STRAIGHT_COST if layout.straight else None,
+            up=_UP if layout.upright else None,
         )
+        self._are_straight[islands] = True
+        bent = ~np.isin(np.asarray(flat.islands), flat.straight)
+        self._are_straight[self._of_face[self.corners.faces[corners[bent, 0]]]] = False
         # A corner of several triangles is where the largest has it: one without area may be anywhere.
         smallest_first = np.argsort(
             triangle_areas(self._arrays.in_object, self.corners.vertices[corners]), kind="stable"
@@ -203,7 +237,7 @@ class _Map:
         """Return the present map in lengths on the model, (c, 2), each island as large as its surface. None: the mesh has no UV map."""
         if self._uvs is None:
             return None
-        uvs = self._uvs.astype(np.float64) * (self._aspect, 1.0)
+        uvs = self._uvs.astype(np.float64) * (self.aspect, 1.0)
         areas = uv_areas(uvs[self._triangles])
         in_map, on_model = (np.bincount(self._labels, each, self.count) for each in (areas, self._areas))
         scale = np.sqrt(np.divide(on_model, in_map, out=np.ones(self.count), where=(in_map > 0.0) & (on_model > 0.0)))
@@ -239,8 +273,15 @@ class _Map:
         known = (sums > 0.0).all(axis=0)
         return np.sqrt(np.divide(sums[0], sums[1], out=np.full(self.count, fallback**2), where=known))
 
+    def shapes(self, islands: NDArray[np.integer]) -> list[ShapedIsland]:
+        """Return the shapes of some islands."""
+        corners, labels = self.corners, self._of_face[self.corners.faces]
+        edges = np.where(self._read.seams[corners.edges], -1, corners.edges)
+        labels = np.where(np.isin(labels, islands), labels, -1)
+        return shaped_islands(self._arrays.in_object, corners.vertices, edges, corners.following, labels)
+
     def new_islands(self, density: float) -> list[tuple[NDArray[np.int64], NewIsland]]:
-        """Return the corners of each island that was unwrapped and may be moved, and what it has become.
+        """Return the corners of each island that was unwrapped and has a place to get, and what it has become.
 
         `density` is for those that had no place.
         """
@@ -250,12 +291,20 @@ class _Map:
         islands = []
         order = np.argsort(self._labels, kind="stable")
         starts = np.searchsorted(self._labels[order], np.arange(self.count + 1))
-        for label in np.setdiff1d(self.changed, self._with_pins).tolist():
+        for label in np.setdiff1d(self.changed, np.union1d(self._with_pins, self.stacked)).tolist():
             rows = order[starts[label] : starts[label + 1]]
             corners, triangles = np.unique(self._triangles[rows], return_inverse=True)
             one, other = (uvs[corners].astype(np.float64) for uvs in (before, after))
             triangles = triangles.reshape(-1, 3)
-            new = NewIsland(one, other, triangles, self._areas[rows], float(densities[label]), self._aspect)
+            new = NewIsland(
+                one,
+                other,
+                triangles,
+                self._areas[rows],
+                float(densities[label]),
+                self.aspect,
+                bool(self._are_straight[label]),
+            )
             islands.append((corners, new))
         return islands
 
@@ -317,7 +366,7 @@ class _Map:
 
     def on_image(self, uvs: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return UVs, (c, 2), squeezed as the image is wide, so that they are not stretched on it."""
-        return uvs / (self._aspect, 1.0)
+        return uvs / (self.aspect, 1.0)
 
     def remember(self) -> None:
         """Let visible edges hold whether they were seams when they were unwrapped last."""
@@ -335,6 +384,7 @@ def unwrap_changed(
     objects: Sequence[bpy.types.Object] | None = None,
     *,
     method: str = "SEAMWIRE",
+    layout: Layout = Layout(),
     every: bool = False,
     starts: Mapping[bpy.types.Object, NDArray[np.float64]] = MappingProxyType({}),
 ) -> Unwrapped:
@@ -352,6 +402,8 @@ def unwrap_changed(
     method
         ``SEAMWIRE``: least symmetric Dirichlet energy, without flips and overlaps, see ``seamwire_core.flatten``; islands with pinned
         corners are left to Blender. ``ANGLE_BASED`` or ``CONFORMAL``: Blender's unwrap of that name.
+    layout
+        How the islands of ``SEAMWIRE`` are laid out.
     every
         Whether all islands are unwrapped, changed or not.
     starts
@@ -376,16 +428,21 @@ def unwrap_changed(
     if unwrapped:
         flat = {found: found.flat_islands(method) for found in maps}
         solved = {
-            found: found.flattened(islands, starts.get(found.obj)) for found, islands in flat.items() if len(islands)
+            found: found.flattened(islands, starts.get(found.obj), layout)
+            for found, islands in flat.items()
+            if len(islands)
         }
         with _with_uv_maps(context, maps):
             blenders = {found: np.setdiff1d(found.changed, islands) for found, islands in flat.items()}
             try:
                 _unwrap_by_blender(context, blenders, "ANGLE_BASED" if method == "SEAMWIRE" else method)
                 _lay_out(solved)
-                _place(context, maps, flat)
+                stacks = _stacks(flat) if layout.stack else []
+                _place(context, maps, flat, layout)
+                _pile_up(maps, stacks)
                 faults = _faults(maps)
                 if faults.flipped and any([found.turn_back() for found in maps]):
+                    _pile_up(maps, stacks)
                     faults = _faults(maps)
             except BaseException:
                 for found in maps:
@@ -401,7 +458,10 @@ def _faults(maps: Sequence[_Map]) -> MapFaults:
     """Measure what is wrong with the changed islands in the UV maps that the meshes have."""
     chosen = np.concatenate([np.isin(np.arange(found.count), found.changed) for found in maps])
     return find_faults(
-        joined([found.mapped() for found in maps]), chosen, np.concatenate([found.homes() for found in maps])
+        joined([found.mapped() for found in maps]),
+        chosen,
+        np.concatenate([found.homes() for found in maps]),
+        may_stack=any(len(found.stacked) for found in maps),
     )
 
 
@@ -431,13 +491,37 @@ def _lay_out(solved: Mapping[_Map, tuple[NDArray[np.int64], NDArray[np.float64],
         bmesh.update_edit_mesh(found.obj.data, loop_triangles=False, destructive=False)
 
 
-def _place(context: bpy.types.Context, maps: Sequence[_Map], flat: Mapping[_Map, NDArray[np.integer]]) -> None:
+def _stacks(flat: Mapping[_Map, NDArray[np.integer]]) -> list[Stack]:
+    """Find the islands that lie on others, for each width of the image that the UVs lie on."""
+    stacks = []
+    for aspect in dict.fromkeys(found.aspect for found in flat):
+        own = {found: islands for found, islands in flat.items() if found.aspect == aspect}
+        stack = stacked([(found.obj, island) for found, islands in own.items() for island in found.shapes(islands)])
+        for found in own:
+            found.stacked = stack.copies.get(found.obj, found.stacked)
+        stacks.append(stack)
+    return stacks
+
+
+def _pile_up(maps: Sequence[_Map], stacks: Sequence[Stack]) -> None:
+    """Lay copies on the islands that have a place."""
+    for stack in stacks:
+        uvs = stack.uvs()
+        for found in maps:
+            if found.obj in uvs:
+                found.write(*uvs[found.obj])
+
+
+def _place(
+    context: bpy.types.Context, maps: Sequence[_Map], flat: Mapping[_Map, NDArray[np.integer]], layout: Layout
+) -> None:
     """Move new islands to where there is room among those that stay, or have Blender pack those of `flat` where nothing stays."""
     taken = np.concatenate([boxes for found in maps for boxes in (found.staying(), found.pinned_down())])
     in_map, on_model = sum(np.delete(found.areas(), found.changed, axis=1).sum(axis=1) for found in maps)
     density = float(np.sqrt(in_map / on_model)) if on_model > 0.0 else 0.0
     if density == 0.0:
-        _pack(context, {found: found.faces(islands) for found, islands in flat.items() if len(islands)})
+        once = {found: np.setdiff1d(islands, found.stacked) for found, islands in flat.items()}
+        _pack(context, {found: found.faces(islands) for found, islands in once.items() if len(islands)}, layout)
     if not len(taken):
         return
     new = [(found, *island) for found in maps if len(found.changed) for island in found.new_islands(density)]
@@ -445,17 +529,21 @@ def _place(context: bpy.types.Context, maps: Sequence[_Map], flat: Mapping[_Map,
         found.write(corners, uvs)
 
 
-def _pack(context: bpy.types.Context, faces: Mapping[_Map, NDArray[np.integer]]) -> None:
+def _pack(context: bpy.types.Context, faces: Mapping[_Map, NDArray[np.integer]], layout: Layout) -> None:
     """Have Blender pack the islands of some faces into the UV square; raises ValueError if it cannot."""
     if not faces:
         return
     settings = context.tool_settings
     sync = settings.use_uv_select_sync
+    options: dict[str, object] = {"rotate": not layout.upright, "margin": _MARGIN}
+    # Newer versions of Blender can turn a rectangle to any angle. Older ones turn its sides along the axes.
+    if layout.straight and "rotate_method" in bpy.ops.uv.pack_islands.get_rna_type().properties:
+        options["rotate_method"] = "AXIS_ALIGNED"
     with _only_selected(context, faces):
         # Then the UVs of the selected faces count as selected.
         settings.use_uv_select_sync = True
         try:
-            bpy.ops.uv.pack_islands(rotate=True, margin=_MARGIN)
+            bpy.ops.uv.pack_islands(**options)
         except RuntimeError as error:
             raise ValueError(f"Blender could not pack the islands: {str(error).strip()}") from error
         finally:

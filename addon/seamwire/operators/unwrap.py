@@ -30,15 +30,42 @@ class MESH_OT_seamwire_unwrap(EditMeshOperator, bpy.types.Operator):
             ("CONFORMAL", "Conformal", "Blender's faster method. Preserves angles"),
         ),
     )
+    straight: bpy.props.BoolProperty(
+        name="Straight Strips",
+        description="Lay strips and rectangles of quads out straight and along the axes, if that hardly stretches them",
+        default=True,
+    )
+    upright: bpy.props.BoolProperty(
+        name="Upright",
+        description="Turn new islands so that the object's Z axis points up. Otherwise Blender turns them to save space",
+        default=True,
+    )
+    stack: bpy.props.BoolProperty(
+        name="Stack Copies",
+        description="Lay new islands of the same shape on each other, mirrored ones too, so that they share the texture",
+        default=False,
+    )
     changed_only: bpy.props.BoolProperty(
         name="Changed Only", description="Keep the UVs of islands with unchanged seams", default=True
     )
 
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Show the settings that have an effect."""
+        layout = self.layout
+        layout.use_property_split = True
+        layout.prop(self, "method")
+        if self.method == "SEAMWIRE":
+            layout.prop(self, "straight")
+            layout.prop(self, "upright")
+            layout.prop(self, "stack")
+        layout.prop(self, "changed_only")
+
     def run(self, context: bpy.types.Context) -> set[str]:
         """Unwrap, and report the number of islands."""
-        from ..mesh.unwrap import unwrap_changed
+        from ..mesh.unwrap import Layout, unwrap_changed
 
-        done = unwrap_changed(context, method=self.method, every=not self.changed_only)
+        layout = Layout(self.straight, self.upright, self.stack)
+        done = unwrap_changed(context, method=self.method, layout=layout, every=not self.changed_only)
         if not done.islands:
             self.report({"INFO"}, "Nothing to unwrap: no island has changed")
             return {"CANCELLED"}

@@ -62,6 +62,28 @@ def test_a_start_is_continued() -> None:
     np.testing.assert_array_equal(second.opened, first.opened)
 
 
+def test_a_strip_of_quads_is_laid_out_straight_and_upright_if_asked_for() -> None:
+    turns = np.linspace(0.0, 2.0, 13)
+    ring = np.stack([np.cos(turns), np.sin(turns), np.zeros(13)], axis=1)
+    points = np.concatenate([ring, 1.1 * ring + (0.0, 0.0, 1.0)])
+    row = np.arange(12)
+    triangles = np.concatenate(
+        [np.stack([row, row + 1, row + 14], axis=1), np.stack([row, row + 14, row + 13], axis=1)]
+    )
+    flat = sw.flatten(points, triangles)
+    assert flat.straight.tolist() == []
+    straight = sw.flatten(points, triangles, straighten=0.05, up=(0.0, 0.0, -2.0))
+    assert straight.straight.tolist() == [0]
+    assert flat.energy < straight.energy <= flat.energy + 0.05
+    places = np.unique(np.concatenate([triangles.reshape(-1, 1), straight.uvs.reshape(-1, 2)], axis=1), axis=0)
+    assert len(places) == 26
+    lower, upper = places[:13, 1:], places[13:, 1:]
+    assert np.array_equal(lower[:, 0], upper[:, 0])
+    assert (len(np.unique(lower[:, 1])), len(np.unique(upper[:, 1]))) == (1, 1)
+    assert (lower[:, 1] > upper[:, 1]).all(), "up is down"
+    assert sw.flatten(points, triangles, straighten=0.0).straight.tolist() == []
+
+
 def test_measures_maps_that_others_made() -> None:
     points, triangles = meshes.grid(4)
     uvs = points[triangles][:, :, :2].copy()
@@ -86,6 +108,8 @@ def test_measures_maps_that_others_made() -> None:
         ({"points": [(0, 0)]}, "points: expected"),
         ({"triangles": [(0, 1, 99)]}, "triangle 0: vertex 99"),
         ({"progress": 3}, "progress: expected a function"),
+        ({"up": (0, 0)}, "up: expected"),
+        ({"up": (0, 0, 0)}, "up is no direction"),
     ],
 )
 def test_wrong_input_of_flatten(change: dict, message: str) -> None:

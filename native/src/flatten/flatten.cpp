@@ -17,6 +17,8 @@
 #include "flatten/cut_open.hpp"
 #include "flatten/island_map.hpp"
 #include "flatten/open_island.hpp"
+#include "flatten/straight_strip.hpp"
+#include "flatten/upright.hpp"
 #include "seamwire/surface/segments.hpp"
 #include "surface/cuts.hpp"
 #include "surface/real_edges.hpp"
@@ -34,6 +36,7 @@ constexpr int kMostOpenings = 32;
 struct MappedIsland {
   OpenedIsland opened;  ///< its faces are those of the half-edge mesh
   IslandMap map;
+  bool is_straight = false;
 };
 
 /// The caller's corner of each corner of the half-edge mesh: a triangle that was turned over has two of them swapped.
@@ -46,6 +49,9 @@ std::size_t caller_corner(const Surface& surface, std::int32_t face, std::size_t
 class Flattener {
  public:
   Flattener(const Surface& surface, const FlattenOptions& options) : surface_(surface), options_(options) {
+    if (options.up && !(options.up->allFinite() && options.up->stableNorm() > 0.0)) {
+      throw InvalidInput("up is no direction: it is zero or not finite");
+    }
     if (options.start.empty()) return;
     if (options.start.size() != surface.face_count()) {
       throw InvalidInput("start has " + std::to_string(options.start.size()) + " items: there are " +
@@ -57,7 +63,22 @@ class Flattener {
     }
   }
 
+  /// The island's map, straight and upright as the options say.
   MappedIsland map(const Island& island, const Task& task) const {
+    MappedIsland result = flattened(island, task);
+    if (options_.straighten) straighten(result);
+    if (options_.up) {
+      turn_upright(result.opened.island, surface_.points(), *options_.up, result.is_straight, result.map.uvs);
+    }
+    return result;
+  }
+
+  std::int32_t caller_face(const Island& island, std::size_t f) const {
+    return surface_.face_of_half_edge_face()[island.faces[f]];
+  }
+
+ private:
+  MappedIsland flattened(const Island& island, const Task& task) const {
     const MapOptions options{
         .max_steps = options_.max_steps, .tolerance = options_.tolerance, .keep_apart = options_.keep_apart};
     std::optional<MappedIsland> started = continued(island, options, task);
@@ -70,11 +91,20 @@ class Flattener {
     return started && rank(started->map) < rank(result.map) ? std::move(*started) : std::move(result);
   }
 
-  std::int32_t caller_face(const Island& island, std::size_t f) const {
-    return surface_.face_of_half_edge_face()[island.faces[f]];
+  /// A straight map neither flips a triangle nor covers itself, because each quad is a rectangle of a grid.
+  void straighten(MappedIsland& mapped) const {
+    const Island& island = mapped.opened.island;
+    std::optional<std::vector<Point2>> straight = straight_map(island, real_half_edges(island), surface_.points());
+    if (!straight) return;
+    const double energy = mean_energy(island, surface_.points(), *straight);
+    if (!(energy <= mapped.map.energy + *options_.straighten)) return;
+    turn_by_quarters(mapped.map.uvs, *straight);
+    mapped.map.uvs = std::move(*straight);
+    mapped.map.energy = energy;
+    mapped.map.overlaps = false;
+    mapped.is_straight = true;
   }
 
- private:
   const Eigen::Vector2d& start_of(const Island& island, std::int32_t h) const {
     const std::int32_t face = island.faces[h / 3];
     return options_.start[index(caller_face(island, index(h / 3)))][caller_corner(surface_, face, index(h % 3))];
@@ -193,6 +223,7 @@ FlatIsland describe(const Surface& surface, const MappedIsland& mapped) {
   FlatIsland flat{.energy = mapped.map.energy,
                   .steps = mapped.map.steps,
                   .overlaps = mapped.map.overlaps,
+                  .is_straight = mapped.is_straight,
                   .opened = mapped.opened.opened};
   const std::vector<double> energies = triangle_energies(island, surface.points(), mapped.map.uvs);
   const auto worst = static_cast<std::size_t>(std::ranges::max_element(energies) - energies.begin());

@@ -378,6 +378,24 @@ IslandMap result_of(Problem& problem, const std::vector<double>& map, std::size_
   return result;
 }
 
+/// A map in the unit of its energy.
+struct MeasuredMap {
+  SymmetricDirichlet energy;
+  std::vector<double> map;
+
+  MeasuredMap(const Island& island, std::span<const Vector> points, std::span<const Point2> uvs)
+      : MeasuredMap(island, local_points(island, points), uvs) {}
+
+ private:
+  MeasuredMap(const Island& island, const LocalPoints& local, std::span<const Point2> uvs)
+      : energy(island.triangles, local.points) {
+    map.reserve(2 * uvs.size());
+    for (const Point2& uv : uvs) {
+      for (const double value : uv) map.push_back(value / (local.unit * energy.unit()));
+    }
+  }
+};
+
 /// A start whose outline touches nothing: vertices of the outline that touch it move towards the middle of their
 /// triangles, so that the two sides of a slit part. Returns nothing if that is not enough.
 std::vector<double> parted(Problem& problem, const std::vector<double>& start, const Task& task) {
@@ -442,16 +460,15 @@ IslandMap continue_map(const Island& island, std::span<const Vector> points, std
   return minimize(problem, start, !problem.outline().covers_twice(start, kTouchingDepth, task), options, task);
 }
 
+double mean_energy(const Island& island, std::span<const Vector> points, std::span<const Point2> uvs) {
+  const MeasuredMap measured(island, points, uvs);
+  return measured.energy.energy(measured.map);
+}
+
 std::vector<double> triangle_energies(const Island& island, std::span<const Vector> points,
                                       std::span<const Point2> uvs) {
-  const LocalPoints local = local_points(island, points);
-  const SymmetricDirichlet energy(island.triangles, local.points);
-  std::vector<double> map;
-  map.reserve(2 * uvs.size());
-  for (const Point2& uv : uvs) {
-    for (const double value : uv) map.push_back(value / (local.unit * energy.unit()));
-  }
-  return energy.energies(map);
+  const MeasuredMap measured(island, points, uvs);
+  return measured.energy.energies(measured.map);
 }
 
 }  // namespace seamwire::detail

@@ -53,6 +53,9 @@ IslandMap map_island(const Island& island, std::span<const Vector> points, const
 IslandMap continue_map(const Island& island, std::span<const Vector> points, std::span<const Point2> uvs,
                        const MapOptions& options, const Task& task = {});
 
+/// The mean energy of a map, as in IslandMap.
+double mean_energy(const Island& island, std::span<const Vector> points, std::span<const Point2> uvs);
+
 /// The symmetric Dirichlet energy of each triangle, at the scale that is given; infinite where it is flipped or has no
 /// area in the map. Low triangles are treated as in map_island().
 std::vector<double> triangle_energies(const Island& island, std::span<const Vector> points,

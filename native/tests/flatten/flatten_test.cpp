@@ -234,6 +234,7 @@ TEST(Flatten, CanBeCancelled) {
 
 TEST(Flatten, AnyMeshWithAnyCutsHasASoundMap) {
   std::mt19937 random(11);
+  std::size_t straightened = 0;
   for (int round = 0; round < 12; ++round) {
     shapes::Mesh mesh = round % 3 == 0   ? shapes::bumpy(shapes::icosphere(2), 0.03, static_cast<unsigned>(round))
                         : round % 3 == 1 ? shapes::bumpy(shapes::torus(14, 9), 0.02, static_cast<unsigned>(round))
@@ -253,8 +254,13 @@ TEST(Flatten, AnyMeshWithAnyCutsHasASoundMap) {
       if (is_cut(random)) cuts.push_back(edge);
     }
     SCOPED_TRACE(round);
-    expect_sound(surface, flatten(surface, cuts, {.start = {}, .keep_apart = true, .max_steps = 30}));
+    expect_sound(surface, flatten(surface, cuts, {.max_steps = 30}));
+    // Straight at any cost, and turned.
+    const Flattening straight = flatten(surface, cuts, {.max_steps = 30, .straighten = 1e9, .up = Vector(1, 2, 3)});
+    expect_sound(surface, straight);
+    for (const FlatIsland& island : straight.by_island) straightened += island.is_straight ? 1 : 0;
   }
+  EXPECT_GT(straightened, 0U);
 }
 
 TEST(MeasureMap, KnowsTheBestScaleAndLeavesTheWorstOut) {

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..base import native
 from ..base.geometry import triangle_areas
+from .uv_islands import signed_uv_areas
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -91,12 +92,15 @@ class MappedSurface:
         _, report = self.measured(aspect)
         return np.inf if report is None else float(report.energy)
 
-    def measured(self, aspect: float = 1.0) -> tuple[NDArray[np.int64], seamwire_core.MapReport | None]:
+    def measured(
+        self, aspect: float = 1.0, shown: NDArray[np.bool_] | None = None
+    ) -> tuple[NDArray[np.int64], seamwire_core.MapReport | None]:
         """Return the triangles whose UVs are numbers, and the library's report on them; None if there are no such triangles.
 
-        The report numbers these triangles and their islands from 0.
+        The report numbers these triangles and their islands from 0. `shown`, (m,), leaves out triangles; None: all are measured.
         """
-        rows = np.flatnonzero(np.isfinite(self.uvs).all(axis=(1, 2)))
+        are_numbers = np.isfinite(self.uvs).all(axis=(1, 2))
+        rows = np.flatnonzero(are_numbers if shown is None else are_numbers & shown)
         if not len(rows):
             return rows, None
         uvs = self.uvs[rows].astype(np.float64) * (aspect, 1.0)
@@ -152,7 +156,11 @@ def joined(surfaces: Sequence[MappedSurface]) -> MappedSurface:
 
 
 def find_faults(
-    surface: MappedSurface, chosen: NDArray[np.bool_] | None = None, homes: NDArray[np.float64] | None = None
+    surface: MappedSurface,
+    chosen: NDArray[np.bool_] | None = None,
+    homes: NDArray[np.float64] | None = None,
+    *,
+    may_stack: bool = False,
 ) -> MapFaults:
     """Measure what is wrong with some islands of a map.
 
@@ -164,25 +172,51 @@ def find_faults(
         (count,) which islands are looked at. The others count only as what these may overlap. None: all islands.
     homes
         (count, 2) the low corner of the tile that each island had before. Islands may lie there or in the UV square. None: no other tile.
+    may_stack
+        Whether islands may lie exactly on each other, corner by corner.
     """
     chosen = np.ones(surface.count, dtype=bool) if chosen is None else chosen
     homes = np.zeros((surface.count, 2)) if homes is None else homes
-    rows, report = surface.measured()
-    is_bad = np.ones(len(surface.labels), dtype=bool)  # where a UV is no number
-    is_bad[rows] = False
+    under = _under(surface) if may_stack else {}
+    is_under = np.isin(surface.labels, list(under))
+    rows, report = surface.measured(shown=~is_under)
+    is_bad = ~np.isfinite(surface.uvs).all(axis=(1, 2))
+    if under:
+        is_bad |= is_under & _turned_over(surface)
     overlapping = np.empty(0, dtype=np.int32)
     outside = np.zeros(surface.count, dtype=bool)
     if report is not None:
         is_bad[rows[report.flipped]] = True
         islands = np.unique(surface.labels[rows])
         overlapping = islands[np.union1d(report.overlapping, report.colliding)]
-        outside = _outside(surface, rows, homes)
+        below = [island for island, first in under.items() if first in overlapping]
+        overlapping = np.concatenate([overlapping, np.array(below, dtype=np.int32)])
+        outside = _outside(surface, np.flatnonzero(np.isfinite(surface.uvs).all(axis=(1, 2))), homes)
     is_bad &= chosen[surface.labels]
     return MapFaults(
         flipped=len(np.unique(surface.polygons[is_bad])),
         overlapping=int(chosen[overlapping].sum()),
         outside=int((outside & chosen).sum()),
     )
+
+
+def _under(surface: MappedSurface) -> dict[int, int]:
+    """Return the islands whose corners lie exactly where those of an earlier island do, and that island."""
+    order = np.argsort(surface.labels, kind="stable")
+    islands, starts = np.unique(surface.labels[order], return_index=True)
+    firsts: dict[bytes, int] = {}
+    under: dict[int, int] = {}
+    for island, uvs in zip(islands.tolist(), np.split(surface.uvs[order], starts[1:]), strict=True):
+        first = firsts.setdefault(np.unique(uvs.reshape(-1, 2), axis=0).tobytes(), island)
+        if first != island:
+            under[island] = first
+    return under
+
+
+def _turned_over(surface: MappedSurface) -> NDArray[np.bool_]:
+    """Return which triangles are turned over against most of their island, (m,)."""
+    areas = signed_uv_areas(surface.uvs.astype(np.float64))
+    return areas * np.bincount(surface.labels, areas, surface.count)[surface.labels] < 0.0
 
 
 def _outside(surface: MappedSurface, rows: NDArray[np.int64], homes: NDArray[np.float64]) -> NDArray[np.bool_]:

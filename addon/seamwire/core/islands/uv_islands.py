@@ -71,6 +71,8 @@ class NewIsland:
         The wanted density: length in UVs over length on the model. Zero keeps the size.
     aspect
         The width over the height of the image that the UVs lie on: islands are turned as they are seen there.
+    is_straight
+        Whether its sides run along the axes, and stay so.
     """
 
     before: NDArray[np.float64]
@@ -79,6 +81,7 @@ class NewIsland:
     areas: NDArray[np.float64]
     density: float
     aspect: float = 1.0
+    is_straight: bool = False
 
 
 def in_rows(uvs: NDArray[np.float64], labels: NDArray[np.int64]) -> NDArray[np.float64]:
@@ -148,8 +151,8 @@ def boxes_of(corners: NDArray[np.float64]) -> NDArray[np.float64]:
 def place(islands: Sequence[NewIsland], taken: NDArray[np.float64]) -> list[NDArray[np.float64]]:
     """Find a place for islands among those that stay.
 
-    Each island keeps its texel density and rotation. It is placed in the nearest free space of its square, or to the right of all islands
-    if the square is full.
+    Each island keeps its texel density and rotation. A straight one is turned along the axes, as near to its rotation as possible. Each is
+    placed in the nearest free space of its square, or to the right of all islands if the square is full.
 
     Parameters
     ----------
@@ -208,6 +211,8 @@ def _fitted(island: NewIsland) -> NDArray[np.float64]:
     length = np.hypot(along, across)
     if length > 0.0:
         cos, sin = along / length, across / length
+        if island.is_straight:
+            cos, sin = (np.sign(cos), 0.0) if abs(cos) >= abs(sin) else (0.0, np.sign(sin))
         corners = corners @ np.array([[cos, sin], [-sin, cos]])
     return corners / on_image
 

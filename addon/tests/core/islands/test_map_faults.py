@@ -44,6 +44,23 @@ def test_a_face_that_doubles_another_one_is_measured_too() -> None:
         assert find_faults(surface) == faults
 
 
+def test_only_islands_that_lie_exactly_on_each_other_may_stack() -> None:
+    assert find_faults(squares((0.1, 0.1), (0.1, 0.1), (0.5, 0.5))) == MapFaults(overlapping=2)
+    assert find_faults(squares((0.1, 0.1), (0.1, 0.1), (0.5, 0.5)), may_stack=True) == NO_FAULTS
+    assert find_faults(squares((0.1, 0.1), (0.101, 0.1), (0.5, 0.5)), may_stack=True) == MapFaults(overlapping=2)
+    on_a_stack = squares((0.1, 0.1), (0.1, 0.1), (0.2, 0.2))
+    assert find_faults(on_a_stack, may_stack=True) == MapFaults(overlapping=3)
+    assert find_faults(on_a_stack, np.array([False, True, False]), may_stack=True) == MapFaults(overlapping=1)
+
+
+def test_a_face_that_is_turned_over_in_a_stack_counts() -> None:
+    surface = squares((0.1, 0.1), (0.1, 0.1))
+    uvs = surface.uvs.copy()
+    uvs[1::2, 2] = uvs[0, 1] + (0.1, -0.1)
+    turned = MappedSurface(surface.points, surface.triangles, surface.polygons, surface.labels, uvs, surface.edges)
+    assert find_faults(turned, may_stack=True).flipped == 2
+
+
 def test_an_island_may_lie_in_the_uv_square_or_in_its_former_tile() -> None:
     surface = squares((0.0, 0.0), (1.1, 0.5), (1.9, 0.5))
     assert find_faults(surface) == MapFaults(outside=2)

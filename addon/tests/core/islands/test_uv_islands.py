@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from seamwire.core.islands.uv_islands import NewIsland, boxes_of, families, in_rows, place, split_edges
@@ -103,6 +105,19 @@ def test_an_island_is_turned_as_it_is_seen_on_a_wide_image() -> None:
     new = NewIsland(before, turned, TRIANGLES, np.array([0.5, 0.5]), 0.25 / 2.0, 4.0)
     (found,) = place([new], taken((0.9, 0.9), (0.1, 0.1)))
     assert found - found[0] == pytest.approx(before - before[0])
+
+
+@pytest.mark.parametrize("angle", [0.2, 1.4, 2.9, -1.0])
+def test_a_straight_island_keeps_its_sides_along_the_axes(angle: float) -> None:
+    turn = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
+    before = (0.25 * SQUARE - 0.125) @ turn + 0.5
+    new = replace(island(before, SQUARE), is_straight=True)
+    (found,) = place([new], taken((0.9, 0.9), (0.1, 0.1)))
+    sides = np.roll(found, -1, axis=0) - found
+    assert (np.abs(sides).min(axis=1) < 1e-12).all()
+    assert np.abs(sides).max(axis=1) == pytest.approx(0.25)
+    wanted = np.roll(before, -1, axis=0) - before
+    assert (np.einsum("ij,ij->i", sides, wanted) >= 0.0625 * np.cos(0.25 * np.pi)).all(), "the nearest of four"
 
 
 def test_islands_lie_in_rows_without_touching_at_one_scale() -> None:

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,21 +21,29 @@ struct FlattenOptions {
   /// if it is continuous across the island's inner edges, except where the island has to be opened. If that map is not
   /// finished after `max_steps`, or still overlaps although `keep_apart` is set, the island is solved from Tutte's
   /// embedding as well, and the better map is kept. Other islands start from Tutte's embedding.
-  CornerUvs start;
+  CornerUvs start = {};
   /// Whether islands whose outline crosses itself are solved again with a barrier that keeps the outline apart.
   bool keep_apart = true;
   std::size_t max_steps = 100;  ///< Newton steps for each island at most
   double tolerance = 1e-6;      ///< the predicted decrease of the mean energy below which an island is finished
+  /// Islands that are rectangles of quads are laid out straight along the axes if that adds at most this to their mean
+  /// energy. Rows and columns get the sizes with the least energy. nullopt: islands stay as they are flattened.
+  std::optional<double> straighten = std::nullopt;
+  /// A direction of the model, not zero. Each island is turned such that the mean of its projection to the surface
+  /// points to +v. An island without a clear up lies with its longer side along v. Straight islands stay along the
+  /// axes. nullopt: islands are not turned.
+  std::optional<Vector> up = std::nullopt;
 };
 
 /// One island of a Flattening.
 struct FlatIsland {
-  double area = 0.0;        ///< on the surface, in the caller's unit squared
-  double energy = 0.0;      ///< symmetric Dirichlet energy E_d at scale 1, mean over the area; 4 for an isometry
-  std::size_t steps = 0;    ///< Newton steps that the map took
-  bool overlaps = false;    ///< whether it covers a part of the plane twice
-  std::size_t opened = 0;   ///< edges along which the map was opened in addition to the cuts
-  std::int32_t worst = -1;  ///< the caller's triangle with the highest energy; -1 if the island has no proper triangle
+  double area = 0.0;         ///< on the surface, in the caller's unit squared
+  double energy = 0.0;       ///< symmetric Dirichlet energy E_d at scale 1, mean over the area; 4 for an isometry
+  std::size_t steps = 0;     ///< Newton steps that the map took
+  bool overlaps = false;     ///< whether it covers a part of the plane twice
+  bool is_straight = false;  ///< whether it is a rectangle of quads that was laid out straight
+  std::size_t opened = 0;    ///< edges along which the map was opened in addition to the cuts
+  std::int32_t worst = -1;   ///< the caller's triangle with the highest energy; -1 if the island has no proper triangle
 };
 
 /// A UV map of a surface.
@@ -58,9 +67,9 @@ struct Flattening {
 /// corner of a polygon has one UV. A triangle that the surface left out (degenerate or duplicate) gets the UVs that its
 /// vertices have in its island. A vertex that is not in the island gets the island's center.
 ///
-/// Throws InvalidInput for a vertex out of range, a start of the wrong size or with numbers that are not finite, and an
-/// island that no opening makes possible to map. Throws Cancelled within about 20 ms at 100,000 triangles, and within
-/// 50 ms at the beginning.
+/// Throws InvalidInput for a vertex out of range, and for a start of the wrong size or with numbers that are not
+/// finite. Throws it, too, for an up direction that is zero or not finite, and for an island that no opening makes
+/// possible to map. Throws Cancelled within about 20 ms at 100,000 triangles, and within 50 ms at the beginning.
 Flattening flatten(const Surface& surface, std::span<const Edge> cuts, const FlattenOptions& options = {},
                    const Task& task = {});
 
