@@ -165,7 +165,7 @@ class Suggestions:
             Whether to go on with the best plans so far; the first plan of each mesh is waited for.
         """
         for suggestion, share in self._shares(progress):
-            suggestion.plan(self._wanted.request, share, is_enough)
+            suggestion.plan(self._wanted.request, share, is_enough=is_enough)
 
     def _shares(self, progress: Progress) -> Iterator[tuple[Suggestion, Progress]]:
         """Yield each suggestion with its share of the progress."""

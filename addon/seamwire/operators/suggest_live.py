@@ -128,7 +128,7 @@ class LiveParts:
                 return
             time.sleep(_TICK)
         try:
-            self._suggestions.plan(goes_on, self._is_enough)
+            self._suggestions.plan(goes_on, is_enough=self._is_enough)
         except self._cancelled:
             return
         self._planned = version

@@ -70,7 +70,7 @@ class PartEdits:
         """
         rows = np.searchsorted(polygons, self.parted)
         parted = [row for row, at in zip(rows, self.parted, strict=True) if row < len(polygons) and polygons[row] == at]
-        there = set(map(undirected, edges.tolist())) if self.kept or self.dropped else set()
+        there = set(map(tuple, np.sort(edges, axis=1).tolist())) if self.kept or self.dropped else set()
         kept, dropped = (
             np.array(sorted(own & there), dtype=np.int32).reshape(-1, 2) for own in (self.kept, self.dropped)
         )
