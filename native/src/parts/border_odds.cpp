@@ -5,38 +5,29 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
+#include <utility>
 
 #include "detail/index.hpp"
-#include "seams/visibility.hpp"
 
 namespace seamwire::detail {
 namespace {
 
-double knob(int i, double value) {
-  static const std::vector<double> set = [] {
-    std::vector<double> v;
-    if (const char* s = std::getenv("PARTS_KNOBS")) {
-      char* end = nullptr;
-      for (;;) {
-        const double x = std::strtod(s, &end);
-        if (end == s) break;
-        v.push_back(x);
-        s = *end == ',' ? end + 1 : end;
-      }
-    }
-    return v;
-  }();
-  return index(i) < set.size() && set[index(i)] > -900 ? set[index(i)] : value;
-}
-
-
-/// How the surface bends over each edge.
-struct Bends {
-  std::vector<double> degrees;  ///< between the normals on both sides; negative where concave
-  std::vector<double> wide;     ///< the same between the surface at some distance on both sides, not negative
-};
+constexpr double kDegreesOf = 180.0 / std::numbers::pi;
+constexpr double kWideReach = 0.015;      // of the diagonal: how far away on both sides a wide bend is measured
+constexpr double kLineShare = 0.2;        // what the mean bend of the edge's line adds to its own bend
+constexpr double kWideShare = 0.8;        // and what a wide bend adds that is greater than the edge's own
+constexpr double kEvenDegrees = 50.0;     // the bend at which a border is as likely as not, apart from what follows
+constexpr double kDegreesOfOdds = 18.0;   // how many more degrees add 1 to the log odds
+constexpr double kPrior = -0.8;           // of every edge
+constexpr double kOpenness = 4.0;         // taken off where the whole sky sees an edge and none sees the average one
+constexpr double kBesideSharper = 1.5;    // taken off beside a sharper edge of the same polygon
+constexpr double kSharperBy = 5.0;        // degrees
+constexpr double kConcave = 1.0;          // added in creases
+constexpr double kConcaveDegrees = 20.0;  // from which bend on
+constexpr double kOnPlane = 2.0;          // added on the mirror plane
+constexpr double kOnPlaneDegrees = 10.0;  // from which bend on
+constexpr double kMarked = 4.0;           // added where an artist expects a border
 
 class BendFinder {
  public:
@@ -45,7 +36,7 @@ class BendFinder {
   double degrees(std::int32_t e) const {
     const std::int32_t h = mesh_.half_edge_of[e], twin = mesh_.twins[h];
     const Vector &one = frames_[h / 3].normal, &other = frames_[twin / 3].normal;
-    const double angle = 180.0 / std::numbers::pi * std::atan2(one.cross(other).norm(), one.dot(other));
+    const double angle = kDegreesOf * std::atan2(one.cross(other).norm(), one.dot(other));
     const Vector along = mesh_.points[mesh_.end(h)] - mesh_.points[mesh_.start(h)];
     return one.cross(other).dot(along) < 0.0 ? -angle : angle;
   }
@@ -54,7 +45,7 @@ class BendFinder {
   double wide_degrees(std::int32_t e, double distance) const {
     const std::int32_t h = mesh_.half_edge_of[e], twin = mesh_.twins[h];
     const Vector one = normal_at(h, distance), other = normal_at(twin, distance);
-    return 180.0 / std::numbers::pi * std::atan2(one.cross(other).norm(), one.dot(other));
+    return kDegreesOf * std::atan2(one.cross(other).norm(), one.dot(other));
   }
 
  private:
@@ -89,102 +80,122 @@ class BendFinder {
   std::span<const FaceFrame> frames_;
 };
 
-/// The mean of a value along the line of each edge, and up to some edges each way.
-struct LineMeans {
-  std::vector<double> whole, near;
-};
-LineMeans means_along(const PlanMesh& mesh, const EdgeLines& lines, std::span<const double> values, std::int64_t reach) {
-  LineMeans means{std::vector<double>(values.begin(), values.end()), std::vector<double>(values.begin(), values.end())};
+/// The mean of a value over the line of each edge.
+std::vector<double> means_along(const PlanMesh& mesh, const EdgeLines& lines, const std::vector<double>& values) {
+  std::vector<double> means = values;
   for (const std::vector<std::int32_t>& line : lines.edges) {
     double sum = 0.0, length = 0.0;
-    std::vector<double> sums{0.0}, lengths{0.0};
     for (const std::int32_t e : line) {
       sum += mesh.lengths[e] * values[e];
       length += mesh.lengths[e];
-      sums.push_back(sum);
-      lengths.push_back(length);
     }
     if (!(length > 0.0)) continue;
-    for (std::int64_t i = 0; i < std::ssize(line); ++i) {
-      const auto low = static_cast<std::size_t>(std::max<std::int64_t>(i - reach, 0));
-      const auto high = static_cast<std::size_t>(std::min<std::int64_t>(i + reach + 1, std::ssize(line)));
-      means.whole[line[index(static_cast<std::int32_t>(i))]] = sum / length;
-      const double own = lengths[high] - lengths[low];
-      if (own > 0.0) means.near[line[index(static_cast<std::int32_t>(i))]] = (sums[high] - sums[low]) / own;
-    }
+    for (const std::int32_t e : line) means[e] = sum / length;
   }
   return means;
 }
 
-}  // namespace
+/// Calls visit(polygon) for the polygons on both sides of an edge.
+template <class Visit>
+void for_sides(const PlanMesh& mesh, const Polygons& polygons, std::int32_t e, const Visit& visit) {
+  const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
+  visit(polygons.of_face[h / 3]);
+  if (twin >= 0) visit(polygons.of_face[twin / 3]);
+}
 
-std::vector<double> border_odds(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Polygons& polygons,
-                                std::span<const std::uint8_t> is_marked, const Reflection* reflection,
-                                const Task& task) {
-  const Visibility visibility = find_visibility(mesh, std::nullopt, task);
-  const EdgeLines lines = find_lines(mesh, polygons);
-  const double diagonal = diagonal_of(mesh);
-  const BendFinder bends(mesh, frames);
-  std::vector<double> degrees(mesh.edge_count(), 0.0), sharp(mesh.edge_count(), 0.0), wide(mesh.edge_count(), 0.0);
-  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
-    if (mesh.is_boundary(e) || polygons.is_diagonal[e] != 0) continue;
-    degrees[e] = bends.degrees(e);
-    sharp[e] = std::abs(degrees[e]);
-    wide[e] = bends.wide_degrees(e, knob(0, 0.015) * diagonal);
-  }
-  const LineMeans means = means_along(mesh, lines, sharp, 3);
-  // The sharpest other edge of the polygons on both sides.
+/// For each edge the sharpest other edge of the polygons on both sides.
+std::vector<double> sharpest_beside(const PlanMesh& mesh, const Polygons& polygons, std::span<const double> sharp) {
   std::vector<std::array<double, 2>> sharpest(polygons.count, {0.0, 0.0});
-  const auto for_sides = [&](std::int32_t e, const auto& visit) {
-    const std::int32_t h = mesh.half_edge_of[e];
-    visit(polygons.of_face[h / 3]);
-    if (mesh.twins[h] >= 0) visit(polygons.of_face[mesh.twins[h] / 3]);
-  };
+  std::vector<std::int32_t> edge(polygons.count, -1);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     if (polygons.is_diagonal[e] != 0) continue;
-    for_sides(e, [&](std::int32_t p) {
+    for_sides(mesh, polygons, e, [&](std::int32_t p) {
       auto& [most, second] = sharpest[p];
-      if (sharp[e] > most) {
+      if (edge[p] < 0 || sharp[e] > most) {
         second = std::exchange(most, sharp[e]);
+        edge[p] = e;
       } else {
         second = std::max(second, sharp[e]);
       }
     });
   }
-  double open = 0.0, length = 0.0;
-  const auto openness = [&](std::int32_t e) {
-    const std::int32_t h = mesh.half_edge_of[e];
-    return 0.5 * (visibility.ambient[mesh.start(h)] + visibility.ambient[mesh.end(h)]);
-  };
+  std::vector<double> beside(mesh.edge_count(), 0.0);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
-    open += mesh.lengths[e] * openness(e);
+    for_sides(mesh, polygons, e, [&](std::int32_t p) {
+      beside[e] = std::max(beside[e], edge[p] == e ? sharpest[p][1] : sharpest[p][0]);
+    });
+  }
+  return beside;
+}
+
+/// How open each edge is to the sky, less the mean.
+std::vector<double> openness_of(const PlanMesh& mesh, std::span<const double> ambient) {
+  std::vector<double> openness;
+  double sum = 0.0, length = 0.0;
+  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    const std::int32_t h = mesh.half_edge_of[e];
+    openness.push_back(0.5 * (ambient[mesh.start(h)] + ambient[mesh.end(h)]));
+    sum += mesh.lengths[e] * openness[index(e)];
     length += mesh.lengths[e];
   }
-  const double mean_open = length > 0.0 ? open / length : 1.0;
+  for (double& open : openness) open -= length > 0.0 ? sum / length : 0.0;
+  return openness;
+}
+
+/// Gives edges that are mirror images of each other the mean of their values.
+void make_symmetric(const PlanMesh& mesh, const Polygons& polygons, const Reflection& reflection,
+                    std::vector<double>& values) {
+  const std::vector<double> own = values;
+  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    const std::int32_t image = image_of_edge(mesh, reflection, e);
+    if (image >= 0 && polygons.is_diagonal[image] == polygons.is_diagonal[e]) values[e] = 0.5 * (own[e] + own[image]);
+  }
+}
+
+}  // namespace
+
+std::int32_t image_of_edge(const PlanMesh& mesh, const Reflection& reflection, std::int32_t edge) {
+  const std::int32_t h = mesh.half_edge_of[edge];
+  const std::int32_t a = reflection.images[mesh.start(h)], b = reflection.images[mesh.end(h)];
+  return a < 0 || b < 0 ? -1 : mesh.edge_between(a, b);
+}
+
+EdgeBends bends_over_edges(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Polygons& polygons) {
+  EdgeBends found{std::vector<double>(mesh.edge_count(), 0.0), std::vector<double>(mesh.edge_count(), 0.0)};
+  const BendFinder bends(mesh, frames);
+  const double reach = kWideReach * diagonal_of(mesh);
+  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    if (mesh.is_boundary(e) || polygons.is_diagonal[e] != 0) continue;
+    found.own[e] = bends.degrees(e);
+    found.wide[e] = bends.wide_degrees(e, reach);
+  }
+  return found;
+}
+
+std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, const EdgeBends& bends,
+                                std::span<const double> ambient, std::span<const std::uint8_t> is_marked,
+                                const Reflection* reflection) {
+  std::vector<double> sharp;
+  for (const double bend : bends.own) sharp.push_back(std::abs(bend));
+  const std::vector<double> on_line = means_along(mesh, find_lines(mesh, polygons), sharp);
+  const std::vector<double> beside = sharpest_beside(mesh, polygons, sharp);
+  const std::vector<double> openness = openness_of(mesh, ambient);
+  const auto is_on_plane = [&](std::int32_t e) {
+    const std::int32_t h = mesh.half_edge_of[e];
+    return reflection != nullptr && reflection->sides[mesh.start(h)] == 0 && reflection->sides[mesh.end(h)] == 0;
+  };
   std::vector<double> odds(mesh.edge_count(), -kNever);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     if (polygons.is_diagonal[e] != 0) continue;
-    double other = 0.0;
-    for_sides(e, [&](std::int32_t p) { other = std::max(other, sharpest[p][0] == sharp[e] ? sharpest[p][1] : sharpest[p][0]); });
-    const double own = knob(1, 1.0) * sharp[e] + knob(2, 0.0) * means.whole[e] + knob(3, 0.0) * means.near[e] + knob(4, 0.0) * std::max(wide[e]-sharp[e], 0.0);
-    odds[e] = (own - knob(5, 50.0)) / knob(6, 12.0) + knob(7, -0.3) - knob(8, 2.0) * (openness(e) - mean_open);
-    if (sharp[e] < other - 5.0) odds[e] -= knob(9, 1.5);
-    if (degrees[e] < -20.0) odds[e] += knob(10, 0.5);
-    if (reflection != nullptr && sharp[e] > 10.0) {
-      const std::int32_t h = mesh.half_edge_of[e];
-      if (reflection->sides[mesh.start(h)] == 0 && reflection->sides[mesh.end(h)] == 0) odds[e] += knob(11, 1.0);
-    }
-    if (is_marked[e] != 0) odds[e] += 4.0;
+    const double bend =
+        sharp[e] + kLineShare * on_line[e] + kWideShare * std::max(bends.wide[e] - sharp[e], 0.0);
+    odds[e] = (bend - kEvenDegrees) / kDegreesOfOdds + kPrior - kOpenness * openness[e];
+    if (sharp[e] < beside[e] - kSharperBy) odds[e] -= kBesideSharper;
+    if (bends.own[e] < -kConcaveDegrees) odds[e] += kConcave;
+    if (is_on_plane(e) && sharp[e] > kOnPlaneDegrees) odds[e] += kOnPlane;
+    if (is_marked[e] != 0) odds[e] += kMarked;
   }
-  if (reflection != nullptr && reflection->is_exact) {
-    const std::vector<double> own = odds;
-    for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
-      const std::int32_t a = reflection->images[mesh.start(mesh.half_edge_of[e])];
-      const std::int32_t b = reflection->images[mesh.end(mesh.half_edge_of[e])];
-      const std::int32_t image = a < 0 || b < 0 ? -1 : mesh.edge_between(a, b);
-      if (image >= 0 && polygons.is_diagonal[image] == polygons.is_diagonal[e]) odds[e] = 0.5 * (own[e] + own[image]);
-    }
-  }
+  if (reflection != nullptr && reflection->is_exact) make_symmetric(mesh, polygons, *reflection, odds);
   return odds;
 }
 

@@ -16,7 +16,13 @@ namespace {
 
 /// What lies between two regions.
 struct Link {
-  double gain = 0.0, length = 0.0;
+  double gain = 0.0, length = 0.0, bend = 0.0;
+
+  void add(const Link& other) {
+    gain += other.gain;
+    length += other.length;
+    bend += other.bend;
+  }
 };
 
 class Joining {
@@ -31,9 +37,7 @@ class Joining {
     for (std::size_t r = 0; r < areas.size(); ++r) parents_[r] = static_cast<std::int32_t>(r);
     for (const RegionBorder& border : borders) {
       for (const auto& [a, b] : {std::pair(border.one, border.other), std::pair(border.other, border.one)}) {
-        Link& link = links_[a][b];
-        link.gain += border.gain;
-        link.length += border.length;
+        links_[a][b].add({border.gain, border.length, border.bend});
       }
     }
   }
@@ -53,7 +57,7 @@ class Joining {
   }
 
   void offer(std::int32_t a, std::int32_t b, const Link& link) {
-    const double lost = link.gain - rules_.part_price;
+    const double lost = link.gain - rules_.region_price;
     if (lost < 0.0) open_.emplace(lost, std::min(a, b), std::max(a, b));
   }
 
@@ -68,7 +72,7 @@ class Joining {
       open_.pop();
       if (parents_[a] != a || parents_[b] != b) continue;
       const auto found = links_[a].find(b);
-      if (found == links_[a].end() || found->second.gain - rules_.part_price != lost) continue;
+      if (found == links_[a].end() || found->second.gain - rules_.region_price != lost) continue;
       join_both(a, b);
     }
   }
@@ -99,8 +103,7 @@ class Joining {
       if (c == a) continue;
       links_[c].erase(b);
       Link& sum = links_[a][c];
-      sum.gain += link.gain;
-      sum.length += link.length;
+      sum.add(link);
       links_[c][a] = sum;
       offer(a, c, sum);
     }
@@ -109,25 +112,25 @@ class Joining {
     return a;
   }
 
-  /// The neighbor that a region should join if it is too small or narrow; -1 if it may stay.
+  /// Whether a region is too small to stay, or a step of a chamfer.
+  bool is_small(std::int32_t r) const {
+    Link rim;
+    for (const auto& [c, link] : links_[r]) rim.add(link);
+    if (!(rim.length > 0.0)) return false;
+    if (areas_[r] < rules_.least_area && rim.gain < rules_.sharp_rim * rim.length) return true;
+    return 2.0 * areas_[r] < rules_.least_width * rim.length && rim.bend < rules_.most_step * rim.length;
+  }
+
+  /// The neighbor that a small region joins: the one with the least likely border, where long borders count more.
   std::int32_t neighbor_of_small(std::int32_t r) const {
-    if (links_[r].empty()) return -1;
-    double perimeter = 0.0, gain = 0.0;
-    for (const auto& [c, link] : links_[r]) {
-      perimeter += link.length;
-      gain += link.gain;
-    }
-    if (!(perimeter > 0.0)) return -1;
-    const bool is_small = areas_[r] < rules_.least_area && gain < rules_.sharp_rim * perimeter;
-    if (!is_small) return -1;
+    if (!is_small(r)) return -1;
     std::int32_t best = -1;
-    Link least;
+    std::tuple<double, double> least;
     for (const auto& [c, link] : links_[r]) {
-      // By the whole border: a long soft border is a better place to join than a short one.
-      const bool is_better = best < 0 || std::pair(link.gain - link.length, c) < std::pair(least.gain - least.length, best);
-      if (is_better) {
+      const std::tuple own(link.gain - rules_.sharp_rim * link.length, -areas_[c]);
+      if (best < 0 || own < least || (own == least && c < best)) {
         best = c;
-        least = link;
+        least = own;
       }
     }
     return best;

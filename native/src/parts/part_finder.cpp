@@ -2,9 +2,7 @@
 #include "seamwire/parts/part_finder.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <optional>
 #include <string>
@@ -15,8 +13,11 @@
 #include "parts/border_odds.hpp"
 #include "parts/joined_regions.hpp"
 #include "parts/polygons.hpp"
+#include "seams/parting_cuts.hpp"
 #include "seams/plan_mesh.hpp"
 #include "seams/reflection.hpp"
+#include "seams/slit_plan.hpp"
+#include "seams/visibility.hpp"
 #include "seamwire/errors.hpp"
 #include "seamwire/surface/segments.hpp"
 #include "surface/real_edges.hpp"
@@ -29,9 +30,13 @@ namespace {
 
 constexpr double kMostOdds = 4.0;      // log odds are clamped to this
 constexpr double kEditOdds = 1e6;      // of an edge that somebody has kept or dropped
-constexpr double kMiddleBias = 0.4;    // added to the log odds in the middle of the scale
+constexpr double kMiddleBias = 0.1;    // added to the log odds in the middle of the scale
 constexpr double kBiasToOne = 1.2;     // how fast it falls towards one part, in log odds of the amount
 constexpr double kBiasToSharp = 2.2;   // what is added to it at the other end
+constexpr double kPartPrice = 0.05;    // of the diagonal
+constexpr double kLeastArea = 0.003;   // of the area
+constexpr double kLeastWidth = 0.006;  // of the diagonal
+constexpr double kLeastPrice = 0.05;   // of a cut along an edge that is a border for sure, for each unit of length
 
 /// What is added to all log odds for an amount of parts.
 double bias_of(double amount) {
@@ -108,78 +113,117 @@ std::vector<std::vector<std::int32_t>> chains_of(const std::vector<Edge>& edges)
   return chains;
 }
 
-double tune(const char* name, double value) {
-  const char* s = std::getenv(name);
-  return s ? std::atof(s) : value;
-}
-
 }  // namespace
 
 struct PartFinder::Impl {
   std::shared_ptr<const Surface> surface;
   PartOptions options;
-  PlanMesh mesh;
+  SlitProblem problem;  // the existing seams part it into pieces
   Polygons polygons;
-  std::vector<double> odds;              // of each edge
-  std::vector<std::uint8_t> is_seam;     // of each edge
-  std::vector<double> areas;             // of each polygon
-  std::vector<std::int32_t> images;      // of each polygon; empty without a symmetry
+  EdgeBends bends;
+  std::vector<double> odds;          // of each edge
+  std::vector<double> areas;         // of each polygon
+  std::vector<std::int32_t> images;  // of each polygon; empty without a symmetry
   double diagonal = 0.0;
 
-  std::vector<std::uint8_t> marked(const std::vector<Edge>& sorted) const {
-    std::vector<std::uint8_t> found;
-    for (const std::int32_t h : mesh.half_edge_of) {
-      const Edge edge = ascending(mesh.sources[mesh.start(h)], mesh.sources[mesh.end(h)]);
-      found.push_back(std::ranges::binary_search(sorted, edge) ? 1 : 0);
-    }
-    return found;
-  }
   void prepare(const Task& task);
+  std::vector<std::uint8_t> marked(const std::vector<Edge>& edges, const char* name) const;
+  std::vector<std::uint8_t> edited(const std::vector<Edge>& edges, const char* name) const;
   std::vector<std::int32_t> regions(double amount, const PartEdits& edits) const;
+  std::vector<std::uint8_t> borders(double amount, const PartEdits& edits) const;
 };
 
 void PartFinder::Impl::prepare(const Task& task) {
   if (options.mirror < -1 || options.mirror > 2) {
     throw InvalidInput("mirror is " + std::to_string(options.mirror) + ", not an axis from 0 to 2, or -1");
   }
-  const std::size_t count = surface->vertex_count();
-  const std::vector<Edge> marks = sorted_edges(options.marked, count, "marked");
-  const std::vector<Edge> seams = sorted_edges(options.seams, count, "seams");
-  mesh = plan_mesh(*surface);
+  problem.mesh = plan_mesh(*surface);
+  const PlanMesh& mesh = problem.mesh;
   diagonal = diagonal_of(mesh);
-  is_seam = marked(seams);
+  problem.is_seam = marked(options.seams, "seams");
+  const std::vector<std::uint8_t> is_marked = marked(options.marked, "marked");
+  if (options.mirror >= 0) problem.reflection = find_reflection(mesh, options.mirror, part_of(task, 0.0, 0.2));
+  const Visibility visibility = find_visibility(mesh, std::nullopt, part_of(task, 0.2, 1.0));
   const std::vector<FaceFrame> frames = face_frames(mesh);
   polygons = find_polygons(mesh, frames);
+  bends = bends_over_edges(mesh, frames, polygons);
+  odds = border_odds(mesh, polygons, bends, visibility.ambient, is_marked, problem.mirror());
   areas.assign(polygons.count, 0.0);
   for (std::size_t f = 0; f < mesh.face_count(); ++f) areas[polygons.of_face[f]] += frames[f].area;
-  std::optional<Reflection> reflection;
-  if (options.mirror >= 0) reflection = find_reflection(mesh, options.mirror, part_of(task, 0.0, 0.2));
-  odds = border_odds(mesh, frames, polygons, marked(marks), reflection ? &*reflection : nullptr,
-                     part_of(task, 0.2, 1.0));
-  if (reflection) images = images_of(mesh, polygons, *reflection);
+  if (problem.reflection) images = images_of(mesh, polygons, *problem.reflection);
+  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    const double unlikely = std::log1p(std::exp(-std::max(odds[e] + kMiddleBias, -kMostOdds)));
+    problem.prices.of_edge.push_back(mesh.is_real[e] == 0 ? kNever : (unlikely + kLeastPrice) * mesh.lengths[e]);
+  }
+}
+
+/// Marks edges of the mesh.
+std::vector<std::uint8_t> PartFinder::Impl::marked(const std::vector<Edge>& edges, const char* name) const {
+  const PlanMesh& mesh = problem.mesh;
+  const std::vector<Edge> sorted = sorted_edges(edges, surface->vertex_count(), name);
+  std::vector<std::uint8_t> found;
+  for (const std::int32_t h : mesh.half_edge_of) {
+    const Edge edge = ascending(mesh.sources[mesh.start(h)], mesh.sources[mesh.end(h)]);
+    found.push_back(std::ranges::binary_search(sorted, edge) ? 1 : 0);
+  }
+  return found;
+}
+
+/// Marks edges of the mesh and their mirror images.
+std::vector<std::uint8_t> PartFinder::Impl::edited(const std::vector<Edge>& edges, const char* name) const {
+  const std::vector<std::uint8_t> own = marked(edges, name);
+  if (!problem.reflection) return own;
+  std::vector<std::uint8_t> both = own;
+  for (std::int32_t e = 0; index(e) < own.size(); ++e) {
+    const std::int32_t image = own[e] != 0 ? image_of_edge(problem.mesh, *problem.reflection, e) : -1;
+    if (image >= 0) both[image] = 1;
+  }
+  return both;
 }
 
 /// The region of each polygon.
 std::vector<std::int32_t> PartFinder::Impl::regions(double amount, const PartEdits& edits) const {
-  const std::size_t count = surface->vertex_count();
-  const std::vector<std::uint8_t> is_kept = marked(sorted_edges(edits.kept, count, "kept"));
-  const std::vector<std::uint8_t> is_dropped = marked(sorted_edges(edits.dropped, count, "dropped"));
+  const PlanMesh& mesh = problem.mesh;
+  const std::vector<std::uint8_t> is_kept = edited(edits.kept, "kept"), is_dropped = edited(edits.dropped, "dropped");
   const double bias = amount > 0.0 ? bias_of(amount) : -kNever;
-  std::vector<RegionBorder> borders;
+  std::vector<RegionBorder> found;
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
-    if (twin < 0 || is_seam[e] != 0 || polygons.is_diagonal[e] != 0) continue;
-    const double length = mesh.lengths[e] / diagonal;
+    if (twin < 0 || problem.is_seam[e] != 0 || polygons.is_diagonal[e] != 0) continue;
     double own = std::clamp(odds[e] + bias, -kMostOdds, kMostOdds);
-    if (is_kept[e] != 0) own = kEditOdds;
     if (is_dropped[e] != 0) own = -kEditOdds;
-    borders.push_back({polygons.of_face[h / 3], polygons.of_face[twin / 3], own * length, length});
+    if (is_kept[e] != 0) own = kEditOdds;
+    const double length = mesh.lengths[e];
+    found.push_back({polygons.of_face[h / 3], polygons.of_face[twin / 3], own * length, length,
+                     std::abs(bends.own[e]) * length});
   }
-  RegionRules rules;
-  rules.part_price = tune("P_PRICE", 0.05);
-  rules.least_area = tune("P_AREA", 0.003);
-  rules.sharp_rim = tune("P_RIM", 2.0);
-  return joined_regions(areas, borders, images, rules);
+  const RegionRules rules{
+      .region_price = kPartPrice * diagonal, .least_area = kLeastArea, .least_width = kLeastWidth * diagonal};
+  return joined_regions(areas, found, images, rules);
+}
+
+/// Marks the borders of parts and the existing seams.
+std::vector<std::uint8_t> PartFinder::Impl::borders(double amount, const PartEdits& edits) const {
+  const PlanMesh& mesh = problem.mesh;
+  const std::vector<std::int32_t> regions_of = regions(amount, edits);
+  std::vector<std::uint8_t> is_border = problem.is_seam;
+  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
+    if (twin < 0) continue;
+    const std::int32_t one = regions_of[polygons.of_face[h / 3]], other = regions_of[polygons.of_face[twin / 3]];
+    if (one != other) is_border[e] = 1;
+  }
+  if (edits.parted.empty()) return is_border;
+  SlitProblem parted = problem;
+  for (const std::int32_t face : edits.parted) {
+    check_index(face, surface->face_count(), "parted", "triangles");
+    const auto own = std::ranges::find(mesh.faces, face);
+    if (own == mesh.faces.end()) continue;
+    parted.is_seam = is_border;
+    find_pieces_of(parted);
+    mark_half(parted, parted.pieces.of_face[own - mesh.faces.begin()], is_border);
+  }
+  return is_border;
 }
 
 PartFinder::PartFinder(std::shared_ptr<const Surface> surface, const PartOptions& options, const Task& task) {
@@ -196,14 +240,13 @@ Parts PartFinder::find(double amount, const PartEdits& edits) const {
     throw InvalidInput("amount is " + std::to_string(amount) + ", not from 0 to 1");
   }
   const Impl& impl = *impl_;
-  const PlanMesh& mesh = impl.mesh;
-  const std::vector<std::int32_t> regions = impl.regions(amount, edits);
+  const PlanMesh& mesh = impl.problem.mesh;
+  const std::vector<std::uint8_t> is_border = impl.borders(amount, edits);
   std::vector<Edge> borders;
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
-    const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
-    if (twin < 0 || impl.is_seam[e] != 0) continue;
-    const std::int32_t one = regions[impl.polygons.of_face[h / 3]], other = regions[impl.polygons.of_face[twin / 3]];
-    if (one != other) borders.push_back(ascending(mesh.sources[mesh.start(h)], mesh.sources[mesh.end(h)]));
+    const std::int32_t h = mesh.half_edge_of[e];
+    if (is_border[e] == 0 || impl.problem.is_seam[e] != 0) continue;
+    borders.push_back(ascending(mesh.sources[mesh.start(h)], mesh.sources[mesh.end(h)]));
   }
   std::ranges::sort(borders);
   Parts parts;
