@@ -16,8 +16,9 @@ from scene import add_grid, add_object, add_suzanne, edit, seams, snapshot
 from seamwire.core.base import native
 from seamwire.core.islands.islands import IslandMaker
 from seamwire.core.seams.gaps import Gap, GapFinder
+from seamwire.core.seams.parts import PartEdits, edits_text
 from seamwire.core.seams.suggestion import Request, energy_of, stretch_of
-from seamwire.mesh import edit_mesh, seam_islands, suggestion, suggestions, uv_map
+from seamwire.mesh import edge_marks, edit_mesh, seam_islands, suggestion, suggestions, uv_map
 from seamwire.mesh.object_session import ObjectSession
 from seamwire.mesh.seam_islands import island_count as islands
 from seamwire.view.shown_islands import ShownIslands
@@ -111,6 +112,23 @@ def add_tube(around: int = 24, along: int = 12) -> bpy.types.Object:
         for i in range(around)
     ]
     return add_object(points, faces, name="Tube")
+
+
+def add_tube_with_lids() -> bpy.types.Object:
+    """Add a cylinder along z whose lids are single faces."""
+    obj = add_tube()
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    bmesh.ops.holes_fill(bm, edges=bm.edges, sides=0)
+    bm.to_mesh(obj.data)
+    bm.free()
+    return obj
+
+
+def rims_of(obj: bpy.types.Object) -> list[list[bmesh.types.BMEdge]]:
+    """Return the edges around each lid of an object along z."""
+    faces = bmesh.from_edit_mesh(obj.data).faces
+    return [list(face.edges) for face in faces if abs(face.normal.z) > 0.9]
 
 
 def add_torus() -> bpy.types.Object:
@@ -586,3 +604,114 @@ def test_suggested_seams_have_no_gaps(add: Callable[[], bpy.types.Object], optio
     edit()
     assert suggest(**{"along": "SURFACE", **options}) == {"FINISHED"}
     assert gaps_in(session_on(obj)) == ()
+
+
+# Parts
+
+
+def add_prism(sides: int = 7) -> bpy.types.Object:
+    """Add a prism: its sides meet at 51 degrees, and two lids."""
+    bm = bmesh.new()
+    bmesh.ops.create_cone(bm, cap_ends=True, segments=sides, radius1=1.0, radius2=1.0, depth=1.6)
+    return add_bmesh(bm, "Prism")
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize(("parts", "expected"), [(0.0, 1), (50.0, 3), (100.0, 9)])
+def test_parts_are_islands_and_their_borders_wires(parts: float, expected: int) -> None:
+    obj = add_prism()
+    edit()
+    assert suggest(parts=parts) == {"FINISHED"}
+    assert islands(obj) == expected
+    assert open_islands(obj) == 0
+    assert is_good_map(obj)
+    assert agree(obj)
+
+
+def test_a_closed_border_is_one_wire_that_can_be_dropped_as_a_whole() -> None:
+    obj = add_prism()
+    edit()
+    suggest()
+    mesh = session_on(obj)
+    rims = [wire for wire in mesh.session.wires if wire.closed]
+    assert [len(rim.vertices) for rim in rims] == [7, 7]
+    mesh.session.drop(rims[0])
+    mesh.write(mesh.plan())
+    assert islands(obj) == 2
+    assert agree(obj)
+
+
+@pytest.mark.parametrize("finish", ["SNAP", "SLIDE", "CUT"])
+def test_borders_run_along_edges_whatever_becomes_of_slits(finish: str) -> None:
+    obj = add_tube_with_lids()
+    edit()
+    rims = [{frozenset(vert.index for vert in edge.verts) for edge in rim} for rim in rims_of(obj)]
+    assert suggest(along="SURFACE", finish=finish) == {"FINISHED"}
+    assert islands(obj) == 3
+    marked = {frozenset(edge) for edge in seams(obj)}
+    assert len(rims) == 2 and all(rim <= marked for rim in rims)
+    assert is_good_map(obj)
+    assert agree(obj)
+
+
+def test_sharp_marks_and_borders_of_materials_count() -> None:
+    obj = add_grid(9)
+    edit()
+    assert suggest(unwrap=False) == {"CANCELLED"}, "flat, so one part"
+    for name in ("One", "Other"):
+        obj.data.materials.append(bpy.data.materials.new(name))
+    bm = bmesh.from_edit_mesh(obj.data)
+    for face in bm.faces:
+        face.material_index = int(face.calc_center_median().x > 0.0)
+    bmesh.update_edit_mesh(obj.data)
+    found = {frozenset(edge) for edge in edge_marks.expected_borders(obj.data).tolist()}
+    assert len(found) == 8
+    assert suggest(parts=100.0, unwrap=False) == {"FINISHED"}
+    assert {frozenset(edge) for edge in seams(obj)} == found
+
+
+def test_edits_of_clicks_are_arguments() -> None:
+    obj = add_prism()
+    edit()
+    rim = rims_of(obj)[0]
+    edges = frozenset(tuple(sorted(vert.index for vert in edge.verts)) for edge in rim)
+    assert suggest(edits=edits_text({"Prism": PartEdits().drop(edges)}), unwrap=False) == {"FINISHED"}
+    assert islands(obj) == 2
+    clear(obj)
+    assert suggest(parts=0.0, edits=edits_text({"Prism": PartEdits().keep(edges)}), unwrap=False) == {"FINISHED"}
+    assert islands(obj) == 2
+    clear(obj)
+    assert suggest(edits=edits_text({"Other": PartEdits().drop(edges)}), unwrap=False) == {"FINISHED"}
+    assert islands(obj) == 3, "another object has these edits"
+    clear(obj)
+    side = next(face.index for face in bmesh.from_edit_mesh(obj.data).faces if abs(face.normal.z) < 0.5)
+    assert suggest(edits=edits_text({"Prism": PartEdits().part(side)}), unwrap=False) == {"FINISHED"}
+    assert islands(obj) == 4
+    with pytest.raises(RuntimeError):
+        suggest(edits="no edits")
+
+
+@pytest.mark.parametrize("count", [4, 7])
+def test_a_ball_has_the_least_number_of_islands(count: int, capfd: pytest.CaptureFixture[str]) -> None:
+    obj = add_ball(subdivisions=3)
+    edit()
+    assert suggest(islands=count) == {"FINISHED"}
+    assert count <= islands(obj) <= count + 1
+    assert open_islands(obj) == 0
+    assert is_good_map(obj)
+    assert "fewer than" not in capfd.readouterr().out
+
+
+@pytest.mark.parametrize("selected", [False, True])
+def test_only_selected_islands_get_borders(selected: bool) -> None:
+    bm = bmesh.new()
+    for place in (-2.0, 2.0):
+        bmesh.ops.create_cube(bm, size=2.0, matrix=Matrix.Translation((place, 0.0, 0.0)))
+    obj = add_bmesh(bm, "Cubes")
+    edit()
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bm = bmesh.from_edit_mesh(obj.data)
+    next(face for face in bm.faces if face.calc_center_median().x > 0.0).select = True
+    bmesh.update_edit_mesh(obj.data)
+    assert suggest(parts=100.0, selected=selected, unwrap=False) == {"FINISHED"}
+    assert islands(obj) == (7 if selected else 12)

@@ -416,6 +416,17 @@ def test_a_click_drops_a_border_and_a_second_click_keeps_it(ui: driver.Ui, prism
     assert island_count(prism) == 1
 
 
+def test_a_click_into_an_island_cuts_it_once_more(ui: driver.Ui, prism: bpy.types.Object) -> None:
+    invoke(ui)
+    ui.click(ui.on_screen(FRONT_SIDE))
+    assert count() == 4
+    ui.click(ui.on_screen(FRONT_SIDE))
+    assert count() == 5
+    ui.key("RET")
+    ui.wait_until(lambda: not searches, 60.0)
+    assert island_count(prism) == 5
+
+
 def test_adjust_last_operation_has_what_was_clicked(ui: driver.Ui, prism: bpy.types.Object) -> None:
     invoke(ui)
     ui.click(ui.on_screen(FRONT_RIM))

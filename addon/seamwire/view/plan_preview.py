@@ -185,7 +185,7 @@ class _Shown:
         """Yield the curves in the order in which they are drawn."""
         if self.hovered is not None:
             yield looks.hovered, [self._found_by_mouse[self.hovered]]
-        yield looks.marked, self._curves.slits
+        yield looks.mirrored, self._curves.slits  # thinner than borders, for clicks do not change them
         yield looks.clear, self._curves.dropped
         yield looks.kept, self._curves.borders
 
