@@ -31,7 +31,7 @@ _CONSOLE_PERIOD = 5.0
 
 
 class Hand(Protocol):
-    """What the artist does while a step runs.
+    """The artist's influence on a step that runs.
 
     Attributes
     ----------
@@ -63,7 +63,7 @@ class Step:
         Shows the best result so far, and returns a text for the status bar. The text is empty if there is no result yet. The interface
         calls it from time to time. None if the step cannot end early.
     hand
-        What the artist does meanwhile; None: the artist can only move the view.
+        The artist's influence meanwhile; None: the artist can only move the view.
     """
 
     text: str
@@ -174,7 +174,7 @@ class Stepwise:
             self._cancelled = True
         if event.type in {"RET", "NUMPAD_ENTER"} and event.value == "PRESS" and self._seen:
             self.enough = True
-        is_waiting = self._is_at_work or (hand is not None and not hand.is_over and not self._cancelled)
+        is_waiting = self._is_at_work or (hand is not None and not hand.is_over and not self._is_broken)
         if is_waiting:
             self._show()
         if is_waiting or event.type not in {"TIMER", "ESC"}:
@@ -184,6 +184,11 @@ class Stepwise:
     @property
     def _is_at_work(self) -> bool:
         return self._work is not None and not self._work.done()
+
+    @property
+    def _is_broken(self) -> bool:
+        """Whether the step is cancelled, or its work has ended on an error."""
+        return self._cancelled or (self._work is not None and self._work.done() and self._work.exception() is not None)
 
     def cancel(self, _context: bpy.types.Context) -> None:
         """End because Blender quits or loads a file."""

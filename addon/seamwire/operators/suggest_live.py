@@ -61,7 +61,7 @@ class LiveParts:
     amount
         The chosen amount of parts.
     edits
-        What the artist has changed by clicks, by the name of the object.
+        The changes by clicks, by the name of the object.
     is_kept
         Whether the artist has confirmed the parts.
     """
@@ -82,6 +82,7 @@ class LiveParts:
         self.edits: dict[str, PartEdits] = {}
         self.is_kept = False
         self._dropped: dict[str, list[NDArray[np.int32]]] = {}
+        self._counts: dict[float, int] = {}
         self._version = self._worked_on = 0
         self._planned = -1
         self._rests_at = 0.0
@@ -113,7 +114,7 @@ class LiveParts:
 
     @property
     def hints(self) -> Sequence[str]:
-        """What the artist can do."""
+        """The artist's choices."""
         return () if self.is_kept else LIVE_HINTS
 
     def _plan(self, progress: Progress) -> None:
@@ -176,17 +177,26 @@ class LiveParts:
         return set()
 
     def _turn(self, notches: int) -> None:
-        found = turned(self.amount, notches, lambda amount: self._suggestions.count(amount, self.edits))
+        found = turned(self.amount, notches, self._count)
         if found != self.amount:
             self.amount = found
             self._change()
+
+    def _count(self, amount: float) -> int:
+        """Return the number of parts for an amount."""
+        if amount not in self._counts:
+            self._counts[amount] = self._suggestions.count(amount, self.edits)
+        return self._counts[amount]
 
     def _click(self, place: Place) -> None:
         at = self._preview.at(place)
         if at is None:
             return
-        before = self.edits.get(at.name, PartEdits())
-        self.edits[at.name] = self._edited(before, at)
+        edits = {**self.edits, at.name: self._edited(self.edits.get(at.name, PartEdits()), at)}
+        if at.border is None and self._suggestions.count(self.amount, edits) == self._suggestions.part_count:
+            return  # the part cannot be cut
+        self.edits = edits
+        self._counts.clear()
         self._change()
         self._preview.point(self._preview.at(place))
 
@@ -209,7 +219,7 @@ class LiveParts:
         for suggestion in self._suggestions:
             self._show(suggestion)
 
-    # What is shown
+    # The picture
 
     def _dim(self, suggestion: Suggestion) -> list[NDArray[np.int32]]:
         """Return the borders that the artist has dropped."""

@@ -41,7 +41,7 @@ _REACH = 10.0
 
 @dataclass(frozen=True)
 class Curves:
-    """What is drawn over an object: curves, (k, 3) each, in object coordinates.
+    """The curves that are drawn over an object, (k, 3) each, in object coordinates.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ class Curves:
 
 @dataclass(frozen=True)
 class Pointed:
-    """What is under the mouse.
+    """The border and the triangle under the mouse.
 
     Parameters
     ----------
@@ -91,6 +91,8 @@ class _Shown:
         self.obj = obj
         self._arrays = replace(arrays, points=arrays.in_object, to_object=np.eye(3))
         self._pose = Pose(self._arrays)
+        self._pose.follow(obj)
+        self._surface = self._posed_surface()  # threads prepare it
         surface = core.Surface(arrays.in_object, arrays.triangles, arrays.edges)
         self._islands = IslandMaker(arrays.triangles, lambda cuts: np.asarray(core.face_segments(surface, cuts)), HUES)
         self._curves = Curves()
@@ -110,7 +112,7 @@ class _Shown:
         """Show other curves, and ask for the islands of their cuts."""
         if self._pose.follow(self.obj):
             self._faces = self._tinted = None
-            self.__dict__.pop("_surface", None)
+            self._surface = self._posed_surface()
         kinds = {field.name: getattr(curves, field.name) for field in fields(curves)}
         self._curves = Curves(**{name: [self._pose.places(curve) for curve in own] for name, own in kinds.items()})
         self._lines = self.hovered = None
@@ -128,8 +130,7 @@ class _Shown:
 
     # Under the mouse
 
-    @cached_property
-    def _surface(self) -> Surface:
+    def _posed_surface(self) -> Surface:
         return Surface(replace(self._arrays, points=self._pose.points))
 
     @cached_property

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 LIVE_HINTS = ("Wheel: More or Fewer Parts", "Click Border: Drop or Keep", "Click Island: Cut", "Enter: Keep")
-"""What the artist can do while the parts are shown."""
+"""The artist's choices while the parts are shown."""
 
 
 def parts_text(amount: float, number: int) -> str:
