@@ -461,15 +461,15 @@ def test_slits_are_shown_when_the_hand_rests_and_planned_anew_after_a_change(
     ui: driver.Ui, prism: bpy.types.Object, status: list[str]
 ) -> None:
     invoke(ui)
-    ui.wait_until(lambda: live()._planned == live()._version)
+    ui.wait_until(lambda: live().is_planned)
     ui.wait_until(lambda: bool(status[-1]))
     assert status[-1].startswith("stretch ") and ", seams " in status[-1]
     assert seams(prism) == []
-    version = live()._planned
+    version = live()._version
     ui.move((0.5 * ui.region.width, 0.5 * ui.region.height))
     ui.wheel(True)
     assert live()._version > version, "another plan is needed"
-    ui.wait_until(lambda: live()._planned == live()._version)
+    ui.wait_until(lambda: live().is_planned)
 
 
 def test_the_wheel_ends_a_plan_that_is_being_made(ui: driver.Ui, suzanne: bpy.types.Object, waiting: Waiting) -> None:
@@ -478,7 +478,7 @@ def test_the_wheel_ends_a_plan_that_is_being_made(ui: driver.Ui, suzanne: bpy.ty
     before = live()._version
     ui.wheel(False, (0.5 * ui.region.width, 0.5 * ui.region.height))
     assert live()._version > before
-    ui.wait_until(lambda: live()._planned == live()._version)
+    ui.wait_until(lambda: live().is_planned)
 
 
 @pytest.mark.smoke

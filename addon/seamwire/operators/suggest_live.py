@@ -100,7 +100,12 @@ class LiveParts:
     @property
     def is_done(self) -> bool:
         """Whether the parts are confirmed, and seams planned in them."""
-        return self.is_kept and self._planned == self._version
+        return self.is_kept and self.is_planned
+
+    @property
+    def is_planned(self) -> bool:
+        """Whether seams are planned in the parts that are shown."""
+        return self._planned == self._version
 
     @property
     def is_over(self) -> bool:
