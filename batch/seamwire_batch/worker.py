@@ -119,14 +119,8 @@ def values_for(operator: Any, given: dict[str, str]) -> dict[str, Any]:  # noqa:
 
 
 def _stretch_wanted(operator: Any, options: dict[str, Any]) -> float:  # noqa: ANN401 - bpy.ops has no type
-    """Return the stretch in percent that the arguments of Suggest Seamwires ask for; 0: any."""
-    from seamwire.core.seams.suggestion import stretch_of_ratio
-
-    properties = operator.get_rna_type().properties
-    value = {name: options.get(name, properties[name].default) for name in ("limit", "distortion", "stretch")}
-    if value["limit"] == "DISCS":
-        return 0.0
-    return 100.0 * stretch_of_ratio(value["stretch"]) if value["limit"] == "STRETCH" else value["distortion"]
+    """Return the stretch in percent that the arguments of Suggest Seamwires ask for."""
+    return options.get("distortion", operator.get_rna_type().properties["distortion"].default)
 
 
 class Run:

@@ -57,7 +57,7 @@ CASES = {
     "mark": ({"chains": "0 8", "objects": "*"}, WRITES),
     "take_over": ({}, WRITES),
     "close_gaps": ({}, WRITES),
-    "suggest": ({"limit": "DISCS", "along": "EDGES"}, WRITES),
+    "suggest": ({"islands": 3, "along": "EDGES"}, WRITES),
     "mark_seams_as": ({"kind": "SHARP"}, (edge_marks, "_seams")),
     "store": ({"what": "ATTRIBUTE"}, (seam_islands, "_face_layer")),
 }

@@ -17,8 +17,9 @@ from scene import add_grid, add_object, add_suzanne, edit, seams, snapshot
 from seamwire.core.base import native
 from seamwire.core.islands.islands import IslandMaker
 from seamwire.core.seams.gaps import Gap, GapFinder
+from seamwire.core.seams.parts import PartEdits, edits_text
 from seamwire.core.seams.suggestion import Request, energy_of, stretch_of
-from seamwire.mesh import edit_mesh, seam_islands, suggestion, suggestions, uv_map
+from seamwire.mesh import edge_marks, edit_mesh, seam_islands, suggestion, suggestions, uv_map
 from seamwire.mesh.object_session import ObjectSession
 from seamwire.mesh.seam_islands import island_count as islands
 from seamwire.view.shown_islands import ShownIslands
@@ -114,6 +115,23 @@ def add_tube(around: int = 24, along: int = 12) -> bpy.types.Object:
     return add_object(points, faces, name="Tube")
 
 
+def add_tube_with_lids() -> bpy.types.Object:
+    """Add a cylinder along z whose lids are single faces."""
+    obj = add_tube()
+    bm = bmesh.new()
+    bm.from_mesh(obj.data)
+    bmesh.ops.holes_fill(bm, edges=bm.edges, sides=0)
+    bm.to_mesh(obj.data)
+    bm.free()
+    return obj
+
+
+def rims_of(obj: bpy.types.Object) -> list[list[bmesh.types.BMEdge]]:
+    """Return the edges around each lid of an object along z."""
+    faces = bmesh.from_edit_mesh(obj.data).faces
+    return [list(face.edges) for face in faces if abs(face.normal.z) > 0.9]
+
+
 def add_torus() -> bpy.types.Object:
     bpy.ops.mesh.primitive_torus_add(major_segments=32, minor_segments=12)
     return bpy.context.active_object
@@ -129,15 +147,18 @@ SHAPES = {
 
 
 @pytest.mark.every_blender
+@pytest.mark.parametrize("parts", [0.0, 50.0])
 @pytest.mark.parametrize("shape", SHAPES)
-def test_islands_are_discs_with_a_good_map_within_the_limit(shape: str, capfd: pytest.CaptureFixture[str]) -> None:
+def test_islands_are_discs_with_a_good_map_within_the_limit(
+    shape: str, parts: float, capfd: pytest.CaptureFixture[str]
+) -> None:
     obj = SHAPES[shape]()
     edit()
     clear(obj)
     before = snapshot(obj, with_seams=False)
-    assert suggest() == {"FINISHED"}
+    assert suggest(parts=parts) == {"FINISHED"}
     # Suzanne's eyes stay holes of her head, for a slit to them would cross the face.
-    assert open_islands(obj) == (1 if shape == "suzanne" else 0)
+    assert open_islands(obj) == (1 if shape == "suzanne" and parts == 0.0 else 0)
     assert agree(obj)
     assert is_good_map(obj)
     assert energy(obj) < energy_of(0.17) + 0.02
@@ -156,7 +177,7 @@ def test_less_stretch_takes_longer_seams() -> None:
     clear(obj)
     found = {}
     for stretch in (40.0, 17.0):
-        assert suggest(distortion=stretch) == {"FINISHED"}
+        assert suggest(parts=0.0, distortion=stretch) == {"FINISHED"}
         assert energy(obj) < energy_of(0.01 * stretch) + 0.02
         found[stretch] = length(obj)
         clear(obj)
@@ -166,7 +187,7 @@ def test_less_stretch_takes_longer_seams() -> None:
 def test_without_unwrap_no_uvs_are_made(suzanne: bpy.types.Object) -> None:
     clear(suzanne)
     before = snapshot(suzanne, with_seams=False)
-    assert suggest(unwrap=False, distortion=40.0) == {"FINISHED"}
+    assert suggest(parts=0.0, unwrap=False, distortion=40.0) == {"FINISHED"}
     assert snapshot(suzanne, with_seams=False) == before
     assert open_islands(suzanne) == 1  # with the eyes as holes
 
@@ -188,13 +209,13 @@ def test_uvs_from_before_there_were_seams_are_replaced_and_later_ones_kept() -> 
     obj = add_suzanne()  # with the UVs that Blender gives her: no seam marks their islands
     edit()
     assert obj.data.uv_layers
-    assert suggest(distortion=40.0) == {"FINISHED"}
+    assert suggest(parts=0.0, distortion=40.0) == {"FINISHED"}
     assert is_good_map(obj)
     before = uv_map.read_uvs(obj)
     arrays = edit_mesh.read(obj)
     corners, _ = uv_map.read(obj)
     eyes = np.unique(corners.of_triangles(arrays)[seam_islands.labels_of(arrays) > 0])
-    assert suggest(distortion=28.0) == {"FINISHED"}
+    assert suggest(parts=0.0, distortion=28.0) == {"FINISHED"}
     after = uv_map.read_uvs(obj)
     assert np.array_equal(after[eyes], before[eyes]), "they needed no seam"
     assert not np.array_equal(after, before)
@@ -240,13 +261,13 @@ def add_figure() -> bpy.types.Object:
     return obj
 
 
-def test_hands_feet_and_head_become_islands_if_asked_for() -> None:
+def test_hands_feet_and_head_come_first_where_more_islands_are_asked_for() -> None:
     obj = add_figure()
     edit()
-    assert suggest(distortion=40.0) == {"FINISHED"}
+    assert suggest(parts=0.0, distortion=40.0) == {"FINISHED"}
     assert islands(obj) == 1
     clear(obj)
-    assert suggest(distortion=40.0, parts=True, symmetric=False) == {"FINISHED"}
+    assert suggest(parts=0.0, distortion=40.0, islands=6, symmetric=False) == {"FINISHED"}
     assert islands(obj) == 6, "a head, two hands, two feet and the rest"
     assert is_good_map(obj)
 
@@ -256,28 +277,20 @@ def test_there_are_at_least_so_many_islands_as_asked_for_or_the_report_says_why_
 ) -> None:
     obj = add_figure()
     edit()
-    assert suggest(limit="ISLANDS", islands=4, distortion=40.0) == {"FINISHED"}
+    assert suggest(parts=0.0, islands=4, distortion=40.0) == {"FINISHED"}
     assert 4 <= islands(obj) <= 6
     assert open_islands(obj) == 0
     assert "fewer than" not in capfd.readouterr().out
     clear(obj)
-    assert suggest(limit="ISLANDS", islands=50, distortion=40.0) == {"FINISHED"}
+    assert suggest(parts=0.0, islands=50, distortion=40.0) == {"FINISHED"}
     assert islands(obj) >= 50
     bpy.ops.object.mode_set(mode="OBJECT")
     bpy.ops.object.select_all(action="DESELECT")
     cube = add_cube(cuts=0)
     edit()
-    assert suggest(limit="ISLANDS", islands=9) == {"FINISHED"}
+    assert suggest(islands=9) == {"FINISHED"}
     assert islands(cube) == 6, "it has six faces"
     assert "fewer than 9" in capfd.readouterr().out
-
-
-def test_open_islands_are_cut_into_discs_and_no_more(suzanne: bpy.types.Object) -> None:
-    before = islands(suzanne)
-    assert suggest(limit="DISCS") == {"FINISHED"}
-    assert islands(suzanne) == before
-    assert open_islands(suzanne) == 0
-    assert suggest(limit="DISCS") == {"CANCELLED"}
 
 
 class Unreached:
@@ -347,7 +360,7 @@ def test_a_band_that_is_closed_after_half_a_turn_is_open_in_the_map() -> None:
     obj = add_moebius()
     edit()
     assert open_islands(obj) == 0
-    assert suggest(limit="DISCS") == {"FINISHED"}
+    assert suggest() == {"FINISHED"}
     assert is_good_map(obj)
 
 
@@ -356,9 +369,9 @@ def test_the_report_tells_of_the_islands_that_the_mesh_has(
 ) -> None:
     assert seam_islands.missing_cuts(suzanne).tolist() == [1, 0, 0]  # the head is a tube
     # As if a cut through faces had failed to part them.
-    monkeypatch.setattr(suggestion.Suggestion, "write", lambda _: None)
-    assert suggest(limit="DISCS") == {"FINISHED"}
-    assert "3 islands, 1 island still needs 1 cut" in capfd.readouterr().out
+    monkeypatch.setattr(suggestion.Suggestion, "write", lambda *_: None)
+    assert suggest() == {"FINISHED"}
+    assert "3 islands, 1 with holes" in capfd.readouterr().out
 
 
 def test_a_suggested_wire_can_be_dropped(suzanne: bpy.types.Object) -> None:
@@ -371,8 +384,8 @@ def test_a_suggested_wire_can_be_dropped(suzanne: bpy.types.Object) -> None:
     assert agree(suzanne)
 
 
-@pytest.mark.parametrize("limit", ["DISTORTION", "ISLANDS", "DISCS"])
-def test_only_islands_with_selected_faces_are_cut(limit: str) -> None:
+@pytest.mark.parametrize("count", [1, 3])
+def test_only_islands_with_selected_faces_are_cut(count: int) -> None:
     bm = bmesh.new()
     for place in (-2.0, 2.0):
         matrix = Matrix.Translation((place, 0.0, 0.0))
@@ -381,16 +394,17 @@ def test_only_islands_with_selected_faces_are_cut(limit: str) -> None:
     edit()
     bpy.ops.mesh.select_all(action="DESELECT")
     with pytest.raises(RuntimeError, match="No face is selected"):
-        suggest(limit=limit, selected=True)
+        suggest(islands=count, selected=True)
     bm = bmesh.from_edit_mesh(obj.data)
     bm.faces.ensure_lookup_table()
     next(face for face in bm.faces if face.calc_center_median().x > 0.0).select = True
     bmesh.update_edit_mesh(obj.data)
-    suggest(limit=limit, selected=True, islands=1, distortion=40.0)
+    suggest(selected=True, islands=count, distortion=40.0)
     bm = bmesh.from_edit_mesh(obj.data)
     places = [vertex.co.x for edge in bm.edges if edge.seam for vertex in edge.verts]
     assert places and min(places) > 0.0
     assert open_islands(obj) == 1, "the other ball is"
+    assert islands(obj) == count + 1
 
 
 def test_seams_that_are_there_stay_and_are_no_wires(suzanne: bpy.types.Object) -> None:
@@ -411,7 +425,7 @@ def test_a_seam_over_the_brow_leads_to_no_small_island(suzanne: bpy.types.Object
     marked = set(seams(suzanne))
     assert marked
     assert islands(suzanne) == 3, "the head and the eyes"
-    assert suggest(view_direction=(0.0, -1.0, 0.0)) == {"FINISHED"}
+    assert suggest(parts=0.0, view_direction=(0.0, -1.0, 0.0)) == {"FINISHED"}
     assert marked < set(seams(suzanne))
     assert islands(suzanne) == 3
     assert is_good_map(suzanne)
@@ -505,61 +519,6 @@ def test_strokes_and_selected_islands_weigh_the_wires(planners: list[dict[str, o
     assert np.isinf(weights[231:]).all()
     assert np.isfinite(weights[:231]).all()
     assert weights[47] == pytest.approx(0.125, rel=1e-6)
-
-
-@pytest.mark.parametrize(
-    ("options", "limit", "distortion", "warning"),
-    [
-        ({"limit": "BEND", "angle": 0.7}, "DISTORTION", 0.17, "limit BEND is deprecated"),
-        (
-            {"limit": "STRETCH", "stretch": 1.21},
-            "DISTORTION",
-            0.1,
-            "limit STRETCH is deprecated: use distortion=10.0",
-        ),
-        ({"angle": 0.7}, "DISTORTION", 0.17, "setting angle is deprecated"),
-        ({"stretch": 1.1}, "DISTORTION", 0.17, "setting stretch is deprecated"),
-    ],
-)
-def test_settings_of_older_scripts_become_a_stretch_with_a_warning(
-    options: dict[str, object], limit: str, distortion: float, warning: str, monkeypatch: pytest.MonkeyPatch,
-    capfd: pytest.CaptureFixture[str],
-) -> None:  # fmt: skip
-    requests = []
-    plan = suggestion.Suggestion.plan
-
-    def noted(self: suggestion.Suggestion, request: object, *rest: object, **more: object) -> None:
-        requests.append(request)
-        plan(self, request, *rest, **more)
-
-    monkeypatch.setattr(suggestion.Suggestion, "plan", noted)
-    add_cube()
-    edit()
-    assert suggest(**options) == {"FINISHED"}
-    assert warning in capfd.readouterr().out
-    assert requests[0].distortion == pytest.approx(energy_of(distortion), abs=1e-5)
-    assert bpy.context.window_manager.operators[-1].limit == limit if bpy.context.window_manager.operators else True
-
-
-def test_the_older_limit_worst_island_cuts_that_one_alone(capfd: pytest.CaptureFixture[str]) -> None:
-    obj = add_suzanne()
-    edit()
-    clear(obj)
-    with pytest.raises(RuntimeError, match="unwrap first"):
-        suggest(limit="WORST")
-    suggest(limit="DISCS")
-    worst = max((seam_islands.worst_island(obj, kind) for kind in ("ANGLE", "AREA")), key=lambda one: one.value)
-    old, was = set(seams(obj)), energy(obj)
-    assert suggest(limit="WORST", distortion=30.0) == {"FINISHED"}
-    assert "limit WORST is deprecated: only the worst island is cut" in capfd.readouterr().out
-    new = set(seams(obj)) - old
-    assert new
-    bm = bmesh.from_edit_mesh(obj.data)
-    bm.verts.ensure_lookup_table()
-    faces = set(worst.faces.tolist())
-    for pair in new:
-        assert {face.index for face in bm.edges.get([bm.verts[v] for v in pair]).link_faces} <= faces
-    assert energy(obj) < was
 
 
 @pytest.mark.every_blender
@@ -677,3 +636,114 @@ def test_suggested_seams_have_no_gaps(add: Callable[[], bpy.types.Object], optio
     edit()
     assert suggest(**{"along": "SURFACE", **options}) == {"FINISHED"}
     assert gaps_in(session_on(obj)) == ()
+
+
+# Parts
+
+
+def add_prism(sides: int = 7) -> bpy.types.Object:
+    """Add a prism: its sides meet at 51 degrees, and two lids."""
+    bm = bmesh.new()
+    bmesh.ops.create_cone(bm, cap_ends=True, segments=sides, radius1=1.0, radius2=1.0, depth=1.6)
+    return add_bmesh(bm, "Prism")
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize(("parts", "expected"), [(0.0, 1), (50.0, 3), (100.0, 9)])
+def test_parts_are_islands_and_their_borders_wires(parts: float, expected: int) -> None:
+    obj = add_prism()
+    edit()
+    assert suggest(parts=parts) == {"FINISHED"}
+    assert islands(obj) == expected
+    assert open_islands(obj) == 0
+    assert is_good_map(obj)
+    assert agree(obj)
+
+
+def test_a_closed_border_is_one_wire_that_can_be_dropped_as_a_whole() -> None:
+    obj = add_prism()
+    edit()
+    suggest()
+    mesh = session_on(obj)
+    rims = [wire for wire in mesh.session.wires if wire.closed]
+    assert [len(rim.vertices) for rim in rims] == [7, 7]
+    mesh.session.drop(rims[0])
+    mesh.write(mesh.plan())
+    assert islands(obj) == 2
+    assert agree(obj)
+
+
+@pytest.mark.parametrize("finish", ["SNAP", "SLIDE", "CUT"])
+def test_borders_run_along_edges_whatever_becomes_of_slits(finish: str) -> None:
+    obj = add_tube_with_lids()
+    edit()
+    rims = [{frozenset(vert.index for vert in edge.verts) for edge in rim} for rim in rims_of(obj)]
+    assert suggest(along="SURFACE", finish=finish) == {"FINISHED"}
+    assert islands(obj) == 3
+    marked = {frozenset(edge) for edge in seams(obj)}
+    assert len(rims) == 2 and all(rim <= marked for rim in rims)
+    assert is_good_map(obj)
+    assert agree(obj)
+
+
+def test_sharp_marks_and_borders_of_materials_count() -> None:
+    obj = add_grid(9)
+    edit()
+    assert suggest(unwrap=False) == {"CANCELLED"}, "flat, so one part"
+    for name in ("One", "Other"):
+        obj.data.materials.append(bpy.data.materials.new(name))
+    bm = bmesh.from_edit_mesh(obj.data)
+    for face in bm.faces:
+        face.material_index = int(face.calc_center_median().x > 0.0)
+    bmesh.update_edit_mesh(obj.data)
+    found = {frozenset(edge) for edge in edge_marks.expected_borders(obj.data).tolist()}
+    assert len(found) == 8
+    assert suggest(parts=100.0, unwrap=False) == {"FINISHED"}
+    assert {frozenset(edge) for edge in seams(obj)} == found
+
+
+def test_edits_of_clicks_are_arguments() -> None:
+    obj = add_prism()
+    edit()
+    rim = rims_of(obj)[0]
+    edges = frozenset(tuple(sorted(vert.index for vert in edge.verts)) for edge in rim)
+    assert suggest(edits=edits_text({"Prism": PartEdits().drop(edges)}), unwrap=False) == {"FINISHED"}
+    assert islands(obj) == 2
+    clear(obj)
+    assert suggest(parts=0.0, edits=edits_text({"Prism": PartEdits().keep(edges)}), unwrap=False) == {"FINISHED"}
+    assert islands(obj) == 2
+    clear(obj)
+    assert suggest(edits=edits_text({"Other": PartEdits().drop(edges)}), unwrap=False) == {"FINISHED"}
+    assert islands(obj) == 3, "another object has these edits"
+    clear(obj)
+    side = next(face.index for face in bmesh.from_edit_mesh(obj.data).faces if abs(face.normal.z) < 0.5)
+    assert suggest(edits=edits_text({"Prism": PartEdits().part(side)}), unwrap=False) == {"FINISHED"}
+    assert islands(obj) == 4
+    with pytest.raises(RuntimeError):
+        suggest(edits="no edits")
+
+
+@pytest.mark.parametrize("count", [4, 7])
+def test_a_ball_has_the_least_number_of_islands(count: int, capfd: pytest.CaptureFixture[str]) -> None:
+    obj = add_ball(subdivisions=3)
+    edit()
+    assert suggest(islands=count) == {"FINISHED"}
+    assert count <= islands(obj) <= count + 1
+    assert open_islands(obj) == 0
+    assert is_good_map(obj)
+    assert "fewer than" not in capfd.readouterr().out
+
+
+@pytest.mark.parametrize("selected", [False, True])
+def test_only_selected_islands_get_borders(selected: bool) -> None:
+    bm = bmesh.new()
+    for place in (-2.0, 2.0):
+        bmesh.ops.create_cube(bm, size=2.0, matrix=Matrix.Translation((place, 0.0, 0.0)))
+    obj = add_bmesh(bm, "Cubes")
+    edit()
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bm = bmesh.from_edit_mesh(obj.data)
+    next(face for face in bm.faces if face.calc_center_median().x > 0.0).select = True
+    bmesh.update_edit_mesh(obj.data)
+    assert suggest(parts=100.0, selected=selected, unwrap=False) == {"FINISHED"}
+    assert islands(obj) == (7 if selected else 12)

@@ -61,7 +61,7 @@ def endless(monkeypatch: pytest.MonkeyPatch) -> list[object]:
 def search(desk: Desk, endless: list[object]) -> None:
     """Begin a search that shows a plan and does not end. A wire across the grid leaves seams to find."""
     with desk.ui.override():
-        assert bpy.ops.mesh.seamwire_suggest("INVOKE_DEFAULT", limit="ISLANDS", islands=3) == {"RUNNING_MODAL"}
+        assert bpy.ops.mesh.seamwire_suggest("INVOKE_DEFAULT", islands=3) == {"RUNNING_MODAL"}
     desk.ui.wait_until(lambda: bool(endless) and edited.covered)
 
 

@@ -104,12 +104,17 @@ def drag(film: Film, *places: tuple[float, float]) -> None:
 
 def unwrap(film: Film) -> None:
     """Unwrap along the seams, and look at it in Blender's workspace for that."""
-    before = film.ui.view
-    turn, centre, distance = before.view_rotation.copy(), before.view_location.copy(), before.view_distance
     with film.ui.override():
         bpy.ops.mesh.select_all(action="SELECT")
         bpy.ops.uv.unwrap(method="ANGLE_BASED", margin=0.01)
         bpy.ops.mesh.select_all(action="DESELECT")
+    show_map(film)
+
+
+def show_map(film: Film) -> None:
+    """Look at the UV map in Blender's workspace for that."""
+    before = film.ui.view
+    turn, centre, distance = before.view_rotation.copy(), before.view_location.copy(), before.view_distance
     bpy.context.scene.tool_settings.use_uv_select_sync = True  # all of it is seen, selected or not
     window = film.ui.window
     with film.ui.override():

@@ -492,7 +492,6 @@ void check_plan(Bytes& from, const Patience& patience, const Surface& surface) {
   const double bound = 4.0 + 0.01 * (1.0 + static_cast<double>(from.byte()));
   goal.distortion = from.coin() ? bound : std::numeric_limits<double>::infinity();
   goal.islands = static_cast<std::size_t>(from.below(6));
-  goal.parts = from.coin();
   goal.steps = 1 + static_cast<std::size_t>(from.below(60));
   const SeamPlan plan = planner.plan(goal, {}, patience.task());
   require(plan.uvs.size() == surface.face_count(), "each face has UVs");

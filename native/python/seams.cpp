@@ -151,9 +151,9 @@ ValueError
 Cancelled
 )";
 
-SharedPlan make_plan(SeamPlannerObject& object, double distortion, std::size_t islands, bool parts, std::size_t steps,
+SharedPlan make_plan(SeamPlannerObject& object, double distortion, std::size_t islands, std::size_t steps,
                      const py::object& progress) {
-  const SeamGoal goal{.distortion = distortion, .islands = islands, .parts = parts, .steps = steps};
+  const SeamGoal goal{.distortion = distortion, .islands = islands, .steps = steps};
   return Watch(progress).run([&](const Task& task) { return object.plan(goal, task); });
 }
 
@@ -163,8 +163,8 @@ void bind_planner(py::module_& module) {
            py::arg("max_anisotropy") = 20.0, py::arg("clamp_percentile") = 99.0, py::arg("front") = py::none(),
            py::arg("mirror") = py::none(), py::arg("weights") = py::none(), py::arg("seams") = py::none(),
            py::arg("progress") = py::none())
-      .def("plan", &make_plan, py::kw_only(), py::arg("distortion") = 4.2, py::arg("islands") = 0,
-           py::arg("parts") = false, py::arg("steps") = 0, py::arg("progress") = py::none(), R"(Plan seams.
+      .def("plan", &make_plan, py::kw_only(), py::arg("distortion") = 4.2, py::arg("islands") = 0, py::arg("steps") = 0,
+           py::arg("progress") = py::none(), R"(Plan seams.
 
 Parameters
 ----------
@@ -174,8 +174,6 @@ distortion : float
 islands : int
     The smallest number of islands. Limbs are separated first, then large islands are cut into halves. There are fewer
     islands only if no seam may run inside of any.
-parts : bool
-    Whether limbs are separated at their necks, as islands.
 steps : int
     The largest number of Newton steps in each piece. 0: 4000.
 progress : callable, optional

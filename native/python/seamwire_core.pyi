@@ -606,7 +606,6 @@ class SeamPlanner:
         *,
         distortion: float = 4.2,
         islands: int = 0,
-        parts: bool = False,
         steps: int = 0,
         progress: Progress | None = None,
     ) -> SeamPlan:

@@ -45,7 +45,7 @@ def main(folder: Path) -> None:
     addon_utils.enable("seamwire", default_set=True)
     head()
     bpy.ops.object.mode_set(mode="EDIT")
-    bpy.ops.mesh.seamwire_suggest(limit="ISLANDS", islands=8)
+    bpy.ops.mesh.seamwire_suggest(islands=8)
     bpy.ops.object.mode_set(mode="OBJECT")
     EXPORTERS[".blend"](str(folder / "head.blend"))
     for name, modifiers in HEADS.items():

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import colorsys
-from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -19,8 +18,6 @@ from ..core.islands.stretch import IslandStretch, Stretch
 from . import edit_mesh, uv_map
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from numpy.typing import NDArray
 
     from ..core.base.mesh_arrays import Arrays
@@ -201,24 +198,6 @@ def worst_island(obj: bpy.types.Object, kind: str) -> Worst | None:
     normals = np.cross(b - a, c - a)
     facing = normals.sum(axis=0) / max(float(np.linalg.norm(normals, axis=1).sum()), 1e-300)
     return Worst(float(values[number]), np.unique(arrays.polygons[rows]), len(values), facing)
-
-
-def worst_of(objects: Iterable[bpy.types.Object]) -> tuple[bpy.types.Object, NDArray[np.int32]]:
-    """Return which of some edit meshes has the island that is stretched most, by angle or by area, and its faces.
-
-    Raises
-    ------
-    ValueError
-        If no visible face has UVs.
-    """
-    found: list[tuple[bpy.types.Object, Worst]] = []
-    for obj in objects:
-        with suppress(edit_mesh.NothingVisibleError):
-            found += [(obj, worst) for kind in ("ANGLE", "AREA") if (worst := worst_island(obj, kind)) is not None]
-    if not found:
-        raise ValueError("No visible face has UVs: unwrap first")
-    obj, worst = max(found, key=lambda one: one[1].value)
-    return obj, worst.faces
 
 
 def mapped(obj: bpy.types.Object) -> MappedSurface | None:

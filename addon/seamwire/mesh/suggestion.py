@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A network of wires that the library plans for one object in edit mode."""
+"""Parts of one object in edit mode, and the wires between and within them, as the library finds and plans them."""
 
 from __future__ import annotations
 
@@ -11,20 +11,23 @@ from mathutils import Vector
 
 from ..core.base import native
 from ..core.base.geometry import triangle_areas
+from ..core.network.picks import undirected
+from ..core.seams.parts import PartEdits, border_wires, edges_of
 from ..core.seams.suggestion import (
     CRUMB,
+    curves_length,
     cut_edges,
     keep_out,
     planned_wires,
-    seam_length,
     stroke_weights,
 )
 from ..core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
+from .edge_marks import expected_borders
 from .object_session import ObjectSession, mirror_axes
 from .seam_islands import labels_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     import bpy
     import seamwire_core
@@ -33,6 +36,10 @@ if TYPE_CHECKING:
     from ..core.network.picks import Along, Finish
     from ..core.network.wires import Wire
     from ..core.seams.suggestion import Request
+
+
+_MEASURING = 0.1
+"""The fraction of planning until the costs of wires are known."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +65,7 @@ class Options:
 
 
 class Suggestion:
-    """Wires for one object: first planned, then written to the mesh.
+    """Wires for one object: parts are found, wires planned in them, and all wires written to the mesh.
 
     The mesh is planned in object coordinates, without the object's scale, as UV maps are measured.
 
@@ -73,9 +80,13 @@ class Suggestion:
 
     Attributes
     ----------
+    borders
+        The chosen borders between parts: chains of vertices. A closed chain ends with its first vertex.
+    part_count
+        The number of parts, those that are not to be cut included.
     best
         The plan to carry out; None: nothing was planned yet.
-    wires
+    slits
         The wires of this plan.
     marked
         The number of edges that `write` made seams.
@@ -99,11 +110,15 @@ class Suggestion:
         self._symmetric = options.symmetric
         self._front = None if options.front is None else in_object(obj, options.front)
         self._within, self.others = self._islands_with(faces)
+        self._marked = expected_borders(obj.data)
+        self._finder: seamwire_core.PartFinder | None = None
         self._planner: seamwire_core.SeamPlanner | None = None
         self._blenders_mirrors = mirror_axes(obj.data)
         self.had_seams = len(arrays.seams) > 0
+        self.borders: list[NDArray[np.int32]] = []
+        self.part_count = 0
         self.best: seamwire_core.SeamPlan | None = None
-        self.wires: list[Wire] = []
+        self.slits: list[Wire] = []
         self.marked = 0
 
     def _islands_with(self, faces: NDArray[np.integer] | None) -> tuple[NDArray[np.bool_] | None, int]:
@@ -117,8 +132,8 @@ class Suggestion:
             raise ValueError("No face is selected")
         return np.isin(labels, planned), int(labels.max()) + 1 - len(planned)
 
-    def prepare(self, progress: Callable[[float], bool]) -> None:
-        """Measure what wires cost; any thread may.
+    def measure(self, progress: Callable[[float], bool]) -> None:
+        """Measure the mesh for parts; any thread may.
 
         Parameters
         ----------
@@ -126,17 +141,62 @@ class Suggestion:
             Is told the fraction done; where it returns False, `seamwire_core.Cancelled` is raised.
         """
         arrays = self.mesh.arrays
-        self._planner = self._core.SeamPlanner(
-            self._core.Surface(arrays.in_object, arrays.triangles, arrays.edges),
+        self._surface = self._core.Surface(arrays.in_object, arrays.triangles, arrays.edges)
+        self._axis = self._mirror()
+        self._finder = self._core.PartFinder(
+            self._surface, mirror=self._axis, marked=self._marked, seams=arrays.seams, progress=progress
+        )
+
+    def count(self, amount: float, edits: PartEdits) -> int:
+        """Return the number of parts for an amount from 0 to 1."""
+        return self._counted(self._found(amount, edits))
+
+    def choose(self, amount: float, edits: PartEdits) -> None:
+        """Find the parts for an amount from 0 to 1, and choose them. A plan for other parts is dropped."""
+        found = self._found(amount, edits)
+        self.part_count = self._counted(found)
+        self.borders = [np.asarray(chain) for chain in found.borders]
+        if self._within is not None:
+            self._keep_within()
+        self._planner = self.best = None
+        self.slits = []
+
+    def _found(self, amount: float, edits: PartEdits) -> seamwire_core.Parts:
+        assert self._finder is not None
+        arrays = self.mesh.arrays
+        return self._finder.find(amount, **edits.on(arrays.edges, arrays.polygons))
+
+    def _counted(self, parts: seamwire_core.Parts) -> int:
+        """Return the number of parts. An island that is not to be cut is one part."""
+        if self._within is None:
+            return parts.count
+        return len(np.unique(parts.of_face[self._within])) + self.others
+
+    def _keep_within(self) -> None:
+        """Drop the borders in islands that are not to be cut."""
+        corners = self.mesh.arrays.triangles[self._within].tolist()
+        inside = {undirected(side) for a, b, c in corners for side in ((a, b), (b, c), (c, a))}
+        self.borders = [chain for chain in self.borders if edges_of(chain) <= inside]
+
+    def _new_planner(self, progress: Callable[[float], bool]) -> seamwire_core.SeamPlanner:
+        """Measure what wires in the chosen parts cost. `progress` is that of `measure`."""
+        return self._core.SeamPlanner(
+            self._surface,
             along=self.along.lower(),
             max_anisotropy=STRENGTHS[self.along],
             clamp_percentile=CLAMP_PERCENTILE,
             front=self._front,
-            mirror=self._mirror(),
+            mirror=self._axis,
             weights=self._weights(),
-            seams=arrays.seams,
+            seams=self.seams,
             progress=progress,
         )
+
+    @property
+    def seams(self) -> NDArray[np.int32]:
+        """The edges, (k, 2), that are seams, or borders between the chosen parts."""
+        chains = [np.stack([chain[:-1], chain[1:]], axis=1) for chain in self.borders]
+        return np.concatenate([self.mesh.arrays.seams, *chains]).astype(np.int32)
 
     def _mirror(self) -> int | None:
         """Return the axis over which wires come in pairs: one of those that Blender mirrors over, if there are any."""
@@ -168,54 +228,70 @@ class Suggestion:
     def plan(
         self, request: Request, progress: Callable[[float], bool], is_enough: Callable[[], bool] = lambda: False
     ) -> None:
-        """Find wires, better and better ones; any thread may.
+        """Find wires in the chosen parts, better and better ones; any thread may.
 
         Parameters
         ----------
         request
             Requirements for the plan.
         progress
-            As that of `prepare`.
+            As that of `measure`.
         is_enough
             Whether to stop, and go on with the best plan so far; the first one is waited for.
         """
-        assert self._planner is not None
+        # Other parts may be chosen meanwhile, which drops the planner.
+        planner = self._new_planner(lambda done: progress(_MEASURING * done))
+        self._planner = planner
 
-        def go_on(fraction: float) -> bool:
-            return progress(fraction) and not (is_enough() and self.best_so_far is not None)
+        def go_on(done: float) -> bool:
+            is_found = self._useful(planner.best_so_far) is not None
+            return progress(_MEASURING + (1.0 - _MEASURING) * done) and not (is_enough() and is_found)
 
         try:
-            self.best = self._planner.plan(
-                distortion=request.distortion,
-                islands=request.islands and request.islands + self.others,
-                parts=request.parts,
-                progress=go_on,
-            )
+            found = planner.plan(distortion=request.distortion, islands=request.islands + self.others, progress=go_on)
         except self._core.Cancelled:
-            if self.best_so_far is None or not is_enough():
+            found = self._useful(planner.best_so_far)
+            if found is None or not is_enough():
                 raise
-            self.best = self.best_so_far
         from_object = np.linalg.inv(self.mesh.arrays.to_object)
-        self.wires = planned_wires(self.best, self.along, STRENGTHS[self.along], from_object)
+        self.best, self.slits = found, planned_wires(found, self.along, STRENGTHS[self.along], from_object)
 
     @property
     def best_so_far(self) -> seamwire_core.SeamPlan | None:
-        """The best plan so far with seams and a map of every part of the mesh, also while `plan` runs. Any thread may read it."""
-        found = None if self._planner is None else self._planner.best_so_far
-        return found if found is not None and found.wires and np.isfinite(found.energy) else None
+        """The best plan so far with a map of every part of the mesh, also while `plan` runs. Any thread may read it."""
+        planner = self._planner
+        return None if planner is None else self._useful(planner.best_so_far)
+
+    def _useful(self, plan: seamwire_core.SeamPlan | None) -> seamwire_core.SeamPlan | None:
+        """Return a plan if it has seams and a map of every part of the mesh, otherwise None."""
+        if plan is None or not np.isfinite(plan.energy):
+            return None
+        return plan if plan.wires or self.borders else None
+
+    @property
+    def wires(self) -> list[Wire]:
+        """The borders between the chosen parts, and the wires in them, as wires."""
+        return [*self.border_wires, *self.slits]
+
+    @property
+    def border_wires(self) -> list[Wire]:
+        """The borders between the chosen parts as wires."""
+        return border_wires(self.borders, self.mesh.arrays.points)
 
     def map(self) -> NDArray[np.float64] | None:
         """Return the map of the plan, (m, 3, 2), in the object's units; None if it has none, or the mesh is another one with the wires."""
-        is_same = not self.wires or self.along == "EDGES" or self.finish == "SNAP"
+        is_same = not self.slits or self.along == "EDGES" or self.finish == "SNAP"
         return self.best.uvs if is_same and self.best is not None else None
 
     def length_of(self, plan: seamwire_core.SeamPlan) -> float:
-        """Return the length of the wires of a plan, in the scene's units."""
-        return seam_length(plan, np.array(self.mesh.obj.matrix_world.to_3x3(), dtype=np.float64))
+        """Return the length of the borders and the wires of a plan, in the scene's units."""
+        points = self.mesh.arrays.in_object
+        curves = [*(points[chain] for chain in self.borders), *(wire.points for wire in plan.wires)]
+        return curves_length(curves, np.array(self.mesh.obj.matrix_world.to_3x3(), dtype=np.float64))
 
     def edges_of(self, plan: seamwire_core.SeamPlan) -> NDArray[np.int32]:
         """Return the edges, (k, 2), that cut the mesh into the islands of a plan."""
-        return cut_edges(plan, self.mesh.arrays.seams)
+        return cut_edges(plan, self.seams)
 
     @property
     def area(self) -> float:
@@ -232,10 +308,11 @@ class Suggestion:
         areas = areas[areas > 0.0]
         return min(CRUMB, float(areas.min() / areas.sum())) if len(areas) else CRUMB
 
-    def write(self) -> None:
-        """Keep the wires with the mesh."""
-        self.mesh.add(self.wires)
-        self.marked, _ = self.mesh.write(self.mesh.plan())
+    def write(self, wires: Iterable[Wire]) -> None:
+        """Keep wires with the mesh."""
+        self.mesh.add(wires)
+        marked, _ = self.mesh.write(self.mesh.plan())
+        self.marked += marked
 
 
 def in_object(obj: bpy.types.Object, direction: Sequence[float]) -> tuple[float, float, float] | None:

@@ -3,16 +3,18 @@
 
 from __future__ import annotations
 
-import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Literal
 
 from ..core.islands.map_faults import NO_FAULTS
+from ..core.seams.parts import PartEdits
 from ..core.seams.suggestion import Request, energy_of, mean_stretch, stretch_of
 from ..words.notices import Notices
 from ..words.suggestion import Outcome
 from . import edit_mesh, uv_map
-from .seam_islands import mapped, missing_cuts, worst_of
+from .seam_islands import mapped, missing_cuts
 from .suggestion import Suggestion
 from .unwrap import Unwrapped, unwrap_changed
 
@@ -25,6 +27,8 @@ if TYPE_CHECKING:
 
     from .suggestion import Options
 
+Progress = Callable[[float], bool]
+"""Takes the finished fraction, and returns whether to continue."""
 _CUT_CRUMB = 0.25
 """Cuts that run side by side cross here and there. A piece smaller than this fraction of the smallest planned island is merged."""
 
@@ -35,33 +39,26 @@ class Wanted:
 
     Parameters
     ----------
-    limit
-        When to stop adding seams: at a stretch, at a number of islands within the stretch, or when each island is a disc.
     stretch
         The mean stretch in percent.
     islands
-        The number of islands of each object.
-    parts
-        Whether limbs become separate islands.
+        The least number of islands of each object.
     unwraps
         Whether to unwrap the islands whose seams have changed. Otherwise Blender's Live Unwrap decides.
     """
 
-    limit: Literal["DISTORTION", "ISLANDS", "DISCS"] = "DISTORTION"
     stretch: float = 17.0
-    islands: int = 8
-    parts: bool = False
+    islands: int = 1
     unwraps: bool = True
 
     @property
     def request(self) -> Request:
         """The requirements for a plan."""
-        distortion = math.inf if self.limit == "DISCS" else energy_of(0.01 * self.stretch)
-        return Request(distortion, self.islands if self.limit == "ISLANDS" else 0, self.parts)
+        return Request(energy_of(0.01 * self.stretch), self.islands)
 
 
 def objects_to_cut(
-    objects: Collection[bpy.types.Object], worst: bool, selected: bool
+    objects: Collection[bpy.types.Object], selected: bool
 ) -> dict[bpy.types.Object, NDArray[np.integer] | None]:
     """Return the objects to cut, each with the faces whose islands are cut, or None for all islands.
 
@@ -69,19 +66,9 @@ def objects_to_cut(
     ----------
     objects
         In Edit Mode.
-    worst
-        Whether only the island that the UV map stretches most is cut.
     selected
         Whether only islands with selected faces are cut.
-
-    Raises
-    ------
-    ValueError
-        If the worst island is wanted and there are no UVs.
     """
-    if worst:
-        obj, faces = worst_of(objects)
-        return {obj: faces}
     if selected:
         return {obj: edit_mesh.selected_faces(obj) for obj in objects}
     return dict.fromkeys(objects)
@@ -142,6 +129,50 @@ class Suggestions:
         """Whether no mesh has changed since it was read."""
         return all(suggestion.mesh.alive() for suggestion in self)
 
+    def measure(self, progress: Progress) -> None:
+        """Measure all meshes for parts; any thread may.
+
+        Parameters
+        ----------
+        progress
+            Is told the fraction done; where it returns False, `seamwire_core.Cancelled` is raised.
+        """
+        for suggestion, share in self._shares(progress):
+            suggestion.measure(share)
+
+    def count(self, amount: float, edits: Mapping[str, PartEdits]) -> int:
+        """Return the number of parts of all meshes for an amount from 0 to 1. The edits have the names of objects."""
+        return sum(suggestion.count(amount, _own(edits, suggestion)) for suggestion in self)
+
+    def choose(self, amount: float, edits: Mapping[str, PartEdits]) -> None:
+        """Choose the parts for an amount from 0 to 1. The edits have the names of objects."""
+        for suggestion in self:
+            suggestion.choose(amount, _own(edits, suggestion))
+
+    @property
+    def part_count(self) -> int:
+        """The number of chosen parts."""
+        return sum(suggestion.part_count for suggestion in self)
+
+    def plan(self, progress: Progress, is_enough: Callable[[], bool] = lambda: False) -> None:
+        """Plan wires in the chosen parts of all meshes; any thread may.
+
+        Parameters
+        ----------
+        progress
+            As that of `measure`.
+        is_enough
+            Whether to go on with the best plans so far; the first plan of each mesh is waited for.
+        """
+        for suggestion, share in self._shares(progress):
+            suggestion.plan(self._wanted.request, share, is_enough=is_enough)
+
+    def _shares(self, progress: Progress) -> Iterator[tuple[Suggestion, Progress]]:
+        """Yield each suggestion with its share of the progress."""
+        count = len(self)
+        for number, suggestion in enumerate(self):
+            yield suggestion, partial(_part, progress, number, count)
+
     def refresh(self) -> None:
         """Read the meshes again. Wires and seams that were added during the search stay.
 
@@ -161,20 +192,25 @@ class Suggestions:
     @property
     def crumb(self) -> float:
         """The fraction of a mesh's area below which islands beside cuts are merged."""
-        smallest = (suggestion.smallest() for suggestion in self if suggestion.along == "SURFACE" and suggestion.wires)
+        smallest = (suggestion.smallest() for suggestion in self if suggestion.along == "SURFACE" and suggestion.slits)
         return _CUT_CRUMB * min(smallest, default=0.0)
 
     def finished_by(self, finish: Literal["CUT", "SLIDE"]) -> list[Suggestion]:
-        """Return the suggestions whose wires across the surface become seams in this way."""
-        across = (suggestion for suggestion in self if suggestion.along == "SURFACE" and suggestion.wires)
+        """Return the suggestions with wires across the surface that become seams in this way."""
+        across = (suggestion for suggestion in self if suggestion.along == "SURFACE" and suggestion.slits)
         return [suggestion for suggestion in across if suggestion.finish == finish]
 
+    def write_borders(self) -> None:
+        """Keep the borders of meshes whose other wires are cut."""
+        for suggestion in self.finished_by("CUT"):
+            suggestion.write(suggestion.border_wires)
+
     def write(self) -> None:
-        """Keep the wires with the meshes, except wires that are cut."""
+        """Keep all wires with the meshes, except meshes whose wires are cut."""
         cut = self.finished_by("CUT")
         for suggestion in self:
             if suggestion not in cut:
-                suggestion.write()
+                suggestion.write(suggestion.wires)
 
     def unwrap(self, context: bpy.types.Context) -> int:
         """Unwrap if wanted, otherwise follow Blender's Live Unwrap. Return the number of unwrapped islands.
@@ -200,7 +236,7 @@ class Suggestions:
         """Measure the islands, and the UV maps that the meshes have. If nothing was to be unwrapped, the planned maps count."""
         wanted, done = self._wanted, self._unwrapped
         missing = [missing_cuts(suggestion.mesh.obj) for suggestion in self]
-        is_few = wanted.limit == "ISLANDS" and any(
+        is_few = any(
             len(own) - suggestion.others < wanted.islands for own, suggestion in zip(missing, self, strict=True)
         )
         energies, areas = self._energies()
@@ -208,11 +244,10 @@ class Suggestions:
             wires=sum(len(suggestion.wires) for suggestion in self),
             marked=sum(suggestion.marked for suggestion in self),
             missing=[int(cuts) for own in missing for cuts in own],
-            discs_wanted=wanted.limit == "DISCS",
             islands_wanted=wanted.islands if is_few else 0,
             stretch=100.0 * mean_stretch(energies, areas) if energies else None,
             stretches=[100.0 * stretch_of(energy) for energy in energies],
-            stretch_wanted=0.0 if wanted.limit == "DISCS" else wanted.stretch,
+            stretch_wanted=wanted.stretch,
             unwrapped=None if done is None else done.islands,
             faults=NO_FAULTS if done is None else done.faults,
         )
@@ -227,3 +262,12 @@ class Suggestions:
         return [found.energy(uv_map.aspect(obj)) for obj, found in maps.items()], [
             found.area for found in maps.values()
         ]
+
+
+def _own(edits: Mapping[str, PartEdits], suggestion: Suggestion) -> PartEdits:
+    return edits.get(suggestion.mesh.obj.name_full, PartEdits())
+
+
+def _part(progress: Progress, number: int, count: int, fraction: float) -> bool:
+    """Report a fraction of one of several pieces of work."""
+    return progress((number + fraction) / count)

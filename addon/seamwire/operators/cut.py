@@ -10,7 +10,7 @@ from ..words.reports import gaps, left_out
 from .edit_mesh_operator import changing
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     import bpy
 
@@ -25,6 +25,7 @@ def cut_wires(
     kept: bool = False,
     crumb: float = 0.0,
     live_unwrap: bool = True,
+    first: Callable[[], None] = lambda: None,
 ) -> set[str]:
     """Cut wires across the surface into meshes, and report the result.
 
@@ -43,6 +44,8 @@ def cut_wires(
         Islands smaller than this fraction of the area of a mesh are merged into a larger one.
     live_unwrap
         Whether to follow Blender's Live Unwrap.
+    first
+        Changes meshes before they are cut, after every cut was tried. It must not renumber them.
 
     Raises
     ------
@@ -65,6 +68,7 @@ def cut_wires(
     for problem in problems:
         operator.report({"WARNING"}, problem if kept else f"{problem}: no wire was added")
     with changing():
+        first()
         cuts = [finish.cut(mesh, plan, wires[mesh], kept, crumb=crumb)[1] for mesh, plan in plans.items()]
         if live_unwrap:
             edit_mesh.live_unwrap(context)

@@ -9,14 +9,14 @@ from __future__ import annotations
 import time
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import bpy
 
 from .navigation import moves_view
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Generator
+    from collections.abc import Callable, Generator, Sequence
     from concurrent.futures import Future
 
     Progress = Callable[[float], bool]
@@ -28,6 +28,25 @@ _PERIOD = 0.05
 """Seconds between two looks at whether a step has ended."""
 _CONSOLE_PERIOD = 5.0
 """Seconds between two lines about the progress."""
+
+
+class Hand(Protocol):
+    """The artist's influence on a step that runs.
+
+    Attributes
+    ----------
+    title, hints
+        Texts for the status bar. Without hints, Enter ends the step early.
+    is_over
+        Whether the step ends when its work has ended. Otherwise it waits for the artist.
+    """
+
+    title: str
+    hints: Sequence[str]
+    is_over: bool
+
+    def take(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Return what a modal operator returns for an event, or an empty set if the event is not for the hand."""
 
 
 @dataclass(frozen=True)
@@ -43,11 +62,14 @@ class Step:
     look
         Shows the best result so far, and returns a text for the status bar. The text is empty if there is no result yet. The interface
         calls it from time to time. None if the step cannot end early.
+    hand
+        The artist's influence meanwhile; None: the artist can only move the view.
     """
 
     text: str
     work: Callable[[Progress], None] | None = None
     look: Callable[[], str] | None = None
+    hand: Hand | None = None
 
 
 class Stepwise:
@@ -57,9 +79,12 @@ class Stepwise:
     ----------
     enough
         Whether the artist pressed Enter: steps with a `look` should end with the best result so far.
+    is_beside
+        Whether the interface keeps drawing beside the steps.
     """
 
     enough = False
+    is_beside = False
 
     def steps(self, context: bpy.types.Context) -> Generator[Step, None, set[str]]:
         """Yield the steps, and return the operator's result.
@@ -73,6 +98,7 @@ class Stepwise:
 
         The mouse pointer shows the progress of each step. Without a window the console does, while a step takes longer than a few seconds.
         """
+        self.is_beside = False  # Adjust Last Operation executes the operator that was invoked
         self._steps = self.steps(context)
         pointer = context.window_manager
         shown = time.monotonic()
@@ -107,6 +133,7 @@ class Stepwise:
         if bpy.app.background or context.window is None:
             return self.execute(context)
         manager = context.window_manager
+        self.is_beside = True
         self._steps = self.steps(context)
         self._cancelled, self._fraction, self._seen = False, 0.0, ""
         self._workspace = context.workspace
@@ -125,25 +152,43 @@ class Stepwise:
         return result
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Wait for a step, and take the next one. Only the view can be moved in the meantime."""
+        """Wait for a step, and take the next one. The view can be moved in the meantime."""
         if self not in running:
             return {"CANCELLED", "PASS_THROUGH"}
+        try:
+            return self._follow(context, event)
+        except BaseException:
+            self.end()
+            raise
+
+    def _follow(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        hand = None if self._cancelled else self._step.hand
+        taken = set() if hand is None else hand.take(context, event)
+        if taken:
+            if "PASS_THROUGH" not in taken:
+                self._show()
+            return taken
         if moves_view(event, context.window_manager):
             return {"PASS_THROUGH"}
         if event.type == "ESC":
             self._cancelled = True
         if event.type in {"RET", "NUMPAD_ENTER"} and event.value == "PRESS" and self._seen:
             self.enough = True
-        is_at_work = self._work is not None and not self._work.done()
-        if is_at_work:
-            try:
-                self._show()
-            except BaseException:
-                self.end()
-                raise
-        if is_at_work or event.type not in {"TIMER", "ESC"}:
+        is_waiting = self._is_at_work or (hand is not None and not hand.is_over and not self._is_broken)
+        if is_waiting:
+            self._show()
+        if is_waiting or event.type not in {"TIMER", "ESC"}:
             return {"RUNNING_MODAL"}
         return self._advance()
+
+    @property
+    def _is_at_work(self) -> bool:
+        return self._work is not None and not self._work.done()
+
+    @property
+    def _is_broken(self) -> bool:
+        """Whether the step is cancelled, or its work has ended on an error."""
+        return self._cancelled or (self._work is not None and self._work.done() and self._work.exception() is not None)
 
     def cancel(self, _context: bpy.types.Context) -> None:
         """End because Blender quits or loads a file."""
@@ -181,11 +226,20 @@ class Stepwise:
         return not self._cancelled
 
     def _show(self) -> None:
-        parts = [self._step.text if self._work is None else f"{self._step.text}: {100.0 * self._fraction:.0f} %"]
-        if self._step.look is not None and not self.enough:
-            self._seen = self._step.look()
-            parts += [self._seen, "Enter: Keep This"] if self._seen else []
-        self._tell("    ".join([*parts, "Esc: Cancel"]))
+        step, hand = self._step, self._step.hand
+        texts = [] if hand is None else [hand.title]
+        if self._is_at_work:
+            texts.append(f"{step.text}: {100.0 * self._fraction:.0f} %")
+        elif hand is None:
+            texts.append(step.text)
+        if step.look is not None and not self.enough:
+            self._seen = step.look()
+            texts += [self._seen] if self._seen else []
+        if hand is not None and hand.hints:
+            texts += hand.hints
+        elif self._seen and not self.enough:
+            texts.append("Enter: Keep This")
+        self._tell("    ".join([*texts, "Esc: Cancel"]))
 
     def _tell(self, text: str | None) -> None:
         with suppress(ReferenceError):  # the workspace may be gone with its file

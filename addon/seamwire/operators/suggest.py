@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from functools import partial
+from contextlib import closing
 from typing import TYPE_CHECKING
 
 import bpy
@@ -20,12 +20,8 @@ from .steps import running as searches
 if TYPE_CHECKING:
     from collections.abc import Generator
 
-    from ..mesh.suggestion import Suggestion
-    from ..mesh.suggestions import Suggestions, Wanted
-    from ..view.plan_preview import PlanPreview
+    from ..mesh.suggestions import Suggestions
 
-_LIMITS = ("DISTORTION", "ISLANDS", "DISCS")
-"""The limits that the interface offers. The others are deprecated."""
 _BLENDERS_FRONT = (0.0, -1.0, 0.0)
 """The direction to the viewer in Blender's front view."""
 
@@ -36,18 +32,15 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
     bl_idname = "mesh.seamwire_suggest"
     bl_label = "Suggest Seamwires"
 
-    limit: bpy.props.EnumProperty(
-        name="Limit",
-        description="When to stop adding seams",
-        items=(
-            ("DISTORTION", "Stretch", "As few seams as possible for the stretch below", 0),
-            ("ISLANDS", "Islands", "At least this many islands, within the stretch below", 1),
-            ("DISCS", "Open Islands", "Only seams that make each island a disc, with any stretch", 2),
-            ("BEND", "Bend", "Deprecated: the same as Stretch", 3),
-            ("STRETCH", "Stretch Ratio", "Deprecated: the setting 'stretch' as a stretch in percent", 4),
-            ("WORST", "Worst Island", "Deprecated: only the island that the UV map stretches most", 5),
-        ),
-        default="DISTORTION",
+    parts: bpy.props.FloatProperty(
+        name="Parts",
+        description="How many parts become separate islands. At 0 % all faces that are connected stay together,"
+        " at 100 % there are borders on all sharp edges",
+        subtype="PERCENTAGE",
+        default=50.0,
+        min=0.0,
+        max=100.0,
+        precision=0,
     )
     distortion: bpy.props.FloatProperty(
         name="Stretch",
@@ -63,15 +56,10 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
     )
     islands: bpy.props.IntProperty(
         name="Islands",
-        description="Minimum number of islands per object",
-        default=8,
+        description="Minimum number of islands per object. Large islands are cut into halves for it",
+        default=1,
         min=1,
         soft_max=64,
-    )
-    parts: bpy.props.BoolProperty(
-        name="Parts",
-        description="Make limbs such as hands, feet and heads separate islands, with closed cuts where they are narrow",
-        default=False,
     )
     front: bpy.props.EnumProperty(
         name="Hide From",
@@ -110,17 +98,9 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
         subtype="XYZ",
         options={"HIDDEN", "SKIP_SAVE"},
     )
-    angle: bpy.props.FloatProperty(
-        name="Angle",
-        description="Deprecated: has no effect",
-        subtype="ANGLE",
-        options={"HIDDEN", "SKIP_SAVE"},
-    )
-    stretch: bpy.props.FloatProperty(
-        name="Stretch Ratio",
-        description="Deprecated: how many times longer than wide faces may become",
-        default=1.2,
-        min=1.02,
+    edits: bpy.props.StringProperty(
+        name="Edits",
+        description="The borders that were kept or dropped by clicks, and the parts that were cut",
         options={"HIDDEN", "SKIP_SAVE"},
     )
 
@@ -141,22 +121,9 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
         """Show the settings that have an effect."""
         layout = self.layout
         layout.use_property_split = True
-        row = layout.row(align=True)
-        row.use_property_split = False
-        for limit in _LIMITS:
-            row.prop_enum(self, "limit", limit)
-        if self.limit == "ISLANDS":
-            layout.prop(self, "islands")
-        if self.limit != "DISCS":
-            layout.prop(self, "distortion", slider=True)
-            ends = layout.split(factor=0.4)  # under the slider, where the properties' values begin
-            ends.label()
-            ends = ends.row()
-            ends.label(text="Low Stretch")
-            ends = ends.row()
-            ends.alignment = "RIGHT"
-            ends.label(text="Few Seams")
-        layout.prop(self, "parts")
+        layout.prop(self, "parts", slider=True)
+        layout.prop(self, "distortion", slider=True)
+        layout.prop(self, "islands")
         layout.prop(self, "front")
         layout.prop(self, "along")
         if self.along != "EDGES":
@@ -166,7 +133,7 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
         layout.prop(self, "unwrap")
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Note the direction of the 3D view, and search while the interface stays responsive."""
+        """Note the direction of the 3D view, and let the artist choose the parts while the interface stays responsive."""
         if not any(self.view_direction):
             self.view_direction = _towards_viewer(context)
         return super().invoke(context, event)
@@ -174,62 +141,37 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
     def steps(self, context: bpy.types.Context) -> Generator[Step, None, set[str]]:
         """Yield the steps of the search, then mark or cut."""
         from ..core.base.native import NativeError
-        from ..view.plan_preview import PlanPreview
+        from ..core.seams.parts import edits_of_text
 
-        self._follow_older_scripts()
-        wanted = self._wanted()
         try:
-            suggestions = self._read(context, wanted)
+            suggestions = self._read(context)
         except NativeError as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         suggestions.notices.tell(self.report)
         if not suggestions:
             raise ValueError(suggestions.problem)
-        preview = PlanPreview()
-        try:
-            for suggestion in suggestions:
-                yield from _step(suggestions, Step("Measuring the shape", suggestion.prepare))
-                work = partial(suggestion.plan, wanted.request, is_enough=lambda: self.enough)
-                yield from _step(suggestions, Step("Planning seams", work, _Look(preview, suggestion)))
-            yield from _step(suggestions, Step("Marking seams"))
-            suggestions.refresh()
-        finally:
-            preview.close()
+        yield from _step(suggestions, Step("Finding parts", suggestions.measure))
+        if self.is_beside:
+            yield from self._show_parts(context, suggestions)
+        else:
+            suggestions.choose(0.01 * self.parts, edits_of_text(self.edits))
+            yield from _step(suggestions, Step("Planning seams", suggestions.plan))
+        suggestions.refresh()
         return self._carry_out(context, suggestions)
 
-    def _follow_older_scripts(self) -> None:
-        """Replace deprecated settings by the nearest current ones, and report it."""
-        from ..core.seams.suggestion import stretch_of_ratio
+    def _show_parts(self, context: bpy.types.Context, suggestions: Suggestions) -> Generator[Step, None, None]:
+        """Yield steps until the artist has confirmed the parts that the views show, and seams are planned in them."""
+        from ..core.seams.parts import edits_text
+        from ..view.plan_preview import PlanPreview
+        from .suggest_live import LiveParts
 
-        is_set = self.properties.is_property_set
-        if self.limit == "BEND":
-            self.limit = "DISTORTION"
-            self._warn(f"The limit BEND is deprecated: the stretch is limited to {self.distortion:.0f} % instead")
-        elif self.limit == "STRETCH":
-            self.limit, self.distortion = "DISTORTION", 100.0 * stretch_of_ratio(self.stretch)
-            self._warn(
-                f"The limit STRETCH is deprecated: use distortion={self.distortion:.1f} instead of stretch={self.stretch:.2f}"
-            )
-        elif self.limit == "WORST":
-            self._warn(
-                f"The limit WORST is deprecated: only the worst island is cut, until its stretch is {self.distortion:.0f} %"
-            )
-        elif is_set("angle") or is_set("stretch"):
-            name = "angle" if is_set("angle") else "stretch"
-            self._warn(f"The setting {name} is deprecated: the stretch is limited to {self.distortion:.0f} % instead")
-            self.properties.property_unset("angle")
-            self.properties.property_unset("stretch")
-
-    def _warn(self, text: str) -> None:
-        self.report({"WARNING"}, text)
-
-    def _wanted(self) -> Wanted:
-        """Return the requirements for the seams. The worst island has the limit of all."""
-        from ..mesh.suggestions import Wanted
-
-        limit = "DISTORTION" if self.limit == "WORST" else self.limit
-        return Wanted(limit, self.distortion, self.islands, self.parts, self.unwrap)
+        with closing(PlanPreview()) as preview:
+            live = LiveParts(context.window, suggestions, preview, 0.01 * self.parts, lambda: self.enough)
+            while not live.is_done:
+                yield from _step(suggestions, live.step())
+            self.parts, self.edits = 100.0 * live.amount, edits_text(live.edits)
+            yield from _step(suggestions, Step("Marking seams"))
 
     def _front(self, context: bpy.types.Context) -> tuple[float, float, float] | None:
         """Return the direction to the viewer whom seams hide from, in world space, or None to hide from all sides."""
@@ -239,15 +181,15 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
             return _BLENDERS_FRONT
         return tuple(self.view_direction) if any(self.view_direction) else _towards_viewer(context)
 
-    def _read(self, context: bpy.types.Context, wanted: Wanted) -> Suggestions:
+    def _read(self, context: bpy.types.Context) -> Suggestions:
         """Read the meshes in Edit Mode."""
         from ..mesh.suggestion import Options
-        from ..mesh.suggestions import Suggestions, objects_to_cut
+        from ..mesh.suggestions import Suggestions, Wanted, objects_to_cut
 
         along, finish = (None if chosen == "AUTO" else chosen for chosen in (self.along, self.finish))
         options = Options(along, finish, self.symmetric, self._front(context))
-        objects = objects_to_cut(context.objects_in_mode_unique_data, self.limit == "WORST", self.selected)
-        return Suggestions(objects, options, wanted)
+        objects = objects_to_cut(context.objects_in_mode_unique_data, self.selected)
+        return Suggestions(objects, options, Wanted(self.distortion, self.islands, self.unwrap))
 
     def _carry_out(self, context: bpy.types.Context, suggestions: Suggestions) -> set[str]:
         """Write or cut the wires, unwrap, and report."""
@@ -259,13 +201,14 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
             return self.stopped_halfway(error)
 
     def _change(self, context: bpy.types.Context, suggestions: Suggestions) -> set[str]:
-        to_cut = {suggestion.mesh: suggestion.wires for suggestion in suggestions.finished_by("CUT")}
-        crumb = suggestions.crumb
-        if to_cut and cut_wires(self, context, to_cut, crumb=crumb, live_unwrap=False) == {"CANCELLED"}:
-            return {"CANCELLED"}
+        to_cut = {suggestion.mesh: suggestion.slits for suggestion in suggestions.finished_by("CUT")}
+        if to_cut:
+            first, crumb = suggestions.write_borders, suggestions.crumb
+            if cut_wires(self, context, to_cut, crumb=crumb, live_unwrap=False, first=first) == {"CANCELLED"}:
+                return {"CANCELLED"}
         with changing():
             suggestions.write()
-            slide_wires({suggestion.mesh: suggestion.wires for suggestion in suggestions.finished_by("SLIDE")})
+            slide_wires({suggestion.mesh: suggestion.slits for suggestion in suggestions.finished_by("SLIDE")})
             self._unwrap(context, suggestions)
             self._report_outcome(suggestions)
         return {"FINISHED"}
@@ -289,47 +232,6 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
         except (ValueError, NativeError) as error:
             self.report({"WARNING"}, str(error))
             return 0
-
-
-class _Look:
-    """Shows the best plan so far in the 3D views and in the status bar.
-
-    Parameters
-    ----------
-    preview
-        Draws the plan.
-    suggestion
-        Plans in another thread.
-    """
-
-    def __init__(self, preview: PlanPreview, suggestion: Suggestion) -> None:
-        self._preview = preview
-        self._suggestion = suggestion
-        self._seen: object = None
-
-    def __call__(self) -> str:
-        """Show the plan if it is new, and return its stretch and length."""
-        from ..core.seams.suggestion import stretch_of
-
-        suggestion = self._suggestion
-        plan = suggestion.best_so_far
-        if plan is None or not suggestion.mesh.alive():
-            return ""
-        if plan is not self._seen:
-            self._seen = plan
-            curves = [wire.points for wire in plan.wires]
-            self._preview.show(suggestion.mesh.obj, suggestion.mesh.arrays, curves, suggestion.edges_of(plan))
-        self._preview.poll()
-        stretch = f"stretch {100.0 * stretch_of(float(plan.energy)):.0f} %"
-        return f"{stretch}, seams {_in_units(suggestion.length_of(plan))}"
-
-
-def _in_units(length: float) -> str:
-    """Return a length in the scene's units."""
-    units = bpy.context.scene.unit_settings
-    if units.system == "NONE":
-        return f"{length:.3g}"
-    return bpy.utils.units.to_string(units.system, "LENGTH", length * units.scale_length, precision=3)
 
 
 def _step(suggestions: Suggestions, step: Step) -> Generator[Step, None, None]:

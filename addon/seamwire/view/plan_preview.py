@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draws planned wires and the islands that they make over objects in edit mode, while better ones are being looked for."""
+"""Draws planned wires and the islands that they make over objects in edit mode, and finds them under the mouse."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import replace
-from functools import partial
+from dataclasses import dataclass, fields, replace
+from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
 import bpy
@@ -13,22 +14,67 @@ import numpy as np
 
 from ..core.base import native
 from ..core.islands.islands import IslandMaker
+from ..core.picking.segments import Segments
+from ..core.picking.sight import Sight
+from ..core.picking.surface import Surface
 from ..mesh import settings as chosen
 from ..mesh.pose import Pose
 from .edited_objects import edited
 from .failures import failures
-from .gpu_draw import Eye, Faces, Lines, blended
+from .gpu_draw import Eye, Faces, Lines, blended, sees_through
 from .theme import HUES, Looks, hue_colors
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator
 
     from numpy.typing import NDArray
 
     from ..core.base.mesh_arrays import Arrays
+    from .theme import Style
+    from .viewport import Place
 
 _TINT = 0.35
 """The least opacity of the islands: they are what a preview is for."""
+_REACH = 10.0
+"""Pixels beside a border in which it is found."""
+
+
+@dataclass(frozen=True)
+class Curves:
+    """The curves that are drawn over an object, (k, 3) each, in object coordinates.
+
+    Parameters
+    ----------
+    borders
+        Between parts.
+    dropped
+        Borders that the artist has dropped.
+    slits
+        Seams within parts. The mouse does not find them.
+    """
+
+    borders: Sequence[NDArray[np.float64]] = ()
+    dropped: Sequence[NDArray[np.float64]] = ()
+    slits: Sequence[NDArray[np.float64]] = ()
+
+
+@dataclass(frozen=True)
+class Pointed:
+    """The border and the triangle under the mouse.
+
+    Parameters
+    ----------
+    name
+        The full name of the object.
+    border
+        The number of the border, counting on with those that were dropped; None: there is no border.
+    triangle
+        The number of the triangle; None: only a border is there.
+    """
+
+    name: str
+    border: int | None
+    triangle: int | None
 
 
 class _Shown:
@@ -43,14 +89,18 @@ class _Shown:
     def __init__(self, obj: bpy.types.Object, arrays: Arrays) -> None:
         core = native.load()
         self.obj = obj
-        self._pose = Pose(replace(arrays, points=arrays.in_object, to_object=np.eye(3)))
+        self._arrays = replace(arrays, points=arrays.in_object, to_object=np.eye(3))
+        self._pose = Pose(self._arrays)
+        self._pose.follow(obj)
+        self._surface = self._posed_surface()  # threads prepare it
         surface = core.Surface(arrays.in_object, arrays.triangles, arrays.edges)
         self._islands = IslandMaker(arrays.triangles, lambda cuts: np.asarray(core.face_segments(surface, cuts)), HUES)
-        self._curves: Sequence[NDArray[np.float64]] = ()
-        self._lines: Lines | None = None
+        self._curves = Curves()
+        self._lines: list[Lines] | None = None
         self._faces: Faces | None = None
         self._tinted: object = None
         self._count = 0
+        self.hovered: int | None = None
 
     @property
     def is_new(self) -> bool:
@@ -58,11 +108,15 @@ class _Shown:
         found = self._islands.newest
         return found is not None and found.key != self._tinted
 
-    def follow(self, curves: Sequence[NDArray[np.float64]], cuts: NDArray[np.int32]) -> None:
-        """Show other wires, and ask for their islands."""
+    def follow(self, curves: Curves, cuts: NDArray[np.int32]) -> None:
+        """Show other curves, and ask for the islands of their cuts."""
         if self._pose.follow(self.obj):
             self._faces = self._tinted = None
-        self._curves, self._lines = [self._pose.places(curve) for curve in curves], None
+            self._surface = self._posed_surface()
+        kinds = {field.name: getattr(curves, field.name) for field in fields(curves)}
+        self._curves = Curves(**{name: [self._pose.places(curve) for curve in own] for name, own in kinds.items()})
+        self._lines = self.hovered = None
+        self.__dict__.pop("_segments", None)
         self._count += 1
         self._islands.want(self._count, cuts)
 
@@ -73,6 +127,39 @@ class _Shown:
     def close(self) -> None:
         """Let go of the thread that computes islands."""
         self._islands.close()
+
+    # Under the mouse
+
+    def _posed_surface(self) -> Surface:
+        return Surface(replace(self._arrays, points=self._pose.points))
+
+    @cached_property
+    def _segments(self) -> Segments:
+        return Segments(self._found_by_mouse)
+
+    @property
+    def _found_by_mouse(self) -> list[NDArray[np.float64]]:
+        return [*self._curves.borders, *self._curves.dropped]
+
+    def at(self, place: Place) -> tuple[float, Pointed] | None:
+        """Return what is under the mouse, and how far away it is; None if it is nothing of the object."""
+        scale, xray = bpy.context.preferences.system.ui_scale, sees_through(place.area.spaces.active)
+        sight = Sight.of(place.view, self.obj.matrix_world, place.cursor, scale, xray)
+        if sight is None or not self.obj.visible_in_viewport_get(place.area.spaces.active):
+            return None
+        near = place.view.ray(place.cursor)[0]
+
+        def away(spot: NDArray[np.float64]) -> float:
+            return float(np.linalg.norm(sight.to_world(spot) - near))
+
+        hit = self._surface.cast(sight, place.cursor)
+        triangle = None if hit is None else hit[0]
+        for border, spot in self._segments.near(sight, _REACH * scale):
+            if self._surface.can_pick(sight, spot):
+                return away(spot if hit is None else hit[1]), Pointed(self.obj.name_full, border, triangle)
+        return None if hit is None else (away(hit[1]), Pointed(self.obj.name_full, None, triangle))
+
+    # Drawing
 
     def draw(self, looks: Looks) -> None:
         """Draw in the view that Blender is drawing now."""
@@ -87,12 +174,34 @@ class _Shown:
             self._tinted = found.key
         self._faces.draw_over(eye, hue_colors(max(looks.tint, _TINT)))
         if self._lines is None:
-            pieces = [np.stack([curve[:-1], curve[1:]], axis=1) for curve in self._curves if len(curve) > 1]
-            self._lines = Lines(looks.kept, np.concatenate([np.empty((0, 2, 3)), *pieces]))
-        with blended("GREATER"):
-            self._lines.draw_hidden(eye, looks.kept.hidden)
-        with blended("LESS_EQUAL"):
-            self._lines.draw(eye)
+            self._lines = [Lines(style, _pieces(curves)) for style, curves in self._styled(looks)]
+        for lines in self._lines:
+            with blended("GREATER"):
+                lines.draw_hidden(eye, lines.style.hidden)
+        for lines in self._lines:
+            with blended("LESS_EQUAL"):
+                lines.draw(eye)
+
+    def _styled(self, looks: Looks) -> Iterator[tuple[Style, Sequence[NDArray[np.float64]]]]:
+        """Yield the curves in the order in which they are drawn."""
+        if self.hovered is not None:
+            yield looks.hovered, [self._found_by_mouse[self.hovered]]
+        yield looks.mirrored, self._curves.slits  # thinner than borders, for clicks do not change them
+        yield looks.clear, self._curves.dropped
+        yield looks.kept, self._curves.borders
+
+    def point(self, border: int | None) -> bool:
+        """Highlight a border, or no border. Return whether that is new."""
+        if border == self.hovered:
+            return False
+        self.hovered, self._lines = border, None
+        return True
+
+
+def _pieces(curves: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
+    """Return the segments of curves, (k, 2, 3)."""
+    pieces = [np.stack([curve[:-1], curve[1:]], axis=1) for curve in curves if len(curve) > 1]
+    return np.concatenate([np.empty((0, 2, 3)), *pieces])
 
 
 class PlanPreview:
@@ -102,9 +211,7 @@ class PlanPreview:
         self._shown: dict[str, _Shown] = {}
         self._handle: object | None = None
 
-    def show(
-        self, obj: bpy.types.Object, arrays: Arrays, curves: Sequence[NDArray[np.float64]], cuts: NDArray[np.int32]
-    ) -> None:
+    def show(self, obj: bpy.types.Object, arrays: Arrays, curves: Curves, cuts: NDArray[np.int32]) -> None:
         """Draw wires over an object, and tint the islands that they make, in place of what was drawn over it.
 
         Parameters
@@ -112,7 +219,7 @@ class PlanPreview:
         obj, arrays
             The object and its mesh.
         curves
-            (k, 3) each, in object coordinates.
+            The wires.
         cuts
             (c, 2) the edges that are seams with them.
         """
@@ -125,6 +232,17 @@ class PlanPreview:
         failures.take("preview")  # another plan is another try
         failures.attempt(("preview", "follow", obj.name_full), partial(shown.follow, curves, cuts))
         edited.redraw()
+
+    def at(self, place: Place) -> Pointed | None:
+        """Return what is under the mouse, of the object that is nearest to the viewer."""
+        found = [at for shown in self._shown.values() if (at := shown.at(place)) is not None]
+        return min(found, key=lambda at: at[0])[1] if found else None
+
+    def point(self, at: Pointed | None) -> None:
+        """Highlight the border under the mouse, or no border."""
+        changed = [shown.point(at.border if at and at.name == name else None) for name, shown in self._shown.items()]
+        if any(changed):
+            edited.redraw()
 
     def poll(self) -> None:
         """Show islands that were computed."""

@@ -15,6 +15,15 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 
+LIVE_HINTS = ("Wheel: More or Fewer Parts", "Click Border: Drop or Keep", "Click Island: Cut", "Enter: Keep")
+"""The artist's choices while the parts are shown."""
+
+
+def parts_text(amount: float, number: int) -> str:
+    """Return the text on an amount of parts, from 0 to 1, and their number."""
+    return f"Parts: {100.0 * amount:.0f} %, {count(number, 'part')}"
+
+
 @dataclass(frozen=True)
 class Outcome:
     """The result of a suggestion for all objects together.
@@ -24,9 +33,7 @@ class Outcome:
     wires, marked
         The numbers of wires and of marked edges.
     missing
-        How many more cuts each island needs to become a disc.
-    discs_wanted
-        Whether every island was meant to become a disc. Otherwise islands may have holes.
+        How many more cuts each island needs to become a disc. Islands may have holes.
     islands_wanted
         The number of islands that was asked for but not reached; 0 if it was reached.
     stretch
@@ -34,7 +41,7 @@ class Outcome:
     stretches
         The stretch of each object's map in percent.
     stretch_wanted
-        The stretch that was asked for in percent; 0 if any stretch is good.
+        The stretch that was asked for in percent.
     unwrapped
         The number of unwrapped islands; None if nothing was to be unwrapped, or could be.
     faults
@@ -44,7 +51,6 @@ class Outcome:
     wires: int
     marked: int
     missing: Sequence[int]
-    discs_wanted: bool = False
     islands_wanted: int = 0
     stretch: float | None = None
     stretches: Sequence[float] = ()
@@ -55,7 +61,7 @@ class Outcome:
     @property
     def is_good(self) -> bool:
         """Whether everything that was asked for was reached."""
-        return not (self._problems() or self.faults or self._open_islands())
+        return not (self._problems() or self.faults)
 
     @property
     def text(self) -> str:
@@ -66,16 +72,13 @@ class Outcome:
         if self.marked:
             parts.append(f"{count(self.marked, 'edge')} marked")
         parts.append(count(len(self.missing), "island"))
-        if self._open_islands():
-            parts.append(self._open_islands())
-        elif any(self.missing):  # a cut to an eye would cross the face
+        if any(self.missing):  # a cut to an eye would cross the face
             parts.append(f"{sum(cuts > 0 for cuts in self.missing)} with holes")
         return ", ".join([*parts, *self._of_map(), *self._problems()])
 
     def _text_without_wires(self) -> str:
-        if self._problems() or self._open_islands():
-            parts = filter(None, [*self._of_map(), self._open_islands(), *self._problems()])
-            return f"No useful seam found: {', '.join(parts)}"
+        if self._problems():
+            return f"No useful seam found: {', '.join([*self._of_map(), *self._problems()])}"
         if self.unwrapped:
             return ", ".join([f"No seam needed: {count(self.unwrapped, 'island')} unwrapped", *in_words(self.faults)])
         return "Nothing to add: all islands already unwrap within the limit"
@@ -90,17 +93,10 @@ class Outcome:
             parts.append("no overlap")
         return parts
 
-    def _open_islands(self) -> str:
-        """Return which islands should be discs but are not, or an empty text."""
-        if not self.discs_wanted or not any(self.missing):
-            return ""
-        holed = count(sum(cuts > 0 for cuts in self.missing), "island still needs", "islands still need")
-        return f"{holed} {count(sum(self.missing), 'cut')}"
-
     def _problems(self) -> list[str]:
         """Return what was asked for and not reached."""
         parts = []
         if self.islands_wanted:
             parts.append(f"fewer than {self.islands_wanted} because no island can be cut further")
-        missed = not_reached(self.stretches, self.stretch_wanted) if self.stretch_wanted else ""
+        missed = not_reached(self.stretches, self.stretch_wanted)
         return [*parts, missed] if missed else parts

@@ -414,7 +414,7 @@ double Planning::share_of_search(double budget) const {
 void Planning::part_limbs(const Task& task) {
   std::size_t islands = 0;
   for (std::size_t g = 0; g < plans_.size(); ++g) islands += groups()[g].places.size() * index(plans_[g].piece_count());
-  if (!goal_.parts && goal_.islands <= islands) return;
+  if (goal_.islands <= islands) return;
   struct Neck {
     std::size_t group;
     NeckRing ring;
@@ -428,7 +428,7 @@ void Planning::part_limbs(const Task& task) {
   std::ranges::stable_sort(necks, std::ranges::greater(), [](const Neck& neck) { return neck.ring.narrowness; });
   std::vector<std::vector<NeckRing>> chosen(plans_.size());
   for (Neck& neck : necks) {
-    if (!goal_.parts && islands >= goal_.islands) break;
+    if (islands >= goal_.islands) break;
     islands += groups()[neck.group].places.size() * (neck.ring.image.empty() ? 1 : 2);
     chosen[neck.group].push_back(std::move(neck.ring));
   }

@@ -250,7 +250,7 @@ TEST(SeamPlanner, LimbsArePartedAtTheirNecks) {
   const auto surface = shared(shapes::dumbbell(16, 24));
   for (const int mirror : {-1, 0}) {
     const SeamPlanner planner(surface, along_edges(mirror));
-    const SeamPlan plan = planner.plan({.distortion = 4.3, .parts = true, .steps = 300});
+    const SeamPlan plan = planner.plan({.distortion = 4.3, .islands = 3, .steps = 300});
     expect_discs(*surface, plan);
     expect_map(*surface, plan);
     EXPECT_EQ(plan.island_count, 3U);
@@ -300,8 +300,8 @@ TEST(SeamPlanner, KeepOutAreasAreNeverCrossed) {
     if (surface->points()[v].x() > 0.3 || surface->points()[v].y() > 0.2) options.weights[v] = kAnything;
   }
   const SeamPlanner planner(surface, options);
-  for (const bool parts : {false, true}) {
-    const SeamPlan plan = planner.plan({.distortion = 4.1, .parts = parts, .steps = 200});
+  for (const std::size_t islands : {0U, 3U}) {
+    const SeamPlan plan = planner.plan({.distortion = 4.1, .islands = islands, .steps = 200});
     expect_discs(*surface, plan);
     EXPECT_FALSE(plan.wires.empty());
     for (const Edge& edge : edges_of(plan)) {
@@ -588,7 +588,7 @@ TEST(SeamPlanner, TheSamePlanComesOutTwice) {
 TEST(SeamPlanner, StopsSoonWhenItIsCancelled) {
   const auto surface = shared(shapes::bumpy(shapes::icosphere(3), 0.04));
   using Clock = std::chrono::steady_clock;
-  const SeamGoal goal{.distortion = 4.01, .parts = true};
+  const SeamGoal goal{.distortion = 4.01, .islands = 3};
   for (const int after : {0, 1, 5, 20, 60, 150}) {  // milliseconds: while measuring, and while planning
     std::stop_source stop;
     std::atomic<Clock::rep> stopped = 0;
@@ -650,7 +650,7 @@ TEST(SeamPlanner, BrokenMeshesGiveFinitePlans) {
       options.seams = {{0, 1}, {7, 8}};
       const SeamPlanner planner(surface, options);
       for (const double distortion : {4.2, kAnything}) {
-        const SeamPlan plan = planner.plan({.distortion = distortion, .islands = 3, .parts = true, .steps = 100});
+        const SeamPlan plan = planner.plan({.distortion = distortion, .islands = 3, .steps = 100});
         expect_sound(*surface, plan, options.seams);
         EXPECT_TRUE(std::isfinite(plan.cost));
         EXPECT_FALSE(std::isnan(plan.energy));

@@ -18,7 +18,7 @@ import numpy as np
 from ..network.wires import FOLLOWS, Wire
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Sequence
+    from collections.abc import Collection, Iterable, Sequence
 
     import seamwire_core
     from numpy.typing import NDArray
@@ -53,11 +53,6 @@ def stretch_of(energy: float) -> float:
     return math.exp(0.5 * math.acosh(max(energy, _ISOMETRY) / _ISOMETRY)) - 1.0
 
 
-def stretch_of_ratio(ratio: float) -> float:
-    """Return the stretch of faces that are `ratio` times as long one way as the other, and keep their area."""
-    return math.sqrt(max(ratio, 1.0)) - 1.0
-
-
 @dataclass(frozen=True)
 class Request:
     """Requirements for a plan.
@@ -65,16 +60,13 @@ class Request:
     Parameters
     ----------
     distortion
-        The largest E_d of the map; infinite: only what makes every island a disc.
+        The largest E_d of the map.
     islands
-        The least number of islands among those that are planned; 0: as few as possible.
-    parts
-        Whether limbs become separate islands.
+        The least number of islands among those that are planned.
     """
 
     distortion: float = energy_of(STRETCH)
-    islands: int = 0
-    parts: bool = False
+    islands: int = 1
 
 
 def planned_wires(
@@ -100,18 +92,17 @@ def planned_wires(
     ]  # fmt: skip
 
 
-def seam_length(plan: seamwire_core.SeamPlan, to_scene: NDArray[np.float64]) -> float:
-    """Return the length of a plan's wires.
+def curves_length(curves: Iterable[NDArray[np.float64]], to_scene: NDArray[np.float64]) -> float:
+    """Return the length of curves, each (k, 3).
 
     Parameters
     ----------
-    plan
-        Of a mesh in object coordinates.
+    curves
+        In object coordinates.
     to_scene
         (3, 3) takes these to the coordinates in which lengths are measured.
     """
-    steps = (np.diff(wire.points, axis=0) @ to_scene.T for wire in plan.wires)
-    return float(sum(np.linalg.norm(step, axis=1).sum() for step in steps))
+    return float(sum(np.linalg.norm(np.diff(curve, axis=0) @ to_scene.T, axis=1).sum() for curve in curves))
 
 
 def cut_edges(plan: seamwire_core.SeamPlan, seams: NDArray[np.int32]) -> NDArray[np.int32]:

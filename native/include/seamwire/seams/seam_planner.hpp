@@ -45,8 +45,6 @@ struct SeamGoal {
   /// Minimum number of islands. Limbs are parted first, then large islands are cut into halves. There are fewer islands
   /// only if no seam may run inside of any.
   std::size_t islands = 0;
-  /// Whether limbs are parted at their necks, as separate islands.
-  bool parts = false;
   /// How many Newton steps the search in each piece may take; 0: 4000.
   std::size_t steps = 0;
 };

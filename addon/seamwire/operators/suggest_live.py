@@ -1,0 +1,253 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Suggest Seamwires in a window: the mouse wheel turns the parts, clicks change borders, and slits follow when the hand rests."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import bpy
+
+from ..core.base import native
+from ..core.seams.parts import PartEdits, edges_of, turned
+from ..core.seams.suggestion import mean_stretch
+from ..view.plan_preview import Curves, PlanPreview, Pointed
+from ..view.viewport import place_of
+from ..words.suggestion import LIVE_HINTS, parts_text
+from .navigation import on_gizmo
+from .steps import Step
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from ..mesh.suggestion import Suggestion
+    from ..mesh.suggestions import Suggestions
+    from ..view.viewport import Place
+    from .steps import Progress
+
+_REST = 0.4
+"""Seconds without a change until slits are planned."""
+_TICK = 0.02
+"""Seconds between two looks at whether the hand rests."""
+_CONFIRM = frozenset({"RET", "NUMPAD_ENTER", "SPACE"})
+_NOTCHES = {"WHEELUPMOUSE": 1, "WHEELDOWNMOUSE": -1, "PAGE_UP": 1, "PAGE_DOWN": -1, "PLUS": 1, "EQUAL": 1, "MINUS": -1}
+"""How many notches each event turns."""
+_PRESSES = frozenset({"PRESS", "DOUBLE_CLICK"})
+_TAKEN = frozenset({"RUNNING_MODAL"})
+
+
+class LiveParts:
+    """The parts of meshes while an artist changes them.
+
+    Parameters
+    ----------
+    window
+        Where events come from.
+    suggestions
+        Measured for parts.
+    preview
+        Draws the parts, and the seams that are planned in them.
+    amount
+        The amount of parts at first, from 0 to 1.
+    is_enough
+        Whether to stop planning, and go on with the best plan so far.
+
+    Attributes
+    ----------
+    amount
+        The chosen amount of parts.
+    edits
+        The changes by clicks, by the name of the object.
+    is_kept
+        Whether the artist has confirmed the parts.
+    """
+
+    def __init__(
+        self,
+        window: bpy.types.Window,
+        suggestions: Suggestions,
+        preview: PlanPreview,
+        amount: float,
+        is_enough: Callable[[], bool],
+    ) -> None:
+        self._window = window
+        self._suggestions = suggestions
+        self._preview = preview
+        self._is_enough = is_enough
+        self.amount = amount
+        self.edits: dict[str, PartEdits] = {}
+        self.is_kept = False
+        self._dropped: dict[str, list[NDArray[np.int32]]] = {}
+        self._counts: dict[float, int] = {}
+        self._version = self._worked_on = 0
+        self._planned = -1
+        self._rests_at = 0.0
+        self._seen: dict[Suggestion, object] = {}
+        self._cancelled = native.load().Cancelled
+        self._change()
+
+    # The step
+
+    def step(self) -> Step:
+        """Return the step that waits for the artist, and plans when the hand rests."""
+        self._worked_on = self._version
+        return Step("Planning seams", self._plan, self._look, self)
+
+    @property
+    def is_done(self) -> bool:
+        """Whether the parts are confirmed, and seams planned in them."""
+        return self.is_kept and self.is_planned
+
+    @property
+    def is_planned(self) -> bool:
+        """Whether seams are planned in the parts that are shown."""
+        return self._planned == self._version
+
+    @property
+    def is_over(self) -> bool:
+        """Whether the step has nothing to wait for."""
+        return self.is_kept or self._worked_on != self._version or not self._suggestions.are_alive
+
+    @property
+    def title(self) -> str:
+        """The amount and the number of parts."""
+        return parts_text(self.amount, self._suggestions.part_count)
+
+    @property
+    def hints(self) -> Sequence[str]:
+        """The artist's choices."""
+        return () if self.is_kept else LIVE_HINTS
+
+    def _plan(self, progress: Progress) -> None:
+        """Wait until the hand rests, then plan. Give up as soon as the parts have changed."""
+        version = self._version
+
+        def goes_on(fraction: float) -> bool:
+            return progress(fraction) and self._version == version
+
+        while time.monotonic() < self._rests_at and not self.is_kept:
+            if not goes_on(0.0):
+                return
+            time.sleep(_TICK)
+        try:
+            self._suggestions.plan(goes_on, is_enough=self._is_enough)
+        except self._cancelled:
+            return
+        self._planned = version
+
+    def _look(self) -> str:
+        """Show plans that are new, and return the stretch and the length of their seams."""
+        self._preview.poll()
+        if not self._suggestions.are_alive:
+            return ""
+        plans = {each: plan for each in self._suggestions if (plan := each.best_so_far) is not None}
+        for suggestion, plan in plans.items():
+            if self._seen.get(suggestion) is not plan:
+                self._seen[suggestion] = plan
+                self._show(suggestion)
+        if not plans:
+            return ""
+        energy = mean_stretch([float(plan.energy) for plan in plans.values()], [each.area for each in plans])
+        length = sum(each.length_of(plan) for each, plan in plans.items())
+        return f"stretch {100.0 * energy:.0f} %, seams {_in_units(length)}"
+
+    # The artist's hand
+
+    def take(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Take an event of the wheel, the mouse or the keys, as `Hand.take`."""
+        if self.is_kept:
+            return set()
+        is_plain = not (event.ctrl or event.alt or event.oskey)
+        place = place_of(self._window, event)
+        if event.type == "MOUSEMOVE":
+            self._preview.point(None if place is None else self._preview.at(place))
+            return {"PASS_THROUGH"}
+        if not is_plain or event.value not in _PRESSES or (event.shift and event.type not in {"PLUS", "EQUAL"}):
+            return set()
+        if event.type in _CONFIRM:
+            self.is_kept = True
+            self._preview.point(None)
+            return set(_TAKEN)
+        is_wheel = event.type.startswith("WHEEL")
+        if event.type in _NOTCHES and (place is not None or not is_wheel):
+            self._turn(_NOTCHES[event.type])
+            return set(_TAKEN)
+        if event.type == "LEFTMOUSE" and place is not None and not on_gizmo(place, context.preferences):
+            self._click(place)
+            return set(_TAKEN)
+        return set()
+
+    def _turn(self, notches: int) -> None:
+        found = turned(self.amount, notches, self._count)
+        if found != self.amount:
+            self.amount = found
+            self._change()
+
+    def _count(self, amount: float) -> int:
+        """Return the number of parts for an amount."""
+        if amount not in self._counts:
+            self._counts[amount] = self._suggestions.count(amount, self.edits)
+        return self._counts[amount]
+
+    def _click(self, place: Place) -> None:
+        at = self._preview.at(place)
+        if at is None:
+            return
+        edits = {**self.edits, at.name: self._edited(self.edits.get(at.name, PartEdits()), at)}
+        if at.border is None and self._suggestions.count(self.amount, edits) == self._suggestions.part_count:
+            return  # the part cannot be cut
+        self.edits = edits
+        self._counts.clear()
+        self._change()
+        self._preview.point(self._preview.at(place))
+
+    def _edited(self, edits: PartEdits, at: Pointed) -> PartEdits:
+        """Return the edits of an object after a click."""
+        suggestion = next(each for each in self._suggestions if each.mesh.obj.name_full == at.name)
+        if at.border is None:
+            return edits.part(int(suggestion.mesh.arrays.polygons[at.triangle]))
+        dropped = self._dropped.setdefault(at.name, [])
+        if at.border < len(suggestion.borders):
+            dropped.append(suggestion.borders[at.border])
+            return edits.drop(edges_of(dropped[-1]))
+        return edits.keep(edges_of(self._dim(suggestion)[at.border - len(suggestion.borders)]))
+
+    def _change(self) -> None:
+        """Find the parts anew, and show them at once."""
+        self._version += 1
+        self._rests_at = time.monotonic() + _REST
+        self._suggestions.choose(self.amount, self.edits)
+        for suggestion in self._suggestions:
+            self._show(suggestion)
+
+    # The picture
+
+    def _dim(self, suggestion: Suggestion) -> list[NDArray[np.int32]]:
+        """Return the borders that the artist has dropped."""
+        name = suggestion.mesh.obj.name_full
+        dropped = self.edits.get(name, PartEdits()).dropped
+        return [chain for chain in self._dropped.get(name, ()) if edges_of(chain) <= dropped]
+
+    def _show(self, suggestion: Suggestion) -> None:
+        """Draw the borders of a mesh, and the seams that are planned for them."""
+        plan, points = suggestion.best_so_far, suggestion.mesh.arrays.in_object
+        curves = Curves(
+            [points[chain] for chain in suggestion.borders], [points[chain] for chain in self._dim(suggestion)]
+        )
+        cuts = suggestion.seams
+        if plan is not None:
+            curves = replace(curves, slits=[wire.points for wire in plan.wires])
+            cuts = suggestion.edges_of(plan)
+        self._preview.show(suggestion.mesh.obj, suggestion.mesh.arrays, curves, cuts)
+
+
+def _in_units(length: float) -> str:
+    """Return a length in the scene's units."""
+    units = bpy.context.scene.unit_settings
+    if units.system == "NONE":
+        return f"{length:.3g}"
+    return bpy.utils.units.to_string(units.system, "LENGTH", length * units.scale_length, precision=3)
