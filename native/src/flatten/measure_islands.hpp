@@ -8,8 +8,8 @@
 
 namespace seamwire::detail {
 
-/// measure_map(), which also takes islands that are not placed yet. Those may lie on each other, so nothing is said of
-/// islands that collide.
+/// measure_map(), which also takes islands that are not placed yet. Those may lie on each other, so the
+/// report does not list islands that collide.
 MapReport measure_islands(const Surface& surface, std::span<const std::array<Eigen::Vector2d, 3>> uvs,
                           std::span<const std::int32_t> islands, bool are_placed, const Task& task);
 

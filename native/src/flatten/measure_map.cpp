@@ -338,7 +338,7 @@ double map_energy(const Surface& surface, std::span<const Corners> uvs, std::spa
 }
 
 MapReport detail::measure_islands(const Surface& surface, std::span<const Corners> uvs,
-                                 std::span<const std::int32_t> islands, bool are_placed, const Task& given_task) {
+                                  std::span<const std::int32_t> islands, bool are_placed, const Task& given_task) {
   const RisingProgress rising(given_task);
   const Task& task = rising.task();
   check_map(surface, uvs, islands);

@@ -69,7 +69,8 @@ class BendFinder {
       const std::int32_t side = first + (is_next ? (k + 1) % 3 : (k + 2) % 3);
       const double a = height(mesh_.start(side)), b = height(mesh_.end(side));
       const double t = a != b ? std::clamp(a / (a - b), 0.0, 1.0) : 0.5;
-      const Vector to = mesh_.points[mesh_.start(side)] + t * (mesh_.points[mesh_.end(side)] - mesh_.points[mesh_.start(side)]);
+      const Vector to =
+          mesh_.points[mesh_.start(side)] + t * (mesh_.points[mesh_.end(side)] - mesh_.points[mesh_.start(side)]);
       gone += (to - at).norm();
       at = to;
       if (gone >= distance || mesh_.twins[side] < 0) break;
@@ -123,9 +124,8 @@ std::vector<double> sharpest_beside(const PlanMesh& mesh, const Polygons& polygo
   }
   std::vector<double> beside(mesh.edge_count(), 0.0);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
-    for_sides(mesh, polygons, e, [&](std::int32_t p) {
-      beside[e] = std::max(beside[e], edge[p] == e ? sharpest[p][1] : sharpest[p][0]);
-    });
+    for_sides(mesh, polygons, e,
+              [&](std::int32_t p) { beside[e] = std::max(beside[e], edge[p] == e ? sharpest[p][1] : sharpest[p][0]); });
   }
   return beside;
 }
@@ -149,9 +149,9 @@ std::vector<std::uint8_t> are_round(const PlanMesh& mesh, const Polygons& polygo
     bool is_round = true;
     for_sides(mesh, polygons, e, [&](std::int32_t p) {
       is_round = is_round && around[p].size() == 4 && std::ranges::any_of(around[p], [&](std::int32_t other) {
-        const double ratio = bends[other] / bends[e];
-        return !share_vertex(e, other) && ratio > 1.0 / kAlike && ratio < kAlike;
-      });
+                   const double ratio = bends[other] / bends[e];
+                   return !share_vertex(e, other) && ratio > 1.0 / kAlike && ratio < kAlike;
+                 });
     });
     found[e] = is_round ? 1 : 0;
   }
@@ -218,8 +218,8 @@ EdgeBends bends_over_edges(const PlanMesh& mesh, std::span<const FaceFrame> fram
 }
 
 std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, const PieceSizes& sizes,
-                                const EdgeBends& bends, std::span<const double> ambient, std::span<const std::uint8_t> is_marked,
-                                const Reflection* reflection) {
+                                const EdgeBends& bends, std::span<const double> ambient,
+                                std::span<const std::uint8_t> is_marked, const Reflection* reflection) {
   std::vector<double> sharp;
   for (const double bend : bends.own) sharp.push_back(std::abs(bend));
   const std::vector<double> on_line = means_along(mesh, find_lines(mesh, polygons), sharp);

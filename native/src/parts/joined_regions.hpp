@@ -10,8 +10,8 @@ namespace seamwire::detail {
 /// A region, in units of the size of the piece of surface in which it lies.
 struct Region {
   double area = 0.0;
-  double least_area = 0.0;   ///< a smaller region joins a neighbor, unless a sharp rim encloses it
-  std::int32_t image = -1;   ///< the region on the other side of a mirror plane; -1 if it has none
+  double least_area = 0.0;  ///< a smaller region joins a neighbor, unless a sharp rim encloses it
+  std::int32_t image = -1;  ///< the region on the other side of a mirror plane; -1 if it has none
 };
 
 /// A border between two regions, in the same units.
@@ -24,9 +24,9 @@ struct RegionBorder {
 
 /// Which regions to join.
 struct RegionRules {
-  double region_price = 0.0;  ///< what each region costs
-  double sharp_rim = 2.0;     ///< the mean log odds of a rim that encloses a small region
-  double least_width = 0.0;   ///< narrower regions join a neighbor if they are steps of a chamfer
+  double region_price = 0.0;                   ///< what each region costs
+  double sharp_rim = 2.0;                      ///< the mean log odds of a rim that encloses a small region
+  double least_width = 0.0;                    ///< narrower regions join a neighbor if they are steps of a chamfer
   double least_step = 25.0, most_step = 70.0;  ///< how many degrees the surface bends at the sides of such a step
 };
 

@@ -38,7 +38,7 @@ constexpr double kLeastArea = 0.003;   // of the area of its piece
 constexpr double kLeastWidth = 0.008;  // in diagonals of its piece
 constexpr double kLeastPrice = 0.05;   // of a cut along an edge that is a border for sure, for each unit of length
 
-/// What is added to all log odds for an amount of parts.
+/// The constant that an amount of parts adds to all log odds.
 double bias_of(double amount) {
   if (amount >= 0.5) return kMiddleBias + 2.0 * (amount - 0.5) * kBiasToSharp;
   return kMiddleBias + kBiasToOne * std::log(amount / (1.0 - amount));
@@ -55,7 +55,7 @@ std::vector<Edge> sorted_edges(const std::vector<Edge>& edges, std::size_t verte
   return sorted;
 }
 
-/// For each polygon the one whose vertices are the mirror images of its own; -1 if there is none.
+/// The mirror image of each polygon, by the images of its vertices; -1 without an image.
 std::vector<std::int32_t> images_of(const PlanMesh& mesh, const Polygons& polygons, const Reflection& reflection) {
   std::vector<std::vector<std::int32_t>> corners(polygons.count);
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
@@ -203,8 +203,8 @@ std::vector<std::int32_t> PartFinder::Impl::joined(double amount, const PartEdit
     if (is_kept[e] != 0) own = kEditOdds;
     const double diagonal = sizes.of_piece[sizes.piece_of(mesh, e)].diagonal;
     const double length = diagonal > 0.0 ? mesh.lengths[e] / diagonal : 0.0;
-    found.push_back({polygons.of_face[h / 3], polygons.of_face[twin / 3], own * length, length,
-                     std::abs(bends.own[e]) * length});
+    found.push_back(
+        {polygons.of_face[h / 3], polygons.of_face[twin / 3], own * length, length, std::abs(bends.own[e]) * length});
   }
   return joined_regions(regions, found, {.region_price = kPartPrice, .least_width = kLeastWidth});
 }

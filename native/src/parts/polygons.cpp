@@ -15,10 +15,10 @@ namespace seamwire::detail {
 namespace {
 
 constexpr double kDegreesOfRadian = 180.0 / std::numbers::pi;
-constexpr double kMostFold = 40.0;      // degrees between the triangles of a quad
-constexpr double kMostSkew = 55.0;      // the fold and the mean deviation of the corners from 90 degrees together
-constexpr double kOverVertex = 80.0;    // the most that a line turns at a vertex of four edges, in degrees
-constexpr double kMostTurn = 50.0;      // and at other vertices
+constexpr double kMostFold = 40.0;    // degrees between the triangles of a quad
+constexpr double kMostSkew = 55.0;    // the fold and the mean deviation of the corners from 90 degrees together
+constexpr double kOverVertex = 80.0;  // the most that a line turns at a vertex of four edges, in degrees
+constexpr double kMostTurn = 50.0;    // and at other vertices
 
 double angle_between(const Vector& one, const Vector& other) {
   return kDegreesOfRadian * std::atan2(one.cross(other).norm(), one.dot(other));
@@ -107,8 +107,8 @@ EdgeLines find_lines(const PlanMesh& mesh, const Polygons& polygons) {
       for (std::size_t k = 0; k < around.size(); ++k) {
         if (k == i) continue;
         const double turn = angle_between(in, mesh.points[around[k].vertex] - mesh.points[v]);
-        const bool is_opposite = around.size() == 4 && !mesh.is_boundary(around[i].edge) &&
-                                 !share_polygon(around[i].edge, around[k].edge);
+        const bool is_opposite =
+            around.size() == 4 && !mesh.is_boundary(around[i].edge) && !share_polygon(around[i].edge, around[k].edge);
         if (is_opposite && turn < kOverVertex) {
           choice[i] = static_cast<std::int32_t>(k);
           break;

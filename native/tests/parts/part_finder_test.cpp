@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "parts/polygons.hpp"
-#include "shapes.hpp"
 #include "seamwire/surface/segments.hpp"
+#include "shapes.hpp"
 
 namespace seamwire {
 
@@ -94,7 +94,8 @@ TEST(PartFinder, leaves_each_step_of_a_chamfer_with_one_neighbor) {
 }
 
 TEST(PartFinder, keeps_a_smooth_body_whole) {
-  for (const shapes::Mesh& mesh : {shapes::icosphere(3), shapes::torus(32, 24), shapes::bumpy(shapes::icosphere(4), 0.002)}) {
+  for (const shapes::Mesh& mesh :
+       {shapes::icosphere(3), shapes::torus(32, 24), shapes::bumpy(shapes::icosphere(4), 0.002)}) {
     const Parts parts = PartFinder(shared(mesh.surface())).find();
     EXPECT_EQ(parts.count, 1u);
     EXPECT_TRUE(parts.borders.empty());
@@ -158,7 +159,8 @@ TEST(PartFinder, parts_at_marked_edges) {
   const auto surface = drum(24);
   std::vector<Edge> ring;
   for (const Edge& edge : surface->edges()) {
-    if (std::abs(surface->points()[edge[0]].x()) + std::abs(surface->points()[edge[1]].x()) < 1e-9) ring.push_back(edge);
+    if (std::abs(surface->points()[edge[0]].x()) + std::abs(surface->points()[edge[1]].x()) < 1e-9)
+      ring.push_back(edge);
   }
   ASSERT_EQ(ring.size(), 24u);
   EXPECT_EQ(PartFinder(surface, {.marked = ring}).find().count, 4u);
@@ -169,7 +171,8 @@ TEST(PartFinder, follows_edits) {
   const PartFinder finder(surface);
   const Parts parts = finder.find();
   std::vector<Edge> ring;
-  for (std::size_t i = 1; i < parts.borders[0].size(); ++i) ring.push_back({parts.borders[0][i - 1], parts.borders[0][i]});
+  for (std::size_t i = 1; i < parts.borders[0].size(); ++i)
+    ring.push_back({parts.borders[0][i - 1], parts.borders[0][i]});
   EXPECT_EQ(finder.find(0.5, {.dropped = ring}).borders, Chains(1, parts.borders[1]));
   EXPECT_EQ(finder.find(0.0, {.kept = ring}).borders, Chains(1, parts.borders[0]));
 }
