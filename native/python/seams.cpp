@@ -224,9 +224,10 @@ void bind_parts(py::module_& module) {
       .def_property_readonly("of_face", array_of<Parts>(&Parts::of_face),
                              "(m,) int32: the part of each triangle, numbered as by `face_segments`.")
       .def_readonly("count", &Parts::count, "How many parts there are.")
-      .def_property_readonly("borders", &borders_of,
-                             "list of (k,) int32: chains of vertices between parts, from junction to junction. A closed\n"
-                             "chain ends with its first vertex. Existing seams are left out.")
+      .def_property_readonly(
+          "borders", &borders_of,
+          "list of (k,) int32: chains of vertices between parts, from junction to junction. A closed\n"
+          "chain ends with its first vertex. Existing seams are left out.")
       .def("__repr__", [](const Parts& parts) { return "<Parts: " + std::to_string(parts.count) + " parts>"; });
   py::class_<PartFinder>(module, "PartFinder", R"(Finds the parts that an artist would make islands of.
 
