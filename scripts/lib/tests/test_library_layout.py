@@ -18,6 +18,7 @@ ROOMS = (
     "flatten",
     "context",
     "seams",
+    "parts",
     "live",
 )
 """From below to above."""
