@@ -111,7 +111,9 @@ def parsed_options() -> argparse.Namespace:
     """Read the command line."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--data", type=Path, required=True, nargs="+", help="folders of models, NAME.npz")
-    parser.add_argument("--work", type=Path, default=Path("build/bench/parts"), help="folder for the seams that are found")
+    parser.add_argument(
+        "--work", type=Path, default=Path("build/bench/parts"), help="folder for the seams that are found"
+    )
     parser.add_argument("--before", type=Path, help="folder of an earlier add-on's results, NAME.edges.npz")
     parser.add_argument("--uvgami", type=Path, help="sources of UVgami")
     parser.add_argument("--only", nargs="+", metavar="NAME", help="these models only")
@@ -133,12 +135,14 @@ def centered(model: Model) -> Model:
 def measured(model: Model, options: argparse.Namespace) -> tuple[list[Result], dict[str, Surface]]:
     """Return the results of a model, and its surface with the seams of each method."""
     mesh, mirror = SeamMesh(model), Reference(model).mirror_axis
-    triangles = SeamMesh(dataclasses.replace(model, start=np.arange(0, model.triangles.size + 1, 3), corners=model.triangles.ravel()))
+    triangles = SeamMesh(
+        dataclasses.replace(model, start=np.arange(0, model.triangles.size + 1, 3), corners=model.triangles.ravel())
+    )
     assert model.artist_seams is not None
     artist = Artist(mesh, model.artist_seams, mirror)
     kind = class_of(model.name, artist.sharp)
     results, surfaces = [], {}
-    for method, find in methods(model, mesh, mirror, options).items():
+    for method, find in methods(model, mesh, options).items():
         if options.methods and method not in options.methods:
             continue
         try:
@@ -161,16 +165,14 @@ def triangle_islands(mesh: SeamMesh, mask: np.ndarray, model: Model) -> np.ndarr
     return islands if len(islands) == len(model.triangles) else np.repeat(islands, np.diff(model.start) - 2)
 
 
-def methods(
-    model: Model, mesh: SeamMesh, mirror: int | None, options: argparse.Namespace
-) -> dict[str, Callable[[], Seams]]:
+def methods(model: Model, mesh: SeamMesh, options: argparse.Namespace) -> dict[str, Callable[[], Seams]]:
     """Return how each method finds its seams, by name; results in the work folder are taken from there."""
 
     def kept(method: str, find: Callable[[], Seams]) -> Callable[[], Seams]:
         return lambda: cached(options.work / method / f"{model.name}.npz", find)
 
     def our(amount: float) -> Callable[[], Seams]:
-        return kept(f"ours {amount:g}", lambda: seam_methods.ours(model, amount, mirror))
+        return kept(f"ours {amount:g}", lambda: seam_methods.ours(model, amount))
 
     found: dict[str, Callable[[], Seams]] = {ARTIST: lambda: Seams(model.artist_seams), OURS: our(DEFAULT_AMOUNT)}
     found |= {f"{OURS} {amount:g}": our(amount) for amount in AMOUNTS}

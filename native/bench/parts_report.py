@@ -180,7 +180,9 @@ def goal_table(results: Sequence[Result]) -> str:
     rows = []
     for goal in GOALS:
         values = [goal.value(by_method[method]) for method in shown_methods]
-        rows.append([goal.title, *(shown(value, goal.decimals) for value in values), goal.goal(), goal.is_met(values[-1])])
+        rows.append(
+            [goal.title, *(shown(value, goal.decimals) for value in values), goal.goal(), goal.is_met(values[-1])]
+        )
     return markdown(["median", *shown_methods, "goal", "met"], rows)
 
 
@@ -262,7 +264,10 @@ def tables(results: Sequence[Result]) -> dict[str, str]:
     return {
         "parts-goals": goal_table(fair),
         "parts-best": best_table(fair),
-        **{f"parts-{name}": method_table(fair if name in ("agreement", "presses") else without_best, name) for name in SECTIONS},
+        **{
+            f"parts-{name}": method_table(fair if name in ("agreement", "presses") else without_best, name)
+            for name in SECTIONS
+        },
         "parts-models-agreement": model_table(every, "agree"),
         "parts-models-tolerant": model_table(every, "tolerant"),
     }

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -230,8 +231,8 @@ class SeamMesh:
                 while chain[-1] not in is_end and chain[-1] != begin:
                     a, b = at[chain[-1]]
                     chain.append(b if a == chain[-2] else a)
-                used.update(zip(chain, chain[1:], strict=False))
-                used.update(zip(chain[1:], chain, strict=False))
+                used.update(pairwise(chain))
+                used.update(pairwise(chain[::-1]))
                 found.append(chain)
         return found
 

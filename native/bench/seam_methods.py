@@ -11,6 +11,7 @@ import json
 import sys
 import time
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,9 +19,11 @@ import seamwire_core as sw
 from seam_planning import cut_edges, triangulated
 from uv_maps import Model, UvMap
 
+sys.path.insert(0, str(Path(__file__).parents[2] / "addon"))
+from seamwire.core.network.symmetry import Symmetry  # this knows no Blender
+
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from pathlib import Path
 
     from numpy.typing import NDArray
     from seam_measures import SeamMesh
@@ -28,6 +31,10 @@ if TYPE_CHECKING:
     Integers = NDArray[np.int64]
 
 _SAME = 1e-6
+_STRENGTH = 10.0
+"""The add-on's strength for wires along edges."""
+_AXES = (0, 2, 1)
+"""Mirror axes in the order in which the add-on tries them. Its y is the file's z."""
 
 
 @dataclass(frozen=True)
@@ -66,9 +73,11 @@ def cached(file: Path, find: Callable[[], Seams]) -> Seams:
     return replace(seams, info=info, uv_map=None)
 
 
-def ours(model: Model, amount: float, mirror: int | None) -> Seams:
+def ours(model: Model, amount: float) -> Seams:
     """Return the seams that *Suggest Seamwires* finds along edges: parts first, then slits inside of them."""
     began = time.perf_counter()
+    symmetric = Symmetry(model.points, model.edges.astype(np.int32)).symmetric_axes
+    mirror = next((axis for axis in _AXES if axis in symmetric), None)
     surface = sw.Surface(model.points, triangulated(model).astype(np.int32), model.edges.astype(np.int32))
     borders = np.zeros((0, 2), dtype=np.int64)
     if hasattr(sw, "PartFinder"):
@@ -76,7 +85,12 @@ def ours(model: Model, amount: float, mirror: int | None) -> Seams:
         borders = np.concatenate([borders, *(pairs_of(np.asarray(chain)) for chain in chains)])
     first = time.perf_counter() - began
     planner = sw.SeamPlanner(
-        surface, along="edges", front=model.frame.axes[2], mirror=mirror, seams=borders.astype(np.int32)
+        surface,
+        along="edges",
+        max_anisotropy=_STRENGTH,
+        front=model.frame.axes[2],
+        mirror=mirror,
+        seams=borders.astype(np.int32),
     )
     plan = planner.plan()
     pairs = np.unique(np.concatenate([np.sort(borders, axis=1), cut_edges(plan)]), axis=0)
@@ -132,7 +146,7 @@ def has_xatlas() -> bool:
 
 def xatlas(model: Model) -> Seams:
     """Return the seams of xatlas with its defaults, from the Python package."""
-    import xatlas as package  # noqa: PLC0415 - optional
+    import xatlas as package
 
     triangles = triangulated(model)
     vertices, corners, uvs = package.parametrize(model.points.astype(np.float32), triangles.astype(np.uint32))

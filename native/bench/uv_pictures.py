@@ -171,7 +171,7 @@ def draw_columns(
 
     Each row has a label, the model's frame, and a view and a surface for each column. A surface that is missing leaves a gap.
     """
-    from matplotlib.figure import Figure  # noqa: PLC0415 - only sheets need it
+    from matplotlib.figure import Figure  # only sheets need it
 
     empty = np.ones((size, size, 3))
     whole = np.vstack(
