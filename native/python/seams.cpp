@@ -14,6 +14,7 @@
 #include "held.hpp"
 #include "names.hpp"
 #include "rooms.hpp"
+#include "seamwire/parts/part_finder.hpp"
 #include "seamwire/seams/seam_planner.hpp"
 #include "surface.hpp"
 #include "watch.hpp"
@@ -196,12 +197,92 @@ Cancelled
       .def("__repr__", [](const SeamPlannerObject&) { return std::string("<SeamPlanner>"); });
 }
 
+PartFinder make_part_finder(const SurfaceObject& surface, const py::object& mirror, const py::object& marked,
+                            const py::object& seams, const py::object& progress) {
+  PartOptions options;
+  if (!mirror.is_none()) options.mirror = mirror.cast<int>();
+  if (!marked.is_none()) options.marked = edges_from(marked, "marked");
+  if (!seams.is_none()) options.seams = edges_from(seams, "seams");
+  return Watch(progress).run([&](const Task& task) { return PartFinder(surface.surface, options, task); });
+}
+
+Parts find_parts(const PartFinder& finder, double amount, const py::object& kept, const py::object& dropped,
+                 const py::object& parted) {
+  PartEdits edits;
+  if (!kept.is_none()) edits.kept = edges_from(kept, "kept");
+  if (!dropped.is_none()) edits.dropped = edges_from(dropped, "dropped");
+  if (!parted.is_none()) edits.parted = parted.cast<std::vector<std::int32_t>>();
+  return without_gil([&] { return finder.find(amount, edits); });
+}
+
+py::list borders_of(const Parts& parts) {
+  py::list borders;
+  for (const std::vector<std::int32_t>& chain : parts.borders) borders.append(handed_over(std::vector(chain)));
+  return borders;
+}
+
+void bind_parts(py::module_& module) {
+  py::class_<Parts>(module, "Parts", "The parts of a surface.")
+      .def_property_readonly("of_face", array_of<Parts>(&Parts::of_face),
+                             "(m,) int32: the part of each triangle, numbered as by `face_segments`.")
+      .def_readonly("count", &Parts::count, "How many parts there are.")
+      .def_property_readonly("borders", &borders_of,
+                             "list of (k,) int32: chains of vertices between parts, from junction to junction. A closed\n"
+                             "chain ends with its first vertex. Existing seams are left out.")
+      .def("__repr__", [](const Parts& parts) { return "<Parts: " + std::to_string(parts.count) + " parts>"; });
+  py::class_<PartFinder>(module, "PartFinder", R"(Finds the parts that an artist would make islands of.
+
+Parameters
+----------
+surface : Surface
+mirror : {0, 1, 2}, optional
+    The axis along which a plane mirrors the surface, as for `SeamPlanner`. Parts of a symmetric surface are symmetric.
+marked : (k, 2) array_like of int, optional
+    Edges where an artist expects a border: marked sharp, or between materials.
+seams : (k, 2) array_like of int, optional
+    The edges that are seams already. They part the surface.
+progress : callable, optional
+    Called repeatedly with the fraction done. Returning False cancels.
+
+Raises
+------
+ValueError
+    If a parameter is out of range.
+Cancelled
+)")
+      .def(py::init(&make_part_finder), py::arg("surface"), py::kw_only(), py::arg("mirror") = py::none(),
+           py::arg("marked") = py::none(), py::arg("seams") = py::none(), py::arg("progress") = py::none())
+      .def("find", &find_parts, py::arg("amount") = 0.5, py::kw_only(), py::arg("kept") = py::none(),
+           py::arg("dropped") = py::none(), py::arg("parted") = py::none(), R"(Find the parts.
+
+Parameters
+----------
+amount : float
+    From 0, which joins all that is connected, to 1, which parts at all sharp edges.
+kept, dropped : (k, 2) array_like of int, optional
+    Edges that have to be borders, and edges that must not be.
+parted : array_like of int, optional
+    A triangle for each part that is cut in two, one after another.
+
+Returns
+-------
+Parts
+
+Raises
+------
+ValueError
+    If a parameter is out of range.
+)")
+      .def("__repr__", [](const PartFinder&) { return std::string("<PartFinder>"); });
+}
+
 }  // namespace
 
 void bind_seams(py::module_& module) {
   bind_planned_wire(module);
   bind_seam_plan(module);
   bind_planner(module);
+  bind_parts(module);
 }
 
 }  // namespace seamwire::python

@@ -117,8 +117,39 @@ std::pair<std::int32_t, std::int32_t> ends_of(const SlitProblem& problem, const 
   return {first, farthest(first)};
 }
 
-/// Marks the cheapest cut that parts a piece into two connected parts of comparable size. Whether there is one.
-bool mark_half(const SlitProblem& problem, std::int32_t number, std::vector<std::uint8_t>& is_marked) {
+/// Marks the mirror images of marked edges that lie in a piece.
+void mark_images(const SlitProblem& problem, std::int32_t piece, std::vector<std::uint8_t>& is_marked) {
+  const PlanMesh& mesh = problem.mesh;
+  const std::vector<std::uint8_t> own = is_marked;
+  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    if (own[e] == 0) continue;
+    const std::int32_t a = problem.reflection->images[mesh.start(mesh.half_edge_of[e])];
+    const std::int32_t b = problem.reflection->images[mesh.end(mesh.half_edge_of[e])];
+    const std::int32_t image = a < 0 || b < 0 ? -1 : mesh.edge_between(a, b);
+    if (image >= 0 && problem.pieces.of_face[mesh.half_edge_of[image] / 3] == piece) is_marked[image] = 1;
+  }
+}
+
+/// The piece that is the mirror image of another one; -1 without one, and for a piece that is its own image.
+std::int32_t image_of(const SlitProblem& problem, std::int32_t piece) {
+  if (!problem.reflection || !problem.reflection->is_exact) return -1;
+  const PlanMesh& mesh = problem.mesh;
+  for (const std::int32_t f : problem.by_piece[piece].faces) {
+    for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
+      const std::int32_t a = problem.reflection->images[mesh.start(h)], b = problem.reflection->images[mesh.end(h)];
+      const std::int32_t twin = mesh.twins[h];
+      if (a < 0 || b < 0 || twin < 0 || problem.is_seam[mesh.edge_of[h]] != 0) continue;
+      const std::int32_t image = mesh.edge_between(a, b);
+      if (image < 0) continue;
+      const std::int32_t other = problem.pieces.of_face[mesh.half_edge_of[image] / 3];
+      return other == piece ? -1 : other;
+    }
+  }
+  return -1;
+}
+
+/// Marks a cut as mark_half(), without its mirror image.
+bool mark_one_half(const SlitProblem& problem, std::int32_t number, std::vector<std::uint8_t>& is_marked) {
   const PlanMesh& mesh = problem.mesh;
   const PieceBody body(problem, number);
   const Island& island = body.island;
@@ -189,37 +220,6 @@ bool mark_half(const SlitProblem& problem, std::int32_t number, std::vector<std:
   return true;
 }
 
-/// Marks the mirror images of marked edges that lie in a piece.
-void mark_images(const SlitProblem& problem, std::int32_t piece, std::vector<std::uint8_t>& is_marked) {
-  const PlanMesh& mesh = problem.mesh;
-  const std::vector<std::uint8_t> own = is_marked;
-  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
-    if (own[e] == 0) continue;
-    const std::int32_t a = problem.reflection->images[mesh.start(mesh.half_edge_of[e])];
-    const std::int32_t b = problem.reflection->images[mesh.end(mesh.half_edge_of[e])];
-    const std::int32_t image = a < 0 || b < 0 ? -1 : mesh.edge_between(a, b);
-    if (image >= 0 && problem.pieces.of_face[mesh.half_edge_of[image] / 3] == piece) is_marked[image] = 1;
-  }
-}
-
-/// The piece that is the mirror image of another one; -1 without one, and for a piece that is its own image.
-std::int32_t image_of(const SlitProblem& problem, std::int32_t piece) {
-  if (!problem.reflection || !problem.reflection->is_exact) return -1;
-  const PlanMesh& mesh = problem.mesh;
-  for (const std::int32_t f : problem.by_piece[piece].faces) {
-    for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
-      const std::int32_t a = problem.reflection->images[mesh.start(h)], b = problem.reflection->images[mesh.end(h)];
-      const std::int32_t twin = mesh.twins[h];
-      if (a < 0 || b < 0 || twin < 0 || problem.is_seam[mesh.edge_of[h]] != 0) continue;
-      const std::int32_t image = mesh.edge_between(a, b);
-      if (image < 0) continue;
-      const std::int32_t other = problem.pieces.of_face[mesh.half_edge_of[image] / 3];
-      return other == piece ? -1 : other;
-    }
-  }
-  return -1;
-}
-
 }  // namespace
 
 std::vector<Slit> rim_cuts(const SlitProblem& problem, std::span<const std::int32_t> pieces) {
@@ -240,6 +240,13 @@ std::size_t count_blocks(const SlitProblem& problem) {
   return count;
 }
 
+bool mark_half(const SlitProblem& problem, std::int32_t piece, std::vector<std::uint8_t>& is_marked) {
+  if (!mark_one_half(problem, piece, is_marked)) return false;
+  const std::int32_t image = image_of(problem, piece);
+  if (image >= 0) mark_images(problem, image, is_marked);
+  return true;
+}
+
 std::vector<Slit> halving_cuts(SlitProblem problem, std::size_t count, const Task& task) {
   std::vector<std::uint8_t> is_marked(problem.mesh.edge_count(), 0);
   while (index(problem.pieces.count) < count) {
@@ -247,10 +254,7 @@ std::vector<Slit> halving_cuts(SlitProblem problem, std::size_t count, const Tas
     std::vector<std::int32_t> order(problem.by_piece.size());
     std::iota(order.begin(), order.end(), 0);
     std::ranges::stable_sort(order, std::ranges::greater(), [&](std::int32_t p) { return problem.by_piece[p].area; });
-    const auto parted = std::ranges::find_if(order, [&](std::int32_t p) { return mark_half(problem, p, is_marked); });
-    if (parted == order.end()) break;
-    const std::int32_t image = image_of(problem, *parted);
-    if (image >= 0) mark_images(problem, image, is_marked);
+    if (std::ranges::none_of(order, [&](std::int32_t p) { return mark_half(problem, p, is_marked); })) break;
     for (std::size_t e = 0; e < is_marked.size(); ++e) problem.is_seam[e] |= is_marked[e];
     find_pieces_of(problem);
   }

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "parts/polygons.hpp"
+#include "seams/plan_mesh.hpp"
+#include "seams/reflection.hpp"
+
+namespace seamwire::detail {
+
+/// How a surface bends over each edge, in degrees; 0 on the boundary and inside polygons.
+struct EdgeBends {
+  std::vector<double> own;   ///< between the two triangles; negative where concave
+  std::vector<double> wide;  ///< between the surface a little away on both sides, so that it spans the steps of a chamfer
+};
+EdgeBends bends_over_edges(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Polygons& polygons);
+
+/// The log odds of each edge of being a border between parts, up to a constant that says how many parts there are;
+/// -infinity inside polygons.
+///
+/// `ambient`: of each vertex, as in Visibility. `is_marked`: of each edge, 1 where an artist expects a border.
+/// `reflection`: null if the mesh is not symmetric.
+std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, const EdgeBends& bends,
+                                std::span<const double> ambient, std::span<const std::uint8_t> is_marked,
+                                const Reflection* reflection);
+
+/// The edge that is the mirror image of another one; -1 if there is none.
+std::int32_t image_of_edge(const PlanMesh& mesh, const Reflection& reflection, std::int32_t edge);
+
+}  // namespace seamwire::detail

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "parts/joined_regions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <queue>
+#include <tuple>
+#include <unordered_map>
+#include <utility>
+
+#include "detail/index.hpp"
+
+namespace seamwire::detail {
+namespace {
+
+/// What lies between two regions.
+struct Link {
+  double gain = 0.0, length = 0.0, bend = 0.0;
+
+  void add(const Link& other) {
+    gain += other.gain;
+    length += other.length;
+    bend += other.bend;
+  }
+};
+
+class Joining {
+ public:
+  Joining(std::span<const double> areas, std::span<const RegionBorder> borders, std::span<const std::int32_t> images,
+          const RegionRules& rules)
+      : areas_(areas.begin(), areas.end()),
+        images_(images.begin(), images.end()),
+        parents_(areas.size()),
+        links_(areas.size()),
+        rules_(rules) {
+    for (std::size_t r = 0; r < areas.size(); ++r) parents_[r] = static_cast<std::int32_t>(r);
+    for (const RegionBorder& border : borders) {
+      for (const auto& [a, b] : {std::pair(border.one, border.other), std::pair(border.other, border.one)}) {
+        links_[a][b].add({border.gain, border.length, border.bend});
+      }
+    }
+  }
+
+  std::vector<std::int32_t> run() {
+    join_gainful();
+    join_small();
+    std::vector<std::int32_t> found;
+    for (std::size_t r = 0; r < parents_.size(); ++r) found.push_back(root(static_cast<std::int32_t>(r)));
+    return found;
+  }
+
+ private:
+  std::int32_t root(std::int32_t r) {
+    while (parents_[r] != r) r = parents_[r] = parents_[parents_[r]];
+    return r;
+  }
+
+  void offer(std::int32_t a, std::int32_t b, const Link& link) {
+    const double lost = link.gain - rules_.region_price;
+    if (lost < 0.0) open_.emplace(lost, std::min(a, b), std::max(a, b));
+  }
+
+  void join_gainful() {
+    for (std::int32_t a = 0; index(a) < links_.size(); ++a) {
+      for (const auto& [b, link] : links_[a]) {
+        if (a < b) offer(a, b, link);
+      }
+    }
+    while (!open_.empty()) {
+      const auto [lost, a, b] = open_.top();
+      open_.pop();
+      if (parents_[a] != a || parents_[b] != b) continue;
+      const auto found = links_[a].find(b);
+      if (found == links_[a].end() || found->second.gain - rules_.region_price != lost) continue;
+      join_both(a, b);
+    }
+  }
+
+  /// Joins two regions, and their mirror images.
+  void join_both(std::int32_t a, std::int32_t b) {
+    const std::int32_t a_image = image(a), b_image = image(b);
+    std::int32_t joined = join(a, b);
+    if (a_image < 0 || b_image < 0) return;
+    const std::int32_t one = root(a_image), other = root(b_image);
+    if (one != other && links_[one].contains(other)) {
+      const std::int32_t mirrored = join(one, other);
+      joined = root(joined);
+      images_[joined] = mirrored;
+      images_[mirrored] = joined;
+    } else if (one == other) {
+      images_[joined] = one;
+      images_[one] = joined;
+    }
+  }
+  std::int32_t image(std::int32_t r) { return images_.empty() || images_[r] < 0 ? -1 : root(images_[r]); }
+
+  std::int32_t join(std::int32_t a, std::int32_t b) {
+    if (links_[a].size() < links_[b].size()) std::swap(a, b);
+    parents_[b] = a;
+    areas_[a] += areas_[b];
+    for (const auto& [c, link] : links_[b]) {
+      if (c == a) continue;
+      links_[c].erase(b);
+      Link& sum = links_[a][c];
+      sum.add(link);
+      links_[c][a] = sum;
+      offer(a, c, sum);
+    }
+    links_[a].erase(b);
+    links_[b] = {};
+    return a;
+  }
+
+  /// Whether a region is too small to stay, or a step of a chamfer.
+  bool is_small(std::int32_t r) const {
+    Link rim;
+    for (const auto& [c, link] : links_[r]) rim.add(link);
+    if (!(rim.length > 0.0)) return false;
+    if (areas_[r] < rules_.least_area && rim.gain < rules_.sharp_rim * rim.length) return true;
+    return 2.0 * areas_[r] < rules_.least_width * rim.length && rim.bend < rules_.most_step * rim.length;
+  }
+
+  /// The neighbor that a small region joins: the one with the least likely border, where long borders count more.
+  std::int32_t neighbor_of_small(std::int32_t r) const {
+    if (!is_small(r)) return -1;
+    std::int32_t best = -1;
+    std::tuple<double, double> least;
+    for (const auto& [c, link] : links_[r]) {
+      const std::tuple own(link.gain - rules_.sharp_rim * link.length, -areas_[c]);
+      if (best < 0 || own < least || (own == least && c < best)) {
+        best = c;
+        least = own;
+      }
+    }
+    return best;
+  }
+
+  void join_small() {
+    using Small = std::pair<double, std::int32_t>;
+    std::priority_queue<Small, std::vector<Small>, std::greater<>> small;
+    const auto add = [&](std::int32_t r) {
+      if (neighbor_of_small(r) >= 0) small.emplace(areas_[r], r);
+    };
+    for (std::int32_t r = 0; index(r) < parents_.size(); ++r) {
+      if (parents_[r] == r) add(r);
+    }
+    while (!small.empty()) {
+      const auto [area, r] = small.top();
+      small.pop();
+      if (parents_[r] != r || areas_[r] != area) continue;
+      const std::int32_t neighbor = neighbor_of_small(r);
+      if (neighbor < 0) continue;
+      join_both(r, neighbor);
+      add(root(r));
+    }
+  }
+
+  std::vector<double> areas_;
+  std::vector<std::int32_t> images_, parents_;
+  std::vector<std::unordered_map<std::int32_t, Link>> links_;
+  RegionRules rules_;
+  using Offer = std::tuple<double, std::int32_t, std::int32_t>;
+  std::priority_queue<Offer, std::vector<Offer>, std::greater<>> open_;
+};
+
+}  // namespace
+
+std::vector<std::int32_t> joined_regions(std::span<const double> areas, std::span<const RegionBorder> borders,
+                                         std::span<const std::int32_t> images, const RegionRules& rules) {
+  return Joining(areas, borders, images, rules).run();
+}
+
+}  // namespace seamwire::detail

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "seamwire/parts/part_finder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "detail/index.hpp"
+#include "detail/poll.hpp"
+#include "parts/border_odds.hpp"
+#include "parts/joined_regions.hpp"
+#include "parts/polygons.hpp"
+#include "seams/parting_cuts.hpp"
+#include "seams/plan_mesh.hpp"
+#include "seams/reflection.hpp"
+#include "seams/slit_plan.hpp"
+#include "seams/visibility.hpp"
+#include "seamwire/errors.hpp"
+#include "seamwire/surface/segments.hpp"
+#include "surface/real_edges.hpp"
+
+namespace seamwire {
+
+using namespace detail;
+
+namespace {
+
+constexpr double kMostOdds = 4.0;      // log odds are clamped to this
+constexpr double kEditOdds = 1e6;      // of an edge that somebody has kept or dropped
+constexpr double kMiddleBias = 0.4;    // added to the log odds in the middle of the scale
+constexpr double kBiasToOne = 1.2;     // how fast it falls towards one part, in log odds of the amount
+constexpr double kBiasToSharp = 2.2;   // what is added to it at the other end
+constexpr double kPartPrice = 0.05;    // of the diagonal
+constexpr double kLeastArea = 0.003;   // of the area
+constexpr double kLeastWidth = 0.015;  // of the diagonal
+constexpr double kLeastPrice = 0.05;   // of a cut along an edge that is a border for sure, for each unit of length
+
+/// What is added to all log odds for an amount of parts.
+double bias_of(double amount) {
+  if (amount >= 0.5) return kMiddleBias + 2.0 * (amount - 0.5) * kBiasToSharp;
+  return kMiddleBias + kBiasToOne * std::log(amount / (1.0 - amount));
+}
+
+/// Sorts vertex pairs, the smaller vertex first.
+std::vector<Edge> sorted_edges(const std::vector<Edge>& edges, std::size_t vertex_count, const char* name) {
+  std::vector<Edge> sorted;
+  for (const auto& [a, b] : edges) {
+    for (const std::int32_t v : {a, b}) check_index(v, vertex_count, std::string(name) + ": vertex");
+    sorted.push_back(ascending(a, b));
+  }
+  std::ranges::sort(sorted);
+  return sorted;
+}
+
+/// For each polygon the one whose vertices are the mirror images of its own; -1 if there is none.
+std::vector<std::int32_t> images_of(const PlanMesh& mesh, const Polygons& polygons, const Reflection& reflection) {
+  std::vector<std::vector<std::int32_t>> corners(polygons.count);
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    std::vector<std::int32_t>& own = corners[polygons.of_face[f]];
+    own.insert(own.end(), mesh.triangles[f].begin(), mesh.triangles[f].end());
+  }
+  std::map<std::vector<std::int32_t>, std::int32_t> by_corners;
+  for (std::size_t p = 0; p < corners.size(); ++p) {
+    std::vector<std::int32_t>& own = corners[p];
+    std::ranges::sort(own);
+    own.erase(std::ranges::unique(own).begin(), own.end());
+    by_corners.emplace(own, static_cast<std::int32_t>(p));
+  }
+  std::vector<std::int32_t> images;
+  for (std::vector<std::int32_t> own : corners) {
+    for (std::int32_t& v : own) v = reflection.images[v];
+    std::ranges::sort(own);
+    const auto found = by_corners.find(own);
+    images.push_back(found == by_corners.end() ? -1 : found->second);
+  }
+  for (std::size_t p = 0; p < images.size(); ++p) {
+    if (images[p] >= 0 && index(images[images[p]]) != p) images[p] = -1;
+  }
+  return images;
+}
+
+/// Chains of edges from junction to junction; closed ones end with their first vertex.
+std::vector<std::vector<std::int32_t>> chains_of(const std::vector<Edge>& edges) {
+  std::map<std::int32_t, std::vector<std::size_t>> at;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    for (const std::int32_t v : edges[e]) at[v].push_back(e);
+  }
+  std::vector<std::uint8_t> is_used(edges.size(), 0);
+  std::vector<std::vector<std::int32_t>> chains;
+  const auto follow = [&](std::int32_t v, std::size_t e) {
+    std::vector<std::int32_t>& chain = chains.emplace_back(1, v);
+    for (;;) {
+      is_used[e] = 1;
+      v = edges[e][0] == v ? edges[e][1] : edges[e][0];
+      chain.push_back(v);
+      const std::vector<std::size_t>& own = at[v];
+      if (own.size() != 2) return;
+      e = own[0] == e ? own[1] : own[0];
+      if (is_used[e] != 0) return;
+    }
+  };
+  for (const bool is_open : {true, false}) {
+    for (const auto& [v, own] : at) {
+      if (is_open == (own.size() == 2)) continue;
+      for (const std::size_t e : own) {
+        if (is_used[e] == 0) follow(v, e);
+      }
+    }
+  }
+  return chains;
+}
+
+}  // namespace
+
+struct PartFinder::Impl {
+  std::shared_ptr<const Surface> surface;
+  PartOptions options;
+  SlitProblem problem;  // the existing seams part it into pieces
+  Polygons polygons;
+  EdgeBends bends;
+  std::vector<double> odds;          // of each edge
+  std::vector<double> areas;         // of each polygon
+  std::vector<std::int32_t> images;  // of each polygon; empty without a symmetry
+  double diagonal = 0.0;
+
+  void prepare(const Task& task);
+  std::vector<std::uint8_t> marked(const std::vector<Edge>& edges, const char* name) const;
+  std::vector<std::uint8_t> edited(const std::vector<Edge>& edges, const char* name) const;
+  std::vector<std::int32_t> regions(double amount, const PartEdits& edits) const;
+  std::vector<std::uint8_t> borders(double amount, const PartEdits& edits) const;
+};
+
+void PartFinder::Impl::prepare(const Task& task) {
+  if (options.mirror < -1 || options.mirror > 2) {
+    throw InvalidInput("mirror is " + std::to_string(options.mirror) + ", not an axis from 0 to 2, or -1");
+  }
+  problem.mesh = plan_mesh(*surface);
+  const PlanMesh& mesh = problem.mesh;
+  diagonal = diagonal_of(mesh);
+  problem.is_seam = marked(options.seams, "seams");
+  const std::vector<std::uint8_t> is_marked = marked(options.marked, "marked");
+  if (options.mirror >= 0) problem.reflection = find_reflection(mesh, options.mirror, part_of(task, 0.0, 0.2));
+  const Visibility visibility = find_visibility(mesh, std::nullopt, part_of(task, 0.2, 1.0));
+  const std::vector<FaceFrame> frames = face_frames(mesh);
+  polygons = find_polygons(mesh, frames);
+  bends = bends_over_edges(mesh, frames, polygons);
+  odds = border_odds(mesh, polygons, bends, visibility.ambient, is_marked, problem.mirror());
+  areas.assign(polygons.count, 0.0);
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) areas[polygons.of_face[f]] += frames[f].area;
+  if (problem.reflection) images = images_of(mesh, polygons, *problem.reflection);
+  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    const double unlikely = std::log1p(std::exp(-std::max(odds[e] + kMiddleBias, -kMostOdds)));
+    problem.prices.of_edge.push_back(mesh.is_real[e] == 0 ? kNever : (unlikely + kLeastPrice) * mesh.lengths[e]);
+  }
+}
+
+/// Marks edges of the mesh.
+std::vector<std::uint8_t> PartFinder::Impl::marked(const std::vector<Edge>& edges, const char* name) const {
+  const PlanMesh& mesh = problem.mesh;
+  const std::vector<Edge> sorted = sorted_edges(edges, surface->vertex_count(), name);
+  std::vector<std::uint8_t> found;
+  for (const std::int32_t h : mesh.half_edge_of) {
+    const Edge edge = ascending(mesh.sources[mesh.start(h)], mesh.sources[mesh.end(h)]);
+    found.push_back(std::ranges::binary_search(sorted, edge) ? 1 : 0);
+  }
+  return found;
+}
+
+/// Marks edges of the mesh and their mirror images.
+std::vector<std::uint8_t> PartFinder::Impl::edited(const std::vector<Edge>& edges, const char* name) const {
+  const std::vector<std::uint8_t> own = marked(edges, name);
+  if (!problem.reflection) return own;
+  std::vector<std::uint8_t> both = own;
+  for (std::int32_t e = 0; index(e) < own.size(); ++e) {
+    const std::int32_t image = own[e] != 0 ? image_of_edge(problem.mesh, *problem.reflection, e) : -1;
+    if (image >= 0) both[image] = 1;
+  }
+  return both;
+}
+
+/// The region of each polygon.
+std::vector<std::int32_t> PartFinder::Impl::regions(double amount, const PartEdits& edits) const {
+  const PlanMesh& mesh = problem.mesh;
+  const std::vector<std::uint8_t> is_kept = edited(edits.kept, "kept"), is_dropped = edited(edits.dropped, "dropped");
+  const double bias = amount > 0.0 ? bias_of(amount) : -kNever;
+  std::vector<RegionBorder> found;
+  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
+    if (twin < 0 || problem.is_seam[e] != 0 || polygons.is_diagonal[e] != 0) continue;
+    double own = std::clamp(odds[e] + bias, -kMostOdds, kMostOdds);
+    if (is_dropped[e] != 0) own = -kEditOdds;
+    if (is_kept[e] != 0) own = kEditOdds;
+    const double length = mesh.lengths[e];
+    found.push_back({polygons.of_face[h / 3], polygons.of_face[twin / 3], own * length, length,
+                     std::abs(bends.own[e]) * length});
+  }
+  const RegionRules rules{
+      .region_price = kPartPrice * diagonal, .least_area = kLeastArea, .least_width = kLeastWidth * diagonal};
+  return joined_regions(areas, found, images, rules);
+}
+
+/// Marks the borders of parts and the existing seams.
+std::vector<std::uint8_t> PartFinder::Impl::borders(double amount, const PartEdits& edits) const {
+  const PlanMesh& mesh = problem.mesh;
+  const std::vector<std::int32_t> regions_of = regions(amount, edits);
+  std::vector<std::uint8_t> is_border = problem.is_seam;
+  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
+    if (twin < 0) continue;
+    const std::int32_t one = regions_of[polygons.of_face[h / 3]], other = regions_of[polygons.of_face[twin / 3]];
+    if (one != other) is_border[e] = 1;
+  }
+  if (edits.parted.empty()) return is_border;
+  SlitProblem parted = problem;
+  for (const std::int32_t face : edits.parted) {
+    check_index(face, surface->face_count(), "parted", "triangles");
+    const auto own = std::ranges::find(mesh.faces, face);
+    if (own == mesh.faces.end()) continue;
+    parted.is_seam = is_border;
+    find_pieces_of(parted);
+    mark_half(parted, parted.pieces.of_face[own - mesh.faces.begin()], is_border);
+  }
+  return is_border;
+}
+
+PartFinder::PartFinder(std::shared_ptr<const Surface> surface, const PartOptions& options, const Task& task) {
+  if (!surface) throw InvalidInput("surface is null");
+  auto impl = std::make_shared<Impl>();
+  impl->surface = std::move(surface);
+  impl->options = options;
+  impl->prepare(task);
+  impl_ = std::move(impl);
+}
+
+Parts PartFinder::find(double amount, const PartEdits& edits) const {
+  if (!(amount >= 0.0 && amount <= 1.0)) {
+    throw InvalidInput("amount is " + std::to_string(amount) + ", not from 0 to 1");
+  }
+  const Impl& impl = *impl_;
+  const PlanMesh& mesh = impl.problem.mesh;
+  const std::vector<std::uint8_t> is_border = impl.borders(amount, edits);
+  std::vector<Edge> borders;
+  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    const std::int32_t h = mesh.half_edge_of[e];
+    if (is_border[e] == 0 || impl.problem.is_seam[e] != 0) continue;
+    borders.push_back(ascending(mesh.sources[mesh.start(h)], mesh.sources[mesh.end(h)]));
+  }
+  std::ranges::sort(borders);
+  Parts parts;
+  parts.borders = chains_of(borders);
+  borders.insert(borders.end(), impl.options.seams.begin(), impl.options.seams.end());
+  parts.of_face = face_segments(*impl.surface, borders);
+  for (const std::int32_t part : parts.of_face) parts.count = std::max(parts.count, index(part) + 1);
+  return parts;
+}
+
+}  // namespace seamwire
