@@ -31,7 +31,7 @@ _HARD = 0.5
 _BOUND = 4.2
 _REACHED = 0.005
 _BEST = {"agree": max, "exact": max, "exact_mean": max, "presses": min, "tolerant": min}
-"""What the best of five amounts is for a number."""
+"""Which amount is the best one for a number."""
 
 
 @dataclass(frozen=True)

@@ -109,7 +109,7 @@ class SeamMesh:
         return found
 
     def mask(self, pairs: Integers | Iterable[tuple[int, int]]) -> Bools:
-        """Return which edges are among vertex pairs (k, 2). Pairs that are no edges do not count."""
+        """Return which edges are among vertex pairs (k, 2). Other pairs do not count."""
         pairs = np.sort(np.asarray(list(pairs), dtype=np.int64).reshape(-1, 2), axis=1)
         count = len(self.points)
         return np.isin(self.edges @ [count, 1], pairs @ [count, 1])
@@ -143,7 +143,7 @@ class SeamMesh:
     def crumbs(self, seams: Bools) -> int:
         """Return how many islands are small without a reason.
 
-        The reasons are that the island is a piece of its own, or that a sharp rim encloses it.
+        The reasons are that the island is a separate piece, or that a sharp rim encloses it.
         """
         islands = self.islands(seams)
         areas = np.bincount(islands, self.face_areas)
@@ -267,7 +267,7 @@ class SeamMeasures:
     islands_ratio: float
     """Islands over the artist's."""
     crumbs: int
-    """Islands of less than .3 % of the area that have no reason: no sharp rim, and no piece of their own."""
+    """Islands of less than .3 % of the area that are neither enclosed by a sharp rim nor separate pieces."""
     loose_ends: int
     """Loose ends minus those of the artist's seams."""
     discs: float

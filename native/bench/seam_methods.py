@@ -46,7 +46,7 @@ class Seams:
     pairs
         (k, 2) edges as vertex pairs.
     info
-        What is known of the run: seconds to the end (``sec``) and to the first picture (``first``).
+        Facts about the run: seconds to the end (``sec``) and to the first picture (``first``).
     uv_map
         The map of the method itself. None: the benchmark flattens the seams.
     of_triangles
