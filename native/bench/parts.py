@@ -2,7 +2,7 @@
 """Suggested seams beside an artist's, on models whose seams an artist marked.
 
     python native/bench/parts.py --data FOLDER... --work FOLDER [--uvgami FOLDER] [--before FOLDER] [--only NAME...] [--methods NAME...]
-        [--most-faces N] [--json FILE] [--page FILE...] [--pictures FOLDER] [--blind FOLDER]
+        [--most-faces N] [--json FILE] [--page FILE...] [--pictures FOLDER] [--blind FOLDER [--votes FILE]]
 
 A model is a file NAME.npz that uv_maps.py describes, with the artist's seams. It is moved to the origin and scaled to a size of 2. It
 faces +z, with y up, unless frames.json in its folder says otherwise. seam_measures.py says what each number is.
@@ -22,7 +22,8 @@ again. Models with more than --most-faces faces are left out.
 
 --json keeps all numbers, and --page renews the tables of Markdown pages, between comments "begin NAME" and "end NAME". --pictures draws
 the models of `PICTURED`. --blind draws a sheet of each model with the methods in random order and without names; key.json in the same
-folder has the names. The program needs numpy, scipy, and seamwire_core on the path. Pictures need matplotlib.
+folder has the names. With --votes, a file {"NAME": "LETTER"} of what a judge keeps, the program counts votes instead of drawing sheets.
+The program needs numpy, scipy, and seamwire_core on the path. Pictures need matplotlib.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import seam_methods
 from auto_seams_report import tables_on, with_tables
-from parts_report import AMOUNTS, ARTIST, BEFORE, OURS, SHARP_45, UVGAMI, XATLAS, Result, class_of, tables
+from parts_report import AMOUNTS, ARTIST, BEFORE, OURS, SHARP_45, UVGAMI, XATLAS, Result, class_of, tables, votes_table
 from seam_measures import Artist, SeamMesh
 from seam_methods import Seams, cached
 from uv_maps import Model, read_frames
@@ -97,13 +98,18 @@ def main() -> None:
     if options.json:
         options.json.write_text(json.dumps([dataclasses.asdict(result) for result in results], indent=1) + "\n")
     made = tables(results)
+    if options.votes:
+        votes, key = (json.loads(file.read_text()) for file in (options.votes, options.blind / "key.json"))
+        made["parts-votes"] = votes_table(votes, key, {result.model: result.kind for result in results})
     print(*made.values(), sep="\n\n")
     for page in options.page:
         text = page.read_text(encoding="utf-8")
-        page.write_text(with_tables(text, {name: made[name] for name in tables_on(text)}), encoding="utf-8")
+        page.write_text(
+            with_tables(text, {name: made[name] for name in tables_on(text) if name in made}), encoding="utf-8"
+        )
     if options.pictures:
         draw_pictures(drawn, options.pictures)
-    if options.blind:
+    if options.blind and not options.votes:
         draw_blind(drawn, options.blind)
 
 
@@ -123,6 +129,7 @@ def parsed_options() -> argparse.Namespace:
     parser.add_argument("--page", type=Path, nargs="+", default=[], help="Markdown pages whose tables are renewed")
     parser.add_argument("--pictures", type=Path, help="folder for the pictures of the page")
     parser.add_argument("--blind", type=Path, help="folder for sheets without names")
+    parser.add_argument("--votes", type=Path, help="file of what a judge of the sheets of --blind keeps")
     return parser.parse_args()
 
 

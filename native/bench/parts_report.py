@@ -255,6 +255,21 @@ def model_table(results: Sequence[Result], name: str) -> str:
     return markdown(["model", ARTIST, *COMPARED], rows)
 
 
+def votes_table(votes: dict[str, str], key: dict[str, dict[str, str]], kinds: dict[str, str]) -> str:
+    """Return the table of how often a blind judge keeps each method, by class.
+
+    votes: the letter that the judge keeps on the sheet of each model. key: the methods of the letters. kinds: the class
+    of each model.
+    """
+    kept = [(key[model][letter], kinds[model]) for model, letter in votes.items()]
+    methods = sorted({method for letters in key.values() for method in letters.values()})
+    rows = [
+        [method, str(sum(m == method for m, _ in kept)), *(str(kept.count((method, kind))) for kind in CLASSES)]
+        for method in methods
+    ]
+    return markdown(["kept", "models", *CLASSES], rows)
+
+
 def tables(results: Sequence[Result]) -> dict[str, str]:
     """Return all tables of the results, by the names that pages have for them."""
     every = with_best(results)

@@ -94,7 +94,7 @@ def ours(model: Model, amount: float) -> Seams:
     )
     plan = planner.plan()
     pairs = np.unique(np.concatenate([np.sort(borders, axis=1), cut_edges(plan)]), axis=0)
-    return Seams(pairs, {"first": first, "is_reached": bool(plan.is_reached)})
+    return Seams(pairs, {"first": first, "sec": time.perf_counter() - began, "is_reached": bool(plan.is_reached)})
 
 
 def pairs_of(chain: Integers) -> Integers:

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 sys.path.insert(0, str(Path(__file__).parents[3] / "native/bench"))
 import parts_report as report
+from many_boxes import boxes
 from seam_measures import Artist, SeamMeasures, SeamMesh
 from seam_methods import Seams, cached, from_blender, map_measures, ours, sharp
 from uv_maps import Frame, Model
@@ -268,6 +269,21 @@ def test_shares_and_counts_of_models() -> None:
     results = [result("ours", energy=4.1, flips=0), result("ours", "b", energy=4.3, flips=3), result("ours", "c")]
     table = report.method_table(results, "maps")
     assert "| ours | 4.20 | 0.33 | - | 1 | - | - |" in table, "a model without a map is not within the bound"
+
+
+def test_votes_of_a_blind_judge_are_counted_by_class() -> None:
+    key = {"a": {"A": "ours", "B": "artist"}, "b": {"A": "artist", "B": "ours"}, "c": {"A": "ours", "B": "artist"}}
+    kinds = {"a": "hard", "b": "organic", "c": "hard"}
+    table = report.votes_table({"a": "A", "b": "A", "c": "A"}, key, kinds)
+    assert table.splitlines()[2:] == ["| artist | 1 | 0 | 1 | 0 |", "| ours | 2 | 2 | 0 | 0 |"]
+
+
+def test_many_boxes_have_valid_maps() -> None:
+    model = boxes(9)
+    seams = ours(model, 0.5)
+    found = map_measures(model, seams)
+    assert (len(model.points), found["overlapping"], found["flips"]) == (72, 0, 0)
+    assert SeamMesh(model).not_discs(SeamMesh(model).mask(seams.pairs)) == 0
 
 
 def test_no_table_has_more_than_seven_columns() -> None:
