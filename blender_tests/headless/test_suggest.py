@@ -2,6 +2,7 @@
 """Seams that are suggested: ``mesh.seamwire_suggest``."""
 
 import math
+import random
 import re
 from collections.abc import Callable
 from dataclasses import replace
@@ -562,6 +563,37 @@ def test_the_older_limit_worst_island_cuts_that_one_alone(capfd: pytest.CaptureF
 
 
 @pytest.mark.every_blender
+def add_scan() -> bpy.types.Object:
+    """Add a rough ball of 5,120 triangles."""
+    obj, dice = add_ball(subdivisions=5), random.Random(3)
+    for v in obj.data.vertices:
+        v.co *= 1.0 + 0.03 * dice.random()
+    return obj
+
+
+def add_triangulated_pebble() -> bpy.types.Object:
+    """Add a rounded cube of 6,348 triangles, squeezed into three sizes."""
+    obj = add_cube(22)
+    for v in obj.data.vertices:
+        v.co = v.co.lerp(1.3 * v.co.normalized(), 0.7)
+        v.co = (v.co.x, 0.7 * v.co.y, 0.4 * v.co.z)
+    edit()
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.quads_convert_to_tris()
+    return obj
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize(("make", "is_cut"), [(add_triangulated_pebble, False), (add_scan, True)])
+def test_only_scans_get_vertices(make: Callable[[], bpy.types.Object], is_cut: bool) -> None:
+    obj = make()
+    edit()
+    vertices = len(obj.data.vertices)
+    assert suggest() == {"FINISHED"}
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert (len(obj.data.vertices) > vertices) == is_cut
+
+
 @pytest.mark.parametrize("finish", ["SNAP", "SLIDE", "CUT"])
 def test_across_the_surface(finish: str) -> None:
     obj = add_ball(subdivisions=3)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What somebody meets who chooses the tool for the first time."""
 
+import random
 from collections.abc import Iterator
 
 import bpy
@@ -19,9 +20,11 @@ from seamwire.words import card as words
 
 @pytest.fixture
 def scan(ui: driver.Ui) -> Iterator[driver.Ui]:
-    """A grid of 6,962 triangles in edit mode, seen from above, with the tool as it comes."""
+    """A rough surface of 6,962 triangles in edit mode, seen from above, with the tool as it comes."""
     reset_settings()
-    add_grid(60, name="Scan")
+    dice = random.Random(1)
+    for v in add_grid(60, name="Scan").data.vertices:
+        v.co.z = 0.01 * dice.random()
     with ui.override():
         edit()
         bpy.ops.mesh.select_all(action="SELECT")

@@ -553,6 +553,35 @@ class SeamPlan:
     steps: float
     uvs: NDArray[np.float64] | None
 
+class Parts:
+    """The parts of a surface."""
+
+    of_face: NDArray[np.int32]
+    count: int
+    borders: list[NDArray[np.int32]]
+
+class PartFinder:
+    """Finds the parts that an artist would make islands of."""
+
+    def __init__(
+        self,
+        surface: Surface,
+        *,
+        mirror: Literal[0, 1, 2] | None = None,
+        marked: ArrayLike | None = None,
+        seams: ArrayLike | None = None,
+        progress: Progress | None = None,
+    ) -> None: ...
+    def find(
+        self,
+        amount: float = 0.5,
+        *,
+        kept: ArrayLike | None = None,
+        dropped: ArrayLike | None = None,
+        parted: ArrayLike | None = None,
+    ) -> Parts:
+        """Find the parts."""
+
 class SeamPlanner:
     """Plans few, short, and hidden seams whose map stays within a bound on distortion."""
 

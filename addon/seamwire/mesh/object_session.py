@@ -20,7 +20,6 @@ from ..core.network.network import edges_after
 from ..core.network.picks import FacePoint
 from ..core.network.strokes import on_mesh
 from ..core.offers.closed_cuts import CutMemory
-from ..core.seams.suggestion import best_finish
 from ..core.solver.live_maker import LiveMaker
 from ..core.storage import label_reader, serialization, wire_labels
 from ..core.storage.network_file import NetworkFile
@@ -28,7 +27,8 @@ from ..core.storage.serialization import Archive, UnreadableError
 from ..core.storage.wire_labels import EdgeLabels, Found, Places
 from ..words.notices import Notices
 from . import edit_mesh
-from .settings import auto_along, mirror_axes, snapshot
+from .auto import auto_for
+from .settings import mirror_axes, snapshot
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Sequence
@@ -36,9 +36,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..core.network.network import Network
-    from ..core.network.picks import Along, Finish
     from ..core.network.strokes import Stroke
     from ..core.network.wires import Wire
+    from ..core.solver.defaults import Auto
     from .settings import SeamwireSettings
 
 FIRST_VERSION = "seamwire"
@@ -175,16 +175,12 @@ class ObjectSession:
 
     def options(self, settings: SeamwireSettings) -> Options:
         """Return the settings as they are now, for this object."""
-        return snapshot(settings, self.cage.mesh, along=self.best_along, finish=self._best_finish)
-
-    @property
-    def best_along(self) -> Along:
-        """How wires run here if the mesh decides: across the surface where they are best cut into the faces."""
-        return auto_along(self._best_finish)
+        return snapshot(settings, self.cage.mesh, self.auto)
 
     @functools.cached_property
-    def _best_finish(self) -> Finish:
-        return best_finish(self.arrays.polygons)
+    def auto(self) -> Auto:
+        """The values that Auto stands for here."""
+        return auto_for(self.obj, self.arrays)
 
     # The network and the mesh
 

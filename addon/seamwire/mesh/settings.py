@@ -9,14 +9,15 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..core.drawing.options import Options
-from ..core.solver.defaults import CLAMP_PERCENTILE, CLAMP_RANGE, STRENGTH_RANGE, STRENGTHS
+from ..core.solver.defaults import CLAMP_PERCENTILE, CLAMP_RANGE, PLACED, STRENGTH_RANGE, STRENGTHS
 from ..words.notices import Notices
 from .registration import classes, together
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ..core.network.picks import Along, Finish
+    from ..core.network.picks import Along
+    from ..core.solver.defaults import Auto
 
 ADDON = __package__.rpartition(".")[0]
 """The add-on's name in this Blender."""
@@ -27,7 +28,7 @@ ALONG_ITEMS = (
     ("SURFACE", "Across Surface", "Wires cross faces. Finish decides how they become seams", 1),
 )
 AUTO_ALONG_ITEMS = (
-    ("AUTO", "Auto", "Across the surface of dense triangles such as scans and sculpts, otherwise along edges", 2),
+    ("AUTO", "Auto", "Along the edges that an artist placed, across the surface of scans and sculpts", 2),
     *ALONG_ITEMS,
 )
 FINISH_ITEMS = (
@@ -36,7 +37,7 @@ FINISH_ITEMS = (
     ("CUT", "Cut", "Cut the wire into the faces", 1),
 )
 AUTO_FINISH_ITEMS = (
-    ("AUTO", "Auto", "Cut on dense triangles such as scans and sculpts, otherwise snap", 3),
+    ("AUTO", "Auto", "Cut scans and sculpts, snap to the edges that an artist placed", 3),
     *FINISH_ITEMS,
 )
 METRIC_ITEMS = (
@@ -208,9 +209,7 @@ class SeamwireSettings(bpy.types.PropertyGroup):
     )
 
 
-def snapshot(
-    settings: SeamwireSettings, mesh: bpy.types.Mesh | None = None, *, along: Along = "EDGES", finish: Finish = "SNAP"
-) -> Options:
+def snapshot(settings: SeamwireSettings, mesh: bpy.types.Mesh | None = None, auto: Auto = PLACED) -> Options:
     """Return the settings as they are now.
 
     Parameters
@@ -219,20 +218,15 @@ def snapshot(
         Blender's properties.
     mesh
         Its own options tell over which axes wires are mirrored; None: over none.
-    along, finish
+    auto
         The values that Auto stands for on that mesh.
     """
     values = {field.name: _exact(getattr(settings, field.name)) for field in fields(Options) if field.name != "mirror"}
     values["metric"] = values["metric"] or "feature"  # one that was removed is stored as nothing
-    for name, best in (("along", along), ("finish", finish)):
+    for name, best in auto._asdict().items():
         if values[name] == "AUTO":
             values[name] = best
     return Options(**values, mirror=() if mesh is None else mirror_axes(mesh))
-
-
-def auto_along(finish: Finish) -> Along:
-    """Return how wires run on a mesh with a best finish if the mesh decides."""
-    return "SURFACE" if finish == "CUT" else "EDGES"
 
 
 def mirror_axes(mesh: bpy.types.Mesh) -> tuple[int, ...]:

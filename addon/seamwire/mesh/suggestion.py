@@ -13,8 +13,6 @@ from ..core.base import native
 from ..core.base.geometry import triangle_areas
 from ..core.seams.suggestion import (
     CRUMB,
-    best_along,
-    best_finish,
     cut_edges,
     keep_out,
     planned_wires,
@@ -96,8 +94,8 @@ class Suggestion:
         self._core = native.load()
         self.mesh = ObjectSession(obj)
         arrays = self.mesh.arrays
-        self.along: Along = options.along or best_along(arrays.polygons)
-        self.finish: Finish = options.finish or best_finish(arrays.polygons)
+        self.along: Along = options.along or self.mesh.auto.along
+        self.finish: Finish = options.finish or self.mesh.auto.finish
         self._symmetric = options.symmetric
         self._front = None if options.front is None else in_object(obj, options.front)
         self._within, self.others = self._islands_with(faces)

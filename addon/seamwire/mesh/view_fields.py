@@ -12,9 +12,9 @@ import numpy as np
 from ..core.base import native
 from ..core.fields.crests import Crests
 from ..core.fields.metric_fields import FieldMaker, Request
-from ..core.seams.suggestion import best_finish
 from . import edit_mesh
-from .settings import auto_along, snapshot
+from .auto import auto_for
+from .settings import snapshot
 
 if TYPE_CHECKING:
     from typing import Literal
@@ -58,7 +58,7 @@ def store(
     source = selected_vertex(obj) if view == "DISTANCE" else None
     if view == "DISTANCE" and source is None:
         raise ValueError("Select the vertex that distances are to be measured from")
-    options = snapshot(settings, along=auto_along(best_finish(arrays.polygons)))
+    options = snapshot(settings, auto=auto_for(obj, arrays))
     request = Request(
         frozenset({view}), options.metric, options.strength, options.clamp, options.shown_metric.lower(), source
     )

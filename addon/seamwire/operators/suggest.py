@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import bpy
 from mathutils import Vector
 
-from ..mesh.settings import ALONG_ITEMS, AUTO_FINISH_ITEMS
+from ..mesh.settings import AUTO_ALONG_ITEMS, AUTO_FINISH_ITEMS
 from .cut import cut_wires
 from .edit_mesh_operator import EditMeshOperator, Halfway, changing
 from .report import running as chains
@@ -86,7 +86,7 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
     along: bpy.props.EnumProperty(
         name="Along",
         description="How wires run on the mesh",
-        items=(("AUTO", "Automatic", "Along edges if most faces are quads", 2), *ALONG_ITEMS),
+        items=AUTO_ALONG_ITEMS,
         default="AUTO",
     )
     finish: bpy.props.EnumProperty(

@@ -11,9 +11,10 @@ import bpy
 from mathutils import Matrix
 
 from ..core.base import native
-from ..core.seams.suggestion import best_finish
+from ..core.solver.defaults import PLACED
 from ..mesh import edit_mesh
 from ..mesh import settings as chosen
+from ..mesh.auto import auto_for
 from . import legend
 from .failures import failures
 from .gpu_draw import Eye, blended
@@ -44,6 +45,7 @@ class _Shown:
     def __init__(self, obj: bpy.types.Object) -> None:
         self.problem = ""
         self.arrays: Arrays | None = None
+        self.auto = PLACED
         self.views: MetricViews | None = None
         try:
             core = native.load()
@@ -54,6 +56,7 @@ class _Shown:
         # Where all are selected, as new meshes are, none was chosen.
         self.source = int(selected.argmax()) if selected.any() and not selected.all() else None
         arrays = self.arrays
+        self.auto = auto_for(obj, arrays)
         self.views = MetricViews(arrays, core, lambda: core.Surface(arrays.points, arrays.triangles, arrays.edges))
 
     def close(self) -> None:
@@ -138,7 +141,7 @@ class ObjectModeViews:
         views = self._shown.views
         if views is None:
             return _IDLE
-        views.follow(chosen.snapshot(chosen.settings(), along=self.best_along), self._shown.source)
+        views.follow(chosen.snapshot(chosen.settings(), auto=self._shown.auto), self._shown.source)
         if views.poll():
             _redraw()
         return _RHYTHM if views.busy else _IDLE
@@ -146,8 +149,7 @@ class ObjectModeViews:
     @property
     def best_along(self) -> Along:
         """How wires run on the active object if its mesh decides: along edges as long as it is not read."""
-        arrays = None if self._shown is None else self._shown.arrays
-        return "EDGES" if arrays is None else chosen.auto_along(best_finish(arrays.polygons))
+        return PLACED.along if self._shown is None else self._shown.auto.along
 
     def _draw(self, part: Callable[[bpy.types.Object], None]) -> None:
         context = bpy.context

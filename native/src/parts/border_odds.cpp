@@ -17,6 +17,7 @@ constexpr double kDegreesOf = 180.0 / std::numbers::pi;
 constexpr double kWideReach = 0.015;      // of the diagonal: how far away on both sides a wide bend is measured
 constexpr double kLineShare = 0.2;        // what the mean bend of the edge's line adds to its own bend
 constexpr double kWideShare = 0.8;        // and what a wide bend adds that is greater than the edge's own
+constexpr double kMostSteps = 1.5;        // of the edge's own bend, the most that a wide bend may exceed it by
 constexpr double kEvenDegrees = 50.0;     // the bend at which a border is as likely as not, apart from what follows
 constexpr double kDegreesOfOdds = 18.0;   // how many more degrees add 1 to the log odds
 constexpr double kPrior = -0.8;           // of every edge
@@ -27,7 +28,7 @@ constexpr double kConcave = 1.0;          // added in creases
 constexpr double kConcaveDegrees = 20.0;  // from which bend on
 constexpr double kOnPlane = 2.0;          // added on the mirror plane
 constexpr double kOnPlaneDegrees = 10.0;  // from which bend on
-constexpr double kMarked = 4.0;           // added where an artist expects a border
+constexpr double kMarked = 6.0;           // added where an artist expects a border
 
 class BendFinder {
  public:
@@ -188,7 +189,7 @@ std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, 
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     if (polygons.is_diagonal[e] != 0) continue;
     const double bend =
-        sharp[e] + kLineShare * on_line[e] + kWideShare * std::max(bends.wide[e] - sharp[e], 0.0);
+        sharp[e] + kLineShare * on_line[e] + kWideShare * std::clamp(bends.wide[e] - sharp[e], 0.0, kMostSteps * sharp[e]);
     odds[e] = (bend - kEvenDegrees) / kDegreesOfOdds + kPrior - kOpenness * openness[e];
     if (sharp[e] < beside[e] - kSharperBy) odds[e] -= kBesideSharper;
     if (bends.own[e] < -kConcaveDegrees) odds[e] += kConcave;

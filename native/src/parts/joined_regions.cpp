@@ -118,7 +118,8 @@ class Joining {
     for (const auto& [c, link] : links_[r]) rim.add(link);
     if (!(rim.length > 0.0)) return false;
     if (areas_[r] < rules_.least_area && rim.gain < rules_.sharp_rim * rim.length) return true;
-    return 2.0 * areas_[r] < rules_.least_width * rim.length && rim.bend < rules_.most_step * rim.length;
+    const bool is_step = rim.bend > rules_.least_step * rim.length && rim.bend < rules_.most_step * rim.length;
+    return is_step && 2.0 * areas_[r] < rules_.least_width * rim.length;
   }
 
   /// The neighbor that a small region joins: the one with the least likely border, where long borders count more.

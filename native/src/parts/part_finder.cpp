@@ -30,12 +30,12 @@ namespace {
 
 constexpr double kMostOdds = 4.0;      // log odds are clamped to this
 constexpr double kEditOdds = 1e6;      // of an edge that somebody has kept or dropped
-constexpr double kMiddleBias = 0.4;    // added to the log odds in the middle of the scale
+constexpr double kMiddleBias = 0.1;    // added to the log odds in the middle of the scale
 constexpr double kBiasToOne = 1.2;     // how fast it falls towards one part, in log odds of the amount
 constexpr double kBiasToSharp = 2.2;   // what is added to it at the other end
-constexpr double kPartPrice = 0.05;    // of the diagonal
+constexpr double kPartPrice = 0.2;    // of the diagonal
 constexpr double kLeastArea = 0.003;   // of the area
-constexpr double kLeastWidth = 0.015;  // of the diagonal
+constexpr double kLeastWidth = 0.008;  // of the diagonal
 constexpr double kLeastPrice = 0.05;   // of a cut along an edge that is a border for sure, for each unit of length
 
 /// What is added to all log odds for an amount of parts.

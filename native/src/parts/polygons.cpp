@@ -125,20 +125,18 @@ EdgeLines find_lines(const PlanMesh& mesh, const Polygons& polygons) {
       }
     }
   }
-  EdgeLines lines{.of_edge = std::vector<std::int32_t>(mesh.edge_count(), -1), .edges = {}, .is_closed = {}};
+  EdgeLines lines{.of_edge = std::vector<std::int32_t>(mesh.edge_count(), -1), .edges = {}};
   for (std::int32_t first = 0; index(first) < mesh.edge_count(); ++first) {
     if (polygons.is_diagonal[first] != 0 || lines.of_edge[first] >= 0) continue;
     const auto line = static_cast<std::int32_t>(lines.edges.size());
     lines.of_edge[first] = line;
     std::vector<std::int32_t> edges{first};
-    bool is_closed = false;
     for (const int end : {0, 1}) {
       std::int32_t e = first;
       const std::int32_t h = mesh.half_edge_of[first];
       std::int32_t v = end == 0 ? mesh.start(h) : mesh.end(h);
       for (;;) {
         const std::int32_t following = next[e][end_at(e, v)];
-        is_closed = is_closed || (following == first && e != first);
         if (following < 0 || lines.of_edge[following] >= 0) break;
         lines.of_edge[following] = line;
         edges.push_back(following);
@@ -149,7 +147,6 @@ EdgeLines find_lines(const PlanMesh& mesh, const Polygons& polygons) {
       if (end == 0) std::ranges::reverse(edges);
     }
     lines.edges.push_back(std::move(edges));
-    lines.is_closed.push_back(is_closed ? 1 : 0);
   }
   return lines;
 }

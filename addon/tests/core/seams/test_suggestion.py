@@ -11,8 +11,6 @@ import pytest
 from seamwire.core.network.strokes import Stroke, through_vertices
 from seamwire.core.seams.suggestion import (
     STRETCH,
-    best_along,
-    best_finish,
     cut_edges,
     energy_of,
     keep_out,
@@ -62,18 +60,6 @@ def test_the_stretch_of_several_maps_is_that_of_their_mean_energy() -> None:
     mean = (energy_of(0.1) + 3.0 * energy_of(0.3)) / 4.0
     assert mean_stretch([energy_of(0.1), energy_of(0.3)], [1.0, 3.0]) == pytest.approx(stretch_of(mean))
     assert mean_stretch([], []) == 0.0
-
-
-def test_wires_run_along_edges_of_quads_and_across_triangles() -> None:
-    assert best_along(np.array([0, 0, 1, 1, 2], dtype=np.int32)) == "EDGES"
-    assert best_along(np.array([0, 0, 1, 2], dtype=np.int32)) == "SURFACE"
-
-
-def test_many_triangles_are_cut_and_quads_are_not() -> None:
-    many = np.arange(6_000, dtype=np.int32)
-    assert best_finish(many) == "CUT"
-    assert best_finish(many[:500]) == "SNAP"
-    assert best_finish(many // 2) == "SNAP"
 
 
 def planned(*vertices: int) -> SimpleNamespace:

@@ -1,0 +1,235 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whether an artist placed the edges of a mesh, and what *Auto* stands for on it.
+
+Artists let edges run along and across the bends of the surface, and make faces small where the shape needs it. Scans and sculpts have
+edges in all directions. Remeshed surfaces have edges of one length.
+"""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from ..solver.defaults import PLACED, SCANNED
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from ..solver.defaults import Auto
+
+_FEW = 2_000
+"""The edges of a mesh with fewer triangles count as placed: its maker had to spare triangles."""
+_MOST = 25_000
+"""The number of triangles that are looked at in larger meshes."""
+_BANDS = 8
+"""The number of bands across the mesh in which they lie."""
+_FOLLOWS = 0.28
+"""Placed edges follow the bends at least so well, see `EdgeSigns`."""
+_SPREAD = 0.33
+"""The lengths of placed edges differ at least so much, unless the mesh is regular."""
+_REGULAR = 0.96
+"""The least share of regular vertices in a regular mesh."""
+_MARK = 0.5
+"""Each mark divides the first two limits by 1, and by so much more."""
+_SKEW = 0.57
+"""The largest cosine of a corner of a quad: corners have 55 to 125 degrees."""
+_FLAT = 1e-3
+"""Triangles that meet at a smaller angle, in radians, lie in a plane."""
+
+
+class OtherSigns(NamedTuple):
+    """Signs of an artist beside the edges.
+
+    Parameters
+    ----------
+    rigged
+        Whether the mesh has shape keys or vertex groups.
+    marks
+        How many of these it has: a UV map, sharp edges, custom normals, several materials. Scans may have them too.
+    """
+
+    rigged: bool = False
+    marks: int = 0
+
+
+def auto_for(
+    points: NDArray[np.float64],
+    triangles: NDArray[np.int32],
+    polygons: NDArray[np.int32],
+    others: OtherSigns,
+) -> Auto:
+    """Return what Auto stands for on a mesh.
+
+    Parameters
+    ----------
+    points
+        (n, 3)
+    triangles
+        (m, 3)
+    polygons
+        (m,) the face that each triangle is part of, ascending.
+    others
+        Signs that the edges do not show.
+    """
+    if others.rigged or len(triangles) < _FEW or _most_are_quads(polygons):
+        return PLACED
+    signs = EdgeSigns.of(points, triangles, polygons)
+    trust = 1.0 + _MARK * others.marks
+    is_uniform = trust * signs.spread < _SPREAD and signs.regular < _REGULAR
+    return SCANNED if is_uniform or trust * signs.follows < _FOLLOWS else PLACED
+
+
+def _most_are_quads(polygons: NDArray[np.int32]) -> bool:
+    _, triangles = np.unique(polygons, return_counts=True)
+    return bool((triangles > 1).sum() > 0.5 * len(triangles))
+
+
+@dataclass(frozen=True)
+class EdgeSigns:
+    """Three numbers that tell whether an artist placed the edges of triangles.
+
+    Parameters
+    ----------
+    follows
+        How well edges run along or across the bends of the surface: 1 if all do, 0 if their directions are random, -1 if all run halfway
+        between. Strong bends count more, and diagonals of quads do not count. 1 without bends.
+    spread
+        The standard deviation of the logarithms of their lengths.
+    regular
+        The share of regular vertices inside the mesh. They have six edges, or four edges beside the diagonals if all their faces are quads.
+    """
+
+    follows: float
+    spread: float
+    regular: float
+
+    @classmethod
+    def of(cls, points: NDArray[np.float64], triangles: NDArray[np.int32], polygons: NDArray[np.int32]) -> EdgeSigns:
+        """Return the signs of a mesh, which is given as for `auto_for`. Without shared edges, they are those of a plane."""
+        pairs = _Pairs(*_sample(points, triangles, polygons))
+        if not len(pairs.lengths):
+            return cls(1.0, 0.0, 1.0)
+        return cls(pairs.follows(), float(np.log(pairs.lengths).std()), pairs.regular())
+
+
+def _sample(
+    points: NDArray[np.float64], triangles: NDArray[np.int32], polygons: NDArray[np.int32]
+) -> tuple[NDArray[np.float64], NDArray[np.integer], NDArray[np.int32]]:
+    """Return what is looked at of a mesh: all if it is small, and bands across the longest side if it is large."""
+    if len(triangles) <= _MOST:
+        return points, triangles, polygons
+    places = points[triangles[:, 0]]
+    places = places[:, np.ptp(places, axis=0).argmax()]
+    half = 0.5 * _MOST / len(triangles)
+    bounds = np.quantile(places, (np.arange(_BANDS)[:, None] + [0.5 - half, 0.5 + half]).reshape(-1) / _BANDS)
+    rows = np.searchsorted(bounds, places) % 2 == 1
+    used, triangles = np.unique(triangles[rows], return_inverse=True)
+    return points[used], triangles.reshape(-1, 3), polygons[rows]
+
+
+class _Pairs:
+    """The pairs of triangles that share an edge.
+
+    Parameters
+    ----------
+    points, triangles, polygons
+        As those of `auto_for`.
+
+    Attributes
+    ----------
+    lengths
+        (k,) of the edges, above zero.
+    """
+
+    def __init__(self, points: NDArray[np.float64], triangles: NDArray[np.int32], polygons: NDArray[np.int32]) -> None:
+        self._points, self._triangles = points, triangles
+        # Each corner gets the number of the edge opposite to it. Sorted, the two corners of an edge lie side by side.
+        opposite = triangles.reshape(-1)
+        one, other = (np.roll(triangles, by, axis=1).reshape(-1) for by in (-1, 1))
+        numbers = np.minimum(one, other).astype(np.int64) * len(points) + np.maximum(one, other)
+        order = np.argsort(numbers)
+        ordered = numbers[order]
+        first = np.flatnonzero(np.diff(ordered, prepend=-1))
+        counts = np.diff(first, append=len(order))
+        self._open_ends = np.concatenate([part[order[first[counts != 2]]] for part in (one, other)])
+        here, there = order[first[counts == 2]], order[first[counts == 2] + 1]
+        lengths = np.linalg.norm(points[other[here]] - points[one[here]], axis=1)
+        here, there, self.lengths = here[lengths > 0.0], there[lengths > 0.0], lengths[lengths > 0.0]
+        self._sides = np.stack([here, there])
+        self._starts, self._ends = one[here], other[here]
+        self._tips = opposite[self._sides]
+        self._is_inner = polygons[here // 3] == polygons[there // 3]
+        corners = points[triangles]
+        normals = _unit(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
+        turned = np.where(one[here] == one[there], -1.0, 1.0)[:, None]
+        self._normals = np.stack([normals[here // 3], turned * normals[there // 3]])
+
+    @cached_property
+    def _is_diagonal(self) -> NDArray[np.bool_]:
+        """Which edges are diagonals of quads, (k,). Two triangles are a quad if each is the other's best partner for it."""
+        quads = self._points[np.stack([self._starts, self._tips[0], self._ends, self._tips[1]])]
+        sides = _unit(np.roll(quads, -1, axis=0) - quads)
+        skew = np.abs(np.einsum("ckx,ckx->ck", sides, np.roll(sides, 1, axis=0))).max(axis=0)
+        best = np.full(self._triangles.size, np.inf)
+        best[self._sides] = skew
+        best = best.reshape(-1, 3).min(axis=1)
+        return self._is_inner | (skew <= _SKEW) & (skew <= best[self._sides // 3]).all(axis=0)
+
+    def _bends(self) -> NDArray[np.float64]:
+        """Return the angle at each edge, (k,), positive on ridges and negative in valleys, in radians."""
+        here, there = self._normals
+        angles = 2.0 * np.arcsin(np.clip(0.5 * np.linalg.norm(there - here, axis=1), 0.0, 1.0))
+        outward = np.einsum("kx,kx->k", here, self._points[self._tips[1]] - self._points[self._starts])
+        return np.where(angles > _FLAT, np.where(outward > 0.0, -angles, angles), 0.0)
+
+    def follows(self) -> float:
+        """Return how well edges follow the bends, see `EdgeSigns`.
+
+        The curvature tensor of an edge sums the bends of the edges around it (Cohen-Steiner and Morvan, Restricted Delaunay
+        triangulations and normal cycle, 2003). The difference of its two curvatures is the weight of the edge.
+        """
+        along = (self._points[self._ends] - self._points[self._starts]) / self.lengths[:, None]
+        beside = _unit(np.cross(self._normals.sum(axis=0), along))
+        bends = self._bends() * self.lengths
+        difference, twist = np.zeros_like(bends), np.zeros_like(bends)
+        for i, j in itertools.product(range(3), repeat=2):
+            part = bends * along[:, i] * along[:, j]
+            near = self._summed(part, part)
+            near += self._summed(near[self._ends], near[self._starts])
+            tensor = near[self._starts] + near[self._ends]
+            difference += tensor * (along[:, i] * along[:, j] - beside[:, i] * beside[:, j])
+            twist += tensor * (along[:, i] * beside[:, j] + along[:, j] * beside[:, i])
+        weights = np.where(self._is_diagonal, 0.0, np.hypot(difference, twist))
+        if not weights.any():
+            return 1.0
+        # The cosine of four times the angle between the edge and the bend: 1 along it and across it, -1 halfway between.
+        cosines = 2.0 * (difference / np.where(weights > 0.0, weights, np.inf)) ** 2 - 1.0
+        return float(np.average(cosines, weights=weights))
+
+    def regular(self) -> float:
+        """Return the share of regular vertices, see `EdgeSigns`; 1 if all vertices lie on the border."""
+        ones, diagonals = np.ones(len(self.lengths)), self._is_diagonal.astype(np.float64)
+        edges = self._summed(ones, ones)
+        inside = edges > 0.0
+        inside[self._open_ends] = False
+        if not inside.any():
+            return 1.0
+        alone = np.ones(len(self._triangles), dtype=bool)
+        alone[self._sides[:, self._is_diagonal] // 3] = False
+        without = edges - self._summed(diagonals, diagonals)
+        without[self._triangles[alone]] = 0.0
+        return max(float((edges[inside] == 6).mean()), float((without[inside] == 4).mean()))
+
+    def _summed(self, at_starts: NDArray[np.float64], at_ends: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the sums at vertices, (n,), of what each edge brings to its two ends."""
+        count = len(self._points)
+        return np.bincount(self._starts, at_starts, count) + np.bincount(self._ends, at_ends, count)
+
+
+def _unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    lengths = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    return np.divide(vectors, lengths, out=np.zeros_like(vectors), where=lengths > 0.0)

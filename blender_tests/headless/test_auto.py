@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The values that Auto stands for on an object."""
+
+import random
+from collections.abc import Callable
+
+import bpy
+import pytest
+from scene import edit
+from seamwire.core.seams import placed_edges
+from seamwire.core.solver.defaults import PLACED, SCANNED, Auto
+from seamwire.mesh.object_session import ObjectSession
+
+
+@pytest.fixture
+def scan() -> bpy.types.Object:
+    """A rough ball of 5,120 triangles, without UVs."""
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=5, calc_uvs=False)
+    obj = bpy.context.active_object
+    dice = random.Random(3)
+    for v in obj.data.vertices:
+        v.co *= 1.0 + 0.03 * dice.random()
+    return obj
+
+
+def auto(obj: bpy.types.Object) -> Auto:
+    edit()
+    return ObjectSession(obj).auto
+
+
+def add_keys(obj: bpy.types.Object) -> None:
+    obj.shape_key_add(name="Basis")
+
+
+def add_group(obj: bpy.types.Object) -> None:
+    obj.vertex_groups.new(name="Bone")
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize("rig", [None, add_keys, add_group])
+def test_a_scan_is_cut_unless_it_is_rigged(
+    rig: Callable[[bpy.types.Object], None] | None, scan: bpy.types.Object
+) -> None:
+    if rig is not None:
+        rig(scan)
+    assert auto(scan) == (SCANNED if rig is None else PLACED)
+
+
+def add_uvs(obj: bpy.types.Object) -> None:
+    obj.data.uv_layers.new()
+
+
+def add_sharp_edge(obj: bpy.types.Object) -> None:
+    obj.data.edges[7].use_edge_sharp = True
+
+
+def add_normals(obj: bpy.types.Object) -> None:
+    obj.data.normals_split_custom_set_from_vertices([v.co.normalized() for v in obj.data.vertices])
+
+
+def add_materials(obj: bpy.types.Object) -> None:
+    for name in "ab":
+        obj.data.materials.append(bpy.data.materials.new(name))
+
+
+MARKS = (add_uvs, add_sharp_edge, add_normals, add_materials)
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize("marks", [(), *[(mark,) for mark in MARKS], MARKS], ids=len)
+def test_marks_are_counted(
+    marks: tuple[Callable[[bpy.types.Object], None], ...], scan: bpy.types.Object, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for mark in marks:
+        mark(scan)
+    found = []
+    monkeypatch.setattr(placed_edges, "auto_for", lambda *arguments: found.append(arguments[-1]))
+    auto(scan)
+    assert found == [placed_edges.OtherSigns(rigged=False, marks=len(marks))]

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "seamwire/parts/part_finder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <numbers>
+#include <random>
+#include <set>
+#include <vector>
+
+#include "parts/polygons.hpp"
+#include "shapes.hpp"
+#include "seamwire/surface/segments.hpp"
+
+namespace seamwire {
+
+using namespace detail;
+
+namespace {
+
+using Chains = std::vector<std::vector<std::int32_t>>;
+
+std::shared_ptr<const Surface> shared(Surface surface) { return std::make_shared<const Surface>(std::move(surface)); }
+
+/// A surface of revolution; `chamfer`: the width of a step between the wall and each lid.
+std::shared_ptr<const Surface> drum(int n, double chamfer = 0.0) {
+  std::vector<std::array<double, 2>> profile{{-0.5, 0.0}, {-0.5, 0.2}};
+  for (const double side : {-1.0, 1.0}) {
+    if (chamfer > 0.0 && side < 0.0) profile.push_back({-0.5, 0.4 - chamfer});
+    profile.push_back({side * (0.5 - chamfer), 0.4});
+    if (side < 0.0) {
+      for (const double x : {-0.25, 0.0, 0.25}) profile.push_back({x, 0.4});
+    }
+    if (chamfer > 0.0 && side > 0.0) profile.push_back({0.5, 0.4 - chamfer});
+  }
+  profile.push_back({0.5, 0.2});
+  profile.push_back({0.5, 0.0});
+  return shared(shapes::lathe(n, profile).surface());
+}
+
+std::vector<Edge> edges_of(const Parts& parts) {
+  std::vector<Edge> edges;
+  for (const std::vector<std::int32_t>& chain : parts.borders) {
+    for (std::size_t i = 1; i < chain.size(); ++i) edges.push_back({chain[i - 1], chain[i]});
+  }
+  return edges;
+}
+
+/// The area of each part, as a share of the whole.
+std::vector<double> shares(const Surface& surface, const Parts& parts) {
+  std::vector<double> areas(parts.count, 0.0);
+  double all = 0.0;
+  for (std::size_t f = 0; f < parts.of_face.size(); ++f) {
+    const auto& [a, b, c] = surface.triangles()[f];
+    const auto& points = surface.points();
+    const double area = (points[b] - points[a]).cross(points[c] - points[a]).norm();
+    areas[parts.of_face[f]] += area;
+    all += area;
+  }
+  for (double& area : areas) area /= all;
+  std::ranges::sort(areas, std::ranges::greater());
+  return areas;
+}
+
+TEST(PartFinder, parts_a_cube_into_its_sides) {
+  const PartFinder finder(shared(shapes::quad_cube(4).surface()));
+  const Parts parts = finder.find();
+  EXPECT_EQ(parts.count, 6u);
+  EXPECT_EQ(parts.borders.size(), 12u);  // from corner to corner
+  for (const std::vector<std::int32_t>& chain : parts.borders) EXPECT_EQ(chain.size(), 5u);
+}
+
+TEST(PartFinder, parts_a_drum_into_a_wall_and_two_lids) {
+  for (const int n : {12, 24, 64}) {
+    const auto surface = drum(n);
+    const Parts parts = PartFinder(surface).find();
+    EXPECT_EQ(parts.count, 3u) << n;
+    ASSERT_EQ(parts.borders.size(), 2u) << n;
+    for (const std::vector<std::int32_t>& chain : parts.borders) {
+      EXPECT_EQ(chain.front(), chain.back());
+      EXPECT_EQ(chain.size(), static_cast<std::size_t>(n) + 1);
+    }
+  }
+}
+
+TEST(PartFinder, leaves_each_step_of_a_chamfer_with_one_neighbor) {
+  const auto surface = drum(32, 0.008);
+  EXPECT_EQ(PartFinder(surface).find().count, 3u);
+}
+
+TEST(PartFinder, keeps_a_smooth_body_whole) {
+  for (const shapes::Mesh& mesh : {shapes::icosphere(3), shapes::torus(32, 24), shapes::bumpy(shapes::icosphere(4), 0.002)}) {
+    const Parts parts = PartFinder(shared(mesh.surface())).find();
+    EXPECT_EQ(parts.count, 1u);
+    EXPECT_TRUE(parts.borders.empty());
+  }
+}
+
+TEST(PartFinder, has_a_scale_from_pieces_to_sharp_regions) {
+  const PartFinder finder(drum(24));
+  EXPECT_EQ(finder.find(0.0).count, 1u);
+  EXPECT_EQ(finder.find(1.0).count, 3u);
+  // Sides of a prism that bend by 45 degrees are one wall in the middle of the scale, and parts at its end.
+  const PartFinder prism(drum(8));
+  EXPECT_EQ(prism.find(0.5).count, 3u);
+  EXPECT_EQ(prism.find(1.0).count, 10u);
+}
+
+TEST(PartFinder, finds_the_same_parts_on_triangles_as_on_quads) {
+  // The quads of a drum's wall, with diagonals of either direction.
+  std::mt19937 random(7);
+  shapes::Mesh mesh = shapes::lathe(16, {{-0.5, 0.0}, {-0.5, 0.4}, {0.0, 0.4}, {0.5, 0.4}, {0.5, 0.0}});
+  const Surface whole = mesh.surface();
+  for (std::size_t f = 16; f + 17 < mesh.triangles.size(); f += 2) {
+    // Two triangles of a quad, in the order of lathe().
+    std::set<std::int32_t> one(mesh.triangles[f].begin(), mesh.triangles[f].end());
+    std::vector<std::int32_t> common, tips;
+    for (const std::int32_t v : mesh.triangles[f + 1]) (one.contains(v) ? common : tips).push_back(v);
+    ASSERT_EQ(common.size(), 2u);
+    if (random() % 2 == 0) continue;
+    const auto& t = mesh.triangles[f];
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (std::ranges::find(common, t[i]) != common.end()) continue;
+      const std::int32_t tip = t[i], next = t[(i + 1) % 3], last = t[(i + 2) % 3], other = tips[0];
+      mesh.triangles[f] = {tip, next, other};
+      mesh.triangles[f + 1] = {tip, other, last};
+      break;
+    }
+  }
+  EXPECT_EQ(PartFinder(shared(mesh.surface())).find().borders, PartFinder(shared(whole)).find().borders);
+}
+
+TEST(PartFinder, numbers_parts_as_face_segments_does) {
+  const auto surface = drum(24);
+  const Parts parts = PartFinder(surface).find();
+  EXPECT_EQ(parts.of_face, face_segments(*surface, edges_of(parts)));
+}
+
+TEST(PartFinder, leaves_out_seams_that_are_there) {
+  const auto surface = drum(24);
+  const Parts all = PartFinder(surface).find();
+  std::vector<Edge> seams;
+  for (std::size_t i = 1; i < all.borders[0].size(); ++i) seams.push_back({all.borders[0][i], all.borders[0][i - 1]});
+  const Parts rest = PartFinder(surface, {.seams = seams}).find();
+  EXPECT_EQ(rest.count, 3u);
+  ASSERT_EQ(rest.borders.size(), 1u);
+  EXPECT_EQ(rest.borders[0], all.borders[1]);
+  EXPECT_EQ(PartFinder(surface, {.seams = seams}).find(0.0).count, 2u);
+}
+
+TEST(PartFinder, parts_at_marked_edges) {
+  // A ring around the middle of a drum, where the surface does not bend.
+  const auto surface = drum(24);
+  std::vector<Edge> ring;
+  for (const Edge& edge : surface->edges()) {
+    if (std::abs(surface->points()[edge[0]].x()) + std::abs(surface->points()[edge[1]].x()) < 1e-9) ring.push_back(edge);
+  }
+  ASSERT_EQ(ring.size(), 24u);
+  EXPECT_EQ(PartFinder(surface, {.marked = ring}).find().count, 4u);
+}
+
+TEST(PartFinder, follows_edits) {
+  const auto surface = drum(24);
+  const PartFinder finder(surface);
+  const Parts parts = finder.find();
+  std::vector<Edge> ring;
+  for (std::size_t i = 1; i < parts.borders[0].size(); ++i) ring.push_back({parts.borders[0][i - 1], parts.borders[0][i]});
+  EXPECT_EQ(finder.find(0.5, {.dropped = ring}).borders, Chains(1, parts.borders[1]));
+  EXPECT_EQ(finder.find(0.0, {.kept = ring}).borders, Chains(1, parts.borders[0]));
+}
+
+TEST(PartFinder, parts_a_part_into_two) {
+  const auto ball = shared(shapes::icosphere(3).surface());
+  const Parts halves = PartFinder(ball).find(0.5, {.parted = {0}});
+  EXPECT_EQ(halves.count, 2u);
+  EXPECT_GT(shares(*ball, halves)[1], 0.25);
+  EXPECT_EQ(PartFinder(ball).find(0.5, {.parted = {0, 0, 0}}).count, 4u);
+}
+
+TEST(PartFinder, joins_small_regions_unless_a_sharp_rim_encloses_them) {
+  // A plate with a knob of .1 % of its area: a dome that starts gently, or a plug.
+  const auto plate = [](const std::vector<std::array<double, 2>>& top) {
+    std::vector<std::array<double, 2>> profile{{-0.2, 0.0}, {-0.2, 0.5}, {0.0, 0.5}, {0.0, 0.25}};
+    profile.insert(profile.end(), top.begin(), top.end());
+    return shared(shapes::lathe(24, profile).surface());
+  };
+  const auto without = plate({{0.0, 0.02}, {0.0, 0.0}});
+  const auto dome = plate({{0.0, 0.02}, {0.008, 0.012}, {0.009, 0.0}});
+  const auto plug = plate({{0.0, 0.02}, {0.03, 0.02}, {0.03, 0.0}});
+  EXPECT_EQ(PartFinder(without).find().count, 3u);
+  EXPECT_EQ(PartFinder(dome).find().count, 3u);
+  EXPECT_GT(PartFinder(plug).find().count, 3u);
+}
+
+TEST(PartFinder, finds_symmetric_parts) {
+  // A row of cubes with a hole, symmetric in x after a shift.
+  shapes::QuadMesh mesh = shapes::plate({"#####", "#.#.#", "#####"}, 2);
+  for (Vector& point : mesh.points) point -= Vector(2.5, 1.5, 0.5);
+  const auto surface = shared(mesh.surface());
+  std::map<std::array<long, 3>, std::int32_t> at;
+  const auto key = [](const Vector& p) {
+    return std::array{std::lround(p.x() * 1e4), std::lround(p.y() * 1e4), std::lround(p.z() * 1e4)};
+  };
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) at[key(mesh.points[v])] = static_cast<std::int32_t>(v);
+  for (const double amount : {0.2, 0.5, 0.8}) {
+    std::set<Edge> own, images;
+    for (const auto& [a, b] : edges_of(PartFinder(surface, {.mirror = 0}).find(amount))) {
+      const auto image = [&](std::int32_t v) {
+        const Vector& p = mesh.points[static_cast<std::size_t>(v)];
+        return at.at(key(Vector(-p.x(), p.y(), p.z())));
+      };
+      own.insert({std::min(a, b), std::max(a, b)});
+      images.insert({std::min(image(a), image(b)), std::max(image(a), image(b))});
+    }
+    EXPECT_EQ(own, images) << amount;
+  }
+}
+
+TEST(PartFinder, finds_the_parts_of_pieces_by_themselves) {
+  shapes::Mesh mesh = shapes::icosphere(2);
+  const auto first = static_cast<std::int32_t>(mesh.points.size());
+  const shapes::Mesh other = shapes::torus(16, 8);
+  for (const Vector& point : other.points) mesh.points.emplace_back(point + Vector(3.0, 0.0, 0.0));
+  for (const auto& [a, b, c] : other.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
+  EXPECT_EQ(PartFinder(shared(mesh.surface())).find(0.0).count, 2u);
+}
+
+TEST(PartFinder, refuses_bad_arguments) {
+  const auto surface = drum(12);
+  EXPECT_THROW(PartFinder(nullptr), InvalidInput);
+  EXPECT_THROW(PartFinder(surface, {.mirror = 3}), InvalidInput);
+  EXPECT_THROW(PartFinder(surface, {.marked = {{0, 100000}}}), InvalidInput);
+  EXPECT_THROW(PartFinder(surface, {.seams = {{-1, 0}}}), InvalidInput);
+  const PartFinder finder(surface);
+  EXPECT_THROW(finder.find(1.5), InvalidInput);
+  EXPECT_THROW(finder.find(std::nan("")), InvalidInput);
+  EXPECT_THROW(finder.find(0.5, {.kept = {{0, 100000}}}), InvalidInput);
+  EXPECT_THROW(finder.find(0.5, {.parted = {100000}}), InvalidInput);
+}
+
+TEST(Polygons, joins_the_triangles_of_quads) {
+  const Surface surface = shapes::grid(4).surface();
+  const PlanMesh mesh = plan_mesh(surface);
+  const Polygons polygons = find_polygons(mesh, face_frames(mesh));
+  EXPECT_EQ(polygons.count, 16u);
+  EXPECT_EQ(std::ranges::count(polygons.is_diagonal, 1), 16);
+}
+
+TEST(Polygons, has_lines_that_go_on_over_crossings) {
+  const Surface surface = shapes::quad_grid(4).surface();
+  const PlanMesh mesh = plan_mesh(surface);
+  const Polygons polygons = find_polygons(mesh, face_frames(mesh));
+  const EdgeLines lines = find_lines(mesh, polygons);
+  EXPECT_EQ(lines.edges.size(), 10u);
+  for (const std::vector<std::int32_t>& line : lines.edges) EXPECT_EQ(line.size(), 4u);
+}
+
+}  // namespace
+}  // namespace seamwire
