@@ -6,6 +6,7 @@
 
 #include "mesh.hpp"
 #include "seamwire/flatten/flatten.hpp"
+#include "seamwire/parts/part_finder.hpp"
 #include "seamwire/seams/seam_planner.hpp"
 
 using namespace seamwire;
@@ -24,6 +25,13 @@ int main() {
   const MapReport report = measure_map(surface, flat.uvs, flat.islands);
   std::printf("%zu flipped triangles, %zu overlapping islands\n", report.flipped.size(), report.overlapping.size());
   //! [measure]
+
+  //! [parts]
+  const auto [body, body_triangles] = torus();
+  const PartFinder finder(std::make_shared<const Surface>(body, body_triangles));
+  const Parts parts = finder.find(0.5);
+  std::printf("%zu parts, %zu borders\n", parts.count, parts.borders.size());
+  //! [parts]
 
   //! [plan]
   const auto [ring, ring_triangles] = torus();

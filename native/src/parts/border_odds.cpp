@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "detail/csr.hpp"
 #include "detail/index.hpp"
 
 namespace seamwire::detail {
@@ -129,6 +130,34 @@ std::vector<double> sharpest_beside(const PlanMesh& mesh, const Polygons& polygo
   return beside;
 }
 
+/// Whether the surface bends on alike at the opposite edges of both polygons beside an edge, as around a tube.
+std::vector<std::uint8_t> are_round(const PlanMesh& mesh, const Polygons& polygons, std::span<const double> bends) {
+  constexpr double kAlike = 2.0;
+  std::vector<std::pair<std::int32_t, std::int32_t>> sides;
+  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    if (polygons.is_diagonal[e] == 0) for_sides(mesh, polygons, e, [&](std::int32_t p) { sides.emplace_back(p, e); });
+  }
+  const Csr<std::int32_t> around(polygons.count, sides);
+  const auto share_vertex = [&](std::int32_t one, std::int32_t other) {
+    const std::int32_t g = mesh.half_edge_of[one], h = mesh.half_edge_of[other];
+    return mesh.start(g) == mesh.start(h) || mesh.start(g) == mesh.end(h) || mesh.end(g) == mesh.start(h) ||
+           mesh.end(g) == mesh.end(h);
+  };
+  std::vector<std::uint8_t> found(mesh.edge_count(), 0);
+  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    if (polygons.is_diagonal[e] != 0 || mesh.is_boundary(e)) continue;
+    bool is_round = true;
+    for_sides(mesh, polygons, e, [&](std::int32_t p) {
+      is_round = is_round && around[p].size() == 4 && std::ranges::any_of(around[p], [&](std::int32_t other) {
+        const double ratio = bends[other] / bends[e];
+        return !share_vertex(e, other) && ratio > 1.0 / kAlike && ratio < kAlike;
+      });
+    });
+    found[e] = is_round ? 1 : 0;
+  }
+  return found;
+}
+
 /// How open each edge is to the sky, less the mean.
 std::vector<double> openness_of(const PlanMesh& mesh, std::span<const double> ambient) {
   std::vector<double> openness;
@@ -180,6 +209,7 @@ std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, 
   for (const double bend : bends.own) sharp.push_back(std::abs(bend));
   const std::vector<double> on_line = means_along(mesh, find_lines(mesh, polygons), sharp);
   const std::vector<double> beside = sharpest_beside(mesh, polygons, sharp);
+  const std::vector<std::uint8_t> is_round = are_round(mesh, polygons, bends.own);
   const std::vector<double> openness = openness_of(mesh, ambient);
   const auto is_on_plane = [&](std::int32_t e) {
     const std::int32_t h = mesh.half_edge_of[e];
@@ -188,8 +218,8 @@ std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, 
   std::vector<double> odds(mesh.edge_count(), -kNever);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     if (polygons.is_diagonal[e] != 0) continue;
-    const double bend =
-        sharp[e] + kLineShare * on_line[e] + kWideShare * std::clamp(bends.wide[e] - sharp[e], 0.0, kMostSteps * sharp[e]);
+    const double wider = std::clamp(bends.wide[e] - sharp[e], 0.0, kMostSteps * sharp[e]);
+    const double bend = sharp[e] + kLineShare * on_line[e] + (is_round[e] != 0 ? 0.0 : kWideShare * wider);
     odds[e] = (bend - kEvenDegrees) / kDegreesOfOdds + kPrior - kOpenness * openness[e];
     if (sharp[e] < beside[e] - kSharperBy) odds[e] -= kBesideSharper;
     if (bends.own[e] < -kConcaveDegrees) odds[e] += kConcave;

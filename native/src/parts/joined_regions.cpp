@@ -77,11 +77,18 @@ class Joining {
     }
   }
 
+  /// Whether two regions are of one size, as mirror images are.
+  bool are_alike(std::int32_t one, std::int32_t other) const {
+    constexpr double kSame = 0.01;
+    return std::abs(areas_[one] - areas_[other]) <= kSame * areas_[one];
+  }
+
   /// Joins two regions, and their mirror images.
   void join_both(std::int32_t a, std::int32_t b) {
     const std::int32_t a_image = image(a), b_image = image(b);
+    const bool are_mirrored = a_image >= 0 && b_image >= 0 && are_alike(a, a_image) && are_alike(b, b_image);
     std::int32_t joined = join(a, b);
-    if (a_image < 0 || b_image < 0) return;
+    if (!are_mirrored) return;
     const std::int32_t one = root(a_image), other = root(b_image);
     if (one != other && links_[one].contains(other)) {
       const std::int32_t mirrored = join(one, other);
@@ -128,7 +135,7 @@ class Joining {
     std::int32_t best = -1;
     std::tuple<double, double> least;
     for (const auto& [c, link] : links_[r]) {
-      const std::tuple own(link.gain - rules_.sharp_rim * link.length, -areas_[c]);
+      const std::tuple own(link.gain / link.length, -areas_[c]);
       if (best < 0 || own < least || (own == least && c < best)) {
         best = c;
         least = own;

@@ -19,7 +19,7 @@ struct RegionBorder {
 struct RegionRules {
   double region_price = 0.0;  ///< what each region costs
   double least_area = 0.0;    ///< smaller regions join a neighbor, unless a sharp rim encloses them
-  double sharp_rim = 2.5;     ///< the mean log odds of such a rim
+  double sharp_rim = 2.0;     ///< the mean log odds of such a rim
   double least_width = 0.0;   ///< narrower regions join a neighbor if they are steps of a chamfer
   double least_step = 25.0, most_step = 70.0;  ///< how many degrees the surface bends at the sides of such a step
 };
