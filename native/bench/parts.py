@@ -215,11 +215,11 @@ def draw_blind(drawn: dict[str, tuple[Model, dict[str, Surface]]], folder: Path)
         random.SystemRandom().shuffle(order)
         letters = [chr(ord("A") + i) for i in range(len(order))]
         key[name] = dict(zip(letters, order, strict=True))
+        (folder / "key.json").write_text(json.dumps(key, indent=1) + "\n")
         azimuth, elevation = best_view(surfaces[ARTIST], model.frame)
         views = ((azimuth, elevation), (azimuth + 180, elevation))
         rows = [("", model.frame, [(view, surfaces[method]) for method in order]) for view in views]
         draw_columns(folder / f"{name}.png", letters, rows, 2 * _PIXELS)
-    (folder / "key.json").write_text(json.dumps(key, indent=1) + "\n")
 
 
 if __name__ == "__main__":
