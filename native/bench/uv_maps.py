@@ -9,6 +9,8 @@ A model is a file NAME.npz of polygons with an artist's seams, where there are a
 - ``seams`` (k, 2): the artist's seams as vertex pairs (optional).
 - ``uv`` (c, 2): the artist's UV map (optional). Without ``seams``, it also gives the seams.
 
+Files of native/bench/parts.py may say ``points``, ``corners`` and ``offsets`` instead of ``P``, ``lv`` and ``start``.
+
 A map is a file NAME.METHOD.npz:
 
 - ``P`` (n, 3), ``lv`` (c,) and ``uv`` (c, 2): points, and the vertex and the UV of each corner.
@@ -196,11 +198,13 @@ class Model:
     def read(cls, file: Path, frame: Frame | None = None) -> Model:
         """Read a NAME.npz."""
         with np.load(file) as arrays:
+            names = ("P", "start", "lv") if "P" in arrays else ("points", "offsets", "corners")
+            points, start, corners = (arrays[name] for name in names)
             return cls(
                 file.stem,
-                arrays["P"].astype(np.float64),
-                arrays["start"].astype(np.int64),
-                arrays["lv"].astype(np.int64),
+                points.astype(np.float64),
+                start.astype(np.int64),
+                corners.astype(np.int64),
                 frame or Frame(),
                 arrays["seams"].astype(np.int64) if "seams" in arrays else None,
                 arrays["uv"].astype(np.float64) if "uv" in arrays else None,

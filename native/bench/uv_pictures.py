@@ -26,10 +26,24 @@ _SMOOTH = 2
 _CHECKS = 0.025
 """Size of a checkerboard's field on the surface, of the diagonal."""
 _SEAM = np.array([0.75, 0.0, 0.0])
+_DARK_SEAM = np.array([0.1, 0.1, 0.15])
 _DARK, _LIGHT = 0.3, 0.95
+_TRIED = 200
+"""Pixels along a side of the pictures in which the best view is looked for."""
+_HEAD = 24
+"""Pixels above the first row for the titles of columns."""
 _FRONT, _BACK = (25.0, 12.0), (205.0, 12.0)
 """Azimuth and elevation of the two views, in degrees; 0, 0 looks at the front."""
 _GAP = 0.02
+
+
+class Surface(NamedTuple):
+    """A surface with seams: points (n, 3), triangles (m, 3), the island of each triangle, and the seams as vertex pairs (k, 2)."""
+
+    points: Floats
+    triangles: Integers
+    islands: Integers
+    seams: Integers
 
 
 class Row(NamedTuple):
@@ -85,7 +99,7 @@ def on_screen(points: Floats, frame: Frame, view: tuple[float, float], size: int
 
 
 def surface_picture(
-    uv_map: UvMap, frame: Frame, view: tuple[float, float], size: int, *, checks: bool = False
+    uv_map: UvMap | Surface, frame: Frame, view: tuple[float, float], size: int, *, checks: bool = False
 ) -> Floats:
     """Draw a model in the colors of its islands, with seams or with a checkerboard: (size, size, 3), 0 to 1."""
     large = size * _SMOOTH
@@ -99,12 +113,13 @@ def surface_picture(
     shade = 0.4 + 0.6 * np.abs(normals @ (light / np.linalg.norm(light)))
     color = island_colors(int(uv_map.islands.max()) + 1)[uv_map.islands[face]]
     if checks:
+        assert isinstance(uv_map, UvMap)
         uv = (uv_map.uvs[face] * drawn.weights[..., None]).sum(axis=2)
         odd = np.floor(uv / _check_size(uv_map)).sum(axis=2) % 2 > 0
         color = 0.4 * color + 0.6 * np.where(odd, _LIGHT, _DARK)[..., None]
     picture = np.where((drawn.triangle >= 0)[..., None], color * shade[face][..., None], 1.0)
     if not checks:
-        _draw_seams(picture, uv_map, screen, drawn.depth)
+        _draw_seams(picture, uv_map, screen, drawn.depth, _SEAM if isinstance(uv_map, UvMap) else _DARK_SEAM)
     return _averaged(picture)
 
 
@@ -117,19 +132,63 @@ def _check_size(uv_map: UvMap) -> float:
     return float(_CHECKS * diagonal * np.sqrt(in_map / on_surface))
 
 
-def _draw_seams(picture: Floats, uv_map: UvMap, screen: Floats, depth: Floats) -> None:
+def _draw_seams(picture: Floats, uv_map: UvMap | Surface, screen: Floats, depth: Floats, color: Floats) -> None:
     """Draw the seams that are not hidden into a picture."""
-    if not len(uv_map.seams):
-        return
-    size = len(picture)
-    samples = seam_samples(screen, uv_map.seams, 0.6)[0]
+    pixel = _seen_pixels(uv_map.seams, screen, depth)
+    for column in (-1, 0, 1):
+        for row in (-1, 0, 1):
+            picture[pixel[:, 1] + row, pixel[:, 0] + column] = color
+
+
+def _seen_pixels(seams: Integers, screen: Floats, depth: Floats) -> Integers:
+    """Return the pixels (k, 2) of even samples of the seams that are not hidden."""
+    size = len(depth)
+    samples = seam_samples(screen, seams, 0.6)[0]
     pixel = np.floor(samples[:, :2]).astype(np.int64)
     inside = ((pixel >= 1) & (pixel < size - 1)).all(axis=1)
     pixel, near = pixel[inside], samples[inside, 2]
-    seen = near >= depth[pixel[:, 1], pixel[:, 0]] - 0.012 * size
-    for column in (-1, 0, 1):
-        for row in (-1, 0, 1):
-            picture[pixel[seen, 1] + row, pixel[seen, 0] + column] = _SEAM
+    return pixel[near >= depth[pixel[:, 1], pixel[:, 0]] - 0.012 * size]
+
+
+def best_view(surface: Surface, frame: Frame) -> tuple[float, float]:
+    """Return the azimuth and elevation, in degrees, from which most of the seams are seen."""
+    seen = {}
+    for azimuth in range(0, 360, 45):
+        view = (float(azimuth) + 20.0, 20.0)
+        screen, _ = on_screen(surface.points, frame, view, _TRIED)
+        drawn = front_view(screen, surface.triangles, _TRIED, _TRIED)
+        seen[view] = len(_seen_pixels(surface.seams, screen, drawn.depth))
+    return max(seen, key=lambda view: seen[view])
+
+
+def draw_columns(
+    file: Path,
+    titles: Sequence[str],
+    rows: Sequence[tuple[str, Frame, Sequence[tuple[tuple[float, float], Surface | None]]]],
+    size: int,
+) -> None:
+    """Write a picture with a column for each title.
+
+    Each row has a label, the model's frame, and a view and a surface for each column. A surface that is missing leaves a gap.
+    """
+    from matplotlib.figure import Figure  # only sheets need it
+
+    empty = np.ones((size, size, 3))
+    whole = np.vstack(
+        [np.ones((_HEAD, size * len(titles), 3))]
+        + [
+            np.hstack([empty if shown is None else surface_picture(shown, frame, view, size) for view, shown in cells])
+            for _, frame, cells in rows
+        ]
+    )
+    height, width = whole.shape[:2]
+    figure = Figure(figsize=(width / 100, height / 100), dpi=100)
+    figure.figimage(whole)
+    for i, title in enumerate(titles):
+        figure.text((i + 0.5) / len(titles), 1 - 4 / height, title, va="top", ha="center", fontsize=10)
+    for i, (label, _, _) in enumerate(rows):
+        figure.text(6 / width, 1 - (_HEAD + i * size + 2) / height, label, va="top", fontsize=7)
+    figure.savefig(file, dpi=100)
 
 
 def layout_picture(uv_map: UvMap, size: int) -> Floats:
