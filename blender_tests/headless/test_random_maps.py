@@ -31,7 +31,7 @@ SECONDS = 60.0
 
 
 TOLD = {"folds": ("turned over", "overlap"), "overlap": ("overlap",), "outside": ("outside the UV square",)}
-"""What a report says of each problem, at least in part."""
+"""The words of which a report on each problem has at least one."""
 
 
 def problems_of(obj: bpy.types.Object) -> list[str]:
