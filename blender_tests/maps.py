@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
-from itertools import pairwise
-
 import bmesh
 import bpy
 import numpy as np
 from numpy.typing import NDArray
+
+ROUNDING = 2e-7
+"""Single precision moves each corner of a triangle by up to 4e-8 in the UV square. So its height may change by twice that, at least."""
 
 
 def triangles(obj: bpy.types.Object) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -32,6 +32,12 @@ def areas(corners: NDArray[np.float64]) -> NDArray[np.float64]:
     return 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
 
 
+def on_line(uvs: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Return which triangles of a map, (m, 3, 2), are lower than the rounding of UVs in single precision."""
+    longest = np.linalg.norm(uvs - np.roll(uvs, 1, axis=1), axis=2).max(axis=1)
+    return 2.0 * np.abs(signed_areas(uvs)) <= ROUNDING * longest
+
+
 def flipped(obj: bpy.types.Object) -> int:
     """Return how many triangles with area are turned over in the map, or have no area there."""
     uvs, corners = triangles(obj)
@@ -39,15 +45,21 @@ def flipped(obj: bpy.types.Object) -> int:
 
 
 def overlapping_pairs(*objects: bpy.types.Object, deep: float = 2e-7) -> int:
-    """Return how many pairs of triangles reach into each other in the maps of objects, taken together.
+    """Return `overlaps` of the maps of objects, taken together."""
+    return overlaps(np.concatenate([triangles(obj)[0] for obj in objects]), deep)
 
-    Two triangles are apart if the line along a side of either parts them. Triangles without area in the map are left out.
-    Triangles that reach into each other by less than `deep`, in the UV square, touch up to the rounding of single precision.
+
+def overlaps(uvs: NDArray[np.float64], deep: float = 2e-7) -> int:
+    """Return how many pairs of triangles, (m, 3, 2), reach into each other.
+
+    Two triangles are apart if the line along a side of either parts them. Triangles that lie on a line in the map cover nothing twice
+    and are left out. Triangles that reach into each other by less than `deep`, in the UV square, touch up to the rounding of single
+    precision.
     """
-    uvs = np.concatenate([triangles(obj)[0] for obj in objects])
     area = signed_areas(uvs)
+    uvs = uvs.copy()
     uvs[area < 0.0] = uvs[area < 0.0][:, ::-1]
-    uvs = uvs[area != 0.0]
+    uvs = uvs[~on_line(uvs)]
     low, high = uvs.min(axis=1), uvs.max(axis=1)
     order = np.argsort(low[:, 0], kind="stable")
     uvs, low, high = uvs[order], low[order], high[order]
@@ -101,39 +113,48 @@ def energy(obj: bpy.types.Object, aspect: float = 1.0) -> float:
 
 
 def folded(obj: bpy.types.Object, least_height: float = 1e-6) -> int:
+    """Return `folds` of the map of an edit mesh."""
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.index_update()
+    loops = [each for each in bm.calc_loop_triangles() if not each[0].face.hide]
+    vertices = np.array([[loop.vert.index for loop in each] for each in loops], dtype=np.int64).reshape(-1, 3)
+    return folds(vertices, *triangles(obj), least_height)
+
+
+def folds(
+    vertices: NDArray[np.integer], uvs: NDArray[np.float64], corners: NDArray[np.float64], least_height: float = 1e-6
+) -> int:
     """Return how many edges a map is folded at, plus the number of triangles without an area in it.
 
     The map is folded where two triangles are joined in it and lie on the same side of their common edge, whichever way their faces are
-    turned. Triangles whose height is less than `least_height` of their longest side do not count. Nor do triangles lower than a hundredth
-    of it that lie on a line in the map, up to the rounding of single precision, or triangles smaller than that rounding.
+    turned. Triangles whose height is less than `least_height` of their longest side do not count. Nor do triangles that lie on a line in
+    the map and would be lower than `least_height` there at the map's mean scale, or triangles smaller than the rounding of UVs.
+
+    Parameters
+    ----------
+    vertices, uvs, corners
+        (m, 3), (m, 3, 2), (m, 3, 3) of each triangle.
+    least_height
+        See above.
     """
-    bm = bmesh.from_edit_mesh(obj.data)
-    bm.verts.index_update()
-    layer = bm.loops.layers.uv.active
-    flat = 0
-    smallest = 1e-5 * max(obj.dimensions)
-    sides: dict[tuple[int, int], list[tuple[tuple[float, ...], float]]] = defaultdict(list)
-    for loops in bm.calc_loop_triangles():
-        if loops[0].face.hide:
-            continue
-        corners = np.array([loop.vert.co[:] for loop in loops])
-        longest = max(np.linalg.norm(corners - np.roll(corners, 1, axis=0), axis=1))
-        doubled = np.linalg.norm(np.cross(corners[1] - corners[0], corners[2] - corners[0]))
-        if doubled <= least_height * longest**2 or longest < smallest:
-            continue
-        uvs = np.array([loop[layer].uv[:] for loop in loops], dtype=np.float64)
-        signed = signed_areas(uvs[None])[0]
-        is_on_line = 2.0 * abs(signed) <= 2e-7 * max(np.linalg.norm(uvs - np.roll(uvs, 1, axis=0), axis=1))
-        if is_on_line and doubled <= 0.01 * longest**2:
-            continue
-        flat += signed == 0.0
-        for one, other in pairwise([*loops, loops[0]]):
-            is_up = one.vert.index < other.vert.index
-            ends = (one, other) if is_up else (other, one)
-            key = tuple(loop.vert.index for loop in ends)
-            sides[key].append((tuple(value for loop in ends for value in loop[layer].uv), signed if is_up else -signed))
-    folds = 0
-    for found in sides.values():
-        if len(found) == 2 and found[0][0] == found[1][0]:
-            folds += found[0][1] * found[1][1] > 0.0
-    return flat + folds
+    if not len(vertices):
+        return 0
+    on_model = areas(corners)
+    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+    size = np.ptp(corners.reshape(-1, 3), axis=0).max()
+    scale = np.sqrt(np.abs(signed_areas(uvs)).sum() / on_model.sum()) if on_model.any() else 0.0
+    counts = (2.0 * on_model > least_height * longest**2) & (longest >= 1e-5 * size)
+    counts &= ~on_line(uvs) | (2.0 * scale * on_model > least_height * longest)
+    vertices, uvs = vertices[counts], uvs[counts]
+    area = signed_areas(uvs)
+    ends = np.stack([vertices, np.roll(vertices, -1, axis=1)], axis=2).reshape(-1, 2)
+    places = np.stack([uvs, np.roll(uvs, -1, axis=1)], axis=2).reshape(-1, 2, 2)
+    is_down = ends[:, 0] > ends[:, 1]
+    ends[is_down], places[is_down] = ends[is_down][:, ::-1], places[is_down][:, ::-1]
+    sides = np.repeat(area, 3) * np.where(is_down, -1.0, 1.0)
+    # Sides of triangles are joined in the map where both ends agree. Where more than two are, which lie where cannot be told.
+    keys = np.column_stack([ends, places.reshape(-1, 4)])
+    _, numbers, joined = np.unique(keys, axis=0, return_inverse=True, return_counts=True)
+    numbers = numbers.ravel()
+    above, below = (np.bincount(numbers, is_there, len(joined)) for is_there in (sides > 0.0, sides < 0.0))
+    return int((area == 0.0).sum() + ((joined == 2) & ((above == 2) | (below == 2))).sum())

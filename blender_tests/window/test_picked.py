@@ -2,6 +2,7 @@
 """What clicks take beside what lies plainly under the cursor: through the mesh, features, seams; and meshes that changed."""
 
 from collections.abc import Iterator
+from types import SimpleNamespace
 
 import bmesh
 import pytest
@@ -9,6 +10,7 @@ import ui as driver
 from desk import ORANGE, Desk, leave, shows
 from scene import add_grid, add_object, chain, seams
 from seamwire.core.drawing.picture import Role
+from seamwire.core.solver.solver import kinds_of
 from seamwire.operators.report import running
 from seamwire.ui import status_bar
 from seamwire.view.edited_objects import edited
@@ -142,8 +144,10 @@ def test_escape_ends_work_that_takes_long(desk: Desk, monkeypatch: pytest.Monkey
     ui.click(desk.at(36))
     ui.wait_until(lambda: not session.computing)
     engine = session.drawing.engines.get(session.options.along)
-    nothing = type("Nothing", (), {"points": [], "vertices": [], "length": 0.0, "final": False})()
-    answer = type("Wires", (), {"wires": (nothing, nothing), "active": 0, "settled": False, "final": False})()
+    wires = [
+        SimpleNamespace(follow=kind, points=[], vertices=[], length=0.0, final=False) for kind in kinds_of("feature")
+    ]
+    answer = SimpleNamespace(wires=wires, active=0, settled=False, solved=False, final=False)
 
     class Endless:
         """Live wires that are never ready."""

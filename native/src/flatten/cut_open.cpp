@@ -30,6 +30,27 @@ std::vector<std::vector<std::int32_t>> Island::boundaries() const {
   return loops;
 }
 
+double loop_length(std::span<const std::int32_t> loop, std::span<const Vector> points) {
+  double length = 0.0;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    length += (points[index(loop[i])] - points[index(loop[(i + 1) % loop.size()])]).norm();
+  }
+  return length;
+}
+
+std::int32_t outer_loop(const std::vector<std::vector<std::int32_t>>& boundaries, std::span<const Vector> points) {
+  std::int32_t outer = -1;
+  double longest = -1.0;
+  for (std::int32_t loop = 0; index(loop) < boundaries.size(); ++loop) {
+    if (boundaries[index(loop)].size() < 3) continue;
+    const double length = loop_length(boundaries[index(loop)], points);
+    if (length <= longest) continue;
+    longest = length;
+    outer = loop;
+  }
+  return outer;
+}
+
 std::vector<Island> cut_open(std::span<const Triangle> triangles, std::span<const std::int32_t> twins,
                              std::span<const std::uint8_t> is_cut) {
   const auto count = static_cast<std::int32_t>(triangles.size());

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "seamwire/surface/types.hpp"
+#include "seamwire/surface/vector.hpp"
 
 namespace seamwire::detail {
 
@@ -22,6 +23,13 @@ struct Island {
   /// smallest vertex, with which each of them starts.
   std::vector<std::vector<std::int32_t>> boundaries() const;
 };
+
+/// The length of a boundary loop. `points`: of own vertices.
+double loop_length(std::span<const std::int32_t> loop, std::span<const Vector> points);
+
+/// The boundary loop that becomes the outline of Tutte's embedding: the longest of three or more edges. -1 without such
+/// a loop. `points`: of own vertices.
+std::int32_t outer_loop(const std::vector<std::vector<std::int32_t>>& boundaries, std::span<const Vector> points);
 
 /// Cuts a mesh open and returns its islands, ordered by their first faces. Own vertices are numbered in the order of
 /// the triangles' corners.

@@ -29,8 +29,11 @@ using namespace detail;
 
 namespace {
 
-/// How often an island is opened further because double precision cannot hold its embedding.
+/// How often an island is opened further because numbers cannot hold its map.
 constexpr int kMostOpenings = 32;
+/// A map with this mean energy shrinks triangles by more than a million. Programs store UVs in single precision, which
+/// leaves no area of them. Maps that people can use have less than 1e7.
+constexpr double kLostEnergy = 1e12;
 
 /// An island of the half-edge mesh, its map, and which of the caller's corners its own corners are.
 struct MappedIsland {
@@ -122,18 +125,20 @@ class Flattener {
     return is_real;
   }
 
-  /// The island is opened further until double precision can hold the embedding.
+  /// The island is opened further until double precision can hold the embedding, and single precision the map.
   MappedIsland from_tutte(const Island& island, const MapOptions& options, const Task& task) const {
     const std::vector<std::uint8_t> is_real = real_half_edges(island);
     MappedIsland result{.opened = open_to_plane(island, is_real, surface_.points(), task), .map = {}};
     for (int opening = 0;; ++opening) {
       result.map = map_island(result.opened.island, surface_.points(), options, task);
-      if (!result.map.uvs.empty()) return result;
-      if (opening == kMostOpenings) {
+      if (result.map.energy < kLostEnergy) return result;
+      OpenedIsland further;
+      if (opening < kMostOpenings) further = open_to_farthest(result.opened.island, is_real, surface_.points(), task);
+      if (further.opened == 0) {
+        if (!result.map.uvs.empty()) return result;
         throw InvalidInput("the island with triangle " + std::to_string(caller_face(island, 0)) +
                            " cannot be flattened in double precision; cut it further");
       }
-      OpenedIsland further = open_to_farthest(result.opened.island, is_real, surface_.points(), task);
       further.opened += result.opened.opened;
       result.opened = std::move(further);
     }

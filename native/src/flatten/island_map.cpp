@@ -81,7 +81,7 @@ class Problem {
     double length = 0.0;
     std::size_t count = 0;
     for (const std::vector<std::int32_t>& loop : boundaries_) {
-      length += length_of(loop);
+      length += loop_length(loop, local_.points);
       count += loop.size();
     }
     const double mean = length / static_cast<double>(count) / energy_.unit();
@@ -148,14 +148,6 @@ class Problem {
  private:
   const Vector& point(std::int32_t v) const { return local_.points[index(v)]; }
 
-  double length_of(const std::vector<std::int32_t>& loop) const {
-    double length = 0.0;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      length += (local_.points[index(loop[i])] - local_.points[index(loop[(i + 1) % loop.size()])]).norm();
-    }
-    return length;
-  }
-
   /// Of the energies of a map's triangles, over the area. A few bad triangles are mended soon, and must not decide.
   double mean_logarithm(std::span<const double> map) const {
     if (map.empty()) return std::numeric_limits<double>::infinity();
@@ -173,17 +165,12 @@ class Problem {
       throw InvalidInput("the island with triangle " + std::to_string(island_.faces.front()) +
                          " is neither a disc nor a disc with holes");
     }
-    double longest = -1.0;
-    for (std::size_t loop = 0; loop < boundaries_.size(); ++loop) {
-      const double length = length_of(boundaries_[loop]);
-      if (boundaries_[loop].size() < 3 || length <= longest) continue;
-      longest = length;
-      outer_ = loop;
-    }
-    if (longest < 0.0) {
+    const std::int32_t outer = outer_loop(boundaries_, local_.points);
+    if (outer < 0) {
       throw InvalidInput("the island with triangle " + std::to_string(island_.faces.front()) +
                          " has no boundary loop of three or more edges");
     }
+    outer_ = index(outer);
   }
 
   void analyse(const Task& task) {

@@ -38,10 +38,19 @@ class Paths {
   /// Whether an edge is a real one inside the island.
   bool can_be_cut(std::int32_t h) const { return island_.twins[h] >= 0 && is_real_[index(h)] != 0; }
 
-  /// Distances from the nearest of some vertices. Paths do not run along the boundary.
-  void search(std::span<const std::int32_t> from, const Task& task) {
+  /// Distances from the nearest of some vertices. Paths do not run along the boundary. `holes`: loops that paths cross
+  /// at no length. A path enters each of them once, so a cut along the path and the loops leaves one piece.
+  void search(std::span<const std::int32_t> from, const Task& task,
+              std::span<const std::vector<std::int32_t>> holes = {}) {
     distance_.assign(island_.vertices.size(), kFar);
     towards_.assign(island_.vertices.size(), -1);
+    across_.assign(island_.vertices.size(), -1);
+    std::vector<std::int32_t> hole_of(island_.vertices.size(), -1);
+    for (std::int32_t hole = 0; index(hole) < holes.size(); ++hole) {
+      for (const std::int32_t v : holes[index(hole)]) hole_of[index(v)] = hole;
+    }
+    for (const std::int32_t v : from) hole_of[index(v)] = -1;
+    std::vector<std::uint8_t> is_entered(holes.size(), 0);
     IndexedHeap heap(distance_.size());
     for (const std::int32_t v : from) {
       distance_[v] = 0.0;
@@ -56,6 +65,15 @@ class Paths {
     for (std::size_t count = 0; !heap.empty(); ++count) {
       if (count % 1024 == 0) task.check(0.0);
       const std::int32_t v = heap.pop();
+      if (const std::int32_t hole = hole_of[index(v)]; hole >= 0 && std::exchange(is_entered[index(hole)], 1) == 0) {
+        for (const std::int32_t other : holes[index(hole)]) {
+          if (other == v) continue;
+          distance_[other] = distance_[v];
+          towards_[other] = -1;
+          across_[other] = v;
+          heap.lower(other, distance_[v]);
+        }
+      }
       for (const std::int32_t h : leaving_[v]) {
         try_edge(tip(h), h, distance_[v] + length(h));
       }
@@ -76,7 +94,11 @@ class Paths {
   }
   /// Marks both half-edges of each edge on the path to a vertex.
   void mark(std::int32_t v, std::vector<std::uint8_t>& is_cut) const {
-    for (std::int32_t h = towards_[v]; h >= 0; h = towards_[tail(h)]) is_cut[h] = is_cut[island_.twins[h]] = 1;
+    while (v >= 0) {
+      const std::int32_t h = towards_[v];
+      if (h >= 0) is_cut[h] = is_cut[island_.twins[h]] = 1;
+      v = h >= 0 ? tail(h) : across_[v];
+    }
   }
   std::span<const std::int32_t> leaving(std::int32_t v) const { return leaving_[v]; }
 
@@ -86,7 +108,8 @@ class Paths {
   std::span<const Vector> points_;
   Csr<std::int32_t> leaving_;  // half-edges that start at each vertex and can be cut
   std::vector<double> distance_;
-  std::vector<std::int32_t> towards_;  // the half-edge that ends at each vertex on the path to it, -1 at sources
+  std::vector<std::int32_t> towards_;  // the half-edge that ends at each vertex on the path to it, -1 without one
+  std::vector<std::int32_t> across_;   // the vertex from which the path to each vertex crosses a hole, -1 without one
 };
 
 std::int64_t euler_characteristic(const Island& island) {
@@ -212,8 +235,9 @@ OpenedIsland open_to_plane(const Island& island, std::span<const std::uint8_t> i
 
 OpenedIsland open_to_farthest(const Island& island, std::span<const std::uint8_t> is_real,
                               std::span<const Vector> points, const Task& task) {
+  const std::vector<std::vector<std::int32_t>> boundaries = island.boundaries();
   Paths paths(island, is_real, points);
-  paths.search(boundary_vertices(island.boundaries()), task);
+  paths.search(boundary_vertices(boundaries), task);
   std::vector<std::uint8_t> is_cut(island.twins.size(), 0);
   std::vector<std::int32_t> triangles(island.vertices.size(), 0);
   for (const Triangle& t : island.triangles) {
@@ -226,10 +250,13 @@ OpenedIsland open_to_farthest(const Island& island, std::span<const std::uint8_t
     paths.mark(v, is_cut);
     is_pinched = true;
   }
-  if (!is_pinched) paths.mark(paths.farthest(), is_cut);
-  OpenedIsland opened = open_along(island, is_cut);
-  if (opened.opened == 0) fail(island);
-  return opened;
+  if (!is_pinched) {
+    std::vector<Vector> own;
+    for (const std::int32_t v : island.vertices) own.push_back(points[index(v)]);
+    paths.search(boundaries[index(outer_loop(boundaries, own))], task, boundaries);
+    paths.mark(paths.farthest(), is_cut);
+  }
+  return open_along(island, is_cut);
 }
 
 }  // namespace seamwire::detail

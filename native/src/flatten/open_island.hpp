@@ -29,9 +29,9 @@ struct OpenedIsland {
 OpenedIsland open_to_plane(const Island& island, std::span<const std::uint8_t> is_real, std::span<const Vector> points,
                            const Task& task);
 
-/// Cuts a planar island along a shortest path of real edges from its boundary to the vertex farthest from it. If inner
-/// vertices have two triangles only, it cuts along paths to them, because one of the two would be flipped in any map.
-/// Throws InvalidInput if all vertices are on the boundary; Cancelled.
+/// Cuts a planar island along a shortest path of real edges from its outer_loop() to the vertex farthest from it. That
+/// vertex may lie on another boundary loop. If inner vertices have two triangles only, it cuts along paths to them,
+/// because one of the two would be flipped in any map. Cuts nothing if no path leaves the loop. Throws Cancelled.
 OpenedIsland open_to_farthest(const Island& island, std::span<const std::uint8_t> is_real,
                               std::span<const Vector> points, const Task& task);
 

@@ -214,6 +214,41 @@ TEST(FlattenPolygons, AnInnerVertexOfTwoTrianglesIsReachedByACut) {
   expect_map_of_polygons(mesh, surface, {});
 }
 
+/// A tube of quads. `is_closed`: whether the end of the last row has a face.
+shapes::PolygonMesh tube(int sides, int rows, double row_height, bool is_closed) {
+  shapes::PolygonMesh mesh = shapes::closed_cylinder(sides, rows, 0.2, row_height * rows);
+  const std::vector<std::int32_t> end = mesh.polygons.back();
+  mesh.polygons.resize(mesh.polygons.size() - 2);
+  if (is_closed) mesh.polygons.push_back(end);
+  return mesh;
+}
+
+TEST(FlattenPolygons, ALongTubeIsOpenedFromEndToEnd) {
+  const Flattening flat = flatten(tube(8, 300, 0.1, false).surface(), {});
+  EXPECT_EQ(flat.by_island[0].opened, 300U);
+  EXPECT_LT(flat.energy, 4.01);
+}
+
+TEST(FlattenPolygons, ATubeWithAnEndClosedIsOpenedIfSinglePrecisionWouldLoseItsFaces) {
+  // Double precision holds Tutte's embedding, but in its shrunken part Newton's method gets nowhere.
+  const Flattening flat = flatten(tube(4, 50, 0.3, true).surface(), {});
+  EXPECT_EQ(flat.by_island[0].opened, 50U);
+  EXPECT_LT(flat.by_island[0].energy, 5.0);
+  EXPECT_FALSE(flat.by_island[0].overlaps);
+}
+
+TEST(FlattenPolygons, SlitsDoNotKeepALongTubeFromBeingOpened) {
+  // Slits of one edge all around, so that each path meets some.
+  std::vector<Edge> cuts;
+  for (std::int32_t row = 2; row < 299; row += 2) {
+    for (std::int32_t i = 0; i < 8; i += 2) cuts.push_back({row * 8 + i, row * 8 + i + 1});
+  }
+  const Flattening flat = flatten(tube(8, 300, 0.1, false).surface(), cuts);
+  ASSERT_EQ(flat.by_island.size(), 1U);
+  EXPECT_LE(flat.by_island[0].opened, 302U);
+  EXPECT_LT(flat.energy, 5.0);
+}
+
 /// A flat sheet of n x n quads, with a fin upon each of some edges.
 shapes::PolygonMesh sheet_with_fins(int n, int fins) {
   shapes::PolygonMesh mesh = shapes::of_quads(shapes::quad_grid(n));

@@ -63,7 +63,7 @@ struct Flattening {
 /// segments of face_segments().
 ///
 /// An island without a boundary or with handles is opened along short additional paths of real edges, which FlatIsland
-/// counts. So is an island that double precision cannot map otherwise, such as a long tube with one end closed. So each
+/// counts. So is an island whose map would be lost in rounding, such as a long tube. So each
 /// corner of a polygon has one UV. A triangle that the surface left out (degenerate or duplicate) gets the UVs that its
 /// vertices have in its island. A vertex that is not in the island gets the island's center.
 ///
