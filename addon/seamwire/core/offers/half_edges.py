@@ -45,6 +45,10 @@ class HalfEdges:
         begin, end = np.searchsorted(keys, [key, key + 1])
         return [int(half_edge) for half_edge in order[begin:end]]
 
+    def chain(self, half_edges: Sequence[int]) -> tuple[int, ...]:
+        """Return the vertices that half-edges start at, in order."""
+        return tuple(self.tails[half_edges].tolist())
+
     def turns(self, chain: Sequence[int]) -> NDArray[np.float64]:
         """Return how far a closed chain turns to its left at each vertex, (k,), in radians.
 

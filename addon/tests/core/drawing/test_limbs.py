@@ -51,7 +51,10 @@ class Alt:
     def __init__(self, arrays: Arrays, pixels_a_unit: float) -> None:
         self.arrays = arrays
         make = LiveMaker(arrays)
-        self.session = Session(Drawing(make, arrays.points, edges=arrays.edges, triangles=arrays.triangles))
+        drawing = Drawing(
+            make, arrays.points, edges=arrays.edges, triangles=arrays.triangles, make_parts=make.part_finder
+        )
+        self.session = Session(drawing)
         half = 200.0 / pixels_a_unit
         self.view = View(400.0, 400.0, np.diag([1.0 / half, 1.0 / half, -0.1, 1.0]))
         self.picker = Picker(arrays)

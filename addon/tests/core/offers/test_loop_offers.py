@@ -6,13 +6,14 @@ from __future__ import annotations
 import threading
 from dataclasses import replace
 
+import numpy as np
 from fake_live import grid_edges, grid_triangles
 from grid import POINTS, SIZE, Grid, symmetry
 from seamwire.core.network.network import Network
 from seamwire.core.network.picks import undirected
 from seamwire.core.network.stops import Stops
 from seamwire.core.offers.edge_loops import LoopOffers, taken
-from seamwire.core.offers.flat_regions import FlatRegions
+from seamwire.core.offers.part_borders import PartBorders
 
 EDGE = (14, 15)
 
@@ -47,34 +48,40 @@ def test_another_edge_or_none_lets_them_vanish() -> None:
     assert not offers.missing
 
 
-def test_borders_of_flat_regions_are_offered_last() -> None:
-    edge = (0, 1)
+def halves() -> PartBorders:
+    """Return the grid as two parts, with the border along its third column."""
+    triangles = grid_triangles(SIZE)
+    labels = (triangles % SIZE).max(axis=1) > 2
+    return PartBorders(POINTS, triangles, grid_edges(SIZE), lambda: [labels.astype(np.int32)])
+
+
+def test_borders_of_parts_are_offered_last() -> None:
+    edge = (2, 2 + SIZE)
     without = loops(Grid()).find(edge, Network())
-    flat = FlatRegions(POINTS, grid_triangles(SIZE), grid_edges(SIZE))
-    offers = LoopOffers(Grid().engines, Stops([], symmetry()), POINTS, flat)
+    offers = LoopOffers(Grid().engines, Stops([], symmetry()), POINTS, halves())
     found = offers.find(edge, Network())
-    assert [one.kind for one in found] == [*(one.kind for one in without), "FLAT"], (
-        "once, though the same at each angle"
-    )
+    assert [one.kind for one in found] == [*(one.kind for one in without), "FLAT", "FLAT"]
     rows = range(SIZE)
-    sides = {(x, y) for x in rows for y in rows if {x, y} & {0, SIZE - 1}}
-    assert {(vertex % SIZE, vertex // SIZE) for vertex in found[-1].vertices} == sides
-    assert found[-1].closed
-    assert set(found[-1].edges()) == offers.flat_border(edge[::-1])
+    sides = {(x, y) for x in range(3) for y in rows if x in {0, 2} or y in {0, SIZE - 1}}
+    assert {(vertex % SIZE, vertex // SIZE) for vertex in found[-2].vertices} == sides, "the shorter one first"
+    assert found[-2].closed
+    assert set(found[-2].edges()) == offers.part_border(edge[::-1])
+    assert offers.part_border((0, 1)) == offers.part_border(edge)
+    assert not offers.part_border((7, 8))
 
 
-def test_until_all_triangles_are_looked_at_nothing_is_offered() -> None:
-    flat = FlatRegions(POINTS, grid_triangles(SIZE), grid_edges(SIZE))
+def test_until_parts_are_found_nothing_is_offered() -> None:
+    parts = halves()
     go_on = threading.Event()
-    flat._thread = threading.Thread(target=go_on.wait)
-    flat._thread.start()
-    offers = LoopOffers(Grid().engines, Stops([], symmetry()), POINTS, flat)
+    parts._thread = threading.Thread(target=go_on.wait)
+    parts._thread.start()
+    offers = LoopOffers(Grid().engines, Stops([], symmetry()), POINTS, parts)
     offers.aim(EDGE)
     assert offers.find(EDGE, Network()) == ()
     offers.stop_waiting()
     assert not offers.final
     go_on.set()
-    flat._thread.join()
+    parts._thread.join()
     assert offers.find(EDGE, Network())
     assert offers.final
 
