@@ -118,7 +118,7 @@ def test_a_whole_strip_is_taken_across_seams(desk: Desk) -> None:
     assert take(desk, "WHOLE", 40, 41) == sorted([*chain(*range(36, 45)), (34, 43)])
 
 
-def test_the_border_of_a_flat_region_is_taken(desk: Desk) -> None:
+def test_the_border_of_a_part_is_taken(desk: Desk) -> None:
     bm = bmesh.from_edit_mesh(desk.obj.data)
     for vertex in bm.verts:
         vertex.co.z += max(vertex.co.x, 0.0)  # folded by 45 degrees along the middle column

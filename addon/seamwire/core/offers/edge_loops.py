@@ -463,7 +463,11 @@ def past_poles(live: LiveWire, edge: Edge, stops: NDArray[np.int64] | Sequence[i
 
 
 def _slit(
-    live: LiveWire, edge: Edge, stops: NDArray[np.int64] | Sequence[int], points: NDArray[np.float64], parts: PartBorders
+    live: LiveWire,
+    edge: Edge,
+    stops: NDArray[np.int64] | Sequence[int],
+    points: NDArray[np.float64],
+    parts: PartBorders,
 ) -> Wire | None:
     """Return the straight way that slits the tube around an edge, or None if the edge does not lead from rim to rim.
 
@@ -476,7 +480,11 @@ def _slit(
 
     def way(through: Edge) -> Wire | None:
         chain, closed = past_poles(live, through, sorted(ends))
-        if closed or not ends.issuperset(chain[:1] + chain[-1:]) or any(rim.issuperset((chain[0], chain[-1])) for rim in rims):
+        if (
+            closed
+            or not ends.issuperset(chain[:1] + chain[-1:])
+            or any(rim.issuperset((chain[0], chain[-1])) for rim in rims)
+        ):
             return None
         return _wire("STRIP", chain, False, through, points)
 

@@ -146,6 +146,11 @@ class HalfEdges:
         return twins
 
     @cached_property
+    def boundary(self) -> NDArray[np.bool_]:
+        """(3m,) whether each half-edge lies on an edge that only one triangle has."""
+        return self._is_open(self.tails, self.tails[after(np.arange(len(self.tails)))])
+
+    @cached_property
     def visible(self) -> NDArray[np.bool_]:
         """(3m,) whether each half-edge lies on an edge of the mesh."""
         keys, order = self._by_edge

@@ -171,7 +171,7 @@ class _Parts:
     def __post_init__(self) -> None:
         self._found: dict[int, tuple[Chain, ...]] = {}
         self._rims: dict[int, tuple[Chain, ...]] = {}
-        _ = self._outer  # on the thread that finds the parts
+        _ = self._outer, self.half_edges.boundary  # on the thread that finds the parts
 
     @cached_property
     def _outer(self) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
@@ -186,7 +186,7 @@ class _Parts:
         """Return the borders of the part with a triangle that lead between parts. Those that meet themselves are left out."""
         part = int(self.labels[triangle])
         if part not in self._found:
-            between = (border for border in self._all(part) if (self.half_edges.twins[border] >= 0).any())
+            between = (border for border in self._all(part) if not self.half_edges.boundary[border].all())
             chains = map(self.half_edges.chain, between)
             self._found[part] = tuple(chain for chain in chains if len(set(chain)) == len(chain) > 2)
         return self._found[part]
