@@ -480,11 +480,9 @@ def _slit(
 
     def way(through: Edge) -> Wire | None:
         chain, closed = past_poles(live, through, sorted(ends))
-        if (
-            closed
-            or not ends.issuperset(chain[:1] + chain[-1:])
-            or any(rim.issuperset((chain[0], chain[-1])) for rim in rims)
-        ):
+        if closed or not chain or not ends.issuperset((chain[0], chain[-1])):
+            return None
+        if any(rim.issuperset((chain[0], chain[-1])) for rim in rims):
             return None
         return _wire("STRIP", chain, False, through, points)
 
