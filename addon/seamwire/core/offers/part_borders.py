@@ -183,7 +183,7 @@ class _Parts:
         return outer, own[outer]
 
     def borders(self, triangle: int) -> tuple[Chain, ...]:
-        """Return the borders of the part with a triangle that lead between parts. Those that meet themselves are left out."""
+        """Return the borders of the part with a triangle between parts. Borders that meet themselves are left out."""
         part = int(self.labels[triangle])
         if part not in self._found:
             between = (border for border in self._all(part) if not self.half_edges.boundary[border].all())
