@@ -205,9 +205,11 @@ class LoopGesture(Gesture):
         loops = tuple(offer for offer in offers if offer.kind not in CREST_KINDS)
         if not loops or (self._seen is None and offers[0].kind in CREST_KINDS):
             return self._along_crest(edge)
-        wire = replace(taken(loops, min(self._choice, len(loops) - 1), options.marking), mirror=network.mirror)
+        choice = min(self._choice, len(loops) - 1)
+        wire = replace(taken(loops, choice, options.marking), mirror=network.mirror)
+        beside = (each.anew(marks=options.marking, mirror=network.mirror) for each in loops[choice].beside)
         self.edges.took(edge, wire)
-        return self._drawing.with_wires(wire)
+        return self._drawing.with_wires(*beside, wire)
 
     def commit_cut(self, target: Snap) -> Committed:
         """Return the network with the closed cut through a target, or with the last one bent to it."""

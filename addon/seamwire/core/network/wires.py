@@ -76,6 +76,8 @@ class Wire:
         Whether *Suggest Seamwires* found its course: it ends where it is meant to end.
     offers
         What else that click offered, the next one first; they have no offers themselves.
+    beside
+        Of an offer, the other loops that the click takes with it. Kept wires have none.
     stored
         The number under which the mesh knows it as it runs now; 0: under none yet.
     id
@@ -100,6 +102,7 @@ class Wire:
     through: Edge | None = None
     planned: bool = False
     offers: tuple[Wire, ...] = ()
+    beside: tuple[Wire, ...] = ()
     stored: int = 0
     id: int = field(default_factory=_ids.__next__)
 
@@ -137,7 +140,7 @@ class Wire:
     def like(self, other: Wire) -> bool:
         """Whether another wire runs the same way."""
         if self.along == other.along == "EDGES":
-            return self.vertices == other.vertices
+            return self.vertices == other.vertices and len(self.beside) == len(other.beside)
         return self.points.shape == other.points.shape and bool(np.allclose(self.points, other.points, rtol=1e-6))
 
     def retraced(self) -> Wire:

@@ -201,7 +201,8 @@ class LoopOffers(Offers):
     def _with_part(self, edge: Edge, offers: tuple[Wire, ...]) -> tuple[Wire, ...]:
         """Return offers with the borders of the part under the cursor first, where the cursor is inside a face.
 
-        The nearest border comes first, then the slit of a tube, then the other borders, and those of finer and coarser parts.
+        The nearest border comes first, then the slit of a tube, then all borders at once, then each of the others, and
+        those of finer and coarser parts.
         """
         triangle, snap = self._triangle_at(edge), self._snap
         if self._parts is None or snap is None or triangle is None or not snap.inside or not offers:
@@ -212,8 +213,10 @@ class LoopOffers(Offers):
         (first, *others), *further = nearest_first
         slits = [self._known[own][1] for own in (edge, snap.crossing) if own in self._known]
         slit = [offer for offer in offers if frozenset(offer.edges()) in slits]
-        borders = [self._border(chain, edge) for chain in (*others, *(chains[0] for chains in further if chains))]
-        return _distinct([self._border(first, edge), *slit, *borders, *offers])
+        nearest, *rest = (self._border(chain, edge) for chain in (first, *others))
+        every = [] if nearest is None or not rest else [replace(nearest, beside=tuple(filter(None, rest)))]
+        borders = (self._border(chains[0], edge) for chains in further if chains)
+        return _distinct([nearest, *slit, *every, *rest, *borders, *offers])
 
     def _triangle_at(self, edge: Edge) -> int | None:
         """Return the triangle under the cursor if that points at an edge, or None."""
@@ -273,7 +276,8 @@ def _last_kind(network: Network) -> LoopKind | None:
 def taken(offers: tuple[Wire, ...], choice: int, marks: bool) -> Wire:
     """Return an offer as a wire to be kept, with the others in their order, the next one first."""
     offers = tuple(as_kept(offer) for offer in offers)
-    return offers[choice].anew(marks=marks, offers=offers[choice + 1 :] + offers[:choice])
+    others = tuple(offer for offer in offers[choice + 1 :] + offers[:choice] if not offer.beside)
+    return offers[choice].anew(marks=marks, offers=others, beside=())
 
 
 def others(kept: Wire, offers: tuple[Wire, ...]) -> tuple[Wire, ...]:
@@ -508,7 +512,7 @@ def _distinct(offers: Iterable[Wire | None]) -> tuple[Wire, ...]:
     found: dict[frozenset[Edge], Wire] = {}
     for offer in offers:
         if offer is not None:
-            found.setdefault(frozenset(offer.edges()), offer)
+            found.setdefault(frozenset(edge for loop in (offer, *offer.beside) for edge in loop.edges()), offer)
     return tuple(found.values())
 
 

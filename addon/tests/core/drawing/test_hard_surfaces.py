@@ -117,8 +117,8 @@ def offers(session: Session, target: Snap) -> list[tuple[str, frozenset[Edge]]]:
     session.wait()
     found = []
     for _ in session.picture.offered.kinds:
-        offer = session.picture.one(Role.OFFER)
-        found.append((session.picture.offered.kind, frozenset(offer.edges())))
+        loops = [shown.wire for shown in session.picture.wires if shown.role is Role.OFFER]
+        found.append((session.picture.offered.kind, frozenset(edge for loop in loops for edge in loop.edges())))
         session.next_candidate()
     session.hover(None)
     return found
@@ -271,11 +271,39 @@ def test_inside_a_face_of_a_wall_the_nearest_rim_comes_first_and_the_slit_second
     low = 16 * (rows - 1) + 2
     triangle = face_of(arrays, low, low + 1, low + 17)
     slit = upright(2, 0, rows, 16)
+    rims = [ring_of(rows, 16), ring_of(0, 16)]
     found = offers(session, Snap((low, low + 16), triangle=triangle, inside=True))
-    assert [edges for _, edges in found[1:3]] == [slit, ring_of(0 if found[0][1] == ring_of(rows, 16) else rows, 16)]
+    assert found[0][1] in rims
+    assert found[1][1] == slit
     found = offers(session, Snap((low + 16, low + 17), crossing=(low + 16, low), triangle=triangle, inside=True))
-    assert [edges for _, edges in found[:3]] == [ring_of(rows, 16), slit, ring_of(0, 16)]
+    assert [edges for _, edges in found[:4]] == [rims[0], slit, rims[0] | rims[1], rims[1]]
     assert len({edges for _, edges in found}) == len(found)
+
+
+def test_all_borders_of_a_wall_are_shown_and_taken_at_once() -> None:
+    session, arrays = session_of(*prism(circle(16), 2.0))
+    target = Snap((18, 19), crossing=(18, 2), triangle=face_of(arrays, 2, 3, 19), inside=True)
+    session.hover(target, loop=True)
+    session.wait()
+    assert session.next_candidate()
+    assert session.next_candidate()
+    session.hover(target, loop=True)
+    session.wait()
+    assert session.picture.offered.number == 2, "the choice stays"
+    assert session.loop(target)
+    session.wait()
+    rims = [ring_of(0, 16), ring_of(1, 16)]
+    assert [frozenset(wire.edges()) for wire in session.wires] == rims
+    assert all(wire.closed and not wire.beside for wire in session.wires)
+    assert session.loop(target), "the second press of a double click"
+    assert len(session.wires) == 2
+    assert session.retrace(session.wires[1])
+    session.wait()
+    assert frozenset(session.wires[0].edges()) == rims[0]
+    assert frozenset(session.wires[1].edges()) != rims[1]
+    assert session.undo()
+    assert session.undo()
+    assert session.wires == ()
 
 
 def test_a_slit_ends_at_a_seam() -> None:
@@ -293,7 +321,8 @@ def test_a_barrel_offers_its_wall_its_lids_and_its_rims() -> None:
     assert offers(session, Snap((middle, middle + sides)))[0] == ("STRIP", upright(2, 4, 9, sides))
     triangle = face_of(arrays, middle, middle + 1, middle + 1 + sides)
     found = offers(session, Snap((middle, middle + sides), triangle=triangle, inside=True))
-    assert [edges for _, edges in found[:3]] == [ring_of(4, sides), upright(2, 4, 9, sides), ring_of(9, sides)]
+    rims = [ring_of(4, sides), ring_of(9, sides)]
+    assert [edges for _, edges in found[:4]] == [rims[0], upright(2, 4, 9, sides), rims[0] | rims[1], rims[1]]
     lid = int(np.flatnonzero(arrays.polygons == 1)[0])
     assert offers(session, Snap((13 * sides, 13 * sides + 1), triangle=lid, inside=True))[0][1] == ring_of(13, sides)
 
