@@ -73,6 +73,7 @@ class LoopOffers(Offers):
         self._snap: Snap | None = None
         self._metric: tuple[object, ...] = ()
         self._known: dict[Edge, tuple[tuple[Wire, ...], frozenset[Edge]]] = {}
+        self._with_parts = False
         self._directions = Directions()
         self._taken: tuple[Pick | None, Wire | None] = (None, None)
 
@@ -81,12 +82,17 @@ class LoopOffers(Offers):
         before, self._snap = self._snap, snap
         if before is not None and snap is not None and self.edge == undirected(snap.pick):
             same = (before.crossing, before.triangle, before.inside) == (snap.crossing, snap.triangle, snap.inside)
-            self.final = self.final and same
+            self.final = self.final and same and self._with_parts == self._knows_parts
 
     def wait(self) -> None:
         """Wait for what the offers need beside the library."""
         if self._parts is not None:
             self._parts.wait()
+            self.final = self.final and self._with_parts == self._knows_parts
+
+    @property
+    def _knows_parts(self) -> bool:
+        return self._parts is not None and self._parts.is_complete
 
     def aim(self, pick: Pick | None) -> bool:
         """Ask for the offers for a pick, or for none; return whether others vanish because of that."""
@@ -157,7 +163,8 @@ class LoopOffers(Offers):
         The library computes one loop at a time. The loops found are remembered as long as nothing else changes.
         """
         engines = self._engines
-        metric = network, engines.metric, engines.strengths["EDGES"], engines.clamp
+        self._with_parts = self._knows_parts
+        metric = network, engines.metric, engines.strengths["EDGES"], engines.clamp, self._with_parts
         if metric != self._metric or len(self._known) > _MOST_KNOWN:
             self._metric = metric
             self._known.clear()
@@ -480,11 +487,11 @@ def _slit(
     rims = [set(rim) for rim in parts.rims(edge)]
     if not rims:
         return None
-    ends = {int(vertex) for vertex in stops}.union(*rims)
+    ends = np.union1d(np.asarray(stops, dtype=np.int64), [vertex for rim in rims for vertex in rim])
 
     def way(through: Edge) -> Wire | None:
-        chain, closed = past_poles(live, through, sorted(ends))
-        if closed or not chain or not ends.issuperset((chain[0], chain[-1])):
+        chain, closed = past_poles(live, through, ends)
+        if closed or not chain or not among(np.array([chain[0], chain[-1]]), ends).all():
             return None
         if any(rim.issuperset((chain[0], chain[-1])) for rim in rims):
             return None

@@ -38,6 +38,10 @@ class HalfEdges:
         self._points, self._triangles, self._edges = points, triangles, edges
         self.tails = triangles.reshape(-1)
 
+    def prepare(self) -> None:
+        """Compute everything that the other methods need, on the thread that calls this."""
+        _ = self.area, self.normals, self.twins, self.boundary, self.visible
+
     def of(self, edge: Edge) -> list[int]:
         """Return the half-edges along an edge, in both directions."""
         keys, order = self._by_edge

@@ -52,6 +52,8 @@ class PartBorders:
     ----------
     half_edges
         The half-edges of the triangles.
+    is_complete
+        Whether the parts are known. Until then there are only flat faces.
     """
 
     def __init__(
@@ -66,23 +68,30 @@ class PartBorders:
         self._find_parts = find_parts
         self._steps: list[_Parts] = []
         self._thread: threading.Thread | None = None
+        self._is_prepared = False
+        self.is_complete = False
 
     def ready(self) -> bool:
-        """Whether the parts are known. The first call begins to find them, on a thread if there are many triangles."""
+        """Whether flat faces can be found. The first call begins to prepare them, and then to find the parts, on a thread."""
         if self._thread is None:
             self._thread = threading.Thread(target=self._prepare, name="seamwire parts", daemon=True)
             self._thread.start()
             if len(self._triangles) <= AT_ONCE:
                 self._thread.join()
-        return not self._thread.is_alive()
+        return self._is_prepared
 
     def wait(self) -> None:
-        """Wait until the parts are known, if `ready` was called."""
+        """Wait until everything is known, if `ready` was called."""
         if self._thread is not None:
             self._thread.join()
 
     def _prepare(self) -> None:
-        self._steps = [_Parts(self.half_edges, labels) for labels in self._find_parts()]
+        self.half_edges.prepare()
+        self._is_prepared = True
+        try:
+            self._steps = [_Parts(self.half_edges, labels) for labels in self._find_parts()]
+        finally:
+            self.is_complete = True
 
     def borders(self, edge: Edge) -> Iterator[Chain]:
         """Yield the closed chains through an edge that are borders of parts beside it.
@@ -171,7 +180,7 @@ class _Parts:
     def __post_init__(self) -> None:
         self._found: dict[int, tuple[Chain, ...]] = {}
         self._rims: dict[int, tuple[Chain, ...]] = {}
-        _ = self._outer, self.half_edges.boundary  # on the thread that finds the parts
+        _ = self._outer  # on the thread that finds the parts
 
     @cached_property
     def _outer(self) -> tuple[NDArray[np.int64], NDArray[np.int32]]:

@@ -141,7 +141,7 @@ def test_on_a_plain_where_no_direction_is_likelier_the_last_one_stays() -> None:
         assert is_row() == began
 
 
-def test_a_click_on_a_large_mesh_waits_for_the_parts() -> None:
+def test_a_click_on_a_large_mesh_waits_for_the_faces() -> None:
     alt = Alt(arrays_of(grid_places(81), grid_polygons(81)), 150.0)
     alt.session.loop(alt.snap(0.013, 0.0))
     assert alt.session.waiting_clicks == 1

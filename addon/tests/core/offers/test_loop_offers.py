@@ -7,11 +7,13 @@ import threading
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from fake_live import grid_edges, grid_triangles
 from grid import POINTS, SIZE, Grid, symmetry
-from seamwire.core.network.network import Network
+from seamwire.core.network.network import Network, Snap
 from seamwire.core.network.picks import undirected
 from seamwire.core.network.stops import Stops
+from seamwire.core.offers import part_borders
 from seamwire.core.offers.edge_loops import LoopOffers, taken
 from seamwire.core.offers.part_borders import PartBorders
 
@@ -48,11 +50,11 @@ def test_another_edge_or_none_lets_them_vanish() -> None:
     assert not offers.missing
 
 
-def halves() -> PartBorders:
-    """Return the grid as two parts, with the border along its third column."""
+def halves(go_on: threading.Event | None = None) -> PartBorders:
+    """Return the grid as two parts, with the border along its third column; they are found when they may `go_on`."""
     triangles = grid_triangles(SIZE)
-    labels = (triangles % SIZE).max(axis=1) > 2
-    return PartBorders(POINTS, triangles, grid_edges(SIZE), lambda: [labels.astype(np.int32)])
+    labels = ((triangles % SIZE).max(axis=1) > 2).astype(np.int32)
+    return PartBorders(POINTS, triangles, grid_edges(SIZE), lambda: [labels] if go_on is None or go_on.wait() else [])
 
 
 def test_borders_of_parts_are_offered_last() -> None:
@@ -70,7 +72,7 @@ def test_borders_of_parts_are_offered_last() -> None:
     assert not offers.part_border((7, 8))
 
 
-def test_until_parts_are_found_nothing_is_offered() -> None:
+def test_until_the_faces_are_prepared_nothing_is_offered() -> None:
     parts = halves()
     go_on = threading.Event()
     parts._thread = threading.Thread(target=go_on.wait)
@@ -82,8 +84,48 @@ def test_until_parts_are_found_nothing_is_offered() -> None:
     assert not offers.final
     go_on.set()
     parts._thread.join()
+    parts._prepare()
     assert offers.find(EDGE, Network())
     assert offers.final
+
+
+def test_loops_do_not_wait_for_parts_and_parts_join_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(part_borders, "AT_ONCE", 0)
+    edge, go_on = (2, 2 + SIZE), threading.Event()
+    parts = halves(go_on)
+    offers = LoopOffers(Grid().engines, Stops([], symmetry()), POINTS, parts)
+    offers.point_at(Snap(edge))
+    offers.aim(edge)
+    while not offers.find(edge, Network()):
+        pass
+    kinds = [offer.kind for offer in offers.find(edge, Network())]
+    assert "FLAT" not in kinds
+    assert offers.final
+    offers.show(edge, offers.find(edge, Network()))
+    offers.point_at(Snap(edge))
+    assert offers.final
+    go_on.set()
+    offers.wait()
+    assert not offers.final, "the parts are known since"
+    assert [offer.kind for offer in offers.find(edge, Network())] == [*kinds, "FLAT", "FLAT"]
+    assert offers.final
+
+
+def test_a_motion_of_the_mouse_shows_parts_that_are_known_since(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(part_borders, "AT_ONCE", 0)
+    edge, go_on = (2, 2 + SIZE), threading.Event()
+    parts = halves(go_on)
+    offers = LoopOffers(Grid().engines, Stops([], symmetry()), POINTS, parts)
+    offers.point_at(Snap(edge))
+    offers.aim(edge)
+    while not (found := offers.find(edge, Network())):
+        pass
+    offers.show(edge, found)
+    go_on.set()
+    parts.wait()
+    assert offers.final
+    offers.point_at(Snap(edge))
+    assert not offers.final
 
 
 def test_nothing_is_offered_until_it_is_computed() -> None:
