@@ -37,8 +37,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from blender_engine import BlenderEngine
 from seam_drags import Hand
-from seamwire_core import PartFinder
 from seams_engine import SeamwireEngine
+from seamwire_core import PartFinder
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "addon"))
 from seamwire.core.network.symmetry import Symmetry
