@@ -31,9 +31,11 @@ def session_on(
         on = (surface,) if ready else (points, triangles, edges)
         return core.LiveWire(*on, along=way.lower(), max_anisotropy=STRENGTHS[way], clamp_percentile=CLAMP_PERCENTILE)
 
-    return Session(
-        Drawing(make, points, edges=surface.edges if edges is None else edges, triangles=triangles, **options)
-    )
+    def parts(mirror: int | None) -> object:
+        return core.PartFinder(surface, mirror=mirror)
+
+    own = surface.edges if edges is None else edges
+    return Session(Drawing(make, points, edges=own, triangles=triangles, make_parts=parts, **options))
 
 
 def quads_between_rings() -> NDArray[np.int32]:

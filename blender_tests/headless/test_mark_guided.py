@@ -50,7 +50,7 @@ def test_what_is_the_same_as_something_else_is_taken_all_the_same() -> None:
         assert seams(obj) == []
 
 
-def test_the_border_of_a_flat_region_is_taken() -> None:
+def test_the_border_of_a_part_is_taken() -> None:
     bpy.ops.mesh.primitive_cube_add()
     edit()
     bpy.ops.mesh.subdivide(number_cuts=2)
@@ -66,7 +66,7 @@ def test_the_border_of_a_flat_region_is_taken() -> None:
     marked = seams(obj)
     assert len(marked) == 12, "one of the two faces beside the edge"
     assert (first, second) in marked
-    with pytest.raises(RuntimeError, match="No border of flat region runs through edge"):
+    with pytest.raises(RuntimeError, match="No border of part runs through edge"):
         mark(loops=next(f"{a}-{b}" for a, b in map(sorted, top) if (a, b) not in around), take="FLAT")
 
 

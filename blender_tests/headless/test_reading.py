@@ -57,6 +57,19 @@ def test_quads_bent_in_at_any_corner_are_cut_there(bent: str) -> None:
     assert [turned(tuple(map(int, t))) for t in arrays.triangles] == [turned(t) for t in blenders_triangles(obj.data)]
 
 
+def test_edges_are_marked_that_are_sharp_or_between_materials() -> None:
+    obj = add_grid(5)  # vertex y * 5 + x is column x of row y
+    for name in ("Wood", "Iron"):
+        obj.data.materials.append(bpy.data.materials.new(name))
+    for face in obj.data.polygons:
+        face.material_index = int(face.center.x > 0.0)
+    sharp = next(edge for edge in obj.data.edges if set(edge.vertices) == {5, 6})
+    sharp.use_edge_sharp = True
+    edit()
+    column = [(2 + 5 * y, 7 + 5 * y) for y in range(4)]
+    assert sorted(tuple(sorted(pair)) for pair in edit_mesh.read(obj).marked.tolist()) == sorted([(5, 6), *column])
+
+
 @pytest.mark.parametrize("more", [(), ((0.5, 2.0), (0.5, -2.0))], ids=["quads", "pentagons"])
 def test_seams_past_a_vertex_in_the_middle_of_an_edge_part_islands(more: tuple[tuple[float, float], ...]) -> None:
     points = [(0, 0), (1, 0), (2, 0), (1.5, 2), (1.5, -2), *more]

@@ -118,11 +118,36 @@ def test_a_whole_strip_is_taken_across_seams(desk: Desk) -> None:
     assert take(desk, "WHOLE", 40, 41) == sorted([*chain(*range(36, 45)), (34, 43)])
 
 
-def test_the_border_of_a_flat_region_is_taken(desk: Desk) -> None:
+def fold_in_the_middle(desk: Desk) -> None:
+    """Fold the grid by 45 degrees along its middle column, where alone a part ends."""
     bm = bmesh.from_edit_mesh(desk.obj.data)
+    for edge in bm.edges:
+        edge.smooth = True
+    for face in bm.faces:
+        face.material_index = 0
     for vertex in bm.verts:
-        vertex.co.z += max(vertex.co.x, 0.0)  # folded by 45 degrees along the middle column
+        vertex.co.z += max(vertex.co.x, 0.0)
     bmesh.update_edit_mesh(desk.obj.data)
+
+
+def test_inside_a_face_the_border_of_its_part_comes_first(desk: Desk) -> None:
+    fold_in_the_middle(desk)
+    desk.ui.look_from_top(distance=1.0)
+    corners = (38, 39, 47, 48)
+    place = offer(desk, *corners)
+    assert desk.session.picture.offered.kind == "FLAT"
+    assert "Border of Part" in said()
+    desk.ui.click(place, alt=True)
+    assert {vertex % 9 for edge in seams(desk.obj) for vertex in edge} == {0, 1, 2, 3, 4}
+    assert len(seams(desk.obj)) == 24
+    desk.ui.key("Z", ctrl=True)
+    assert seams(desk.obj) == []
+    offer(desk, *corners[:2])
+    assert desk.session.picture.offered.kind != "FLAT", "near an edge its loops come first"
+
+
+def test_the_border_of_a_part_is_taken(desk: Desk) -> None:
+    fold_in_the_middle(desk)
     marked = take(desk, "FLAT", 40, 49)
     fold = chain(*range(4, 81, 9))
     assert set(fold) < set(marked)

@@ -12,7 +12,7 @@ Needs SciPy. Presses of a mouse button are counted:
   all of it belongs to the seams, the two commands and the angle for nothing; and Select Sharp Edges (30 degrees) for one, where all that
   it takes does.
 - Seamwire: a click for a chain's seed, one for each wire, and one for each offer of the loop gesture: a closed loop, a strip or a way
-  past poles up to seams drawn before, a whole strip, the border of a flat region, wherever one lies in the seams as a whole, and a
+  past poles up to seams drawn before, a whole strip, the border of a part, wherever one lies in the seams as a whole, and a
   single edge.
 - Beside the presses, the turns from one candidate to the next: of wires, and of the loop gesture's offers as below.
 - How often the wanted loop is the first offer of the loop gesture, and how many notches of the wheel it takes. This is measured over about
@@ -38,11 +38,12 @@ import numpy as np
 from blender_engine import BlenderEngine
 from seam_drags import Hand
 from seams_engine import SeamwireEngine
+from seamwire_core import PartFinder
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "addon"))
 from seamwire.core.network.symmetry import Symmetry
 from seamwire.core.offers.edge_loops import find_offers, past_poles  # these know no Blender
-from seamwire.core.offers.flat_regions import FlatRegions
+from seamwire.core.offers.part_borders import AMOUNTS, PartBorders
 
 if TYPE_CHECKING:
     from seamwire.core.network.wires import LoopKind
@@ -112,8 +113,8 @@ class Seamwire:
     ----------
     mesh
         The mesh to draw on.
-    past_poles, flat
-        The way past poles, borders of flat regions are offered too.
+    past_poles, parts
+        The way past poles, borders of parts are offered too.
     wobble
         How far a hand that draws lines is off them, in edges; None: none are drawn.
     """
@@ -121,13 +122,19 @@ class Seamwire:
     stops_at_seams = True
     path_begins_at_loop = False
 
-    def __init__(self, mesh: Mesh, past_poles: bool, flat: bool, wobble: float | None = None) -> None:
+    def __init__(self, mesh: Mesh, past_poles: bool, parts: bool, wobble: float | None = None) -> None:
         self.engine = SeamwireEngine()
         self.engine.prepare(*mesh)
         self.hand = None if wobble is None else Hand(self.engine.surface, wobble)
         self._points, self._past_poles = mesh[0], past_poles
         surface = self.engine.surface
-        self._flat = FlatRegions(mesh[0], surface.triangles, surface.edges) if flat else None
+        self._parts = None
+        if parts:
+            finder = PartFinder(surface)
+            labels = [finder.find(amount).of_face for amount in AMOUNTS]
+            self._parts = PartBorders(mesh[0], surface.triangles, surface.edges, lambda: labels)
+            self._parts.ready()
+            self._parts.wait()
         self._loops: dict[Pair, list[int] | None] = {}
 
     def offers(self, edge: Pair, stops: frozenset[int]) -> Iterable[Edges]:
@@ -142,8 +149,8 @@ class Seamwire:
         if self._past_poles:
             chain, closed = past_poles(self.engine.live, edge, list(stops))
             yield edges_of(list(chain), closed)
-        if self._flat is not None:
-            for border in self._flat.borders(edge):
+        if self._parts is not None:
+            for border in self._parts.borders(edge):
                 yield edges_of(list(border), True)
 
     def at_once(self) -> Edges:
@@ -157,12 +164,11 @@ class Seamwire:
         """
         places, kind = [], None
         for edge in sorted(wanted)[:: max(1, len(wanted) // _EDGES_TRIED)]:
-            final = False
-            while not final:
-                offers, final = find_offers(
-                    self.engine.live, edge, list(stops), self._points, 0.0, stops, last, self._flat
-                )
+            found = None
+            while found is None:
+                found = find_offers(self.engine.live, edge, list(stops), self._points, 0.0, stops, last, self._parts)
                 self.engine.live.wait()
+            offers, _ = found
             place = next((i for i, offer in enumerate(offers) if set(offer.edges()) == wanted), None)
             if place is not None:
                 places.append(place + (place > 0))
@@ -299,21 +305,21 @@ def mean_ratio(clicked: np.ndarray, beside: np.ndarray) -> str:
 ROWS = {
     "Blender": lambda mesh: Blender(mesh, everything=False),
     "Blender, all it has": lambda mesh: Blender(mesh, everything=True),
-    "Seamwire": lambda mesh: Seamwire(mesh, past_poles=False, flat=False),
-    "Seamwire, past poles": lambda mesh: Seamwire(mesh, past_poles=True, flat=False),
-    "Seamwire, flat borders": lambda mesh: Seamwire(mesh, past_poles=True, flat=True),
+    "Seamwire": lambda mesh: Seamwire(mesh, past_poles=False, parts=False),
+    "Seamwire, past poles": lambda mesh: Seamwire(mesh, past_poles=True, parts=False),
+    "Seamwire, borders of parts": lambda mesh: Seamwire(mesh, past_poles=True, parts=True),
 }
 DRAGGING = {
-    "Seamwire, drags, wobble 0.2": lambda mesh: Seamwire(mesh, past_poles=True, flat=True, wobble=0.2),
-    "Seamwire, drags, exact": lambda mesh: Seamwire(mesh, past_poles=True, flat=True, wobble=0.0),
+    "Seamwire, drags, wobble 0.2": lambda mesh: Seamwire(mesh, past_poles=True, parts=True, wobble=0.2),
+    "Seamwire, drags, exact": lambda mesh: Seamwire(mesh, past_poles=True, parts=True, wobble=0.0),
 }
 """With --drags."""
 WITHOUT = {
     "Blender, all it has": "Blender",
     "Seamwire, past poles": "Seamwire",
-    "Seamwire, flat borders": "Seamwire, past poles",
-    "Seamwire, drags, wobble 0.2": "Seamwire, flat borders",
-    "Seamwire, drags, exact": "Seamwire, flat borders",
+    "Seamwire, borders of parts": "Seamwire, past poles",
+    "Seamwire, drags, wobble 0.2": "Seamwire, borders of parts",
+    "Seamwire, drags, exact": "Seamwire, borders of parts",
 }
 """Who has more need not use it: what is chosen here, where it saves the most at once, may end with more clicks."""
 

@@ -317,6 +317,7 @@ def _arrays(
     edges = columns.edges()
     visible = ~columns.flags("edges", "hide")
     seams = edges[visible & columns.flags("edges", "use_seam")]
+    marked = edges[visible & (columns.flags("edges", "use_edge_sharp") | _between_materials(mesh, columns))]
     edges = edges[visible]
     if len(edges) == 0:
         raise NothingVisibleError("No edge of the mesh is visible: there is nothing to draw on")
@@ -328,7 +329,19 @@ def _arrays(
         partly_hidden = edges[triangles_at(triangles[~visible], edges) > 0]
         triangles, polygons = triangles[visible], polygons[visible]
     stretch = visible_stretch(obj.matrix_world)
-    return Arrays(points @ stretch, triangles, polygons, edges, np.linalg.inv(stretch), seams, partly_hidden)
+    return Arrays(points @ stretch, triangles, polygons, edges, np.linalg.inv(stretch), seams, partly_hidden, marked)
+
+
+def _between_materials(mesh: bpy.types.Mesh, columns: _Items | _Attributes) -> NDArray[np.bool_]:
+    """Return which edges of a mesh, (e,), faces of several materials share."""
+    found = np.zeros(len(mesh.edges), dtype=np.bool_)
+    if len(mesh.materials) > 1:
+        edges = _column(mesh.loops, "edge_index", np.int32)
+        materials = np.repeat(columns.materials(), _column(mesh.polygons, "loop_total", np.int32))
+        order = np.argsort(edges, kind="stable")
+        edges, materials = edges[order], materials[order]
+        found[edges[1:][(edges[1:] == edges[:-1]) & (materials[1:] != materials[:-1])]] = True
+    return found
 
 
 def _on_basis(obj: bpy.types.Object) -> bool:
@@ -356,6 +369,9 @@ class _Items:
     def corners(self) -> NDArray[np.int32]:
         return _column(self._mesh.loops, "vertex_index", np.int32)
 
+    def materials(self) -> NDArray[np.int32]:
+        return _column(self._mesh.polygons, "material_index", np.int32)
+
     def flags(self, items: str, name: str) -> NDArray[np.bool_]:
         return _column(getattr(self._mesh, items), name, np.bool_)
 
@@ -365,6 +381,7 @@ class _Attributes:
 
     NAMES: Mapping[tuple[str, str], tuple[str, ...]] = {
         ("edges", "hide"): (".hide_edge",),
+        ("edges", "use_edge_sharp"): ("sharp_edge",),
         ("edges", "use_seam"): ("uv_seam", ".uv_seam"),
         ("polygons", "hide"): (".hide_poly",),
         ("vertices", "select"): (".select_vert",),
@@ -387,6 +404,11 @@ class _Attributes:
         if not len(self._mesh.loops):
             return np.empty(0, dtype=np.int32)
         return _column(self._mesh.attributes[".corner_vert"].data, "value", np.int32)
+
+    def materials(self) -> NDArray[np.int32]:
+        if "material_index" not in self._mesh.attributes:
+            return np.zeros(len(self._mesh.polygons), dtype=np.int32)
+        return _column(self._mesh.attributes["material_index"].data, "value", np.int32)
 
     def flags(self, items: str, name: str) -> NDArray[np.bool_]:
         for attribute in self.NAMES[items, name]:

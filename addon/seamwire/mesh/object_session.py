@@ -110,6 +110,7 @@ class ObjectSession:
                 to_object=self.arrays.to_object,
                 triangles=self.arrays.triangles,
                 topology=obj.data.use_mirror_topology,
+                make_parts=self.make_live.part_finder,
             )
         )
         self.notices = Notices()

@@ -51,7 +51,7 @@ class MESH_OT_seamwire_mark(EditMeshOperator, bpy.types.Operator):
                 "Straight in both directions and through poles, up to seams, wires and the mirror plane",
             ),
             ("WHOLE", "Whole Strip", "Straight in both directions, across seams and wires"),
-            ("FLAT", "Border of Flat Region", "Around the flat faces beside the edge"),
+            ("FLAT", "Border of Part", "Around the part beside the edge"),
         ),
         default="FIRST",
     )

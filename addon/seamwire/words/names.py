@@ -17,7 +17,7 @@ LOOP_NAMES: Mapping[LoopKind, str] = {
     "STRIP": "strip",
     "PAST": "strip past poles",
     "WHOLE": "whole strip",
-    "FLAT": "border of flat region",
+    "FLAT": "border of part",
     "ACROSS": "closed cut",
     "HANDLE": "cut of a handle",
     "RIDGE": "ridge",

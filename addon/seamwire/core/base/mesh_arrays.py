@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -32,6 +32,8 @@ class Arrays:
         (k, 2) those of the visible edges that are seams.
     partly_hidden
         (h, 2) those of the visible edges that hidden faces have too.
+    marked
+        (s, 2) those of the visible edges that are marked sharp, or that faces of several materials share.
     """
 
     points: NDArray[np.float64]
@@ -41,6 +43,7 @@ class Arrays:
     to_object: NDArray[np.float64]
     seams: NDArray[np.int32]
     partly_hidden: NDArray[np.int32]
+    marked: NDArray[np.int32] = field(default_factory=lambda: np.empty((0, 2), dtype=np.int32))
 
     @property
     def in_object(self) -> NDArray[np.float64]:

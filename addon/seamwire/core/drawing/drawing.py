@@ -14,6 +14,7 @@ from ..network.picks import undirected
 from ..network.stops import Stops
 from ..network.strokes import for_library
 from ..network.symmetry import Symmetry
+from ..offers.part_borders import AMOUNTS
 from ..seams.seam_wires import seam_chains, waiting, wires_along
 from ..solver.solver import Engines
 from .options import Options
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
+    from seamwire_core import PartFinder
 
     from ..network.picks import Along, Pick
     from ..network.strokes import Stroke
@@ -53,6 +55,8 @@ class Drawing:
         Converts a stroke for the live wires.
     topology
         Whether mirrored vertices are found by the connections of the mesh, see `Symmetry`.
+    make_parts
+        Makes the library's finder of parts, for the axis over which parts come in pairs. If None, there are no parts.
 
     Attributes
     ----------
@@ -78,11 +82,13 @@ class Drawing:
         triangles: NDArray[np.int32] | None = None,
         make_stroke: Callable[[Stroke], object] = for_library,
         topology: bool = False,
+        make_parts: Callable[[int | None], PartFinder] | None = None,
     ) -> None:
         self.points = points
         self.edges = edges
         self.triangles = triangles
         self.options = options
+        self._make_parts = make_parts
         self.symmetry = Symmetry(points, edges, to_object, topology, triangles)
         self.images = MirrorImages(self.symmetry)
         self.stops = Stops(seams, self.symmetry)
@@ -156,6 +162,15 @@ class Drawing:
     def feature_strength(self) -> NDArray[np.float64] | None:
         """Return the feature strength of each vertex, (n,), or None while it is computed."""
         return self.engines.get(self.options.along).feature_strength()
+
+    def find_parts(self) -> list[NDArray[np.int32]]:
+        """Return the part of each triangle, (m,), for each of `AMOUNTS`; nothing if there are no parts. Any thread may."""
+        if self._make_parts is None:
+            return []
+        axes = self.symmetry.symmetric_axes
+        preferred = [axis for axis in self.options.mirror if axis in axes]
+        finder = self._make_parts(next(iter((*preferred, *axes)), None))
+        return [finder.find(amount).of_face for amount in AMOUNTS]
 
     def set(self, network: Network) -> None:
         """Go on to a network, without a step for undo."""

@@ -11,7 +11,7 @@ from ..fields.crests import CREST_KINDS
 from ..network.network import Snap
 from ..network.picks import FacePoint, undirected
 from ..offers.edge_loops import LoopOffers, taken
-from ..offers.flat_regions import FlatRegions
+from ..offers.part_borders import PartBorders
 from ..offers.surface_loops import SurfaceLoops
 from .gesture import Gesture
 from .line import LineGesture
@@ -49,8 +49,9 @@ class LoopGesture(Gesture):
         self._drawing = drawing
         self._live = live
         points, triangles, edges = drawing.points, drawing.triangles, drawing.edges
-        flat = None if triangles is None or edges is None else FlatRegions(points, triangles, edges)
-        self.edges = LoopOffers(drawing.engines, drawing.stops, points, flat)
+        is_known = triangles is not None and edges is not None
+        parts = PartBorders(points, triangles, edges, drawing.find_parts) if is_known else None
+        self.edges = LoopOffers(drawing.engines, drawing.stops, points, parts)
         self.cuts = SurfaceLoops(drawing.engines, triangles)
         self.problem = NOTHING
         self._crests: Crests | None = None
@@ -204,9 +205,11 @@ class LoopGesture(Gesture):
         loops = tuple(offer for offer in offers if offer.kind not in CREST_KINDS)
         if not loops or (self._seen is None and offers[0].kind in CREST_KINDS):
             return self._along_crest(edge)
-        wire = replace(taken(loops, min(self._choice, len(loops) - 1), options.marking), mirror=network.mirror)
+        choice = min(self._choice, len(loops) - 1)
+        wire = replace(taken(loops, choice, options.marking), mirror=network.mirror)
+        beside = (each.anew(marks=options.marking, mirror=network.mirror) for each in loops[choice].beside)
         self.edges.took(edge, wire)
-        return self._drawing.with_wires(wire)
+        return self._drawing.with_wires(*beside, wire)
 
     def commit_cut(self, target: Snap) -> Committed:
         """Return the network with the closed cut through a target, or with the last one bent to it."""

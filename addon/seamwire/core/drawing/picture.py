@@ -269,7 +269,7 @@ def shown_wires(
         *(live(wire, Role.MOVED, wire.finish) for wire in moved),
         *(live(wire, Role.FOLLOWING, options.finish) for wire in following),
         *([] if active is None else [live(active, role, options.finish)]),
-        *([] if offer is None else [live(offer, Role.OFFER, options.finish)]),
+        *([] if offer is None else [live(each, Role.OFFER, options.finish) for each in (offer, *offer.beside)]),
         *([] if extension is None else [live(extension, Role.EXTENSION, "SNAP")]),
     )
 

@@ -519,6 +519,6 @@ class Session:
         """Return the images that a wire has, or would have if it were kept now; see `Symmetry.images`."""
         return self.drawing.images.of(wire, self.network, curves)
 
-    def flat_border(self, edge: Edge) -> set[Edge]:
-        """Return the edges of the likeliest border of a flat region beside an edge, or nothing."""
-        return self._gestures.loop.edges.flat_border(edge)
+    def part_border(self, edge: Edge) -> set[Edge]:
+        """Return the edges of the likeliest border of a part beside an edge, or nothing."""
+        return self._gestures.loop.edges.part_border(edge)

@@ -42,6 +42,8 @@ class Snap:
         Whether these two edges are too short on the screen to point at one of them.
     triangle
         The triangle under the cursor of a picked edge; None: the cursor is beside the mesh. Only loops need it.
+    inside
+        Whether the cursor is inside a face, away from the picked edge. Only loops need it.
     """
 
     pick: Pick
@@ -51,6 +53,7 @@ class Snap:
     crossing: Edge | None = field(default=None, compare=False)
     is_close_call: bool = field(default=False, compare=False)
     triangle: int | None = field(default=None, compare=False)
+    inside: bool = field(default=False, compare=False)
 
     @classmethod
     def of(cls, what: Snap | Pick) -> Snap:

@@ -24,9 +24,11 @@ FOLLOWS: tuple[Literal["min", "max", "concave"], ...] = ("min", "max", "concave"
 across the surface). Files have these numbers."""
 
 LoopKind = Literal["CLOSED", "CROSSING", "STRIP", "PAST", "WHOLE", "FLAT", "ACROSS", "HANDLE", "RIDGE", "VALLEY"]
-"""What a click takes as a whole. On an edge: the closed loop of the metric, the loop or strip that crosses the edge, the straight strip
-up to what is there already, the same past poles, the whole strip, the border of a flat region. On a point of the surface: a closed cut
-that separates, or one around or through a handle, which does not. On both: a ridge or a valley as far as it is one."""
+"""The kind of loop that a click takes as a whole.
+
+On an edge: the closed loop of the metric, the loop or strip that crosses the edge, the straight strip up to what is there already, the
+same past poles, the whole strip, and the border of a part or face. On a point of the surface: a closed cut that separates, or a cut
+around or through a handle, which does not. On both: a ridge or a valley as far as it is one."""
 
 LOOP_KINDS: frozenset[LoopKind] = frozenset(get_args(LoopKind)) - {"CROSSING"}
 """The kinds of kept loops. A crossing loop is kept as a closed loop or a strip."""
@@ -76,6 +78,8 @@ class Wire:
         Whether *Suggest Seamwires* found its course: it ends where it is meant to end.
     offers
         What else that click offered, the next one first; they have no offers themselves.
+    beside
+        Of an offer, the other loops that the click takes with it. Kept wires have none.
     stored
         The number under which the mesh knows it as it runs now; 0: under none yet.
     id
@@ -100,6 +104,7 @@ class Wire:
     through: Edge | None = None
     planned: bool = False
     offers: tuple[Wire, ...] = ()
+    beside: tuple[Wire, ...] = ()
     stored: int = 0
     id: int = field(default_factory=_ids.__next__)
 
@@ -137,7 +142,7 @@ class Wire:
     def like(self, other: Wire) -> bool:
         """Whether another wire runs the same way."""
         if self.along == other.along == "EDGES":
-            return self.vertices == other.vertices
+            return self.vertices == other.vertices and len(self.beside) == len(other.beside)
         return self.points.shape == other.points.shape and bool(np.allclose(self.points, other.points, rtol=1e-6))
 
     def retraced(self) -> Wire:

@@ -19,7 +19,7 @@ from .hairpins import is_hairpin
 from .offers import Offers
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Mapping, Sequence
+    from collections.abc import Collection, Iterable, Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from ..network.stops import Stops
     from ..network.wires import LoopKind
     from ..solver.solver import Engines, LiveWire
-    from .flat_regions import FlatRegions
+    from .part_borders import Chain, PartBorders
 
 
 _BY_KIND: Mapping[LoopKind, float] = {"CLOSED": 0.0, "PAST": 0.2, "STRIP": 0.5, "WHOLE": 0.7, "FLAT": 0.8}
@@ -56,23 +56,24 @@ class LoopOffers(Offers):
         Where strips end.
     points
         (n, 3) vertices of the mesh.
-    flat
-        Finds the borders of flat regions; None: they are not offered.
+    parts
+        Finds the borders of parts and flat faces; None: they are not offered.
     """
 
     SINGLE = Message.of("nothing-else-through-edge")
 
     def __init__(
-        self, engines: Engines, stops: Stops, points: NDArray[np.float64], flat: FlatRegions | None = None
+        self, engines: Engines, stops: Stops, points: NDArray[np.float64], parts: PartBorders | None = None
     ) -> None:
         super().__init__()
         self._engines = engines
         self._stops = stops
         self._points = points
-        self._flat = flat
+        self._parts = parts
         self._snap: Snap | None = None
         self._metric: tuple[object, ...] = ()
-        self._known: dict[Edge, tuple[Wire, ...]] = {}
+        self._known: dict[Edge, tuple[tuple[Wire, ...], frozenset[Edge]]] = {}
+        self._with_parts = False
         self._directions = Directions()
         self._taken: tuple[Pick | None, Wire | None] = (None, None)
 
@@ -80,12 +81,18 @@ class LoopOffers(Offers):
         """Learn which edge crosses the picked one at the cursor, and which face is under it."""
         before, self._snap = self._snap, snap
         if before is not None and snap is not None and self.edge == undirected(snap.pick):
-            self.final = self.final and (before.crossing, before.triangle) == (snap.crossing, snap.triangle)
+            same = (before.crossing, before.triangle, before.inside) == (snap.crossing, snap.triangle, snap.inside)
+            self.final = self.final and same and self._with_parts == self._knows_parts
 
     def wait(self) -> None:
         """Wait for what the offers need beside the library."""
-        if self._flat is not None:
-            self._flat.wait()
+        if self._parts is not None:
+            self._parts.wait()
+            self.final = self.final and self._with_parts == self._knows_parts
+
+    @property
+    def _knows_parts(self) -> bool:
+        return self._parts is not None and self._parts.is_complete
 
     def aim(self, pick: Pick | None) -> bool:
         """Ask for the offers for a pick, or for none; return whether others vanish because of that."""
@@ -113,10 +120,9 @@ class LoopOffers(Offers):
         """Whether it is an edge."""
         return isinstance(pick, tuple)
 
-    def flat_border(self, edge: Edge) -> set[Edge]:
-        """Return the edges of the likeliest border of a flat region beside an edge, or nothing."""
-        border = next(self._flat.borders(edge), ()) if self._flat is not None else ()
-        return {undirected(pair) for pair in zip(border, border[1:] + border[:1], strict=True)}
+    def part_border(self, edge: Edge) -> set[Edge]:
+        """Return the edges of the likeliest border of a part beside an edge, or nothing."""
+        return set(_sides(next(self._parts.borders(edge), ()))) if self._parts is not None else set()
 
     def find(self, pick: Pick, network: Network, kept: Wire | None = None) -> tuple[Wire, ...]:
         """Return what a click on an edge may take; nothing, too, while it is computed, see `final`.
@@ -149,7 +155,7 @@ class LoopOffers(Offers):
             return ()
         if own is not None:
             return (replace(own, offers=()), *others(own, offers))
-        return self._with_crossing(pick, self._with_face(pick, offers, network), network)
+        return self._with_part(pick, self._with_crossing(pick, self._with_face(pick, offers, network), network))
 
     def _through(self, edge: Edge, network: Network) -> tuple[Wire, ...]:
         """Return what leads through an edge, the likeliest first; nothing, too, while it is computed, see `final`.
@@ -157,18 +163,20 @@ class LoopOffers(Offers):
         The library computes one loop at a time. The loops found are remembered as long as nothing else changes.
         """
         engines = self._engines
-        metric = network, engines.metric, engines.strengths["EDGES"], engines.clamp
+        self._with_parts = self._knows_parts
+        metric = network, engines.metric, engines.strengths["EDGES"], engines.clamp, self._with_parts
         if metric != self._metric or len(self._known) > _MOST_KNOWN:
             self._metric = metric
             self._known.clear()
         if edge not in self._known:
-            offers, self.final = self._compute(edge, network)
-            if not self.final:
+            found = self._compute(edge, network)
+            self.final = found is not None
+            if found is None:
                 return ()
-            self._known[edge] = offers
-        return self._known[edge]
+            self._known[edge] = found
+        return self._known[edge][0]
 
-    def _compute(self, edge: Edge, network: Network) -> tuple[tuple[Wire, ...], bool]:
+    def _compute(self, edge: Edge, network: Network) -> tuple[tuple[Wire, ...], frozenset[Edge]] | None:
         # An edge that is taken already stops itself: what remains to be offered there is more than that.
         stops = None if self._stops.taken(network, edge) else self._stops.of(network, None, edge)
         return find_offers(
@@ -179,30 +187,64 @@ class LoopOffers(Offers):
             self._engines.strengths["EDGES"],
             kept=self._stops.kept(network),
             last=_last_kind(network),
-            flat=self._flat,
+            parts=self._parts,
         )
 
     def _with_face(self, edge: Edge, offers: tuple[Wire, ...], network: Network) -> tuple[Wire, ...]:
         """Return offers with the border of the flat face under the cursor, even if the edge lies inside that face."""
-        snap = self._snap
-        if self._flat is None or snap is None or snap.triangle is None or undirected(snap.pick) != undirected(edge):
+        triangle = self._triangle_at(edge)
+        if self._parts is None or triangle is None or not offers:
             return offers
-        border = self._flat.border_around(snap.triangle)
-        if not border or not offers:
+        border = self._parts.flat_face(triangle)
+        wire = self._border(border, edge)
+        if wire is None or any(set(offer.edges()) == set(wire.edges()) for offer in offers):
             return offers
-        sides = [undirected(pair) for pair in zip(border, border[1:] + border[:1], strict=True)]
-        middle = self._points[[*edge]].mean(axis=0)
-        gaps = nearest_on_segments(middle, *self._points[np.array(sides)].transpose(1, 0, 2))[1]
-        through = edge if undirected(edge) in sides else sides[int(np.nanargmin(gaps))]
-        wire = _wire("FLAT", border, True, through, self._points, self._engines.strengths["EDGES"])
-        if wire is None or any(set(offer.edges()) == set(sides) for offer in offers):
-            return offers
-        if is_hairpin(border, self._points, self._flat.half_edges):
+        if is_hairpin(border, self._points, self._parts.half_edges):
             return (*offers, wire)
-        kept = ranked(self._stops.kept(network))
-        return _likeliest_first(
-            self._engines.get("EDGES"), (*offers, wire), self._points, kept, _last_kind(network), self._flat
-        )
+        live, kept = self._engines.get("EDGES"), ranked(self._stops.kept(network))
+        slit = self._known[edge][1]
+        return _likeliest_first(live, (*offers, wire), self._points, kept, _last_kind(network), self._parts, slit)
+
+    def _with_part(self, edge: Edge, offers: tuple[Wire, ...]) -> tuple[Wire, ...]:
+        """Return offers with the borders of the part under the cursor first, where the cursor is inside a face.
+
+        The nearest border comes first, then the slit of a tube, then all borders at once, then each of the others, and
+        those of finer and coarser parts.
+        """
+        triangle, snap = self._triangle_at(edge), self._snap
+        if self._parts is None or snap is None or triangle is None or not snap.inside or not offers:
+            return offers
+        nearest_first = [self._nearest_first(chains, edge) for chains in self._parts.around(triangle)]
+        if not nearest_first or not nearest_first[0]:
+            return offers
+        (first, *others), *further = nearest_first
+        slits = [self._known[own][1] for own in (edge, snap.crossing) if own in self._known]
+        slit = [offer for offer in offers if frozenset(offer.edges()) in slits]
+        nearest, *rest = (self._border(chain, edge) for chain in (first, *others))
+        every = [] if nearest is None or not rest else [replace(nearest, beside=tuple(filter(None, rest)))]
+        borders = (self._border(chains[0], edge) for chains in further if chains)
+        return _distinct([nearest, *slit, *every, *rest, *borders, *offers])
+
+    def _triangle_at(self, edge: Edge) -> int | None:
+        """Return the triangle under the cursor if that points at an edge, or None."""
+        snap = self._snap
+        return None if snap is None or undirected(snap.pick) != undirected(edge) else snap.triangle
+
+    def _nearest_first(self, chains: Sequence[Chain], edge: Edge) -> list[Chain]:
+        return sorted(chains, key=lambda chain: self._gaps(_sides(chain), edge).min())
+
+    def _gaps(self, sides: Sequence[Edge], edge: Edge) -> NDArray[np.float64]:
+        """Return the distances of edges, (k,), from the middle of an edge."""
+        middle = self._points[[*edge]].mean(axis=0)
+        return nearest_on_segments(middle, *self._points[np.array(sides)].transpose(1, 0, 2))[1]
+
+    def _border(self, chain: Chain, edge: Edge) -> Wire | None:
+        """Return a border as the offer of an edge that it need not run along, or None if there is no border."""
+        sides = _sides(chain)
+        if not sides:
+            return None
+        through = edge if undirected(edge) in sides else sides[int(np.nanargmin(self._gaps(sides, edge)))]
+        return _wire("FLAT", chain, True, through, self._points, self._engines.strengths["EDGES"])
 
     def _with_crossing(self, edge: Edge, offers: tuple[Wire, ...], network: Network) -> tuple[Wire, ...]:
         """Return offers with the loop that crosses the edge at the cursor: second, or first where edges are short."""
@@ -216,7 +258,7 @@ class LoopOffers(Offers):
         live = self._engines.get("EDGES")
         across = (wire for wire in found if wire.kind != "FLAT" and not is_loop_of(wire, edge))
         others = (wire for wire in across if set(wire.edges()) not in known)
-        crossing = next((wire for wire in others if not _doubles_back(live, wire, self._points, self._flat)), None)
+        crossing = next((wire for wire in others if not _doubles_back(live, wire, self._points, self._parts)), None)
         if crossing is None:
             return offers
         first, *rest = offers
@@ -241,7 +283,8 @@ def _last_kind(network: Network) -> LoopKind | None:
 def taken(offers: tuple[Wire, ...], choice: int, marks: bool) -> Wire:
     """Return an offer as a wire to be kept, with the others in their order, the next one first."""
     offers = tuple(as_kept(offer) for offer in offers)
-    return offers[choice].anew(marks=marks, offers=offers[choice + 1 :] + offers[:choice])
+    others = tuple(offer for offer in offers[choice + 1 :] + offers[:choice] if not offer.beside)
+    return offers[choice].anew(marks=marks, offers=others, beside=())
 
 
 def others(kept: Wire, offers: tuple[Wire, ...]) -> tuple[Wire, ...]:
@@ -259,9 +302,9 @@ def find_offers(
     strength: float,
     kept: NDArray[np.int64] | Collection[int] = (),
     last: LoopKind | None = None,
-    flat: FlatRegions | None = None,
-) -> tuple[tuple[Wire, ...], bool]:
-    """Return what one click on an edge may take, the likeliest first, and whether that is computed; until then nothing.
+    parts: PartBorders | None = None,
+) -> tuple[tuple[Wire, ...], frozenset[Edge]] | None:
+    """Find what one click on an edge may take.
 
     Parameters
     ----------
@@ -280,8 +323,17 @@ def find_offers(
         The vertices of seams and kept wires: what leads across them is less likely.
     last
         The last kind of loop that was added, because the next one is likely of the same kind. None at first.
-    flat
-        Finds the borders of flat regions beside the edge; None: they are not offered.
+    parts
+        Finds the borders of parts beside the edge, and tubes. None: these are not offered.
+
+    Returns
+    -------
+    offers
+        The likeliest comes first.
+    slit
+        The edges of the offer that slits the tube around the edge from rim to rim. Empty if there is no such offer.
+
+    The result is None while it is computed.
 
     Raises
     ------
@@ -289,9 +341,9 @@ def find_offers(
         Where the edge is not part of the surface.
     """
     loop = live.loop(edge)
-    is_flat_known = flat is None or flat.ready()
-    if not (loop.final and is_flat_known):
-        return (), False
+    is_known = parts is None or parts.ready()
+    if not (loop.final and is_known):
+        return None
     found = [_wire("CLOSED", loop.vertices, True, edge, points, strength)]
     if stops is not None:
         strip = live.edge_loop(edge, stops)
@@ -299,12 +351,13 @@ def find_offers(
         found.append(_wire("PAST", *past_poles(live, edge, stops), edge, points))
     chain = live.edge_loop(edge, ())
     found.append(_wire("WHOLE", chain.vertices, chain.closed, edge, points))
-    if flat is not None:
-        found += [_wire("FLAT", border, True, edge, points, strength) for border in flat.borders(edge)]
-    # Of those that run along the same edges the first.
-    different = {frozenset(wire.edges()): wire for wire in reversed(found) if wire is not None}
-    offers = [wire for wire in found if wire in different.values()]
-    return _likeliest_first(live, offers, points, ranked(kept), last, flat), True
+    slit = None
+    if parts is not None:
+        slit = _slit(live, edge, () if stops is None else stops, points, parts)
+        found.append(slit)
+        found += [_wire("FLAT", border, True, edge, points, strength) for border in parts.borders(edge)]
+    edges: frozenset[Edge] = frozenset(() if slit is None else slit.edges())
+    return _likeliest_first(live, _distinct(found), points, ranked(kept), last, parts, edges), edges
 
 
 def _likeliest_first(
@@ -313,29 +366,31 @@ def _likeliest_first(
     points: NDArray[np.float64],
     kept: NDArray[np.int64],
     last: LoopKind | None,
-    flat: FlatRegions | None,
+    parts: PartBorders | None,
+    slit: frozenset[Edge],
 ) -> tuple[Wire, ...]:
-    """Return offers in the order in which they are shown: hairpins come last."""
+    """Return offers in the order in which they are shown: the slit of a tube comes first, and hairpins come last."""
     if len(offers) < 2:
         return tuple(offers)
 
-    def order(wire: Wire) -> tuple[bool, float]:
-        return _doubles_back(live, wire, points, flat), _unlikeliness(live, wire, points, kept, last or "CLOSED")
+    def order(wire: Wire) -> tuple[bool, bool, float]:
+        doubles_back = _doubles_back(live, wire, points, parts)
+        return slit != set(wire.edges()), doubles_back, _unlikeliness(live, wire, points, kept, last or "CLOSED")
 
     return tuple(sorted(offers, key=order))
 
 
-def _doubles_back(live: LiveWire, wire: Wire, points: NDArray[np.float64], flat: FlatRegions | None) -> bool:
+def _doubles_back(live: LiveWire, wire: Wire, points: NDArray[np.float64], parts: PartBorders | None) -> bool:
     """Return whether a loop is a hairpin.
 
-    The exceptions are edge loops, which may be narrow, such as those around a mouth, and borders of flat regions.
+    The exceptions are edge loops, which may be narrow, such as those around a mouth, and borders of parts.
     """
-    if flat is None or not wire.closed or wire.kind == "FLAT" or wire.through is None:
+    if parts is None or not wire.closed or wire.kind == "FLAT" or wire.through is None:
         return False
     ring = live.edge_loop(wire.through, ())
     if ring.closed and set(map(int, ring.vertices)) == set(wire.vertices):
         return False
-    return is_hairpin(wire.vertices, points, flat.half_edges)
+    return is_hairpin(wire.vertices, points, parts.half_edges)
 
 
 def _unlikeliness(
@@ -416,6 +471,56 @@ def past_poles(live: LiveWire, edge: Edge, stops: NDArray[np.int64] | Sequence[i
     back = way(edge[1], edge[0])
     chain = (*back[::-1], *forth)
     return (chain if len(set(chain)) == len(chain) else ()), False
+
+
+def _slit(
+    live: LiveWire,
+    edge: Edge,
+    stops: NDArray[np.int64] | Sequence[int],
+    points: NDArray[np.float64],
+    parts: PartBorders,
+) -> Wire | None:
+    """Return the straight way that slits the tube around an edge, or None if the edge does not lead from rim to rim.
+
+    Diagonals of a triangulated tube wind around it. So the shortest way through the edge or beside it is returned.
+    """
+    rims = [set(rim) for rim in parts.rims(edge)]
+    if not rims:
+        return None
+    ends = np.union1d(np.asarray(stops, dtype=np.int64), [vertex for rim in rims for vertex in rim])
+
+    def way(through: Edge) -> Wire | None:
+        chain, closed = past_poles(live, through, ends)
+        if closed or not chain or not among(np.array([chain[0], chain[-1]]), ends).all():
+            return None
+        if any(rim.issuperset((chain[0], chain[-1])) for rim in rims):
+            return None
+        return _wire("STRIP", chain, False, through, points)
+
+    own = way(edge)
+    if own is None:
+        return None
+    beside = filter(None, map(way, parts.beside(edge)))
+    # Of ways of the same length, the edge's own counts.
+    return min((own, *beside), key=lambda wire: round(_length(wire) / _length(own), 6))
+
+
+def _length(wire: Wire) -> float:
+    return float(np.linalg.norm(np.diff(wire.points, axis=0), axis=1).sum())
+
+
+def _sides(chain: Sequence[int]) -> list[Edge]:
+    """Return the edges of a closed chain."""
+    return [(min(pair), max(pair)) for pair in zip(chain, (*chain[1:], *chain[:1]), strict=True)]
+
+
+def _distinct(offers: Iterable[Wire | None]) -> tuple[Wire, ...]:
+    """Return offers without those that run along the same edges as an earlier one."""
+    found: dict[frozenset[Edge], Wire] = {}
+    for offer in offers:
+        if offer is not None:
+            found.setdefault(frozenset(edge for loop in (offer, *offer.beside) for edge in loop.edges()), offer)
+    return tuple(found.values())
 
 
 def _wire(

@@ -38,12 +38,20 @@ class HalfEdges:
         self._points, self._triangles, self._edges = points, triangles, edges
         self.tails = triangles.reshape(-1)
 
+    def prepare(self) -> None:
+        """Compute everything that the other methods need, on the thread that calls this."""
+        _ = self.area, self.normals, self.twins, self.boundary, self.visible
+
     def of(self, edge: Edge) -> list[int]:
         """Return the half-edges along an edge, in both directions."""
         keys, order = self._by_edge
         key = min(edge) * len(self._points) + max(edge)
         begin, end = np.searchsorted(keys, [key, key + 1])
         return [int(half_edge) for half_edge in order[begin:end]]
+
+    def chain(self, half_edges: Sequence[int]) -> tuple[int, ...]:
+        """Return the vertices that half-edges start at, in order."""
+        return tuple(self.tails[half_edges].tolist())
 
     def turns(self, chain: Sequence[int]) -> NDArray[np.float64]:
         """Return how far a closed chain turns to its left at each vertex, (k,), in radians.
@@ -140,6 +148,11 @@ class HalfEdges:
         twins = np.full(len(keys), -1, dtype=np.int64)
         twins[one], twins[two] = two, one
         return twins
+
+    @cached_property
+    def boundary(self) -> NDArray[np.bool_]:
+        """(3m,) whether each half-edge lies on an edge that only one triangle has."""
+        return self._is_open(self.tails, self.tails[after(np.arange(len(self.tails)))])
 
     @cached_property
     def visible(self) -> NDArray[np.bool_]:

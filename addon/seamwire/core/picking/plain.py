@@ -29,6 +29,8 @@ REACH = 14.0
 """Pixels beside the mesh in which it is still found: rims and silhouettes are hard to hit."""
 SHORT_EDGE = 12.0
 """Pixels below which an edge is too short to point at."""
+INSIDE = 14.0
+"""Pixels from the nearest edge beyond which the cursor is inside a face."""
 _STRAIGHT_COSINE = 0.9
 """An edge that turns off by less than some 25 degrees does not cross another one..."""
 _SAME_COSINE = 0.05
@@ -117,8 +119,10 @@ class PlainPicker:
         """Return the snap of an edge with the edge that crosses it at its end nearer to the cursor, and the triangle there."""
         surface = self._surface
         hit = None if sight.xray else surface.cast(sight, sight.cursor)
-        plain = Snap(edge, triangle=None if hit is None else hit[0])
         seen = surface.pixels(sight, [*edge])
+        gap = float(nearest_on_segments(sight.cursor, seen[:1], seen[1:])[1][0])
+        inside = hit is not None and gap > INSIDE * sight.scale
+        plain = Snap(edge, triangle=None if hit is None else hit[0], inside=inside)
         end = edge[int(np.argmin(np.linalg.norm(seen - np.asarray(sight.cursor), axis=1)))]
         start = edge[0] if end == edge[1] else edge[1]
         pairs = surface.edges[surface.edges_at.rows([end])]

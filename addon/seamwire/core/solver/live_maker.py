@@ -18,11 +18,15 @@ if TYPE_CHECKING:
 
 
 class Triangulated(Protocol):
-    """A mesh as the library takes it: (n, 3) points, (m, 3) triangles, and (e, 2) edges that wires may run along."""
+    """A mesh as the library takes it: (n, 3) points, (m, 3) triangles, and (e, 2) edges that wires may run along.
+
+    Artists expect seams along those of the edges that are `marked`, (k, 2).
+    """
 
     points: NDArray[np.float64]
     triangles: NDArray[np.int32]
     edges: NDArray[np.int32]
+    marked: NDArray[np.int32]
 
 
 class LiveMaker:
@@ -58,6 +62,16 @@ class LiveMaker:
         assert self._first is not None
         self._first.wait_for_surface()
         return self._first.surface
+
+    def part_finder(self, mirror: int | None) -> seamwire_core.PartFinder:
+        """Return what finds the parts of the mesh; it waits for the surface.
+
+        Parameters
+        ----------
+        mirror
+            The axis over which parts come in pairs, or None.
+        """
+        return self._core.PartFinder(self.wait(), mirror=mirror, marked=self._mesh.marked)
 
     def face_segments(self, cuts: NDArray[np.int32]) -> NDArray[np.int32]:
         """Return the island of each triangle where edges are cut; it waits for the surface."""

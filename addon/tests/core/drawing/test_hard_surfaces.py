@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a click on an edge of a hard surface offers: no hairpin first, and always the border of the flat face under the cursor."""
+"""What a click on a hard surface offers: no hairpin first, the border of the part under the cursor, and the slit of a tube."""
 
 from __future__ import annotations
 
@@ -9,12 +9,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from polygon_meshes import arrays_of
-from real_sessions import session_on
+from real_sessions import AROUND, ball, session_on
 from seamwire.core.base.mesh_arrays import Arrays
 from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Snap
 from seamwire.core.network.picks import Edge, undirected
+from setting import use
 
 pytest.importorskip("seamwire_core")
 
@@ -37,6 +38,30 @@ def prism(outline: NDArray[np.float64], height: float, rows: int = 1) -> tuple[N
 def circle(count: int) -> NDArray[np.float64]:
     angles = np.arange(count) * 2.0 * np.pi / count
     return np.stack([np.cos(angles), np.sin(angles), np.zeros(count)], axis=1)
+
+
+def with_fans(points: NDArray[np.float64], polygons: Polygons, rows: int = 1) -> tuple[NDArray[np.float64], Polygons]:
+    """Return a prism whose n-gons are fans around two more vertices, the last ones."""
+    n = len(points) // (rows + 1)
+    fans: Polygons = [(polygons[end][i - 1], polygons[end][i], len(points) + end) for end in (0, 1) for i in range(n)]
+    return np.concatenate([points, [points[:n].mean(axis=0), points[-n:].mean(axis=0)]]), fans + polygons[2:]
+
+
+def triangulated(polygons: Polygons) -> Polygons:
+    """Return quads as two triangles each."""
+    return [triangle for a, b, c, d in polygons for triangle in ((a, b, c), (a, c, d))]
+
+
+def barrel(sides: int = 24) -> tuple[NDArray[np.float64], Polygons]:
+    """Return a turned barrel: a wall of five rows, rims that stand out, lids that lie deeper; vertex row * sides + i."""
+    wall = [(1.0 + 0.12 * np.sin(np.pi * step), 0.2 + 1.6 * step) for step in np.linspace(0.0, 1.0, 6)[1:-1]]
+    profile = [(0.75, 0.1), (0.75, 0.0), (1.02, 0.0), (1.02, 0.2), (0.94, 0.2), *((r - 0.06, z) for r, z in wall)]
+    profile += [(0.94, 1.8), (1.02, 1.8), (1.02, 2.0), (0.75, 2.0), (0.75, 1.9)]
+    rows = len(profile) - 1
+    points, polygons = prism(circle(sides), 1.0, rows)
+    for row, (radius, height) in enumerate(profile):
+        points[row * sides : (row + 1) * sides] = circle(sides) * radius + np.array([0.0, 0.0, height])
+    return points, polygons
 
 
 def bevelled_box(segments: int, bevel: float = 0.2) -> tuple[NDArray[np.float64], Polygons]:
@@ -92,8 +117,8 @@ def offers(session: Session, target: Snap) -> list[tuple[str, frozenset[Edge]]]:
     session.wait()
     found = []
     for _ in session.picture.offered.kinds:
-        offer = session.picture.one(Role.OFFER)
-        found.append((session.picture.offered.kind, frozenset(offer.edges())))
+        loops = [shown.wire for shown in session.picture.wires if shown.role is Role.OFFER]
+        found.append((session.picture.offered.kind, frozenset(edge for loop in loops for edge in loop.edges())))
         session.next_candidate()
     session.hover(None)
     return found
@@ -195,3 +220,149 @@ def test_a_border_that_was_taken_over_an_edge_inside_is_kept() -> None:
     assert session.loop(target)
     session.wait()
     assert frozenset(session.wires[0].edges()) == border((0, 1, 9, 17, 25, 24, 16, 8))
+
+
+def ring_of(row: int, sides: int) -> frozenset[Edge]:
+    return border(tuple(range(row * sides, (row + 1) * sides)))
+
+
+def upright(i: int, first: int, last: int, sides: int) -> frozenset[Edge]:
+    return frozenset((row * sides + i, (row + 1) * sides + i) for row in range(first, last))
+
+
+def face_of(arrays: Arrays, *vertices: int) -> int:
+    """Return a triangle with these vertices."""
+    return int(np.flatnonzero([set(vertices) <= set(triangle) for triangle in arrays.triangles.tolist()])[0])
+
+
+@pytest.mark.parametrize("fans", [False, True])
+def test_inside_a_cap_its_border_comes_first(fans: bool) -> None:
+    points, polygons = prism(circle(16), 2.0)
+    session, arrays = session_of(*(with_fans(points, polygons) if fans else (points, polygons)))
+    triangle = face_of(arrays, 18, 19, 33) if fans else int(np.flatnonzero(arrays.polygons == 1)[0])
+    edges = [(18, 33), (18, 19)] if fans else [(18, 19)]
+    for edge in edges:
+        assert offers(session, Snap(edge, triangle=triangle, inside=True))[0] == ("FLAT", ring_of(1, 16))
+    assert offers(session, Snap((18, 19), triangle=triangle))[0][1] == ring_of(1, 16)
+
+
+@pytest.mark.parametrize("rows", [1, 4])
+@pytest.mark.parametrize("way", ["n-gons", "fans", "triangles"])
+def test_over_an_upright_edge_of_a_wall_the_slit_between_the_rims_comes_first(rows: int, way: str) -> None:
+    points, polygons = prism(circle(16), 2.0, rows)
+    if way != "n-gons":
+        points, polygons = with_fans(points, polygons, rows)
+    if way == "triangles":
+        polygons = [*polygons[:32], *triangulated(polygons[32:])]
+    session, _ = session_of(points, polygons)
+    slit = upright(2, 0, rows, 16)
+    low = 16 * (rows - 1) + 2
+    assert offers(session, Snap((low, low + 16)))[0] == ("STRIP", slit)
+    if way == "triangles":
+        found = offers(session, Snap((low - 1, low + 16)))
+        assert found[0][1] in {slit, upright(1, 0, rows, 16)}, "straight, though a diagonal is picked"
+    found = offers(session, Snap((low, low + 1), crossing=(low, low + 16)))
+    assert found[:2] == [("CLOSED", ring_of(rows - 1, 16)), ("CROSSING", slit)]
+
+
+@pytest.mark.parametrize("rows", [1, 4])
+def test_inside_a_face_of_a_wall_the_nearest_rim_comes_first_and_the_slit_second(rows: int) -> None:
+    session, arrays = session_of(*prism(circle(16), 2.0, rows))
+    low = 16 * (rows - 1) + 2
+    triangle = face_of(arrays, low, low + 1, low + 17)
+    slit = upright(2, 0, rows, 16)
+    rims = [ring_of(rows, 16), ring_of(0, 16)]
+    found = offers(session, Snap((low, low + 16), triangle=triangle, inside=True))
+    assert found[0][1] in rims
+    assert found[1][1] == slit
+    found = offers(session, Snap((low + 16, low + 17), crossing=(low + 16, low), triangle=triangle, inside=True))
+    assert [edges for _, edges in found[:4]] == [rims[0], slit, rims[0] | rims[1], rims[1]]
+    assert len({edges for _, edges in found}) == len(found)
+
+
+def test_all_borders_of_a_wall_are_shown_and_taken_at_once() -> None:
+    session, arrays = session_of(*prism(circle(16), 2.0))
+    target = Snap((18, 19), crossing=(18, 2), triangle=face_of(arrays, 2, 3, 19), inside=True)
+    session.hover(target, loop=True)
+    session.wait()
+    assert session.next_candidate()
+    assert session.next_candidate()
+    session.hover(target, loop=True)
+    session.wait()
+    assert session.picture.offered.number == 2, "the choice stays"
+    assert session.loop(target)
+    session.wait()
+    rims = [ring_of(0, 16), ring_of(1, 16)]
+    assert [frozenset(wire.edges()) for wire in session.wires] == rims
+    assert all(wire.closed and not wire.beside for wire in session.wires)
+    assert session.loop(target), "the second press of a double click"
+    assert len(session.wires) == 2
+    assert session.retrace(session.wires[1])
+    session.wait()
+    assert frozenset(session.wires[0].edges()) == rims[0]
+    assert frozenset(session.wires[1].edges()) != rims[1]
+    assert session.undo()
+    assert session.undo()
+    assert session.wires == ()
+
+
+def test_a_slit_ends_at_a_seam() -> None:
+    session, _ = session_of(*with_fans(*prism(circle(16), 2.0, 4), rows=4))
+    session.loop((32, 33))
+    session.wait()
+    assert frozenset(session.wires[0].edges()) == ring_of(2, 16)
+    assert offers(session, Snap((50, 66)))[0] == ("STRIP", upright(2, 2, 4, 16))
+
+
+def test_a_barrel_offers_its_wall_its_lids_and_its_rims() -> None:
+    session, arrays = session_of(*barrel())
+    sides = 24
+    middle = 6 * sides + 2
+    assert offers(session, Snap((middle, middle + sides)))[0] == ("STRIP", upright(2, 4, 9, sides))
+    triangle = face_of(arrays, middle, middle + 1, middle + 1 + sides)
+    found = offers(session, Snap((middle, middle + sides), triangle=triangle, inside=True))
+    rims = [ring_of(4, sides), ring_of(9, sides)]
+    assert [edges for _, edges in found[:4]] == [rims[0], upright(2, 4, 9, sides), rims[0] | rims[1], rims[1]]
+    lid = int(np.flatnonzero(arrays.polygons == 1)[0])
+    assert offers(session, Snap((13 * sides, 13 * sides + 1), triangle=lid, inside=True))[0][1] == ring_of(13, sides)
+
+
+def test_inside_a_face_of_a_plank_its_border_comes_first_though_it_is_narrow() -> None:
+    corners = np.array([[0, 0, 0], [4, 0, 0], [4, 0.5, 0], [0, 0.5, 0]], dtype=float)
+    session, arrays = session_of(*prism(corners, 0.1))
+    triangle = int(np.flatnonzero(arrays.polygons == 1)[0])
+    assert offers(session, Snap((4, 5), triangle=triangle, inside=True))[0] == ("FLAT", border((4, 5, 6, 7)))
+
+
+@pytest.mark.parametrize("segments", [1, 2])
+def test_inside_a_flat_face_of_a_bevelled_box_its_border_is_offered(segments: int) -> None:
+    points, polygons = bevelled_box(segments)
+    session, arrays = session_of(points, polygons)
+    flat = next(i for i, quad in enumerate(polygons) if (np.ptp(points[list(quad)], axis=0) > 0.5).sum() == 2)
+    triangle = int(np.flatnonzero(arrays.polygons == flat)[0])
+    edge = min(border(polygons[flat]))
+    assert border(polygons[flat]) in [edges for _, edges in offers(session, Snap(edge, triangle=triangle, inside=True))]
+
+
+def test_inside_a_face_of_a_ball_the_offers_are_those_of_the_edge() -> None:
+    session = ball()
+    edge = (4 * AROUND, 4 * AROUND + 1)
+    crossing = (4 * AROUND, 5 * AROUND)
+    found = [offers(session, Snap(edge, crossing=crossing, triangle=64, inside=inside)) for inside in (False, True)]
+    assert found[0] == found[1]
+    assert found[0][0] == ("CLOSED", ring_of(4, AROUND))
+
+
+def test_a_rim_that_is_taken_inside_a_wall_is_mirrored_like_any_wire() -> None:
+    points, polygons = prism(circle(16), 2.0)
+    session, arrays = session_of(points + np.array([3.0, 0.0, 0.0]), polygons)
+    use(session, mirror=(0,))
+    target = Snap((18, 19), triangle=face_of(arrays, 2, 3, 19), inside=True)
+    session.hover(target, loop=True)
+    session.wait()
+    assert session.loop(target)
+    session.wait()
+    assert [frozenset(wire.edges()) for wire in session.wires] == [ring_of(1, 16)]
+    assert session.wires[0].mirror == (0,)
+    assert session.undo()
+    assert session.wires == ()

@@ -51,7 +51,10 @@ class Alt:
     def __init__(self, arrays: Arrays, pixels_a_unit: float) -> None:
         self.arrays = arrays
         make = LiveMaker(arrays)
-        self.session = Session(Drawing(make, arrays.points, edges=arrays.edges, triangles=arrays.triangles))
+        drawing = Drawing(
+            make, arrays.points, edges=arrays.edges, triangles=arrays.triangles, make_parts=make.part_finder
+        )
+        self.session = Session(drawing)
         half = 200.0 / pixels_a_unit
         self.view = View(400.0, 400.0, np.diag([1.0 / half, 1.0 / half, -0.1, 1.0]))
         self.picker = Picker(arrays)
@@ -138,7 +141,7 @@ def test_on_a_plain_where_no_direction_is_likelier_the_last_one_stays() -> None:
         assert is_row() == began
 
 
-def test_a_click_on_a_large_mesh_waits_for_the_flat_regions() -> None:
+def test_a_click_on_a_large_mesh_waits_for_the_faces() -> None:
     alt = Alt(arrays_of(grid_places(81), grid_polygons(81)), 150.0)
     alt.session.loop(alt.snap(0.013, 0.0))
     assert alt.session.waiting_clicks == 1

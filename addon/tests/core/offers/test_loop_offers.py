@@ -6,13 +6,16 @@ from __future__ import annotations
 import threading
 from dataclasses import replace
 
+import numpy as np
+import pytest
 from fake_live import grid_edges, grid_triangles
 from grid import POINTS, SIZE, Grid, symmetry
-from seamwire.core.network.network import Network
+from seamwire.core.network.network import Network, Snap
 from seamwire.core.network.picks import undirected
 from seamwire.core.network.stops import Stops
+from seamwire.core.offers import part_borders
 from seamwire.core.offers.edge_loops import LoopOffers, taken
-from seamwire.core.offers.flat_regions import FlatRegions
+from seamwire.core.offers.part_borders import PartBorders
 
 EDGE = (14, 15)
 
@@ -47,36 +50,82 @@ def test_another_edge_or_none_lets_them_vanish() -> None:
     assert not offers.missing
 
 
-def test_borders_of_flat_regions_are_offered_last() -> None:
-    edge = (0, 1)
+def halves(go_on: threading.Event | None = None) -> PartBorders:
+    """Return the grid as two parts, with the border along its third column; they are found when they may `go_on`."""
+    triangles = grid_triangles(SIZE)
+    labels = ((triangles % SIZE).max(axis=1) > 2).astype(np.int32)
+    return PartBorders(POINTS, triangles, grid_edges(SIZE), lambda: [labels] if go_on is None or go_on.wait() else [])
+
+
+def test_borders_of_parts_are_offered_last() -> None:
+    edge = (2, 2 + SIZE)
     without = loops(Grid()).find(edge, Network())
-    flat = FlatRegions(POINTS, grid_triangles(SIZE), grid_edges(SIZE))
-    offers = LoopOffers(Grid().engines, Stops([], symmetry()), POINTS, flat)
+    offers = LoopOffers(Grid().engines, Stops([], symmetry()), POINTS, halves())
     found = offers.find(edge, Network())
-    assert [one.kind for one in found] == [*(one.kind for one in without), "FLAT"], (
-        "once, though the same at each angle"
-    )
+    assert [one.kind for one in found] == [*(one.kind for one in without), "FLAT", "FLAT"]
     rows = range(SIZE)
-    sides = {(x, y) for x in rows for y in rows if {x, y} & {0, SIZE - 1}}
-    assert {(vertex % SIZE, vertex // SIZE) for vertex in found[-1].vertices} == sides
-    assert found[-1].closed
-    assert set(found[-1].edges()) == offers.flat_border(edge[::-1])
+    sides = {(x, y) for x in range(3) for y in rows if x in {0, 2} or y in {0, SIZE - 1}}
+    assert {(vertex % SIZE, vertex // SIZE) for vertex in found[-2].vertices} == sides, "the shorter one first"
+    assert found[-2].closed
+    assert set(found[-2].edges()) == offers.part_border(edge[::-1])
+    assert offers.part_border((0, 1)) == offers.part_border(edge)
+    assert not offers.part_border((7, 8))
 
 
-def test_until_all_triangles_are_looked_at_nothing_is_offered() -> None:
-    flat = FlatRegions(POINTS, grid_triangles(SIZE), grid_edges(SIZE))
+def test_until_the_faces_are_prepared_nothing_is_offered() -> None:
+    parts = halves()
     go_on = threading.Event()
-    flat._thread = threading.Thread(target=go_on.wait)
-    flat._thread.start()
-    offers = LoopOffers(Grid().engines, Stops([], symmetry()), POINTS, flat)
+    parts._thread = threading.Thread(target=go_on.wait)
+    parts._thread.start()
+    offers = LoopOffers(Grid().engines, Stops([], symmetry()), POINTS, parts)
     offers.aim(EDGE)
     assert offers.find(EDGE, Network()) == ()
     offers.stop_waiting()
     assert not offers.final
     go_on.set()
-    flat._thread.join()
+    parts._thread.join()
+    parts._prepare()
     assert offers.find(EDGE, Network())
     assert offers.final
+
+
+def test_loops_do_not_wait_for_parts_and_parts_join_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(part_borders, "AT_ONCE", 0)
+    edge, go_on = (2, 2 + SIZE), threading.Event()
+    parts = halves(go_on)
+    offers = LoopOffers(Grid().engines, Stops([], symmetry()), POINTS, parts)
+    offers.point_at(Snap(edge))
+    offers.aim(edge)
+    while not offers.find(edge, Network()):
+        pass
+    kinds = [offer.kind for offer in offers.find(edge, Network())]
+    assert "FLAT" not in kinds
+    assert offers.final
+    offers.show(edge, offers.find(edge, Network()))
+    offers.point_at(Snap(edge))
+    assert offers.final
+    go_on.set()
+    offers.wait()
+    assert not offers.final, "the parts are known since"
+    assert [offer.kind for offer in offers.find(edge, Network())] == [*kinds, "FLAT", "FLAT"]
+    assert offers.final
+
+
+def test_a_motion_of_the_mouse_shows_parts_that_are_known_since(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(part_borders, "AT_ONCE", 0)
+    edge, go_on = (2, 2 + SIZE), threading.Event()
+    parts = halves(go_on)
+    offers = LoopOffers(Grid().engines, Stops([], symmetry()), POINTS, parts)
+    offers.point_at(Snap(edge))
+    offers.aim(edge)
+    while not (found := offers.find(edge, Network())):
+        pass
+    offers.show(edge, found)
+    go_on.set()
+    parts.wait()
+    assert offers.final
+    offers.point_at(Snap(edge))
+    assert not offers.final
 
 
 def test_nothing_is_offered_until_it_is_computed() -> None:

@@ -467,6 +467,26 @@ def three_planes() -> Arrays:
     return arrays_of(places, [half for a, b, c, d in grid_polygons(81) for half in ((a, b, c), (a, c, d))])
 
 
+def test_the_cursor_is_inside_a_face_where_it_is_far_from_the_nearest_edge() -> None:
+    picker, view = (
+        Picker(arrays_of(grid_places(3), grid_polygons(3))),
+        View(400.0, 400.0, np.diag([1.0, 1.0, -0.1, 1.0])),
+    )
+
+    def inside(x: float, y: float, **options: object) -> bool:
+        at = view.to_pixels(np.array([[x, y, 0.0]]))[0]
+        return picker.snap(view, HERE, tuple(at), vertices_only=False, **options).inside
+
+    # A pixel is 0.005 wide here.
+    assert inside(0.3, 0.5, edges_only=True)
+    assert inside(0.08, 0.5, edges_only=True)
+    assert not inside(0.06, 0.5, edges_only=True)
+    assert not inside(0.06, 0.5, edges_only=True, xray=True)
+    assert not inside(0.3, 0.5, edges_only=True, xray=True), "what lies under the cursor is not known"
+    assert not inside(0.16, 0.5, edges_only=True, scale=2.5)
+    assert not inside(0.3, 0.5), "only loops need to know"
+
+
 def test_a_corner_is_taken_before_a_stronger_point_of_a_ridge() -> None:
     arrays = three_planes()
     find, view = Picker(arrays), from_above()

@@ -1,0 +1,262 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Borders of parts and of flat faces: the parts that *Suggest Seamwires* makes islands of."""
+
+from __future__ import annotations
+
+import threading
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .half_edges import HalfEdges, after
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
+
+    from numpy.typing import NDArray
+
+    from ..network.picks import Edge
+
+Chain = tuple[int, ...]
+"""The vertices of a closed chain, the first one not repeated."""
+
+AMOUNTS = (0.5, 0.75, 1.0, 0.25)
+"""How many parts there are, on the scale of *Suggest Seamwires*: the default, then more parts, then fewer."""
+AT_ONCE = 5_000
+"""Triangles up to which finding parts takes some ten milliseconds, so that a thread would only make it late."""
+_LONGEST = 20_000
+"""Edges of a border: longer ones go around so much that nobody wants them in one click."""
+_IN_PLANE = float(np.cos(np.radians(1.0)))
+"""Two faces lie in a plane if the cosine between their normals is at least this."""
+_LARGEST = 50_000
+"""Triangles of a flat face: around larger ones nobody needs help."""
+
+
+class PartBorders:
+    """Finds the borders of parts and of flat faces.
+
+    Parameters
+    ----------
+    points
+        (n, 3) vertices of the mesh.
+    triangles
+        (m, 3) what its polygons are divided into.
+    edges
+        (e, 2) its edges. Other sides of triangles lie within polygons, which are flat by definition.
+    find_parts
+        Returns the part of each triangle, (m,), for each of `AMOUNTS`. A thread calls it.
+
+    Attributes
+    ----------
+    half_edges
+        The half-edges of the triangles.
+    is_complete
+        Whether the parts are known. Until then there are only flat faces.
+    """
+
+    def __init__(
+        self,
+        points: NDArray[np.float64],
+        triangles: NDArray[np.int32],
+        edges: NDArray[np.int32],
+        find_parts: Callable[[], Iterable[NDArray[np.int32]]] = tuple,
+    ) -> None:
+        self.half_edges = HalfEdges(points, triangles, edges)
+        self._points, self._triangles = points, triangles
+        self._find_parts = find_parts
+        self._steps: list[_Parts] = []
+        self._thread: threading.Thread | None = None
+        self._is_prepared = False
+        self.is_complete = False
+
+    def ready(self) -> bool:
+        """Whether flat faces can be found. The first call begins to prepare them, and then to find the parts, on a thread."""
+        if self._thread is None:
+            self._thread = threading.Thread(target=self._prepare, name="seamwire parts", daemon=True)
+            self._thread.start()
+            if len(self._triangles) <= AT_ONCE:
+                self._thread.join()
+        return self._is_prepared
+
+    def wait(self) -> None:
+        """Wait until everything is known, if `ready` was called."""
+        if self._thread is not None:
+            self._thread.join()
+
+    def _prepare(self) -> None:
+        self.half_edges.prepare()
+        self._is_prepared = True
+        try:
+            self._steps = [_Parts(self.half_edges, labels) for labels in self._find_parts()]
+        finally:
+            self.is_complete = True
+
+    def borders(self, edge: Edge) -> Iterator[Chain]:
+        """Yield the closed chains through an edge that are borders of parts beside it.
+
+        A part may have several borders. A chain that meets itself is left out. Chains may come more than once.
+
+        Parameters
+        ----------
+        edge
+            Two vertices of an edge, in any order.
+        """
+        for parts in self._steps:
+            found = (chain for side in self.half_edges.of(edge) for chain in parts.borders(side // 3))
+            yield from sorted((chain for chain in found if _has_edge(chain, edge)), key=len)
+
+    def around(self, triangle: int) -> Iterator[tuple[Chain, ...]]:
+        """Yield the borders of the part that a triangle belongs to, for each of `AMOUNTS`."""
+        for parts in self._steps:
+            yield parts.borders(triangle)
+
+    def rims(self, edge: Edge) -> tuple[Chain, ...]:
+        """Return both rims of the tube inside of which an edge lies, or nothing. The tube is a part, or an open piece."""
+        sides = [side // 3 for side in self.half_edges.of(edge)]
+        parts = self._steps[0] if self._steps and sides else None
+        if parts is None or len({int(parts.labels[side]) for side in sides}) > 1 or len(sides) != 2:
+            return ()
+        return parts.rims(sides[0])
+
+    def beside(self, edge: Edge) -> Iterator[Edge]:
+        """Yield the edges that meet an edge inside of the same tube."""
+        sides, rims = self.half_edges, self.rims(edge)
+        for end in edge:
+            for side in np.flatnonzero(sides.tails == end).tolist() if rims else ():
+                found = (end, int(sides.tails[after(side)]))
+                if sides.visible[side] and self.rims(found) is rims and set(found) != set(edge):
+                    yield found
+
+    def flat_face(self, triangle: int) -> Chain:
+        """Return the outer border of the flat face that a triangle is part of, or nothing if that meets itself.
+
+        The face is the polygon of the triangle, with all polygons around it that lie in the same plane.
+        """
+        is_in_face = self._plane_around(triangle)
+        twins = self.half_edges.twins
+
+        def is_inner(half_edge: int) -> bool:
+            twin = int(twins[half_edge])
+            return twin >= 0 and bool(is_in_face[twin // 3])
+
+        sides = (3 * np.flatnonzero(is_in_face)[:, None] + np.arange(3)).reshape(-1)
+        outer = (twins[sides] < 0) | ~is_in_face[twins[sides] // 3]
+        chains = [self.half_edges.chain(border) for border in _borders(twins, sides[outer], is_inner)]
+        longest = max(chains, key=self._length, default=())
+        return longest if len(longest) > 2 and len(set(longest)) == len(longest) else ()
+
+    def _plane_around(self, triangle: int) -> NDArray[np.bool_]:
+        """Return which triangles, (m,), are part of a triangle's flat face; none if these are too many."""
+        sides = self.half_edges
+        is_in_face = np.zeros(len(self._triangles), dtype=np.bool_)
+        new = np.array([triangle])
+        count = 0
+        while len(new):
+            is_in_face[new] = True
+            count += len(new)
+            if count > _LARGEST:
+                return np.zeros_like(is_in_face)
+            own = (3 * new[:, None] + np.arange(3)).reshape(-1)
+            own = own[sides.twins[own] >= 0]
+            beside = sides.twins[own] // 3
+            is_flat = sides.normals[beside] @ sides.normals[triangle] >= _IN_PLANE
+            new = np.unique(beside[(is_flat | ~sides.visible[own]) & ~is_in_face[beside]])
+        return is_in_face
+
+    def _length(self, chain: Chain) -> float:
+        around = self._points[[*chain, chain[0]]]
+        return float(np.linalg.norm(np.diff(around, axis=0), axis=1).sum())
+
+
+@dataclass(eq=False)
+class _Parts:
+    """The parts for one amount: `labels` has the part of each triangle, (m,)."""
+
+    half_edges: HalfEdges
+    labels: NDArray[np.int32]
+
+    def __post_init__(self) -> None:
+        self._found: dict[int, tuple[Chain, ...]] = {}
+        self._rims: dict[int, tuple[Chain, ...]] = {}
+        _ = self._outer  # on the thread that finds the parts
+
+    @cached_property
+    def _outer(self) -> tuple[NDArray[np.int64], NDArray[np.int32]]:
+        """The half-edges at borders of parts and at the boundary, sorted by part, and the part of each."""
+        twins = self.half_edges.twins
+        own = np.repeat(self.labels, 3)
+        outer = np.flatnonzero((twins < 0) | (own != self.labels[twins // 3]))
+        outer = outer[np.argsort(own[outer], kind="stable")]
+        return outer, own[outer]
+
+    def borders(self, triangle: int) -> tuple[Chain, ...]:
+        """Return the borders of the part with a triangle between parts. Borders that meet themselves are left out."""
+        part = int(self.labels[triangle])
+        if part not in self._found:
+            between = (border for border in self._all(part) if not self.half_edges.boundary[border].all())
+            chains = map(self.half_edges.chain, between)
+            self._found[part] = tuple(chain for chain in chains if len(set(chain)) == len(chain) > 2)
+        return self._found[part]
+
+    def rims(self, triangle: int) -> tuple[Chain, ...]:
+        """Return both rims of the part with a triangle if that is a tube, or nothing."""
+        part = int(self.labels[triangle])
+        if part not in self._rims:
+            rims = tuple(map(self.half_edges.chain, self._all(part)))
+            own = self.half_edges.tails.reshape(-1, 3)[self.labels == part]
+            edges = (3 * len(own) + len(self._sides_of(part))) // 2
+            is_tube = len(rims) == 2 and len(np.unique(own)) - edges + len(own) == 0
+            self._rims[part] = rims if is_tube else ()
+        return self._rims[part]
+
+    def _sides_of(self, part: int) -> NDArray[np.int64]:
+        outer, owners = self._outer
+        begin, end = np.searchsorted(owners, [part, part + 1])
+        return outer[begin:end]
+
+    def _all(self, part: int) -> list[list[int]]:
+        """Return all borders of a part as half-edges, those on the boundary of the mesh too."""
+        twins, labels = self.half_edges.twins, self.labels
+
+        def is_inner(half_edge: int) -> bool:
+            twin = int(twins[half_edge])
+            return twin >= 0 and bool(labels[twin // 3] == labels[half_edge // 3])
+
+        return _borders(twins, self._sides_of(part), is_inner)
+
+
+def _has_edge(chain: Chain, edge: Edge) -> bool:
+    ends = set(edge)
+    return any({one, two} == ends for one, two in zip(chain, chain[1:] + chain[:1], strict=True))
+
+
+def _borders(twins: NDArray[np.int64], sides: NDArray[np.int64], is_inner: Callable[[int], bool]) -> list[list[int]]:
+    """Return the outer half-edges of a region as closed chains; nothing if one of them is too long."""
+    left = set(sides.tolist())
+    borders = []
+    for side in sides.tolist():
+        if side not in left:
+            continue
+        border = _walk(twins, side, is_inner)
+        if not border:
+            return []
+        left.difference_update(border)
+        borders.append(border)
+    return borders
+
+
+def _walk(twins: NDArray[np.int64], start: int, is_inner: Callable[[int], bool]) -> list[int]:
+    """Return the half-edges around a region from one of its border, in order; nothing if they are too many."""
+    found: list[int] = []
+    at = start
+    while len(found) < _LONGEST:
+        found.append(at)
+        # Around the tip, within the region, to the side that it ends at.
+        at = after(at)
+        while is_inner(at):
+            at = after(int(twins[at]))
+        if at == start:
+            return found
+    return []
