@@ -16,6 +16,7 @@
 #include "flatten/box_grid.hpp"
 #include "flatten/coverage.hpp"
 #include "flatten/cut_open.hpp"
+#include "flatten/measure_islands.hpp"
 #include "flatten/symmetric_dirichlet.hpp"
 
 namespace seamwire {
@@ -336,8 +337,8 @@ double map_energy(const Surface& surface, std::span<const Corners> uvs, std::spa
   return scaled_energies(surface, map, weights).mean();
 }
 
-MapReport measure_map(const Surface& surface, std::span<const Corners> uvs, std::span<const std::int32_t> islands,
-                      const Task& given_task) {
+MapReport detail::measure_islands(const Surface& surface, std::span<const Corners> uvs,
+                                 std::span<const std::int32_t> islands, bool are_placed, const Task& given_task) {
   const RisingProgress rising(given_task);
   const Task& task = rising.task();
   check_map(surface, uvs, islands);
@@ -362,8 +363,13 @@ MapReport measure_map(const Surface& surface, std::span<const Corners> uvs, std:
   }
   const OverlapTest test(surface, map, task);
   report.overlapping = test.overlapping(is_bad);
-  report.colliding = test.colliding();
+  if (are_placed) report.colliding = test.colliding();
   return report;
+}
+
+MapReport measure_map(const Surface& surface, std::span<const Corners> uvs, std::span<const std::int32_t> islands,
+                      const Task& task) {
+  return measure_islands(surface, uvs, islands, true, task);
 }
 
 }  // namespace seamwire

@@ -158,17 +158,19 @@ std::vector<std::uint8_t> are_round(const PlanMesh& mesh, const Polygons& polygo
   return found;
 }
 
-/// How open each edge is to the sky, less the mean.
-std::vector<double> openness_of(const PlanMesh& mesh, std::span<const double> ambient) {
-  std::vector<double> openness;
-  double sum = 0.0, length = 0.0;
+/// How open each edge is to the sky, less the mean over its piece.
+std::vector<double> openness_of(const PlanMesh& mesh, const PieceSizes& sizes, std::span<const double> ambient) {
+  std::vector<double> openness, sums(sizes.of_piece.size(), 0.0), lengths = sums;
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     const std::int32_t h = mesh.half_edge_of[e];
     openness.push_back(0.5 * (ambient[mesh.start(h)] + ambient[mesh.end(h)]));
-    sum += mesh.lengths[e] * openness[index(e)];
-    length += mesh.lengths[e];
+    sums[sizes.piece_of(mesh, e)] += mesh.lengths[e] * openness.back();
+    lengths[sizes.piece_of(mesh, e)] += mesh.lengths[e];
   }
-  for (double& open : openness) open -= length > 0.0 ? sum / length : 0.0;
+  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    const std::int32_t piece = sizes.piece_of(mesh, e);
+    if (lengths[piece] > 0.0) openness[e] -= sums[piece] / lengths[piece];
+  }
   return openness;
 }
 
@@ -190,27 +192,40 @@ std::int32_t image_of_edge(const PlanMesh& mesh, const Reflection& reflection, s
   return a < 0 || b < 0 ? -1 : mesh.edge_between(a, b);
 }
 
-EdgeBends bends_over_edges(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Polygons& polygons) {
+PieceSizes measure_pieces(const PlanMesh& mesh, std::span<const FaceFrame> frames) {
+  PieceSizes sizes{find_pieces(mesh, std::vector<std::uint8_t>(mesh.edge_count(), 0)), {}};
+  std::vector<Eigen::AlignedBox3d> boxes(index(sizes.pieces.count));
+  sizes.of_piece.resize(boxes.size());
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    const std::int32_t piece = sizes.pieces.of_face[f];
+    for (const std::int32_t v : mesh.triangles[f]) boxes[piece].extend(mesh.points[v]);
+    sizes.of_piece[piece].area += frames[f].area;
+  }
+  for (std::size_t p = 0; p < boxes.size(); ++p) sizes.of_piece[p].diagonal = boxes[p].diagonal().norm();
+  return sizes;
+}
+
+EdgeBends bends_over_edges(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Polygons& polygons,
+                           const PieceSizes& sizes) {
   EdgeBends found{std::vector<double>(mesh.edge_count(), 0.0), std::vector<double>(mesh.edge_count(), 0.0)};
   const BendFinder bends(mesh, frames);
-  const double reach = kWideReach * diagonal_of(mesh);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     if (mesh.is_boundary(e) || polygons.is_diagonal[e] != 0) continue;
     found.own[e] = bends.degrees(e);
-    found.wide[e] = bends.wide_degrees(e, reach);
+    found.wide[e] = bends.wide_degrees(e, kWideReach * sizes.of_piece[sizes.piece_of(mesh, e)].diagonal);
   }
   return found;
 }
 
-std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, const EdgeBends& bends,
-                                std::span<const double> ambient, std::span<const std::uint8_t> is_marked,
+std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, const PieceSizes& sizes,
+                                const EdgeBends& bends, std::span<const double> ambient, std::span<const std::uint8_t> is_marked,
                                 const Reflection* reflection) {
   std::vector<double> sharp;
   for (const double bend : bends.own) sharp.push_back(std::abs(bend));
   const std::vector<double> on_line = means_along(mesh, find_lines(mesh, polygons), sharp);
   const std::vector<double> beside = sharpest_beside(mesh, polygons, sharp);
   const std::vector<std::uint8_t> is_round = are_round(mesh, polygons, bends.own);
-  const std::vector<double> openness = openness_of(mesh, ambient);
+  const std::vector<double> openness = openness_of(mesh, sizes, ambient);
   const auto is_on_plane = [&](std::int32_t e) {
     const std::int32_t h = mesh.half_edge_of[e];
     return reflection != nullptr && reflection->sides[mesh.start(h)] == 0 && reflection->sides[mesh.end(h)] == 0;

@@ -16,15 +16,31 @@ struct EdgeBends {
   std::vector<double> own;   ///< between the two triangles; negative where concave
   std::vector<double> wide;  ///< between the surface a little away on both sides, so that it spans the steps of a chamfer
 };
-EdgeBends bends_over_edges(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Polygons& polygons);
+
+/// A connected piece of the surface.
+struct PieceSize {
+  double diagonal = 0.0, area = 0.0;
+};
+struct PieceSizes {
+  Pieces pieces;
+  std::vector<PieceSize> of_piece;
+
+  std::int32_t piece_of(const PlanMesh& mesh, std::int32_t edge) const {
+    return pieces.of_face[mesh.half_edge_of[edge] / 3];
+  }
+};
+PieceSizes measure_pieces(const PlanMesh& mesh, std::span<const FaceFrame> frames);
+
+EdgeBends bends_over_edges(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Polygons& polygons,
+                           const PieceSizes& sizes);
 
 /// The log odds of each edge of being a border between parts, up to a constant that says how many parts there are;
 /// -infinity inside polygons.
 ///
 /// `ambient`: of each vertex, as in Visibility. `is_marked`: of each edge, 1 where an artist expects a border.
 /// `reflection`: null if the mesh is not symmetric.
-std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, const EdgeBends& bends,
-                                std::span<const double> ambient, std::span<const std::uint8_t> is_marked,
+std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, const PieceSizes& sizes,
+                                const EdgeBends& bends, std::span<const double> ambient, std::span<const std::uint8_t> is_marked,
                                 const Reflection* reflection);
 
 /// The edge that is the mirror image of another one; -1 if there is none.

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <functional>
+#include <numeric>
 #include <queue>
 #include <tuple>
 #include <unordered_map>
@@ -27,14 +28,9 @@ struct Link {
 
 class Joining {
  public:
-  Joining(std::span<const double> areas, std::span<const RegionBorder> borders, std::span<const std::int32_t> images,
-          const RegionRules& rules)
-      : areas_(areas.begin(), areas.end()),
-        images_(images.begin(), images.end()),
-        parents_(areas.size()),
-        links_(areas.size()),
-        rules_(rules) {
-    for (std::size_t r = 0; r < areas.size(); ++r) parents_[r] = static_cast<std::int32_t>(r);
+  Joining(std::span<const Region> regions, std::span<const RegionBorder> borders, const RegionRules& rules)
+      : regions_(regions.begin(), regions.end()), parents_(regions.size()), links_(regions.size()), rules_(rules) {
+    std::iota(parents_.begin(), parents_.end(), 0);
     for (const RegionBorder& border : borders) {
       for (const auto& [a, b] : {std::pair(border.one, border.other), std::pair(border.other, border.one)}) {
         links_[a][b].add({border.gain, border.length, border.bend});
@@ -80,7 +76,7 @@ class Joining {
   /// Whether two regions are of one size, as mirror images are.
   bool are_alike(std::int32_t one, std::int32_t other) const {
     constexpr double kSame = 0.01;
-    return std::abs(areas_[one] - areas_[other]) <= kSame * areas_[one];
+    return std::abs(regions_[one].area - regions_[other].area) <= kSame * regions_[one].area;
   }
 
   /// Joins two regions, and their mirror images.
@@ -93,19 +89,19 @@ class Joining {
     if (one != other && links_[one].contains(other)) {
       const std::int32_t mirrored = join(one, other);
       joined = root(joined);
-      images_[joined] = mirrored;
-      images_[mirrored] = joined;
+      regions_[joined].image = mirrored;
+      regions_[mirrored].image = joined;
     } else if (one == other) {
-      images_[joined] = one;
-      images_[one] = joined;
+      regions_[joined].image = one;
+      regions_[one].image = joined;
     }
   }
-  std::int32_t image(std::int32_t r) { return images_.empty() || images_[r] < 0 ? -1 : root(images_[r]); }
+  std::int32_t image(std::int32_t r) { return regions_[r].image < 0 ? -1 : root(regions_[r].image); }
 
   std::int32_t join(std::int32_t a, std::int32_t b) {
     if (links_[a].size() < links_[b].size()) std::swap(a, b);
     parents_[b] = a;
-    areas_[a] += areas_[b];
+    regions_[a].area += regions_[b].area;
     for (const auto& [c, link] : links_[b]) {
       if (c == a) continue;
       links_[c].erase(b);
@@ -124,9 +120,9 @@ class Joining {
     Link rim;
     for (const auto& [c, link] : links_[r]) rim.add(link);
     if (!(rim.length > 0.0)) return false;
-    if (areas_[r] < rules_.least_area && rim.gain < rules_.sharp_rim * rim.length) return true;
+    if (regions_[r].area < regions_[r].least_area && rim.gain < rules_.sharp_rim * rim.length) return true;
     const bool is_step = rim.bend > rules_.least_step * rim.length && rim.bend < rules_.most_step * rim.length;
-    return is_step && 2.0 * areas_[r] < rules_.least_width * rim.length;
+    return is_step && 2.0 * regions_[r].area < rules_.least_width * rim.length;
   }
 
   /// The neighbor that a small region joins: the one with the least likely border, where long borders count more.
@@ -135,7 +131,7 @@ class Joining {
     std::int32_t best = -1;
     std::tuple<double, double> least;
     for (const auto& [c, link] : links_[r]) {
-      const std::tuple own(link.gain / link.length, -areas_[c]);
+      const std::tuple own(link.gain / link.length, -regions_[c].area);
       if (best < 0 || own < least || (own == least && c < best)) {
         best = c;
         least = own;
@@ -148,7 +144,7 @@ class Joining {
     using Small = std::pair<double, std::int32_t>;
     std::priority_queue<Small, std::vector<Small>, std::greater<>> small;
     const auto add = [&](std::int32_t r) {
-      if (neighbor_of_small(r) >= 0) small.emplace(areas_[r], r);
+      if (neighbor_of_small(r) >= 0) small.emplace(regions_[r].area, r);
     };
     for (std::int32_t r = 0; index(r) < parents_.size(); ++r) {
       if (parents_[r] == r) add(r);
@@ -156,7 +152,7 @@ class Joining {
     while (!small.empty()) {
       const auto [area, r] = small.top();
       small.pop();
-      if (parents_[r] != r || areas_[r] != area) continue;
+      if (parents_[r] != r || regions_[r].area != area) continue;
       const std::int32_t neighbor = neighbor_of_small(r);
       if (neighbor < 0) continue;
       join_both(r, neighbor);
@@ -164,8 +160,8 @@ class Joining {
     }
   }
 
-  std::vector<double> areas_;
-  std::vector<std::int32_t> images_, parents_;
+  std::vector<Region> regions_;
+  std::vector<std::int32_t> parents_;
   std::vector<std::unordered_map<std::int32_t, Link>> links_;
   RegionRules rules_;
   using Offer = std::tuple<double, std::int32_t, std::int32_t>;
@@ -174,9 +170,9 @@ class Joining {
 
 }  // namespace
 
-std::vector<std::int32_t> joined_regions(std::span<const double> areas, std::span<const RegionBorder> borders,
-                                         std::span<const std::int32_t> images, const RegionRules& rules) {
-  return Joining(areas, borders, images, rules).run();
+std::vector<std::int32_t> joined_regions(std::span<const Region> regions, std::span<const RegionBorder> borders,
+                                         const RegionRules& rules) {
+  return Joining(regions, borders, rules).run();
 }
 
 }  // namespace seamwire::detail

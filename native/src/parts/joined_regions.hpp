@@ -7,28 +7,32 @@
 
 namespace seamwire::detail {
 
-/// A border between two regions.
+/// A region, in units of the size of the piece of surface in which it lies.
+struct Region {
+  double area = 0.0;
+  double least_area = 0.0;   ///< a smaller region joins a neighbor, unless a sharp rim encloses it
+  std::int32_t image = -1;   ///< the region on the other side of a mirror plane; -1 if it has none
+};
+
+/// A border between two regions, in the same units.
 struct RegionBorder {
   std::int32_t one = -1, other = -1;
-  double gain = 0.0;    ///< its log odds times its length: what keeping it gains, and joining loses
+  double gain = 0.0;  ///< its log odds times its length: what keeping it gains, and joining loses
   double length = 0.0;
-  double bend = 0.0;    ///< how many degrees the surface bends there, times the length
+  double bend = 0.0;  ///< how many degrees the surface bends there, times the length
 };
 
 /// Which regions to join.
 struct RegionRules {
   double region_price = 0.0;  ///< what each region costs
-  double least_area = 0.0;    ///< smaller regions join a neighbor, unless a sharp rim encloses them
-  double sharp_rim = 2.0;     ///< the mean log odds of such a rim
+  double sharp_rim = 2.0;     ///< the mean log odds of a rim that encloses a small region
   double least_width = 0.0;   ///< narrower regions join a neighbor if they are steps of a chamfer
   double least_step = 25.0, most_step = 70.0;  ///< how many degrees the surface bends at the sides of such a step
 };
 
 /// Joins regions, always the two that gain the most, as long as that gains anything, then small and narrow ones.
-///
-/// `areas`: of each region. `images`: of each region the one on the other side of a mirror plane, -1 if it has none;
-/// empty: no symmetry. Returns for each region the joined region in which it is, named after one of them.
-std::vector<std::int32_t> joined_regions(std::span<const double> areas, std::span<const RegionBorder> borders,
-                                         std::span<const std::int32_t> images, const RegionRules& rules);
+/// Returns for each region the joined region in which it is, named after one of them.
+std::vector<std::int32_t> joined_regions(std::span<const Region> regions, std::span<const RegionBorder> borders,
+                                         const RegionRules& rules);
 
 }  // namespace seamwire::detail

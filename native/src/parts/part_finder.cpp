@@ -33,9 +33,9 @@ constexpr double kEditOdds = 1e6;      // of an edge that somebody has kept or d
 constexpr double kMiddleBias = 0.1;    // added to the log odds in the middle of the scale
 constexpr double kBiasToOne = 1.2;     // how fast it falls towards one part, in log odds of the amount
 constexpr double kBiasToSharp = 2.2;   // what is added to it at the other end
-constexpr double kPartPrice = 0.2;    // of the diagonal
-constexpr double kLeastArea = 0.003;   // of the area
-constexpr double kLeastWidth = 0.008;  // of the diagonal
+constexpr double kPartPrice = 0.2;     // of a part, in diagonals of its piece
+constexpr double kLeastArea = 0.003;   // of the area of its piece
+constexpr double kLeastWidth = 0.008;  // in diagonals of its piece
 constexpr double kLeastPrice = 0.05;   // of a cut along an edge that is a border for sure, for each unit of length
 
 /// What is added to all log odds for an amount of parts.
@@ -121,15 +121,14 @@ struct PartFinder::Impl {
   SlitProblem problem;  // the existing seams part it into pieces
   Polygons polygons;
   EdgeBends bends;
-  std::vector<double> odds;          // of each edge
-  std::vector<double> areas;         // of each polygon
-  std::vector<std::int32_t> images;  // of each polygon; empty without a symmetry
-  double diagonal = 0.0;
+  PieceSizes sizes;
+  std::vector<double> odds;     // of each edge
+  std::vector<Region> regions;  // of each polygon
 
   void prepare(const Task& task);
   std::vector<std::uint8_t> marked(const std::vector<Edge>& edges, const char* name) const;
   std::vector<std::uint8_t> edited(const std::vector<Edge>& edges, const char* name) const;
-  std::vector<std::int32_t> regions(double amount, const PartEdits& edits) const;
+  std::vector<std::int32_t> joined(double amount, const PartEdits& edits) const;
   std::vector<std::uint8_t> borders(double amount, const PartEdits& edits) const;
 };
 
@@ -139,18 +138,27 @@ void PartFinder::Impl::prepare(const Task& task) {
   }
   problem.mesh = plan_mesh(*surface);
   const PlanMesh& mesh = problem.mesh;
-  diagonal = diagonal_of(mesh);
   problem.is_seam = marked(options.seams, "seams");
   const std::vector<std::uint8_t> is_marked = marked(options.marked, "marked");
   if (options.mirror >= 0) problem.reflection = find_reflection(mesh, options.mirror, part_of(task, 0.0, 0.2));
   const Visibility visibility = find_visibility(mesh, std::nullopt, part_of(task, 0.2, 1.0));
   const std::vector<FaceFrame> frames = face_frames(mesh);
   polygons = find_polygons(mesh, frames);
-  bends = bends_over_edges(mesh, frames, polygons);
-  odds = border_odds(mesh, polygons, bends, visibility.ambient, is_marked, problem.mirror());
-  areas.assign(polygons.count, 0.0);
-  for (std::size_t f = 0; f < mesh.face_count(); ++f) areas[polygons.of_face[f]] += frames[f].area;
-  if (problem.reflection) images = images_of(mesh, polygons, *problem.reflection);
+  sizes = measure_pieces(mesh, frames);
+  bends = bends_over_edges(mesh, frames, polygons, sizes);
+  odds = border_odds(mesh, polygons, sizes, bends, visibility.ambient, is_marked, problem.mirror());
+  regions.resize(polygons.count);
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    const auto& [diagonal, area] = sizes.of_piece[sizes.pieces.of_face[f]];
+    if (!(diagonal > 0.0)) continue;
+    Region& own = regions[polygons.of_face[f]];
+    own.area += frames[f].area / (diagonal * diagonal);
+    own.least_area = kLeastArea * area / (diagonal * diagonal);
+  }
+  if (problem.reflection) {
+    const std::vector<std::int32_t> images = images_of(mesh, polygons, *problem.reflection);
+    for (std::size_t p = 0; p < images.size(); ++p) regions[p].image = images[p];
+  }
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     const double unlikely = std::log1p(std::exp(-std::max(odds[e] + kMiddleBias, -kMostOdds)));
     problem.prices.of_edge.push_back(mesh.is_real[e] == 0 ? kNever : (unlikely + kLeastPrice) * mesh.lengths[e]);
@@ -182,7 +190,7 @@ std::vector<std::uint8_t> PartFinder::Impl::edited(const std::vector<Edge>& edge
 }
 
 /// The region of each polygon.
-std::vector<std::int32_t> PartFinder::Impl::regions(double amount, const PartEdits& edits) const {
+std::vector<std::int32_t> PartFinder::Impl::joined(double amount, const PartEdits& edits) const {
   const PlanMesh& mesh = problem.mesh;
   const std::vector<std::uint8_t> is_kept = edited(edits.kept, "kept"), is_dropped = edited(edits.dropped, "dropped");
   const double bias = amount > 0.0 ? bias_of(amount) : -kNever;
@@ -193,19 +201,18 @@ std::vector<std::int32_t> PartFinder::Impl::regions(double amount, const PartEdi
     double own = std::clamp(odds[e] + bias, -kMostOdds, kMostOdds);
     if (is_dropped[e] != 0) own = -kEditOdds;
     if (is_kept[e] != 0) own = kEditOdds;
-    const double length = mesh.lengths[e];
+    const double diagonal = sizes.of_piece[sizes.piece_of(mesh, e)].diagonal;
+    const double length = diagonal > 0.0 ? mesh.lengths[e] / diagonal : 0.0;
     found.push_back({polygons.of_face[h / 3], polygons.of_face[twin / 3], own * length, length,
                      std::abs(bends.own[e]) * length});
   }
-  const RegionRules rules{
-      .region_price = kPartPrice * diagonal, .least_area = kLeastArea, .least_width = kLeastWidth * diagonal};
-  return joined_regions(areas, found, images, rules);
+  return joined_regions(regions, found, {.region_price = kPartPrice, .least_width = kLeastWidth});
 }
 
 /// Marks the borders of parts and the existing seams.
 std::vector<std::uint8_t> PartFinder::Impl::borders(double amount, const PartEdits& edits) const {
   const PlanMesh& mesh = problem.mesh;
-  const std::vector<std::int32_t> regions_of = regions(amount, edits);
+  const std::vector<std::int32_t> regions_of = joined(amount, edits);
   std::vector<std::uint8_t> is_border = problem.is_seam;
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];

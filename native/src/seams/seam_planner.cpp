@@ -15,6 +15,7 @@
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "detail/run_on_threads.hpp"
+#include "flatten/measure_islands.hpp"
 #include "seams/group_planning.hpp"
 #include "seams/piece_groups.hpp"
 #include "seams/planned_wires.hpp"
@@ -662,7 +663,7 @@ void Planning::measure(SeamPlan& plan, const Task& task) const {
   plan.is_reached = false;
   plan.energy = kNever;
   if (!is_mapped_) return;
-  const MapReport report = measure_map(*planner_.surface, plan.uvs, plan.islands, task);
+  const MapReport report = measure_islands(*planner_.surface, plan.uvs, plan.islands, false, task);
   std::vector<std::uint8_t> is_counted_island(plan.island_count, 0);
   for (std::size_t f = 0; f < is_counted_.size(); ++f) {
     if (is_counted_[f] != 0) is_counted_island[plan.islands[planner_.mesh().faces[f]]] = 1;
