@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from typing import TYPE_CHECKING
 
@@ -33,7 +34,7 @@ def flask() -> bpy.types.Object:
     rings = [range(AROUND * row, AROUND * (row + 1)) for row in range(len(PROFILE))]
     faces = [
         (low[i], low[(i + 1) % AROUND], high[(i + 1) % AROUND], high[i])
-        for low, high in zip(rings, rings[1:], strict=False)
+        for low, high in itertools.pairwise(rings)
         for i in range(AROUND)
     ]
     mesh = bpy.data.meshes.new("Flask")
