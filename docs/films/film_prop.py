@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
+import itertools
 import math
-from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import bpy
-from film_stage import aside, show_map, stage
+from film_stage import aside, show_map, stage, start
 from mathutils import Euler, Vector
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ def flask() -> bpy.types.Object:
     rings = [range(AROUND * row, AROUND * (row + 1)) for row in range(len(PROFILE))]
     faces = [
         (low[i], low[(i + 1) % AROUND], high[(i + 1) % AROUND], high[i])
-        for low, high in pairwise(rings)
+        for low, high in itertools.pairwise(rings)
         for i in range(AROUND)
     ]
     mesh = bpy.data.meshes.new("Flask")
@@ -77,11 +77,11 @@ def wheel(film: Film) -> None:
     with ui.override():
         bpy.ops.object.mode_set(mode="EDIT")
         bpy.ops.mesh.select_all(action="DESELECT")
-    ui.view.view_rotation = Euler((1.2, 0.0, 0.46)).to_quaternion()
-    ui.view.view_location, ui.view.view_distance = (0.0, 0.0, 0.1), 3.3
+    ui.view.view_rotation = Euler((1.05, 0.0, 0.46)).to_quaternion()
+    ui.view.view_location, ui.view.view_distance = (0.0, 0.0, 0.22), 3.8
     ui.wait(4, redraw=True)
     film.at = aside(film)
-    film.ui.move(film.at)
+    start(film)
     film.say("Suggest Seamwires", 6)
     with ui.override():
         bpy.ops.mesh.seamwire_suggest("INVOKE_DEFAULT")
@@ -97,10 +97,6 @@ def wheel(film: Film) -> None:
     film.hold(6)
     film.click()
     film.hold(4)
-    film.go(in_front(film, 0.6, 0.0, 0.3), 7)
-    film.say("Click on a part: cut it in two", 4)
-    film.click()
-    film.hold(6)
     film.go(aside(film), 6)
     ui.wait_until(lambda: live().is_planned, 60.0)
     film.say("Slits follow when the hand rests", 10)

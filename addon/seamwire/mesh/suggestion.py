@@ -112,6 +112,7 @@ class Suggestion:
         self._within, self.others = self._islands_with(faces)
         self._marked = expected_borders(obj.data)
         self._finder: seamwire_core.PartFinder | None = None
+        self._last: tuple[float, PartEdits, seamwire_core.Parts] | None = None
         self._planner: seamwire_core.SeamPlanner | None = None
         self._blenders_mirrors = mirror_axes(obj.data)
         self.had_seams = len(arrays.seams) > 0
@@ -162,9 +163,13 @@ class Suggestion:
         self.slits = []
 
     def _found(self, amount: float, edits: PartEdits) -> seamwire_core.Parts:
+        """Find parts. The last ones are kept, because parts are counted before they are chosen."""
         assert self._finder is not None
-        arrays = self.mesh.arrays
-        return self._finder.find(amount, **edits.on(arrays.edges, arrays.polygons))
+        if self._last is None or self._last[:2] != (amount, edits):
+            arrays = self.mesh.arrays
+            found = self._finder.find(amount, **edits.on(arrays.edges, arrays.polygons))
+            self._last = amount, edits, found
+        return self._last[2]
 
     def _counted(self, parts: seamwire_core.Parts) -> int:
         """Return the number of parts. An island that is not to be cut is one part."""

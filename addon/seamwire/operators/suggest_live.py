@@ -31,6 +31,8 @@ if TYPE_CHECKING:
 
 _REST = 0.4
 """Seconds without a change until slits are planned."""
+_LOOKING = 0.2
+"""Seconds that a notch of the wheel may look for another number of parts."""
 _TICK = 0.02
 """Seconds between two looks at whether the hand rests."""
 _CONFIRM = frozenset({"RET", "NUMPAD_ENTER", "SPACE"})
@@ -182,7 +184,8 @@ class LiveParts:
         return set()
 
     def _turn(self, notches: int) -> None:
-        found = turned(self.amount, notches, self._count)
+        until = time.monotonic() + _LOOKING
+        found = turned(self.amount, notches, self._count, lambda: time.monotonic() < until)
         if found != self.amount:
             self.amount = found
             self._change()

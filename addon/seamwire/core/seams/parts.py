@@ -108,7 +108,9 @@ def edits_of_text(text: str) -> dict[str, PartEdits]:
         raise ValueError(str(error)) from error
 
 
-def turned(amount: float, notches: int, count: Callable[[float], int]) -> float:
+def turned(
+    amount: float, notches: int, count: Callable[[float], int], may_go_on: Callable[[], bool] = lambda: True
+) -> float:
     """Return the amount of parts after a turn of the wheel by one notch. It stays if the number of parts cannot change that way.
 
     Parameters
@@ -119,6 +121,8 @@ def turned(amount: float, notches: int, count: Callable[[float], int]) -> float:
         1 for more parts, -1 for fewer.
     count
         Returns the number of parts for an amount.
+    may_go_on
+        Whether to look further for another number of parts. Otherwise the wheel stops at the amount that was looked at last.
     """
     before = count(amount)
     place = round(amount / STEP, 6)
@@ -126,7 +130,7 @@ def turned(amount: float, notches: int, count: Callable[[float], int]) -> float:
     place = np.floor(place) + 1 if notches > 0 else np.ceil(place) - 1
     while 0 <= place <= round(1.0 / STEP):
         found = min(float(place) * STEP, 1.0)
-        if count(found) != before:
+        if count(found) != before or not may_go_on():
             return found
         place += notches
     return amount

@@ -40,6 +40,11 @@ def test_the_ends_of_the_scale_are_reached_exactly() -> None:
     assert turned(0.05, -1, lambda amount: int(amount == 0.0)) == 0.0
 
 
+def test_the_wheel_stops_where_it_may_not_look_further() -> None:
+    looks = iter((True, False))
+    assert turned(0.13, 1, steps, lambda: next(looks)) == pytest.approx(0.2)
+
+
 def test_the_last_click_on_a_border_decides() -> None:
     edges = edges_of(CHAIN)
     assert edges == {(2, 4), (2, 7)}
