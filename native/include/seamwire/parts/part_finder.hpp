@@ -41,8 +41,8 @@ struct Parts {
 /// Finds the parts that an artist would make islands of: the walls, lids and plugs of props and machines.
 ///
 /// Each edge has log odds of being a border, by how sharp it is, on its own and along the line of edges that it
-/// continues. Pairs of triangles that form a quad count as a quad. Regions are joined where no border is more likely than
-/// a border. Small regions stay only if a sharp rim encloses them.
+/// continues. Pairs of triangles that form a quad count as a quad. Regions are joined where no border is more likely
+/// than a border. Small regions stay only if a sharp rim encloses them.
 ///
 /// Joining is greedy additive edge contraction: Keuper et al., "Efficient decomposition of image and mesh graphs by
 /// lifted multicuts" (2015), section 5.1.
