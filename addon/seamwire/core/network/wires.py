@@ -26,9 +26,9 @@ across the surface). Files have these numbers."""
 LoopKind = Literal["CLOSED", "CROSSING", "STRIP", "PAST", "WHOLE", "FLAT", "ACROSS", "HANDLE", "RIDGE", "VALLEY"]
 """The kind of loop that a click takes as a whole.
 
-On an edge: the closed loop of the metric, the loop or strip that crosses the edge, the straight strip up to what is there already, the
-same past poles, the whole strip, and the border of a part or face. On a point of the surface: a closed cut that separates, or a cut
-around or through a handle, which does not. On both: a ridge or a valley as far as it is one."""
+An edge has the closed loop of the metric, the loop or strip that crosses the edge, and the border of a part or face. It also has the
+straight strip up to what is there already, the same past poles, and the whole strip. A point of the surface has a closed cut that
+separates, or a cut around or through a handle, which does not. Both have a ridge or a valley as far as it is one."""
 
 LOOP_KINDS: frozenset[LoopKind] = frozenset(get_args(LoopKind)) - {"CROSSING"}
 """The kinds of kept loops. A crossing loop is kept as a closed loop or a strip."""
