@@ -19,7 +19,7 @@ from seamwire.core.islands.islands import IslandMaker
 from seamwire.core.seams.gaps import Gap, GapFinder
 from seamwire.core.seams.parts import PartEdits, edits_text
 from seamwire.core.seams.suggestion import Request, energy_of, stretch_of
-from seamwire.mesh import edge_marks, edit_mesh, seam_islands, suggestion, suggestions, uv_map
+from seamwire.mesh import edit_mesh, seam_islands, suggestion, suggestions, uv_map
 from seamwire.mesh.object_session import ObjectSession
 from seamwire.mesh.seam_islands import island_count as islands
 from seamwire.view.shown_islands import ShownIslands
@@ -696,7 +696,7 @@ def test_sharp_marks_and_borders_of_materials_count() -> None:
     for face in bm.faces:
         face.material_index = int(face.calc_center_median().x > 0.0)
     bmesh.update_edit_mesh(obj.data)
-    found = {frozenset(edge) for edge in edge_marks.expected_borders(obj.data).tolist()}
+    found = {frozenset(edge) for edge in edit_mesh.read(obj).marked.tolist()}
     assert len(found) == 8
     assert suggest(parts=100.0, unwrap=False) == {"FINISHED"}
     assert {frozenset(edge) for edge in seams(obj)} == found

@@ -1,18 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blender's other marks of edges: given to seams, and read where an artist expects a border."""
+"""Blender's other marks of edges, given to seams."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import bmesh
 import bpy
-import numpy as np
 
 from .edit_mesh import Selection, edit_bmesh
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _ATTRIBUTES = {"CREASE": ("crease", "float"), "BEVEL": ("bevel_weight", "float"), "FREESTYLE": ("freestyle", "bool")}
 """The layer of each mark, and of which type the attribute of that name with _edge is, in Blenders that have one."""
@@ -53,18 +47,6 @@ def copy_seams(objects: list[bpy.types.Object], kind: str) -> int:
     if by_operator and marked:
         _mark_freestyle(by_operator)
     return marked
-
-
-def expected_borders(mesh: bpy.types.Mesh) -> NDArray[np.int32]:
-    """Return the edges, (k, 2), of an edit mesh that are marked sharp, or that faces of several materials share."""
-    edges = edit_bmesh(mesh).edges
-    has_materials = len(mesh.materials) > 1
-    found = [
-        [vert.index for vert in edge.verts]
-        for edge in edges
-        if not edge.smooth or (has_materials and len({face.material_index for face in edge.link_faces}) > 1)
-    ]
-    return np.array(found, dtype=np.int32).reshape(-1, 2)
 
 
 def _seams(bm: bmesh.types.BMesh) -> list[bmesh.types.BMEdge]:

@@ -22,7 +22,6 @@ from ..core.seams.suggestion import (
     stroke_weights,
 )
 from ..core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
-from .edge_marks import expected_borders
 from .object_session import ObjectSession, mirror_axes
 from .seam_islands import labels_of
 
@@ -110,7 +109,6 @@ class Suggestion:
         self._symmetric = options.symmetric
         self._front = None if options.front is None else in_object(obj, options.front)
         self._within, self.others = self._islands_with(faces)
-        self._marked = expected_borders(obj.data)
         self._finder: seamwire_core.PartFinder | None = None
         self._last: tuple[float, PartEdits, seamwire_core.Parts] | None = None
         self._planner: seamwire_core.SeamPlanner | None = None
@@ -145,7 +143,7 @@ class Suggestion:
         self._surface = self._core.Surface(arrays.in_object, arrays.triangles, arrays.edges)
         self._axis = self._mirror()
         self._finder = self._core.PartFinder(
-            self._surface, mirror=self._axis, marked=self._marked, seams=arrays.seams, progress=progress
+            self._surface, mirror=self._axis, marked=arrays.marked, seams=arrays.seams, progress=progress
         )
 
     def count(self, amount: float, edits: PartEdits) -> int:

@@ -36,6 +36,7 @@ constexpr double kBiasToSharp = 2.2;   // what is added to it at the other end
 constexpr double kPartPrice = 0.2;     // of a part, in diagonals of its piece
 constexpr double kLeastArea = 0.003;   // of the area of its piece
 constexpr double kLeastWidth = 0.008;  // in diagonals of its piece
+constexpr std::size_t kLooks = 8000;   // vertices at which visibility is measured
 constexpr double kLeastPrice = 0.05;   // of a cut along an edge that is a border for sure, for each unit of length
 
 /// The constant that an amount of parts adds to all log odds.
@@ -141,7 +142,7 @@ void PartFinder::Impl::prepare(const Task& task) {
   problem.is_seam = marked(options.seams, "seams");
   const std::vector<std::uint8_t> is_marked = marked(options.marked, "marked");
   if (options.mirror >= 0) problem.reflection = find_reflection(mesh, options.mirror, part_of(task, 0.0, 0.2));
-  const Visibility visibility = find_visibility(mesh, std::nullopt, part_of(task, 0.2, 1.0));
+  const Visibility visibility = find_visibility(mesh, std::nullopt, part_of(task, 0.2, 1.0), {}, kLooks);
   const std::vector<FaceFrame> frames = face_frames(mesh);
   polygons = find_polygons(mesh, frames);
   sizes = measure_pieces(mesh, frames);

@@ -75,24 +75,6 @@ std::vector<std::uint8_t> marked_edges(const PlanMesh& mesh, const std::vector<E
   return is_seam;
 }
 
-/// For each vertex the nearest of some vertices, along edges: its place among them; -1 if none can be reached.
-std::vector<std::int32_t> nearest_of(const PlanMesh& mesh, std::span<const std::int32_t> vertices) {
-  std::vector<std::int32_t> nearest(mesh.vertex_count(), -1);
-  std::vector<std::int32_t> open;
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    nearest[vertices[i]] = static_cast<std::int32_t>(i);
-    open.push_back(vertices[i]);
-  }
-  for (std::size_t i = 0; i < open.size(); ++i) {
-    for (const PlanNeighbor& next : mesh.all_neighbors[open[i]]) {
-      if (nearest[next.vertex] >= 0) continue;
-      nearest[next.vertex] = nearest[open[i]];
-      open.push_back(next.vertex);
-    }
-  }
-  return nearest;
-}
-
 }  // namespace
 
 struct SeamPlanner::Impl {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <numbers>
 
+#include "detail/index.hpp"
 #include "detail/run_on_threads.hpp"
 #include "seamwire/surface/ray_tree.hpp"
 
@@ -33,8 +34,25 @@ Vector by_cosine(int i, int count, const Vector& axis) {
 
 }  // namespace
 
+std::vector<std::int32_t> nearest_of(const PlanMesh& mesh, std::span<const std::int32_t> vertices) {
+  std::vector<std::int32_t> nearest(mesh.vertex_count(), -1);
+  std::vector<std::int32_t> open;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    nearest[vertices[i]] = static_cast<std::int32_t>(i);
+    open.push_back(vertices[i]);
+  }
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    for (const PlanNeighbor& next : mesh.all_neighbors[open[i]]) {
+      if (nearest[next.vertex] >= 0) continue;
+      nearest[next.vertex] = nearest[open[i]];
+      open.push_back(next.vertex);
+    }
+  }
+  return nearest;
+}
+
 Visibility find_visibility(const PlanMesh& mesh, const std::optional<Vector>& front, const Task& task,
-                           std::span<const double> sizes) {
+                           std::span<const double> sizes, std::size_t most) {
   constexpr double kAbove = 2e-3;  // start this far above a part of area 1, to miss the faces around the vertex
   const RayTree rays(mesh.points, mesh.triangles);
   rays.wait(task);
@@ -58,14 +76,24 @@ Visibility find_visibility(const PlanMesh& mesh, const std::optional<Vector>& fr
     const auto views_that_see = std::ranges::count_if(views, is_free);
     found.front[v] = static_cast<double>(views_that_see) / kViews;
   };
-  const std::size_t blocks = (mesh.vertex_count() + kBlock - 1) / kBlock;
+  std::vector<std::int32_t> chosen;
+  const std::size_t step = std::max<std::size_t>(1, mesh.vertex_count() / std::max<std::size_t>(most, 1));
+  for (std::size_t v = 0; v < mesh.vertex_count(); v += step) chosen.push_back(static_cast<std::int32_t>(v));
+  const std::size_t blocks = (chosen.size() + kBlock - 1) / kBlock;
   run_on_threads(
       blocks, task, [&](std::size_t done) { return static_cast<double>(done) / static_cast<double>(blocks); },
       [&](std::size_t block, const Task& own) {
         own.check(0.0);
-        const std::size_t end = std::min(mesh.vertex_count(), (block + 1) * kBlock);
-        for (std::size_t v = block * kBlock; v < end; ++v) look(v);
+        const std::size_t end = std::min(chosen.size(), (block + 1) * kBlock);
+        for (std::size_t i = block * kBlock; i < end; ++i) look(index(chosen[i]));
       });
+  if (step == 1) return found;
+  const std::vector<std::int32_t> nearest = nearest_of(mesh, chosen);
+  for (std::vector<double>* values : {&found.front, &found.ambient}) {
+    for (std::size_t v = 0; v < values->size(); ++v) {
+      if (nearest[v] >= 0) (*values)[v] = (*values)[chosen[nearest[v]]];
+    }
+  }
   return found;
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -18,8 +21,13 @@ struct Visibility {
 };
 
 /// `front`: the direction towards the viewer; nullopt if no side is the front. `sizes`: of each vertex the size of its
-/// part, the root of the area; empty: 1. On several threads. Throws Cancelled.
+/// part, the root of the area; empty: 1. `most`: at about how many vertices to look; the others get the values of the
+/// nearest one. On several threads. Throws Cancelled.
 Visibility find_visibility(const PlanMesh& mesh, const std::optional<Vector>& front, const Task& task,
-                           std::span<const double> sizes = {});
+                           std::span<const double> sizes = {},
+                           std::size_t most = std::numeric_limits<std::size_t>::max());
+
+/// For each vertex the nearest of some vertices, along edges: its place among them; -1 if no edges lead there.
+std::vector<std::int32_t> nearest_of(const PlanMesh& mesh, std::span<const std::int32_t> vertices);
 
 }  // namespace seamwire::detail
