@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numeric>
 #include <queue>
 #include <tuple>
-#include <unordered_map>
 #include <utility>
 
 #include "detail/index.hpp"
@@ -18,11 +18,13 @@ namespace {
 /// What lies between two regions.
 struct Link {
   double gain = 0.0, length = 0.0, bend = 0.0;
+  bool is_kept = false;
 
   void add(const Link& other) {
     gain += other.gain;
     length += other.length;
     bend += other.bend;
+    is_kept = is_kept || other.is_kept;
   }
 };
 
@@ -33,7 +35,7 @@ class Joining {
     std::iota(parents_.begin(), parents_.end(), 0);
     for (const RegionBorder& border : borders) {
       for (const auto& [a, b] : {std::pair(border.one, border.other), std::pair(border.other, border.one)}) {
-        links_[a][b].add({border.gain, border.length, border.bend});
+        links_[a][b].add({border.gain, border.length, border.bend, border.is_kept});
       }
     }
   }
@@ -131,6 +133,7 @@ class Joining {
     std::int32_t best = -1;
     std::tuple<double, double> least;
     for (const auto& [c, link] : links_[r]) {
+      if (link.is_kept || !(link.length > 0.0)) continue;
       const std::tuple own(link.gain / link.length, -regions_[c].area);
       if (best < 0 || own < least || (own == least && c < best)) {
         best = c;
@@ -156,13 +159,15 @@ class Joining {
       const std::int32_t neighbor = neighbor_of_small(r);
       if (neighbor < 0) continue;
       join_both(r, neighbor);
-      add(root(r));
+      const std::int32_t joined = root(r), mirrored = image(joined);
+      add(joined);
+      if (mirrored >= 0 && mirrored != joined) add(mirrored);
     }
   }
 
   std::vector<Region> regions_;
   std::vector<std::int32_t> parents_;
-  std::vector<std::unordered_map<std::int32_t, Link>> links_;
+  std::vector<std::map<std::int32_t, Link>> links_;
   RegionRules rules_;
   using Offer = std::tuple<double, std::int32_t, std::int32_t>;
   std::priority_queue<Offer, std::vector<Offer>, std::greater<>> open_;

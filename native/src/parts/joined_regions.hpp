@@ -7,7 +7,7 @@
 
 namespace seamwire::detail {
 
-/// A region, in units of the size of the piece of surface in which it lies.
+/// A region. Lengths are in diagonals of the piece of surface in which it lies, areas in squared diagonals.
 struct Region {
   double area = 0.0;
   double least_area = 0.0;  ///< a smaller region joins a neighbor, unless a sharp rim encloses it
@@ -19,7 +19,8 @@ struct RegionBorder {
   std::int32_t one = -1, other = -1;
   double gain = 0.0;  ///< its log odds times its length: what keeping it gains, and joining loses
   double length = 0.0;
-  double bend = 0.0;  ///< how many degrees the surface bends there, times the length
+  double bend = 0.0;     ///< how many degrees the surface bends there, times the length
+  bool is_kept = false;  ///< whether small regions must not join across it
 };
 
 /// Which regions to join.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -83,12 +84,16 @@ std::vector<std::int32_t> images_of(const PlanMesh& mesh, const Polygons& polygo
   return images;
 }
 
-/// Chains of edges from junction to junction; closed ones end with their first vertex.
-std::vector<std::vector<std::int32_t>> chains_of(const std::vector<Edge>& edges) {
+/// Chains of edges from junction to junction; closed ones end with their first vertex. `others`: edges that make
+/// junctions too.
+std::vector<std::vector<std::int32_t>> chains_of(const std::vector<Edge>& edges, const std::vector<Edge>& others) {
   std::map<std::int32_t, std::vector<std::size_t>> at;
   for (std::size_t e = 0; e < edges.size(); ++e) {
     for (const std::int32_t v : edges[e]) at[v].push_back(e);
   }
+  std::set<std::int32_t> meeting;  // vertices of the others
+  for (const Edge& edge : others) meeting.insert(edge.begin(), edge.end());
+  const auto goes_on = [&](std::int32_t v) { return at[v].size() == 2 && !meeting.contains(v); };
   std::vector<std::uint8_t> is_used(edges.size(), 0);
   std::vector<std::vector<std::int32_t>> chains;
   const auto follow = [&](std::int32_t v, std::size_t e) {
@@ -97,15 +102,15 @@ std::vector<std::vector<std::int32_t>> chains_of(const std::vector<Edge>& edges)
       is_used[e] = 1;
       v = edges[e][0] == v ? edges[e][1] : edges[e][0];
       chain.push_back(v);
+      if (!goes_on(v)) return;
       const std::vector<std::size_t>& own = at[v];
-      if (own.size() != 2) return;
       e = own[0] == e ? own[1] : own[0];
       if (is_used[e] != 0) return;
     }
   };
   for (const bool is_open : {true, false}) {
     for (const auto& [v, own] : at) {
-      if (is_open == (own.size() == 2)) continue;
+      if (is_open == goes_on(v)) continue;
       for (const std::size_t e : own) {
         if (is_used[e] == 0) follow(v, e);
       }
@@ -119,7 +124,7 @@ std::vector<std::vector<std::int32_t>> chains_of(const std::vector<Edge>& edges)
 struct PartFinder::Impl {
   std::shared_ptr<const Surface> surface;
   PartOptions options;
-  SlitProblem problem;  // the existing seams part it into pieces
+  SlitProblem problem;  // with the existing seams; its pieces are found only to cut a part in two
   Polygons polygons;
   EdgeBends bends;
   PieceSizes sizes;
@@ -127,6 +132,7 @@ struct PartFinder::Impl {
   std::vector<Region> regions;  // of each polygon
 
   void prepare(const Task& task);
+  std::vector<Edge> seams() const;
   std::vector<std::uint8_t> marked(const std::vector<Edge>& edges, const char* name) const;
   std::vector<std::uint8_t> edited(const std::vector<Edge>& edges, const char* name) const;
   std::vector<std::int32_t> joined(double amount, const PartEdits& edits) const;
@@ -142,12 +148,20 @@ void PartFinder::Impl::prepare(const Task& task) {
   problem.is_seam = marked(options.seams, "seams");
   const std::vector<std::uint8_t> is_marked = marked(options.marked, "marked");
   if (options.mirror >= 0) problem.reflection = find_reflection(mesh, options.mirror, part_of(task, 0.0, 0.2));
-  const Visibility visibility = find_visibility(mesh, std::nullopt, part_of(task, 0.2, 1.0), {}, kLooks);
   const std::vector<FaceFrame> frames = face_frames(mesh);
-  polygons = find_polygons(mesh, frames);
   sizes = measure_pieces(mesh, frames);
+  std::vector<double> size_at(mesh.vertex_count(), 0.0);  // the root of the area of each vertex's piece
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    for (const std::int32_t v : mesh.triangles[f]) size_at[v] = std::sqrt(sizes.of_piece[sizes.pieces.of_face[f]].area);
+  }
+  const Visibility visibility = find_visibility(mesh, std::nullopt, part_of(task, 0.2, 0.8), size_at, kLooks);
+  std::vector<std::uint8_t> is_border = problem.is_seam;
+  for (std::size_t e = 0; e < is_border.size(); ++e) is_border[e] |= is_marked[e];
+  polygons = find_polygons(mesh, frames, is_border);
+  task.check(0.85);
   bends = bends_over_edges(mesh, frames, polygons, sizes);
   odds = border_odds(mesh, polygons, sizes, bends, visibility.ambient, is_marked, problem.mirror());
+  task.check(0.95);
   regions.resize(polygons.count);
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
     const auto& [diagonal, area] = sizes.of_piece[sizes.pieces.of_face[f]];
@@ -164,6 +178,17 @@ void PartFinder::Impl::prepare(const Task& task) {
     const double unlikely = std::log1p(std::exp(-std::max(odds[e] + kMiddleBias, -kMostOdds)));
     problem.prices.of_edge.push_back(mesh.is_real[e] == 0 ? kNever : (unlikely + kLeastPrice) * mesh.lengths[e]);
   }
+}
+
+/// The existing seams that are edges between two triangles.
+std::vector<Edge> PartFinder::Impl::seams() const {
+  std::vector<Edge> found;
+  for (std::int32_t e = 0; index(e) < problem.mesh.edge_count(); ++e) {
+    const std::int32_t h = problem.mesh.half_edge_of[e];
+    if (problem.is_seam[e] == 0 || problem.mesh.twins[h] < 0) continue;
+    found.push_back({problem.mesh.sources[problem.mesh.start(h)], problem.mesh.sources[problem.mesh.end(h)]});
+  }
+  return found;
 }
 
 /// Marks edges of the mesh.
@@ -204,8 +229,8 @@ std::vector<std::int32_t> PartFinder::Impl::joined(double amount, const PartEdit
     if (is_kept[e] != 0) own = kEditOdds;
     const double diagonal = sizes.of_piece[sizes.piece_of(mesh, e)].diagonal;
     const double length = diagonal > 0.0 ? mesh.lengths[e] / diagonal : 0.0;
-    found.push_back(
-        {polygons.of_face[h / 3], polygons.of_face[twin / 3], own * length, length, std::abs(bends.own[e]) * length});
+    found.push_back({polygons.of_face[h / 3], polygons.of_face[twin / 3], own * length, length,
+                     std::abs(bends.own[e]) * length, is_kept[e] != 0});
   }
   return joined_regions(regions, found, {.region_price = kPartPrice, .least_width = kLeastWidth});
 }
@@ -223,13 +248,19 @@ std::vector<std::uint8_t> PartFinder::Impl::borders(double amount, const PartEdi
   }
   if (edits.parted.empty()) return is_border;
   SlitProblem parted = problem;
+  const std::vector<std::uint8_t> is_dropped = edited(edits.dropped, "dropped");
+  for (std::size_t e = 0; e < is_dropped.size(); ++e) {
+    if (is_dropped[e] != 0) parted.prices.of_edge[e] = kNever;
+  }
   for (const std::int32_t face : edits.parted) {
     check_index(face, surface->face_count(), "parted", "triangles");
     const auto own = std::ranges::find(mesh.faces, face);
     if (own == mesh.faces.end()) continue;
     parted.is_seam = is_border;
     find_pieces_of(parted);
-    mark_half(parted, parted.pieces.of_face[own - mesh.faces.begin()], is_border);
+    std::vector<std::uint8_t> is_cut(mesh.edge_count(), 0);
+    mark_half(parted, parted.pieces.of_face[own - mesh.faces.begin()], is_cut);
+    for (std::size_t e = 0; e < is_cut.size(); ++e) is_border[e] |= is_cut[e];
   }
   return is_border;
 }
@@ -258,7 +289,7 @@ Parts PartFinder::find(double amount, const PartEdits& edits) const {
   }
   std::ranges::sort(borders);
   Parts parts;
-  parts.borders = chains_of(borders);
+  parts.borders = chains_of(borders, impl.seams());
   borders.insert(borders.end(), impl.options.seams.begin(), impl.options.seams.end());
   parts.of_face = face_segments(*impl.surface, borders);
   for (const std::int32_t part : parts.of_face) parts.count = std::max(parts.count, index(part) + 1);

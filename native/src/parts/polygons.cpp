@@ -15,16 +15,17 @@ namespace seamwire::detail {
 namespace {
 
 constexpr double kDegreesOfRadian = 180.0 / std::numbers::pi;
-constexpr double kMostFold = 40.0;    // degrees between the triangles of a quad
-constexpr double kMostSkew = 55.0;    // the fold and the mean deviation of the corners from 90 degrees together
-constexpr double kOverVertex = 80.0;  // the most that a line turns at a vertex of four edges, in degrees
-constexpr double kMostTurn = 50.0;    // and at other vertices
+constexpr double kMostFold = 40.0;      // degrees between the triangles of a quad
+constexpr double kMostSkew = 55.0;      // the fold and the mean deviation of the corners from 90 degrees together
+constexpr double kOverVertex = 80.0;    // the most that a line turns at a vertex of four edges, in degrees
+constexpr std::size_t kMostEdges = 24;  // around a vertex; lines end at the middle of larger fans
+constexpr double kMostTurn = 50.0;      // and at other vertices
 
 double angle_between(const Vector& one, const Vector& other) {
   return kDegreesOfRadian * std::atan2(one.cross(other).norm(), one.dot(other));
 }
 
-/// How little two triangles on both sides of a half-edge look like a quad, in degrees; kNever if they do not.
+/// How far the two triangles beside a half-edge are from a rectangle, in degrees; kNever if they are no quad.
 double skew_of(const PlanMesh& mesh, std::span<const FaceFrame> frames, std::int32_t h) {
   const std::int32_t twin = mesh.twins[h];
   const double fold = angle_between(frames[h / 3].normal, frames[twin / 3].normal);
@@ -43,7 +44,8 @@ double skew_of(const PlanMesh& mesh, std::span<const FaceFrame> frames, std::int
 
 }  // namespace
 
-Polygons find_polygons(const PlanMesh& mesh, std::span<const FaceFrame> frames) {
+Polygons find_polygons(const PlanMesh& mesh, std::span<const FaceFrame> frames,
+                       std::span<const std::uint8_t> is_border) {
   DisjointSets sets(mesh.face_count());
   std::vector<std::uint8_t> is_alone(mesh.face_count(), 1);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
@@ -56,6 +58,7 @@ Polygons find_polygons(const PlanMesh& mesh, std::span<const FaceFrame> frames) 
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
     if (twin < 0 || is_alone[h / 3] == 0 || is_alone[twin / 3] == 0) continue;
+    if (!is_border.empty() && is_border[e] != 0) continue;
     const double skew = skew_of(mesh, frames, h);
     if (skew != kNever) pairs.emplace_back(skew, e);
   }
@@ -100,6 +103,7 @@ EdgeLines find_lines(const PlanMesh& mesh, const Polygons& polygons) {
     for (const PlanNeighbor& neighbor : mesh.neighbors[v]) {
       if (polygons.is_diagonal[neighbor.edge] == 0) around.push_back(neighbor);
     }
+    if (around.size() > kMostEdges) continue;
     choice.assign(around.size(), -1);
     for (std::size_t i = 0; i < around.size(); ++i) {
       const Vector in = mesh.points[v] - mesh.points[around[i].vertex];

@@ -130,7 +130,7 @@ void mark_images(const SlitProblem& problem, std::int32_t piece, std::vector<std
   }
 }
 
-/// The piece that is the mirror image of another one; -1 without one, and for a piece that is its own image.
+/// The piece that is the mirror image of another one; -1 if the piece has no image or is its own.
 std::int32_t image_of(const SlitProblem& problem, std::int32_t piece) {
   if (!problem.reflection || !problem.reflection->is_exact) return -1;
   const PlanMesh& mesh = problem.mesh;
@@ -148,7 +148,7 @@ std::int32_t image_of(const SlitProblem& problem, std::int32_t piece) {
   return -1;
 }
 
-/// Marks a cut as mark_half(), without its mirror image.
+/// Like mark_half(), but without the mirror image.
 bool mark_one_half(const SlitProblem& problem, std::int32_t number, std::vector<std::uint8_t>& is_marked) {
   const PlanMesh& mesh = problem.mesh;
   const PieceBody body(problem, number);

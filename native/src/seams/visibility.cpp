@@ -77,7 +77,7 @@ Visibility find_visibility(const PlanMesh& mesh, const std::optional<Vector>& fr
     found.front[v] = static_cast<double>(views_that_see) / kViews;
   };
   std::vector<std::int32_t> chosen;
-  const std::size_t step = std::max<std::size_t>(1, mesh.vertex_count() / std::max<std::size_t>(most, 1));
+  const std::size_t step = (mesh.vertex_count() - 1) / std::max<std::size_t>(most, 1) + 1;
   for (std::size_t v = 0; v < mesh.vertex_count(); v += step) chosen.push_back(static_cast<std::int32_t>(v));
   const std::size_t blocks = (chosen.size() + kBlock - 1) / kBlock;
   run_on_threads(

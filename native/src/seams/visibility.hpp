@@ -21,8 +21,8 @@ struct Visibility {
 };
 
 /// `front`: the direction towards the viewer; nullopt if no side is the front. `sizes`: of each vertex the size of its
-/// part, the root of the area; empty: 1. `most`: at about how many vertices to look; the others get the values of the
-/// nearest one. On several threads. Throws Cancelled.
+/// part, the root of the area; empty: 1. `most`: how many vertices to sample at most; the others get the values of
+/// the nearest sample, along edges. On several threads. Throws Cancelled.
 Visibility find_visibility(const PlanMesh& mesh, const std::optional<Vector>& front, const Task& task,
                            std::span<const double> sizes = {},
                            std::size_t most = std::numeric_limits<std::size_t>::max());

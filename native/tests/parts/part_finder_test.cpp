@@ -177,6 +177,105 @@ TEST(PartFinder, follows_edits) {
   EXPECT_EQ(finder.find(0.0, {.kept = ring}).borders, Chains(1, parts.borders[0]));
 }
 
+TEST(PartFinder, does_not_part_along_dropped_edges) {
+  const auto surface = drum(24);
+  const PartFinder finder(surface);
+  std::vector<Edge> rings;
+  for (const std::vector<std::int32_t>& chain : finder.find().borders) {
+    for (std::size_t i = 1; i < chain.size(); ++i) {
+      rings.push_back({std::min(chain[i - 1], chain[i]), std::max(chain[i - 1], chain[i])});
+    }
+  }
+  const Parts halves = finder.find(0.5, {.dropped = rings, .parted = {0}});
+  EXPECT_EQ(halves.count, 2u);
+  for (const auto& [a, b] : edges_of(halves)) {
+    EXPECT_EQ(std::ranges::find(rings, Edge{std::min(a, b), std::max(a, b)}), rings.end());
+  }
+}
+
+TEST(PartFinder, keeps_a_step_of_a_chamfer_if_asked_to) {
+  const auto surface = drum(32, 0.008);
+  std::vector<Edge> rings;  // both sides of the step at one end
+  for (const Edge& edge : surface->edges()) {
+    const Vector &a = surface->points()[edge[0]], &b = surface->points()[edge[1]];
+    const bool is_ring = std::abs(a.x() - b.x()) < 1e-9 && std::abs(a.tail<2>().norm() - b.tail<2>().norm()) < 1e-9;
+    if (is_ring && a.x() > 0.4 && a.tail<2>().norm() > 0.3) rings.push_back(edge);
+  }
+  ASSERT_EQ(rings.size(), 64u);
+  EXPECT_EQ(PartFinder(surface).find(0.5, {.kept = rings}).count, 4u);
+}
+
+TEST(PartFinder, parts_at_marked_edges_that_look_like_diagonals) {
+  // A line across the squares of a grid, each of two triangles.
+  const auto surface = shared(shapes::grid(6).surface());
+  std::vector<Edge> line;
+  for (const Edge& edge : surface->edges()) {
+    const Vector &a = surface->points()[edge[0]], &b = surface->points()[edge[1]];
+    if (std::abs(a.x() - a.y()) < 1e-9 && std::abs(b.x() - b.y()) < 1e-9) line.push_back(edge);
+  }
+  ASSERT_EQ(line.size(), 6u) << "the diagonals of shapes::grid() run this way";
+  EXPECT_EQ(PartFinder(surface, {.marked = line}).find().count, 2u);
+  EXPECT_EQ(PartFinder(surface, {.seams = line}).find().count, 2u);
+  EXPECT_TRUE(PartFinder(surface, {.seams = line}).find().borders.empty());
+}
+
+TEST(PartFinder, ends_borders_at_existing_seams) {
+  // A seam along the wall from lid to lid meets both rims.
+  const auto surface = drum(24);
+  std::vector<Edge> seam;
+  for (const Edge& edge : surface->edges()) {
+    const Vector &a = surface->points()[edge[0]], &b = surface->points()[edge[1]];
+    const auto is_on_line = [](const Vector& p) { return p.y() > 0.39 && std::abs(p.z()) < 1e-9; };
+    if (is_on_line(a) && is_on_line(b)) seam.push_back(edge);
+  }
+  ASSERT_EQ(seam.size(), 4u);
+  const Parts parts = PartFinder(surface, {.seams = seam}).find();
+  ASSERT_EQ(parts.borders.size(), 2u);
+  for (const std::vector<std::int32_t>& chain : parts.borders) {
+    EXPECT_EQ(chain.front(), chain.back());
+    EXPECT_NEAR(surface->points()[chain.front()].z(), 0.0, 1e-9) << "the ring begins where the seam meets it";
+    EXPECT_GT(surface->points()[chain.front()].y(), 0.0);
+  }
+}
+
+TEST(PartFinder, leaves_alone_seams_on_the_other_side) {
+  // A slit that ends halfway, on one side of a symmetric box, is not mirrored by parting that side.
+  shapes::QuadMesh mesh = shapes::plate({"####"}, 4);
+  for (Vector& point : mesh.points) point -= Vector(2.0, 0.5, 0.5);
+  const auto surface = shared(mesh.surface());
+  std::vector<Edge> slit;
+  for (const Edge& edge : surface->edges()) {
+    const Vector &a = surface->points()[edge[0]], &b = surface->points()[edge[1]];
+    const auto is_on = [](const Vector& p) {
+      return std::abs(p.z() - 0.5) < 1e-9 && std::abs(p.y()) < 1e-9 && p.x() > 0.9 && p.x() < 1.6;
+    };
+    if (is_on(a) && is_on(b)) slit.push_back(edge);
+  }
+  ASSERT_EQ(slit.size(), 2u);
+  std::vector<Edge> middle;
+  for (const Edge& edge : surface->edges()) {
+    if (std::abs(surface->points()[edge[0]].x()) + std::abs(surface->points()[edge[1]].x()) < 1e-9) {
+      middle.push_back(edge);
+    }
+  }
+  std::vector<Edge> seams = slit;
+  seams.insert(seams.end(), middle.begin(), middle.end());
+  std::int32_t right = 0;
+  while (surface->points()[surface->triangles()[right][0]].x() < 0.5) ++right;
+  for (const Edge& edge : edges_of(PartFinder(surface, {.mirror = 0, .seams = seams}).find(0.0, {.parted = {right}}))) {
+    for (const std::int32_t v : edge) {
+      const Vector& p = surface->points()[v];
+      EXPECT_FALSE(std::abs(p.z() - 0.5) < 1e-9 && std::abs(p.y()) < 1e-9 && p.x() < -1.1 && p.x() > -1.4);
+    }
+  }
+}
+
+TEST(PartFinder, takes_a_fan_of_many_triangles) {
+  const Parts parts =
+      PartFinder(shared(shapes::lathe(20000, {{-0.5, 0.0}, {-0.5, 0.4}, {0.5, 0.4}, {0.5, 0.0}}).surface())).find();
+  EXPECT_EQ(parts.count, 3u);
+}
+
 TEST(PartFinder, parts_a_part_into_two) {
   const auto ball = shared(shapes::icosphere(3).surface());
   const Parts halves = PartFinder(ball).find(0.5, {.parted = {0}});

@@ -41,20 +41,21 @@ struct Parts {
 /// Finds the parts that an artist would make islands of: the walls, lids and plugs of props and machines.
 ///
 /// Each edge has log odds of being a border, by how sharp it is, on its own and along the line of edges that it
-/// continues. Pairs of triangles that form a quad count as a quad. Regions are joined where no border is more likely
-/// than a border. Small regions stay only if a sharp rim encloses them.
+/// continues. Pairs of triangles that form a quad count as a quad. Two regions are joined if their common
+/// edges are probably not a border. Small regions stay only if a sharp rim encloses them. Steps of a chamfer join a
+/// neighbor.
 ///
 /// Joining is greedy additive edge contraction: Keuper et al., "Efficient decomposition of image and mesh graphs by
 /// lifted multicuts" (2015), section 5.1.
 ///
-/// A smooth body is one part. Copies share what is known of the surface. find() may be called from several threads.
+/// A smooth body is one part. Copies share the measured edges. find() may be called from several threads.
 class PartFinder {
  public:
   /// Measures the edges. Throws InvalidInput for an axis or a vertex out of range; Cancelled.
   explicit PartFinder(std::shared_ptr<const Surface> surface, const PartOptions& options = {}, const Task& task = {});
 
   /// Finds parts. `amount`, from 0 to 1, says how many: 0 joins all that is connected, 1 parts at all sharp edges.
-  /// Takes some milliseconds for 10,000 triangles. Throws InvalidInput for another amount, and for a vertex or triangle
+  /// Throws InvalidInput for another amount, and for a vertex or triangle
   /// out of range.
   Parts find(double amount = 0.5, const PartEdits& edits = {}) const;
 
