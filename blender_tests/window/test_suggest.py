@@ -402,7 +402,7 @@ def test_a_click_drops_a_border_and_a_second_click_keeps_it(ui: driver.Ui, prism
     plain = ui.screen()
     rim = ui.on_screen(FRONT_RIM)
     ui.move(rim)
-    assert [shown.hovered for shown in live()._preview._shown.values()] != [None]
+    ui.wait_until(lambda: any(shown.hovered is not None for shown in live()._preview._shown.values()))
     assert np.abs(ui.screen() - plain).max(axis=2).mean() > 0.001, "the border is highlighted"
     ui.click(rim)
     assert count() == 2, "the sides and the upper lid have joined"
