@@ -114,8 +114,12 @@ class _Shown:
             self._faces = self._tinted = None
             self._surface = self._posed_surface()
         kinds = {field.name: getattr(curves, field.name) for field in fields(curves)}
+        before = self._found_by_mouse
         self._curves = Curves(**{name: [self._pose.places(curve) for curve in own] for name, own in kinds.items()})
-        self._lines = self.hovered = None
+        self._lines = None
+        after = self._found_by_mouse
+        if len(before) != len(after) or not all(map(np.array_equal, before, after)):
+            self.hovered = None  # other slits alone leave the highlight where it is
         self.__dict__.pop("_segments", None)
         self._count += 1
         self._islands.want(self._count, cuts)
