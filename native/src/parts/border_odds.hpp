@@ -13,9 +13,8 @@ namespace seamwire::detail {
 
 /// How a surface bends over each edge, in degrees; 0 on the boundary and inside polygons.
 struct EdgeBends {
-  std::vector<double> own;  ///< between the two triangles; negative where concave
-  std::vector<double>
-      wide;  ///< between the surface a little away on both sides, so that it spans the steps of a chamfer
+  std::vector<double> own;   ///< between the two triangles; negative where concave
+  std::vector<double> wide;  ///< between places a little away on both sides; it spans the steps of a chamfer
 };
 
 /// A connected piece of the surface.

@@ -127,7 +127,7 @@ class Joining {
     return is_step && 2.0 * regions_[r].area < rules_.least_width * rim.length;
   }
 
-  /// The neighbor that a small region joins: the one with the least likely border, where long borders count more.
+  /// The neighbor that a small region joins: the one with the least likely border.
   std::int32_t neighbor_of_small(std::int32_t r) const {
     if (!is_small(r)) return -1;
     std::int32_t best = -1;
