@@ -23,14 +23,14 @@ CandidateWires::CandidateWires(const SurfaceContext& context, const Strength& st
       metrics_.size(), part_of(task, kEmbeddingBegins, 1.0),
       [&](std::size_t) { return 0.5 * (fractions[0] + fractions[1]); },
       [&](std::size_t i, const Task& own) {
-        const Task embedding{.stop = own.stop, .progress = [&, i](double done) {
-                               fractions[i] = done;
-                               return true;
-                             }};
+        const Task whole{.stop = own.stop, .progress = [&, i](double done) {
+                           fractions[i] = done;
+                           return true;
+                         }};
         const MetricSpec spec = MetricSpec::feature(i == 0 ? Follow::kMin : Follow::kMax, strength);
-        metrics_[i].emplace(context_, spec, interactive_options(*context_.surface(own)), embedding);
-        metrics_[i]->geodesics(own);
-        context_.snap_graph(own);
+        metrics_[i].emplace(context_, spec, interactive_options(*context_.surface(own)), part_of(whole, 0.0, 0.6));
+        metrics_[i]->geodesics(part_of(whole, 0.6, 0.9));
+        context_.snap_graph(part_of(whole, 0.9, 1.0));
       });
 }
 
