@@ -11,11 +11,11 @@
 
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
-#include "parts/border_odds.hpp"
 #include "parts/joined_regions.hpp"
-#include "parts/polygons.hpp"
+#include "seams/border_odds.hpp"
 #include "seams/parting_cuts.hpp"
 #include "seams/plan_mesh.hpp"
+#include "seams/polygons.hpp"
 #include "seams/reflection.hpp"
 #include "seams/slit_plan.hpp"
 #include "seams/visibility.hpp"
@@ -31,14 +31,12 @@ namespace {
 
 constexpr double kMostOdds = 4.0;      // log odds are clamped to this
 constexpr double kEditOdds = 1e6;      // of an edge that somebody has kept or dropped
-constexpr double kMiddleBias = 0.1;    // added to the log odds in the middle of the scale
 constexpr double kBiasToOne = 1.2;     // how fast it falls towards one part, in log odds of the amount
 constexpr double kBiasToSharp = 2.2;   // what is added to it at the other end
 constexpr double kPartPrice = 0.2;     // of a part, in diagonals of its piece
 constexpr double kLeastArea = 0.003;   // of the area of its piece
 constexpr double kLeastWidth = 0.008;  // in diagonals of its piece
 constexpr std::size_t kLooks = 8000;   // vertices at which visibility is measured
-constexpr double kLeastPrice = 0.05;   // of a cut along an edge that is a border for sure, for each unit of length
 
 /// The constant that an amount of parts adds to all log odds.
 double bias_of(double amount) {
@@ -175,8 +173,7 @@ void PartFinder::Impl::prepare(const Task& task) {
     for (std::size_t p = 0; p < images.size(); ++p) regions[p].image = images[p];
   }
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
-    const double unlikely = std::log1p(std::exp(-std::max(odds[e] + kMiddleBias, -kMostOdds)));
-    problem.prices.of_edge.push_back(mesh.is_real[e] == 0 ? kNever : (unlikely + kLeastPrice) * mesh.lengths[e]);
+    problem.prices.of_edge.push_back(mesh.is_real[e] == 0 ? kNever : price_of_cut(odds[e]) * mesh.lengths[e]);
   }
 }
 

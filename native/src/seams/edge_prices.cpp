@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "seams/edge_prices.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "detail/index.hpp"
+#include "seams/border_odds.hpp"
 
 namespace seamwire::detail {
 namespace {
@@ -20,8 +20,8 @@ constexpr double kFaceWidth = 0.35;       // and by how much more it does so ful
 constexpr double kFacePrice = 8.0;        // how many times more it costs then, beside its own price
 constexpr double kRidgeCurvature = 30.0;  // of the mesh of area 1: as the rim of a thin part
 constexpr double kRidgeSaving = 0.75;
-constexpr double kSharpFrom = 25.0, kSharpWidth = 35.0, kSharpSaving = 0.9;     // degrees
-constexpr double kHollowFrom = 3.0, kHollowWidth = 15.0, kHollowSaving = 0.25;  // degrees
+constexpr double kFlatOdds = -3.6;                           // log odds of an edge in a flat place
+constexpr double kSharpFrom = 25.0, kSharpWidth = 35.0;      // degrees
 constexpr double kSlitPrice = 0.04, kHardSaving = 0.75;  // of a slit on an organic surface, and saved on machine parts
 constexpr double kBargain = 0.15;   // the least gain of energy for a price that is a bargain on machine parts
 constexpr double kTurnPrice = 1.5;  // a turn by 90 degrees, in median edges at the mean price
@@ -65,48 +65,36 @@ double price_at(double open) {
   return seen * (1.0 + kFacePrice * face * face);
 }
 
-/// How the surface bends over an edge.
-struct Bend {
-  double degrees = 0.0;    ///< between the normals of the two triangles
-  double curvature = 0.0;  ///< the angle for each unit of length across the edge
-  bool is_concave = false;
-
-  double sharpness() const { return ramp(degrees, kSharpFrom, kSharpWidth); }
-  /// The factor for rims, creases and hollows: less than 1.
-  double factor() const {
-    const double ridge = 1.0 - kRidgeSaving * std::clamp(curvature / kRidgeCurvature, 0.0, 1.0);
-    const double hollow = is_concave ? 1.0 - kHollowSaving * ramp(degrees, kHollowFrom, kHollowWidth) : 1.0;
-    return ridge * hollow * (1.0 - kSharpSaving * sharpness());
-  }
-};
-
-Bend bend_over(const PlanMesh& mesh, std::span<const FaceFrame> frames, std::int32_t edge) {
-  const std::int32_t h = mesh.half_edge_of[edge], twin = mesh.twins[h];
-  if (twin < 0) return {};
-  const Vector &one = frames[h / 3].normal, &other = frames[twin / 3].normal;
-  const double angle = std::atan2(one.cross(other).norm(), one.dot(other));
-  const auto middle = [&](std::int32_t f) {
-    const auto& [a, b, c] = mesh.triangles[f];
+/// What a seam along each edge costs for its length, by the shape of the surface; 1 in a flat place.
+std::vector<double> shape_prices(const PlanMesh& mesh, const EdgeBends& bends, std::span<const double> odds) {
+  const auto middle = [&](std::int32_t h) {
+    const auto& [a, b, c] = mesh.triangles[h / 3];
     return Vector((mesh.points[a] + mesh.points[b] + mesh.points[c]) / 3.0);
   };
-  const Vector across = middle(twin / 3) - middle(h / 3);
-  const double distance = across.norm();
-  return {angle * 180.0 / std::numbers::pi, distance > 0.0 ? angle / distance : 0.0, across.dot(one) > 0.0};
+  std::vector<double> prices;
+  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
+    const double width = twin < 0 ? 0.0 : (middle(twin) - middle(h)).norm();
+    const double curvature = width > 0.0 ? std::abs(bends.own[e]) * std::numbers::pi / 180.0 / width : 0.0;
+    const double ridge = 1.0 - kRidgeSaving * std::clamp(curvature / kRidgeCurvature, 0.0, 1.0);
+    prices.push_back(ridge * price_of_cut(odds[e]) / price_of_cut(kFlatOdds));
+  }
+  return prices;
 }
 
 /// From 0 for an organic surface to 1 for a machine part: how much of its bending is in sharp edges, where most other
 /// edges hardly bend. The latter tells machine parts from organic surfaces of few triangles.
-double hardness(const PlanMesh& mesh, std::span<const Bend> bends) {
+double hardness(const PlanMesh& mesh, std::span<const double> bends) {
   constexpr double kSharp = 30.0, kFlat = 15.0;          // degrees
   constexpr double kFrom = 0.35, kWidth = 0.25;          // of all bending
   constexpr double kFlatFrom = 0.45, kFlatWidth = 0.15;  // of the length of all edges
   double sharp = 0.0, bending = 0.0, flat = 0.0, length = 0.0;
   for (std::size_t e = 0; e < bends.size(); ++e) {
-    const double amount = mesh.lengths[e] * bends[e].degrees;
+    const double amount = mesh.lengths[e] * std::abs(bends[e]);
     bending += amount;
     length += mesh.lengths[e];
-    if (bends[e].degrees > kSharp) sharp += amount;
-    if (bends[e].degrees < kFlat) flat += mesh.lengths[e];
+    if (std::abs(bends[e]) > kSharp) sharp += amount;
+    if (std::abs(bends[e]) < kFlat) flat += mesh.lengths[e];
   }
   if (!(bending > 0.0)) return 0.0;
   return ramp(sharp / bending, kFrom, kWidth) * ramp(flat / length, kFlatFrom, kFlatWidth);
@@ -118,10 +106,17 @@ EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const
                        std::span<const double> weights) {
   EdgePrices prices{.of_edge = {}, .visibility = openness(mesh, visibility, reflection), .is_face = {}};
   const std::vector<FaceFrame> frames = face_frames(mesh);
-  std::vector<Bend> bends;
-  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) bends.push_back(bend_over(mesh, frames, e));
+  const Polygons polygons = find_polygons(mesh, frames);
+  const PieceSizes sizes = measure_pieces(mesh, frames);
+  const EdgeBends bends = bends_over_edges(mesh, frames, polygons, sizes);
+  // Openness is in the price of a place, so it must not count twice.
+  const std::vector<double> even(mesh.vertex_count(), 1.0);
+  const std::vector<std::uint8_t> none(mesh.edge_count(), 0);
+  const std::vector<double> odds =
+      border_odds(mesh, polygons, sizes, bends, even, none, reflection ? &*reflection : nullptr);
+  const std::vector<double> shapes = shape_prices(mesh, bends, odds);
   // On machine parts sharp edges hide seams on every side, and nothing is a face.
-  const double hard = hardness(mesh, bends);
+  const double hard = hardness(mesh, bends.own);
   for (const double open : prices.visibility) {
     prices.is_face.push_back(open >= kFace + kFaceWidth && hard < 0.5 ? 1 : 0);
   }
@@ -130,8 +125,8 @@ EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const
     const std::int32_t a = mesh.start(mesh.half_edge_of[e]), b = mesh.end(mesh.half_edge_of[e]);
     const double seen = 0.5 * (price_at(prices.visibility[a]) + price_at(prices.visibility[b]));
     const double weight = weights.empty() ? 1.0 : 0.5 * (weights[a] + weights[b]);
-    const double price =
-        mesh.lengths[e] * std::pow(seen, 1.0 - hard * bends[e].sharpness()) * bends[e].factor() * weight;
+    const double sharpness = ramp(std::abs(bends.own[e]), kSharpFrom, kSharpWidth);
+    const double price = mesh.lengths[e] * std::pow(seen, 1.0 - hard * sharpness) * shapes[e] * weight;
     prices.of_edge.push_back(mesh.is_real[e] == 0 || !std::isfinite(price) ? kNever : price);
     if (prices.of_edge.back() == kNever) continue;
     sum += price;
@@ -140,9 +135,7 @@ EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const
   if (reflection && reflection->is_exact) {
     const std::vector<double> own = prices.of_edge;
     for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
-      const std::int32_t a = reflection->images[mesh.start(mesh.half_edge_of[e])];
-      const std::int32_t b = reflection->images[mesh.end(mesh.half_edge_of[e])];
-      const std::int32_t image = a < 0 || b < 0 ? -1 : mesh.edge_between(a, b);
+      const std::int32_t image = image_of_edge(mesh, *reflection, e);
       if (image < 0) continue;
       const bool is_barred = own[e] == kNever || own[image] == kNever;
       prices.of_edge[e] = is_barred ? kNever : std::sqrt(own[e] * own[image]);

@@ -123,9 +123,7 @@ void mark_images(const SlitProblem& problem, std::int32_t piece, std::vector<std
   const std::vector<std::uint8_t> own = is_marked;
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     if (own[e] == 0) continue;
-    const std::int32_t a = problem.reflection->images[mesh.start(mesh.half_edge_of[e])];
-    const std::int32_t b = problem.reflection->images[mesh.end(mesh.half_edge_of[e])];
-    const std::int32_t image = a < 0 || b < 0 ? -1 : mesh.edge_between(a, b);
+    const std::int32_t image = image_of_edge(mesh, *problem.reflection, e);
     if (image >= 0 && problem.pieces.of_face[mesh.half_edge_of[image] / 3] == piece) is_marked[image] = 1;
   }
 }
@@ -136,10 +134,8 @@ std::int32_t image_of(const SlitProblem& problem, std::int32_t piece) {
   const PlanMesh& mesh = problem.mesh;
   for (const std::int32_t f : problem.by_piece[piece].faces) {
     for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
-      const std::int32_t a = problem.reflection->images[mesh.start(h)], b = problem.reflection->images[mesh.end(h)];
-      const std::int32_t twin = mesh.twins[h];
-      if (a < 0 || b < 0 || twin < 0 || problem.is_seam[mesh.edge_of[h]] != 0) continue;
-      const std::int32_t image = mesh.edge_between(a, b);
+      if (mesh.twins[h] < 0 || problem.is_seam[mesh.edge_of[h]] != 0) continue;
+      const std::int32_t image = image_of_edge(mesh, *problem.reflection, mesh.edge_of[h]);
       if (image < 0) continue;
       const std::int32_t other = problem.pieces.of_face[mesh.half_edge_of[image] / 3];
       return other == piece ? -1 : other;

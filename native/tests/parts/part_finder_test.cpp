@@ -13,7 +13,7 @@
 #include <set>
 #include <vector>
 
-#include "parts/polygons.hpp"
+#include "seams/polygons.hpp"
 #include "seamwire/surface/segments.hpp"
 #include "shapes.hpp"
 

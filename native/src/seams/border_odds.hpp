@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "parts/polygons.hpp"
+#include "seams/polygons.hpp"
 #include "seams/plan_mesh.hpp"
 #include "seams/reflection.hpp"
 
@@ -43,7 +43,11 @@ std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, 
                                 const EdgeBends& bends, std::span<const double> ambient,
                                 std::span<const std::uint8_t> is_marked, const Reflection* reflection);
 
-/// The mirror image of an edge; -1 without an image.
-std::int32_t image_of_edge(const PlanMesh& mesh, const Reflection& reflection, std::int32_t edge);
+/// What the middle of the scale of parts adds to all log odds.
+constexpr double kMiddleBias = 0.1;
+
+/// What a cut along an edge with these log odds costs, for each unit of length: minus the logarithm of the probability
+/// that the edge is a border, and a little more. Edges inside polygons cost the most.
+double price_of_cut(double odds);
 
 }  // namespace seamwire::detail

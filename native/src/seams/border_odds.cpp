@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "parts/border_odds.hpp"
+#include "seams/border_odds.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -30,6 +30,8 @@ constexpr double kConcaveDegrees = 20.0;  // from which bend on
 constexpr double kOnPlane = 2.0;          // added on the mirror plane
 constexpr double kOnPlaneDegrees = 10.0;  // from which bend on
 constexpr double kMarked = 6.0;           // added where an artist expects a border
+constexpr double kMostOdds = 4.0;         // edges that are less likely cost the same
+constexpr double kLeastPrice = 0.05;      // of a cut along an edge that is a border for sure
 
 class BendFinder {
  public:
@@ -186,12 +188,6 @@ void make_symmetric(const PlanMesh& mesh, const Polygons& polygons, const Reflec
 
 }  // namespace
 
-std::int32_t image_of_edge(const PlanMesh& mesh, const Reflection& reflection, std::int32_t edge) {
-  const std::int32_t h = mesh.half_edge_of[edge];
-  const std::int32_t a = reflection.images[mesh.start(h)], b = reflection.images[mesh.end(h)];
-  return a < 0 || b < 0 ? -1 : mesh.edge_between(a, b);
-}
-
 PieceSizes measure_pieces(const PlanMesh& mesh, std::span<const FaceFrame> frames) {
   PieceSizes sizes{find_pieces(mesh, std::vector<std::uint8_t>(mesh.edge_count(), 0)), {}};
   std::vector<Eigen::AlignedBox3d> boxes(index(sizes.pieces.count));
@@ -243,6 +239,10 @@ std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, 
   }
   if (reflection != nullptr && reflection->is_exact) make_symmetric(mesh, polygons, *reflection, odds);
   return odds;
+}
+
+double price_of_cut(double odds) {
+  return std::log1p(std::exp(-std::max(odds + kMiddleBias, -kMostOdds))) + kLeastPrice;
 }
 
 }  // namespace seamwire::detail

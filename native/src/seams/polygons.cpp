@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "parts/polygons.hpp"
+#include "seams/polygons.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
