@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "seams/polygons.hpp"
 #include "seams/plan_mesh.hpp"
+#include "seams/polygons.hpp"
 #include "seams/reflection.hpp"
 
 namespace seamwire::detail {

@@ -20,8 +20,8 @@ constexpr double kFaceWidth = 0.35;       // and by how much more it does so ful
 constexpr double kFacePrice = 8.0;        // how many times more it costs then, beside its own price
 constexpr double kRidgeCurvature = 30.0;  // of the mesh of area 1: as the rim of a thin part
 constexpr double kRidgeSaving = 0.75;
-constexpr double kFlatOdds = -3.6;                           // log odds of an edge in a flat place
-constexpr double kSharpFrom = 25.0, kSharpWidth = 35.0;      // degrees
+constexpr double kFlatOdds = -3.6;                       // log odds of an edge in a flat place
+constexpr double kSharpFrom = 25.0, kSharpWidth = 35.0;  // degrees
 constexpr double kSlitPrice = 0.04, kHardSaving = 0.75;  // of a slit on an organic surface, and saved on machine parts
 constexpr double kBargain = 0.15;   // the least gain of energy for a price that is a bargain on machine parts
 constexpr double kTurnPrice = 1.5;  // a turn by 90 degrees, in median edges at the mean price
