@@ -20,7 +20,7 @@ constexpr double kFaceWidth = 0.35;       // and by how much more it does so ful
 constexpr double kFacePrice = 8.0;        // how many times more it costs then, beside its own price
 constexpr double kRidgeCurvature = 30.0;  // of the mesh of area 1: as the rim of a thin part
 constexpr double kRidgeSaving = 0.75;
-constexpr double kFlatOdds = -3.6;                       // log odds of an edge in a flat place
+constexpr double kFlatOdds = -2.0;                       // log odds up to which an edge costs as in a flat place
 constexpr double kSharpFrom = 25.0, kSharpWidth = 35.0;  // degrees
 constexpr double kSlitPrice = 0.04, kHardSaving = 0.75;  // of a slit on an organic surface, and saved on machine parts
 constexpr double kBargain = 0.15;   // the least gain of energy for a price that is a bargain on machine parts
@@ -77,7 +77,7 @@ std::vector<double> shape_prices(const PlanMesh& mesh, const EdgeBends& bends, s
     const double width = twin < 0 ? 0.0 : (middle(twin) - middle(h)).norm();
     const double curvature = width > 0.0 ? std::abs(bends.own[e]) * std::numbers::pi / 180.0 / width : 0.0;
     const double ridge = 1.0 - kRidgeSaving * std::clamp(curvature / kRidgeCurvature, 0.0, 1.0);
-    prices.push_back(ridge * price_of_cut(odds[e]) / price_of_cut(kFlatOdds));
+    prices.push_back(ridge * price_of_cut(std::max(odds[e], kFlatOdds)) / price_of_cut(kFlatOdds));
   }
   return prices;
 }
