@@ -39,7 +39,6 @@ _PARTS = (
     "operators.edge_marks",
     "operators.unwrap",
     "operators.store",
-    "operators.aliases",
     "operators.undo_steps",
     "operators.draw",
     "view.handlers",

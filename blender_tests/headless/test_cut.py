@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Wires cut into the faces: ``mesh.seamwire_mark(finish="CUT")`` and ``mesh.seamwire_cut``."""
+"""Wires cut into the faces: ``mesh.seamwire_mark(finish="CUT")`` and ``mesh.seamwire_finish``."""
 
 import math
 import random

@@ -252,7 +252,7 @@ def test_wires_stay_with_the_mesh() -> None:
     edit()
     mark("36 40 44")
     bpy.ops.mesh.seamwire_mark(loops="4-13", take="STRIP")
-    assert obj.data.seamwire_wires.startswith("seamwire 2 ")
+    assert obj.data.seamwire_wires.startswith("seamwire 1 ")
     bm = bmesh.from_edit_mesh(obj.data)
     layer = bm.edges.layers.int[".seamwire"]
     labelled = sorted(tuple(sorted(v.index for v in e.verts)) for e in bm.edges if e[layer])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Vertices slid onto wires: ``mesh.seamwire_mark(finish="SLIDE")`` and ``mesh.seamwire_slide``."""
+"""Vertices slid onto wires: ``mesh.seamwire_mark(finish="SLIDE")`` and ``mesh.seamwire_finish``."""
 
 import bmesh
 import bpy

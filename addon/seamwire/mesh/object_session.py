@@ -41,8 +41,6 @@ if TYPE_CHECKING:
     from ..core.solver.defaults import Auto
     from .settings import SeamwireSettings
 
-FIRST_VERSION = "seamwire"
-"""The mesh's custom property that held the network in the first version."""
 _MOMENT = 0.1
 """Seconds for which the interface may wait."""
 
@@ -255,19 +253,9 @@ class ObjectSession:
         self._labels = labels
         self._found = Found() if self._newer else label_reader.read(labels, self._archive, self.places)
         network = self._found.network
-        stored = self.cage.mesh.get(FIRST_VERSION)
-        if isinstance(stored, str) and not len(labels.labels):
-            network, problem = serialization.load_first_version(
-                stored, self.arrays.points, self.arrays.edges, self.arrays.seams
-            )
-            if problem:
-                self.notices.add("WARNING", str(problem))
         strokes = tuple(on_mesh(one, self.arrays.points, self.arrays.triangles) for one in network.strokes)
         self._set_seams(self.arrays.seams, labels)
         self.session.adopt(replace(network, strokes=strokes), self.plain_seams)
-        if network is not self._found.network:
-            # It did not tell which edges were seams before: those of its wires are taken for theirs.
-            self._found = Found(self.session.network)
         if not self._damaged:
             self._store()
         self.session.recall_cuts(_taken_cuts.recall(self.session.network, self.places))
@@ -309,8 +297,6 @@ class ObjectSession:
         try:
             if mesh.seamwire_wires != text:
                 mesh.seamwire_wires = text
-            if text and FIRST_VERSION in mesh:
-                del mesh[FIRST_VERSION]
         except AttributeError:
             # While Blender asks what is under the mouse nothing may be written; after undo the records may be others by then.
             self._unstored = True

@@ -38,8 +38,18 @@ VIEW_ITEMS = (
 VIEW_NAMES = tuple(item[0] for item in VIEW_ITEMS)
 
 
-class Storing(EditMeshOperator):
-    """Gives an operator the storing of islands and views."""
+class MESH_OT_seamwire_store(EditMeshOperator, bpy.types.Operator):
+    """Store islands or a view with the mesh, for shaders, geometry nodes and other add-ons"""  # noqa: D400 - a tooltip
+
+    bl_idname = "mesh.seamwire_store"
+    bl_label = "Store Islands or View"
+
+    what: bpy.props.EnumProperty(
+        name="Store",
+        description="What to store: the islands that seams make, or a view of the metric",
+        items=(*ISLAND_ITEMS, *VIEW_ITEMS),
+    )
+    description = description_of_item("what")
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -50,7 +60,11 @@ class Storing(EditMeshOperator):
         cls.poll_message_set("Needs a mesh in Object or Edit Mode")
         return False
 
-    def store_islands(self, context: bpy.types.Context, kind: str) -> set[str]:
+    def run(self, context: bpy.types.Context) -> set[str]:
+        """Store it."""
+        return (self._store_view if self.what in VIEW_NAMES else self._store_islands)(context, self.what)
+
+    def _store_islands(self, context: bpy.types.Context, kind: str) -> set[str]:
         """Store the islands of all objects in Edit Mode as an item of `ISLAND_ITEMS`."""
         from ..mesh.seam_islands import store
 
@@ -65,31 +79,13 @@ class Storing(EditMeshOperator):
         self.report({"INFO"}, f"{count(sum(found.values()), 'island')} stored")
         return {"FINISHED"}
 
-    def store_view(self, context: bpy.types.Context, view: str) -> set[str]:
+    def _store_view(self, context: bpy.types.Context, view: str) -> set[str]:
         """Store an item of `VIEW_ITEMS` for each vertex of the active object."""
         from ..mesh.view_fields import store
 
         name, low, high = store(context.active_object, view, chosen.settings(context))
         self.report({"INFO"}, f"Attribute '{name}': {low:.4g} to {high:.4g}")
         return {"FINISHED"}
-
-
-class MESH_OT_seamwire_store(Storing, bpy.types.Operator):
-    """Store islands or a view with the mesh, for shaders, geometry nodes and other add-ons"""  # noqa: D400 - a tooltip
-
-    bl_idname = "mesh.seamwire_store"
-    bl_label = "Store Islands or View"
-
-    what: bpy.props.EnumProperty(
-        name="Store",
-        description="What to store: the islands that seams make, or a view of the metric",
-        items=(*ISLAND_ITEMS, *VIEW_ITEMS),
-    )
-    description = description_of_item("what")
-
-    def run(self, context: bpy.types.Context) -> set[str]:
-        """Store it."""
-        return (self.store_view if self.what in VIEW_NAMES else self.store_islands)(context, self.what)
 
 
 register, unregister = bpy.utils.register_classes_factory((MESH_OT_seamwire_store,))
