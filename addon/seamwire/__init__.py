@@ -66,15 +66,13 @@ def unregister() -> None:
 def _parts() -> tuple[Callable[[], None], Callable[[], None]]:
     """Return what registers all parts, and what removes them."""
     together = import_module(".mesh.registration", __package__).together
+    check = import_module(".mesh.versions", __package__).check
     parts = (import_module(f".{part}", __package__) for part in _PARTS)
-    return together((_prepare, _forget), *((part.register, part.unregister) for part in parts))
-
-
-def _prepare() -> None:
-    """Meshes are prepared when they are pointed at."""
+    return together((check, _forget), *((part.register, part.unregister) for part in parts))
 
 
 def _forget() -> None:
+    """Drop prepared meshes."""
     objects = sys.modules.get(f"{__package__}.view.edited_objects")
     if objects is not None:
         objects.edited.clear()

@@ -10,6 +10,7 @@ from scene import chain, seams
 from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
 from seamwire.mesh.settings import settings
+from seamwire.mesh.versions import IS_OLD
 from stored import agree
 
 ROW = chain(*range(36, 45))
@@ -28,7 +29,7 @@ def view_selected(desk: Desk) -> None:
     ui.move(desk.at(60))
     ui.key("NUMPAD_PERIOD")
     if numbers(desk) == list(range(len(numbers(desk)))):
-        assert bpy.app.version >= (4, 0, 0)
+        assert not IS_OLD
         for vertex in bmesh.from_edit_mesh(desk.obj.data).verts:
             vertex.index = 0
 

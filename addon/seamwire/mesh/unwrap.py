@@ -29,6 +29,7 @@ from ..core.islands.uv_islands import NewIsland, boxes_of, families, in_rows, pl
 from . import edit_mesh, uv_map
 from .seam_islands import labels_of
 from .uv_stacks import Stack, stacked
+from .versions import IS_OLD
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -536,8 +537,8 @@ def _pack(context: bpy.types.Context, faces: Mapping[_Map, NDArray[np.integer]],
     settings = context.tool_settings
     sync = settings.use_uv_select_sync
     options: dict[str, object] = {"rotate": not layout.upright, "margin": _MARGIN}
-    # Newer versions of Blender can turn a rectangle to any angle. Older ones turn its sides along the axes.
-    if layout.straight and "rotate_method" in bpy.ops.uv.pack_islands.get_rna_type().properties:
+    # Newer versions of Blender can turn a rectangle to any angle. Blender 3.4 turns its sides along the axes.
+    if layout.straight and not IS_OLD:
         options["rotate_method"] = "AXIS_ALIGNED"
     with _only_selected(context, faces):
         # Then the UVs of the selected faces count as selected.
