@@ -784,7 +784,7 @@ def test_blenders_steps_of_undo_are_one_a_deed(desk: Desk, capfd: pytest.Capture
     draw(desk, 0, 8)
     desk.ui.move(desk.at(4))
     desk.ui.key("X")
-    assert undo_steps(capfd)[-3:] == ["Draw Wires", "Draw Wires", "Remove Wire"]
+    assert undo_steps(capfd)[-3:] == ["Draw Seamwires", "Draw Seamwires", "Edit Seamwires"]
     name = desk.obj.name
     for expected in (chain(*range(9)) + chain(36, 37, 38, 39, 40), chain(36, 37, 38, 39, 40), []):
         desk.ui.key("Z", ctrl=True)

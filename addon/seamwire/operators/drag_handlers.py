@@ -80,9 +80,9 @@ class SeedHold:
         """Leave the seed there, or click."""
         if self._dragging:
             self._view.session.drag_end()
-            return undo_steps.MOVE_SEED
+            return undo_steps.EDIT
         self._view.session.click(self._snap)
-        return undo_steps.DRAW_WIRES
+        return undo_steps.DRAW
 
     def cancel(self) -> None:
         """Let the seed go back."""
@@ -203,11 +203,11 @@ class LineHold:
         """Keep the wires that follow the line, or click."""
         if self._trail is None:
             self._view.session.click(self._snap)
-            return undo_steps.DRAW_WIRES
+            return undo_steps.DRAW
         if self._line is None:
             return ""
         self._view.session.line_keep(self._line)
-        return undo_steps.DRAW_LINE
+        return undo_steps.DRAW
 
     def cancel(self) -> None:
         """Forget the line."""
@@ -272,7 +272,7 @@ class StrokeHold:
         self._view.session.draw_stroke(
             np.array(points), np.array(triangles), attracts=self._attracts, radius=self._view.stroke_radius
         )
-        return undo_steps.GUIDE_STROKE if self._attracts else undo_steps.AVOID_STROKE
+        return undo_steps.DRAW
 
     def cancel(self) -> None:
         """Forget it."""
