@@ -36,7 +36,6 @@ _PARTS = (
     "operators.transfer",
     "operators.suggest",
     "operators.islands",
-    "operators.edge_marks",
     "operators.unwrap",
     "operators.store",
     "operators.undo_steps",

@@ -7,7 +7,7 @@ import bmesh
 import bpy
 import pytest
 from scene import add_grid, edit, snapshot
-from seamwire.mesh import edge_marks, edit_mesh, finish, seam_islands
+from seamwire.mesh import edit_mesh, finish, seam_islands
 from seamwire.mesh.object_session import ObjectSession
 
 
@@ -58,7 +58,6 @@ CASES = {
     "take_over": ({}, WRITES),
     "close_gaps": ({}, WRITES),
     "suggest": ({"islands": 3, "along": "EDGES"}, WRITES),
-    "mark_seams_as": ({"kind": "SHARP"}, (edge_marks, "_seams")),
     "store": ({"what": "ATTRIBUTE"}, (seam_islands, "_face_layer")),
 }
 

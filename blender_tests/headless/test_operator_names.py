@@ -14,9 +14,7 @@ def test_operators_for_artists_are_found_by_the_search(name: str) -> None:
     assert "INTERNAL" not in getattr(bpy.types, f"MESH_OT_seamwire_{name}").bl_options
 
 
-@pytest.mark.parametrize(
-    ("name", "item"), [("finish", "finish"), ("select_islands", "which"), ("store", "what"), ("mark_seams_as", "kind")]
-)
+@pytest.mark.parametrize(("name", "item"), [("finish", "finish"), ("select_islands", "which"), ("store", "what")])
 def test_menu_entries_of_one_operator_have_different_tooltips(name: str, item: str) -> None:
     operator = getattr(bpy.types, f"MESH_OT_seamwire_{name}")
     known = getattr(bpy.ops.mesh, f"seamwire_{name}").get_rna_type()

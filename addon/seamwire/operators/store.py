@@ -11,7 +11,6 @@ from .edit_mesh_operator import EditMeshOperator, changing, description_of_item
 
 ISLAND_ITEMS = (
     ("ATTRIBUTE", "Face Attribute", "Numbers from 0 in the attribute 'island', the largest island first", 0),
-    ("FACE_SETS", "Face Sets", "The face sets of Sculpt Mode", 1),
     ("MATERIALS", "Materials", "Up to twelve materials in new slots, so that neighbors differ", 2),
 )
 VIEW_ITEMS = (
@@ -70,8 +69,6 @@ class MESH_OT_seamwire_store(EditMeshOperator, bpy.types.Operator):
 
         if context.mode != "EDIT_MESH":
             raise ValueError("Islands are stored in Edit Mode")
-        if kind == "FACE_SETS" and bpy.app.version < (3, 6, 0):
-            raise ValueError("Storing face sets needs Blender 3.6 or newer")
         with changing():
             found = self.for_each_object(context, lambda obj: store(obj, kind))
         if not found:
