@@ -27,7 +27,6 @@ for _name in [name for name in sys.modules if name.startswith(f"{__name__}.")]:
 _PARTS = (
     "mesh.settings",
     "ui.preferences",
-    "operators.mark",
     "operators.finish",
     "operators.take_over",
     "operators.gaps",
@@ -50,6 +49,16 @@ _PARTS = (
     "ui.menus",
     "ui.views_panel",
 )
+
+
+_FOR_SCRIPTS = ("mark", "suggest", "unwrap", "cut")
+
+
+def __getattr__(name: str) -> object:
+    """Return a function for scripts, see `scripting`."""
+    if name not in _FOR_SCRIPTS:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(".scripting", __package__), name)
 
 
 def register() -> None:

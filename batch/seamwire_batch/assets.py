@@ -145,14 +145,16 @@ def mesh_objects() -> list[bpy.types.Object]:
     return list(found.values())
 
 
-def unwrap(**options: object) -> None:
-    """Unwrap all of what is in edit mode along its seams, islands of one scale, packed; raises AssetError.
+def unwrap(obj: bpy.types.Object, **options: object) -> None:
+    """Unwrap all of an object along its seams, islands of one scale, packed; raises AssetError.
 
     `options`: further arguments of the operator.
     """
+    import seamwire
+
     try:
-        bpy.ops.mesh.seamwire_unwrap(**{"changed_only": False, **options})
-    except RuntimeError as error:
+        seamwire.unwrap(obj, **{"changed_only": False, **options})
+    except ValueError as error:
         raise AssetError(f"It cannot be unwrapped: {_first_line(error)}") from error
 
 

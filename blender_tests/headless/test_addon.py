@@ -7,7 +7,7 @@ from pathlib import Path
 
 import bpy
 import pytest
-from scene import ADDON, add_grid, edit, seams
+from scene import ADDON, add_grid, edit, mark_wires, seams
 from seamwire.mesh import versions
 
 pytestmark = pytest.mark.every_blender
@@ -22,8 +22,8 @@ def test_without_the_compiled_part_the_operator_says_so(monkeypatch: pytest.Monk
     monkeypatch.setattr(native, "load", fail)
     obj = add_grid(3)
     edit()
-    with pytest.raises(RuntimeError, match="Seamwire's compiled part"):
-        bpy.ops.mesh.seamwire_mark(chains="0 2")
+    with pytest.raises(ImportError, match="Seamwire's compiled part"):
+        mark_wires(chains="0 2")
     assert seams(obj) == []
 
 

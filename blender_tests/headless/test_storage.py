@@ -8,7 +8,7 @@ from pathlib import Path
 import bmesh
 import bpy
 import pytest
-from scene import add_grid, chain, edit, seams, snapshot
+from scene import add_grid, chain, edit, mark_wires, seams, snapshot
 from seamwire.mesh.edit_mesh import LABELS
 from stored import agree, chains, forget, session_on, wired, write
 
@@ -28,7 +28,7 @@ def drawn() -> bpy.types.Object:
 
 
 def mark(seeds: str, **options: object) -> None:
-    assert bpy.ops.mesh.seamwire_mark(chains=seeds, **options) == {"FINISHED"}
+    assert mark_wires(chains=seeds, **options)
 
 
 def mode(name: str) -> None:
@@ -231,8 +231,8 @@ def test_joined_objects_keep_the_wires_of_all() -> None:
     two.location = (3.0, 0.0, 0.0)
     bpy.context.view_layer.update()
     edit()
-    mark("36 44", objects="One")
-    mark("4 31", objects="Two")
+    mark("36 44", obj=one)
+    mark("4 31", obj=two)
     mode("OBJECT")
     bpy.context.view_layer.objects.active = one
     bpy.ops.object.join()
@@ -411,7 +411,7 @@ def test_stored_wires_are_read(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.every_blender
 def test_what_a_newer_version_wrote_stays_byte_by_byte_and_is_said(
-    drawn: bpy.types.Object, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+    drawn: bpy.types.Object, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     drawn.data.seamwire_wires = NEWER
     labels = session_on(drawn).cage.labels()
@@ -422,8 +422,8 @@ def test_what_a_newer_version_wrote_stays_byte_by_byte_and_is_said(
     assert mesh.session.wires == ()
     (notice,) = mesh.notices.take()
     assert "newer version of Seamwire" in notice.text
-    mark("54 62")
-    assert capfd.readouterr().out.count("newer version of Seamwire") == 1
+    (problem,) = mark_wires("54 62").problems
+    assert "newer version of Seamwire" in problem
     assert drawn.data.seamwire_wires == NEWER
     assert session_on(drawn).cage.labels().same_as(labels)
     assert seams(drawn) == sorted([*marked, *chain(*range(54, 63))]), "what is drawn are plain seams"
@@ -438,7 +438,6 @@ def test_what_a_newer_version_wrote_stays_byte_by_byte_and_is_said(
         "close_gaps",
         "finish",
         "load_network",
-        "mark",
         "repeat",
         "save_network",
         "suggest",
@@ -465,7 +464,6 @@ def test_each_operator_tells_of_wires_that_it_cannot_read(
     forget(monkeypatch)
     options = {
         "load_network": {"filepath": str(path)},
-        "mark": {"chains": "54 62"},
         "save_network": {"filepath": str(path)},
         "transfer": {"source": "Source"},
     }

@@ -91,7 +91,6 @@ OPERATORS: tuple[tuple[str, dict[str, object]], ...] = (
     ("transform.translate", {"value": (0.0, 0.0, 0.1)}),
     ("mesh.seamwire_close_gaps", {}),
     ("mesh.seamwire_finish", {"finish": "CUT"}),
-    ("mesh.seamwire_mark", {"chains": "0 8"}),
     ("mesh.seamwire_repeat", {}),
     ("mesh.seamwire_select_islands", {"which": "TO_CUT"}),
     ("mesh.seamwire_finish", {"finish": "SLIDE"}),

@@ -6,7 +6,7 @@ import bpy
 import numpy as np
 import pytest
 from desk import Desk, drag, draw
-from scene import chain, seams
+from scene import chain, mark_wires, seams
 from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
 from seamwire.mesh.settings import settings
@@ -100,7 +100,7 @@ def test_wires_across_the_surface_are_snapped_cut_and_slid(desk: Desk, finish: s
     before = seams(obj)
     view_selected(desk)
     with ui.override():
-        bpy.ops.mesh.seamwire_mark(chains="72 80")
+        mark_wires(chains="72 80")
     assert seams(obj) == sorted({*before, *chain(*range(72, 81))})
 
 

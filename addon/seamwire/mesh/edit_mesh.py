@@ -90,7 +90,7 @@ class Cage:
         count, bm = self._counts[0], self.bm
         for pick in picks:
             for vertex in vertices_of(pick):
-                if vertex >= count:
+                if not 0 <= vertex < count:
                     return f"There is no vertex {vertex}: the mesh has {count}, numbered from 0"
                 if bm.verts[vertex].hide:
                     return f"Vertex {vertex} is hidden"
