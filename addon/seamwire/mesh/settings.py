@@ -11,6 +11,7 @@ import bpy
 from ..core.drawing.options import Options
 from ..core.solver.defaults import CLAMP_PERCENTILE, CLAMP_RANGE, PLACED, STRENGTH_RANGE, STRENGTHS
 from ..words.notices import Notices
+from .redraw import redraw_views
 from .registration import classes, together
 
 if TYPE_CHECKING:
@@ -77,13 +78,10 @@ listeners: list[Callable[[], None]] = []
 """Functions to call when a setting has changed, so that the drawing follows at once."""
 
 
-def _changed(_settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+def _changed(_settings: bpy.types.PropertyGroup, _context: bpy.types.Context) -> None:
     for listener in tuple(listeners):
         listener()
-    for window in context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                area.tag_redraw()
+    redraw_views()
 
 
 def strength_property(along: Along) -> object:
