@@ -192,7 +192,7 @@ def _cut(mesh: ObjectSession, wires: list[Wire], problems: list[str]) -> Marked:
 
 
 def _call(work: Callable[..., set[str]], options: dict[str, object]) -> bool:
-    """Call an operator, and return whether it did anything. What it reports as an error is raised as a ValueError."""
+    """Call an operator, and return whether it did anything. Raise ValueError with the error that it reports."""
     try:
         return work(**options) == {"FINISHED"}
     except RuntimeError as error:
@@ -201,7 +201,7 @@ def _call(work: Callable[..., set[str]], options: dict[str, object]) -> bool:
 
 @contextmanager
 def _editing(obj: bpy.types.Object, alone: bool = False) -> Iterator[None]:
-    """Have an object in Edit Mode, and leave all objects as they were. With `alone`, no other mesh may be in Edit Mode."""
+    """Have an object in Edit Mode, then restore all modes and selections. With `alone`, no other mesh may be in Edit Mode."""
     if not isinstance(obj, bpy.types.Object):
         raise ValueError(f"{obj!r} is not an object")
     if obj.type != "MESH":

@@ -274,8 +274,8 @@ def read(obj: bpy.types.Object) -> Arrays:
         Where no edge is visible.
     """
     obj.update_from_editmode()  # the mesh then has the edit mesh's data, by the same numbers
-    # Newer versions have all data of a mesh as attributes, which can be read ten times as fast as its items. But in edit mode
-    # the mesh does not show them. A copy does, and costs nothing because it shares the data.
+    # In newer versions, all data of a mesh are attributes. Reading them is ten times as fast as reading items.
+    # In edit mode the mesh does not show them, but a copy does. It shares the data and costs nothing.
     shared = None if IS_OLD else obj.data.copy()
     try:
         columns = _Items(obj.data) if shared is None else _Attributes(shared)
