@@ -7,7 +7,6 @@ from types import SimpleNamespace
 import bpy
 import pytest
 from scene import add_grid, edit
-from seamwire.core.drawing.options import Options
 from seamwire.mesh import settings as chosen
 from seamwire.operators import chain_acts
 from seamwire.ui import properties
@@ -97,8 +96,8 @@ def test_the_sidebar_has_a_panel_for_each_group(tool: chosen.SeamwireSettings) -
 
 
 def test_options_have_the_defaults_of_the_settings(tool: chosen.SeamwireSettings) -> None:
-    options = Options()
-    for field in fields(Options):
+    options = chosen.ToolOptions()
+    for field in fields(chosen.ToolOptions):
         prop = tool.bl_rna.properties.get(field.name)
         if prop is not None and prop.type in {"BOOLEAN", "ENUM"} and field.name not in {"along", "finish"}:
             assert prop.default == getattr(options, field.name), field.name

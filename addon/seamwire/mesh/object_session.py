@@ -14,7 +14,6 @@ import numpy as np
 from mathutils.bvhtree import BVHTree
 
 from ..core.drawing.drawing import Drawing
-from ..core.drawing.options import Options
 from ..core.drawing.session import Session
 from ..core.network.network import edges_after
 from ..core.network.picks import FacePoint
@@ -28,13 +27,14 @@ from ..core.storage.wire_labels import EdgeLabels, Found, Places
 from ..words.notices import Notices
 from . import edit_mesh
 from .auto import auto_for
-from .settings import mirror_axes, snapshot
+from .settings import ToolOptions, mirror_axes, snapshot
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Sequence
 
     from numpy.typing import NDArray
 
+    from ..core.drawing.options import Options
     from ..core.network.network import Network
     from ..core.network.strokes import Stroke
     from ..core.network.wires import Wire
@@ -103,7 +103,7 @@ class ObjectSession:
             Drawing(
                 self.make_live,
                 self.arrays.points,
-                options or Options(mirror=mirror_axes(obj.data)),
+                options or ToolOptions(mirror=mirror_axes(obj.data)),
                 edges=self.arrays.edges,
                 to_object=self.arrays.to_object,
                 triangles=self.arrays.triangles,

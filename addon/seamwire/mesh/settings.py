@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
+from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING
 
 import bpy
@@ -201,7 +201,29 @@ class SeamwireSettings(bpy.types.PropertyGroup):
     )
 
 
-def snapshot(settings: SeamwireSettings, mesh: bpy.types.Mesh | None = None, auto: Auto = PLACED) -> Options:
+@dataclass(frozen=True)
+class ToolOptions(Options):
+    """A snapshot of all settings: those of drawing, and those of the views.
+
+    Parameters
+    ----------
+    heat, shown_metric
+        What colors faces, and which metric that and the other views show.
+    show_crests, show_silhouette, show_ellipses, show_paths, show_bands, show_invalid
+        Which views are shown.
+    """
+
+    heat: str = "NONE"
+    shown_metric: str = "MIN"
+    show_crests: bool = False
+    show_silhouette: bool = False
+    show_ellipses: bool = False
+    show_paths: bool = False
+    show_bands: bool = False
+    show_invalid: bool = False
+
+
+def snapshot(settings: SeamwireSettings, mesh: bpy.types.Mesh | None = None, auto: Auto = PLACED) -> ToolOptions:
     """Return the settings as they are now.
 
     Parameters
@@ -213,11 +235,13 @@ def snapshot(settings: SeamwireSettings, mesh: bpy.types.Mesh | None = None, aut
     auto
         The values that Auto stands for on that mesh.
     """
-    values = {field.name: _exact(getattr(settings, field.name)) for field in fields(Options) if field.name != "mirror"}
+    values = {
+        field.name: _exact(getattr(settings, field.name)) for field in fields(ToolOptions) if field.name != "mirror"
+    }
     for name, best in auto._asdict().items():
         if values[name] == "AUTO":
             values[name] = best
-    return Options(**values, mirror=() if mesh is None else mirror_axes(mesh))
+    return ToolOptions(**values, mirror=() if mesh is None else mirror_axes(mesh))
 
 
 def mirror_axes(mesh: bpy.types.Mesh) -> tuple[int, ...]:
