@@ -26,14 +26,14 @@ sys.path.insert(0, os.environ["SEAMWIRE_TESTS"])
 import addon_utils, bpy
 from pathlib import Path
 from scene import add_grid
-assert addon_utils.enable(os.environ["SEAMWIRE_NAME"], default_set=True)
+seamwire = addon_utils.enable(os.environ["SEAMWIRE_NAME"], default_set=True)
 path = Path(os.environ["SEAMWIRE_FILE"])
 add_grid({side})
 bpy.ops.object.mode_set(mode="EDIT")
 for number in range(200):
     row, half = number % {side}, number // {side}
     first = row * {side} + 8 * half
-    assert mark_wires(chains=f"{{first}} {{first + 8}}")
+    seamwire.mark(bpy.context.object, [[first, first + 8]])
     if number % 20 == 19:
         bpy.ops.wm.save_as_mainfile(filepath=str(path))
         path.with_suffix(".count").write_text(str(number + 1))
