@@ -5,17 +5,57 @@ from __future__ import annotations
 
 import math
 import os
+import re
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import bmesh
 import bpy
 import numpy as np
 
+if TYPE_CHECKING:
+    from seamwire.scripting import Marked
+
 ADDON = os.environ.get("SEAMWIRE_ADDON", "seamwire")
 """The add-on's name in this Blender; to import from it, say ``seamwire``."""
 
 Edge = tuple[int, int]
+Seed = int | Edge | tuple[float, float, float]
+
+
+def seeds(text: str) -> list[list[Seed]]:
+    """Return chains of seeds that are written in short, such as ``"0 512; 7-9 (0.1 0 1)"``."""
+    return [
+        [_seed(token) for token in re.findall(r"\([^()]*\)|[^\s()]+", part)] for part in text.split(";") if part.strip()
+    ]
+
+
+def _seed(token: str) -> Seed:
+    if token.startswith("("):
+        return tuple(float(part) for part in token[1:-1].split())
+    numbers = tuple(int(part) for part in token.split("-"))
+    return numbers if len(numbers) > 1 else numbers[0]
+
+
+def mark_wires(
+    chains: str = "", loops: str = "", strokes: str = "", obj: bpy.types.Object | None = None, **options: object
+) -> Marked:
+    """Draw with `seamwire.mark` between seeds that are written in short, on the active object by default.
+
+    A tilde before a stroke makes it an avoid stroke.
+    """
+    import seamwire
+
+    guides = [part.strip() for part in strokes.split(";") if part.strip()]
+    return seamwire.mark(
+        obj or bpy.context.active_object,
+        seeds(chains),
+        loops=[seed for part in seeds(loops) for seed in part],
+        strokes=[seeds(part)[0] for part in guides if part[0] != "~"],
+        avoid=[seeds(part[1:])[0] for part in guides if part[0] == "~"],
+        **options,
+    )
 
 
 def add_object(

@@ -38,7 +38,7 @@ def main() -> None:
     folder = Path(models)
     frames = read_frames(folder)
     if method == "addon":
-        addon_utils.enable("seamwire")
+        addon_utils.enable("seamwire", default_set=True)
     for file in sorted(folder.glob("*.npz")):
         if names and file.stem not in names:
             continue

@@ -61,5 +61,5 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    addon_utils.enable("seamwire")
+    addon_utils.enable("seamwire", default_set=True)
     main()

@@ -27,7 +27,6 @@ for _name in [name for name in sys.modules if name.startswith(f"{__name__}.")]:
 _PARTS = (
     "mesh.settings",
     "ui.preferences",
-    "operators.mark",
     "operators.finish",
     "operators.take_over",
     "operators.gaps",
@@ -36,10 +35,8 @@ _PARTS = (
     "operators.transfer",
     "operators.suggest",
     "operators.islands",
-    "operators.edge_marks",
     "operators.unwrap",
     "operators.store",
-    "operators.aliases",
     "operators.undo_steps",
     "operators.draw",
     "view.handlers",
@@ -52,6 +49,16 @@ _PARTS = (
     "ui.menus",
     "ui.views_panel",
 )
+
+
+_FOR_SCRIPTS = ("mark", "suggest", "unwrap", "cut")
+
+
+def __getattr__(name: str) -> object:
+    """Return a function for scripts, see `scripting`."""
+    if name not in _FOR_SCRIPTS:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(".scripting", __package__), name)
 
 
 def register() -> None:
@@ -67,15 +74,13 @@ def unregister() -> None:
 def _parts() -> tuple[Callable[[], None], Callable[[], None]]:
     """Return what registers all parts, and what removes them."""
     together = import_module(".mesh.registration", __package__).together
+    check = import_module(".mesh.versions", __package__).check
     parts = (import_module(f".{part}", __package__) for part in _PARTS)
-    return together((_prepare, _forget), *((part.register, part.unregister) for part in parts))
-
-
-def _prepare() -> None:
-    """Meshes are prepared when they are pointed at."""
+    return together((check, _forget), *((part.register, part.unregister) for part in parts))
 
 
 def _forget() -> None:
+    """Drop prepared meshes."""
     objects = sys.modules.get(f"{__package__}.view.edited_objects")
     if objects is not None:
         objects.edited.clear()

@@ -24,18 +24,16 @@ def _import_obj(path: str) -> None:
 
 
 def _import_ply(path: str) -> None:
-    if bpy.app.version >= (4, 0, 0):
-        bpy.ops.wm.ply_import(filepath=path)
-    else:
-        bpy.ops.import_mesh.ply(filepath=path)
+    from seamwire.mesh.versions import IS_OLD
+
+    (bpy.ops.import_mesh.ply if IS_OLD else bpy.ops.wm.ply_import)(filepath=path)
     _weld()
 
 
 def _import_stl(path: str) -> None:
-    if bpy.app.version >= (4, 2, 0):
-        bpy.ops.wm.stl_import(filepath=path)
-    else:
-        bpy.ops.import_mesh.stl(filepath=path)
+    from seamwire.mesh.versions import IS_OLD
+
+    (bpy.ops.import_mesh.stl if IS_OLD else bpy.ops.wm.stl_import)(filepath=path)
 
 
 def _import_fbx(path: str) -> None:
@@ -89,10 +87,12 @@ def _export_obj(path: str) -> None:
 
 
 def _export_ply(path: str) -> None:
-    if bpy.app.version >= (4, 0, 0):
-        bpy.ops.wm.ply_export(filepath=path, export_uv=True)
-    else:
+    from seamwire.mesh.versions import IS_OLD
+
+    if IS_OLD:
         bpy.ops.export_mesh.ply(filepath=path, use_uv_coords=True)
+    else:
+        bpy.ops.wm.ply_export(filepath=path, export_uv=True)
 
 
 def _export_fbx(path: str) -> None:
@@ -145,14 +145,16 @@ def mesh_objects() -> list[bpy.types.Object]:
     return list(found.values())
 
 
-def unwrap(**options: object) -> None:
-    """Unwrap all of what is in edit mode along its seams, islands of one scale, packed; raises AssetError.
+def unwrap(obj: bpy.types.Object, **options: object) -> None:
+    """Unwrap all of an object along its seams, islands of one scale, packed; raises AssetError.
 
     `options`: further arguments of the operator.
     """
+    import seamwire
+
     try:
-        bpy.ops.mesh.seamwire_unwrap(**{"changed_only": False, **options})
-    except RuntimeError as error:
+        seamwire.unwrap(obj, **{"changed_only": False, **options})
+    except ValueError as error:
         raise AssetError(f"It cannot be unwrapped: {_first_line(error)}") from error
 
 

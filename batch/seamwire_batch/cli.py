@@ -42,7 +42,7 @@ def parser() -> argparse.ArgumentParser:
     ways.add_argument("--network", metavar="FILE", help="a network saved by Blender")
     ways.add_argument("--source", metavar="FILE", help="an asset that has seams")
     ways.add_argument(
-        "--mark", metavar="NAME=VALUE", action="append", help="an argument of mesh.seamwire_mark; repeat it"
+        "--mark", metavar="NAME=VALUE", action="append", help="an argument of seamwire.mark, as JSON; repeat it"
     )
     ways.add_argument(
         "--suggest",

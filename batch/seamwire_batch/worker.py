@@ -28,6 +28,8 @@ if "seamwire_batch" not in sys.modules:
     _spec.loader.exec_module(sys.modules["seamwire_batch"])
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import bpy
     import numpy as np
 
@@ -118,6 +120,17 @@ def values_for(operator: Any, given: dict[str, str]) -> dict[str, Any]:  # noqa:
     return values
 
 
+def json_values(given: dict[str, str]) -> dict[str, Any]:
+    """Return arguments of a function. Each is read as JSON, or is text if it is not JSON."""
+    values: dict[str, Any] = {}
+    for key, text in given.items():
+        try:
+            values[key] = json.loads(text)
+        except ValueError:
+            values[key] = text
+    return values
+
+
 def _stretch_wanted(operator: Any, options: dict[str, Any]) -> float:  # noqa: ANN401 - bpy.ops has no type
     """Return the stretch in percent that the arguments of Suggest Seamwires ask for."""
     return options.get("distortion", operator.get_rna_type().properties["distortion"].default)
@@ -196,7 +209,7 @@ class Run:
         for obj in objects:
             with _editing(obj):
                 self._mark(obj)
-                unwrap(**options)
+                unwrap(obj, **options)
                 self._check_map(obj)
                 bpy.ops.mesh.seamwire_store(what="ATTRIBUTE")
         numbers = self._measured(objects)
@@ -229,15 +242,19 @@ class Run:
 
     def _mark(self, obj: bpy.types.Object) -> None:
         import bpy
+        import seamwire
 
         way = self._job["way"]
-        if way in {"mark", "suggest"}:
-            operator = getattr(bpy.ops.mesh, f"seamwire_{way}")
-            options = values_for(operator, self._job["arguments"])
-            if way == "suggest":
-                options["unwrap"] = False
-                self._stretch_wanted = _stretch_wanted(operator, options)
-            self._call(obj, lambda: operator(**options))
+        if way == "mark":
+            done = self._call(obj, seamwire.mark, json_values(self._job["arguments"]))
+            self.warnings.extend(f"{obj.name}: {problem}" for problem in done.problems)
+            return
+        if way == "suggest":
+            operator = bpy.ops.mesh.seamwire_suggest
+            options = {**values_for(operator, self._job["arguments"]), "unwrap": False}
+            self._stretch_wanted = _stretch_wanted(operator, options)
+            if not self._call(obj, seamwire.suggest, options):
+                self.warnings.append(f"{obj.name}: nothing was marked")
             return
         from seamwire.core.matching.placing import Shape
         from seamwire.core.storage.network_file import NetworkFile
@@ -290,16 +307,14 @@ class Run:
             )
         return named[0]
 
-    def _call(self, obj: bpy.types.Object, operator: Any) -> None:  # noqa: ANN401
-        """Call an operator that says what it could not do."""
+    def _call(self, obj: bpy.types.Object, work: Callable[..., Any], options: dict[str, Any]) -> Any:  # noqa: ANN401
+        """Call a function of the add-on; raises AssetError with what it could not do."""
         from seamwire_batch.assets import AssetError
 
         try:
-            done = operator()
-        except (RuntimeError, TypeError) as error:
-            raise AssetError(f"{obj.name}: {str(error).strip().removeprefix('Error: ')}") from error
-        if done != {"FINISHED"}:
-            self.warnings.append(f"{obj.name}: nothing was marked")
+            return work(obj, **options)
+        except (ValueError, TypeError) as error:
+            raise AssetError(f"{obj.name}: {error}") from error
 
     # The results
 

@@ -2,12 +2,13 @@
 """What the add-on says without its compiled part, and what enabling it reads."""
 
 import subprocess
+import sys
 from pathlib import Path
 
 import bpy
 import pytest
-from scene import ADDON, add_grid, edit, seams
-from seamwire.mesh import settings
+from scene import ADDON, add_grid, edit, mark_wires, seams
+from seamwire.mesh import versions
 
 pytestmark = pytest.mark.every_blender
 
@@ -21,8 +22,8 @@ def test_without_the_compiled_part_the_operator_says_so(monkeypatch: pytest.Monk
     monkeypatch.setattr(native, "load", fail)
     obj = add_grid(3)
     edit()
-    with pytest.raises(RuntimeError, match="Seamwire's compiled part"):
-        bpy.ops.mesh.seamwire_mark(chains="0 2")
+    with pytest.raises(ImportError, match="Seamwire's compiled part"):
+        mark_wires(chains="0 2")
     assert seams(obj) == []
 
 
@@ -50,18 +51,33 @@ print("Read:", sorted(dict.fromkeys(name.split(".")[0] for name in set(sys.modul
     assert "seamwire_core" not in read
 
 
-def test_without_an_entry_in_the_preferences_there_are_defaults(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    monkeypatch.setattr(settings, "ADDON", "seamwire_unlisted")  # as after `blender --addons seamwire`
-    source, target = add_grid(5, name="Source"), add_grid(5, name="Target")
-    edit()
-    assert settings.settings().along == "AUTO"
-    assert settings.preferences().line_width == 1.0
-    bpy.ops.mesh.seamwire_mark(chains="10 14", objects="Source")
-    assert bpy.ops.mesh.seamwire_store(what="STRENGTH") == {"FINISHED"}
-    assert bpy.ops.mesh.seamwire_transfer(source="Source") == {"FINISHED"}
-    assert seams(target) == seams(source) != []
-    path = tmp_path / "net.json"
-    assert bpy.ops.mesh.seamwire_save_network(filepath=str(path)) == {"FINISHED"}
-    assert path.exists()
+def test_enabling_with_an_option_of_the_command_line_lists_the_add_on() -> None:
+    if not bpy.app.binary_path:
+        pytest.skip("Blender as a Python module cannot be started again")
+    code = f"""
+import addon_utils, bpy, sys
+assert {ADDON!r} not in bpy.context.preferences.addons
+assert addon_utils.enable({ADDON!r}, persistent=True) is not None  # as --addons does
+settings = sys.modules[{ADDON!r} + ".mesh.settings"]
+print("Set:", settings.settings().along, settings.preferences().line_width)
+addon_utils.disable({ADDON!r}, default_set=True)
+assert {ADDON!r} not in bpy.context.preferences.addons
+"""
+    command = [bpy.app.binary_path, "--background", "--factory-startup", "--python-exit-code", "3"]
+    done = subprocess.run([*command, "--python-expr", code], capture_output=True, text=True, timeout=120)
+    assert "Set: AUTO 1.0" in done.stdout, done.stderr
+
+
+def test_other_versions_of_blender_are_refused() -> None:
+    for version in ((3, 3, 21), (3, 6, 23), (4, 1, 1)):
+        with pytest.raises(RuntimeError, match=r"does not run in Blender .*: use Blender 3\.4, or 4\.2 or newer"):
+            versions.check(version)
+    for version in ((3, 4, 1), (4, 2, 0), (4, 5, 3), (5, 2, 2)):
+        versions.check(version)
+
+
+def test_blender_is_told_the_same_oldest_versions() -> None:
+    package = Path(versions.__file__).parents[1]
+    assert sys.modules[ADDON].bl_info["blender"][:2] == versions.OLD
+    oldest = ".".join(map(str, versions.NEW))
+    assert f'blender_version_min = "{oldest}.0"' in (package / "blender_manifest.toml").read_text("utf-8")

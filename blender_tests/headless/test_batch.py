@@ -11,7 +11,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 import pytest
-from scene import ADDON, add_grid, add_suzanne, edit, head
+from scene import ADDON, add_grid, add_suzanne, edit, head, mark_wires
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "batch"))
@@ -51,7 +51,7 @@ def network(tmp_path: Path) -> Path:
     obj = add_suzanne()
     edit()
     a, b, c = head(obj, 3)
-    bpy.ops.mesh.seamwire_mark(chains=f"{a} {b} {c} {a}")
+    mark_wires(chains=f"{a} {b} {c} {a}")
     path = tmp_path / "net.json"
     bpy.ops.mesh.seamwire_save_network(filepath=str(path))
     bpy.ops.object.mode_set(mode="OBJECT")
@@ -121,7 +121,7 @@ def test_what_crashes_hangs_or_is_damaged_costs_itself_alone(network: Path, tmp_
 def test_seams_go_from_a_source_to_another_topology_with_pictures(tmp_path: Path, capfd: pytest.CaptureFixture) -> None:
     obj = add_grid(15, name="Sheet")
     edit()
-    bpy.ops.mesh.seamwire_mark(chains="105 119")
+    mark_wires(chains="105 119")
     bpy.ops.object.mode_set(mode="OBJECT")
     source = tmp_path / "source.blend"
     assets.EXPORTERS[".blend"](str(source))
@@ -142,15 +142,15 @@ def test_seams_go_from_a_source_to_another_topology_with_pictures(tmp_path: Path
 def test_arguments_of_operators_are_read_and_what_is_wrong_is_said(tmp_path: Path) -> None:
     add_grid(5)
     export(tmp_path, ["a.obj"])
-    code, rows = run(tmp_path, "--mark", "chains=10 14", "--mark", "mirror=Y", "--no-pictures")
+    code, rows = run(tmp_path, "--mark", "chains=[[10, 14]]", "--mark", "mirror=Y", "--no-pictures")
     assert code == 0 and rows["a.obj"]["seams"] == "4"
     code, rows = run(tmp_path, "--mark", "chain=10 14", "--no-pictures")
-    assert code == 1 and "no argument chain" in rows["a.obj"]["error"]
-    code, rows = run(tmp_path, "--mark", "chains=10 99", "--no-pictures")
+    assert code == 1 and "unexpected keyword argument 'chain'" in rows["a.obj"]["error"]
+    code, rows = run(tmp_path, "--mark", "chains=[[10, 99]]", "--no-pictures")
     assert code == 1 and "There is no vertex 99" in rows["a.obj"]["error"]
-    code, rows = run(tmp_path, "--mark", "chains=10 14", "--unwrap", "straight=false", "--no-pictures")
+    code, rows = run(tmp_path, "--mark", "chains=[[10, 14]]", "--unwrap", "straight=false", "--no-pictures")
     assert code == 0 and rows["a.obj"]["islands"] == "2"
-    code, rows = run(tmp_path, "--mark", "chains=10 14", "--unwrap", "bent=false", "--no-pictures")
+    code, rows = run(tmp_path, "--mark", "chains=[[10, 14]]", "--unwrap", "bent=false", "--no-pictures")
     assert code == 1 and "no argument bent" in rows["a.obj"]["error"]
 
 
@@ -180,7 +180,7 @@ def test_what_is_wrong_with_the_map_in_the_file_is_a_warning(tmp_path: Path, mon
     for edge in obj.data.edges:
         edge.use_seam = all(abs(obj.data.vertices[v].co.x) < 1e-6 for v in edge.vertices)
     export(tmp_path, ["halves.blend"])
-    monkeypatch.setattr(assets, "unwrap", lambda **_: None)
+    monkeypatch.setattr(assets, "unwrap", lambda _obj, **_: None)
     job = {
         "asset": str(tmp_path / "assets" / "halves.blend"),
         "folder": str(tmp_path),

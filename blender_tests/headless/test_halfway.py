@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterator
 import bmesh
 import bpy
 import pytest
-from scene import add_grid, edit, snapshot
-from seamwire.mesh import edge_marks, edit_mesh, finish, seam_islands
+from scene import add_grid, edit, mark_wires, snapshot
+from seamwire.mesh import edit_mesh, finish, seam_islands
 from seamwire.mesh.object_session import ObjectSession
 
 
@@ -54,11 +54,9 @@ def grids() -> Iterator[list[str]]:
 
 WRITES = (ObjectSession, "write")
 CASES = {
-    "mark": ({"chains": "0 8", "objects": "*"}, WRITES),
     "take_over": ({}, WRITES),
     "close_gaps": ({}, WRITES),
     "suggest": ({"islands": 3, "along": "EDGES"}, WRITES),
-    "mark_seams_as": ({"kind": "SHARP"}, (edge_marks, "_seams")),
     "store": ({"what": "ATTRIBUTE"}, (seam_islands, "_face_layer")),
 }
 
@@ -81,13 +79,14 @@ def test_undo_leads_back_from_an_error_at_the_second_mesh(
 def test_undo_leads_back_from_an_error_at_the_second_mesh_that_is_cut(
     grids: list[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    for name in grids:
+        mark_wires("0 44", obj=bpy.data.objects[name], along="SURFACE", metric="euclidean")
+    bpy.ops.ed.undo_push(message="Marked")
     before = states(grids)
     with monkeypatch.context() as failing:
         failing.setattr(finish, "cut", fail_at(2, finish.cut))
         with pytest.raises(RuntimeError, match="Stopped halfway"):
-            bpy.ops.mesh.seamwire_mark(
-                "EXEC_DEFAULT", True, chains="0 44", objects="*", along="SURFACE", finish="CUT", metric="euclidean"
-            )
+            bpy.ops.mesh.seamwire_finish("EXEC_DEFAULT", True, finish="CUT")
     counts = [len(bmesh.from_edit_mesh(bpy.data.objects[each].data).verts) for each in grids]
     assert min(counts) == 81 < max(counts)
     bpy.ops.ed.undo()
@@ -101,6 +100,6 @@ def test_an_error_before_the_first_change_leaves_no_step_of_undo(
     with monkeypatch.context() as failing:
         failing.setattr(edit_mesh, "read", fail_at(2, edit_mesh.read))
         with pytest.raises(RuntimeError, match="as the test wants it"):
-            bpy.ops.mesh.seamwire_mark("EXEC_DEFAULT", True, chains="0 8", objects="*")
+            bpy.ops.mesh.seamwire_take_over("EXEC_DEFAULT", True)
     bpy.ops.object.mode_set(mode="OBJECT")
     assert not bpy.data.objects[grids[0]].data.attributes.get(".seamwire")

@@ -9,10 +9,9 @@ import bpy
 import pytest
 from scene import add_grid, add_object, edit, seams, snapshot
 from seamwire.mesh.seam_islands import faces_to_cut, missing_cuts
+from seamwire.mesh.versions import IS_OLD
 
 pytestmark = pytest.mark.every_blender
-
-SETS = ".sculpt_face_set"
 
 
 def add_tube() -> bpy.types.Object:
@@ -102,17 +101,22 @@ def test_islands_are_stored_as_materials_beside_those_that_are_there() -> None:
         assert {index for index, _ in sides} == {1, 2}
 
 
-def test_islands_are_stored_as_face_sets() -> None:
+def test_blender_marks_seams_as_sharp() -> None:
+    """The guide's recipe."""
     obj = add_grid(9)
     edit()
     mark(obj, halves)
-    if bpy.app.version < (3, 6, 0):
-        with pytest.raises(RuntimeError, match="Storing face sets needs"):
-            bpy.ops.mesh.seamwire_store(what="FACE_SETS")
-        return
-    assert bpy.ops.mesh.seamwire_store(what="FACE_SETS") == {"FINISHED"}
-    assert {number for number, _ in numbers(obj, SETS)} == {1, 2}
-    assert len(set(numbers(obj, SETS))) == 2
+    bpy.ops.mesh.select_mode(type="EDGE")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bm = bmesh.from_edit_mesh(obj.data)
+    seam = next(edge for edge in bm.edges if edge.seam)
+    seam.select = True
+    bm.select_history.add(seam)
+    assert bpy.ops.mesh.select_similar(type="SEAM" if IS_OLD else "EDGE_SEAM") == {"FINISHED"}
+    bpy.ops.mesh.mark_sharp()
+    bm = bmesh.from_edit_mesh(obj.data)
+    assert [edge.seam for edge in bm.edges] == [not edge.smooth for edge in bm.edges]
+    assert len(seams(obj)) == 8
 
 
 def test_hidden_faces_keep_what_they_have_and_nothing_visible_is_said() -> None:
@@ -147,9 +151,6 @@ def test_hidden_faces_that_have_nothing_yet_become_no_island() -> None:
     bm.faces.ensure_lookup_table()
     assert {slot is None for slot in obj.data.materials} == {True, False}
     assert [obj.data.materials[face.material_index] is None for face in bm.faces] == [True] + [False] * 63
-    if bpy.app.version >= (3, 6, 0):
-        assert bpy.ops.mesh.seamwire_store(what="FACE_SETS") == {"FINISHED"}
-        assert sorted({number for number, _ in numbers(obj, SETS)}) == [1, 2, 3]
 
 
 @pytest.mark.parametrize(("domain", "kind"), [("POINT", "INT"), ("FACE", "FLOAT")])

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import bpy
 import pytest
-from scene import add_grid, add_suzanne, edit, head, seams, snapshot
+from scene import add_grid, add_suzanne, edit, head, mark_wires, seams, snapshot
 from stored import agree, chains
 
 
@@ -15,8 +15,8 @@ def drawn(tmp_path: Path) -> tuple[bpy.types.Object, Path]:
     obj = add_suzanne()
     edit()
     a, b, c, d, e = head(obj, 5)
-    bpy.ops.mesh.seamwire_mark(chains=f"{a} {b} {c}", strokes=f"{a} {d}")
-    bpy.ops.mesh.seamwire_mark(chains=f"{d} {e}", along="SURFACE", mirror={"X"})
+    mark_wires(chains=f"{a} {b} {c}", strokes=f"{a} {d}")
+    mark_wires(chains=f"{d} {e}", along="SURFACE", mirror={"X"})
     path = tmp_path / "net.json"
     assert bpy.ops.mesh.seamwire_save_network(filepath=str(path)) == {"FINISHED"}
     return obj, path

@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 import pytest
 from mathutils import Matrix
-from scene import add_grid, add_layers, chain, edit, seams, snapshot
+from scene import add_grid, add_layers, chain, edit, mark_wires, seams, snapshot
 from seamwire.core.solver.live_maker import LiveMaker
 from seamwire.mesh import edit_mesh
 from seamwire.mesh.object_session import ObjectSession
@@ -81,8 +81,8 @@ def test_what_wires_cannot_run_on_is_said(grid: bpy.types.Object) -> None:
         make.wait()
     with pytest.raises(ValueError, match="vertex 7"):
         live.progress()
-    with pytest.raises(RuntimeError, match="vertex 7"):
-        bpy.ops.mesh.seamwire_mark(chains="0 8")
+    with pytest.raises(ValueError, match="vertex 7"):
+        mark_wires(chains="0 8")
 
 
 def test_what_was_prepared_for_a_mesh_that_changed_is_freed_at_once(grid: bpy.types.Object) -> None:

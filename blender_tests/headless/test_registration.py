@@ -13,7 +13,7 @@ TIMES = 20
 def test_enabled_and_disabled_many_times_it_leaves_nothing_behind() -> None:
     enabled = traces.traces()
     assert any("MESH_OT_seamwire_draw" in one for one in traces.ours(enabled))
-    assert any("mesh.seamwire_mark" in one for one in traces.ours(enabled))
+    assert any("mesh.seamwire_finish" in one for one in traces.ours(enabled))
     for menu in (*menus.MENUS, menus.CONTEXT_MENU):
         assert sum(f"entries: {menu}:" in one for one in traces.ours(enabled)) == 1, menu
     traces.disable()

@@ -5,7 +5,7 @@ import random
 
 import bpy
 import pytest
-from scene import add_grid, add_suzanne, edit, seams, snapshot
+from scene import add_grid, add_suzanne, edit, mark_wires, seams, snapshot
 from stored import agree, chains
 
 
@@ -32,7 +32,7 @@ def parts(bolts: bpy.types.Object) -> list[int]:
 
 
 def test_what_was_drawn_last_is_drawn_on_all_that_is_alike(bolts: bpy.types.Object) -> None:
-    assert bpy.ops.mesh.seamwire_mark(loops="0-2", take="CLOSED") == {"FINISHED"}
+    assert mark_wires(loops="0-2", take="CLOSED")
     ring = len(seams(bolts))
     assert bpy.ops.mesh.seamwire_repeat() == {"FINISHED"}
     assert agree(bolts)
@@ -46,7 +46,7 @@ def test_what_was_drawn_last_is_drawn_on_all_that_is_alike(bolts: bpy.types.Obje
 
 @pytest.mark.every_blender
 def test_all_that_hangs_together_is_repeated_and_one_undo_takes_it_back(bolts: bpy.types.Object) -> None:
-    assert bpy.ops.mesh.seamwire_mark(chains="0 1 3 2") == {"FINISHED"}
+    assert mark_wires(chains="0 1 3 2")
     assert len(chains(bolts)) == 3
     drawn = seams(bolts)
     bpy.ops.ed.undo_push(message="Drawn")
@@ -59,8 +59,8 @@ def test_all_that_hangs_together_is_repeated_and_one_undo_takes_it_back(bolts: b
 
 
 def test_selected_wires_are_repeated_instead(bolts: bpy.types.Object) -> None:
-    bpy.ops.mesh.seamwire_mark(chains="0 1")
-    bpy.ops.mesh.seamwire_mark(chains="16 18")
+    mark_wires(chains="0 1")
+    mark_wires(chains="16 18")
     bpy.ops.mesh.select_all(action="DESELECT")
     with pytest.raises(RuntimeError, match="No selected wire along edges"):
         bpy.ops.mesh.seamwire_repeat(selected=True)
@@ -80,7 +80,7 @@ def test_what_is_nowhere_else_changes_nothing() -> None:
         vertex.co.x += draw.uniform(-0.05, 0.05)
         vertex.co.y += draw.uniform(-0.05, 0.05)
     edit()
-    assert bpy.ops.mesh.seamwire_mark(chains="20 60") == {"FINISHED"}
+    assert mark_wires(chains="20 60")
     before = snapshot(obj)
     assert bpy.ops.mesh.seamwire_repeat() == {"CANCELLED"}
     assert snapshot(obj) == before

@@ -3,14 +3,12 @@
 
 from __future__ import annotations
 
-import bmesh
 import bpy
 import numpy as np
 import pytest
 from scene import add_object, add_suzanne, edit
 from seamwire.core.base import native
 from seamwire.mesh import edit_mesh
-from seamwire.mesh.settings import settings
 
 
 def stored(obj: bpy.types.Object, name: str) -> np.ndarray:
@@ -75,19 +73,6 @@ def test_distances_are_from_the_selected_vertex_and_minus_one_where_nothing_lead
     assert bpy.ops.mesh.seamwire_store(what="DISTANCE") == {"FINISHED"}
     values = stored(obj, "metric_distance")
     assert values == pytest.approx([1 / 6, 0, 1 / 6, 2**0.5 / 6, -1, -1, -1], abs=1e-6)
-
-
-def test_what_is_shown_as_heat_is_what_is_stored_where_nothing_is_named() -> None:
-    obj = add_suzanne()
-    edit()
-    settings().heat = "CONCAVITY"
-    try:
-        assert bpy.ops.mesh.seamwire_store_view() == {"FINISHED"}
-    finally:
-        settings().property_unset("heat")
-    assert bmesh.from_edit_mesh(obj.data).verts.layers.float.get("concavity") is not None
-    assert bpy.ops.mesh.seamwire_store_view() == {"FINISHED"}
-    assert bmesh.from_edit_mesh(obj.data).verts.layers.float.get("feature_strength") is not None
 
 
 @pytest.mark.every_blender

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from maps import energy, flipped, in_square, overlapping_pairs, triangles
 from mathutils import Matrix
-from scene import add_grid, add_object, add_suzanne, edit, seams, snapshot
+from scene import add_grid, add_object, add_suzanne, edit, mark_wires, seams, snapshot
 from seamwire.core.base import native
 from seamwire.core.islands.islands import IslandMaker
 from seamwire.core.seams.gaps import Gap, GapFinder
@@ -409,7 +409,7 @@ def test_only_islands_with_selected_faces_are_cut(count: int) -> None:
 
 def test_seams_that_are_there_stay_and_are_no_wires(suzanne: bpy.types.Object) -> None:
     pair = edit_mesh.read(suzanne).edges[0].tolist()
-    bpy.ops.mesh.seamwire_mark(loops=f"{pair[0]}-{pair[1]}")
+    mark_wires(loops=f"{pair[0]}-{pair[1]}")
     before, wires = seams(suzanne), chains(suzanne)
     assert before
     suggest(distortion=40.0)
@@ -421,7 +421,7 @@ def test_seams_that_are_there_stay_and_are_no_wires(suzanne: bpy.types.Object) -
 @pytest.mark.parametrize("ends", ["150-109", "159-150", "98-182"])
 def test_a_seam_over_the_brow_leads_to_no_small_island(suzanne: bpy.types.Object, ends: str) -> None:
     clear(suzanne)
-    bpy.ops.mesh.seamwire_mark(chains=ends.replace("-", " "), along="EDGES")
+    mark_wires(chains=ends.replace("-", " "), along="EDGES")
     marked = set(seams(suzanne))
     assert marked
     assert islands(suzanne) == 3, "the head and the eyes"
@@ -506,8 +506,8 @@ def test_seams_keep_from_the_front() -> None:
 def test_strokes_and_selected_islands_weigh_the_wires(planners: list[dict[str, object]]) -> None:
     obj = add_grid(21)
     edit()
-    bpy.ops.mesh.seamwire_mark(chains="210 230")
-    bpy.ops.mesh.seamwire_mark(chains="0 1", strokes="45 50 55; ~385 390 395")
+    mark_wires(chains="210 230")
+    mark_wires(chains="0 1", strokes="45 50 55; ~385 390 395")
     suggest(unwrap=False)
     weights = planners[-1]["weights"]
     assert weights[[47, 393]] == pytest.approx([0.125, 8.0], rel=1e-6)

@@ -4,7 +4,7 @@
 import bmesh
 import bpy
 import pytest
-from scene import add_grid, add_suzanne, chain, edit, ends, seams, snapshot
+from scene import add_grid, add_suzanne, chain, edit, ends, mark_wires, seams, snapshot
 from stored import agree, chains, session_on, wired, write
 
 ROW, COLUMN = chain(*range(36, 45)), chain(4, 13, 22, 31, 40)
@@ -57,7 +57,7 @@ def test_a_wire_that_is_dropped_or_moved_takes_its_seam_with_it(seamed: bpy.type
 
 
 def test_seams_of_wires_and_those_not_selected_stay_what_they_were(seamed: bpy.types.Object) -> None:
-    bpy.ops.mesh.seamwire_mark(chains="0 8")
+    mark_wires(chains="0 8")
     bm = bmesh.from_edit_mesh(seamed.data)
     bm.verts.ensure_lookup_table()
     bpy.context.tool_settings.mesh_select_mode = (False, True, False)

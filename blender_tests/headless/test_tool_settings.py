@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which settings the tool shows where, and what becomes of those that it no longer has."""
+"""Which settings the tool shows where."""
 
 from dataclasses import fields
 from types import SimpleNamespace
@@ -7,7 +7,6 @@ from types import SimpleNamespace
 import bpy
 import pytest
 from scene import add_grid, edit
-from seamwire.core.drawing.options import Options
 from seamwire.mesh import settings as chosen
 from seamwire.operators import chain_acts
 from seamwire.ui import properties
@@ -96,36 +95,9 @@ def test_the_sidebar_has_a_panel_for_each_group(tool: chosen.SeamwireSettings) -
         assert (panel.bl_region_type, panel.bl_parent_id) == ("UI", "VIEW3D_PT_active_tool")
 
 
-def test_a_stored_metric_that_the_tool_no_longer_has_becomes_features_and_is_told(
-    tool: chosen.SeamwireSettings,
-) -> None:
-    stored = tool.bl_system_properties_get(do_create=True) if bpy.app.version >= (5, 0, 0) else tool
-    stored["metric"] = 1  # the number of Campen's metric
-    chosen.replace_removed_metric()
-    assert tool.metric == "feature"
-    (notice,) = chosen.notices.take()
-    assert "wires follow Features" in notice.text
-
-
-@pytest.mark.parametrize("metric", ["feature", "concave", "euclidean"])
-def test_a_stored_metric_that_the_tool_has_stays(tool: chosen.SeamwireSettings, metric: str) -> None:
-    tool.metric = metric
-    chosen.replace_removed_metric()
-    assert tool.metric == metric
-    assert chosen.notices.take() == []
-
-
-def test_scripts_can_use_every_metric() -> None:
-    add_grid(5)
-    edit()
-    for metric in ("campen", "pottmann_kovacs"):
-        assert bpy.ops.mesh.seamwire_mark(chains="0 12", metric=metric, objects="*") == {"FINISHED"}
-        bpy.ops.mesh.mark_seam(clear=True)
-
-
 def test_options_have_the_defaults_of_the_settings(tool: chosen.SeamwireSettings) -> None:
-    options = Options()
-    for field in fields(Options):
+    options = chosen.ToolOptions()
+    for field in fields(chosen.ToolOptions):
         prop = tool.bl_rna.properties.get(field.name)
         if prop is not None and prop.type in {"BOOLEAN", "ENUM"} and field.name not in {"along", "finish"}:
             assert prop.default == getattr(options, field.name), field.name

@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 import pytest
 from mathutils import Matrix
-from scene import add_grid, add_suzanne, edit, head, seams, snapshot
+from scene import add_grid, add_suzanne, edit, head, mark_wires, seams, snapshot
 from stored import agree, chains
 
 Pair = tuple[bpy.types.Object, bpy.types.Object]
@@ -32,7 +32,7 @@ def heads() -> Pair:
     source = add_suzanne()
     edit()
     a, b, c = head(source, 3)
-    bpy.ops.mesh.seamwire_mark(chains=f"{a} {b} {c}")
+    mark_wires(chains=f"{a} {b} {c}")
     leave()
     target = add_suzanne(levels=1)
     choose(source, target)
@@ -120,7 +120,7 @@ def test_pairs_of_vertex_groups_find_another_pose() -> None:
     for vertex in source.data.vertices:
         vertex.co.x *= 3.0
     edit()
-    bpy.ops.mesh.seamwire_mark(chains=f"{4 * 21 + 2} {4 * 21 + 18}; {1 * 21 + 10} {7 * 21 + 10}")
+    mark_wires(chains=f"{4 * 21 + 2} {4 * 21 + 18}; {1 * 21 + 10} {7 * 21 + 10}")
     leave()
     target = add_grid(31, 13)
     flat = [(3.0 * vertex.co.x, vertex.co.y) for vertex in target.data.vertices]

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 import pytest
 from maps import areas, energy, flipped, in_square, overlapping_pairs, signed_areas, triangles
-from scene import add_grid, add_layers, add_object, add_suzanne, edit, snapshot
+from scene import add_grid, add_layers, add_object, add_suzanne, edit, mark_wires, snapshot
 from seamwire.core.base import native
 from seamwire.core.drawing.change import Change
 from seamwire.mesh import finish
@@ -340,7 +340,7 @@ def test_islands_that_were_parted_by_a_cut_are_unwrapped_as_one_once_it_is_taken
     bpy.ops.mesh.seamwire_unwrap()
     whole = worst_island(obj, "AREA").value
     # Across the faces, in their middle, from border to border: no edge is left that it went along.
-    bpy.ops.mesh.seamwire_mark(chains="(-1 0.13 0) (1 0.13 0)", along="SURFACE", finish="CUT")
+    mark_wires(chains="(-1 0.13 0) (1 0.13 0)", along="SURFACE", finish="CUT")
     assert island_count(obj) == 2
     if by_blender:
         bm = bmesh.from_edit_mesh(obj.data)

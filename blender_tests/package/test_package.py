@@ -11,10 +11,10 @@ import pytest
 from blender import Blender, printed
 
 MARK = """
-import bpy
+import bpy, importlib
 bpy.ops.mesh.primitive_grid_add(x_subdivisions=4, y_subdivisions=4)
 bpy.ops.object.mode_set(mode="EDIT")
-bpy.ops.mesh.seamwire_mark(chains="0 2")
+importlib.import_module(ADDON).mark(bpy.context.object, [[0, 2]])
 bpy.ops.object.mode_set(mode="OBJECT")
 mesh = bpy.context.object.data
 print("marked:", sorted(tuple(sorted(edge.vertices)) for edge in mesh.edges if edge.use_seam))
@@ -24,7 +24,7 @@ MARKED = "[(0, 1), (1, 2)]"
 
 ABSENT = """
 import bpy, importlib.util
-print("operator:", hasattr(bpy.types, "MESH_OT_seamwire_mark"))
+print("operator:", hasattr(bpy.types, "MESH_OT_seamwire_finish"))
 print("enabled:", ADDON in bpy.context.preferences.addons)
 """
 
@@ -116,7 +116,7 @@ def test_a_later_version_takes_the_place_of_the_one_before(blender: Blender, pac
 
 
 VERSION = """
-print("label:", bpy.ops.mesh.seamwire_mark.get_rna_type().name)
+print("label:", bpy.ops.mesh.seamwire_finish.get_rna_type().name)
 """
 
 
@@ -125,8 +125,8 @@ LATER = "0.9.9"
 
 def later_version(package: Path, folder: Path) -> Path:
     """Make a package of the later version whose operator has another label."""
-    label = re.compile(r'(bl_idname = "mesh\.seamwire_mark"\s+bl_label = )"[^"]*"')
-    step = changed(package, folder / "1.zip", "operators/mark.py", lambda text: label.sub(r'\1"Mark Later"', text))
+    label = re.compile(r'(bl_idname = "mesh\.seamwire_finish"\s+bl_label = )"[^"]*"')
+    step = changed(package, folder / "1.zip", "operators/finish.py", lambda text: label.sub(r'\1"Mark Later"', text))
     step = changed(
         step,
         folder / "2.zip",
@@ -243,7 +243,7 @@ import bpy
 bpy.ops.mesh.primitive_grid_add(x_subdivisions=4, y_subdivisions=4)
 bpy.ops.object.mode_set(mode="EDIT")
 try:
-    bpy.ops.mesh.seamwire_mark(chains="0 2")
+    bpy.ops.mesh.seamwire_close_gaps()
 except RuntimeError as error:
     print("said:", str(error).strip())
 """

@@ -75,14 +75,15 @@ def guide(desk: Desk) -> None:
     stroke(desk, 55, 61, shift=True)
 
 
-GESTURES: dict[str, Callable[[Desk], None]] = {
-    "Draw Wires": draw_middle,
-    "Draw Line": draw_line,
-    "Add Loop": add_loop,
-    "Move Seed": move_seed,
-    "Remove Wire": remove,
-    "Draw Guide Stroke": guide,
+GESTURES: dict[str, tuple[Callable[[Desk], None], str]] = {
+    "wires": (draw_middle, undo_steps_of_chains.DRAW),
+    "line": (draw_line, undo_steps_of_chains.DRAW),
+    "loop": (add_loop, undo_steps_of_chains.DRAW),
+    "seed": (move_seed, undo_steps_of_chains.EDIT),
+    "removal": (remove, undo_steps_of_chains.EDIT),
+    "stroke": (guide, undo_steps_of_chains.DRAW),
 }
+"""Gestures, and the titles of their steps of undo."""
 
 OPERATORS: tuple[tuple[str, dict[str, object]], ...] = (
     ("uv.unwrap", {}),
@@ -90,9 +91,7 @@ OPERATORS: tuple[tuple[str, dict[str, object]], ...] = (
     ("transform.translate", {"value": (0.0, 0.0, 0.1)}),
     ("mesh.seamwire_close_gaps", {}),
     ("mesh.seamwire_finish", {"finish": "CUT"}),
-    ("mesh.seamwire_mark", {"chains": "0 8"}),
     ("mesh.seamwire_repeat", {}),
-    ("mesh.seamwire_mark_seams_as", {}),
     ("mesh.seamwire_select_islands", {"which": "TO_CUT"}),
     ("mesh.seamwire_finish", {"finish": "SLIDE"}),
     ("mesh.seamwire_store", {"what": "MATERIALS"}),
@@ -115,18 +114,19 @@ def unwrapped(desk: Desk) -> Desk:
 
 
 @pytest.mark.parametrize(
-    "title",
+    "name",
     [
-        pytest.param(title, marks=[pytest.mark.smoke, pytest.mark.every_blender] if title == "Add Loop" else [])
-        for title in GESTURES
+        pytest.param(name, marks=[pytest.mark.smoke, pytest.mark.every_blender] if name == "loop" else [])
+        for name in GESTURES
     ],
 )
 def test_after_a_gesture_no_operator_from_before_it_is_adjusted(
-    unwrapped: Desk, title: str, capfd: pytest.CaptureFixture[str]
+    unwrapped: Desk, name: str, capfd: pytest.CaptureFixture[str]
 ) -> None:
     desk = unwrapped
     before = seams(desk.obj)
-    GESTURES[title](desk)
+    gesture, title = GESTURES[name]
+    gesture(desk)
     desk.ui.wait_until(lambda: not desk.running)
     after, steps = seams(desk.obj), undo_steps(capfd)
     strokes = desk.session.strokes
@@ -159,11 +159,12 @@ def test_a_loop_stays_whatever_operator_came_before_it(desk: Desk, name: str, op
     assert seams(desk.obj) == after
 
 
-@pytest.mark.parametrize("title", ["Add Loop", "Remove Wire"])
+@pytest.mark.parametrize("name", ["loop", "removal"])
 def test_f9_after_a_gesture_says_how_to_change_it_and_leaves_it(
-    unwrapped: Desk, title: str, monkeypatch: pytest.MonkeyPatch
+    unwrapped: Desk, name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    GESTURES[title](unwrapped)
+    gesture, title = GESTURES[name]
+    gesture(unwrapped)
     unwrapped.ui.wait_until(lambda: not unwrapped.running)
     after = seams(unwrapped.obj)
     monkeypatch.setitem(undo_steps_of_chains.HINTS, title, said := Said(("A hint",)))

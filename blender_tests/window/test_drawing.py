@@ -70,7 +70,7 @@ def test_a_chain_is_one_step_of_undo_named_for_what_it_did(desk: Desk, capfd: py
     ui.wait_until(lambda: len(session.wires) == 2)
     ui.key("RET")
     assert len(seams(desk.obj)) == 8
-    assert undo_steps(capfd)[-1] == "Draw Wires"
+    assert undo_steps(capfd)[-1] == "Draw Seamwires"
     ui.key("Z", ctrl=True)
     obj = bpy.data.objects[name]
     assert obj.mode == "EDIT"

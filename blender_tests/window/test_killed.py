@@ -14,7 +14,7 @@ from pathlib import Path
 import bpy
 import pytest
 import ui as driver
-from scene import ADDON, add_grid, chain, edit, seams
+from scene import ADDON, add_grid, chain, edit, mark_wires, seams
 from seamwire.view.edited_objects import edited
 
 pytestmark = pytest.mark.oldest_and_newest
@@ -26,14 +26,14 @@ sys.path.insert(0, os.environ["SEAMWIRE_TESTS"])
 import addon_utils, bpy
 from pathlib import Path
 from scene import add_grid
-assert addon_utils.enable(os.environ["SEAMWIRE_NAME"], default_set=True)
+seamwire = addon_utils.enable(os.environ["SEAMWIRE_NAME"], default_set=True)
 path = Path(os.environ["SEAMWIRE_FILE"])
 add_grid({side})
 bpy.ops.object.mode_set(mode="EDIT")
 for number in range(200):
     row, half = number % {side}, number // {side}
     first = row * {side} + 8 * half
-    assert bpy.ops.mesh.seamwire_mark(chains=f"{{first}} {{first + 8}}") == {{"FINISHED"}}
+    seamwire.mark(bpy.context.object, [[first, first + 8]])
     if number % 20 == 19:
         bpy.ops.wm.save_as_mainfile(filepath=str(path))
         path.with_suffix(".count").write_text(str(number + 1))
@@ -95,7 +95,7 @@ def test_blender_saves_what_was_drawn_by_itself_once_edit_mode_is_left(ui: drive
     ui.wait()
     with ui.override():
         edit()
-        bpy.ops.mesh.seamwire_mark(chains="36 44")
+        mark_wires(chains="36 44")
     edited.of(obj)
     with ui.override():
         bpy.ops.object.mode_set(mode="OBJECT")

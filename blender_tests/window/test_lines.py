@@ -41,7 +41,7 @@ def test_a_drag_over_the_mesh_draws_along_its_edges_in_one_step(desk: Desk, capf
     ui.event("LEFTMOUSE", "RELEASE")
     ui.wait_until(lambda: not desk.running)
     assert seams(desk.obj) == chain(*wanted)
-    assert undo_steps(capfd)[-1] == "Draw Line"
+    assert undo_steps(capfd)[-1] == "Draw Seamwires"
     ui.move(desk.at(20))
     pixels = ui.pixels()
     assert shows(pixels, desk.at(37, 38), RED)
@@ -132,7 +132,7 @@ def test_a_line_elsewhere_is_a_chain_of_its_own(desk: Desk, capfd: pytest.Captur
     ui.wait_until(lambda: not desk.running)
     both = sorted(chain(0, 1, 2, 3, 4) + chain(*range(36, 41)))
     assert seams(desk.obj) == both
-    assert undo_steps(capfd)[-2:] == ["Draw Wires", "Draw Line"]
+    assert undo_steps(capfd)[-2:] == ["Draw Seamwires", "Draw Seamwires"]
     ui.key("Z", ctrl=True)
     assert seams(desk.obj) == chain(0, 1, 2, 3, 4)
 

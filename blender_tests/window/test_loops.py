@@ -108,7 +108,7 @@ def test_a_strip_is_taken_up_to_the_seams_in_one_step(desk: Desk, capfd: pytest.
     stub(desk)
     bpy.ops.ed.undo_push(message="Before")
     assert take(desk, "STRIP", 40, 41) == sorted([*chain(*range(36, 44)), (34, 43)])
-    assert undo_steps(capfd)[-1] == "Add Loop"
+    assert undo_steps(capfd)[-1] == "Draw Seamwires"
     desk.ui.key("Z", ctrl=True)
     assert seams(desk.obj) == [(34, 43)]
 

@@ -263,7 +263,7 @@ def test_a_dragged_seed_takes_its_wires_along_in_one_step(desk: Desk, capfd: pyt
     assert 40 not in session.seeds()
     marked = seams(desk.obj)
     assert {v for edge in marked for v in edge} >= {36, 49, 44}
-    assert undo_steps(capfd)[-1] == "Move Seed"
+    assert undo_steps(capfd)[-1] == "Edit Seamwires"
     desk.ui.key("Z", ctrl=True)
     assert seams(desk.obj) == chain(*range(36, 45)), "one step"
     assert 40 in desk.session.seeds(), "the network follows Blender's undo"
@@ -330,7 +330,7 @@ def test_x_and_delete_remove_the_wire_under_the_cursor(desk: Desk, key: str, cap
     assert session.picture.one(Role.HOVERED) is not None
     ui.key(key)
     assert seams(desk.obj) == chain(*range(9))
-    assert undo_steps(capfd)[-1] == "Remove Wire"
+    assert undo_steps(capfd)[-1] == "Edit Seamwires"
     ui.key("Z", ctrl=True)
     assert seams(desk.obj) == sorted(chain(*range(9)) + chain(*range(36, 45)))
     nothing_else_changed(desk)
@@ -371,7 +371,7 @@ def test_a_kept_wire_takes_its_other_path(cone: Desk, capfd: pytest.CaptureFixtu
     ui.wait_until(lambda: not cone.running)
     assert session.wires[0].vertices == other
     assert seams(cone.obj) == sorted((min(a, b), max(a, b)) for a, b in pairwise(other))
-    assert undo_steps(capfd)[-1] == "Swap Path"
+    assert undo_steps(capfd)[-1] == "Edit Seamwires"
 
 
 @pytest.mark.smoke

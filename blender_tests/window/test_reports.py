@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 import pytest
 from desk import Desk, draw
-from scene import chain, seams, snapshot
+from scene import chain, mark_wires, seams, snapshot
 from seamwire.core.drawing.picture import Role
 from seamwire.mesh import uv_map
 
@@ -137,7 +137,7 @@ def test_operators_leave_the_select_mode_and_the_selection(desk: Desk, mode: str
     bmesh.update_edit_mesh(desk.obj.data)
     before = snapshot(desk.obj, with_seams=False)
     with ui.override():
-        bpy.ops.mesh.seamwire_mark(chains="36 44; 4 76")
+        mark_wires(chains="36 44; 4 76")
     assert snapshot(desk.obj, with_seams=False) == before
 
 
@@ -168,9 +168,7 @@ def test_a_face_that_surrounds_another_one_can_be_cut_and_unwrapped(desk: Desk) 
         ]
         bmesh.ops.dissolve_faces(bm, faces=horseshoe)
         bmesh.update_edit_mesh(desk.obj.data)
-        assert bpy.ops.mesh.seamwire_mark(chains="0 80", along="SURFACE", finish="CUT", metric="euclidean") == {
-            "FINISHED"
-        }
+        assert mark_wires(chains="0 80", along="SURFACE", finish="CUT", metric="euclidean")
         assert bpy.ops.mesh.seamwire_unwrap() == {"FINISHED"}
         bpy.ops.mesh.seamwire_select_islands(which="TO_CUT")
     desk.obj.update_from_editmode()

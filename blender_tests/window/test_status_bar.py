@@ -4,6 +4,7 @@
 import bpy
 import pytest
 from desk import Desk, choose
+from seamwire.mesh.versions import IS_OLD
 from seamwire.ui import status_bar
 
 pytestmark = pytest.mark.every_blender
@@ -65,7 +66,7 @@ def test_it_follows_the_keys_of_the_user(desk: Desk, shown: list[str]) -> None:
         item.active = True
 
 
-@pytest.mark.skipif(bpy.app.version < (4, 2, 0), reason="Blender does not tell which operators run")
+@pytest.mark.skipif(IS_OLD, reason="Blender does not tell which operators run")
 def test_while_another_operator_runs_it_shows_nothing_of_ours(desk: Desk, shown: list[str]) -> None:
     desk.choose()
     with desk.ui.override():

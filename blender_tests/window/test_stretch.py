@@ -155,7 +155,7 @@ def test_a_chain_unwraps_what_it_changed_in_its_own_step_of_undo(desk: Desk, cap
     desk.choose()
     before = uvs(desk)
     draw(desk, 36, 44)
-    assert undo_steps(capfd)[-2:] == ["Lay out", "Draw Wires"]
+    assert undo_steps(capfd)[-2:] == ["Lay out", "Draw Seamwires"]
     after = uvs(desk)
     assert not np.array_equal(before, after)
     faces = after.reshape(8, 8, 4, 2)

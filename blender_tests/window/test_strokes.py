@@ -109,7 +109,7 @@ def test_between_chains_a_stroke_is_a_step_of_blenders_undo_and_kept_with_the_me
     choose(fine.ui)
     draw(fine, GATE)
     fine.ui.wait_until(lambda: not fine.running)
-    assert undo_steps(capfd)[-1] == "Draw Guide Stroke"
+    assert undo_steps(capfd)[-1] == "Draw Seamwires"
     assert seams(fine.obj) == []
     edited.clear()
     fine.ui.move(fine.at(LEFT))
@@ -134,7 +134,7 @@ def test_x_removes_the_stroke_under_the_cursor(fine: Desk, capfd: pytest.Capture
     ui.move(at(fine, (15.0, 23.2)))
     ui.key("X")
     assert fine.session.strokes == ()
-    assert undo_steps(capfd)[-1] == "Remove Stroke"
+    assert undo_steps(capfd)[-1] == "Edit Seamwires"
     computed(fine)
     assert wire(fine) == STRAIGHT
 

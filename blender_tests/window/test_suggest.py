@@ -13,7 +13,7 @@ import pytest
 import stored
 import ui as driver
 from desk import choose, leave, undo_steps
-from scene import add_suzanne, edit, head, seams, snapshot
+from scene import add_suzanne, edit, head, mark_wires, seams, snapshot
 from seamwire.core.base import native
 from seamwire.mesh.seam_islands import island_count
 from seamwire.mesh.suggestion import Suggestion
@@ -284,7 +284,7 @@ def test_a_wire_that_is_marked_meanwhile_stays_after_saving(
     begin(ui, along="EDGES", unwrap=False)
     ui.wait_until(lambda: bool(waiting.found))
     with ui.override():
-        assert bpy.ops.mesh.seamwire_mark(chains=f"{start} {end}") == {"FINISHED"}
+        assert mark_wires(chains=f"{start} {end}")
     marked = stored.chains(suzanne)
     assert len(marked) == 1
     waiting.end()

@@ -6,10 +6,11 @@ import bpy
 import numpy as np
 import pytest
 from desk import Desk, drag, draw
-from scene import chain, seams
+from scene import chain, mark_wires, seams
 from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
 from seamwire.mesh.settings import settings
+from seamwire.mesh.versions import IS_OLD
 from stored import agree
 
 ROW = chain(*range(36, 45))
@@ -28,7 +29,7 @@ def view_selected(desk: Desk) -> None:
     ui.move(desk.at(60))
     ui.key("NUMPAD_PERIOD")
     if numbers(desk) == list(range(len(numbers(desk)))):
-        assert bpy.app.version >= (4, 0, 0)
+        assert not IS_OLD
         for vertex in bmesh.from_edit_mesh(desk.obj.data).verts:
             vertex.index = 0
 
@@ -99,7 +100,7 @@ def test_wires_across_the_surface_are_snapped_cut_and_slid(desk: Desk, finish: s
     before = seams(obj)
     view_selected(desk)
     with ui.override():
-        bpy.ops.mesh.seamwire_mark(chains="72 80")
+        mark_wires(chains="72 80")
     assert seams(obj) == sorted({*before, *chain(*range(72, 81))})
 
 

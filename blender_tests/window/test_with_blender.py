@@ -13,7 +13,7 @@ import pytest
 import stored
 import ui as driver
 from desk import ORANGE, Desk, choose, dismiss, draw, shows, undo_steps
-from scene import chain, edit, seams
+from scene import chain, edit, mark_wires, seams
 from seamwire.core.drawing.picture import Role, SeedRole
 from seamwire.core.drawing.session import Session
 from seamwire.core.storage.serialization import Archive
@@ -464,7 +464,7 @@ def test_a_wire_that_a_script_marks_within_a_chain_is_saved_with_the_chain(
 ) -> None:
     live(desk)
     with desk.ui.override():
-        assert bpy.ops.mesh.seamwire_mark(chains="0 8") == {"FINISHED"}
+        assert mark_wires(chains="0 8")
     bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "a.blend"), copy=True)
     stored.forget(monkeypatch)
     assert stored.chains(desk.obj) == [tuple(range(9)), tuple(range(36, 45))]
@@ -784,7 +784,7 @@ def test_blenders_steps_of_undo_are_one_a_deed(desk: Desk, capfd: pytest.Capture
     draw(desk, 0, 8)
     desk.ui.move(desk.at(4))
     desk.ui.key("X")
-    assert undo_steps(capfd)[-3:] == ["Draw Wires", "Draw Wires", "Remove Wire"]
+    assert undo_steps(capfd)[-3:] == ["Draw Seamwires", "Draw Seamwires", "Edit Seamwires"]
     name = desk.obj.name
     for expected in (chain(*range(9)) + chain(36, 37, 38, 39, 40), chain(36, 37, 38, 39, 40), []):
         desk.ui.key("Z", ctrl=True)

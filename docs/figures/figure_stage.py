@@ -153,6 +153,8 @@ class Stage:
         self._view = float(np.degrees(np.arctan2(y, x))), float(np.clip(np.degrees(np.arcsin(z)), -70.0, 70.0))
 
     def _add(self, points: NDArray, triangles: NDArray, corner_colors: NDArray, smooth: bool) -> None:
+        from seamwire.mesh.versions import IS_OLD
+
         mesh = bpy.data.meshes.new("Part")
         count = len(triangles)
         mesh.vertices.add(len(points))
@@ -161,7 +163,7 @@ class Stage:
         mesh.loops.foreach_set("vertex_index", np.ascontiguousarray(triangles, dtype=np.int32).ravel())
         mesh.polygons.add(count)
         mesh.polygons.foreach_set("loop_start", np.arange(0, 3 * count, 3, dtype=np.int32))
-        if bpy.app.version < (4, 1, 0):
+        if IS_OLD:
             mesh.polygons.foreach_set("loop_total", np.full(count, 3, dtype=np.int32))
         mesh.polygons.foreach_set("use_smooth", np.full(count, smooth))
         attribute = mesh.color_attributes.new("Color", "FLOAT_COLOR", "CORNER")

@@ -114,6 +114,8 @@ def tool(film: Film) -> None:
 
 def cut(film: Film) -> None:
     """Take what becomes of a wire over irregular triangles: snapped to edges, and cut into the faces."""
+    import seamwire
+
     film.filming = False
     stage(film)
     bpy.ops.object.mode_set(mode="OBJECT")
@@ -130,7 +132,7 @@ def cut(film: Film) -> None:
     film.ui.view.view_location = (0.2, 0.0, 0.12)
     film.ui.view.view_distance = 1.7
     with film.ui.override():
-        bpy.ops.mesh.seamwire_mark(chains=" ".join(map(str, seeds)), along="SURFACE")
+        seamwire.mark(bpy.context.object, [seeds], along="SURFACE")
     settings().along = "SURFACE"
     film.at = aside(film)
     for name, what in (("snapped", None), ("cut", partial(bpy.ops.mesh.seamwire_finish, finish="CUT"))):

@@ -21,6 +21,7 @@ from ..core.base.triangulation import without_flat_triangles
 from ..core.network.picks import vertices_of
 from ..core.seams.gaps import triangles_at
 from ..core.storage.wire_labels import EdgeLabels
+from .versions import IS_OLD
 
 if TYPE_CHECKING:
     from mathutils import Matrix
@@ -89,7 +90,7 @@ class Cage:
         count, bm = self._counts[0], self.bm
         for pick in picks:
             for vertex in vertices_of(pick):
-                if vertex >= count:
+                if not 0 <= vertex < count:
                     return f"There is no vertex {vertex}: the mesh has {count}, numbered from 0"
                 if bm.verts[vertex].hide:
                     return f"Vertex {vertex} is hidden"
@@ -273,9 +274,9 @@ def read(obj: bpy.types.Object) -> Arrays:
         Where no edge is visible.
     """
     obj.update_from_editmode()  # the mesh then has the edit mesh's data, by the same numbers
-    # From 4.1 on, all data of a mesh are attributes, which can be read ten times as fast as its items. But in edit mode
-    # the mesh does not show them. A copy does, and costs nothing because it shares the data.
-    shared = obj.data.copy() if bpy.app.version >= (4, 1, 0) else None
+    # In newer versions, all data of a mesh are attributes. Reading them is ten times as fast as reading items.
+    # In edit mode the mesh does not show them, but a copy does. It shares the data and costs nothing.
+    shared = None if IS_OLD else obj.data.copy()
     try:
         columns = _Items(obj.data) if shared is None else _Attributes(shared)
         points = columns.points() if _on_basis(obj) else _shape(obj)
@@ -303,7 +304,7 @@ def read_evaluated(obj: bpy.types.Object) -> tuple[Arrays, NDArray[np.bool_]]:
     evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
     mesh = evaluated.to_mesh()
     try:
-        columns = _Items(mesh) if bpy.app.version < (4, 1, 0) else _Attributes(mesh)
+        columns = _Items(mesh) if IS_OLD else _Attributes(mesh)
         return _arrays(obj, mesh, columns, columns.points()), columns.flags("vertices", "select")
     finally:
         evaluated.to_mesh_clear()
@@ -355,7 +356,7 @@ def _shape(obj: bpy.types.Object) -> NDArray[np.float32]:
 
 
 class _Items:
-    """The data of a mesh, read from its items."""
+    """The data of a mesh, read from its items. Blender 3.4 has no attributes for most of them."""
 
     def __init__(self, mesh: bpy.types.Mesh) -> None:
         self._mesh = mesh

@@ -14,7 +14,6 @@ import numpy as np
 from mathutils.bvhtree import BVHTree
 
 from ..core.drawing.drawing import Drawing
-from ..core.drawing.options import Options
 from ..core.drawing.session import Session
 from ..core.network.network import edges_after
 from ..core.network.picks import FacePoint
@@ -28,21 +27,20 @@ from ..core.storage.wire_labels import EdgeLabels, Found, Places
 from ..words.notices import Notices
 from . import edit_mesh
 from .auto import auto_for
-from .settings import mirror_axes, snapshot
+from .settings import ToolOptions, mirror_axes, snapshot
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Sequence
 
     from numpy.typing import NDArray
 
+    from ..core.drawing.options import Options
     from ..core.network.network import Network
     from ..core.network.strokes import Stroke
     from ..core.network.wires import Wire
     from ..core.solver.defaults import Auto
     from .settings import SeamwireSettings
 
-FIRST_VERSION = "seamwire"
-"""The mesh's custom property that held the network in the first version."""
 _MOMENT = 0.1
 """Seconds for which the interface may wait."""
 
@@ -105,7 +103,7 @@ class ObjectSession:
             Drawing(
                 self.make_live,
                 self.arrays.points,
-                options or Options(mirror=mirror_axes(obj.data)),
+                options or ToolOptions(mirror=mirror_axes(obj.data)),
                 edges=self.arrays.edges,
                 to_object=self.arrays.to_object,
                 triangles=self.arrays.triangles,
@@ -255,19 +253,9 @@ class ObjectSession:
         self._labels = labels
         self._found = Found() if self._newer else label_reader.read(labels, self._archive, self.places)
         network = self._found.network
-        stored = self.cage.mesh.get(FIRST_VERSION)
-        if isinstance(stored, str) and not len(labels.labels):
-            network, problem = serialization.load_first_version(
-                stored, self.arrays.points, self.arrays.edges, self.arrays.seams
-            )
-            if problem:
-                self.notices.add("WARNING", str(problem))
         strokes = tuple(on_mesh(one, self.arrays.points, self.arrays.triangles) for one in network.strokes)
         self._set_seams(self.arrays.seams, labels)
         self.session.adopt(replace(network, strokes=strokes), self.plain_seams)
-        if network is not self._found.network:
-            # It did not tell which edges were seams before: those of its wires are taken for theirs.
-            self._found = Found(self.session.network)
         if not self._damaged:
             self._store()
         self.session.recall_cuts(_taken_cuts.recall(self.session.network, self.places))
@@ -309,8 +297,6 @@ class ObjectSession:
         try:
             if mesh.seamwire_wires != text:
                 mesh.seamwire_wires = text
-            if text and FIRST_VERSION in mesh:
-                del mesh[FIRST_VERSION]
         except AttributeError:
             # While Blender asks what is under the mouse nothing may be written; after undo the records may be others by then.
             self._unstored = True

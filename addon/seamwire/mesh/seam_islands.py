@@ -83,9 +83,8 @@ def store(obj: bpy.types.Object, kind: str) -> int:
     obj
         In edit mode.
     kind
-        ``ATTRIBUTE``: as the face attribute `ATTRIBUTE`, from 0, largest first. ``FACE_SETS``: as the sculpt mode's face
-        sets, from 1. ``MATERIALS``: as materials in new slots, with different hues for neighbors. Hidden faces keep their values. Without
-        a value they get -1, a separate set, or an empty slot.
+        ``ATTRIBUTE``: as the face attribute `ATTRIBUTE`, from 0, largest first. ``MATERIALS``: as materials in new slots, with
+        different hues for neighbors. Hidden faces keep their values. Without a value they get -1, or an empty slot.
 
     Raises
     ------
@@ -102,13 +101,9 @@ def store(obj: bpy.types.Object, kind: str) -> int:
             obj.data.materials.append(None)
         numbers = np.array(_material_slots(obj, sorted(set(hues.tolist()))))[hues[labels]]
     else:
-        numbers = labels + (kind == "FACE_SETS")
+        numbers = labels
     bm = edit_mesh.edit_bmesh(obj.data)
-    layer = None
-    if kind == "ATTRIBUTE":
-        layer = _face_layer(obj, bm, ATTRIBUTE, hidden=-1)
-    elif kind == "FACE_SETS":
-        layer = _face_layer(obj, bm, ".sculpt_face_set", hidden=count + 1)
+    layer = _face_layer(obj, bm) if kind == "ATTRIBUTE" else None
     for face, number in zip(polygons.tolist(), numbers[first].tolist(), strict=True):
         if layer is None:
             bm.faces[face].material_index = number
@@ -118,18 +113,18 @@ def store(obj: bpy.types.Object, kind: str) -> int:
     return count
 
 
-def _face_layer(obj: bpy.types.Object, bm: bmesh.types.BMesh, name: str, hidden: int) -> bmesh.types.BMLayerItem:
-    """Return the layer of the faces for whole numbers of this name; raises ValueError where an attribute of another kind has it."""
-    layer = bm.faces.layers.int.get(name)
+def _face_layer(obj: bpy.types.Object, bm: bmesh.types.BMesh) -> bmesh.types.BMLayerItem:
+    """Return the layer for the numbers of islands. Raise ValueError if an attribute of another kind has its name."""
+    layer = bm.faces.layers.int.get(ATTRIBUTE)
     if layer is not None:
         return layer
-    other = obj.data.attributes.get(name)
+    other = obj.data.attributes.get(ATTRIBUTE)
     if other is not None:
         kind = f"{other.domain.lower()}, {other.data_type.lower().replace('_', ' ')}"
-        raise ValueError(f"{obj.name} has an attribute {name!r} of another kind ({kind}): rename it")
-    layer = bm.faces.layers.int.new(name)
+        raise ValueError(f"{obj.name} has an attribute {ATTRIBUTE!r} of another kind ({kind}): rename it")
+    layer = bm.faces.layers.int.new(ATTRIBUTE)
     for face in bm.faces:
-        face[layer] = hidden
+        face[layer] = -1
     return layer
 
 

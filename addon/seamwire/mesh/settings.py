@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
+from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING
 
 import bpy
@@ -11,6 +11,7 @@ import bpy
 from ..core.drawing.options import Options
 from ..core.solver.defaults import CLAMP_PERCENTILE, CLAMP_RANGE, PLACED, STRENGTH_RANGE, STRENGTHS
 from ..words.notices import Notices
+from .redraw import redraw_views
 from .registration import classes, together
 
 if TYPE_CHECKING:
@@ -47,18 +48,14 @@ METRIC_ITEMS = (
         "Follow ridges, valleys and lines of curvature. Across the surface, concave creases come first",
         0,
     ),
-    ("campen", "Principal Directions", "Follow the directions of curvature (Campen, Bommes and Kobbelt)", 1),
-    ("pottmann_kovacs", "Surface Normals", "Avoid changes of the normal (Pottmann and Kovacs)", 2),
     (
         "concave",
         "Concave Creases",
         "Follow concave creases, where people usually cut",
-        4,
+        1,
     ),
-    ("euclidean", "Shortest Path", "Run as short as possible and ignore the shape", 3),
+    ("euclidean", "Shortest Path", "Run as short as possible and ignore the shape", 2),
 )
-TOOL_METRIC_ITEMS = tuple(item for item in METRIC_ITEMS if item[0] in {"feature", "concave", "euclidean"})
-"""The metrics that the tool offers. Scripts can use all of them."""
 STRETCH_ITEMS = (
     ("ANGLE", "Angle", "How much the UV map stretches faces in one direction more than in the other", 1),
     ("AREA", "Area", "How much larger or smaller faces are in the UV map than on average", 2),
@@ -81,13 +78,10 @@ listeners: list[Callable[[], None]] = []
 """Functions to call when a setting has changed, so that the drawing follows at once."""
 
 
-def _changed(_settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+def _changed(_settings: bpy.types.PropertyGroup, _context: bpy.types.Context) -> None:
     for listener in tuple(listeners):
         listener()
-    for window in context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                area.tag_redraw()
+    redraw_views()
 
 
 def strength_property(along: Along) -> object:
@@ -122,9 +116,7 @@ class SeamwireSettings(bpy.types.PropertyGroup):
         description="Offer the wire that is straight on screen first",
         update=_changed,
     )
-    metric: bpy.props.EnumProperty(
-        name="Metric", description="What wires follow", items=TOOL_METRIC_ITEMS, update=_changed
-    )
+    metric: bpy.props.EnumProperty(name="Metric", description="What wires follow", items=METRIC_ITEMS, update=_changed)
     clamp: bpy.props.FloatProperty(
         name="Feature Percentile",
         description="Clip feature strength at this percentile, so that noise does not dominate",
@@ -209,7 +201,29 @@ class SeamwireSettings(bpy.types.PropertyGroup):
     )
 
 
-def snapshot(settings: SeamwireSettings, mesh: bpy.types.Mesh | None = None, auto: Auto = PLACED) -> Options:
+@dataclass(frozen=True)
+class ToolOptions(Options):
+    """A snapshot of all settings: those of drawing, and those of the views.
+
+    Parameters
+    ----------
+    heat, shown_metric
+        What colors faces, and which metric that and the other views show.
+    show_crests, show_silhouette, show_ellipses, show_paths, show_bands, show_invalid
+        Which views are shown.
+    """
+
+    heat: str = "NONE"
+    shown_metric: str = "MIN"
+    show_crests: bool = False
+    show_silhouette: bool = False
+    show_ellipses: bool = False
+    show_paths: bool = False
+    show_bands: bool = False
+    show_invalid: bool = False
+
+
+def snapshot(settings: SeamwireSettings, mesh: bpy.types.Mesh | None = None, auto: Auto = PLACED) -> ToolOptions:
     """Return the settings as they are now.
 
     Parameters
@@ -221,12 +235,13 @@ def snapshot(settings: SeamwireSettings, mesh: bpy.types.Mesh | None = None, aut
     auto
         The values that Auto stands for on that mesh.
     """
-    values = {field.name: _exact(getattr(settings, field.name)) for field in fields(Options) if field.name != "mirror"}
-    values["metric"] = values["metric"] or "feature"  # one that was removed is stored as nothing
+    values = {
+        field.name: _exact(getattr(settings, field.name)) for field in fields(ToolOptions) if field.name != "mirror"
+    }
     for name, best in auto._asdict().items():
         if values[name] == "AUTO":
             values[name] = best
-    return Options(**values, mirror=() if mesh is None else mirror_axes(mesh))
+    return ToolOptions(**values, mirror=() if mesh is None else mirror_axes(mesh))
 
 
 def mirror_axes(mesh: bpy.types.Mesh) -> tuple[int, ...]:
@@ -239,15 +254,9 @@ def _exact(value: object) -> object:
     return float(f"{value:.7g}") if isinstance(value, float) else value
 
 
-def preferences(context: bpy.types.Context | None = None) -> bpy.types.AddonPreferences | bpy.types.PropertyGroup:
-    """Return the add-on's preferences.
-
-    If the add-on is enabled but not listed in Blender's preferences, as after ``blender --addons seamwire``, these are defaults.
-    Changes to them are not stored.
-    """
-    context = context or bpy.context
-    addon = context.preferences.addons.get(ADDON)
-    return context.window_manager.seamwire_preferences if addon is None else addon.preferences
+def preferences(context: bpy.types.Context | None = None) -> bpy.types.AddonPreferences:
+    """Return the add-on's preferences."""
+    return (context or bpy.context).preferences.addons[ADDON].preferences
 
 
 def settings(context: bpy.types.Context | None = None) -> SeamwireSettings:
@@ -257,16 +266,6 @@ def settings(context: bpy.types.Context | None = None) -> SeamwireSettings:
 
 notices = Notices()
 """Reports for the next chain."""
-
-
-def replace_removed_metric() -> None:
-    """Replace a stored metric that the tool no longer offers, and leave a notice."""
-    chosen = settings()
-    if not chosen.metric:
-        chosen.property_unset("metric")
-        notices.add(
-            "WARNING", "The tool no longer offers the metric in your preferences: wires follow Features instead"
-        )
 
 
 def tool_is_active(context: bpy.types.Context) -> bool:

@@ -11,6 +11,8 @@ import bpy
 import numpy as np
 from mathutils import Vector
 
+from .versions import IS_OLD
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 
@@ -24,8 +26,6 @@ if TYPE_CHECKING:
     Read = Callable[[bmesh.types.BMLoop], Value]
     Write = Callable[[bmesh.types.BMLoop, Value], None]
 
-_NESTED = (4, 2, 0)
-"""From this Blender on at the latest; 3.4 does not do it."""
 _SAME = 6
 """Digits that corners around a vertex have in common where they hang together, as in one island of a UV map."""
 
@@ -34,7 +34,7 @@ def stiff_vertices(cage: Cage, vertices: Iterable[int], seams: Collection[Edge])
     """Return those of some vertices that must stay: on sharp and creased edges, between materials, on seams other than those given."""
     bm = cage.bm
     layers = bm.edges.layers
-    crease = layers.crease.active if hasattr(layers, "crease") else layers.float.get("crease_edge")
+    crease = layers.crease.active if IS_OLD else layers.float.get("crease_edge")
 
     def holds(edge: bmesh.types.BMEdge) -> bool:
         one, two = sorted(vert.index for vert in edge.verts)
@@ -87,7 +87,10 @@ def _of_key(
 
 
 def _keys_that_follow(obj: bpy.types.Object) -> set[int]:
-    """Return the numbers of the shape keys that Blender moves with the edited one: those relative to it, in later Blenders to such too."""
+    """Return the numbers of the shape keys that Blender moves with the edited one.
+
+    These are the keys relative to it. Newer versions also move keys relative to these.
+    """
     keys = obj.data.shape_keys
     if keys is None or not keys.use_relative:
         return set()
@@ -101,7 +104,7 @@ def _keys_that_follow(obj: bpy.types.Object) -> set[int]:
             block = block.relative_key
             if block == edited:
                 return True
-            if bpy.app.version < _NESTED:
+            if IS_OLD:
                 break
         return False
 

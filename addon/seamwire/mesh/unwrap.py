@@ -20,15 +20,17 @@ import bpy
 import numpy as np
 
 from ..core.base import native
+from ..core.base.components import components
 from ..core.base.geometry import triangle_areas
 from ..core.islands.copies import ShapedIsland, shaped_islands
 from ..core.islands.map_faults import NO_FAULTS, MapFaults, MappedSurface, find_faults, joined
 from ..core.islands.rounded_flips import turn_back
 from ..core.islands.straight_corners import CornerRing, find_straight
-from ..core.islands.uv_islands import NewIsland, boxes_of, families, in_rows, place, split_edges, uv_areas
+from ..core.islands.uv_islands import NewIsland, boxes_of, in_rows, place, split_edges, uv_areas
 from . import edit_mesh, uv_map
 from .seam_islands import labels_of
 from .uv_stacks import Stack, stacked
+from .versions import IS_OLD
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -142,7 +144,7 @@ class _Map:
         visible = self._of_face[corners.faces] >= 0
         pairs, torn = split_edges(corners.vertices, np.where(visible, corners.edges, -1), corners.following, self._uvs)
         islands = self._of_face[corners.faces[pairs]]
-        self._families = families(self.count, islands[~torn])
+        self._families = components(self.count, islands[~torn])
         edges = corners.edges[pairs[:, 0]]
         odd = (torn != seams[edges]) & (known[edges] != self._signs(seams[edges]))
         odd |= known[edges] == JOINED
@@ -536,8 +538,8 @@ def _pack(context: bpy.types.Context, faces: Mapping[_Map, NDArray[np.integer]],
     settings = context.tool_settings
     sync = settings.use_uv_select_sync
     options: dict[str, object] = {"rotate": not layout.upright, "margin": _MARGIN}
-    # Newer versions of Blender can turn a rectangle to any angle. Older ones turn its sides along the axes.
-    if layout.straight and "rotate_method" in bpy.ops.uv.pack_islands.get_rna_type().properties:
+    # Newer versions of Blender can turn a rectangle to any angle. Blender 3.4 turns its sides along the axes.
+    if layout.straight and not IS_OLD:
         options["rotate_method"] = "AXIS_ALIGNED"
     with _only_selected(context, faces):
         # Then the UVs of the selected faces count as selected.

@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 
 from . import edit_mesh
+from .versions import IS_OLD
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -114,7 +115,7 @@ def read_uvs(obj: bpy.types.Object) -> NDArray[np.float32] | None:
 
 @contextmanager
 def _copied(obj: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
-    """Copy the mesh, which itself shows no UVs in edit mode; from 4.1 on a copy shares the data and costs nothing."""
+    """Copy the mesh, which itself shows no UVs in edit mode; in newer versions a copy shares the data and costs nothing."""
     obj.update_from_editmode()
     mesh = obj.data.copy()
     try:
@@ -154,7 +155,7 @@ def _uvs(mesh: bpy.types.Mesh) -> NDArray[np.float32] | None:
 
 
 def _column(layer: bpy.types.MeshUVLoopLayer) -> tuple[bpy.types.bpy_prop_collection, str]:
-    return (layer.uv, "vector") if hasattr(layer, "uv") else (layer.data, "uv")
+    return (layer.data, "uv") if IS_OLD else (layer.uv, "vector")
 
 
 def _pinned(mesh: bpy.types.Mesh) -> NDArray[np.bool_]:
@@ -162,8 +163,8 @@ def _pinned(mesh: bpy.types.Mesh) -> NDArray[np.bool_]:
     layer = mesh.uv_layers.active
     if layer is None:
         return pinned
-    # Newer versions of Blender keep pins in an attribute, which is empty while nothing is pinned.
-    items, name = (layer.pin, "value") if hasattr(layer, "pin") else (layer.data, "pin_uv")
+    # The attribute of newer versions is empty while nothing is pinned.
+    items, name = (layer.data, "pin_uv") if IS_OLD else (layer.pin, "value")
     if len(items) == len(pinned):
         items.foreach_get(name, pinned)
     return pinned

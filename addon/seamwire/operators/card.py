@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import bpy
 
+from ..mesh.redraw import redraw_views
 from ..mesh.registration import classes, together
 from ..mesh.settings import preferences, tool_is_active
 from .report import running
@@ -116,10 +117,7 @@ def close(context: bpy.types.Context) -> None:
     chosen = preferences(context)
     chosen.show_card, chosen.chains_drawn = False, 0
     context.preferences.is_dirty = True
-    for window in context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                area.tag_redraw()
+    redraw_views()
 
 
 _CLASSES = (MESH_OT_seamwire_card, SEAMWIRE_GT_card, SEAMWIRE_GGT_card)

@@ -136,13 +136,13 @@ def click(state: ChainState, given: Given) -> None:
     if action is Action.NEW_CHAIN:
         session.start(snap)
         session.hover(snap)
-        state.record.note(undo_steps.DRAW_WIRES)
+        state.record.note(undo_steps.DRAW)
     elif action is Action.BEND:
         session.bend(snap)
-        state.record.note(undo_steps.BEND_CUT)
+        state.record.note(undo_steps.EDIT)
     elif action is Action.LOOP and _is_loop(state, session, snap, event):
         session.loop(snap)
-        state.record.note(undo_steps.ADD_LOOP)
+        state.record.note(undo_steps.DRAW)
     elif session.seed is None and not session.waiting_clicks and snap.to in {"SEED", "WIRE"}:
         # Whether it is a click or the beginning of a drag is known when the button or the mouse has moved.
         session.hover(snap)
@@ -151,7 +151,7 @@ def click(state: ChainState, given: Given) -> None:
         state.hold = LineHold(event.type, view, snap, place)
     else:
         session.click(snap)
-        state.record.note(undo_steps.DRAW_WIRES)
+        state.record.note(undo_steps.DRAW)
 
 
 def _is_loop(state: ChainState, session: Session, snap: Snap, event: bpy.types.Event) -> bool:
@@ -187,10 +187,10 @@ def remove(state: ChainState, given: Given) -> bool:
     state.draw_on(view)
     if wire is not None:
         view.session.drop(wire)
-        state.record.note(undo_steps.REMOVE_WIRE)
+        state.record.note(undo_steps.EDIT)
     elif stroke is not None:
         view.session.erase(stroke)
-        state.record.note(undo_steps.REMOVE_STROKE)
+        state.record.note(undo_steps.EDIT)
     rehover(state, given.place)
     return True
 
@@ -204,5 +204,5 @@ def retrace(state: ChainState, given: Given) -> bool:
     state.draw_on(view)
     view.session.hover(snap)
     view.session.retrace(snap.wire)
-    state.record.note(undo_steps.RETRACE)
+    state.record.note(undo_steps.EDIT)
     return True

@@ -47,7 +47,7 @@ class ChainRecord:
     def __init__(self, notices: Notices) -> None:
         self._notices = notices
         self._before = Network()
-        self._titles: list[str] = []
+        self._titles: set[str] = set()
         self._is_saved = False
         self.view: ObjectView | None = None
         self.has_kept = False
@@ -58,8 +58,7 @@ class ChainRecord:
 
     def note(self, title: str) -> None:
         """Note what was done, by a title of `undo_steps`."""
-        if title not in self._titles:
-            self._titles.append(title)
+        self._titles.add(title)
 
     def trouble(self, reason: str) -> str:
         """Follow a change of the mesh by others.
@@ -113,7 +112,7 @@ class ChainRecord:
         for view in edited.views():
             view.session.end_chain()
         view, before = self.view, self._before
-        title = self._titles[0] if len(self._titles) == 1 else undo_steps.DRAW_SEVERAL
+        title = undo_steps.EDIT if self._titles == {undo_steps.EDIT} else undo_steps.DRAW
         self._titles.clear()
         if view is None or not (self._is_saved or Change(before, view.session.network)):
             self.view = None

@@ -42,17 +42,17 @@ class Hold(Protocol):
         """Cancel without a change."""
 
 
-class SeedHold:
-    """A seed or a wire: a click begins or ends a chain there, a drag moves the seed, or one that it puts into the wire.
+class _ClickHold:
+    """A hold that is a click until the mouse has moved.
 
     Parameters
     ----------
     button
-        Which.
+        The button.
     view
-        The object it is on.
+        The object under the mouse.
     snap
-        The dragged thing.
+        The pick under the mouse.
     place
         Where the button was pressed.
     """
@@ -62,7 +62,16 @@ class SeedHold:
         self._view = view
         self._snap = snap
         self._place = place
-        self._dragging = False
+
+    def _click(self) -> str:
+        self._view.session.click(self._snap)
+        return undo_steps.DRAW
+
+
+class SeedHold(_ClickHold):
+    """A seed or a wire: a click begins or ends a chain there, a drag moves the seed, or one that it puts into the wire."""
+
+    _dragging = False
 
     def move(self, place: Place, threshold: float) -> bool:
         """Let the seed follow."""
@@ -80,9 +89,8 @@ class SeedHold:
         """Leave the seed there, or click."""
         if self._dragging:
             self._view.session.drag_end()
-            return undo_steps.MOVE_SEED
-        self._view.session.click(self._snap)
-        return undo_steps.DRAW_WIRES
+            return undo_steps.EDIT
+        return self._click()
 
     def cancel(self) -> None:
         """Let the seed go back."""
@@ -145,28 +153,11 @@ class Trail:
             self.triangles.append(triangle)
 
 
-class LineHold:
-    """The surface: a click adds a seed, or keeps the live wire; a drag draws a line that wires follow.
+class LineHold(_ClickHold):
+    """The surface: a click adds a seed, or keeps the live wire; a drag draws a line that wires follow."""
 
-    Parameters
-    ----------
-    button
-        Which.
-    view
-        The object it is on.
-    snap
-        The pick under the mouse.
-    place
-        Where the button was pressed.
-    """
-
-    def __init__(self, button: str, view: ObjectView, snap: Snap, place: Place) -> None:
-        self.button = button
-        self._view = view
-        self._snap = snap
-        self._place = place
-        self._trail: Trail | None = None
-        self._line: LineGesture | None = None
+    _trail: Trail | None = None
+    _line: LineGesture | None = None
 
     def move(self, place: Place, threshold: float) -> bool:
         """Draw on to where the mouse is now."""
@@ -202,12 +193,11 @@ class LineHold:
     def release(self) -> str:
         """Keep the wires that follow the line, or click."""
         if self._trail is None:
-            self._view.session.click(self._snap)
-            return undo_steps.DRAW_WIRES
+            return self._click()
         if self._line is None:
             return ""
         self._view.session.line_keep(self._line)
-        return undo_steps.DRAW_LINE
+        return undo_steps.DRAW
 
     def cancel(self) -> None:
         """Forget the line."""
@@ -272,7 +262,7 @@ class StrokeHold:
         self._view.session.draw_stroke(
             np.array(points), np.array(triangles), attracts=self._attracts, radius=self._view.stroke_radius
         )
-        return undo_steps.GUIDE_STROKE if self._attracts else undo_steps.AVOID_STROKE
+        return undo_steps.DRAW
 
     def cancel(self) -> None:
         """Forget it."""

@@ -168,7 +168,7 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
             return {"CANCELLED", "PASS_THROUGH"}
         if not restored:
             # The mesh may have a part of the wires.
-            undo_steps.push(undo_steps.DRAW_SEVERAL)
+            undo_steps.push(undo_steps.DRAW)
             self.report({"ERROR"}, f"Drawing failed, undo leads back: {error}")
             return {"FINISHED"}
         self.report({"ERROR"}, f"Drawing failed, and the mesh was restored: {error}")

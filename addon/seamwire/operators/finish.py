@@ -1,18 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operator that makes seams run exactly where kept wires run."""
+"""Makes seams run exactly where wires run: cuts wires into the mesh, or slides vertices onto them."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import bpy
 
 from ..words.names import count
-from .cut import cut_wires
+from ..words.reports import gaps, left_out
 from .edit_mesh_operator import EditMeshOperator, changing, description_of_item
-from .slide import slide_wires
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Collection, Mapping, Sequence
+
     from ..core.network.wires import Wire
     from ..mesh.object_session import ObjectSession
 
@@ -36,23 +37,18 @@ class MESH_OT_seamwire_finish(EditMeshOperator, bpy.types.Operator):
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Cut or slide the wires of all objects in Edit Mode."""
-        return finish_wires(self, context, self.finish)
+        from ..mesh import edit_mesh
 
-
-def finish_wires(operator: EditMeshOperator, context: bpy.types.Context, finish: Literal["CUT", "SLIDE"]) -> set[str]:
-    """Cut or slide the kept wires across the surface, and report what was done."""
-    from ..mesh import edit_mesh
-
-    wires = _wires_across(operator, context)
-    if not wires:
-        return {"CANCELLED"}
-    if finish == "CUT":
-        return cut_wires(operator, context, wires, kept=True)
-    with changing():
-        done = slide_wires(wires)
-        edit_mesh.live_unwrap(context)
-    operator.report({"INFO"}, f"{count(sum(map(len, wires.values())), 'wire')}: {done}")
-    return {"FINISHED"}
+        wires = _wires_across(self, context)
+        if not wires:
+            return {"CANCELLED"}
+        if self.finish == "CUT":
+            return cut_wires(self, context, wires, kept=True)
+        with changing():
+            done = slide_wires(wires)
+            edit_mesh.live_unwrap(context)
+        self.report({"INFO"}, f"{count(sum(map(len, wires.values())), 'wire')}: {done}")
+        return {"FINISHED"}
 
 
 def _wires_across(operator: EditMeshOperator, context: bpy.types.Context) -> dict[ObjectSession, list[Wire]]:
@@ -66,6 +62,82 @@ def _wires_across(operator: EditMeshOperator, context: bpy.types.Context) -> dic
     if meshes and not wires:
         operator.report({"ERROR"}, "No kept wire runs across the surface")
     return wires
+
+
+def cut_wires(
+    operator: bpy.types.Operator,
+    context: bpy.types.Context,
+    wires: Mapping[ObjectSession, Sequence[Wire]],
+    kept: bool = False,
+    crumb: float = 0.0,
+    live_unwrap: bool = True,
+    first: Callable[[], None] = lambda: None,
+) -> set[str]:
+    """Cut wires across the surface into meshes, and report the result.
+
+    Wires that do not run over their mesh are left out. If no wire of a mesh can be cut, a warning names the mesh, and the others are
+    cut. Every cut is tried on a copy before the first mesh changes.
+
+    Parameters
+    ----------
+    operator
+        Reports the result.
+    wires
+        The wires of each mesh. Its session ends.
+    kept
+        Whether meshes already have these wires. Their snapped edges stop being seams.
+    crumb
+        Islands smaller than this fraction of the area of a mesh are merged into a larger one.
+    live_unwrap
+        Whether to follow Blender's Live Unwrap.
+    first
+        Changes meshes before they are cut, after every cut was tried. It must not renumber them.
+
+    Raises
+    ------
+    Halfway
+        If an error comes after a mesh has changed.
+    """
+    from ..core.seams.cut_nodes import CutError
+    from ..mesh import edit_mesh, finish
+
+    plans, problems = {}, []
+    for mesh, own in wires.items():
+        try:
+            if own:
+                plans[mesh] = finish.plan_cut(mesh, own)
+        except CutError as error:
+            problems.append(f"{mesh.obj.name}: {error}" if len(wires) > 1 else str(error))
+    if not plans:
+        operator.report({"ERROR"}, problems[0])
+        return {"CANCELLED"}
+    for problem in problems:
+        operator.report({"WARNING"}, problem if kept else f"{problem}: no wire was added")
+    with changing():
+        first()
+        cuts = [finish.cut(mesh, plan, wires[mesh], kept, crumb=crumb)[1] for mesh, plan in plans.items()]
+        if live_unwrap:
+            edit_mesh.live_unwrap(context)
+    uncut = sum(cut.uncut for cut in cuts)
+    if uncut:
+        operator.report({"WARNING"}, gaps(uncut))
+    missing = sum(cut.left_out for cut in cuts)
+    if missing:
+        operator.report({"WARNING"}, left_out(missing))
+    done = (
+        f"{count(sum(cut.wires for cut in cuts), 'wire')} cut",
+        f"{count(sum(len(cut.edges) for cut in cuts), 'edge')} marked",
+        count(sum(cut.vertices for cut in cuts), "new vertex", "new vertices"),
+    )
+    operator.report({"INFO"}, ", ".join(done))
+    return {"FINISHED"}
+
+
+def slide_wires(wires: Mapping[ObjectSession, Collection[Wire]]) -> str:
+    """Slide the vertices of kept wires onto the wires, and return a report. The sessions of the meshes end."""
+    from ..mesh import finish
+
+    return f"{count(sum(finish.slide(mesh, own)[1] for mesh, own in wires.items() if own), 'vertex', 'vertices')} moved"
 
 
 register, unregister = bpy.utils.register_classes_factory((MESH_OT_seamwire_finish,))

@@ -68,7 +68,7 @@ class MESH_OT_seamwire_close_gaps(EditMeshOperator, bpy.types.Operator):
 
     def _close(self, mesh: ObjectSession, gaps: list[Gap]) -> int:
         """Draw a wire and its mirror images over each gap that is still open, and return the number of wires."""
-        from ..words import seed_text
+        from ..words.scripted import draw_chain
 
         mesh.make_live.wait()
         session, closed = mesh.session, 0
@@ -77,7 +77,7 @@ class MESH_OT_seamwire_close_gaps(EditMeshOperator, bpy.types.Operator):
             new = [wire for wire in session.wires if wire not in before]
             if any(gap.end in edge for wire in new for edge in wire.claims()):
                 continue
-            for problem in seed_text.draw_chains(session, [[gap.end, gap.target]]):
+            for problem in draw_chain(session, (gap.end, gap.target)):
                 self.report({"WARNING"}, problem)
             closed += len(session.wires) > len(before) + len(new)
         return closed

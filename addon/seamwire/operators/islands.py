@@ -23,10 +23,45 @@ _FACES = 0.2
 """Below this length of the mean normal, an island has no clear front. A closed island has length 0."""
 
 
-class SelectingIslands(EditMeshOperator):
-    """Gives an operator the selecting of islands in all objects in Edit Mode."""
+class MESH_OT_seamwire_select_islands(EditMeshOperator, bpy.types.Operator):
+    """Select the islands that need work"""  # noqa: D400 - a tooltip
 
-    def select_islands_to_cut(self, context: bpy.types.Context) -> set[str]:
+    bl_idname = OPERATOR
+    bl_label = "Select Islands"
+
+    which: bpy.props.EnumProperty(
+        name="Which",
+        description="Islands to select",
+        items=(
+            ("TO_CUT", "Islands to Cut", "Islands that are not discs: closed ones, and those with holes or handles"),
+            ("WORST", "Worst Stretched Island", "The island that the UV map stretches most. The view turns to it"),
+        ),
+    )
+    kind: bpy.props.EnumProperty(
+        name="Stretch",
+        description="Kind of stretch; if not given, the one that the tool shows, or angles",
+        items=STRETCH_ITEMS,
+        options={"SKIP_SAVE"},
+    )
+
+    description = description_of_item("which")
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Show the settings that count."""
+        layout = self.layout
+        layout.use_property_split = True
+        layout.prop(self, "which")
+        if self.which == "WORST":
+            layout.prop(self, "kind")
+
+    def run(self, context: bpy.types.Context) -> set[str]:
+        """Select them."""
+        if self.which == "TO_CUT":
+            return self._select_islands_to_cut(context)
+        self.kind = self._stretch_kind(context)
+        return self._select_worst_island(context, self.kind)
+
+    def _select_islands_to_cut(self, context: bpy.types.Context) -> set[str]:
         """Select the faces of the islands that are not discs, and nothing else."""
         from ..mesh import edit_mesh
         from ..mesh.seam_islands import faces_to_cut
@@ -44,7 +79,7 @@ class SelectingIslands(EditMeshOperator):
             self.report({"INFO"}, "All islands are discs")
         return {"FINISHED"}
 
-    def select_worst_island(self, context: bpy.types.Context, kind: str) -> set[str]:
+    def _select_worst_island(self, context: bpy.types.Context, kind: str) -> set[str]:
         """Select the island that is stretched most, and turn the view to it.
 
         Parameters
@@ -72,54 +107,10 @@ class SelectingIslands(EditMeshOperator):
         self.report({"INFO"}, f"{obj.name}: stretched {2.0**worst.value:.2f} times, worst of {worst.count} islands")
         return {"FINISHED"}
 
-    def stretch_kind(self, context: bpy.types.Context) -> str:
+    def _stretch_kind(self, context: bpy.types.Context) -> str:
         """Return the kind of stretch: the operator's own if it was given, otherwise the one that the tool shows."""
         is_given = self.properties.is_property_set("kind")
         return "AREA" if not is_given and settings(context).heat == "AREA" else self.kind
-
-
-def kind_property() -> object:
-    """Return the property for the kind of stretch."""
-    return bpy.props.EnumProperty(
-        name="Stretch",
-        description="Kind of stretch; if not given, the one that the tool shows, or angles",
-        items=STRETCH_ITEMS,
-        options={"SKIP_SAVE"},
-    )
-
-
-class MESH_OT_seamwire_select_islands(SelectingIslands, bpy.types.Operator):
-    """Select the islands that need work"""  # noqa: D400 - a tooltip
-
-    bl_idname = OPERATOR
-    bl_label = "Select Islands"
-
-    which: bpy.props.EnumProperty(
-        name="Which",
-        description="Islands to select",
-        items=(
-            ("TO_CUT", "Islands to Cut", "Islands that are not discs: closed ones, and those with holes or handles"),
-            ("WORST", "Worst Stretched Island", "The island that the UV map stretches most. The view turns to it"),
-        ),
-    )
-    kind: kind_property()
-
-    description = description_of_item("which")
-
-    def draw(self, _context: bpy.types.Context) -> None:
-        """Show the settings that count."""
-        layout = self.layout
-        layout.use_property_split = True
-        layout.prop(self, "which")
-        if self.which == "WORST":
-            layout.prop(self, "kind")
-
-    def run(self, context: bpy.types.Context) -> set[str]:
-        """Select them."""
-        if self.which == "TO_CUT":
-            return self.select_islands_to_cut(context)
-        self.kind = self.stretch_kind(context)
-        return self.select_worst_island(context, self.kind)
 
 
 def _turn(view: bpy.types.RegionView3D, obj: bpy.types.Object, facing: Sequence[float]) -> None:

@@ -11,7 +11,6 @@ from .edit_mesh_operator import EditMeshOperator, changing, description_of_item
 
 ISLAND_ITEMS = (
     ("ATTRIBUTE", "Face Attribute", "Numbers from 0 in the attribute 'island', the largest island first", 0),
-    ("FACE_SETS", "Face Sets", "The face sets of Sculpt Mode", 1),
     ("MATERIALS", "Materials", "Up to twelve materials in new slots, so that neighbors differ", 2),
 )
 VIEW_ITEMS = (
@@ -38,43 +37,7 @@ VIEW_ITEMS = (
 VIEW_NAMES = tuple(item[0] for item in VIEW_ITEMS)
 
 
-class Storing(EditMeshOperator):
-    """Gives an operator the storing of islands and views."""
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Return whether a mesh is active, in Object or Edit Mode."""
-        obj = context.active_object
-        if obj is not None and obj.type == "MESH" and obj.mode in {"OBJECT", "EDIT"}:
-            return True
-        cls.poll_message_set("Needs a mesh in Object or Edit Mode")
-        return False
-
-    def store_islands(self, context: bpy.types.Context, kind: str) -> set[str]:
-        """Store the islands of all objects in Edit Mode as an item of `ISLAND_ITEMS`."""
-        from ..mesh.seam_islands import store
-
-        if context.mode != "EDIT_MESH":
-            raise ValueError("Islands are stored in Edit Mode")
-        if kind == "FACE_SETS" and bpy.app.version < (3, 6, 0):
-            raise ValueError("Storing face sets needs Blender 3.6 or newer")
-        with changing():
-            found = self.for_each_object(context, lambda obj: store(obj, kind))
-        if not found:
-            return {"CANCELLED"}
-        self.report({"INFO"}, f"{count(sum(found.values()), 'island')} stored")
-        return {"FINISHED"}
-
-    def store_view(self, context: bpy.types.Context, view: str) -> set[str]:
-        """Store an item of `VIEW_ITEMS` for each vertex of the active object."""
-        from ..mesh.view_fields import store
-
-        name, low, high = store(context.active_object, view, chosen.settings(context))
-        self.report({"INFO"}, f"Attribute '{name}': {low:.4g} to {high:.4g}")
-        return {"FINISHED"}
-
-
-class MESH_OT_seamwire_store(Storing, bpy.types.Operator):
+class MESH_OT_seamwire_store(EditMeshOperator, bpy.types.Operator):
     """Store islands or a view with the mesh, for shaders, geometry nodes and other add-ons"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_store"
@@ -87,9 +50,39 @@ class MESH_OT_seamwire_store(Storing, bpy.types.Operator):
     )
     description = description_of_item("what")
 
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Return whether a mesh is active, in Object or Edit Mode."""
+        obj = context.active_object
+        if obj is not None and obj.type == "MESH" and obj.mode in {"OBJECT", "EDIT"}:
+            return True
+        cls.poll_message_set("Needs a mesh in Object or Edit Mode")
+        return False
+
     def run(self, context: bpy.types.Context) -> set[str]:
         """Store it."""
-        return (self.store_view if self.what in VIEW_NAMES else self.store_islands)(context, self.what)
+        return (self._store_view if self.what in VIEW_NAMES else self._store_islands)(context, self.what)
+
+    def _store_islands(self, context: bpy.types.Context, kind: str) -> set[str]:
+        """Store the islands of all objects in Edit Mode as an item of `ISLAND_ITEMS`."""
+        from ..mesh.seam_islands import store
+
+        if context.mode != "EDIT_MESH":
+            raise ValueError("Islands are stored in Edit Mode")
+        with changing():
+            found = self.for_each_object(context, lambda obj: store(obj, kind))
+        if not found:
+            return {"CANCELLED"}
+        self.report({"INFO"}, f"{count(sum(found.values()), 'island')} stored")
+        return {"FINISHED"}
+
+    def _store_view(self, context: bpy.types.Context, view: str) -> set[str]:
+        """Store an item of `VIEW_ITEMS` for each vertex of the active object."""
+        from ..mesh.view_fields import store
+
+        name, low, high = store(context.active_object, view, chosen.settings(context))
+        self.report({"INFO"}, f"Attribute '{name}': {low:.4g} to {high:.4g}")
+        return {"FINISHED"}
 
 
 register, unregister = bpy.utils.register_classes_factory((MESH_OT_seamwire_store,))

@@ -10,10 +10,9 @@ import bpy
 from mathutils import Vector
 
 from ..mesh.settings import AUTO_ALONG_ITEMS, AUTO_FINISH_ITEMS
-from .cut import cut_wires
 from .edit_mesh_operator import EditMeshOperator, Halfway, changing
+from .finish import cut_wires, slide_wires
 from .report import running as chains
-from .slide import slide_wires
 from .steps import Step, Stepwise, end_all
 from .steps import running as searches
 

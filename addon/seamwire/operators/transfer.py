@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 import bpy
@@ -117,11 +118,10 @@ class MESH_OT_seamwire_transfer(EditMeshOperator, bpy.types.Operator):
     def run(self, context: bpy.types.Context) -> set[str]:
         """Read the source, and write its seams to the active mesh."""
         from ..mesh import transfer
-        from ..words.seed_text import parse_pairs
 
         target = context.active_object
         source = self._source(context)
-        pairs = parse_pairs(self.pairs)
+        pairs = _pairs(self.pairs)
         if not pairs and self.place == "PAIRS":
             target.update_from_editmode()
             pairs = transfer.pairs_of_groups(source, target)
@@ -156,6 +156,17 @@ class MESH_OT_seamwire_transfer(EditMeshOperator, bpy.types.Operator):
         if len(found) != 1 or found[0].type != "MESH" or found[0].data == target.data:
             raise ValueError("Select one other mesh object, or name the source")
         return found[0]
+
+
+def _pairs(text: str) -> list[tuple[int, int]]:
+    """Read pairs of vertices of two meshes, such as ``"7-12 40-41"``. Raise ValueError if one is malformed."""
+    pairs = []
+    for token in text.replace(",", " ").replace(";", " ").split():
+        match = re.fullmatch(r"(\d+)-(\d+)", token)
+        if match is None:
+            raise ValueError(f"Pairs: '{token}' is not a pair of vertices such as 7-12")
+        pairs.append((int(match[1]), int(match[2])))
+    return pairs
 
 
 register, unregister = bpy.utils.register_classes_factory((MESH_OT_seamwire_transfer,))

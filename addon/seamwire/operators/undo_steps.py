@@ -9,77 +9,47 @@ Blender's own box would be empty, so `SeamwireShowHint` takes its key (F9) and s
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import ClassVar
 
 import bpy
 
 from ..mesh.registration import classes, together
-from ..words.reports import ADJUST_STROKE, ADJUST_WIRE, NOTHING_TO_ADJUST
+from ..words.reports import ADJUST_DRAWN, ADJUST_EDITED
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-DRAW_SEVERAL = "Draw Seamwires"
-"""The step of a chain that did several of these."""
-DRAW_WIRES = "Draw Wires"
-DRAW_LINE = "Draw Line"
-ADD_LOOP = "Add Loop"
-BEND_CUT = "Bend Closed Cut"
-MOVE_SEED = "Move Seed"
-RETRACE = "Swap Path"
-REMOVE_WIRE = "Remove Wire"
-GUIDE_STROKE = "Draw Guide Stroke"
-AVOID_STROKE = "Draw Avoid Stroke"
-REMOVE_STROKE = "Remove Stroke"
-
-_TITLES = (
-    DRAW_SEVERAL,
-    DRAW_WIRES,
-    DRAW_LINE,
-    ADD_LOOP,
-    BEND_CUT,
-    MOVE_SEED,
-    RETRACE,
-    REMOVE_WIRE,
-    GUIDE_STROKE,
-    AVOID_STROKE,
-    REMOVE_STROKE,
-)
-
-
-HINTS = {
-    REMOVE_WIRE: NOTHING_TO_ADJUST,
-    REMOVE_STROKE: NOTHING_TO_ADJUST,
-    GUIDE_STROKE: ADJUST_STROKE,
-    AVOID_STROKE: ADJUST_STROKE,
-}
-"""The text after a step. After all other steps it says how to change a wire."""
-
-
-def _name(title: str) -> str:
-    return f"seamwire_step_{title.lower().replace(' ', '_')}"
-
-
-def _invoke(_self: bpy.types.Operator, _context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-    """Let Blender push a step of undo."""
-    return {"FINISHED"}
-
-
-def _operator(title: str) -> type[bpy.types.Operator]:
-    """Return the operator that pushes the step with a title."""
-    body = {
-        "__doc__": "Push a step of undo for a chain",
-        "bl_idname": f"mesh.{_name(title)}",
-        "bl_label": title,
-        "bl_options": {"REGISTER", "UNDO", "INTERNAL"},
-        "invoke": _invoke,
-    }
-    return type(f"MESH_OT_{_name(title)}", (bpy.types.Operator,), body)
-
-
-_CLASSES = tuple(_operator(title) for title in _TITLES)
-_TITLE_OF = {cls.__name__: cls.bl_label for cls in _CLASSES}
+DRAW = "Draw Seamwires"
+"""The step of a chain that drew wires, loops or strokes."""
+EDIT = "Edit Seamwires"
+"""The step of a chain that moved, swapped, bent or removed wires or strokes."""
+HINTS = {DRAW: ADJUST_DRAWN, EDIT: ADJUST_EDITED}
+"""The text after a step."""
 HINT = "mesh.seamwire_show_hint"
+
+
+class _Step:
+    """Pushes a step of undo for a chain."""
+
+    bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO", "INTERNAL"}
+
+    def invoke(self, _context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        """Let Blender push the step."""
+        return {"FINISHED"}
+
+
+class MESH_OT_seamwire_step_draw(_Step, bpy.types.Operator):
+    """Push a step of undo for a chain"""  # noqa: D400 - a tooltip
+
+    bl_idname = "mesh.seamwire_step_draw"
+    bl_label = DRAW
+
+
+class MESH_OT_seamwire_step_edit(_Step, bpy.types.Operator):
+    """Push a step of undo for a chain"""  # noqa: D400 - a tooltip
+
+    bl_idname = "mesh.seamwire_step_edit"
+    bl_label = EDIT
+
+
+_STEPS = (MESH_OT_seamwire_step_draw, MESH_OT_seamwire_step_edit)
 
 
 class SeamwireShowHint(bpy.types.Operator):
@@ -88,7 +58,7 @@ class SeamwireShowHint(bpy.types.Operator):
     bl_idname = HINT
     bl_label = "Adjust Last Operation"
     bl_description = "Say how to change what was drawn"
-    bl_options = {"INTERNAL"}
+    bl_options: ClassVar[set[str]] = {"INTERNAL"}
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -98,10 +68,9 @@ class SeamwireShowHint(bpy.types.Operator):
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         """Show the text until the mouse leaves it."""
         title = _last_title(context)
-        hints: Sequence[str] = HINTS.get(title, ADJUST_WIRE)
 
         def show(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
-            for hint in hints:
+            for hint in HINTS[title]:
                 menu.layout.label(text=hint)
 
         context.window_manager.popup_menu(show, title=title)
@@ -110,18 +79,14 @@ class SeamwireShowHint(bpy.types.Operator):
 
 def _last_title(context: bpy.types.Context) -> str | None:
     operators = context.window_manager.operators
-    return _TITLE_OF.get(operators[-1].bl_idname) if operators else None
+    last = operators[-1].bl_idname if operators else ""
+    return next((step.bl_label for step in _STEPS if step.__name__ == last), None)
 
 
 def push(title: str) -> None:
-    """Push a step of undo, and let it be the last operator.
-
-    Parameters
-    ----------
-    title
-        One of the constants of this module.
-    """
-    getattr(bpy.ops.mesh, _name(title))("INVOKE_DEFAULT", True)
+    """Push a step of undo, `DRAW` or `EDIT`, and let it be the last operator."""
+    step = bpy.ops.mesh.seamwire_step_draw if title == DRAW else bpy.ops.mesh.seamwire_step_edit
+    step("INVOKE_DEFAULT", True)
 
 
-register, unregister = together(*classes(*_CLASSES, SeamwireShowHint))
+register, unregister = together(*classes(*_STEPS, SeamwireShowHint))

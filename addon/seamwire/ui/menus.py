@@ -76,15 +76,13 @@ class VIEW3D_MT_seamwire_islands(bpy.types.Menu):
     bl_label = "Islands"
 
     def draw(self, _context: bpy.types.Context) -> None:
-        """Show what is done with islands, and with the seams between them."""
+        """Show what is done with islands."""
         layout = self.layout
         for which, text in (("TO_CUT", "Select Islands to Cut"), ("WORST", "Select Worst Stretched Island")):
             layout.operator("mesh.seamwire_select_islands", text=text).which = which
         layout.separator()
         for what, name, *_ in ISLAND_ITEMS:
             layout.operator("mesh.seamwire_store", text=f"Store as {name}").what = what
-        layout.separator()
-        layout.operator_menu_enum("mesh.seamwire_mark_seams_as", "kind")
 
 
 class VIEW3D_MT_seamwire_views(bpy.types.Menu):

@@ -6,7 +6,7 @@ from __future__ import annotations
 import bpy
 
 from ..mesh.registration import classes, together
-from ..mesh.settings import ADDON, SeamwireSettings, replace_removed_metric
+from ..mesh.settings import ADDON, SeamwireSettings
 from ..operators import bindings, islands
 from ..words.keys import Action
 from . import toolbar
@@ -18,8 +18,10 @@ def _color(name: str, description: str, default: tuple[float, float, float, floa
     )
 
 
-class _Properties:
-    """The preferences, wherever they are stored."""
+class SeamwirePreferences(bpy.types.AddonPreferences):
+    """The preferences that Blender stores."""
+
+    bl_idname = ADDON
 
     tool: bpy.props.PointerProperty(type=SeamwireSettings)
 
@@ -66,12 +68,6 @@ class _Properties:
     chains_drawn: bpy.props.IntProperty(
         name="Chains Drawn", description="Chains drawn while the card was shown", options={"HIDDEN"}
     )
-
-
-class SeamwirePreferences(_Properties, bpy.types.AddonPreferences):
-    """The preferences that Blender stores."""
-
-    bl_idname = ADDON
 
     def draw(self, context: bpy.types.Context) -> None:
         """Show the preferences."""
@@ -141,22 +137,11 @@ def _draw_key(box: bpy.types.UILayout, keys: bpy.types.KeyMap, item: bpy.types.K
         row.operator("preferences.keyitem_restore", text="", icon="BACK").item_id = item.id
 
 
-class SeamwireSessionPreferences(_Properties, bpy.types.PropertyGroup):
-    """The same preferences for an add-on that is enabled but not listed in Blender's preferences. Blender does not store them."""
+def _list() -> None:
+    """List the add-on in Blender's preferences, which hold its settings. Blender's option ``--addons`` does not."""
+    addons = bpy.context.preferences.addons
+    if ADDON not in addons:
+        addons.new().module = ADDON
 
 
-def _add_property() -> None:
-    bpy.types.WindowManager.seamwire_preferences = bpy.props.PointerProperty(
-        type=SeamwireSessionPreferences, options={"HIDDEN"}
-    )
-
-
-def _remove_property() -> None:
-    del bpy.types.WindowManager.seamwire_preferences
-
-
-register, unregister = together(
-    *classes(SeamwirePreferences, SeamwireSessionPreferences),
-    (_add_property, _remove_property),
-    (replace_removed_metric, lambda: None),
-)
+register, unregister = together(*classes(SeamwirePreferences), (_list, lambda: None))

@@ -60,7 +60,7 @@ def tool_keys(manager: bpy.types.WindowManager) -> dict[str, bindings.Key]:
 
 
 def is_busy(context: bpy.types.Context) -> bool:
-    """Return whether an operator is running. Before Blender 4.2, only those of this add-on are known."""
+    """Return whether an operator is running. Blender 3.4 tells only of those of this add-on."""
     return bool(running or steps.running or getattr(context.window, "modal_operators", ()))
 
 

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..mesh import settings as chosen
+from ..mesh.redraw import redraw_views
 from .failures import failures
 from .object_view import ObjectView, in_bounds, let_blender_tell
 from .timer import Timer
@@ -347,13 +348,7 @@ class EditedObjects:
 
     _shown: list[tuple[object, ...]] | None = None
 
-    @staticmethod
-    def redraw() -> None:
-        """Let all 3D views be drawn anew."""
-        for window in bpy.context.window_manager.windows:
-            for area in window.screen.areas:
-                if area.type == "VIEW_3D":
-                    area.tag_redraw()
+    redraw = staticmethod(redraw_views)
 
     def take_error(self) -> None:
         """Raise what could not be drawn since the last call: raised while drawing, it would be printed at every redraw."""

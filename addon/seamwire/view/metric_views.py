@@ -21,11 +21,11 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..core.base.mesh_arrays import Arrays
-    from ..core.drawing.options import Options
     from ..core.fields.color_maps import ColorMap
     from ..core.fields.crests import Crests
     from ..core.fields.metric_fields import Ellipses, Fields, Part, Source
     from ..mesh.pose import Pose
+    from ..mesh.settings import ToolOptions
     from .gpu_draw import Eye
     from .theme import Color
 
@@ -89,7 +89,7 @@ class MetricViews:
 
     def follow(
         self,
-        options: Options,
+        options: ToolOptions,
         source: Source | None,
         strokes: tuple[object, ...] = (),
         crests: bool = False,

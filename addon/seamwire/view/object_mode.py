@@ -15,6 +15,7 @@ from ..core.solver.defaults import PLACED
 from ..mesh import edit_mesh
 from ..mesh import settings as chosen
 from ..mesh.auto import auto_for
+from ..mesh.redraw import redraw_views
 from . import legend
 from .failures import failures
 from .gpu_draw import Eye, blended
@@ -122,7 +123,7 @@ class ObjectModeViews:
         """Follow what is active; return the seconds until the next time, None if nothing is to be shown any more."""
         if not chosen.settings().views_in_object_mode:
             self.stop()
-            _redraw()
+            redraw_views()
             return None
         obj = _active()
         names = None if obj is None else _names(obj)
@@ -137,13 +138,13 @@ class ObjectModeViews:
         """Show the views of an object, and return the seconds until the next time."""
         if self._shown is None:
             self._shown = _Shown(obj)
-            _redraw()
+            redraw_views()
         views = self._shown.views
         if views is None:
             return _IDLE
         views.follow(chosen.snapshot(chosen.settings(), auto=self._shown.auto), self._shown.source)
         if views.poll():
-            _redraw()
+            redraw_views()
         return _RHYTHM if views.busy else _IDLE
 
     @property
@@ -186,13 +187,6 @@ def _active() -> bpy.types.Object | None:
     layer = context.view_layer
     obj = None if layer is None else layer.objects.active
     return obj if obj is not None and obj.type == "MESH" and obj.mode == "OBJECT" else None
-
-
-def _redraw() -> None:
-    for window in bpy.context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                area.tag_redraw()
 
 
 object_mode = ObjectModeViews()

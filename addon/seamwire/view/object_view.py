@@ -34,7 +34,6 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from ..core.drawing.options import Options
     from ..core.drawing.picture import Picture
     from ..core.drawing.session import Session
     from ..core.fields.metric_fields import Source
@@ -42,6 +41,7 @@ if TYPE_CHECKING:
     from ..core.network.picks import Pick
     from ..core.network.strokes import Stroke
     from ..core.picking.view import View
+    from ..mesh.settings import ToolOptions
     from .text_overlay import Row
 
 
@@ -136,7 +136,7 @@ class ObjectView:
         return self.mesh.session
 
     @property
-    def options(self) -> Options:
+    def options(self) -> ToolOptions:
         """The settings that the session follows."""
         return self.session.options
 

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What artists read, type and press: keys, hints, and seeds as text. It knows no Blender."""
+"""What artists read, type and press: keys, hints and messages. It knows no Blender."""

@@ -13,8 +13,6 @@ if TYPE_CHECKING:
 
 _METRICS = {
     "feature": "",
-    "campen": "Campen's metric",
-    "pottmann_kovacs": "Pottmann and Kovacs' metric",
     "concave": "concave creases",
     "euclidean": "shortest paths",
 }

@@ -87,7 +87,6 @@ SENTENCES = {
     "seed-lost": "seed {seed}: {degree} ({confidence:.2f})",
     "seed-placed": "seed {seed} at vertex {vertex}: {degree} ({confidence:.2f})",
     "stored-by-newer": "A newer version of Seamwire drew the wires of this mesh: they were not read or changed",
-    "stored-missing": "{missing} of {stored} stored wires are hidden or no longer seams",
     "stored-unreadable": "The wires of this mesh cannot be read: its seams were not changed",
     "stroke-damaged": "The stroke is damaged: each point needs a place and a face",
     "stroke-is-gone": "This stroke no longer exists",

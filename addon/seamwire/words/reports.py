@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from .names import count
 
-ADJUST_WIRE = ("Point at a wire to change it:", "swap its path, drag its seeds, or remove it")
-"""The text of the panel Adjust Last Operation after wires were drawn."""
-ADJUST_STROKE = ("Point at a stroke to remove it",)
-NOTHING_TO_ADJUST = ("Undo brings it back",)
+ADJUST_DRAWN = ("Point at a wire to change it:", "swap its path, drag its seeds, or remove it")
+"""The text of the panel Adjust Last Operation after something was drawn."""
+ADJUST_EDITED = ("Undo takes it back. To edit more, point at a wire:", "swap its path, drag its seeds, or remove it")
+"""The text after something was moved, swapped, bent or removed."""
 
 
 def summary(wires: int, marked: int, cleared: int, touched: int = 0) -> str:

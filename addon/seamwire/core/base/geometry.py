@@ -80,8 +80,20 @@ def triangle_areas(points: NDArray[np.float64], triangles: NDArray[np.int32]) ->
     triangles
         (m, 3)
     """
-    corners = points[triangles]
-    return 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    return 0.5 * np.linalg.norm(_area_normals(points, triangles), axis=1)
+
+
+def triangle_normals(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:
+    """Return unit normals of triangles, (m, 3). Triangles without area have zero. Parameters are those of `triangle_areas`."""
+    return _units(_area_normals(points, triangles))
+
+
+def relative_heights(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the smallest height of triangles, (m, 3, 3), divided by their longest side: (m,). It is 0 without a side."""
+    sides = np.roll(corners, -1, axis=1) - corners
+    squares = np.einsum("ijk,ijk->ij", sides, sides).max(axis=1, initial=0.0)
+    areas = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
+    return np.divide(areas, squares, out=np.zeros_like(areas), where=squares > 0.0)
 
 
 def vertex_normals(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:
@@ -94,12 +106,20 @@ def vertex_normals(points: NDArray[np.float64], triangles: NDArray[np.int32]) ->
     triangles
         (m, 3)
     """
-    corners = points[triangles]
-    areas = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    rows = triangles.reshape(-1)
-    sums = np.stack([np.bincount(rows, np.repeat(column, 3), len(points)) for column in areas.T], axis=1)
-    lengths = np.linalg.norm(sums, axis=1, keepdims=True)
-    return np.divide(sums, lengths, out=np.zeros_like(sums), where=lengths > 0.0)
+    rows, normals = triangles.reshape(-1), _area_normals(points, triangles)
+    return _units(np.stack([np.bincount(rows, np.repeat(column, 3), len(points)) for column in normals.T], axis=1))
+
+
+def _area_normals(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:
+    """Return normals of triangles, (m, 3), twice as long as the areas."""
+    a, b, c = points[triangles].transpose(1, 0, 2)
+    return np.cross(b - a, c - a)
+
+
+def _units(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return vectors, (k, 3), with length 1, or 0 if they have none."""
+    lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
+    return np.divide(vectors, lengths, out=np.zeros_like(vectors), where=lengths > 0.0)
 
 
 def creases(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:
@@ -112,10 +132,7 @@ def creases(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArra
     triangles
         (m, 3)
     """
-    corners = points[triangles]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-    normals = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0.0)
+    normals = triangle_normals(points, triangles)
     sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).astype(np.int64), axis=1)
     order = np.lexsort((sides[:, 1], sides[:, 0]))
     shared = np.flatnonzero((sides[order[1:]] == sides[order[:-1]]).all(axis=1))

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 NAME = "seamwire_core"
 FOLDER = Path(__file__).parents[2] / "_native"
-"""Where the add-on's own copy lies, in Blenders that do not install wheels themselves."""
+"""Where Blender 3.4, which does not install wheels itself, has the add-on's own copy."""
 WHEELS = Path(__file__).parents[2] / "wheels"
 """The compiled part for each Python and system that this package is for, as the package brought them."""
 IS_EXTENSION = __package__.startswith("bl_ext.")
@@ -157,21 +157,10 @@ def _fitting(wheels: Path) -> list[Path]:
 
 
 def _fits(wheel: Path) -> bool:
-    """Tell whether a wheel is for this Python and system, by its name: NAME-VERSION-PYTHON-ABI-PLATFORM."""
-    python, _, platforms = wheel.stem.split("-")[2:]
-    return python == f"cp{sys.version_info.major}{sys.version_info.minor}" and any(
-        _runs_here(platform) for platform in platforms.split(".")
-    )
-
-
-def _runs_here(platform: str) -> bool:
-    here = sysconfig.get_platform().replace("-", "_").replace(".", "_")
-    if here.startswith("macosx"):
-        # macosx_MAJOR_MINOR_MACHINE: the numbers tell the oldest system.
-        return platform.startswith("macosx") and platform.endswith(here.split("_", 3)[3])
-    if here.startswith("linux"):
-        return platform.startswith(("manylinux", "linux")) and platform.endswith(here.removeprefix("linux"))
-    return platform == here
+    """Tell whether a wheel is for this Python and processor, by its name: NAME-VERSION-PYTHON-ABI-PLATFORM."""
+    python, _, platform = wheel.stem.split("-")[2:]
+    here = f"cp{sys.version_info.major}{sys.version_info.minor}"
+    return python == here and platform.endswith(sysconfig.get_platform().split("-")[-1])
 
 
 def _is_absent(error: ImportError) -> bool:

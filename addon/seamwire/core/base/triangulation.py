@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .geometry import relative_heights
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -73,5 +75,4 @@ def _flat_corners(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> 
     corners = points[triangles]
     sides = np.roll(corners, -2, axis=1) - np.roll(corners, -1, axis=1)  # each opposite to its corner
     squares = np.einsum("ijk,ijk->ij", sides, sides)
-    areas = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1)
-    return np.where(areas <= _FLAT * squares.max(axis=1), squares.argmax(axis=1), -1)
+    return np.where(relative_heights(corners) <= _FLAT, squares.argmax(axis=1), -1)

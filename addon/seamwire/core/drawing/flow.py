@@ -194,7 +194,7 @@ class Flow:
         self.gestures.loop.edges.forget()
         self.gestures.retraces.clear()
         drawing.history.forget()
-        # Wires of the first file version do not know their images. Images are the edges that are still seams.
+        # Wires that were just cut do not know their images. Images are the edges that are seams.
         network = drawing.images.complete(network, seams)
         seed = network.seed
         if seed is not None and seed != drawing.network.seed and not self.sow(seed):

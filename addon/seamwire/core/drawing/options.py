@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""All settings of the tool, as they are at one moment."""
+"""All settings of drawing, as they are at one moment."""
 
 from __future__ import annotations
 
@@ -43,10 +43,6 @@ class Options:
         Whether seeds snap to features.
     xray
         Whether wires are shown, and things picked, through the mesh.
-    heat, shown_metric
-        What colors faces, and which metric that and the other views show.
-    show_crests, show_silhouette, show_ellipses, show_paths, show_bands, show_invalid
-        Which views are shown.
     """
 
     along: Along = "EDGES"
@@ -61,14 +57,6 @@ class Options:
     stroke_radius: float = 0.0
     snap: bool = False
     xray: bool = False
-    heat: str = "NONE"
-    shown_metric: str = "MIN"
-    show_crests: bool = False
-    show_silhouette: bool = False
-    show_ellipses: bool = False
-    show_paths: bool = False
-    show_bands: bool = False
-    show_invalid: bool = False
 
     def __post_init__(self) -> None:
         limits = {"strength_edges": STRENGTH_RANGE, "strength_surface": STRENGTH_RANGE, "clamp": CLAMP_RANGE}

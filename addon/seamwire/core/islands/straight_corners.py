@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..base.geometry import relative_heights
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -157,7 +159,7 @@ def find_straight(
         np.where(are_ears, _NEARLY, _STRAIGHT),
     )
     # Else a triangle with an area keeps the vertex in its place.
-    is_flat = _are_flat(points[vertices[triangles]])
+    is_flat = relative_heights(points[vertices[triangles]]) <= _STRAIGHT
     flat_uses = np.bincount(triangles[is_flat].reshape(-1), minlength=len(vertices))
     needed = are_ears | (flat_uses[pairs] == uses[pairs]).all(axis=1)
     is_straight = np.zeros(len(vertices), dtype=bool)
@@ -170,13 +172,6 @@ def find_straight(
             return straight
         # A face without any triangle would have no place in the map.
         is_straight[np.isin(vertices, vertices[is_straight & np.isin(faces, gone)])] = False
-
-
-def _are_flat(corners: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return which triangles, (t, 3, 3), are not higher than a part of their longest side."""
-    sides = np.roll(corners, -1, axis=1) - corners
-    squares = np.einsum("ijk,ijk->ij", sides, sides).max(axis=1, initial=0.0)
-    return np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1) <= _STRAIGHT * squares
 
 
 def _are_straight(

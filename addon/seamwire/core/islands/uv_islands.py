@@ -117,21 +117,6 @@ def in_rows(uvs: NDArray[np.float64], labels: NDArray[np.int64]) -> NDArray[np.f
     return placed / max(float(placed.max(initial=0.0)), 1e-300)
 
 
-def families(count: int, pairs: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return a number for each of some islands, (count,), the same for those that pairs, (k, 2), lead to one from the other."""
-    found = np.arange(count)
-    pairs = np.unique(np.sort(pairs, axis=1), axis=0)
-    while len(pairs):
-        one, two = found[pairs].T
-        low = np.minimum(one, two)
-        if (one == two).all():
-            break
-        np.minimum.at(found, one, low)
-        np.minimum.at(found, two, low)
-        found = found[found]
-    return found
-
-
 def signed_uv_areas(corners: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the areas of triangles, (t, 3, 2), negative for clockwise ones."""
     one, two = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]

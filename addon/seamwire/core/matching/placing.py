@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base import native
-from ..base.geometry import Moments, creases, vertex_normals
+from ..base.geometry import Moments, creases, triangle_normals, vertex_normals
 from ..base.messages import NOTHING, Message, Refused
 from ..network.strokes import into_triangles
 
@@ -245,9 +245,7 @@ class Surface:
         self._corners = corners = shape.places[shape.triangles]
         self._middles = corners.mean(axis=1)
         self._radii = np.linalg.norm(corners - self._middles[:, None], axis=2).max(axis=1)
-        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-        self._normals = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0.0)
+        self._normals = triangle_normals(shape.places, shape.triangles)
 
     @cached_property
     def parts(self) -> NDArray[np.int32]:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..base.components import groups
 from ..base.geometry import nearest_on_segments
 from ..base.messages import Message
 from ..network.strokes import Stroke, for_library, on_mesh
@@ -111,7 +112,8 @@ class Tracing:
         runs = [(course, axes) for course in self._file.courses for axes in _images(course.record["mirror"])]
         placed = [place(*run) for run in runs]
         if place_on is not None:
-            for group in _connected(runs):
+            # Courses that share a vertex hang together on the mesh that they come from.
+            for group in groups([[(axes, vertex) for vertex in course.record["vertices"]] for course, axes in runs]):
                 self._keep_together(group, runs, placed, place_on)
         pieces = [self._placed(*run, found) for run, found in zip(runs, placed, strict=True)]
         self._find_seeds(pieces)
@@ -355,23 +357,6 @@ class Tracing:
             float(record["eta"]), int(record["rings"]), None if record["radius"] is None else float(record["radius"]),
         )  # fmt: skip
         return on_mesh(stroke, shape.points, shape.triangles)
-
-
-def _connected(runs: Sequence[tuple[Course, tuple[int, ...]]]) -> list[list[int]]:
-    """Return which courses, by their rows, hang together on the mesh that they come from."""
-    group_of: dict[Key, list[int]] = {}
-    groups: dict[int, list[int]] = {}
-    for row, (course, axes) in enumerate(runs):
-        merged = [row]
-        for vertex in course.record["vertices"]:
-            other = group_of.get((axes, vertex))
-            if other is not None and other is not merged:
-                merged = [*other, *(one for one in merged if one not in other)]
-        for one in merged:
-            groups[one] = merged
-            for vertex in runs[one][0].record["vertices"]:
-                group_of[runs[one][1], vertex] = merged
-    return list({id(group): group for group in groups.values()}.values())
 
 
 def _images(axes: Sequence[int]) -> list[tuple[int, ...]]:

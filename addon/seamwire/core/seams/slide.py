@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..base.geometry import barycentric, nearest_on_segments
+from ..base.geometry import barycentric, nearest_on_segments, relative_heights
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Sequence
@@ -185,14 +185,14 @@ def _without_damage(faces: Faces, moves: dict[int, Move]) -> dict[int, Move]:
     touched = {polygon for vertex in moves for polygon in faces.polygons_at(vertex)}
     triples = [triple for polygon in sorted(touched) for triple in _corner_triples(faces.corners(polygon))]
     triangles = np.array(triples, dtype=np.int64).reshape(-1, 3)
-    normals, heights = _normals(faces.points[triangles]), _heights(faces.points[triangles])
+    normals, heights = _normals(faces.points[triangles]), relative_heights(faces.points[triangles])
     halved: dict[int, int] = defaultdict(int)
     moved = faces.points.copy()
     while moves:
         moved[list(moves)] = places(faces.points, moves.values())
         now = moved[triangles]
         cosines = np.einsum("ij,ij->i", normals, _normals(now))
-        bad = ((cosines < _TURNED) | (_heights(now) < _THINNER * heights)) & (heights > 0.0)
+        bad = ((cosines < _TURNED) | (relative_heights(now) < _THINNER * heights)) & (heights > 0.0)
         guilty = {vertex for vertex in triangles[bad].ravel().tolist() if vertex in moves}
         if not guilty:
             break
@@ -210,10 +210,3 @@ def _half_way(move: Move, vertex: int) -> Move:
     weights = {corner: 0.5 * weight for corner, weight in zip(move.corners, move.weights, strict=True)}
     weights[vertex] = weights.get(vertex, 0.0) + 0.5
     return Move(move.polygon, tuple(weights), tuple(weights.values()))
-
-
-def _heights(corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the smallest height of each triangle, (k, 3, 3), over its longest edge."""
-    areas = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
-    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
-    return np.divide(areas, longest**2, out=np.zeros_like(areas), where=longest > 0.0)

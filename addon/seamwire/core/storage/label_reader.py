@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..base.components import groups
 from ..network.network import Network
 from ..network.picks import undirected
 from ..network.wires import LOOP_KINDS, Wire
@@ -41,7 +42,8 @@ def read(marks: EdgeLabels, archive: Archive, places: Places) -> Found:
     known: set[Claim] = set()
     broken: set[Claim] = set()
     for number in sorted({abs(number) for number in rows_of} & archive.wires.keys()):
-        parts = _components([edges[row] for row in rows_of.get(number, [])])
+        own = sorted(edges[row] for row in rows_of.get(number, []))
+        parts = [[own[row] for row in group] for group in groups(own)]
         images = sorted(edges[row] for row in rows_of.get(-number, []))
         for part, share in zip(parts or [[]], _shares(images, len(parts)), strict=True):
             if not hidden.isdisjoint(part):
@@ -104,27 +106,6 @@ def _chain(part: list[Edge], record: Record, places: NDArray[np.float64]) -> tup
     if trail is None:
         return None
     return _directed(trail[:-1] if record["closed"] else trail, record, places)
-
-
-def _components(edges: list[Edge]) -> list[list[Edge]]:
-    """Return edges in their connected parts, in the order of their first vertices."""
-    around: dict[int, list[Edge]] = {}
-    for edge in edges:
-        for vertex in edge:
-            around.setdefault(vertex, []).append(edge)
-    done: set[Edge] = set()
-    parts = []
-    for first in sorted(edges):
-        if first in done:
-            continue
-        done.add(first)
-        part = [first]
-        for edge in part:  # it grows
-            following = dict.fromkeys(other for vertex in edge for other in around[vertex] if other not in done)
-            done.update(following)
-            part += following
-        parts.append(part)
-    return parts
 
 
 def _trail(edges: list[Edge], closed: bool) -> list[int] | None:

@@ -18,9 +18,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..base.messages import NOTHING, Message, Refused
+from ..base.messages import Refused
 from ..base.spatial_hash import SpatialHash
-from ..network.network import Network
 from ..network.picks import FacePoint, undirected
 from ..network.strokes import Stroke
 from ..network.wires import FOLLOWS, LOOP_KINDS, Wire
@@ -32,7 +31,7 @@ if TYPE_CHECKING:
     from ..network.strokes import ActsOn
 
 FORMAT = "seamwire"
-VERSION = 2
+VERSION = 1
 WAS_SEAM = 1
 """A member of a label: the edge was a seam before a wire ran along it."""
 _FIRST_NUMBER = 16
@@ -468,119 +467,3 @@ def matched(
         mapped[~stayed] = SpatialHash(points, near).nearest(places[~stayed])
         stayed = mapped >= 0
     return mapped, stayed
-
-
-# The first version, which knew no labels: a network as one text, found again by numbers and places
-
-
-def load_first_version(
-    text: str, points: NDArray[np.float64], edges: NDArray[np.int32], seams: NDArray[np.int32]
-) -> tuple[Network, Message]:
-    """Read a network of version 1.
-
-    Parameters
-    ----------
-    text
-        The stored text.
-    points
-        (n, 3) vertices, stretched as the object's matrix stretches them.
-    edges
-        (e, 2) visible edges.
-    seams
-        (k, 2) the edges that are seams. A wire needs seams on all of its edges.
-
-    Returns
-    -------
-    network
-        The wires and strokes that are there.
-    problem
-        What could not be found.
-    """
-    try:
-        data = json.loads(text)
-        if data["format"] != "seamwire network" or int(data["version"]) != 1:
-            raise ValueError
-        reader = _FirstVersion(data, points, edges, seams)
-        # Where the mesh has as many vertices as before, numbers or places may be what has changed: seams tell.
-        same_count = int(data["vertex_count"]) == len(points)
-        tries = [reader.network(same_numbers) for same_numbers in ((True, False) if same_count else (False,))]
-        network = max(tries, key=lambda one: len(one.wires))
-        stored = sum(bool(item["marks"]) for item in data["wires"])
-    except DAMAGED:
-        return Network(), Message.of("stored-unreadable")
-    missing = stored - len(network.wires)
-    return network, Message.of("stored-missing", missing=missing, stored=stored) if missing else NOTHING
-
-
-class _FirstVersion:
-    """A network of version 1, to be found on a mesh. Damaged text raises an error of `DAMAGED`."""
-
-    def __init__(
-        self, data: Record, points: NDArray[np.float64], edges: NDArray[np.int32], seams: NDArray[np.int32]
-    ) -> None:
-        self._data = data
-        self._points = points
-        self._edges = {(min(pair), max(pair)) for pair in np.asarray(edges).tolist()}
-        self._seams = {(min(pair), max(pair)) for pair in np.asarray(seams).tolist()}
-        self._mirror = tuple(sorted({axis for axis in map(int, data["mirror"]) if 0 <= axis <= 2}))
-        self._number_of: dict[int, int] = {}
-        self._unmoved: set[int] = set()
-
-    def network(self, same_numbers: bool) -> Network:
-        """Return what is there, by numbers or by places."""
-        data = self._data
-        numbers = np.array(data["vertices"], dtype=np.int64).reshape(-1)
-        places = np.array(data["coordinates"], dtype=np.float64).reshape(len(numbers), 3)
-        mapped, stayed = matched(numbers, places, self._points, same_numbers)
-        self._number_of = dict(zip(numbers.tolist(), mapped.tolist(), strict=True))
-        self._unmoved = set(numbers[stayed].tolist())
-        wires = [self._wire(item) for item in data["wires"]]
-        strokes = [
-            stroke_of(item, np.array(item["points"], dtype=np.float64).reshape(-1, 3), self._number_of)
-            for item in data.get("scribbles", [])
-        ]
-        return Network(
-            tuple(wire for wire in wires if wire is not None),
-            strokes=tuple(stroke for stroke in strokes if stroke is not None),
-        )
-
-    def _pick(self, stored: int | list[int]) -> Pick | None:
-        """Return a pick with the numbers of now; None where it is not there."""
-        pick = pick_of(stored)
-        if not isinstance(pick, tuple):
-            found = self._number_of[pick]
-            return None if found < 0 else found
-        edge = self._number_of[pick[0]], self._number_of[pick[1]]
-        return edge if undirected(edge) in self._edges else None
-
-    def _wire(self, item: Record) -> Wire | None:
-        stored = [int(vertex) for vertex in item["vertices"]]
-        closed = bool(item["closed"])
-        if item["along"] not in {"EDGES", "SURFACE"} or len(stored) < (3 if closed else 2):
-            raise ValueError
-        vertices = tuple(self._number_of[vertex] for vertex in stored)
-        kind = item.get("kind")
-        # A click offers other things now than it did.
-        through = undirected(self._pick(item["through"])) if kind in LOOP_KINDS else None
-        heading = None if item["heading"] is None else self._pick(item["heading"])
-        start, end = self._pick(item["start"]), self._pick(item["end"])
-        curve = np.array(item["curve"], dtype=np.float64).reshape(-1, 3) if "curve" in item else None
-        if curve is not None and (len(curve) < 2 or not np.isfinite(curve).all()):
-            raise ValueError
-        around = list(vertices + vertices[:1] if closed else vertices)
-        wire = Wire(
-            item["along"],
-            vertices,
-            self._points[around] if curve is None or not self._unmoved.issuperset(stored) else curve,
-            vertices[0] if start is None else start,
-            vertices[0 if closed else -1] if end is None else end,
-            closed=closed,
-            mirror=self._mirror,
-            heading=heading if isinstance(heading, tuple) else None,
-            follow=1 if item["follow"] else 0,
-            strength=float(item["strength"]),
-            kind=kind if isinstance(through, tuple) else None,
-            through=through if isinstance(through, tuple) else None,
-        )
-        there = bool(item["marks"]) and min(vertices) >= 0 and self._seams.issuperset(wire.edges())
-        return wire if there else None

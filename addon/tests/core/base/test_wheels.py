@@ -83,23 +83,3 @@ def test_a_damaged_module_says_why_it_does_not_load(tmp_path: Path) -> None:
     (tmp_path / f"{native.NAME}.py").write_text("import no_such_module_at_all\n")
     with pytest.raises(native.NativeError, match=r"does not load in this Blender .*no_such_module_at_all"):
         native.load(tmp_path, tmp_path / "wheels")
-
-
-@pytest.mark.parametrize(
-    ("here", "platform", "runs"),
-    [
-        ("linux-x86_64", "manylinux_2_28_x86_64", True),
-        ("linux-x86_64", "manylinux_2_28_aarch64", False),
-        ("linux-x86_64", "win_amd64", False),
-        ("linux-aarch64", "manylinux2014_aarch64", True),
-        ("win-amd64", "win_amd64", True),
-        ("win-arm64", "win_amd64", False),
-        ("macosx-14.0-arm64", "macosx_11_0_arm64", True),
-        ("macosx-14.0-arm64", "macosx_11_0_x86_64", False),
-        ("macosx-10.15-x86_64", "macosx_10_15_x86_64", True),
-    ],
-)
-def test_wheels_for_a_system(monkeypatch: pytest.MonkeyPatch, here: str, platform: str, runs: bool) -> None:
-    monkeypatch.setattr(sysconfig, "get_platform", lambda: here)
-    wheel = Path(f"seamwire_core-0.1.0-{HERE}-{HERE}-{platform}.whl")
-    assert native._fits(wheel) is runs

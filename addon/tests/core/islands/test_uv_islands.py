@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from seamwire.core.islands.uv_islands import NewIsland, boxes_of, families, in_rows, place, split_edges
+from seamwire.core.islands.uv_islands import NewIsland, boxes_of, in_rows, place, split_edges
 
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 TRIANGLES = np.array([[0, 1, 2], [0, 2, 3]])
@@ -45,14 +45,6 @@ def test_an_edge_is_torn_where_either_end_is(flipped: bool) -> None:
         assert split_edges(vertices, edges, following, moved)[1].tolist() == [True]
     left_out = np.where(np.arange(8) < 4, edges, -1)
     assert len(split_edges(vertices, left_out, following, uvs)[0]) == 0
-
-
-def test_families_are_what_pairs_lead_to() -> None:
-    found = families(7, np.array([[5, 1], [1, 3], [6, 5], [2, 4], [0, 0]]))
-    assert found.tolist() == [0, 1, 2, 1, 2, 1, 1]
-    assert families(3, np.empty((0, 2), dtype=np.int64)).tolist() == [0, 1, 2]
-    chain = np.stack([np.arange(99), np.arange(1, 100)], axis=1)[::-1]
-    assert not families(100, chain).any()
 
 
 def test_an_island_lies_where_it_was_as_large_and_turned_as_it_was() -> None:

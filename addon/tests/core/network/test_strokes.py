@@ -11,7 +11,6 @@ from fake_live import grid_points, grid_triangles
 from numpy.typing import NDArray
 from seamwire.core.drawing.picture import Role
 from seamwire.core.network.strokes import OffMeshError, drawn, into_triangles, on_mesh, through_vertices
-from seamwire.words.seed_text import draw_strokes, parse_strokes
 from setting import use
 from table import SIZE, Table, paper
 
@@ -340,30 +339,16 @@ def test_damaged_strokes_raise_nothing_and_are_no_strokes(spoil: Callable[[dict[
     assert len(found.network.wires) == 1
 
 
-# As text
-
-
-def test_strokes_are_read_from_text() -> None:
-    strokes = parse_strokes(" 0 5 9,12; ~3 4 8 ;")
-    assert [(one.vertices, one.attracts) for one in strokes] == [([0, 5, 9, 12], True), ([3, 4, 8], False)]
-    assert parse_strokes("") == []
-
-
-@pytest.mark.parametrize(
-    ("text", "why"), [("0 x", "'x'"), ("0", "two vertices"), ("1 2; ~", "Stroke 2"), ("1-2 3", "1-2")]
-)
-def test_what_is_no_stroke_is_named(text: str, why: str) -> None:
-    with pytest.raises(ValueError, match=why):
-        parse_strokes(text)
+# Through vertices
 
 
 def test_strokes_are_drawn_without_a_hand() -> None:
     session = Table().session
-    problems = draw_strokes(session, parse_strokes("0 3; ~4 4; 0 99"))
+    assert session.draw_stroke(vertices=[0, 3], attracts=True, acts_on="both")
+    assert not session.draw_stroke(vertices=[4, 4], attracts=False, acts_on="both")
+    assert not session.draw_stroke(vertices=[0, 99], attracts=True, acts_on="both")
+    assert "no vertex 99" in str(session.message)
     assert [one.vertices.tolist() for one in session.strokes] == [[0, 3]]
-    assert len(problems) == 2
-    assert "Stroke 2" in problems[0]
-    assert "no vertex 99" in problems[1]
 
 
 def test_strokes_run_through_vertices_in_their_order() -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a mesh keeps as text: records in an archive, texts of every version, damaged ones."""
+"""What a mesh keeps as text: records in an archive, stored texts, damaged texts."""
 
 from __future__ import annotations
 
@@ -23,28 +23,12 @@ from seamwire.core.storage.serialization import (
     Archive,
     NewerError,
     UnreadableError,
-    load_first_version,
 )
-from seamwire.core.storage.wire_labels import Found
 from setting import use
 from table import SIZE, Table, chain, paper
 
 EDGES = grid_edges(SIZE)
 FIXTURES = Path(__file__).parent / "fixtures"
-FIRST = (FIXTURES / "network_v1.json").read_text()
-"""Drawn on the grid from its middle, mirrored over x."""
-FIRST_SEAMS = {
-    *chain(0, 6, 7, 13, 14, 15, 21, 27, 26, 20, 14),
-    *chain(30, 31, 32),
-    *chain(24, 25, 26),
-    *chain(5, 4, 3, 9),
-    *chain(5, 11, 10, 16, 15),
-    *chain(20, 14),
-    *chain(35, 34, 33),
-    *chain(27, 28, 29),
-    *chain(0, 1, 2, 8),
-}
-"""The seams that the first version left: its wires and their images. It cleared 22-23 and 18-19."""
 
 
 def drawn(**options: object) -> PaperMesh:
@@ -159,10 +143,10 @@ def spoiled(change: Callable[[dict[str, Any]], object]) -> str:
         "{",
         "null",
         "seamwire",
-        "seamwire 2",
-        "seamwire 2 !",
+        "seamwire 1",
+        "seamwire 1 !",
         "a shopping list",
-        "seamwire 2 " + base64.b64encode(b"no zlib").decode(),
+        "seamwire 1 " + base64.b64encode(b"no zlib").decode(),
         text_of([]),
         text_of(None),
         text_of({}),
@@ -212,7 +196,7 @@ def test_what_is_no_text_of_ours_is_told_in_words(text: str) -> None:
     assert not isinstance(caught.value, NewerError)
 
 
-def test_what_a_click_offered_in_another_version_does_not_matter() -> None:
+def test_a_loop_of_an_unknown_kind_keeps_its_edges() -> None:
     archive = Archive.parse(spoiled(lambda wire: wire.update(kind="SPIRAL")))
     mesh = drawn()
     mesh.text = ""
@@ -238,12 +222,12 @@ def test_which_of_the_wires_one_is_and_what_a_stroke_is_for_are_kept(follow: int
     assert [stroke.acts_on for stroke in network.strokes] == [("min", "max", "concave")[follow]]
 
 
-# The second version, as stored by an earlier release
+# A stored text
 
 
-def second() -> PaperMesh:
+def stored() -> PaperMesh:
     """Return the mesh of the fixture."""
-    data = json.loads((FIXTURES / "network_v2.json").read_text())
+    data = json.loads((FIXTURES / "network.json").read_text())
     mesh = paper(centred=True)
     mesh.text = data["text"]
     mesh.seams = {(one, two) for one, two in data["seams"]}
@@ -251,8 +235,8 @@ def second() -> PaperMesh:
     return mesh
 
 
-def test_a_text_of_version_2_is_read_for_ever() -> None:
-    mesh = second()
+def test_a_stored_text_is_read() -> None:
+    mesh = stored()
     found = mesh.read()
     assert (found.unknown, found.broken) == (0, frozenset())
     wires = {wire.vertices: wire for wire in found.network.wires}
@@ -285,151 +269,6 @@ def test_a_text_of_version_2_is_read_for_ever() -> None:
     mesh.write(Network(), adopt=False)
     assert mesh.seams == {(17, 23), (2, 8)}, "and so was an edge under a wire"
     assert mesh.labels == {}
-
-
-# The first version
-
-
-def first(seams: set[tuple[int, int]] = FIRST_SEAMS, mesh: PaperMesh | None = None) -> tuple[Network, str]:
-    mesh = mesh or paper(centred=True)
-    return load_first_version(FIRST, mesh.points, mesh.edges, np.array(sorted(seams)).reshape(-1, 2))
-
-
-def test_a_text_of_version_1_is_read_for_ever() -> None:
-    network, problem = first()
-    assert not problem
-    assert [(wire.along, wire.vertices, wire.start, wire.end, wire.kind) for wire in network.wires] == [
-        ("EDGES", (0, 6, 7, 13, 14), (0, 6), (13, 14), None),
-        ("EDGES", (14, 15, 21), (13, 14), 21, None),
-        ("EDGES", (30, 31, 32), 30, 32, None),
-        ("EDGES", (14, 15, 21, 27, 26, 20), (14, 15), (14, 15), "CLOSED"),
-        ("EDGES", (24, 25, 26), 24, 26, "STRIP"),
-        ("SURFACE", (5, 4, 3, 9), 5, 9, None),
-    ]
-    assert network.wires[1].heading == (13, 14)
-    assert network.wires[3].through == (14, 15)
-    assert all(wire.mirror == (0,) for wire in network.wires)
-    assert network.wires[5].points[:, 1].tolist() == [0.0, 0.125, 0.125, 1.125], "its curve is that which was stored"
-    assert [(one.attracts, one.radius, len(one.points)) for one in network.strokes] == [
-        (True, 0.5, 12),
-        (False, None, 3),
-    ]
-
-
-def test_wires_of_the_first_version_go_over_to_labels_with_their_images() -> None:
-    mesh = paper(centred=True, seams={*FIRST_SEAMS, (17, 23)})
-    session = Table(centred=True).session
-    network, _ = first()
-    session.adopt(network, sorted(mesh.seams))
-    assert set(session.edges_to_mark()) == FIRST_SEAMS
-    mesh.found = Found(session.network)
-    plan = mesh.write(session, adopt=True)
-    assert (plan.mark, plan.clear) == ([], [])
-    again = Table(centred=True).session
-    mesh.open(again)
-    assert set(again.edges_to_mark()) == FIRST_SEAMS
-    for wire in again.wires:
-        again.drop(wire)
-    mesh.write(again)
-    assert mesh.seams == {(17, 23)}, "what wires were is no seam that was there before"
-
-
-def test_images_of_the_first_version_that_are_no_seams_are_none() -> None:
-    network, problem = first(FIRST_SEAMS - {(1, 2)})
-    assert not problem
-    session = Table(centred=True).session
-    session.adopt(network, sorted(FIRST_SEAMS - {(1, 2)}))
-    assert set(session.edges_to_mark()) == FIRST_SEAMS - {(1, 2)}
-
-
-def test_a_wire_of_the_first_version_whose_edges_are_seams_no_more_is_none() -> None:
-    network, problem = first(FIRST_SEAMS - {(30, 31)})
-    assert str(problem) == "1 of 6 stored wires are hidden or no longer seams"
-    assert (30, 31, 32) not in [wire.vertices for wire in network.wires]
-    assert len(network.wires) == 5
-
-
-def test_the_first_version_is_found_by_places_where_numbers_have_changed() -> None:
-    mesh = paper(centred=True, seams=set(FIRST_SEAMS))
-    where = mesh.renumber(np.random.default_rng(3).permutation(SIZE**2))
-    network, problem = first(mesh.seams, mesh)
-    assert not problem
-    assert network.wires[1].vertices == tuple(where[[14, 15, 21]].tolist())
-    assert network.wires[1].start == tuple(where[[13, 14]].tolist())
-
-
-def test_the_first_version_is_found_by_numbers_where_the_mesh_was_moved_by_a_cell() -> None:
-    mesh = paper(centred=True)
-    mesh.places[:, 0] += 1.0
-    network, problem = first(FIRST_SEAMS, mesh)
-    assert not problem
-    assert network.wires[0].vertices == (0, 6, 7, 13, 14)
-
-
-def test_the_first_version_on_a_part_of_the_mesh_has_seeds_that_are_there() -> None:
-    mesh = paper(centred=True, seams=set(FIRST_SEAMS))
-    where = mesh.delete_vertices([13])
-    network, problem = first(mesh.seams, mesh)
-    assert str(problem) == "1 of 6 stored wires are hidden or no longer seams"
-    wire = next(wire for wire in network.wires if wire.vertices == tuple(where[[14, 15, 21]].tolist()))
-    assert (wire.start, wire.heading) == (where[14], None), "the edge that it began on is gone"
-
-
-@pytest.mark.parametrize(
-    "spoil",
-    [
-        lambda text: "",
-        lambda text: "{",
-        lambda text: "[]",
-        lambda text: "null",
-        lambda text: "{}",
-        lambda text: "[" * 100_000,
-        lambda text: text[: len(text) // 2],
-        lambda text: text.replace("seamwire network", "a shopping list"),
-        lambda text: text.replace('"version":1', '"version":"one"'),
-        lambda text: text.replace('"version":1', '"version":2'),
-        lambda text: text.replace('"coordinates":[[', '"coordinates":[[7,'),
-        lambda text: text.replace('"vertices":[0', '"vertices":["x"'),
-        lambda text: text.replace('"vertices":[0', '"vertices":[1e400'),
-        lambda text: text.replace('"vertices":[0', f'"vertices":[{10**30}'),
-        lambda text: text.replace('"start":30', '"start":77'),
-        lambda text: text.replace('"start":30', '"start":[1,2,3]'),
-        lambda text: text.replace('"start":30', '"start":null'),
-        lambda text: text.replace('"along":"EDGES"', '"along":["EDGES"]'),
-        lambda text: text.replace('"along":"EDGES"', '"along":"UNDER"'),
-        lambda text: text.replace('"wires":[', '"wires":[3,'),
-        lambda text: text.replace('"mirror":[0]', '"mirror":1'),
-        lambda text: text.replace('"strength":10.0', '"strength":"much"'),
-        lambda text: text.replace('"kind":"CLOSED"', '"kind":["CLOSED"]'),
-        lambda text: text.replace('"through":[14,15]', '"through":[14,77]'),
-        lambda text: text.replace('"through":[14,15]', '"through":[14]'),
-        lambda text: text.replace('"vertices":[30,31,32],"start"', '"vertices":[30],"start"'),
-        lambda text: text.replace('"curve":[[', '"curve":[[7,'),
-        lambda text: text.replace('"eta":20.0', '"eta":0.5'),
-    ],
-)
-def test_what_is_no_network_of_the_first_version_is_told_in_words(spoil: Callable[[str], str]) -> None:
-    text = spoil(FIRST)
-    assert text != FIRST
-    mesh = paper(centred=True)
-    network, problem = load_first_version(text, mesh.points, mesh.edges, np.array(sorted(FIRST_SEAMS)))
-    assert network == Network()
-    assert "cannot be read" in str(problem)
-
-
-def test_on_an_empty_mesh_nothing_is_found() -> None:
-    network, problem = load_first_version(
-        FIRST, np.empty((0, 3)), np.empty((0, 2), np.int32), np.empty((0, 2), np.int32)
-    )
-    assert network.wires == ()
-    assert problem
-
-
-def test_places_that_are_no_numbers_match_nothing() -> None:
-    data = json.loads(FIRST)
-    data["coordinates"] = np.full((len(data["vertices"]), 3), np.nan).tolist()
-    mesh = paper(centred=True)
-    assert load_first_version(json.dumps(data), mesh.points, mesh.edges, np.array(sorted(FIRST_SEAMS)))[0].wires == ()
 
 
 def test_archives_whose_numbers_stand_for_different_things_are_not_merged() -> None:

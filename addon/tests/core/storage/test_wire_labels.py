@@ -373,7 +373,7 @@ def test_unknown_labels_stay_untouched() -> None:
 
 def test_a_newer_text_leaves_everything_as_it_is() -> None:
     mesh, _ = drawn((0, 3))
-    mesh.text = "seamwire 3 something else"
+    mesh.text = "seamwire 2 something else"
     with pytest.raises(NewerError):
         mesh.read()
     nothing = label_reader.read(mesh.marks(), Archive(), mesh.where)

@@ -1,0 +1,319 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Functions for scripts: draw wires, suggest seams, unwrap and cut.
+
+Each works on one object, in Object Mode or Edit Mode, and leaves it in the mode that it had. If it cannot be done, they raise ValueError
+with a sentence that says why, and change nothing. Without the compiled part they raise ImportError. They push no step of Blender's undo.
+"""
+
+from __future__ import annotations
+
+import math
+import operator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING, Literal, Union, get_args
+
+import bpy
+
+from .core.drawing.options import Options, strength_name
+from .core.network.picks import FacePoint, undirected
+from .mesh import edit_mesh, settings
+from .mesh import finish as finishes
+from .mesh.object_session import ObjectSession
+from .words.reports import gaps, left_out
+from .words.scripted import draw_chain, draw_loop
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator, Sequence
+
+    from .core.network.picks import Along, Finish, Pick
+    from .core.network.wires import Wire
+    from .core.solver.solver import MetricName
+
+Seed = Union[int, "tuple[int, int]", "tuple[float, float, float]"]
+"""A vertex, an edge as its two vertices, or a place in object coordinates."""
+Take = Literal["FIRST", "CLOSED", "STRIP", "PAST", "WHOLE", "FLAT"]
+_TAKES = get_args(Take)
+
+
+@dataclass(frozen=True)
+class Marked:
+    """What `mark` has done.
+
+    Parameters
+    ----------
+    wires
+        How many wires are new.
+    marked, cleared
+        How many edges became seams, and how many are seams no longer.
+    problems
+        Sentences about what could not be drawn.
+    """
+
+    wires: int
+    marked: int
+    cleared: int
+    problems: tuple[str, ...] = ()
+
+
+def mark(
+    obj: bpy.types.Object,
+    chains: Sequence[Sequence[Seed]] = (),
+    *,
+    loops: Sequence[Seed] = (),
+    take: Take = "FIRST",
+    strokes: Sequence[Sequence[int]] = (),
+    avoid: Sequence[Sequence[int]] = (),
+    along: Along = "EDGES",
+    finish: Finish = "SNAP",
+    clear: bool = False,
+    mirror: Iterable[str] | None = None,
+    strength: float | None = None,
+    metric: MetricName = "feature",
+) -> Marked:
+    """Draw wires between seeds, and mark or clear their edges, as the tool would.
+
+    Parameters
+    ----------
+    obj
+        A mesh object.
+    chains
+        Chains of seeds. Wires run from each seed to the next. A seed is a vertex, an edge such as ``(7, 9)`` (along edges), or a place
+        such as ``(0.3, 0.0, 1.2)`` in object coordinates (across the surface).
+    loops
+        Edges: the loop through each is added. Across the surface, vertices or places: the closed cut through each is added.
+    take
+        Which loop along edges: the first that a click would offer, or a kind of loop.
+    strokes, avoid
+        Vertices along strokes that attract wires, and along strokes that repel wires.
+    along
+        Whether wires run along edges or across the surface.
+    finish
+        How wires across the surface become seams.
+    clear
+        Whether to clear seams instead of marking them.
+    mirror
+        Axes to mirror wires over, such as ``"X"`` or ``"XY"``. None takes the mesh's own mirror option.
+    strength
+        How strongly wires follow the shape, 1 to 100. None takes the tool's default.
+    metric
+        What wires follow.
+
+    Raises
+    ------
+    ValueError
+        If an argument is wrong, or no seam was marked. The message names the chain and the seed, such as ``chains[0][2]``.
+    """
+    _one_of("along", along, [item[0] for item in settings.ALONG_ITEMS])
+    _one_of("finish", finish, [item[0] for item in settings.FINISH_ITEMS])
+    _one_of("metric", metric, [item[0] for item in settings.METRIC_ITEMS])
+    _one_of("take", take, _TAKES)
+    across = along == "SURFACE"
+    if across and finish == "CUT" and clear:
+        raise ValueError("A cut cannot clear seams: choose another finish")
+    if across and take != "FIRST":
+        raise ValueError("take needs along='EDGES'")
+    with _editing(obj):
+        mirrored = settings.mirror_axes(obj.data) if mirror is None else tuple(map(_axis, mirror))
+        options = Options(along=along, finish=finish, metric=metric, clear=clear, mirror=mirrored)
+        if strength is not None:
+            options = Options(**{**vars(options), strength_name(along): strength})
+        mesh = ObjectSession(obj, options)
+        reader = _Reader(mesh, across)
+        through = [reader.chain(f"chains[{row}]", chain) for row, chain in enumerate(chains)]
+        around = [reader.loop(f"loops[{row}]", seed) for row, seed in enumerate(loops)]
+        guides = [
+            (f"{name}[{row}]", reader.stroke(f"{name}[{row}]", vertices), name == "strokes")
+            for name, group in (("strokes", strokes), ("avoid", avoid))
+            for row, vertices in enumerate(group)
+        ]
+        if not through and not around:
+            raise ValueError("There is nothing to draw: give chains or loops")
+        mesh.make_live.wait()
+        before = set(mesh.session.wires)
+        problems = [notice.text for notice in mesh.notices.take()]
+        for where, vertices, attracts in guides:
+            if not mesh.session.draw_stroke(vertices=vertices, attracts=attracts, acts_on="both"):
+                problems.append(f"{where}: {mesh.session.message}")
+        for row, seeds in enumerate(through):
+            problems += [f"chains[{row}]: {problem}" for problem in draw_chain(mesh.session, seeds)]
+        for row, pick in enumerate(around):
+            problem = draw_loop(mesh.session, pick, None if take == "FIRST" else take)
+            problems += [f"loops[{row}]: {problem}"] if problem else []
+        # A wire that changed its edges is another one.
+        wires = [wire for wire in mesh.session.wires if wire not in before]
+        if not wires:
+            raise ValueError(". ".join(["No seam was marked", *problems]))
+        if across and finish == "CUT":
+            return _cut(mesh, wires, problems)
+        return _write(mesh, wires, problems, slides=across and finish == "SLIDE" and not clear)
+
+
+def suggest(obj: bpy.types.Object, **options: object) -> bool:
+    """Mark the seams that *Suggest Seamwires* finds, and return whether it found any.
+
+    `options` are those of the operator, such as ``parts=50``.
+    """
+    with _editing(obj, alone=True):
+        return _call(bpy.ops.mesh.seamwire_suggest, options)
+
+
+def unwrap(obj: bpy.types.Object, **options: object) -> bool:
+    """Unwrap the islands between seams, and return whether there was anything to unwrap.
+
+    `options` are those of *Unwrap Changed Islands*, such as ``changed_only=False``.
+    """
+    with _editing(obj, alone=True):
+        return _call(bpy.ops.mesh.seamwire_unwrap, options)
+
+
+def cut(obj: bpy.types.Object) -> bool:
+    """Cut all kept wires across the surface into the faces, and return whether the mesh has changed."""
+    with _editing(obj, alone=True):
+        return _call(bpy.ops.mesh.seamwire_finish, {"finish": "CUT"})
+
+
+def _write(mesh: ObjectSession, wires: list[Wire], problems: list[str], slides: bool) -> Marked:
+    marked, cleared = mesh.write(mesh.plan())
+    if slides:
+        finishes.slide(mesh, wires)
+    if marked or cleared:
+        edit_mesh.live_unwrap(bpy.context)
+    return Marked(len(wires), marked, cleared, tuple(problems))
+
+
+def _cut(mesh: ObjectSession, wires: list[Wire], problems: list[str]) -> Marked:
+    _, done = finishes.cut(mesh, finishes.plan_cut(mesh, wires), wires)
+    edit_mesh.live_unwrap(bpy.context)
+    problems += [gaps(done.uncut)] if done.uncut else []
+    problems += [left_out(done.left_out)] if done.left_out else []
+    return Marked(done.wires, len(done.edges), 0, tuple(problems))
+
+
+def _call(work: Callable[..., set[str]], options: dict[str, object]) -> bool:
+    """Call an operator, and return whether it did anything. Raise ValueError with the error that it reports."""
+    try:
+        return work(**options) == {"FINISHED"}
+    except RuntimeError as error:
+        raise ValueError(str(error).strip().removeprefix("Error: ")) from error
+
+
+@contextmanager
+def _editing(obj: bpy.types.Object, alone: bool = False) -> Iterator[None]:
+    """Have an object in Edit Mode, then restore all modes and selections. With `alone`, no other mesh may be in Edit Mode."""
+    if not isinstance(obj, bpy.types.Object):
+        raise ValueError(f"{obj!r} is not an object")
+    if obj.type != "MESH":
+        raise ValueError(f"{obj.name} has no mesh: it is of type {obj.type}")
+    layer = bpy.context.view_layer
+    if obj.name not in layer.objects:
+        raise ValueError(f"{obj.name} is not in the view layer {layer.name}")
+    if obj.mode == "EDIT":
+        others = [other.name for other in bpy.context.objects_in_mode_unique_data if other.data != obj.data]
+        if alone and others:
+            raise ValueError(f"Only {obj.name} may be in Edit Mode, but {', '.join(others)} is as well")
+        yield
+        return
+    active, selected = layer.objects.active, [other for other in layer.objects if other.select_get()]
+    if active is not None and active.mode != "OBJECT":
+        raise ValueError(f"{active.name} is in another mode: change to Object Mode first")
+    for other in selected:
+        other.select_set(False)
+    layer.objects.active = obj
+    obj.select_set(True)
+    bpy.ops.object.mode_set(mode="EDIT")
+    try:
+        yield
+    finally:
+        bpy.ops.object.mode_set(mode="OBJECT")
+        obj.select_set(False)
+        for other in selected:
+            other.select_set(True)
+        layer.objects.active = active
+
+
+class _Reader:
+    """Reads the seeds that a script gives.
+
+    Parameters
+    ----------
+    mesh
+        The mesh that must have them.
+    across
+        Whether wires run across the surface.
+    """
+
+    def __init__(self, mesh: ObjectSession, across: bool) -> None:
+        self._mesh = mesh
+        self._across = across
+        self._find = mesh.finder()
+
+    def chain(self, where: str, seeds: Sequence[Seed]) -> list[Pick]:
+        """Return the picks of a chain."""
+        picks = [self._seed(f"{where}[{row}]", seed) for row, seed in enumerate(seeds)]
+        if len(picks) < 2:
+            raise ValueError(f"{where}: a chain needs at least two seeds")
+        for row, (one, two) in enumerate(pairwise(picks), start=1):
+            if undirected(one) == undirected(two):
+                raise ValueError(f"{where}[{row}]: the seed comes twice in a row, but a wire needs two different ends")
+        return picks
+
+    def loop(self, where: str, seed: Seed) -> Pick:
+        """Return the edge or point of a loop."""
+        pick = self._seed(where, seed)
+        if not self._across and not isinstance(pick, tuple):
+            raise ValueError(f"{where}: along edges, a loop runs through an edge such as (7, 9)")
+        return pick
+
+    def stroke(self, where: str, vertices: Sequence[int]) -> list[int]:
+        """Return the vertices of a stroke."""
+        numbers = [self._seed(f"{where}[{row}]", vertex, only_vertex=True) for row, vertex in enumerate(vertices)]
+        if len(numbers) < 2:
+            raise ValueError(f"{where}: a stroke needs at least two vertices")
+        return numbers
+
+    def _seed(self, where: str, seed: Seed, only_vertex: bool = False) -> Pick:
+        pick = self._pick(where, seed)
+        if only_vertex and not isinstance(pick, int):
+            raise ValueError(f"{where}: a stroke runs through vertices")
+        if self._across and isinstance(pick, tuple):
+            raise ValueError(f"{where}: across the surface, a seed is a vertex or a place, not an edge")
+        if not self._across and isinstance(pick, FacePoint):
+            raise ValueError(f"{where}: along edges, a seed is a vertex or an edge, not a place")
+        problem = self._mesh.cage.problem_with([pick])
+        if problem:
+            raise ValueError(f"{where}: {problem}")
+        return pick
+
+    def _pick(self, where: str, seed: Seed) -> Pick:
+        try:
+            return operator.index(seed)
+        except TypeError:
+            pass
+        try:
+            parts = list(seed)
+            if len(parts) == 2 and parts[0] != parts[1]:
+                return operator.index(parts[0]), operator.index(parts[1])
+            place = [float(part) for part in parts] if len(parts) == 3 else []
+        except (TypeError, ValueError):
+            place = []
+        if len(place) != 3 or not all(map(math.isfinite, place)):
+            raise ValueError(
+                f"{where}: {seed!r} is neither a vertex, nor an edge such as (7, 9), nor a place such as (0.1, 0.0, 2.5)"
+            )
+        try:
+            return self._find(place)
+        except ValueError as error:
+            raise ValueError(f"{where}: {error}") from error
+
+
+def _one_of(name: str, value: str, allowed: Iterable[str]) -> None:
+    if value not in allowed:
+        raise ValueError(f"{name}={value!r}: choose one of {', '.join(allowed)}")
+
+
+def _axis(name: str) -> int:
+    if name not in {"X", "Y", "Z"}:
+        raise ValueError(f"mirror: {name!r} is not an axis, such as 'X'")
+    return "XYZ".index(name)

@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Chains and loops drawn without a hand, and what could not be drawn, in words."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ..core.drawing.picture import Role
+from .names import LOOP_NAMES, pick_name
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from ..core.drawing.session import Session
+    from ..core.network.picks import Edge, Pick
+    from ..core.network.wires import LoopKind
+
+
+def draw_chain(session: Session, seeds: Iterable[Pick]) -> list[str]:
+    """Draw a chain of seeds, waiting for each wire.
+
+    Returns
+    -------
+    list of str
+        What could not be done, in words. The chain goes on from the last seed that was reached.
+    """
+    problems = []
+    session.end_chain()
+    for pick in seeds:
+        done = session.click(pick)
+        session.wait()
+        if not done or session.message:
+            problems.append(str(session.message))
+    session.end_chain()
+    return problems
+
+
+def draw_loop(session: Session, pick: Pick, kind: LoopKind | None = None) -> str:
+    """Take the loop or strip through an edge, or the closed cut through a point of the surface.
+
+    Parameters
+    ----------
+    session
+        That draws along edges, or across the surface.
+    pick
+        The edge or point.
+    kind
+        The kind of loop through the edge, or None for the first one that a click offers.
+
+    Returns
+    -------
+    str
+        What could not be done, in words. An empty text if it was done.
+    """
+    before = session.wires
+    if kind is not None and isinstance(pick, tuple) and not _turn_to(session, pick, kind):
+        return f"No {LOOP_NAMES[kind]} runs through {pick_name(pick)}"
+    done = session.loop(pick)
+    session.wait()
+    if done and session.wires != before:
+        return ""
+    # The shape may suggest no cut at a place.
+    return str(session.message) or f"The loop through {pick_name(pick)} is there already"
+
+
+def _turn_to(session: Session, edge: Edge, kind: LoopKind) -> bool:
+    """Let a click on an edge take what is asked for; returns whether there is such a thing.
+
+    No two offers are alike: what runs as one before it does is not offered by its own name.
+    """
+    session.hover(edge, loop=True)
+    session.wait()
+    edges: dict[LoopKind, set[Edge]] = {}
+    for _ in session.picture.offered.kinds:
+        offer, shown = session.picture.one(Role.OFFER), session.picture.offered.kind
+        if offer is not None and shown is not None:
+            edges[shown] = set(offer.edges())
+        session.next_candidate()
+    wanted: LoopKind | None = kind
+    if kind == "FLAT" and kind not in edges:
+        border = session.part_border(edge)
+        wanted = next((other for other, own in edges.items() if own == border), None)
+    elif kind not in edges:
+        closed, strip = edges.get("CLOSED"), edges.get("STRIP")
+        if kind == "CLOSED" or closed is None:
+            wanted = "STRIP" if kind in {"PAST", "WHOLE"} and strip is not None else None
+        else:
+            wanted = "CLOSED" if strip is None or strip <= closed else "STRIP"
+    while wanted in edges and session.picture.offered.kind != wanted:
+        session.next_candidate()
+    return wanted in edges
