@@ -50,7 +50,6 @@ _PARTS = (
     "ui.toolbar",
     "ui.status_bar",
     "ui.menus",
-    "ui.views_panel",
 )
 
 

@@ -59,7 +59,7 @@ def test_without_an_entry_in_the_preferences_there_are_defaults(
     assert settings.settings().along == "AUTO"
     assert settings.preferences().line_width == 1.0
     bpy.ops.mesh.seamwire_mark(chains="10 14", objects="Source")
-    assert bpy.ops.mesh.seamwire_store(what="STRENGTH") == {"FINISHED"}
+    assert bpy.ops.mesh.seamwire_store(what="ATTRIBUTE") == {"FINISHED"}
     assert bpy.ops.mesh.seamwire_transfer(source="Source") == {"FINISHED"}
     assert seams(target) == seams(source) != []
     path = tmp_path / "net.json"

@@ -16,7 +16,6 @@ ALIASES: tuple[tuple[str, dict[str, str], str, dict[str, str]], ...] = (
     ("seamwire_select_islands_to_cut", {}, "seamwire_select_islands", {"which": "TO_CUT"}),
     ("seamwire_worst_island", {"kind": "AREA"}, "seamwire_select_islands", {"which": "WORST", "kind": "AREA"}),
     ("seamwire_store_islands", {"kind": "MATERIALS"}, "seamwire_store", {"what": "MATERIALS"}),
-    ("seamwire_store_view", {"view": "CONCAVITY"}, "seamwire_store", {"what": "CONCAVITY"}),
 )
 
 

@@ -67,13 +67,6 @@ HEAT_ITEMS = (
     ("NONE", "None", "Tint the islands instead", 0),
     ("ANGLE", "Stretch of Angles", STRETCH_ITEMS[0][2], 1),
     ("AREA", "Stretch of Areas", STRETCH_ITEMS[1][2], 2),
-    ("STRENGTH", "Feature Strength", "How strongly wires follow the shape", 3),
-    ("CONCAVITY", "Concavity", "How sharply the surface bends, in valleys and on ridges", 4),
-    ("DISTANCE", "Distance", "Distance from the seed or the selected vertex, as wires measure it", 5),
-)
-SHOWN_METRIC_ITEMS = (
-    ("MIN", "Along Features", "The metric of the wire along ridges and valleys", 0),
-    ("MAX", "Across Features", "The metric of the wire across ridges and valleys", 1),
 )
 
 
@@ -81,10 +74,15 @@ listeners: list[Callable[[], None]] = []
 """Functions to call when a setting has changed, so that the drawing follows at once."""
 
 
-def _changed(_settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
+def _changed(_settings: bpy.types.PropertyGroup, _context: bpy.types.Context) -> None:
+    tell_listeners()
+
+
+def tell_listeners() -> None:
+    """Let the drawing follow the settings, and draw all 3D views anew."""
     for listener in tuple(listeners):
         listener()
-    for window in context.window_manager.windows:
+    for window in bpy.context.window_manager.windows:
         for area in window.screen.areas:
             if area.type == "VIEW_3D":
                 area.tag_redraw()
@@ -164,42 +162,6 @@ class SeamwireSettings(bpy.types.PropertyGroup):
     show_crests: bpy.props.BoolProperty(
         name="Ridges and Valleys",
         description="Show where the surface bends most sharply. Alt-click a line to draw wires along it",
-        update=_changed,
-    )
-    show_silhouette: bpy.props.BoolProperty(
-        name="Silhouette",
-        description="Show where the surface turns away from the viewer. Seams behind it are hidden from there",
-        update=_changed,
-    )
-    show_ellipses: bpy.props.BoolProperty(
-        name="Ellipses",
-        description="Show how cheaply wires run in each direction",
-        update=_changed,
-    )
-    show_paths: bpy.props.BoolProperty(
-        name="Shortest Paths",
-        description="Show the shortest paths from the seed or the selected vertex to many vertices",
-        update=_changed,
-    )
-    show_bands: bpy.props.BoolProperty(
-        name="Distance Bands",
-        description="Show evenly spaced lines of equal distance from the seed or the selected vertex",
-        update=_changed,
-    )
-    show_invalid: bpy.props.BoolProperty(
-        name="Invalid Triangles",
-        description="Show triangles that the metric makes invalid, and how they were repaired",
-        update=_changed,
-    )
-    shown_metric: bpy.props.EnumProperty(
-        name="Shown Metric",
-        description="Which candidate's metric to show",
-        items=SHOWN_METRIC_ITEMS,
-        update=_changed,
-    )
-    views_in_object_mode: bpy.props.BoolProperty(
-        name="Seamwire Views",
-        description="Show views of the active object in Object Mode too",
         update=_changed,
     )
     unwrap: bpy.props.BoolProperty(

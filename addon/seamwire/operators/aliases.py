@@ -5,12 +5,11 @@ from __future__ import annotations
 
 import bpy
 
-from ..mesh import settings as chosen
 from ..mesh.registration import classes, together
 from .edit_mesh_operator import EditMeshOperator
 from .finish import finish_wires
 from .islands import SelectingIslands, kind_property
-from .store import ISLAND_ITEMS, VIEW_ITEMS, VIEW_NAMES, Storing
+from .store import ISLAND_ITEMS, Storing
 
 
 class _Alias(EditMeshOperator):
@@ -73,7 +72,7 @@ class MESH_OT_seamwire_worst_island(_Alias, SelectingIslands, bpy.types.Operator
 
 
 class MESH_OT_seamwire_store_islands(_Alias, Storing, bpy.types.Operator):
-    """Deprecated: use Store Islands or View"""  # noqa: D400 - a tooltip
+    """Deprecated: use Store Islands"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_store_islands"
     bl_label = "Store Islands"
@@ -86,28 +85,6 @@ class MESH_OT_seamwire_store_islands(_Alias, Storing, bpy.types.Operator):
         return self.store_islands(context, self.kind)
 
 
-class MESH_OT_seamwire_store_view(_Alias, Storing, bpy.types.Operator):
-    """Deprecated: use Store Islands or View"""  # noqa: D400 - a tooltip
-
-    bl_idname = "mesh.seamwire_store_view"
-    bl_label = "Store View as Attribute"
-
-    view: bpy.props.EnumProperty(
-        name="View",
-        description="The view to store; if not given, the one that is shown as heat, or feature strength",
-        items=VIEW_ITEMS,
-        options={"SKIP_SAVE"},
-    )
-
-    def run(self, context: bpy.types.Context) -> set[str]:
-        """Store the view."""
-        heat = chosen.settings(context).heat
-        if not self.properties.is_property_set("view") and heat in VIEW_NAMES:
-            self.view = heat
-        self._warn("store_view", f"store(what='{self.view}')")
-        return self.store_view(context, self.view)
-
-
 register, unregister = together(
     *classes(
         MESH_OT_seamwire_cut,
@@ -115,6 +92,5 @@ register, unregister = together(
         MESH_OT_seamwire_select_islands_to_cut,
         MESH_OT_seamwire_worst_island,
         MESH_OT_seamwire_store_islands,
-        MESH_OT_seamwire_store_view,
     )
 )

@@ -43,10 +43,10 @@ class Options:
         Whether seeds snap to features.
     xray
         Whether wires are shown, and things picked, through the mesh.
-    heat, shown_metric
-        What colors faces, and which metric that and the other views show.
-    show_crests, show_silhouette, show_ellipses, show_paths, show_bands, show_invalid
-        Which views are shown.
+    heat
+        The kind of stretch that colors faces, or ``NONE``.
+    show_crests
+        Whether ridges and valleys are shown.
     """
 
     along: Along = "EDGES"
@@ -62,13 +62,7 @@ class Options:
     snap: bool = False
     xray: bool = False
     heat: str = "NONE"
-    shown_metric: str = "MIN"
     show_crests: bool = False
-    show_silhouette: bool = False
-    show_ellipses: bool = False
-    show_paths: bool = False
-    show_bands: bool = False
-    show_invalid: bool = False
 
     def __post_init__(self) -> None:
         limits = {"strength_edges": STRENGTH_RANGE, "strength_surface": STRENGTH_RANGE, "clamp": CLAMP_RANGE}

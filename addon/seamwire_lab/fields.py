@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the metric sees of a mesh, as arrays: strengths, concavity, ridges, ellipses, distances, paths, invalid triangles.
+"""What a metric sees of a mesh, as arrays: strengths, concavity, silhouettes, ellipses, distances, paths, invalid triangles.
 
-All of it is made by functions of the library, on a thread; of several requests the newest wins. Knows neither Blender nor the GPU.
+Functions of the library compute all of it. This module knows neither Blender nor the tool.
 """
 
 from __future__ import annotations
@@ -11,11 +11,6 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from ..base.newest import Newest
-from ..network.wires import FOLLOWS
-from ..solver.solver import kinds_of
-from .crests import Crests
-
 if TYPE_CHECKING:
     from collections.abc import Callable
     from types import ModuleType
@@ -23,9 +18,7 @@ if TYPE_CHECKING:
     import seamwire_core
     from numpy.typing import NDArray
 
-    from ..solver.solver import MetricName
-
-Part = Literal["STRENGTH", "CONCAVITY", "CRESTS", "SILHOUETTE", "ELLIPSES", "DISTANCE", "PATHS", "ISOLINES", "INVALID"]
+Part = Literal["STRENGTH", "CONCAVITY", "SILHOUETTE", "ELLIPSES", "DISTANCE", "PATHS", "ISOLINES", "INVALID"]
 """What can be asked for."""
 Source = int | tuple[int, tuple[float, float, float]] | tuple[int, ...]
 """Where distances are from: a vertex, a point of a triangle, or several vertices."""
@@ -50,8 +43,8 @@ class Request:
         The names of the fields.
     metric, strength, clamp
         As the tool's settings.
-    follow
-        Which of both wires' metrics.
+    kind
+        Which of the library's metrics, see ``MetricSpec``.
     source
         Where distances are from; None: there is no such place, and nothing of them is computed.
     strokes
@@ -59,17 +52,17 @@ class Request:
     """
 
     parts: frozenset[Part]
-    metric: MetricName = "feature"
+    metric: str = "feature"
     strength: float = 20.0
     clamp: float = 99.0
-    follow: Literal["min", "max"] = "min"
+    kind: Literal["min", "max", "concave", "euclidean"] = "min"
     source: Source | None = None
     strokes: tuple[object, ...] = ()
 
     @property
     def metric_key(self) -> tuple[object, ...]:
         """The same where the metric is."""
-        return self.metric, self.strength, self.clamp, self.follow, self.strokes
+        return self.metric, self.strength, self.clamp, self.kind, self.strokes
 
 
 @dataclass(frozen=True)
@@ -177,7 +170,6 @@ class Fields:
     request: Request
     strength: NDArray[np.float64] | None = None
     concavity: NDArray[np.float64] | None = None
-    crests: Crests | None = None
     silhouette: Silhouette | None = None
     ellipses: Ellipses | None = None
     distance: NDArray[np.float64] | None = None
@@ -238,56 +230,43 @@ def band_levels(largest: float, bands: int = BANDS) -> NDArray[np.float64]:
     return step * np.arange(1, int(np.floor(largest / step)) + 1)
 
 
+def at_vertices(lines: seamwire_core.CrestLines, count: int) -> NDArray[np.float64]:
+    """Return for each of so many vertices the strength of the strongest ridge beside it, or minus that of a valley, or 0."""
+    values = np.zeros(count)
+    is_ridge = lines.curvatures[lines.starts[:-1]] > 0.0
+    signed = np.repeat(np.where(is_ridge, lines.strengths, -lines.strengths), np.diff(lines.starts))
+    vertices = lines.edges[np.arange(len(lines.edges)), np.round(lines.parts).astype(np.int64)]
+    # The library returns the strongest lines first, so they are written last.
+    values[vertices[::-1]] = signed[::-1]
+    return values
+
+
 class FieldMaker:
-    """Computes fields of one mesh in its own thread, with shared parts computed once.
+    """Computes fields of one mesh, with shared parts computed once.
 
     Parameters
     ----------
     core
         The library's module.
     surface
-        Returns the surface; called on the thread, where it may wait.
+        Returns the surface. It may wait.
+    goes_on
+        Returns False to end a running computation with the library's ``Cancelled``.
     """
 
-    def __init__(self, core: ModuleType, surface: Callable[[], seamwire_core.Surface]) -> None:
+    def __init__(
+        self,
+        core: ModuleType,
+        surface: Callable[[], seamwire_core.Surface],
+        goes_on: Callable[[], bool] = lambda: True,
+    ) -> None:
         self._core = core
         self._make_surface = surface
-        self._maker: Newest[Request, Fields] = Newest(self.make, "seamwire-fields", (core.Cancelled,))
-        self._asked: Request | None = None
+        self._goes_on = goes_on
         self._kept: dict[str, tuple[object, object]] = {}
 
-    @property
-    def busy(self) -> bool:
-        """Whether something is being computed."""
-        return self._maker.busy
-
-    @property
-    def newest(self) -> Fields | None:
-        """The latest result."""
-        return self._maker.answer
-
-    def check(self) -> None:
-        """Raise what went wrong on the thread since the last call. Then the same fields can be asked for again."""
-        try:
-            self._maker.check()
-        except Exception:
-            self._asked = None
-            raise
-
-    def want(self, request: Request) -> None:
-        """Ask for fields; what is being computed for another request is dropped."""
-        if request != self._asked:
-            self._asked = request
-            self._maker.want(request)
-
-    def close(self) -> None:
-        """Drop what is asked for; a running computation ends soon, unseen."""
-        self._maker.close()
-
-    # On the thread
-
     def _go_on(self, _fraction: float) -> bool:
-        return not self._maker.superseded
+        return self._goes_on()
 
     def _once(self, name: str, key: object, make: Callable[[], object]) -> object:
         if name not in self._kept or self._kept[name][0] != key:
@@ -302,7 +281,7 @@ class FieldMaker:
         ValueError
             If wires cannot run on the mesh.
         seamwire_core.Cancelled
-            Where other ones are asked for meanwhile.
+            If `goes_on` says so.
         """
         parts = request.parts
         far = bool(parts & {"DISTANCE", "PATHS", "ISOLINES"}) and request.source is not None
@@ -310,7 +289,6 @@ class FieldMaker:
             request,
             strength=self._strength() if "STRENGTH" in parts else None,
             concavity=self._concavity() if "CONCAVITY" in parts else None,
-            crests=self._crests() if "CRESTS" in parts else None,
             silhouette=self._silhouette() if "SILHOUETTE" in parts else None,
             ellipses=self._ellipses(request) if "ELLIPSES" in parts else None,
             distance=self._distance(request) if far else None,
@@ -340,11 +318,11 @@ class FieldMaker:
     def _concavity(self) -> NDArray[np.float64]:
         return self._once("concavity", None, lambda: self._smoothed().k1)
 
-    def _crests(self) -> Crests:
-        def make() -> Crests:
-            return Crests.of(self._core.crest_lines(self.surface(), self._smoothed(), progress=self._go_on))
-
-        return self._once("crests", None, make)
+    def crests_at_vertices(self) -> NDArray[np.float64]:
+        """Return for each vertex the strength of the strongest ridge beside it, or minus that of the strongest valley, or 0."""
+        surface = self.surface()
+        lines = self._core.crest_lines(surface, self._smoothed(), progress=self._go_on)
+        return at_vertices(lines, len(surface.points))
 
     def _silhouette(self) -> Silhouette:
         def make() -> Silhouette:
@@ -364,8 +342,7 @@ class FieldMaker:
             if not request.strokes:
                 return plain
             strokes = list(request.strokes)
-            kind = self._spec(request).kind
-            return self._core.apply_scribbles(self.surface(), plain, strokes, kind, progress=self._go_on)
+            return self._core.apply_scribbles(self.surface(), plain, strokes, request.kind, progress=self._go_on)
 
         return self._once("metric", request.metric_key, make)
 
@@ -374,15 +351,13 @@ class FieldMaker:
         return self._core.make_metric(self.surface(), self._spec(request), progress=self._go_on)
 
     def _spec(self, request: Request) -> seamwire_core.MetricSpec:
-        kinds = kinds_of(request.metric)
-        kind = kinds[min(FOLLOWS.index(request.follow), len(kinds) - 1)]
-        if kind == "euclidean":
+        if request.kind == "euclidean":
             return self._core.MetricSpec("euclidean")
-        if kind == "concave":
+        if request.kind == "concave":
             return self._core.MetricSpec("concave", max_anisotropy=request.strength)
         clamp = request.clamp if request.metric == "feature" else None
         return self._core.MetricSpec(
-            request.metric, request.follow, max_anisotropy=request.strength, clamp_percentile=clamp
+            request.metric, request.kind, max_anisotropy=request.strength, clamp_percentile=clamp
         )
 
     def embedding(self, request: Request) -> seamwire_core.Embedding:
