@@ -6,8 +6,8 @@
   mesh itself.
 - The compiled library: `load` returns its module, or raises ImportError with the reason. `Newest` runs it in a thread. `kinds_of` returns
   the library's metrics that the candidates minimize.
-- Layers: `add_layer` draws something below the wires of each edited object. A layer with settings of its own calls `tell_listeners` after
-  they have changed.
+- Layers: `add_layer` draws something below the wires of each edited object. If a layer has its own settings, it calls `tell_listeners`
+  after a change.
 - Drawing: `Eye`, `Lines`, `Faces` and what they need, legends, and colors for numbers.
 """
 

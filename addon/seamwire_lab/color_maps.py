@@ -15,8 +15,8 @@ def _of_hex(text: str) -> ColorMap:
 
 
 VIRIDIS: ColorMap = _of_hex("440154 472D7B 3B528B 2C728E 21908C 27AD81 5DC863 AADC32 FDE725")
-"""For what is zero and more. Smith and van der Walt (matplotlib, CC0); equally spaced in brightness, for the color-blind too."""
+"""For numbers from zero. By Smith and van der Walt (matplotlib, CC0). Steps in brightness are equal, also for the color-blind."""
 PLASMA: ColorMap = _of_hex("0D0887 4C02A1 7E03A8 A92395 CC4678 E56B5D F89441 FDC328 F0F921")
-"""Its sibling, by the same: for lengths, where VIRIDIS may be seen beside."""
+"""For lengths, which may be seen beside VIRIDIS. By the same authors."""
 PURPLE_ORANGE: ColorMap = _of_hex("2D004B 542788 8073AC B2ABD2 D8DAEB F7F7F7 FEE0B6 FDB863 E08214 B35806 7F3B08")
-"""For what has a sign: both ends dark, zero nearly white. PuOr of ColorBrewer 2.0 (Harrower and Brewer 2003), turned around."""
+"""For numbers with a sign: both ends are dark, and zero is nearly white. PuOr of ColorBrewer 2.0 (Harrower and Brewer 2003), reversed."""

@@ -19,18 +19,18 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 Part = Literal["STRENGTH", "CONCAVITY", "SILHOUETTE", "ELLIPSES", "DISTANCE", "PATHS", "ISOLINES", "INVALID"]
-"""What can be asked for."""
+"""The fields that can be computed."""
 Source = int | tuple[int, tuple[float, float, float]] | tuple[int, ...]
 """Where distances are from: a vertex, a point of a triangle, or several vertices."""
 
 PATHS = 300
-"""So many paths are traced: on the meshes of the paper they lie as close as there."""
+"""The number of traced paths. On the meshes of the paper they lie as close as in its figures."""
 BANDS = 20
-"""About so many distance bands."""
+"""The approximate number of distance bands."""
 ELLIPSES = 1500
-"""So many ellipses at most."""
+"""The largest number of ellipses."""
 _RADIUS, _LONGEST = 0.33, 1.5
-"""Of an ellipse, in distances to the next one: its mean radius, and its longest semi-axis at most."""
+"""The mean radius of an ellipse, and the most that its longer semi-axis may have, in distances to the next ellipse."""
 
 
 @dataclass(frozen=True)
@@ -46,9 +46,9 @@ class Request:
     kind
         Which of the library's metrics, see ``MetricSpec``.
     source
-        Where distances are from; None: there is no such place, and nothing of them is computed.
+        Where distances are from. Without a source, no distances are computed.
     strokes
-        The library's strokes that wires follow or keep from.
+        The library's scribbles.
     """
 
     parts: frozenset[Part]
@@ -61,7 +61,7 @@ class Request:
 
     @property
     def metric_key(self) -> tuple[object, ...]:
-        """The same where the metric is."""
+        """Everything that the metric depends on."""
         return self.metric, self.strength, self.clamp, self.kind, self.strokes
 
 
@@ -74,11 +74,11 @@ class Ellipses:
     centres, normals
         (k, 3).
     axes
-        (k, 2, 3) semi-axes, the longer first: how far a path of one length leads, the same for all, so that they are seen apart.
+        (k, 2, 3) the semi-axes, the longer first. They show how far a path of a given length leads.
     anisotropy
         (k,)
     spacing
-        About how far apart the centres are.
+        The approximate distance between centers.
     """
 
     centres: NDArray[np.float64]
@@ -90,14 +90,14 @@ class Ellipses:
 
 @dataclass(frozen=True)
 class Paths:
-    """Shortest paths: `points` (p, 3), path i from starts[i] to starts[i + 1], (k + 1,), its length, (k,)."""
+    """Shortest paths. Path i has the points from starts[i] to starts[i + 1]."""
 
     points: NDArray[np.float64]
     starts: NDArray[np.int32]
     lengths: NDArray[np.float64]
 
     def segments(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return their straight pieces, (s, 2, 3), and the length of the path that each is of, (s,)."""
+        """Return the straight pieces of all paths, (s, 2, 3), and for each piece the length of its path, (s,)."""
         owner = np.repeat(np.arange(len(self.lengths)), np.diff(self.starts))
         same = owner[:-1] == owner[1:]
         return np.stack([self.points[:-1], self.points[1:]], axis=1)[same], self.lengths[owner[:-1]][same]
@@ -105,7 +105,7 @@ class Paths:
 
 @dataclass(frozen=True)
 class Isolines:
-    """Distance bands: their borders, (k, 2, 3), and how far apart they are."""
+    """Distance bands: the segments of their borders, (k, 2, 3), and their width."""
 
     segments: NDArray[np.float64]
     spacing: float
@@ -113,20 +113,20 @@ class Isolines:
 
 @dataclass(frozen=True)
 class Invalid:
-    """Triangles that fail the triangle inequality, by what the embedding made of them.
+    """The triangles that fail the triangle inequality, grouped by their repair.
 
     Parameters
     ----------
     split
-        Made valid by bisection alone.
+        Triangles that bisection alone has made valid.
     repaired
-        With an edge that was given another length.
+        Triangles with an edge whose length was changed.
     left
-        With a part that stayed invalid: a hole.
+        Triangles with a part that stays invalid, which is a hole.
     edges
-        (e, 2, 3) the edges of the parts of all that were bisected, neighbors of invalid ones among them.
+        (e, 2, 3) the edges of all parts of bisected triangles. Neighbors of invalid triangles are bisected too.
     before, added
-        How many were invalid, and how many triangles were added.
+        The number of invalid triangles, and the number of added triangles.
     """
 
     split: NDArray[np.int32]
@@ -139,7 +139,7 @@ class Invalid:
 
 @dataclass(frozen=True, eq=False)
 class Silhouette:
-    """Where a surface turns away from a viewer: smooth curves across its faces, of its normals at the vertices.
+    """The curves across faces where a smooth surface turns away from a viewer. Its normals are interpolated from the vertices.
 
     Parameters
     ----------
@@ -157,7 +157,7 @@ class Silhouette:
     normals: NDArray[np.float64]
 
     def seen_from(self, eye: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the straight pieces, (k, 2, 3), as seen from an eye, (4,): x, y, z and 1, or a direction to it and 0."""
+        """Return the straight pieces, (k, 2, 3), seen from an eye, (4,): x, y, z and 1, or the direction to it and 0."""
         towards = eye[:3] - eye[3] * self.points
         facing = np.einsum("ij,ij->i", self.normals, towards)
         return self.core.isolines(self.surface, facing, [0.0])[0]
@@ -179,7 +179,7 @@ class Fields:
 
 
 def spread(points: NDArray[np.float64], count: int) -> tuple[NDArray[np.int64], float]:
-    """Return about `count` points at most, far from each other, and the side of the cubes that hold one each.
+    """Return at most `count` points that are spread over all, and the side of the cubes that hold one point each.
 
     Parameters
     ----------

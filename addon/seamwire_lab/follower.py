@@ -34,7 +34,7 @@ _PAUSE = 0.3
 
 
 class _Shown:
-    """The active object of Object Mode, as it was read."""
+    """What was read of the active object of Object Mode."""
 
     def __init__(self, found: ModuleType, obj: bpy.types.Object) -> None:
         self.problem = ""
@@ -190,6 +190,8 @@ class Follower:
         context, obj = bpy.context, _active()
         if obj is None or self._shown is None or _names(obj) != self._active or self._is_stale:
             return
+        if tool.find() is not self._tool:
+            return  # it was disabled since the last tick
         if context.space_data.overlay.show_overlays and obj.visible_in_viewport_get(context.space_data):
             part(obj)
 

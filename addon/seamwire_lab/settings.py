@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which views are shown, in all files until Blender ends."""
+"""Which views are shown. Blender does not store this with its preferences."""
 
 from __future__ import annotations
 

@@ -138,7 +138,7 @@ class Views:
         return getattr(fields, part.lower())
 
     def _once(self, name: str, of: object, make: Callable[[], object]) -> object:
-        """Return what is drawn of some data, made when that is first seen."""
+        """Return what draws some data. It is made when the data is first seen."""
         if name not in self._made or self._made[name][0] is not of:
             self._made[name] = of, make()
         return self._made[name][1]
@@ -146,7 +146,7 @@ class Views:
     # Drawing
 
     def repose(self) -> None:
-        """Draw everything where it is seen now."""
+        """Draw everything where the pose has it now."""
         self._made.clear()
 
     def _seen_at(self, segments: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -243,16 +243,16 @@ class Views:
 
 
 class HeatScale:
-    """Which number has which color.
+    """The colors of numbers.
 
     Parameters
     ----------
     low, high
-        The numbers of the first and the last color.
+        The numbers that have the first and the last color.
     map
         The colors.
     clipped
-        Whether there are numbers above the last.
+        Whether larger numbers exist.
     """
 
     def __init__(self, low: float, high: float, map: ColorMap, clipped: bool) -> None:
@@ -260,7 +260,7 @@ class HeatScale:
 
     @classmethod
     def of(cls, heat: Part, values: NDArray[np.float64]) -> HeatScale:
-        """Return that of a heat's values."""
+        """Return the scale for the values of a heat view."""
         some = values[np.isfinite(values)]
         if heat == "DISTANCE":
             return cls(0.0, float(some.max(initial=0.0)), color_maps.PLASMA, False)
@@ -277,7 +277,7 @@ class HeatScale:
         return interface().colors(np.nan_to_num(parts, posinf=1.0), self.map)
 
     def legend(self, heat: Part) -> Legend:
-        """Return the colors with their numbers."""
+        """Return the legend of a heat view."""
         middle = 0.5 * (self.low + self.high)
         more = "+" if self.clipped else ""
         less = "\N{MINUS SIGN}" if self.low < 0.0 else ""
@@ -312,7 +312,7 @@ def _text(number: float) -> str:
 
 
 def _ellipse_faces(ellipses: Ellipses) -> tuple[ShadedFaces, ShadedFaces]:
-    """Return the ellipses as fans: their rims, and the colored insides above them."""
+    """Return the rims of ellipses, and the colored insides that lie above the rims."""
     colors = np.ones((len(ellipses.centres), 4))
     colors[:, :3] = interface().colors(_anisotropy_parts(ellipses), color_maps.VIRIDIS)
     rims = np.broadcast_to(np.array(_RIM), colors.shape)

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 from types import SimpleNamespace
 
 import bpy
@@ -320,11 +321,29 @@ def test_it_follows_the_tool_that_is_disabled_and_enabled_again(desk: Desk) -> N
     ui.wait_until(lambda: follower().views is not None and shown(follower().views))
     traces.disable()
     try:
+        ui.pixels()  # it is drawn before the next tick of the timer
         ui.wait_until(lambda: follower().views is None)
         ui.wait(5, redraw=True)
     finally:
         traces.enable()
     ui.wait_until(lambda: follower().views is not None and shown(follower().views))
+
+
+@pytest.mark.parametrize("load_ui", [False, True])
+def test_views_follow_another_file(desk: Desk, tmp_path: Path, load_ui: bool) -> None:
+    bpy.ops.object.mode_set(mode="OBJECT")
+    path = str(tmp_path / "a.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path, copy=True)
+    settings().heat = "STRENGTH"
+    desk.ui.wait_until(lambda: follower().views is not None and shown(follower().views))
+    before = follower().views
+    bpy.ops.wm.open_mainfile(filepath=path, load_ui=load_ui)
+    driver.Ui.__init__(desk.ui)  # the file may have brought another window
+    if load_ui:  # the settings came with the window manager of the file
+        desk.ui.wait_until(lambda: settings().is_any_shown or not follower()._handles)
+    else:
+        desk.ui.wait_until(lambda: follower().views not in {None, before} and shown(follower().views))
+    desk.ui.wait(3, redraw=True)
 
 
 @pytest.mark.every_blender

@@ -86,6 +86,7 @@ def tool(film: Film) -> None:
     """Take the tool before the first click, with its menu and its views open, and in a chain. The names have Blender's version."""
     version = ".".join(map(str, bpy.app.version[:2]))
     film.filming = False
+    bpy.context.preferences.view.show_tooltips = False
     stage(film)
     film.at = film.vertex(0.0, -0.6, 0.80)
     show_card(True)
@@ -166,6 +167,7 @@ def lab(film: Film) -> None:
     of_lab, follower = part("settings").settings(), part("follower").follower
     film.filming = False
     bpy.context.preferences.view.ui_scale = 1.4
+    bpy.context.preferences.view.show_tooltips = False
     stage(film)
     bpy.ops.object.mode_set(mode="OBJECT")
     film.obj.select_set(False)

@@ -155,7 +155,7 @@ class SeamwireSettings(bpy.types.PropertyGroup):
     )
     heat: bpy.props.EnumProperty(
         name="Heat",
-        description="Color faces by a measured value",
+        description="Color faces by the stretch of the UV map",
         items=HEAT_ITEMS,
         update=_changed,
     )
