@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import gc
+import weakref
 from collections.abc import Iterator
 from pathlib import Path
 from types import SimpleNamespace
@@ -344,6 +346,20 @@ def test_views_follow_another_file(desk: Desk, tmp_path: Path, load_ui: bool) ->
     else:
         desk.ui.wait_until(lambda: follower().views not in {None, before} and shown(follower().views))
     desk.ui.wait(3, redraw=True)
+
+
+def test_what_was_prepared_for_a_mesh_is_freed_with_it(desk: Desk) -> None:
+    desk.choose()
+    settings().show_paths = True
+    desk.ui.wait_until(shown)
+    gone = weakref.ref(views())
+    gc.collect()
+    gc.disable()
+    try:
+        edited.forget(edited.front)
+        assert gone() is None
+    finally:
+        gc.enable()
 
 
 @pytest.mark.every_blender
