@@ -34,7 +34,7 @@ _PAUSE = 0.3
 
 
 class _Shown:
-    """What was read of the active object of Object Mode."""
+    """The views of the active object of Object Mode, or the reason why it has none."""
 
     def __init__(self, found: ModuleType, obj: bpy.types.Object) -> None:
         self.problem = ""
