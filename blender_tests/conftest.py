@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What every test in Blender starts from."""
 
+from collections.abc import Iterator
+
 import bpy
 import pytest
+from lab import disable_lab, enable_lab, part
 
 MARKERS = {
     "every_blender": "runs in every Blender, because its outcome can differ between Blender's versions.",
@@ -24,3 +27,11 @@ def empty_scene() -> None:
         bpy.ops.object.mode_set(mode="OBJECT")
     bpy.data.batch_remove([*bpy.data.objects, *bpy.data.meshes])
     bpy.context.tool_settings.mesh_select_mode = (True, False, False)
+
+
+@pytest.fixture
+def lab_settings() -> Iterator[bpy.types.PropertyGroup]:
+    """Enable Seamwire Lab, and return its settings."""
+    enable_lab()
+    yield part("settings").settings()
+    disable_lab()

@@ -47,7 +47,6 @@ _PARTS = (
     "ui.toolbar",
     "ui.status_bar",
     "ui.menus",
-    "ui.views_panel",
 )
 
 

@@ -14,6 +14,7 @@ from blender_refusal import BLENDERS
 from seamwire.words.messages import SENTENCES
 
 ROOT = Path(__file__).parent.parent / "seamwire"
+LAB = ROOT.parent / "seamwire_lab"
 ROOMS = (
     "base",
     "network",
@@ -88,6 +89,38 @@ def test_the_core_has_rooms_only() -> None:
     core = ROOT / "core"
     assert {path.name for path in core.iterdir() if path.is_dir() and path.name != "__pycache__"} == set(ROOMS)
     assert [path.name for path in core.glob("*.py")] == ["__init__.py"]
+
+
+def test_the_lab_uses_nothing_of_the_tool_but_its_interface() -> None:
+    names = set(interface_names())
+    for path in LAB.glob("*.py"):
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        for node in ast.walk(tree):
+            if isinstance(node, ast.Import):
+                assert not [name.name for name in node.names if name.name.split(".")[0] == "seamwire"], path.name
+            elif isinstance(node, ast.ImportFrom) and node.level == 0 and node.module.split(".")[0] == "seamwire":
+                assert node.module == "seamwire.interface", path.name
+                assert {name.name for name in node.names} <= names, path.name
+    calls = [
+        (path.name, ast.unparse(node))
+        for path in LAB.glob("*.py")
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] in {"import_module", "__import__"}
+    ]
+    own = {("__init__.py", "import_module(f'.{name}', __package__)")}
+    assert set(calls) - own == {("tool.py", "import_module(f'{_addon.__name__}.interface')")}
+
+
+def interface_names() -> list[str]:
+    """Return the names that the tool's interface offers."""
+    tree = ast.parse((ROOT / "interface.py").read_text(encoding="utf-8"))
+    (value,) = (node.value for node in tree.body if isinstance(node, ast.Assign))
+    return ast.literal_eval(value)
+
+
+def test_the_lab_uses_all_of_the_interface() -> None:
+    text = "".join(path.read_text(encoding="utf-8") for path in LAB.glob("*.py"))
+    assert [name for name in interface_names() if not re.search(rf"\b{name}\b", text)] == []
 
 
 def test_edit_meshes_are_had_from_one_place_which_numbers_their_items() -> None:

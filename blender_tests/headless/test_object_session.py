@@ -89,7 +89,7 @@ def test_what_was_prepared_for_a_mesh_that_changed_is_freed_at_once(grid: bpy.ty
     view = edited.of(grid)
     while view.busy:
         view.poll()
-    held = view, view.mesh.session, view.mesh.make_live, view.views, view.overlay
+    held = view, view.mesh.session, view.mesh.make_live, view.crest_view, view.overlay
     gone = [weakref.ref(one) for one in held]
     del held
     gc.collect()

@@ -82,10 +82,9 @@ def test_every_setting_is_shown_once_outside_the_header(tool: chosen.SeamwireSet
         SimpleNamespace(layout=Layout(shown)), SimpleNamespace(preferences=bpy.context.preferences)
     )
     of_mesh = {"use_mirror_x", "use_mirror_y", "use_mirror_z"}
-    of_panel = {"views_in_object_mode"}
     other = "strength_surface" if along == "EDGES" else "strength_edges"
     names = {prop.identifier for prop in tool.bl_rna.properties} - {"rna_type", "name", other}
-    assert sorted(shown) == sorted((names | of_mesh) - of_panel)
+    assert sorted(shown) == sorted(names | of_mesh)
 
 
 def test_the_sidebar_has_a_panel_for_each_group(tool: chosen.SeamwireSettings) -> None:

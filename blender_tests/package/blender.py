@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A Blender to install the package in, with separate user folders. Used from outside Blender.
 
-``python blender.py PROGRAM NAME USER PACKAGE`` installs the package there and enables the add-on.
+``python blender.py PROGRAM NAME USER PACKAGE...`` installs packages there and enables the add-ons.
 """
 
 from __future__ import annotations
@@ -82,13 +82,13 @@ class Blender:
             settings = [] if as_set_up else ["--factory-startup"]
             return self.start("--background", *settings, "--python-exit-code", "3", "--python", str(file))
 
-    def install(self, package: Path) -> str:
-        """Install the package and enable the add-on, as a user does. Returns what Blender printed."""
-        code, output = self.try_install(package)
+    def install(self, package: Path, addon: str = "seamwire") -> str:
+        """Install the package of an add-on and enable it, as a user does. Returns what Blender printed."""
+        code, output = self.try_install(package, addon)
         assert code == 0, output
         return output
 
-    def try_install(self, package: Path) -> tuple[int, str]:
+    def try_install(self, package: Path, addon: str = "seamwire") -> tuple[int, str]:
         """Install the package; return Blender's exit code and what it printed."""
         if self.has_extensions and not self.is_python_module:
             return self.try_start("--command", "extension", "install-file", "-r", "user_default", "-e", str(package))
@@ -100,20 +100,20 @@ class Blender:
         else:
             code = (
                 f"bpy.ops.preferences.addon_install(filepath={str(package)!r}, overwrite=True);"
-                "bpy.ops.preferences.addon_enable(module='seamwire');"
+                f"bpy.ops.preferences.addon_enable(module={addon!r});"
                 "bpy.ops.wm.save_userpref()"
             )
         return self.try_start("--background", "--python-exit-code", "3", "--python-expr", f"import bpy; {code}")
 
-    def remove(self, after: str = "") -> str:
-        """Uninstall the package, as a user does; in the Blender that ran the code `after`, if there is any."""
+    def remove(self, after: str = "", addon: str = "seamwire") -> str:
+        """Uninstall an add-on, as a user does; in the Blender that ran the code `after`, if there is any."""
         if self.has_extensions and not self.is_python_module and not after:
-            return self.start("--command", "extension", "remove", "user_default.seamwire")
+            return self.start("--command", "extension", "remove", f"user_default.{addon}")
         if self.has_extensions:
             code = (
                 "import bpy\n"
                 "repos = [repo.module for repo in bpy.context.preferences.extensions.repos]\n"
-                "bpy.ops.extensions.package_uninstall(repo_index=repos.index('user_default'), pkg_id='seamwire')\n"
+                f"bpy.ops.extensions.package_uninstall(repo_index=repos.index('user_default'), pkg_id={addon!r})\n"
                 "bpy.ops.wm.save_userpref()\n"
             )
         else:
@@ -122,7 +122,7 @@ class Blender:
                 "import bpy\n"
                 "window = bpy.context.window_manager.windows[0]\n"
                 "with bpy.context.temp_override(window=window, area=window.screen.areas[0]):\n"
-                "    bpy.ops.preferences.addon_remove(module='seamwire')\n"
+                f"    bpy.ops.preferences.addon_remove(module={addon!r})\n"
                 "bpy.ops.wm.save_userpref()\n"
             )
         return self.run(after + code)
@@ -142,5 +142,6 @@ def printed(output: str, name: str) -> list[str]:
 
 
 if __name__ == "__main__":
-    _program, _name, _user, _package = sys.argv[1:]
-    Blender(Path(_program), _name, Path(_user)).install(Path(_package))
+    _program, _name, _user, *_packages = sys.argv[1:]
+    for _package in map(Path, _packages):
+        Blender(Path(_program), _name, Path(_user)).install(_package, _package.name.split("-")[0])

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The package that was built, and the Blender to try it in: SEAMWIRE_PACKAGE, BLENDER, SEAMWIRE_BLENDER_NAME."""
+"""The packages that were built, and the Blender to try them in.
+
+They are named by SEAMWIRE_PACKAGE, SEAMWIRE_LAB_PACKAGE, BLENDER and SEAMWIRE_BLENDER_NAME.
+"""
 
 import os
 import sys
@@ -19,6 +22,12 @@ USER = "Анна Müller"
 def package() -> Path:
     """The zip that scripts/package made."""
     return Path(os.environ["SEAMWIRE_PACKAGE"])
+
+
+@pytest.fixture(scope="session")
+def lab_package() -> Path:
+    """The zip of Seamwire Lab."""
+    return Path(os.environ["SEAMWIRE_LAB_PACKAGE"])
 
 
 @pytest.fixture

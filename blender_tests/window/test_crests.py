@@ -49,7 +49,7 @@ def beside(desk: Desk, y: float, pixels: float) -> tuple[float, float]:
 
 
 def shown_ridge() -> bool:
-    return edited.front is not None and edited.front.views.crests is not None
+    return edited.front is not None and edited.front.crest_view.crests is not None
 
 
 def said() -> str:
@@ -118,7 +118,7 @@ def test_seeds_snap_to_ridges_beside_the_cursor(desk: Desk) -> None:
     ui.wait_until(shown_ridge)
     ui.move((place[0], place[1] + 1.0))
     assert session.target.to == "FEATURE"
-    assert session.target.pick in edited.front.views.crests.edges
+    assert session.target.pick in edited.front.crest_view.crests.edges
 
 
 def test_seeds_that_lie_anywhere_snap_onto_the_line_itself(desk: Desk) -> None:
@@ -144,5 +144,5 @@ def test_where_neither_is_asked_for_nothing_is_computed(desk: Desk) -> None:
     desk.choose()
     desk.ui.move(beside(desk, 0.1, 3.0))
     desk.ui.wait(10)
-    assert edited.front.views.crests is None
+    assert edited.front.crest_view.crests is None
     assert desk.unchanged()

@@ -14,8 +14,6 @@ from seamwire.core.islands.islands import IslandMaker
 from seamwire.mesh import settings as chosen
 from seamwire.view import plan_preview
 from seamwire.view.edited_objects import EditedObjects, edited
-from seamwire.view.metric_views import MetricViews
-from seamwire.view.object_mode import object_mode
 from seamwire.view.overlay import Overlay
 from seamwire.view.plan_preview import PlanPreview
 
@@ -146,26 +144,3 @@ def test_a_preview_that_failed_is_tried_again_with_the_next_plan(
         assert broken.calls > 3
     finally:
         preview.close()
-
-
-def test_views_in_object_mode_are_tried_again_on_another_object(
-    desk: Desk, monkeypatch: pytest.MonkeyPatch, told: Callable[[], int]
-) -> None:
-    with desk.ui.override():
-        bpy.ops.object.mode_set(mode="OBJECT")
-    broken = Broken(MetricViews, "follow", monkeypatch)
-    chosen.settings().show_crests = chosen.settings().views_in_object_mode = True
-    try:
-        desk.ui.wait_until(lambda: broken.calls > 0)
-        desk.ui.wait(20, redraw=True)
-        assert broken.calls == 1
-        assert told() == 1
-        broken.is_broken = False
-        with desk.ui.override():
-            bpy.ops.object.duplicate()
-        desk.ui.wait_until(lambda: object_mode.views is not None and object_mode.views.is_complete)
-    finally:
-        chosen.settings().show_crests = chosen.settings().views_in_object_mode = False
-        desk.ui.wait(20)
-        with desk.ui.override():
-            bpy.ops.object.mode_set(mode="EDIT")

@@ -48,7 +48,7 @@ def test_blenders_menus_have_one_entry_of_ours(desk: Desk, name: str) -> None:
 @pytest.mark.every_blender
 @pytest.mark.parametrize(
     "menu",
-    [menus.VIEW3D_MT_seamwire, *menus.SUBMENUS, menus.VIEW3D_MT_seamwire_store_view],
+    [menus.VIEW3D_MT_seamwire, *menus.SUBMENUS],
     ids=lambda menu: menu.bl_label,
 )
 def test_each_entry_of_our_menus_is_an_operator_a_menu_or_a_setting(

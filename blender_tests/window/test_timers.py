@@ -82,7 +82,6 @@ def test_what_is_computed_after_a_chain_is_still_taken_in(desk: Desk) -> None:
 @pytest.mark.parametrize("in_chain", [pytest.param(False, marks=pytest.mark.every_blender), True])
 def test_disabled_the_add_on_has_no_timer(desk: Desk, take_timers: Taker, in_chain: bool) -> None:
     desk.choose()
-    settings().views_in_object_mode = True
     if in_chain:
         desk.ui.click(desk.at(36))
         assert desk.running

@@ -14,7 +14,7 @@ from figure_models import Model
 from figure_sheet import Bar, Key, Panel, sheet
 from figure_stage import CLAY, INK, SEED
 from figure_studio import length_colors, resampled
-from seamwire.core.fields import metric_fields
+from seamwire_lab.fields import band_levels
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -82,7 +82,7 @@ def embedding(studio: Studio) -> Image.Image:
         field = studio.core.distance_field(one, start)
         farthest = float(field.distances[np.isfinite(field.distances)].max())
         stage = studio.stage(model, 5, colors=length_colors(field.distances / farthest))
-        levels = metric_fields.band_levels(farthest)
+        levels = band_levels(farthest)
         pieces, faces, _ = studio.core.isolines(model.surface, field.distances, levels)
         # Flat triangles are shown rounded by their normals: lines in their planes would sink in.
         above = 0.001 * model.size * model.curvature.normals[model.triangles[faces]].mean(axis=1)

@@ -20,7 +20,9 @@ from path_traffic import (
     traffic,
     vertex_areas,
 )
-from seamwire.core.fields import color_maps, metric_fields
+from seamwire.core.fields.color_maps import colors
+from seamwire_lab.color_maps import PURPLE_ORANGE
+from seamwire_lab.fields import spread
 
 if TYPE_CHECKING:
     import seamwire_core
@@ -81,7 +83,7 @@ def _panels(studio: Studio, made: Detection) -> list[Panel]:
 
 def _heat(parts: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return colors from white to purple."""
-    return color_maps.colors(0.5 - 0.5 * np.clip(parts, 0.0, 1.0), color_maps.PURPLE_ORANGE)
+    return colors(0.5 - 0.5 * np.clip(parts, 0.0, 1.0), PURPLE_ORANGE)
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +105,7 @@ class Detection:
 
     def _paths(self, kind: str, **strength: float) -> Paths:
         model = self.model
-        sources, targets = (metric_fields.spread(model.points, count)[0] for count in (SOURCES, TARGETS))
+        sources, targets = (spread(model.points, count)[0] for count in (SOURCES, TARGETS))
         return shortest_paths(model.core, model.embed(model.metric(kind, **strength), kind), sources, targets)
 
     @cached_property

@@ -11,7 +11,9 @@ from figure_models import PATH_ERROR
 from figure_sheet import Bar, Key, Panel, sheet
 from figure_stage import INK
 from figure_studio import RIDGE, VALLEY, anisotropy_bar
-from seamwire.core.fields import color_maps, metric_fields
+from seamwire.core.fields.color_maps import colors
+from seamwire_lab.color_maps import PURPLE_ORANGE, VIRIDIS
+from seamwire_lab.fields import spread
 
 if TYPE_CHECKING:
     import seamwire_core
@@ -112,7 +114,7 @@ def _most_different(model: Model, sign: float) -> dict[str, seamwire_core.Wire]:
     smoothed = model.core.smoothed_curvatures(model.surface, model.curvature)
     strength = np.where(sign * smoothed.k1 > 0.0, model.strength, 0.0)
     strong = np.flatnonzero(strength >= np.percentile(strength[strength > 0.0], 90))
-    ends = strong[metric_fields.spread(model.points[strong], _CANDIDATES)[0]]
+    ends = strong[spread(model.points[strong], _CANDIDATES)[0]]
     embeddings = {kind: model.embed(model.metric(kind, **_strength(kind)), kind, PATH_ERROR) for kind in METRICS}
     best: dict[str, seamwire_core.Wire] = {}
     best_gain, best_means, pairs = -np.inf, {}, 0
@@ -154,8 +156,8 @@ def feature_strength(studio: Studio) -> Image.Image:
     limit = float(np.percentile(model.strength, 97))
     bend = float(np.percentile(np.abs(smoothed.k1), 97))
     lines = studio.core.crest_lines(model.surface, smoothed)
-    viridis = partial(color_maps.colors, of=color_maps.VIRIDIS)
-    signed = partial(color_maps.colors, of=color_maps.PURPLE_ORANGE)
+    viridis = partial(colors, of=VIRIDIS)
+    signed = partial(colors, of=PURPLE_ORANGE)
     stage = studio.stage(model, 3, colors=viridis(model.strength / limit))
     panels = [Panel(studio.render(stage), "feature strength s", Bar("s", "0", f"{limit:.0f}", viridis))]
     stage = studio.stage(model, 3)

@@ -11,7 +11,9 @@ from figure_drawn import Drawn, network_of, spread_colors
 from figure_models import Model
 from figure_sheet import Bar, with_inset
 from figure_stage import INK, SEED, Stage
-from seamwire.core.fields import color_maps, metric_fields
+from seamwire.core.fields.color_maps import STRETCH, colors
+from seamwire_lab.color_maps import VIRIDIS
+from seamwire_lab.fields import Paths, spread
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -47,12 +49,12 @@ def anisotropy_bar(label: str = "anisotropy") -> Bar:
 
 def _anisotropy_colors(parts: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return colors at fractions of the logarithm; not from the map's dark end."""
-    return color_maps.colors(0.25 + 0.75 * parts, color_maps.VIRIDIS)
+    return colors(0.25 + 0.75 * parts, VIRIDIS)
 
 
 def length_colors(parts: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return colors from blue to red, as the paper has lengths."""
-    return color_maps.colors(parts, color_maps.STRETCH)
+    return colors(parts, STRETCH)
 
 
 def resampled(model: Model, count: int) -> Model:
@@ -137,8 +139,8 @@ class Studio:
     @staticmethod
     def add_paths(stage: Stage, model: Model, field: seamwire_core.DistanceField, width: float = 0.005) -> Bar:
         """Add shortest paths to many vertices, colored by their lengths as in the paper; return the color bar."""
-        chosen, _ = metric_fields.spread(model.points, _PATHS)
-        paths = metric_fields.Paths(*field.trace_many(chosen))
+        chosen, _ = spread(model.points, _PATHS)
+        paths = Paths(*field.trace_many(chosen))
         pieces, lengths = paths.segments()
         longest = paths.lengths[np.isfinite(paths.lengths)].max()
         stage.segments(pieces, length_colors(lengths / longest), width, sides=6)
@@ -151,7 +153,7 @@ class Studio:
 
         With l1 and l2 themselves, as its caption has it, those of anisotropy 20 are 400 times as long as wide: none is seen.
         """
-        chosen, side = metric_fields.spread(model.points, _ELLIPSES)
+        chosen, side = spread(model.points, _ELLIPSES)
         axes = metric.ellipses("norm")[chosen]
         axes = axes / np.maximum(np.sqrt(np.linalg.norm(axes, axis=2, keepdims=True)), 1e-300)
         sizes = np.linalg.norm(axes, axis=2)

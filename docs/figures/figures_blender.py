@@ -20,6 +20,7 @@ import addon_utils
 import bpy
 
 addon_utils.enable("seamwire", default_set=True)
+addon_utils.enable("seamwire_lab", default_set=True)
 
 import figure_embeddings
 import figure_features

@@ -21,7 +21,7 @@ sys.path[:0] = [os.environ["SEAMWIRE_BLENDER_PACKAGES"], str(ROOT / "blender_tes
 
 from enabling import enable_addon
 from film_figure import character, figure_pictures, limbs
-from film_guide import cut, guide, install, looks, stretch, tool, views
+from film_guide import cut, guide, install, lab, looks, stretch, tool, views
 from film_hand import Film
 from film_head import animation, job
 from film_prop import wheel
@@ -31,6 +31,21 @@ from turns import play_strictly
 enable_addon()
 show_card(False)
 kind, target = sys.argv[sys.argv.index("--") + 1 :]
-parts = (animation, job, limbs, character, wheel, guide, tool, cut, stretch, views, figure_pictures, install, looks)
+parts = (
+    animation,
+    job,
+    limbs,
+    character,
+    wheel,
+    guide,
+    tool,
+    lab,
+    cut,
+    stretch,
+    views,
+    figure_pictures,
+    install,
+    looks,
+)
 part = next(part for part in parts if part.__name__ == kind)
 play_strictly(lambda: part(Film(Path(target))))

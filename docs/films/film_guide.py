@@ -17,6 +17,7 @@ import show
 import ui as driver
 from film_hand import session, write_png
 from film_stage import EAR, EYE, FACE, aside, settings, show_card, stage, start, unwrap
+from lab import enable_lab, part
 from mathutils import Euler, Vector
 
 if TYPE_CHECKING:
@@ -85,6 +86,7 @@ def tool(film: Film) -> None:
     """Take the tool before the first click, with its menu and its views open, and in a chain. The names have Blender's version."""
     version = ".".join(map(str, bpy.app.version[:2]))
     film.filming = False
+    bpy.context.preferences.view.show_tooltips = False
     stage(film)
     film.at = film.vertex(0.0, -0.6, 0.80)
     show_card(True)
@@ -161,10 +163,32 @@ def stretch(film: Film) -> None:
         film.picture(f"stretch-{name}")
 
 
-def views(film: Film) -> None:
-    """Take each view of the metric in Object Mode, six in one picture. The window has about the size of one of the six."""
-    from seamwire.view.object_mode import object_mode
+def lab(film: Film) -> None:
+    """Take the panel of Seamwire Lab in Object Mode, over a view. The name has Blender's version."""
+    enable_lab()
+    of_lab, follower = part("settings").settings(), part("follower").follower
+    film.filming = False
+    bpy.context.preferences.view.ui_scale = 1.4
+    bpy.context.preferences.view.show_tooltips = False
+    stage(film)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    film.obj.select_set(False)
+    place = Vector((0.0, -0.6, 0.80))
+    min(film.obj.data.vertices, key=lambda vertex: (vertex.co - place).length).select = True
+    settings().along, of_lab.heat, of_lab.show_bands = "SURFACE", "DISTANCE", True
+    film.ui.wait_until(lambda: follower.views is not None and follower.views.is_complete, 60.0)
+    film.ui.move((film.ui.region.width * 0.78, film.ui.region.height * 0.75))
+    with film.ui.override():
+        bpy.ops.wm.call_panel(name="VIEW3D_PT_seamwire_lab")
+    film.ui.wait(8)
+    film.picture(f"lab-{'.'.join(map(str, bpy.app.version[:2]))}")
+    film.ui.key("ESC")
 
+
+def views(film: Film) -> None:
+    """Take views of Seamwire Lab in Object Mode, six in one picture. The window has about the size of one of the six."""
+    enable_lab()
+    follower, of_lab = part("follower").follower, part("settings").settings()
     film.filming = False
     # The guide shows the picture at half its size.
     bpy.context.preferences.view.ui_scale = 1.7
@@ -176,7 +200,7 @@ def views(film: Film) -> None:
     film.obj.select_set(False)
     place = Vector((0.0, -0.6, 0.80))
     min(film.obj.data.vertices, key=lambda vertex: (vertex.co - place).length).select = True
-    settings().along, settings().views_in_object_mode = "SURFACE", True
+    settings().along = "SURFACE"
     film.ui.wait(8, redraw=True)
     film.at = (-100.0, -100.0)
     head, nose = ((0.25, 0.0, -0.02), 2.7), ((0.12, -0.9, -0.16), 0.42)
@@ -187,14 +211,14 @@ def views(film: Film) -> None:
         (head, 1, {"show_ellipses": True}),
         (head, 1, {"show_paths": True}),
         (nose, 0, {"show_invalid": True}),
-        (head, 1, {"heat": "CONCAVITY", "show_crests": True}),
+        (head, 1, {"heat": "CONCAVITY", "show_silhouette": True}),
     ):
         view.view_location, view.view_distance = centre, distance
         subdivision.levels = levels
         for name, value in shown.items():
-            setattr(settings(), name, value)
+            setattr(of_lab, name, value)
         film.ui.wait(3, redraw=True)  # all of them are asked for by then
-        film.ui.wait_until(lambda: object_mode.views is not None and object_mode.views.is_complete, 60.0)
+        film.ui.wait_until(lambda: follower.views is not None and follower.views.is_complete, 60.0)
         picture = film.shot()[:, :, :3]
         region = film.ui.region
         # Arrows that bring hidden regions back lie at the top and at the right.
@@ -203,10 +227,9 @@ def views(film: Film) -> None:
         shot[-3:], shot[:, -3:] = 20, 20
         shots.append(shot)
         for name in shown:
-            settings().property_unset(name)
+            of_lab.property_unset(name)
     rows = [np.concatenate(shots[i : i + 2], axis=1) for i in (0, 2, 4)]
     write_png(film.folder / "guide-views.png", np.concatenate(rows))
-    settings().property_unset("views_in_object_mode")
     film.ui.wait(20)
 
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Packs the add-on with wheels of its compiled part: ``pack_addon.py --platform PLATFORM --output FOLDER WHEEL...``.
+"""Packs both add-ons, the tool with wheels of its compiled part: ``pack_addon.py --platform PLATFORM --output FOLDER WHEEL...``.
 
-Makes FOLDER/seamwire-VERSION-PLATFORM.zip, with one folder at its top. So it installs as an extension in Blender 4.2 and later, and as an
-add-on in Blender 3.4 and later. There the add-on unpacks the wheel that fits by itself.
+Makes FOLDER/seamwire-VERSION-PLATFORM.zip and FOLDER/seamwire_lab-VERSION.zip, each with one folder at its top. So they install as
+extensions in Blender 4.2 and later, and as add-ons in Blender 3.4 and later. There the tool unpacks the wheel that fits by itself.
 """
 
 import argparse
@@ -13,7 +13,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 ADDON = ROOT / "addon" / "seamwire"
-LEFT_OUT = {"__pycache__", "_native"}
+LAB = ROOT / "addon" / "seamwire_lab"
+LEFT_OUT = {"__pycache__", "_native", "blender_manifest.toml"}
 
 
 def manifest(wheels: list[Path], platforms: list[str]) -> str:
@@ -27,41 +28,60 @@ def manifest(wheels: list[Path], platforms: list[str]) -> str:
 def versions() -> dict[str, str]:
     """Return the version as each file that has to tell it does."""
     found = {
-        "blender_manifest.toml": re.search(
-            r'^version = "(.+)"$', (ADDON / "blender_manifest.toml").read_text("utf-8"), re.M
-        ),
         "pyproject.toml": re.search(r'^version = "(.+)"$', (ROOT / "pyproject.toml").read_text("utf-8"), re.M),
         "CMakeLists.txt": re.search(
             r"^project\(seamwire VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text("utf-8"), re.M
         ),
-        "__init__.py": re.search(r'"version": \((\d+), (\d+), (\d+)\)', (ADDON / "__init__.py").read_text("utf-8")),
     }
+    for folder in (ADDON, LAB):
+        manifest, code = ((folder / name).read_text("utf-8") for name in ("blender_manifest.toml", "__init__.py"))
+        found[f"{folder.name}/blender_manifest.toml"] = re.search(r'^version = "(.+)"$', manifest, re.M)
+        found[f"{folder.name}/__init__.py"] = re.search(r'"version": \((\d+), (\d+), (\d+)\)', code)
     missing = [name for name, match in found.items() if match is None]
     if missing:
         sys.exit(f"no version found in {', '.join(missing)}")
     return {name: ".".join(match.groups()) for name, match in found.items()}
 
 
-def pack(output: Path, wheels: list[Path], platforms: list[str]) -> Path:
-    """Write the package and return its path."""
+def one_version() -> str:
+    """Return the version, which must be the same in all files."""
     told = versions()
     if len(set(told.values())) != 1:
         sys.exit("the versions differ: " + ", ".join(f"{name} {version}" for name, version in told.items()))
-    version = told["pyproject.toml"]
+    return told["pyproject.toml"]
+
+
+def add_folder(archive: zipfile.ZipFile, folder: Path) -> None:
+    """Write the files of an add-on, and the license."""
+    # Blender 3.4 removes the version before only if the folder has a separate entry.
+    archive.writestr(f"{folder.name}/", b"")
+    for file in sorted(folder.rglob("*")):
+        inside = file.relative_to(folder.parent)
+        if file.is_file() and not LEFT_OUT & set(inside.parts):
+            archive.write(file, inside)
+    archive.write(ROOT / "LICENSE", f"{folder.name}/LICENSE")
+
+
+def pack_lab(output: Path) -> Path:
+    """Write the package of Seamwire Lab and return its path."""
+    path = output / f"seamwire_lab-{one_version()}.zip"
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        add_folder(archive, LAB)
+        archive.write(LAB / "blender_manifest.toml", "seamwire_lab/blender_manifest.toml")
+    return path
+
+
+def pack(output: Path, wheels: list[Path], platforms: list[str]) -> Path:
+    """Write the tool's package and return its path."""
+    version = one_version()
     others = [wheel.name for wheel in wheels if wheel.name.split("-")[:2] != ["seamwire_core", version]]
     if others:
         sys.exit(f"not wheels of seamwire_core {version}: {', '.join(others)}")
     path = output / f"seamwire-{version}-{'-'.join(platforms)}.zip"
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
-        # Blender 3.4 removes the version before only if the folder has a separate entry.
-        archive.writestr("seamwire/", b"")
-        for file in sorted(ADDON.rglob("*")):
-            inside = file.relative_to(ADDON)
-            if file.is_file() and not LEFT_OUT & set(inside.parts) and inside.name != "blender_manifest.toml":
-                archive.write(file, Path("seamwire") / inside)
+        add_folder(archive, ADDON)
         archive.writestr("seamwire/blender_manifest.toml", manifest(wheels, platforms))
-        for name in ("LICENSE", "THIRD-PARTY.md"):
-            archive.write(ROOT / name, f"seamwire/{name}")
+        archive.write(ROOT / "THIRD-PARTY.md", "seamwire/THIRD-PARTY.md")
         for page in sorted((ROOT / "docs" / "guide").glob("*.md")):
             archive.write(page, f"seamwire/guide/{page.name}")
         for wheel in wheels:
@@ -82,6 +102,7 @@ def main() -> None:
     if not wheels:
         sys.exit("no wheel to pack")
     print(pack(arguments.output, sorted(wheels), arguments.platform))
+    print(pack_lab(arguments.output))
 
 
 if __name__ == "__main__":

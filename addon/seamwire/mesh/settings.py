@@ -64,13 +64,6 @@ HEAT_ITEMS = (
     ("NONE", "None", "Tint the islands instead", 0),
     ("ANGLE", "Stretch of Angles", STRETCH_ITEMS[0][2], 1),
     ("AREA", "Stretch of Areas", STRETCH_ITEMS[1][2], 2),
-    ("STRENGTH", "Feature Strength", "How strongly wires follow the shape", 3),
-    ("CONCAVITY", "Concavity", "How sharply the surface bends, in valleys and on ridges", 4),
-    ("DISTANCE", "Distance", "Distance from the seed or the selected vertex, as wires measure it", 5),
-)
-SHOWN_METRIC_ITEMS = (
-    ("MIN", "Along Features", "The metric of the wire along ridges and valleys", 0),
-    ("MAX", "Across Features", "The metric of the wire across ridges and valleys", 1),
 )
 
 
@@ -79,6 +72,11 @@ listeners: list[Callable[[], None]] = []
 
 
 def _changed(_settings: bpy.types.PropertyGroup, _context: bpy.types.Context) -> None:
+    tell_listeners()
+
+
+def tell_listeners() -> None:
+    """Let the drawing follow the settings, and draw all 3D views anew."""
     for listener in tuple(listeners):
         listener()
     redraw_views()
@@ -149,49 +147,13 @@ class SeamwireSettings(bpy.types.PropertyGroup):
     )
     heat: bpy.props.EnumProperty(
         name="Heat",
-        description="Color faces by a measured value",
+        description="Color faces by the stretch of the UV map",
         items=HEAT_ITEMS,
         update=_changed,
     )
     show_crests: bpy.props.BoolProperty(
         name="Ridges and Valleys",
         description="Show where the surface bends most sharply. Alt-click a line to draw wires along it",
-        update=_changed,
-    )
-    show_silhouette: bpy.props.BoolProperty(
-        name="Silhouette",
-        description="Show where the surface turns away from the viewer. Seams behind it are hidden from there",
-        update=_changed,
-    )
-    show_ellipses: bpy.props.BoolProperty(
-        name="Ellipses",
-        description="Show how cheaply wires run in each direction",
-        update=_changed,
-    )
-    show_paths: bpy.props.BoolProperty(
-        name="Shortest Paths",
-        description="Show the shortest paths from the seed or the selected vertex to many vertices",
-        update=_changed,
-    )
-    show_bands: bpy.props.BoolProperty(
-        name="Distance Bands",
-        description="Show evenly spaced lines of equal distance from the seed or the selected vertex",
-        update=_changed,
-    )
-    show_invalid: bpy.props.BoolProperty(
-        name="Invalid Triangles",
-        description="Show triangles that the metric makes invalid, and how they were repaired",
-        update=_changed,
-    )
-    shown_metric: bpy.props.EnumProperty(
-        name="Shown Metric",
-        description="Which candidate's metric to show",
-        items=SHOWN_METRIC_ITEMS,
-        update=_changed,
-    )
-    views_in_object_mode: bpy.props.BoolProperty(
-        name="Seamwire Views",
-        description="Show views of the active object in Object Mode too",
         update=_changed,
     )
     unwrap: bpy.props.BoolProperty(
@@ -207,20 +169,14 @@ class ToolOptions(Options):
 
     Parameters
     ----------
-    heat, shown_metric
-        What colors faces, and which metric that and the other views show.
-    show_crests, show_silhouette, show_ellipses, show_paths, show_bands, show_invalid
-        Which views are shown.
+    heat
+        The kind of stretch that colors faces, or ``NONE``.
+    show_crests
+        Whether ridges and valleys are shown.
     """
 
     heat: str = "NONE"
-    shown_metric: str = "MIN"
     show_crests: bool = False
-    show_silhouette: bool = False
-    show_ellipses: bool = False
-    show_paths: bool = False
-    show_bands: bool = False
-    show_invalid: bool = False
 
 
 def snapshot(settings: SeamwireSettings, mesh: bpy.types.Mesh | None = None, auto: Auto = PLACED) -> ToolOptions:

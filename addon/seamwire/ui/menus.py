@@ -10,8 +10,7 @@ import bpy
 
 from ..mesh.registration import classes, together
 from ..mesh.settings import TOOL, settings
-from ..operators.store import ISLAND_ITEMS, VIEW_ITEMS
-from .properties import VIEWS
+from ..operators.store import ISLAND_ITEMS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -86,31 +85,16 @@ class VIEW3D_MT_seamwire_islands(bpy.types.Menu):
 
 
 class VIEW3D_MT_seamwire_views(bpy.types.Menu):
-    """Show on the mesh what wires follow"""  # noqa: D400 - a tooltip
+    """Show the stretch of the UV map, or ridges and valleys"""  # noqa: D400 - a tooltip
 
     bl_idname = "VIEW3D_MT_seamwire_views"
     bl_label = "Views"
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Show the views as toggles, and those that can be stored."""
+        """Show the views as toggles."""
         layout, chosen = self.layout, settings(context)
         layout.prop_menu_enum(chosen, "heat")
-        for name in VIEWS:
-            layout.prop(chosen, name)
-        layout.separator()
-        layout.menu(VIEW3D_MT_seamwire_store_view.bl_idname)
-
-
-class VIEW3D_MT_seamwire_store_view(bpy.types.Menu):
-    """Store a view as an attribute of the vertices"""  # noqa: D400 - a tooltip
-
-    bl_idname = "VIEW3D_MT_seamwire_store_view"
-    bl_label = "Store View as Attribute"
-
-    def draw(self, _context: bpy.types.Context) -> None:
-        """Show the views that can be stored."""
-        for what, name, *_ in VIEW_ITEMS:
-            self.layout.operator("mesh.seamwire_store", text=name).what = what
+        layout.prop(chosen, "show_crests")
 
 
 SUBMENUS = (
@@ -161,6 +145,6 @@ def _remove(name: str, draw: Callable[[bpy.types.Menu, bpy.types.Context], None]
 
 
 register, unregister = together(
-    *classes(VIEW3D_MT_seamwire, *SUBMENUS, VIEW3D_MT_seamwire_store_view),
+    *classes(VIEW3D_MT_seamwire, *SUBMENUS),
     *((partial(_add, *entry), partial(_remove, *entry)) for entry in _ENTRIES),
 )

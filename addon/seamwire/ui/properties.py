@@ -14,21 +14,14 @@ from ..mesh.settings import SeamwireSettings, settings, tool_is_active
 if TYPE_CHECKING:
     from ..core.network.picks import Along
 
-VIEWS = ("show_crests", "show_silhouette", "show_ellipses", "show_paths", "show_bands", "show_invalid")
-"""The toggles of views that are lines on the mesh."""
 _SHORT_ALONG = (("AUTO", "Auto"), ("EDGES", "Edges"), ("SURFACE", "Surface"))
 """How the header names the choices of *Along*, so that Blender's controls have room beside ours."""
 
 
 def draw_views(chosen: SeamwireSettings, layout: bpy.types.UILayout) -> None:
-    """Show the views of the metric in a column."""
+    """Show the views of the mesh and of its UV map in a column."""
     layout.prop(chosen, "heat")
-    column = layout.column(heading="Show")
-    for name in VIEWS:
-        column.prop(chosen, name)
-    sub = layout.column()
-    sub.active = any(getattr(chosen, name) for name in VIEWS) or chosen.heat == "DISTANCE"
-    sub.prop(chosen, "shown_metric")
+    layout.column(heading="Show").prop(chosen, "show_crests")
 
 
 def draw_header(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
@@ -133,7 +126,7 @@ def _split(layout: bpy.types.UILayout) -> bpy.types.UILayout:
 
 
 class VIEW3D_PT_seamwire_overlays(bpy.types.Panel):
-    """Views of what wires follow"""  # noqa: D400 - a tooltip
+    """Views of the mesh and of its UV map"""  # noqa: D400 - a tooltip
 
     bl_idname = "VIEW3D_PT_seamwire_overlays"
     bl_space_type = "VIEW_3D"

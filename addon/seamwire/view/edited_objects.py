@@ -224,6 +224,14 @@ class EditedObjects:
             view.mesh.follow(settings)
             view.measure()
 
+    def make_layers(self) -> None:
+        """Make the layers of all objects anew, because others are to be drawn."""
+        for view in self._views.values():
+            view.make_layers()
+        if self._views:
+            self._on_settings()
+            self.redraw()
+
     def _on_settings(self) -> None:
         self.follow_settings()
         self.watch()

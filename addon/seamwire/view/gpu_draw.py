@@ -84,6 +84,13 @@ class Eye:
         The view.
     model
         (4, 4), takes what is drawn to world coordinates.
+
+    Attributes
+    ----------
+    to_clip
+        (4, 4), takes what is drawn to clip coordinates.
+    is_orthographic
+        Whether the view has no perspective.
     """
 
     def __init__(self, region_3d: bpy.types.RegionView3D, model: Matrix) -> None:
@@ -91,9 +98,9 @@ class Eye:
         self.scale = bpy.context.preferences.system.ui_scale
         self._view = region_3d.view_matrix
         self._model = model
-        self._orthographic = region_3d.window_matrix[3][3] != 0.0
+        self.is_orthographic = region_3d.window_matrix[3][3] != 0.0
         self._pixel = 2.0 / (region_3d.window_matrix[1][1] * self.size[1])
-        self._to_clip = np.array(region_3d.window_matrix @ region_3d.view_matrix @ model, dtype=np.float64)
+        self.to_clip = np.array(region_3d.window_matrix @ region_3d.view_matrix @ model, dtype=np.float64)
         self._planes = clipping_planes(region_3d) @ np.array(model, dtype=np.float64)
 
     @property
@@ -114,34 +121,25 @@ class Eye:
         nearer at any distance. That keeps it out of the surface, but hides it behind thicker parts.
         """
         depth = pixels * self.scale * self._pixel
-        if self._orthographic:
+        if self.is_orthographic:
             return Matrix.Translation((0.0, 0.0, depth)) @ self._view @ self._model
         # Towards the eye: what is seen stays in its place on the screen.
         return Matrix.Scale(1.0 - depth, 4) @ self._view @ self._model
 
     def pixel_sizes(self, depths: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return how large a pixel is at depths (view coordinates, negative ahead)."""
-        return np.full_like(depths, self._pixel) if self._orthographic else self._pixel * np.abs(depths)
+        return np.full_like(depths, self._pixel) if self.is_orthographic else self._pixel * np.abs(depths)
 
     def on_screen(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Project (n, 3) to (n, 2) pixels; NaN behind the viewer."""
-        clip = points @ self._to_clip[:, :3].T + self._to_clip[:, 3]
+        clip = points @ self.to_clip[:, :3].T + self.to_clip[:, 3]
         w = np.where(clip[:, 3] > 1e-9, clip[:, 3], np.nan)[:, None]
         return clip[:, :2] / w * 0.5 * self.size
 
     @property
-    def place(self) -> NDArray[np.float64] | None:
-        """Where the eye is in what is drawn, (4,): x, y, z and 1, or the direction to it and 0; None: that is flattened."""
-        try:
-            place = np.linalg.inv(self._to_clip) @ (0.0, 0.0, -1.0, 0.0)
-        except np.linalg.LinAlgError:
-            return None
-        return np.append(place[:3], 0.0) if self._orthographic else place / place[3]
-
-    @property
     def key(self) -> bytes:
         """The same as long as all is seen at the same place on the screen."""
-        return self._to_clip.tobytes() + bytes(str(self.size), "ascii")
+        return self.to_clip.tobytes() + bytes(str(self.size), "ascii")
 
 
 class Lines:
@@ -164,7 +162,7 @@ class Lines:
         self._ground = self._make(ends) if style.dash and style.halo else None
         self._hidden: tuple[bytes, gpu.types.GPUBatch | None] = (b"", None)
         self._batch = None if style.dash else self._make(ends)
-        self._within = _Within(self._inside)
+        self._within = Within(self._inside)
 
     def _inside(self, eye: Eye) -> Lines:
         """Return those that the view's clipping border leaves; this object if it leaves all."""
@@ -304,7 +302,7 @@ def discs(centres: NDArray[np.float64], radii: NDArray[np.float64]) -> NDArray[n
     return fans.reshape(-1, 3).astype(np.float32)
 
 
-class _Within:
+class Within:
     """Keeps the part of a drawing within a view's clipping border, for the last few borders.
 
     Parameters
@@ -330,7 +328,7 @@ class _Within:
         return self._made[eye.border]
 
 
-def _whole(triangles: NDArray[np.integer], inside: NDArray[np.bool_] | None) -> NDArray[np.integer]:
+def whole(triangles: NDArray[np.integer], inside: NDArray[np.bool_] | None) -> NDArray[np.integer]:
     """Return the triangles whose corners are all inside. `inside` is None if everything is."""
     return triangles if inside is None else triangles[inside[triangles].all(axis=1)]
 
@@ -352,7 +350,7 @@ class Faces:
         self._points = gpu.types.GPUVertBuf(form, len(points))
         self._points.attr_fill("pos", np.ascontiguousarray(points, dtype=np.float32))
         self._pieces: list[tuple[int, NDArray[np.integer]]] = []
-        self._within = _Within(self._make)
+        self._within = Within(self._make)
 
     def clear(self) -> None:
         """Forget the triangles, not the vertices."""
@@ -366,7 +364,7 @@ class Faces:
 
     def _make(self, eye: Eye) -> list[tuple[int, gpu.types.GPUBatch]]:
         inside = eye.shows(self._places)
-        seen = ((color, _whole(triangles, inside)) for color, triangles in self._pieces)
+        seen = ((color, whole(triangles, inside)) for color, triangles in self._pieces)
         return [(color, self._batch(triangles)) for color, triangles in seen if len(triangles)]
 
     def _batch(self, triangles: NDArray[np.integer]) -> gpu.types.GPUBatch:
@@ -384,110 +382,17 @@ class Faces:
 
     def draw_over(self, eye: Eye, colors: Sequence[Color]) -> None:
         """Draw what is seen of them over the mesh, with opacity, in the view that Blender is drawing now."""
-        _draw_over(lambda lift: self.draw(eye, colors, lift))
+        draw_over(lambda lift: self.draw(eye, colors, lift))
 
 
-class ShadedFaces:
-    """Triangles of one mesh with a color at each vertex, handed to the GPU once.
-
-    Parameters
-    ----------
-    points
-        (n, 3).
-    triangles
-        (m, 3).
-    colors
-        (n, 4).
-    """
-
-    def __init__(
-        self, points: NDArray[np.float64], triangles: NDArray[np.integer], colors: NDArray[np.float64]
-    ) -> None:
-        self._shader = gpu.shader.from_builtin("SMOOTH_COLOR")
-
-        def make(eye: Eye) -> gpu.types.GPUBatch | None:
-            seen = _whole(triangles, eye.shows(points))
-            if not len(seen):
-                return None
-            return batch_for_shader(
-                self._shader,
-                "TRIS",
-                {"pos": np.ascontiguousarray(points, np.float32), "color": np.ascontiguousarray(colors, np.float32)},
-                indices=np.ascontiguousarray(seen, dtype=np.uint32),
-            )
-
-        self._within = _Within(make)
-
-    def draw(self, eye: Eye, lift: float) -> None:
-        """Draw those that the view's clipping border leaves whole, under the depth test that is set."""
-        batch = self._within.of(eye)
-        if batch is None:
-            return
-        with gpu.matrix.push_pop():
-            gpu.matrix.load_matrix(eye.lifted(lift))
-            self._shader.bind()
-            batch.draw(self._shader)
-
-    def draw_over(self, eye: Eye) -> None:
-        """Draw what is seen of them over the mesh, as `Faces.draw_over`."""
-        _draw_over(lambda lift: self.draw(eye, lift))
-
-
-def _draw_over(draw: Callable[[float], None]) -> None:
+def draw_over(draw: Callable[[float], None]) -> None:
+    """Draw over the mesh, with opacity. `draw` takes the pixels by which it is to lift faces."""
     if sees_through(bpy.context.space_data):
         # Else all layers of the mesh would be tinted, one over the other, and no wire would be seen to be hidden.
         with unseen():
             draw(0.0)
     with blended("LESS_EQUAL"):
         draw(_OVER)
-
-
-class ColoredLines:
-    """Segments with a color each, handed to the GPU once.
-
-    Parameters
-    ----------
-    ends
-        (k, 2, 3).
-    colors
-        (k, 4).
-    width
-        In pixels at a display scale of 1.
-    lift
-        As `Style.lift`.
-    """
-
-    def __init__(self, ends: NDArray[np.float64], colors: NDArray[np.float64], width: float, lift: float = 3.0) -> None:
-        self._shader = gpu.shader.from_builtin("POLYLINE_FLAT_COLOR")
-        self._width, self._lift = width, lift
-
-        def make(eye: Eye) -> gpu.types.GPUBatch | None:
-            inside = eye.shows(ends.mean(axis=1))
-            rows = np.arange(len(ends)) if inside is None else np.flatnonzero(inside)
-            if not len(rows):
-                return None
-            return batch_for_shader(
-                self._shader,
-                "LINES",
-                {
-                    "pos": np.ascontiguousarray(ends[rows].reshape(-1, 3), np.float32),
-                    "color": np.ascontiguousarray(np.repeat(colors[rows], 2, axis=0), np.float32),
-                },
-            )
-
-        self._within = _Within(make)
-
-    def draw(self, eye: Eye) -> None:
-        """Draw those that the view's clipping border leaves, under the depth test that is set."""
-        batch = self._within.of(eye)
-        if batch is None:
-            return
-        with gpu.matrix.push_pop():
-            gpu.matrix.load_matrix(eye.lifted(self._lift))
-            self._shader.bind()
-            self._shader.uniform_float("viewportSize", eye.size)
-            self._shader.uniform_float("lineWidth", self._width * eye.scale)
-            batch.draw(self._shader)
 
 
 # On the screen: pixels of the region from its bottom left

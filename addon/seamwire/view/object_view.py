@@ -22,8 +22,9 @@ from ..mesh import settings as chosen
 from ..mesh.edit_mesh import visible_stretch
 from ..mesh.object_session import ObjectSession
 from ..mesh.pose import Pose
+from .crest_view import CrestView
 from .failures import failures
-from .metric_views import MetricViews
+from .layers import makers
 from .overlay import Overlay
 from .shown_islands import ShownIslands
 from .stretch_heat import StretchHeat
@@ -36,12 +37,13 @@ if TYPE_CHECKING:
 
     from ..core.drawing.picture import Picture
     from ..core.drawing.session import Session
-    from ..core.fields.metric_fields import Source
     from ..core.network.network import Snap
     from ..core.network.picks import Pick
     from ..core.network.strokes import Stroke
     from ..core.picking.view import View
+    from ..core.solver.solver import End
     from ..mesh.settings import ToolOptions
+    from .layers import Layer
     from .text_overlay import Row
 
 
@@ -103,7 +105,8 @@ class ObjectView:
         make = self.mesh.make_live
         self._islands = islands.IslandMaker(arrays.triangles, make.face_segments, HUES, gaps, make.missing_cuts)
         self.pose = Pose(arrays)
-        self.views = MetricViews(arrays, native.load(), self.mesh.make_live.wait, self.pose)
+        self.crest_view = CrestView(native.load(), self.mesh.make_live.wait, self.pose)
+        self._layers: list[Layer] = []
         self._has_moved = True
         self._posed_picker: Picker | None = None
         self.islands = ShownIslands(self._islands, self.session, arrays.seams)
@@ -117,11 +120,12 @@ class ObjectView:
             arrays.to_object,
             preferences=chosen.preferences(),
             heat=StretchHeat(arrays, self._islands, self.pose),
-            views=self.views,
+            layers=self._layers,
         )
         self._strength: NDArray[np.float64] | None = None
         self.name = obj.name_full
         self.was_read()
+        self.make_layers()
         self.measure()
         self.mesh.look_for_symmetry()
 
@@ -160,7 +164,8 @@ class ObjectView:
     def close(self) -> None:
         """Let go of what works on threads."""
         self._islands.close()
-        self.views.close()
+        self._close_layers()
+        self.crest_view.close()
 
     def refresh(self, obj: bpy.types.Object) -> bool:
         """Take over what the mesh holds now; return False where it is another one, see `ObjectSession.refresh`."""
@@ -208,7 +213,7 @@ class ObjectView:
 
     def measure(self, anew: bool = False) -> None:
         """Compute what the settings show, and measure the stretch of UVs where it is not known or `anew`."""
-        self._follow_views()
+        self._follow_layers()
         if self.stale and not anew:
             return  # of a mesh that is read anew soon
         stale = self.stale
@@ -216,15 +221,26 @@ class ObjectView:
             self.was_read()
             self.stale = stale
 
-    def _follow_views(self) -> None:
-        if failures.has("views", self.name):
+    def make_layers(self) -> None:
+        """Make the layers anew, because others are to be drawn."""
+        self._close_layers()
+        arrays, surface = self.mesh.arrays, self.mesh.make_live.wait
+        self._layers[:] = (self.crest_view, *(make(arrays, surface, self.pose) for make in makers))
+
+    def _close_layers(self) -> None:
+        for layer in self._layers[1:]:
+            layer.close()
+
+    def _follow_layers(self) -> None:
+        if failures.has("layers", self.name):
             return
         session, options = self.session, self.options
-        crests = options.snap or session.wants_crests
-        self.views.follow(options, self._source(), session.drawing.engines.strokes, crests)
-        session.use_crests(self.views.crests, options.show_crests)
+        self.crest_view.is_wanted = options.snap or session.wants_crests
+        for layer in self._layers:
+            layer.follow(options, self._source(), session.drawing.engines.strokes)
+        session.use_crests(self.crest_view.crests, options.show_crests)
 
-    def _source(self) -> Source | None:
+    def _source(self) -> End | None:
         """Return where distances are shown from: the seed of the chain, else the active vertex, else the last seed."""
         pick = self.session.drawing.seed_place
         if pick is None and self.mesh.alive():
@@ -236,18 +252,21 @@ class ObjectView:
     @property
     def busy(self) -> bool:
         """Whether something is being computed: `poll` is to be called now and then."""
-        views = self.views.busy and not failures.has("views", self.name)
-        return self.mesh.busy or self.islands.busy or views
+        layers = any(layer.busy for layer in self._layers) and not failures.has("layers", self.name)
+        return self.mesh.busy or self.islands.busy or layers
 
     def poll(self) -> bool:
         """Take in what was computed; return whether there is something new to be seen."""
         self.mesh.poll()
-        told = failures.attempt(("views", self.name), self.views.poll)
-        self.session.use_crests(self.views.crests, self.options.show_crests)
+        told = failures.attempt(("layers", self.name), self._poll_layers)
+        self.session.use_crests(self.crest_view.crests, self.options.show_crests)
         # Progress is told by the status bar: the picture stays.
         seen = self.session.revision
         self.session.poll()
         return any((self.session.revision != seen, self.islands.poll(), told))
+
+    def _poll_layers(self) -> bool:
+        return any([layer.poll() for layer in self._layers])
 
     @property
     def is_stretched_anew(self) -> bool:
@@ -291,7 +310,7 @@ class ObjectView:
             preferred=self.session.drawing.symmetry.on_plane(self.session.options.mirror) if mirrored else frozenset(),
             strength=self._strength if options.snap and not plain else None,
             # A loop leads through what is seen: a ridge that is shown is as good as under the cursor.
-            crests=None if self.pose.is_bent or not has_crests else self.views.crests,
+            crests=None if self.pose.is_bent or not has_crests else self.crest_view.crests,
             scale=bpy.context.preferences.system.ui_scale,
         )
         return None if snap is None else replace(snap, seen_along=self.seen_along(view, snap.pick))
@@ -329,7 +348,7 @@ class ObjectView:
 
     def show(self, front: bool, help_rows: Sequence[Row] | None) -> None:
         """Let the overlay follow."""
-        self._follow_views()
+        self._follow_layers()
         self._front, self._keys = front, None if help_rows is None else tuple(help_rows)
 
 

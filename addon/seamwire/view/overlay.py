@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from ..core.network.picks import Edge, Pick
     from ..core.network.wires import Wire
     from ..mesh.pose import Pose
-    from .metric_views import MetricViews
+    from .layers import Layer
     from .stretch_heat import StretchHeat
 
 _NO_ROOM = (0.0, 0.0, 0.0, 0.0)
@@ -84,8 +84,8 @@ class Overlay:
         The add-on's, see `Looks.of`.
     heat
         The stretch of the UV map, drawn in place of the islands' tint where there is something to be seen of it.
-    views
-        The views of the metric, including heat.
+    layers
+        What lies below the wires. The list may change.
     """
 
     def __init__(
@@ -97,14 +97,14 @@ class Overlay:
         *,
         preferences: object | None = None,
         heat: StretchHeat | None = None,
-        views: MetricViews | None = None,
+        layers: Sequence[Layer] = (),
     ) -> None:
         self._picture = picture
         self._obj = obj
         self._pose = pose
         self._preferences = preferences
         self.heat = heat
-        self._views = views
+        self._layers = layers
         self._to_object = Matrix(to_object.tolist()).to_4x4()
         self._looks = self._current_looks()
         self._kept: tuple[object, _Sheet] = (None, _Sheet(pose))
@@ -124,8 +124,8 @@ class Overlay:
         self._faces = self._tinted = None
         if self.heat is not None:
             self.heat.repose()
-        if self._views is not None:
-            self._views.repose()
+        for layer in self._layers:
+            layer.repose()
 
     def _forget_lines(self) -> None:
         self._kept = self._live = self._bands = self._gaps = (None, self._live[1])
@@ -151,12 +151,10 @@ class Overlay:
         eye = Eye(bpy.context.region_data, self._obj.matrix_world @ self._to_object)
         if self.heat is not None and self.heat.shown:
             self.heat.draw(eye)
-        elif self._views is not None and self._views.has_heat:
-            self._views.draw_heat(eye)
-        else:
+        elif not any(layer.draw_heat(eye) for layer in self._layers):
             self._draw_tint(eye, picture.islands)
-        if self._views is not None:
-            self._views.draw_lines(eye)
+        for layer in self._layers:
+            layer.draw_lines(eye)
         xray = picture.options.xray
         for hidden in (True, False):
             with blended("GREATER" if hidden else "LESS_EQUAL"):
@@ -197,7 +195,7 @@ class Overlay:
 
     def _legends(self) -> list[legend.Legend]:
         of_heat = None if self.heat is None else self.heat.legend()
-        others = [] if self._views is None else self._views.legends()
+        others = [box for layer in self._layers for box in layer.legends()]
         return others if of_heat is None else [of_heat, *others]
 
     # What there is to draw

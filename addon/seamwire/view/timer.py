@@ -21,13 +21,10 @@ class Timer:
     ----------
     call
         Returns the seconds until the next call, or None to stop.
-    persistent
-        Whether the timer goes on when another file is loaded.
     """
 
-    def __init__(self, call: Callable[[], float | None], persistent: bool = False) -> None:
+    def __init__(self, call: Callable[[], float | None]) -> None:
         self._call = call
-        self._persistent = persistent
 
     @property
     def is_running(self) -> bool:
@@ -37,7 +34,7 @@ class Timer:
     def start(self, after: float = 0.0) -> None:
         """Let Blender call the function after some seconds, unless it will do so anyway."""
         if not self.is_running:
-            bpy.app.timers.register(self._call, first_interval=after, persistent=self._persistent)
+            bpy.app.timers.register(self._call, first_interval=after)
 
     def stop(self) -> None:
         """Let Blender call the function no longer."""

@@ -40,6 +40,19 @@ def test_a_package_is_for_its_system_and_brings_the_wheels_that_it_names(tmp_pat
     assert not any("__pycache__" in name or "_native" in name for name in names)
 
 
+def test_the_lab_is_packed_for_all_systems(tmp_path: Path) -> None:
+    package = pack_addon.pack_lab(tmp_path)
+    assert package.name == f"seamwire_lab-{VERSION}.zip"
+    with zipfile.ZipFile(package) as archive:
+        manifest = tomllib.loads(archive.read("seamwire_lab/blender_manifest.toml").decode())
+        names = archive.namelist()
+    assert (manifest["id"], manifest["version"]) == ("seamwire_lab", VERSION)
+    assert "platforms" not in manifest
+    assert {"seamwire_lab/", "seamwire_lab/__init__.py", "seamwire_lab/LICENSE"} <= set(names)
+    assert len(set(names)) == len(names)
+    assert not any("__pycache__" in name for name in names)
+
+
 def test_wheels_of_another_version_are_not_packed(tmp_path: Path) -> None:
     wheel = add_wheel(tmp_path, "311", "win_amd64", version="0.0.1")
     with pytest.raises(SystemExit, match=f"not wheels of seamwire_core {VERSION}: {wheel.name}"):

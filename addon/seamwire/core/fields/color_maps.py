@@ -11,19 +11,6 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
 ColorMap = tuple[tuple[float, float, float], ...]
-
-
-def _of_hex(text: str) -> ColorMap:
-    codes = [[int(code[i : i + 2], 16) / 255.0 for i in (0, 2, 4)] for code in text.split()]
-    return tuple((red, green, blue) for red, green, blue in codes)
-
-
-VIRIDIS = _of_hex("440154 472D7B 3B528B 2C728E 21908C 27AD81 5DC863 AADC32 FDE725")
-"""For what is zero and more. Smith and van der Walt (matplotlib, CC0); equally spaced in brightness, for the color-blind too."""
-PLASMA = _of_hex("0D0887 4C02A1 7E03A8 A92395 CC4678 E56B5D F89441 FDC328 F0F921")
-"""Its sibling, by the same: for lengths, where VIRIDIS may be seen beside."""
-PURPLE_ORANGE = _of_hex("2D004B 542788 8073AC B2ABD2 D8DAEB F7F7F7 FEE0B6 FDB863 E08214 B35806 7F3B08")
-"""For what has a sign: both ends dark, zero nearly white. PuOr of ColorBrewer 2.0 (Harrower and Brewer 2003), turned around."""
 STRETCH: ColorMap = (
     (0.13, 0.22, 0.78),
     (0.10, 0.66, 0.86),

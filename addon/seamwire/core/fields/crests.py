@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Ridges and valleys of a mesh: lines over its faces, what is near to them, and what they are worth at its vertices."""
+"""Ridges and valleys of a mesh: lines over its faces, and what is near to them."""
 
 from __future__ import annotations
 
@@ -13,6 +13,9 @@ from ..network.picks import FacePoint
 from ..network.wires import Wire
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+    from types import ModuleType
+
     import seamwire_core
     from numpy.typing import NDArray
 
@@ -52,8 +55,15 @@ class Crests:
     strengths: NDArray[np.float64]
 
     @classmethod
-    def of(cls, lines: seamwire_core.CrestLines) -> Crests:
-        """Return what the library found."""
+    def on(
+        cls, core: ModuleType, surface: seamwire_core.Surface, go_on: Callable[[float], bool] | None = None
+    ) -> Crests:
+        """Return those of a surface, found by the library's module.
+
+        `go_on` receives the fraction that is done, and returns False to raise the library's ``Cancelled``.
+        """
+        curvature = core.principal_curvatures(surface, go_on)
+        lines = core.crest_lines(surface, core.smoothed_curvatures(surface, curvature, progress=go_on), progress=go_on)
         return cls(lines.points, lines.edges, lines.parts, lines.faces, lines.curvatures, lines.starts, lines.strengths)
 
     def __len__(self) -> int:
@@ -126,11 +136,3 @@ class Crests:
         part = float(np.clip((place - ends[0]) @ along / square, 0.0, 1.0)) if square > 0.0 else 0.0
         end = start + round(part)
         return ends[0] + part * along, int(self.faces[start]), int(self.vertices[end])
-
-    def at_vertices(self, count: int) -> NDArray[np.float64]:
-        """Return for each of so many vertices the strength of the strongest line beside it, below 0 that of a valley; 0: none."""
-        values = np.zeros(count)
-        signed = np.where(self.ridges, self.strengths, -self.strengths)[self.owners]
-        # The strongest lines are written last.
-        values[self.vertices[::-1]] = signed[::-1]
-        return values

@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Ridges and valleys: what is near to them, and what they are worth at vertices."""
+"""Ridges and valleys, and what is near to them."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 from seamwire.core.fields.crests import Crests
-from seamwire.core.fields.metric_fields import FieldMaker, Request
 from seamwire.core.network.picks import FacePoint
 
 sw = pytest.importorskip("seamwire_core")
@@ -23,10 +22,7 @@ def waves(n: int = 40) -> tuple[np.ndarray, np.ndarray]:
 
 @pytest.fixture(scope="module")
 def crests() -> Crests:
-    made = FieldMaker(sw, lambda: sw.Surface(*waves())).make(Request(frozenset({"CRESTS"})))
-    assert made.strength is None
-    assert made.crests is not None
-    return made.crests
+    return Crests.on(sw, sw.Surface(*waves()))
 
 
 def line_near(crests: Crests, x: float) -> int:
@@ -80,17 +76,6 @@ def test_the_nearest_place_of_a_piece_lies_on_it_and_its_vertex_beside(crests: C
             assert np.linalg.norm(points[vertex] - place) < 0.05
 
 
-def test_vertices_beside_lines_have_their_strengths_and_others_none(crests: Crests) -> None:
-    points, _ = waves()
-    values = crests.at_vertices(len(points))
-    top = np.abs(points[:, 0] - 0.5) < 0.03
-    assert values[top].max() == crests.strengths[line_near(crests, 0.5)]
-    assert values[top].min() == 0.0
-    bottom = np.abs(points[:, 0] - 0.25) < 0.03
-    assert values[bottom].min() == -crests.strengths[line_near(crests, 0.25)]
-    assert (values[np.abs(points[:, 0] - 0.375) < 0.05] == 0.0).all()
-
-
 def test_a_sphere_has_none() -> None:
     rings, around = 20, 40
     polar, turn = np.meshgrid(np.pi * (np.arange(rings) + 0.5) / rings, 2 * np.pi * np.arange(around) / around)
@@ -98,12 +83,9 @@ def test_a_sphere_has_none() -> None:
     i, j = (part.ravel() for part in np.meshgrid(np.arange(rings - 1), np.arange(around)))
     a, b = j * rings + i, (j + 1) % around * rings + i
     triangles = np.stack([a, a + 1, b + 1, a, b + 1, b], axis=1).reshape(-1, 3)
-    none = Crests.of(
-        sw.crest_lines(sw.Surface(points, triangles), sw.principal_curvatures(sw.Surface(points, triangles)))
-    )
+    none = Crests.on(sw, sw.Surface(points, triangles))
     assert len(none) == len(none.segments) == 0
     assert none.line_at(3) is None
-    assert not none.at_vertices(len(points)).any()
 
 
 def crossed() -> Crests:
@@ -120,7 +102,6 @@ def crossed() -> Crests:
 
 
 def test_where_lines_pass_one_vertex_the_stronger_counts() -> None:
-    assert crossed().at_vertices(11).tolist() == [0, 0, 0, 0, 0, 4.0, 4.0, 0, 0, -1.5, 0]
     assert crossed().line_at(5) == 0
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the metric sees of a mesh, as arrays: strengths, concavity, ridges, ellipses, distances, paths, invalid triangles.
+"""What a metric sees of a mesh, as arrays: strengths, concavity, silhouettes, ellipses, distances, paths, invalid triangles.
 
-All of it is made by functions of the library, on a thread; of several requests the newest wins. Knows neither Blender nor the GPU.
+Functions of the library compute all of it. This module knows neither Blender nor the tool.
 """
 
 from __future__ import annotations
@@ -11,11 +11,6 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from ..base.newest import Newest
-from ..network.wires import FOLLOWS
-from ..solver.solver import kinds_of
-from .crests import Crests
-
 if TYPE_CHECKING:
     from collections.abc import Callable
     from types import ModuleType
@@ -23,21 +18,19 @@ if TYPE_CHECKING:
     import seamwire_core
     from numpy.typing import NDArray
 
-    from ..solver.solver import MetricName
-
-Part = Literal["STRENGTH", "CONCAVITY", "CRESTS", "SILHOUETTE", "ELLIPSES", "DISTANCE", "PATHS", "ISOLINES", "INVALID"]
-"""What can be asked for."""
+Part = Literal["STRENGTH", "CONCAVITY", "SILHOUETTE", "ELLIPSES", "DISTANCE", "PATHS", "ISOLINES", "INVALID"]
+"""The fields that can be computed."""
 Source = int | tuple[int, tuple[float, float, float]] | tuple[int, ...]
 """Where distances are from: a vertex, a point of a triangle, or several vertices."""
 
 PATHS = 300
-"""So many paths are traced: on the meshes of the paper they lie as close as there."""
+"""The number of traced paths. On the meshes of the paper they lie as close as in its figures."""
 BANDS = 20
-"""About so many distance bands."""
+"""The approximate number of distance bands."""
 ELLIPSES = 1500
-"""So many ellipses at most."""
+"""The largest number of ellipses."""
 _RADIUS, _LONGEST = 0.33, 1.5
-"""Of an ellipse, in distances to the next one: its mean radius, and its longest semi-axis at most."""
+"""The mean radius of an ellipse, and the most that its longer semi-axis may have, in distances to the next ellipse."""
 
 
 @dataclass(frozen=True)
@@ -50,26 +43,26 @@ class Request:
         The names of the fields.
     metric, strength, clamp
         As the tool's settings.
-    follow
-        Which of both wires' metrics.
+    kind
+        Which of the library's metrics, see ``MetricSpec``.
     source
-        Where distances are from; None: there is no such place, and nothing of them is computed.
+        Where distances are from. Without a source, no distances are computed.
     strokes
-        The library's strokes that wires follow or keep from.
+        The library's scribbles.
     """
 
     parts: frozenset[Part]
-    metric: MetricName = "feature"
+    metric: str = "feature"
     strength: float = 20.0
     clamp: float = 99.0
-    follow: Literal["min", "max"] = "min"
+    kind: Literal["min", "max", "concave", "euclidean"] = "min"
     source: Source | None = None
     strokes: tuple[object, ...] = ()
 
     @property
     def metric_key(self) -> tuple[object, ...]:
-        """The same where the metric is."""
-        return self.metric, self.strength, self.clamp, self.follow, self.strokes
+        """Everything that the metric depends on."""
+        return self.metric, self.strength, self.clamp, self.kind, self.strokes
 
 
 @dataclass(frozen=True)
@@ -81,11 +74,11 @@ class Ellipses:
     centres, normals
         (k, 3).
     axes
-        (k, 2, 3) semi-axes, the longer first: how far a path of one length leads, the same for all, so that they are seen apart.
+        (k, 2, 3) the semi-axes, the longer first. They show how far a path of a given length leads.
     anisotropy
         (k,)
     spacing
-        About how far apart the centres are.
+        The approximate distance between centers.
     """
 
     centres: NDArray[np.float64]
@@ -97,14 +90,14 @@ class Ellipses:
 
 @dataclass(frozen=True)
 class Paths:
-    """Shortest paths: `points` (p, 3), path i from starts[i] to starts[i + 1], (k + 1,), its length, (k,)."""
+    """Shortest paths. Path i has the points from starts[i] to starts[i + 1]."""
 
     points: NDArray[np.float64]
     starts: NDArray[np.int32]
     lengths: NDArray[np.float64]
 
     def segments(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Return their straight pieces, (s, 2, 3), and the length of the path that each is of, (s,)."""
+        """Return the straight pieces of all paths, (s, 2, 3), and for each piece the length of its path, (s,)."""
         owner = np.repeat(np.arange(len(self.lengths)), np.diff(self.starts))
         same = owner[:-1] == owner[1:]
         return np.stack([self.points[:-1], self.points[1:]], axis=1)[same], self.lengths[owner[:-1]][same]
@@ -112,7 +105,7 @@ class Paths:
 
 @dataclass(frozen=True)
 class Isolines:
-    """Distance bands: their borders, (k, 2, 3), and how far apart they are."""
+    """Distance bands: the segments of their borders, (k, 2, 3), and their width."""
 
     segments: NDArray[np.float64]
     spacing: float
@@ -120,20 +113,20 @@ class Isolines:
 
 @dataclass(frozen=True)
 class Invalid:
-    """Triangles that fail the triangle inequality, by what the embedding made of them.
+    """The triangles that fail the triangle inequality, grouped by their repair.
 
     Parameters
     ----------
     split
-        Made valid by bisection alone.
+        Triangles that bisection alone has made valid.
     repaired
-        With an edge that was given another length.
+        Triangles with an edge whose length was changed.
     left
-        With a part that stayed invalid: a hole.
+        Triangles with a part that stays invalid, which is a hole.
     edges
-        (e, 2, 3) the edges of the parts of all that were bisected, neighbors of invalid ones among them.
+        (e, 2, 3) the edges of all parts of bisected triangles. Neighbors of invalid triangles are bisected too.
     before, added
-        How many were invalid, and how many triangles were added.
+        The number of invalid triangles, and the number of added triangles.
     """
 
     split: NDArray[np.int32]
@@ -146,7 +139,7 @@ class Invalid:
 
 @dataclass(frozen=True, eq=False)
 class Silhouette:
-    """Where a surface turns away from a viewer: smooth curves across its faces, of its normals at the vertices.
+    """The curves across faces where a smooth surface turns away from a viewer. Its normals are interpolated from the vertices.
 
     Parameters
     ----------
@@ -164,7 +157,7 @@ class Silhouette:
     normals: NDArray[np.float64]
 
     def seen_from(self, eye: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the straight pieces, (k, 2, 3), as seen from an eye, (4,): x, y, z and 1, or a direction to it and 0."""
+        """Return the straight pieces, (k, 2, 3), seen from an eye, (4,): x, y, z and 1, or the direction to it and 0."""
         towards = eye[:3] - eye[3] * self.points
         facing = np.einsum("ij,ij->i", self.normals, towards)
         return self.core.isolines(self.surface, facing, [0.0])[0]
@@ -177,7 +170,6 @@ class Fields:
     request: Request
     strength: NDArray[np.float64] | None = None
     concavity: NDArray[np.float64] | None = None
-    crests: Crests | None = None
     silhouette: Silhouette | None = None
     ellipses: Ellipses | None = None
     distance: NDArray[np.float64] | None = None
@@ -187,7 +179,7 @@ class Fields:
 
 
 def spread(points: NDArray[np.float64], count: int) -> tuple[NDArray[np.int64], float]:
-    """Return about `count` points at most, far from each other, and the side of the cubes that hold one each.
+    """Return at most `count` points that are spread over all, and the side of the cubes that hold one point each.
 
     Parameters
     ----------
@@ -238,56 +230,43 @@ def band_levels(largest: float, bands: int = BANDS) -> NDArray[np.float64]:
     return step * np.arange(1, int(np.floor(largest / step)) + 1)
 
 
+def at_vertices(lines: seamwire_core.CrestLines, count: int) -> NDArray[np.float64]:
+    """Return for each of so many vertices the strength of the strongest ridge beside it, or minus that of a valley, or 0."""
+    values = np.zeros(count)
+    is_ridge = lines.curvatures[lines.starts[:-1]] > 0.0
+    signed = np.repeat(np.where(is_ridge, lines.strengths, -lines.strengths), np.diff(lines.starts))
+    vertices = lines.edges[np.arange(len(lines.edges)), np.round(lines.parts).astype(np.int64)]
+    # The library returns the strongest lines first, so they are written last.
+    values[vertices[::-1]] = signed[::-1]
+    return values
+
+
 class FieldMaker:
-    """Computes fields of one mesh in its own thread, with shared parts computed once.
+    """Computes fields of one mesh, with shared parts computed once.
 
     Parameters
     ----------
     core
         The library's module.
     surface
-        Returns the surface; called on the thread, where it may wait.
+        Returns the surface. It may wait.
+    goes_on
+        Returns False to end a running computation with the library's ``Cancelled``.
     """
 
-    def __init__(self, core: ModuleType, surface: Callable[[], seamwire_core.Surface]) -> None:
+    def __init__(
+        self,
+        core: ModuleType,
+        surface: Callable[[], seamwire_core.Surface],
+        goes_on: Callable[[], bool] = lambda: True,
+    ) -> None:
         self._core = core
         self._make_surface = surface
-        self._maker: Newest[Request, Fields] = Newest(self.make, "seamwire-fields", (core.Cancelled,))
-        self._asked: Request | None = None
+        self._goes_on = goes_on
         self._kept: dict[str, tuple[object, object]] = {}
 
-    @property
-    def busy(self) -> bool:
-        """Whether something is being computed."""
-        return self._maker.busy
-
-    @property
-    def newest(self) -> Fields | None:
-        """The latest result."""
-        return self._maker.answer
-
-    def check(self) -> None:
-        """Raise what went wrong on the thread since the last call. Then the same fields can be asked for again."""
-        try:
-            self._maker.check()
-        except Exception:
-            self._asked = None
-            raise
-
-    def want(self, request: Request) -> None:
-        """Ask for fields; what is being computed for another request is dropped."""
-        if request != self._asked:
-            self._asked = request
-            self._maker.want(request)
-
-    def close(self) -> None:
-        """Drop what is asked for; a running computation ends soon, unseen."""
-        self._maker.close()
-
-    # On the thread
-
     def _go_on(self, _fraction: float) -> bool:
-        return not self._maker.superseded
+        return self._goes_on()
 
     def _once(self, name: str, key: object, make: Callable[[], object]) -> object:
         if name not in self._kept or self._kept[name][0] != key:
@@ -302,7 +281,7 @@ class FieldMaker:
         ValueError
             If wires cannot run on the mesh.
         seamwire_core.Cancelled
-            Where other ones are asked for meanwhile.
+            If `goes_on` says so.
         """
         parts = request.parts
         far = bool(parts & {"DISTANCE", "PATHS", "ISOLINES"}) and request.source is not None
@@ -310,7 +289,6 @@ class FieldMaker:
             request,
             strength=self._strength() if "STRENGTH" in parts else None,
             concavity=self._concavity() if "CONCAVITY" in parts else None,
-            crests=self._crests() if "CRESTS" in parts else None,
             silhouette=self._silhouette() if "SILHOUETTE" in parts else None,
             ellipses=self._ellipses(request) if "ELLIPSES" in parts else None,
             distance=self._distance(request) if far else None,
@@ -340,11 +318,11 @@ class FieldMaker:
     def _concavity(self) -> NDArray[np.float64]:
         return self._once("concavity", None, lambda: self._smoothed().k1)
 
-    def _crests(self) -> Crests:
-        def make() -> Crests:
-            return Crests.of(self._core.crest_lines(self.surface(), self._smoothed(), progress=self._go_on))
-
-        return self._once("crests", None, make)
+    def crests_at_vertices(self) -> NDArray[np.float64]:
+        """Return for each vertex the strength of the strongest ridge beside it, or minus that of the strongest valley, or 0."""
+        surface = self.surface()
+        lines = self._core.crest_lines(surface, self._smoothed(), progress=self._go_on)
+        return at_vertices(lines, len(surface.points))
 
     def _silhouette(self) -> Silhouette:
         def make() -> Silhouette:
@@ -364,8 +342,7 @@ class FieldMaker:
             if not request.strokes:
                 return plain
             strokes = list(request.strokes)
-            kind = self._spec(request).kind
-            return self._core.apply_scribbles(self.surface(), plain, strokes, kind, progress=self._go_on)
+            return self._core.apply_scribbles(self.surface(), plain, strokes, request.kind, progress=self._go_on)
 
         return self._once("metric", request.metric_key, make)
 
@@ -374,15 +351,13 @@ class FieldMaker:
         return self._core.make_metric(self.surface(), self._spec(request), progress=self._go_on)
 
     def _spec(self, request: Request) -> seamwire_core.MetricSpec:
-        kinds = kinds_of(request.metric)
-        kind = kinds[min(FOLLOWS.index(request.follow), len(kinds) - 1)]
-        if kind == "euclidean":
+        if request.kind == "euclidean":
             return self._core.MetricSpec("euclidean")
-        if kind == "concave":
+        if request.kind == "concave":
             return self._core.MetricSpec("concave", max_anisotropy=request.strength)
         clamp = request.clamp if request.metric == "feature" else None
         return self._core.MetricSpec(
-            request.metric, request.follow, max_anisotropy=request.strength, clamp_percentile=clamp
+            request.metric, request.kind, max_anisotropy=request.strength, clamp_percentile=clamp
         )
 
     def embedding(self, request: Request) -> seamwire_core.Embedding:

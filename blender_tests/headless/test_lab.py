@@ -1,14 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What views show, stored as attributes of the vertices."""
+"""Seamwire Lab in the background: views stored as attributes of the vertices, and life without the tool."""
 
 from __future__ import annotations
+
+import subprocess
 
 import bpy
 import numpy as np
 import pytest
+import traces
+from lab import LAB, disable_lab, enable_lab, of_lab, part
 from scene import add_object, add_suzanne, edit
 from seamwire.core.base import native
 from seamwire.mesh import edit_mesh
+
+pytestmark = pytest.mark.usefixtures("lab_settings")
 
 
 def stored(obj: bpy.types.Object, name: str) -> np.ndarray:
@@ -39,7 +45,7 @@ def test_strengths_and_concavity_are_stored_as_the_library_has_them(mode: str) -
         ("CONCAVITY", "concavity", smoothed.k1),
     ):
         for _ in range(2):  # again: over what is there
-            assert bpy.ops.mesh.seamwire_store(what=view) == {"FINISHED"}
+            assert bpy.ops.mesh.seamwire_lab_store(view=view) == {"FINISHED"}
             assert stored(obj, name) == pytest.approx(values.astype(np.float32), rel=1e-6)
     assert smoothed.k1.min() < 0.0 < smoothed.k1.max()
 
@@ -50,7 +56,7 @@ def test_ridges_and_valleys_are_stored_beside_them_with_their_strength(mode: str
     bpy.ops.object.mode_set(mode=mode)
     surface, curvature = expected(obj)
     lines = native.load().crest_lines(surface, native.load().smoothed_curvatures(surface, curvature))
-    assert bpy.ops.mesh.seamwire_store(what="CRESTS") == {"FINISHED"}
+    assert bpy.ops.mesh.seamwire_lab_store(view="CRESTS") == {"FINISHED"}
     found = stored(obj, "ridges_and_valleys")
     assert found.max() == pytest.approx(lines.strengths[lines.curvatures[lines.starts[:-1]] > 0.0].max())
     assert found.min() == pytest.approx(-lines.strengths[lines.curvatures[lines.starts[:-1]] < 0.0].max())
@@ -66,11 +72,11 @@ def test_distances_are_from_the_selected_vertex_and_minus_one_where_nothing_lead
     bpy.ops.mesh.select_all(action="DESELECT")
     bpy.ops.object.mode_set(mode="OBJECT")
     with pytest.raises(RuntimeError, match="Select the vertex"):
-        bpy.ops.mesh.seamwire_store(what="DISTANCE")
+        bpy.ops.mesh.seamwire_lab_store(view="DISTANCE")
     assert "metric_distance" not in obj.data.attributes
     obj.data.vertices[1].select = True
     bpy.ops.object.mode_set(mode=mode)
-    assert bpy.ops.mesh.seamwire_store(what="DISTANCE") == {"FINISHED"}
+    assert bpy.ops.mesh.seamwire_lab_store(view="DISTANCE") == {"FINISHED"}
     values = stored(obj, "metric_distance")
     assert values == pytest.approx([1 / 6, 0, 1 / 6, 2**0.5 / 6, -1, -1, -1], abs=1e-6)
 
@@ -80,10 +86,10 @@ def test_an_attribute_of_that_name_and_another_kind_is_left_alone() -> None:
     obj = add_suzanne()
     obj.data.attributes.new("concavity", "INT", "FACE")
     with pytest.raises(RuntimeError, match="another attribute 'concavity'"):
-        bpy.ops.mesh.seamwire_store(what="CONCAVITY")
+        bpy.ops.mesh.seamwire_lab_store(view="CONCAVITY")
     bpy.ops.object.mode_set(mode="EDIT")
     with pytest.raises(RuntimeError, match="another attribute 'concavity'"):
-        bpy.ops.mesh.seamwire_store(what="CONCAVITY")
+        bpy.ops.mesh.seamwire_lab_store(view="CONCAVITY")
     bpy.ops.object.mode_set(mode="OBJECT")
     assert obj.data.attributes["concavity"].data_type == "INT"
 
@@ -91,5 +97,59 @@ def test_an_attribute_of_that_name_and_another_kind_is_left_alone() -> None:
 def test_a_mesh_without_edges_is_refused() -> None:
     obj = add_object([(0, 0, 0)], [])
     with pytest.raises(RuntimeError, match="nothing to draw on"):
-        bpy.ops.mesh.seamwire_store(what="STRENGTH")
+        bpy.ops.mesh.seamwire_lab_store(view="STRENGTH")
     assert not [name for name in obj.data.attributes.keys() if name == "feature_strength"]  # noqa: SIM118
+
+
+@pytest.mark.every_blender
+def test_without_the_tool_it_says_what_is_missing_and_goes_on_with_the_tool() -> None:
+    obj = add_suzanne()
+    traces.disable()
+    try:
+        with pytest.raises(RuntimeError, match="Enable the add-on Seamwire"):
+            bpy.ops.mesh.seamwire_lab_store(view="STRENGTH")
+        disable_lab()
+        enable_lab()
+        with pytest.raises(RuntimeError, match="Enable the add-on Seamwire"):
+            bpy.ops.mesh.seamwire_lab_store(view="STRENGTH")
+        assert part("tool").find() is None
+    finally:
+        traces.enable()
+    assert bpy.ops.mesh.seamwire_lab_store(view="STRENGTH") == {"FINISHED"}
+    assert "feature_strength" in obj.data.attributes
+
+
+@pytest.mark.every_blender
+def test_disabled_it_leaves_nothing_behind() -> None:
+    with_lab = traces.traces()
+    assert len(of_lab()) > 5
+    bpy.context.window_manager.seamwire_lab.show_paths = True
+    disable_lab()
+    assert of_lab() == []
+    enable_lab()
+    assert not bpy.context.window_manager.seamwire_lab.show_paths
+    assert traces.difference(with_lab, traces.traces()) == {}
+
+
+def test_importing_it_does_not_import_numpy() -> None:
+    code = "\n".join(
+        (
+            "import addon_utils, sys",
+            "loaded = set(sys.modules)",
+            f"assert addon_utils.enable({LAB!r}) is not None",
+            "print('Read:', *sorted(set(sys.modules) - loaded))",
+        )
+    )
+    command = [
+        bpy.app.binary_path,
+        "--background",
+        "--factory-startup",
+        "--python-exit-code",
+        "3",
+        "--python-expr",
+        code,
+    ]
+    output = subprocess.run(command, check=True, capture_output=True, text=True, timeout=120).stdout
+    read = next(line for line in output.splitlines() if line.startswith("Read:"))
+    assert "follower" in read
+    assert "numpy" not in read, "Blender's start would wait for it"

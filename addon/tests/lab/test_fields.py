@@ -1,16 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the metric sees of a mesh, made by the library."""
+"""What a metric sees of a mesh, computed by the library."""
 
 from __future__ import annotations
 
 import time
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from seamwire.core.fields import color_maps
-from seamwire.core.fields.metric_fields import ELLIPSES, PATHS, FieldMaker, Paths, Request, band_levels, spread
-from seamwire.core.solver.solver import by_number
+from seamwire.core.base.newest import Newest
+from seamwire.core.fields.color_maps import colors
+from seamwire.core.solver.solver import by_number, kinds_of
+from seamwire_lab import color_maps
+from seamwire_lab.fields import ELLIPSES, PATHS, FieldMaker, Paths, Request, at_vertices, band_levels, spread
 
 sw = pytest.importorskip("seamwire_core")
 
@@ -33,7 +36,7 @@ def maker(*mesh: np.ndarray) -> FieldMaker:
 
 def test_all_that_is_shown_is_of_the_mesh_that_it_is_asked_for() -> None:
     points, _ = torus()
-    made = maker().make(Request(ALL, strength=20.0, follow="max", source=3))
+    made = maker().make(Request(ALL, strength=20.0, kind="max", source=3))
     assert made.strength.shape == made.concavity.shape == made.distance.shape == (len(points),)
     # Of the unit cube, which the torus fills: convex outside, k1 is 1 / r everywhere.
     assert made.concavity == pytest.approx(np.full(len(points), 1 / 0.15), rel=0.05)
@@ -109,7 +112,9 @@ def test_distances_are_as_long_as_the_wires_of_the_same_settings(metric: str, fo
     if follow == "max" and len(wires) == 1:
         pytest.skip("such a metric has one wire alone")
     wire = wires[("min", "max").index(follow)]
-    made = maker().make(Request(frozenset({"DISTANCE"}), metric, 8.0, 95.0, follow, 3))
+    kinds = kinds_of(metric)
+    kind = kinds[min(("min", "max").index(follow), len(kinds) - 1)]
+    made = maker().make(Request(frozenset({"DISTANCE"}), metric, 8.0, 95.0, kind, 3))
     assert made.distance[250] == pytest.approx(wire.length, rel=1e-9)
 
 
@@ -136,30 +141,56 @@ def test_distances_are_from_points_of_triangles_and_from_edges_too() -> None:
 
 
 def test_the_newest_request_wins_and_a_thread_computes_it() -> None:
-    fields = maker(*torus(120, 80))
+    mesh = torus(120, 80)
+    fields = FieldMaker(sw, lambda: sw.Surface(*mesh), lambda: not thread.superseded)
+    thread = Newest(fields.make, "test", (sw.Cancelled,))
     for source in range(6):
-        fields.want(Request(frozenset({"DISTANCE"}), source=source))
+        thread.want(Request(frozenset({"DISTANCE"}), source=source))
     end = time.monotonic() + 30.0
-    while fields.busy and time.monotonic() < end:
+    while thread.busy and time.monotonic() < end:
         time.sleep(0.01)
-    assert fields.newest.request.source == 5
-    assert fields.newest.distance[5] == 0.0
-    fields.close()
-    fields.want(Request(frozenset({"DISTANCE"}), source=9))
-    assert not fields.busy
+    assert thread.answer.request.source == 5
+    assert thread.answer.distance[5] == 0.0
+    thread.close()
 
 
-def test_what_goes_wrong_on_the_thread_is_raised_where_it_is_looked_at() -> None:
-    fields = FieldMaker(sw, lambda: sw.Surface(np.zeros((2, 3)), np.zeros((0, 3), dtype=int)))
-    fields.want(Request(frozenset({"STRENGTH"})))
-    end = time.monotonic() + 30.0
-    with pytest.raises(ValueError, match="edge"):
-        while fields.busy and time.monotonic() < end:
-            fields.check()
-            time.sleep(0.01)
-    assert not fields.busy
-    fields.want(Request(frozenset({"STRENGTH"})))
-    assert fields.busy, "the same fields can be asked for again"
+def test_a_computation_ends_as_soon_as_it_is_told_to() -> None:
+    fields = FieldMaker(sw, lambda: sw.Surface(*torus()), lambda: False)
+    with pytest.raises(sw.Cancelled):
+        fields.make(Request(frozenset({"DISTANCE"}), source=0))
+
+
+def waves(n: int = 40) -> tuple[np.ndarray, np.ndarray]:
+    """Return the vertices and triangles of a sheet with a top at x = .5 and bottoms at .25 and .75."""
+    x, y = (part.ravel() for part in np.meshgrid(np.arange(n + 1), np.arange(n + 1)))
+    points = np.stack([x / n, y / n, 0.04 * np.cos(4 * np.pi * x / n)], axis=1)
+    i, j = (part.ravel() for part in np.meshgrid(np.arange(n), np.arange(n)))
+    a, b, c, d = j * (n + 1) + i, j * (n + 1) + i + 1, (j + 1) * (n + 1) + i, (j + 1) * (n + 1) + i + 1
+    return points, np.stack([a, b, d, a, d, c], axis=1).reshape(-1, 3)
+
+
+def test_vertices_beside_ridges_and_valleys_have_their_strengths_and_others_none() -> None:
+    points, _ = waves()
+    values = maker(*waves()).crests_at_vertices()
+    top = np.abs(points[:, 0] - 0.5) < 0.03
+    bottom = np.abs(points[:, 0] - 0.25) < 0.03
+    assert values[top].max() > 1.0
+    assert values[top].min() == 0.0
+    assert values[bottom].min() < -1.0
+    assert values[bottom].max() == 0.0
+    assert (values[np.abs(points[:, 0] - 0.375) < 0.05] == 0.0).all()
+
+
+def test_where_lines_pass_one_vertex_the_stronger_counts() -> None:
+    # Two lines pass vertex 5. The second is a valley.
+    crossed = SimpleNamespace(
+        edges=np.array([[4, 5], [5, 6], [6, 7], [5, 8], [8, 9]], dtype=np.int32),
+        parts=np.array([0.9, 0.1, 0.4, 0.0, 1.0]),
+        curvatures=np.array([2.0, 2.0, 2.0, -1.0, -1.0]),
+        starts=np.array([0, 3, 5], dtype=np.int32),
+        strengths=np.array([4.0, 1.5]),
+    )
+    assert at_vertices(crossed, 11).tolist() == [0, 0, 0, 0, 0, 4.0, 4.0, 0, 0, -1.5, 0]
 
 
 def test_paths_in_pieces_join_no_two_paths() -> None:
@@ -199,24 +230,24 @@ def test_bands_are_evenly_spaced_at_round_numbers(largest: float, step: float) -
 
 @pytest.mark.parametrize("name", ["VIRIDIS", "PLASMA"])
 def test_unsigned_maps_rise_in_brightness_evenly(name: str) -> None:
-    lightness = _lightness(color_maps.colors(np.linspace(0, 1, 33), getattr(color_maps, name)))
+    lightness = _lightness(colors(np.linspace(0, 1, 33), getattr(color_maps, name)))
     rises = np.diff(lightness)
     assert rises.min() > 0.3 * rises.mean()
     assert rises.max() < 2.0 * rises.mean()
 
 
 def test_the_signed_map_is_light_in_the_middle_and_as_dark_at_both_ends() -> None:
-    lightness = _lightness(color_maps.colors(np.linspace(0, 1, 41), color_maps.PURPLE_ORANGE))
+    lightness = _lightness(colors(np.linspace(0, 1, 41), color_maps.PURPLE_ORANGE))
     assert lightness.argmax() == 20
     assert (np.diff(lightness)[:20] > 0).all()
     assert (np.diff(lightness)[20:] < 0).all()
-    red, blue = color_maps.colors(np.array([0.8, 0.2]), color_maps.PURPLE_ORANGE)[:, [0, 2]].T
+    red, blue = colors(np.array([0.8, 0.2]), color_maps.PURPLE_ORANGE)[:, [0, 2]].T
     assert red[0] > blue[0]
     assert red[1] < blue[1]
 
 
-def _lightness(colors: np.ndarray) -> np.ndarray:
+def _lightness(rgb: np.ndarray) -> np.ndarray:
     """CIE 1976 L* of sRGB."""
-    linear = np.where(colors <= 0.04045, colors / 12.92, ((colors + 0.055) / 1.055) ** 2.4)
+    linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
     y = linear @ (0.2126, 0.7152, 0.0722)
     return np.where(y > 0.008856, 116 * np.cbrt(y) - 16, 903.3 * y)

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The panel in the sidebar of Object Mode and Edit Mode."""
+
+from __future__ import annotations
+
+import bpy
+
+from . import tool
+from .settings import LINES, settings
+from .store import ITEMS, OPERATOR
+
+
+class VIEW3D_PT_seamwire_lab(bpy.types.Panel):
+    """Views of the metric on the active object"""  # noqa: D400 - a tooltip
+
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Seamwire Lab"
+    bl_label = "Views"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Return whether a mesh is active, in Object Mode or Edit Mode."""
+        obj = context.active_object
+        return obj is not None and obj.type == "MESH" and obj.mode in {"OBJECT", "EDIT"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Show the views. In Object Mode, show the tool's settings too, because they decide what is seen."""
+        layout, chosen, found = self.layout, settings(), tool.find()
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        if found is None:
+            layout.label(text=tool.MISSING, icon="ERROR")
+            layout = layout.column()
+            layout.enabled = False
+        layout.prop(chosen, "heat")
+        column = layout.column(heading="Show")
+        for name in LINES:
+            column.prop(chosen, name)
+        layout.prop(chosen, "shown_metric")
+        if found is not None and context.mode == "OBJECT":
+            from .follower import follower
+
+            of_tool = found.settings(context)
+            layout.prop(of_tool, "along")
+            layout.prop(of_tool, found.strength_name(follower.along))
+            layout.prop(of_tool, "metric")
+        layout.menu(VIEW3D_MT_seamwire_lab_store.bl_idname)
+
+
+class VIEW3D_MT_seamwire_lab_store(bpy.types.Menu):
+    """Store a view as an attribute of the vertices"""  # noqa: D400 - a tooltip
+
+    bl_idname = "VIEW3D_MT_seamwire_lab_store"
+    bl_label = "Store View as Attribute"
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Show the views that can be stored."""
+        for view, name, *_ in ITEMS:
+            self.layout.operator(OPERATOR, text=name).view = view
+
+
+register, unregister = bpy.utils.register_classes_factory((VIEW3D_MT_seamwire_lab_store, VIEW3D_PT_seamwire_lab))
