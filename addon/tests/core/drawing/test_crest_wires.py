@@ -47,8 +47,7 @@ class Sheet:
     def __init__(self, along: Along) -> None:
         self.points, self.triangles = mesh()
         surface = core.Surface(self.points, self.triangles)
-        smoothed = core.smoothed_curvatures(surface, core.principal_curvatures(surface))
-        self.crests = Crests.of(core.crest_lines(surface, smoothed))
+        self.crests = Crests.on(core, surface)
 
         def make(way: Along) -> object:
             return core.LiveWire(
