@@ -556,6 +556,36 @@ class SeamPlan:
     steps: float
     uvs: NDArray[np.float64] | None
 
+CUT_NEAR: float
+
+class CutCurve:
+    """A curve to be cut into a mesh."""
+
+    def __init__(
+        self,
+        points: ArrayLike,
+        start: SurfacePoint,
+        end: SurfacePoint | None = None,
+        faces: ArrayLike | None = None,
+        image_of: int | None = None,
+    ) -> None: ...
+
+class CutPlan:
+    """The changes to a mesh that cut curves into it."""
+
+    vertices: NDArray[np.int32]
+    weights: NDArray[np.float64]
+    polygons: NDArray[np.int32]
+    splits: list[tuple[tuple[int, int], list[int]]]
+    along: NDArray[np.int32]
+    across: list[tuple[int, NDArray[np.int32], bool]]
+    left_out: list[tuple[int, int]]
+    def node_at(self, corners: Sequence[int], barycentric: Sequence[float]) -> int | None:
+        """Find the node at a point of a triangle."""
+
+def plan_cuts(points: ArrayLike, triangles: ArrayLike, polygons: ArrayLike, curves: Sequence[CutCurve]) -> CutPlan:
+    """Plan how to cut curves into polygons."""
+
 class Parts:
     """The parts of a surface."""
 

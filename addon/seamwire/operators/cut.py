@@ -52,8 +52,8 @@ def cut_wires(
     Halfway
         If an error comes after a mesh has changed.
     """
-    from ..core.seams.cut_nodes import CutError
     from ..mesh import edit_mesh, finish
+    from ..mesh.cut import CutError
 
     plans, problems = {}, []
     for mesh, own in wires.items():
