@@ -43,7 +43,7 @@ start : int, or a pair of int and (3,) floats
 end : int, or a pair of int and (3,) floats, optional
     Where it ends. None: wherever the last point lies.
 faces : (k - 1,) array_like of int, optional
-    The triangle that each segment lies in. If the curve does not run there, they are ignored.
+    The triangle that each segment lies in. If the curve does not run there, they are found instead.
 image_of : int, optional
     The number of an earlier curve that this one is a mirror image of. It is skipped if that one is left out.
 

@@ -542,6 +542,7 @@ class PlannedWire:
     follow: Literal["min", "max"]
     vertices: NDArray[np.int32]
     points: NDArray[np.float64]
+    faces: NDArray[np.int32]
 
 class SeamPlan:
     """Seams that cut a surface into islands: `islands`, (m,), has the island of each triangle."""

@@ -126,7 +126,8 @@ def slide(mesh: ObjectSession, wires: Collection[Wire]) -> tuple[ObjectSession, 
     curve_of = {wire.vertices: wire.points for wire in wires}
     network = after.session.network
     kept = [
-        wire.changed(points=curve_of[wire.vertices]) if wire.vertices in curve_of else wire for wire in network.wires
+        wire.changed(points=curve_of[wire.vertices], faces=None) if wire.vertices in curve_of else wire
+        for wire in network.wires
     ]
     after.session.adopt(replace(network, wires=tuple(kept)), after.plain_seams)
     _go_on_with(after, mesh.session.taken_cuts)
@@ -267,7 +268,7 @@ def _placed(mesh: ObjectSession, wires: Iterable[Wire], places: mesh_cut.PickedP
     for wire in wires:
         start, end = seed_at(wire.start, wire.points[0]), seed_at(wire.end, wire.points[-1])
         vertices = (*vertices_of(start), *vertices_of(end))
-        placed.append(wire.changed(vertices=vertices, start=start, end=end, images=()))
+        placed.append(wire.changed(vertices=vertices, start=start, end=end, faces=None, images=()))
     return placed
 
 
@@ -320,4 +321,4 @@ def _curve(wire: Wire, image_of: int | None = None) -> CutCurve:
         (pick.triangle, pick.weights) if isinstance(pick, FacePoint) else vertex
         for pick, vertex in ((wire.start, wire.vertices[0]), (wire.end, wire.vertices[-1]))
     )
-    return native.load().CutCurve(wire.points, start, end, image_of=image_of)
+    return native.load().CutCurve(wire.points, start, end, wire.faces, image_of)

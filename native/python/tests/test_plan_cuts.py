@@ -42,6 +42,18 @@ class Polygons:
         places = np.array(sorted(parts))[:, None]
         return start, self.points[start] * (1.0 - places) + self.points[end] * places
 
+    def triangles_below(self, points: NDArray[np.float64]) -> list[int]:
+        """Return the triangle in the plane that the middle of each piece of a curve lies in."""
+        corners = self.points[self.triangles, :2]
+        found = []
+        for x, y in 0.5 * (points[1:, :2] + points[:-1, :2]):
+            (ux, uy), (vx, vy) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
+            wx, wy = x - corners[:, 0, 0], y - corners[:, 0, 1]
+            area = ux * vy - uy * vx
+            s, t = (wx * vy - wy * vx) / area, (ux * wy - uy * wx) / area
+            found.append(int(np.argmax(np.minimum.reduce([s, t, 1.0 - s - t]))))
+        return found
+
 
 @dataclass(frozen=True)
 class Node:
@@ -232,6 +244,26 @@ def test_random_lines_join_their_ends_and_cross_in_nodes_only(number: int) -> No
             part = np.clip((place - a) @ (b - a) / ((b - a) @ (b - a)), 0.0, 1.0)
             gaps.append(np.linalg.norm(a + part * (b - a) - place))
         assert min(gaps) < 0.15
+
+
+@pytest.mark.parametrize("number", range(20))
+def test_curves_that_name_their_triangles_are_cut_as_others_are(number: int) -> None:
+    dice = np.random.default_rng(number)
+    faces = grid(6, dice)
+    curves = [faces.straight(*dice.choice(len(faces.points), 2, replace=False).tolist()) for _ in range(4)]
+    named = {number: faces.triangles_below(points) for number, (_, points) in enumerate(curves)}
+    found, cuts = plan(faces, curves), plan(faces, curves, triangles=named)
+    assert rounded(cuts) == rounded(found)
+    wrong = {number: own[::-1] for number, own in named.items()}
+    assert rounded(plan(faces, curves, triangles=wrong)) == rounded(found)
+
+
+def rounded(cuts: Plan) -> set[frozenset[tuple[object, ...]]]:
+    """Return the cuts of a plan, to be compared with another's."""
+    return {
+        frozenset((node.vertices, tuple(np.round(node.weights, 9)), node.polygon) for node in segment)
+        for segment in cuts.segments()
+    }
 
 
 def in_row(*heights: float) -> tuple[int, NDArray[np.float64]]:

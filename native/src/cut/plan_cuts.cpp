@@ -49,8 +49,6 @@ void check_curve(const PolygonMesh& mesh, std::span<const CutCurve> curves, std:
   if (!curve.faces.empty() && curve.faces.size() + 1 != curve.points.size()) {
     throw InvalidInput(name + ": expected " + std::to_string(curve.points.size() - 1) + " triangles, or none");
   }
-  for (const std::int32_t face : curve.faces)
-    check_index(face, mesh.triangles.size(), name + ": triangle", "triangles");
   if (curve.image_of >= 0) check_index(curve.image_of, number, name + ": image of curve", "earlier curves");
 }
 

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "cut/tolerances.hpp"
+#include "detail/index.hpp"
 #include "surface/point_segment.hpp"
 
 namespace seamwire::detail {
@@ -203,7 +204,8 @@ class Walker {
 /// Returns the pieces if the curve runs in the triangles that it names. Two segments meet in a node of both triangles.
 std::optional<std::vector<Piece>> Walker::in_named_triangles() {
   const std::vector<std::int32_t>& faces = curve_.faces;
-  if (faces.empty()) return std::nullopt;
+  const auto is_row = [this](std::int32_t row) { return is_index(row, mesh_.triangle_count()); };
+  if (faces.empty() || !std::ranges::all_of(faces, is_row)) return std::nullopt;
   std::vector<CutNode> passed;
   std::vector<Found> before, here;
   for (std::size_t i = 0; i < curve_.points.size(); ++i) {

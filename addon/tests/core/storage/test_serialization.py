@@ -24,6 +24,7 @@ from seamwire.core.storage.serialization import (
     NewerError,
     UnreadableError,
     load_first_version,
+    packed,
 )
 from seamwire.core.storage.wire_labels import Found
 from setting import use
@@ -153,6 +154,11 @@ def spoiled(change: Callable[[dict[str, Any]], object]) -> str:
     return text_of(data)
 
 
+def line(count: int) -> str:
+    """Return a stored line of so many points."""
+    return packed(np.zeros((count, 3)))
+
+
 @pytest.mark.parametrize(
     "text",
     [
@@ -202,6 +208,9 @@ def spoiled(change: Callable[[dict[str, Any]], object]) -> str:
                 lambda wire: wire.pop("closed"),
                 lambda wire: wire.update(along="SURFACE"),
                 lambda wire: wire.update(along="SURFACE", curve="!", places="!"),
+                lambda wire: wire.update(
+                    along="SURFACE", curve=line(2), places=line(len(wire["vertices"])), faces=[0, 0]
+                ),
             ],
         ),
     ],

@@ -34,7 +34,7 @@ struct CutCurve {
   /// Where it ends. Other vertices and edges may lie in the same place. nullopt: wherever the last point lies.
   std::optional<SurfacePoint> end = std::nullopt;
   /// The triangle that each segment lies in, one less than points. Empty: not known. If the curve does not run in these
-  /// triangles, they are ignored, and found as if they were not known.
+  /// triangles, or one of them does not exist, all are found as if they were not known.
   std::vector<std::int32_t> faces = {};
   /// The number of an earlier curve that this one is a mirror image of; -1: none. It is skipped if that one is.
   std::int32_t image_of = -1;
