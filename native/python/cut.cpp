@@ -155,13 +155,12 @@ CutPlan make_plan(const py::object& points, const py::object& triangles, const p
 void bind_cut(py::module_& module) {
   bind_curve(module);
   bind_plan(module);
-  module.attr("CUT_NEAR") = kCutNear;
   module.def("plan_cuts", &make_plan, py::arg("points"), py::arg("triangles"), py::arg("polygons"), py::arg("curves"),
              R"(Plan how to cut curves into polygons.
 
 An end inside a polygon that no other curve leads on from goes back to the last edge. Curves that cross or run close to
-each other meet in common nodes. A cut that passes a vertex or an edge at less than `CUT_NEAR`, as a fraction of an
-edge's length or a triangle's height, goes through it.
+each other meet in common nodes. A cut that passes a vertex or an edge at less than 0.05, as a fraction of an edge's
+length or a triangle's height, goes through it.
 
 Parameters
 ----------

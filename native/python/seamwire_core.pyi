@@ -557,8 +557,6 @@ class SeamPlan:
     steps: float
     uvs: NDArray[np.float64] | None
 
-CUT_NEAR: float
-
 class CutCurve:
     """A curve to be cut into a mesh."""
 

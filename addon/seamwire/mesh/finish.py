@@ -255,14 +255,12 @@ def _left_cuts(mesh: ObjectSession, before: Network) -> list[Edge]:
 
 def _placed(mesh: ObjectSession, wires: Iterable[Wire], places: mesh_cut.PickedPlaces) -> list[Wire]:
     """Return wires across a mesh from which cuts were taken back, the same surface, as wires across this mesh."""
-    near = native.load().CUT_NEAR
 
     def seed_at(pick: Pick, place: NDArray[np.float64]) -> int | FacePoint:
         vertex = places.vertex(pick)
         if vertex is not None:
             return vertex
-        point = mesh.finder(places.faces(pick))((mesh.arrays.to_object @ place).tolist())
-        return point.vertex if max(point.weights) > 1.0 - near else point
+        return mesh.finder(places.faces(pick))((mesh.arrays.to_object @ place).tolist())
 
     placed = []
     for wire in wires:

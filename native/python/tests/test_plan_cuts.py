@@ -13,6 +13,8 @@ import pytest
 import seamwire_core as sw
 from numpy.typing import NDArray
 
+NEAR = 0.05
+"""A cut that passes a vertex or an edge at less than this goes through it."""
 Curve = tuple[int, NDArray[np.float64]] | tuple[int, NDArray[np.float64], int]
 """Where it begins, its points, and perhaps where it ends."""
 
@@ -189,7 +191,7 @@ def test_a_diagonal_of_a_quad_is_cut_from_corner_to_corner() -> None:
 
 def test_what_passes_near_a_vertex_goes_through_it() -> None:
     faces = grid(3)
-    faces.points[10] += (0.4 * sw.CUT_NEAR, 0.0, 0.0)  # the straight line from 5 to 15 passes 10 on its left
+    faces.points[10] += (0.4 * NEAR, 0.0, 0.0)  # the straight line from 5 to 15 passes 10 on its left
     cuts = plan(faces, [faces.straight(5, 15)])
     assert cuts.splits == {}
     assert Node((10,)) in reached(cuts, 5)
@@ -224,7 +226,7 @@ def test_random_lines_join_their_ends_and_cross_in_nodes_only(number: int) -> No
         assert Node((end,)) in reached(cuts, start)
     for pair, nodes in cuts.splits.items():
         parts = [0.0, *(node.weights[1] for node in nodes), 1.0]
-        assert min(np.diff(parts)) > 0.9 * sw.CUT_NEAR, pair
+        assert min(np.diff(parts)) > 0.9 * NEAR, pair
         assert any({*pair} == {*side} for rim in faces.corners for side in itertools.pairwise([*rim, rim[0]]))
     for polygon, own in cuts.across.items():
         corners = {*faces.corners[polygon]}

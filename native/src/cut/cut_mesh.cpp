@@ -62,7 +62,7 @@ const std::vector<std::int32_t>& CutMesh::corners(std::int32_t polygon) const {
   std::vector<std::int32_t>& found = corners_[polygon];
   if (!found.empty()) return found;
   const Rows rows = rows_of(polygon);
-  // Two triangles pass a diagonal in opposite directions. What is left leads around the polygon.
+  // Two triangles pass a diagonal in opposite directions. The others lead around the polygon.
   std::set<std::pair<std::int32_t, std::int32_t>> left;
   for (std::int32_t row = rows.first; row < rows.last; ++row) {
     for (std::size_t i = 0; i < 3; ++i) {

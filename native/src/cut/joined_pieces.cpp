@@ -242,7 +242,7 @@ bool SliverSearch::are_close(const Route& one, const Route& other) const {
   return lies_along(one, other) && lies_along(other, one);
 }
 
-/// Returns the longer one of the first two routes between the same nodes that are close; null if there are none.
+/// Returns the longer one of the first two close routes between the same nodes; null without such routes.
 const Route* SliverSearch::longer_of_close(std::span<const Route> routes) const {
   for (std::size_t i = 0; i < routes.size(); ++i) {
     for (std::size_t j = i + 1; j < routes.size(); ++j) {

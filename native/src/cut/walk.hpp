@@ -17,7 +17,7 @@ struct Barycentric {
 };
 Barycentric barycentric_in(const std::array<Vector, 3>& corners, const Vector& point);
 
-/// What a curve passes, from polygon to polygon.
+/// The pieces of a curve, from polygon to polygon.
 struct Walk {
   std::vector<Piece> pieces;
   std::int32_t left_near = -1;  ///< if the curve does not run over the mesh, a vertex near where it leaves it
