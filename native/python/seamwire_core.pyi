@@ -477,6 +477,15 @@ class RayTree:
     ready: bool
     def wait(self) -> None: ...
 
+class NearestPoints:
+    """Finds the nearest points of triangles."""
+
+    def __init__(self, points: ArrayLike, triangles: ArrayLike, progress: Progress | None = None) -> None: ...
+    def find(
+        self, places: ArrayLike, normals: ArrayLike | None = None, progress: Progress | None = None
+    ) -> tuple[NDArray[np.int32], NDArray[np.float64], NDArray[np.float64]]:
+        """Return the nearest triangle for each place, (k,), the point there, (k, 3), and its distance, (k,)."""
+
 def cut_polygons(
     points: ArrayLike, corners: ArrayLike, sizes: ArrayLike
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
