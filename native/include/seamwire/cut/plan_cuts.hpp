@@ -59,7 +59,7 @@ struct EdgeSplit {
 
 /// Cuts inside a polygon.
 struct PolygonCuts {
-  std::int32_t polygon = -1;
+  std::int32_t polygon = -1;  ///< its number
   /// From node to node, straight. They meet in nodes only. Nodes are corners, on sides, or inside.
   std::vector<std::array<std::int32_t, 2>> cuts;
   /// The polygon is folded or has no area. Its cuts were planned on a regular polygon with as many corners.
@@ -68,7 +68,7 @@ struct PolygonCuts {
 
 /// A curve that is not cut, because it does not run over the mesh.
 struct UncutCurve {
-  std::int32_t curve = -1;
+  std::int32_t curve = -1;   ///< its number
   std::int32_t vertex = -1;  ///< a vertex near where it leaves the mesh
 };
 

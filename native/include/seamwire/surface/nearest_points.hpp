@@ -15,9 +15,9 @@ namespace seamwire {
 
 /// The point of some triangles that is nearest to a place.
 struct NearestPoint {
-  std::int32_t triangle = -1;  ///< of those at the same distance, usually the one with the smallest number
-  Vector point = Vector::Zero();
-  double distance = 0.0;
+  std::int32_t triangle = -1;     ///< of those at the same distance, usually the one with the smallest number
+  Vector point = Vector::Zero();  ///< in the caller's coordinates
+  double distance = 0.0;          ///< from the place, in the same unit
 };
 
 /// Finds the nearest points of triangles with a tree of boxes. Triangles without an area count as their sides do.
