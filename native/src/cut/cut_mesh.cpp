@@ -2,6 +2,7 @@
 #include "cut/cut_mesh.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <map>
 #include <set>
 #include <string>
@@ -53,7 +54,7 @@ std::vector<std::int32_t> CutMesh::polygons_at(std::int32_t vertex) const {
 }
 
 Rows CutMesh::rows_of(std::int32_t polygon) const {
-  const auto [first, last] = std::ranges::equal_range(mesh_.polygons, polygon);
+  const auto [first, last] = std::equal_range(mesh_.polygons.begin(), mesh_.polygons.end(), polygon);
   return {.first = static_cast<std::int32_t>(first - mesh_.polygons.begin()),
           .last = static_cast<std::int32_t>(last - mesh_.polygons.begin())};
 }

@@ -97,7 +97,7 @@ std::map<NodePair, std::vector<std::int32_t>> nodes_on_pairs(const NodeTable& no
   }
   for (auto& [pair, own] : found) {
     std::ranges::sort(own);
-    own.erase(std::ranges::unique(own).begin(), own.end());
+    own.erase(std::unique(own.begin(), own.end()), own.end());
     std::ranges::stable_sort(own, {}, [&nodes](std::int32_t n) { return nodes[n].weights[1]; });
   }
   return found;
