@@ -20,6 +20,7 @@ class FakeCandidate:
     length: float
     final: bool
     follow: str = "min"
+    faces: NDArray[np.int32] = field(default_factory=lambda: np.empty(0, dtype=np.int32))
 
 
 @dataclass
@@ -60,6 +61,7 @@ class FakePiece:
 
     points: NDArray[np.float64]
     vertices: NDArray[np.int32]
+    faces: NDArray[np.int32] = field(default_factory=lambda: np.empty(0, dtype=np.int32))
 
 
 @dataclass

@@ -7,6 +7,7 @@ from collections import defaultdict
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import bmesh
 import bpy
@@ -29,7 +30,7 @@ from scene import (
 )
 from seamwire.core.drawing.change import Change
 from seamwire.core.network.network import Network
-from seamwire.core.seams.cut_nodes import CutError, Node
+from seamwire.core.network.wires import Wire
 from seamwire.mesh import cut as mesh_cut
 from seamwire.mesh import finish
 from seamwire.mesh.cut_joins import CUT_EDGES, CUT_VERTS
@@ -333,7 +334,7 @@ def test_a_face_that_is_not_folded_is_cut_where_it_is(monkeypatch: pytest.Monkey
     def refuse_drawing(_count: int) -> object:
         raise AssertionError("no drawing is needed")
 
-    monkeypatch.setattr(mesh_cut.cut, "regular_corners", refuse_drawing)
+    monkeypatch.setattr(mesh_cut, "_regular_corners", refuse_drawing)
     obj = add_grid(9)
     edit()
     assert cut("0 44")
@@ -387,8 +388,15 @@ def test_an_edge_that_is_missing_where_a_cut_runs_along_it_is_found_before_anyth
 
     def astray(*what: object) -> object:
         found = plan(*what)
-        found.along.append((Node((3,)), Node((77,))))  # no neighbors
-        return found
+        count = len(found.vertices)
+        return SimpleNamespace(
+            vertices=np.concatenate([found.vertices, [(3, -1, -1), (77, -1, -1)]]),
+            weights=np.concatenate([found.weights, [(1.0, 0.0, 0.0)] * 2]),
+            polygons=np.concatenate([found.polygons, [-1, -1]]),
+            splits=found.splits,
+            along=np.concatenate([found.along, [(count, count + 1)]]),  # no neighbors
+            across=found.across,
+        )
 
     monkeypatch.setattr(mesh_cut, "plan", astray)
     with pytest.raises(ValueError, match="A wire does not run over the mesh near vertex 3"):
@@ -594,7 +602,7 @@ def test_a_wire_that_left_the_mesh_keeps_no_other_from_being_cut() -> None:
     mesh = session_on(obj)
     wires = [wire if wire.start == 64 else replace(wire, points=wire.points * 3.0) for wire in mesh.session.wires]
     plan = finish.plan_cut(mesh, wires)
-    assert [wires[number].start for number in plan.left_out] == [0]
+    assert [wires[number].start for number, _ in plan.left_out] == [0]
     assert finish.cut(mesh, plan, wires, kept=True)[1].wires == 1
     kept = session_on(obj).session.wires
     assert sorted((wire.along, wire.start) for wire in kept) == [("EDGES", 64), ("SURFACE", 0)]
@@ -620,17 +628,13 @@ def test_a_wire_that_leaves_the_mesh_where_a_cut_was_taken_back_is_kept(monkeypa
     obj = add_grid(9)
     edit()
     mesh, change = with_a_cut_to_take_back()
-    plan, calls = mesh_cut.plan, []
+    placed = finish._placed
 
-    def astray(cage: object, arrays: object, curves: list[tuple], *more: object) -> object:
-        calls.append(1)
-        if len(calls) > 1:
-            curves = [(start, points * (3.0 if start == 64 else 1.0), *end) for start, points, *end in curves]
-        return plan(cage, arrays, curves, *more)
+    def astray(*what: object) -> list[Wire]:
+        return [wire.changed(points=wire.points * (3.0 if wire.start == 64 else 1.0)) for wire in placed(*what)]
 
-    monkeypatch.setattr(mesh_cut, "plan", astray)
+    monkeypatch.setattr(finish, "_placed", astray)
     _, done = finish.apply(mesh, change)
-    assert len(calls) == 2
     assert (done.cut, done.left_out, done.problem) == (1, 1, "")
     kept = session_on(obj).session.wires
     assert sorted((wire.along, wire.start, wire.end) for wire in kept) == [("EDGES", 8, 36), ("SURFACE", 64, 79)]

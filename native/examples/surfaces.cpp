@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mesh.hpp"
+#include "seamwire/surface/nearest_points.hpp"
 #include "seamwire/surface/ray_tree.hpp"
 #include "seamwire/surface/segments.hpp"
 #include "seamwire/surface/surface.hpp"
@@ -36,4 +37,11 @@ int main() {
   const RayHit hit = rays.first_hit({0, 0, 9}, {0, 0, -1});
   std::printf("triangle %d at distance %g\n", hit.triangle, hit.distance);
   //! [rays]
+
+  //! [nearest]
+  const NearestPoints nearest(points, triangles);
+  const std::vector<Vector> places{{0, 0, 9}, {2, 0, 0}};
+  for (const NearestPoint& found : nearest.find(places))
+    std::printf("triangle %d at distance %g\n", found.triangle, found.distance);
+  //! [nearest]
 }

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The snippets of docs/library/wires.md.
 #include <cstdio>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "mesh.hpp"
 #include "seamwire/context/embedded_surface.hpp"
+#include "seamwire/cut/plan_cuts.hpp"
 #include "seamwire/wires/plane_section.hpp"
 #include "seamwire/wires/snap.hpp"
 
@@ -43,4 +45,17 @@ int main() {
       plane_section(embedded.surface(), SurfacePoint::at_vertex(start), SurfacePoint::at_vertex(end), Vector(0, 0, 1));
   //! [section]
   std::printf("a straight cut of length %g\n", section.length);
+
+  const Surface& surface = embedded.surface();
+  //! [cut]
+  std::vector<std::int32_t> polygons(surface.face_count());
+  std::iota(polygons.begin(), polygons.end(), 0);  // each triangle is a polygon
+  const std::vector<CutCurve> curves{{.points = wire.points,
+                                      .start = SurfacePoint::at_vertex(start),
+                                      .end = SurfacePoint::at_vertex(end),
+                                      .faces = wire.faces}};
+  const CutPlan plan =
+      plan_cuts({.points = surface.points(), .triangles = surface.triangles(), .polygons = polygons}, curves);
+  std::printf("%zu edges and %zu polygons are cut\n", plan.splits.size(), plan.across.size());
+  //! [cut]
 }

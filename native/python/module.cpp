@@ -32,6 +32,7 @@ functions on other threads stop and raise SystemExit.)";
   bind_live(module);
   bind_rays(module);
   bind_faces(module);
+  bind_cut(module);
   bind_flatten(module);
   bind_seams(module);
   bind_views(module);

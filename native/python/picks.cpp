@@ -117,7 +117,7 @@ SurfacePoint place_from(py::handle value, std::size_t vertex_count, std::size_t 
   const auto at = wire_end_from(value, vertex_count, face_count, name);
   if (const auto* point = std::get_if<SurfacePoint>(&at)) return *point;
   if (std::get<Pick>(at).is_edge()) {
-    throw InvalidInput(name + ": closed wires lead through vertices and points of triangles, not edges");
+    throw InvalidInput(name + ": expected a vertex or a point of a triangle, not an edge");
   }
   return SurfacePoint::at_vertex(std::get<Pick>(at).a);
 }

@@ -36,7 +36,7 @@ std::vector<SurfacePoint> surface_points_from(py::handle value, const Surface& s
 /// The end of a wire: a vertex, an edge, or a pair of a face number and three barycentric coordinates.
 std::variant<Pick, SurfacePoint> wire_end_from(py::handle value, std::size_t vertex_count, std::size_t face_count,
                                                const std::string& name);
-/// A point that a closed wire leads through: the end of a wire, but no edge.
+/// The end of a wire, but no edge.
 SurfacePoint place_from(py::handle value, std::size_t vertex_count, std::size_t face_count, const std::string& name);
 
 }  // namespace seamwire::python

@@ -75,6 +75,9 @@ void bind_planned_wire(py::module_& module) {
                              "(k,) int32: the chain of edges that it marks, from seed to seed.")
       .def_property_readonly("points", array_of<PlannedWire>(&PlannedWire::points),
                              "(p, 3) float64: its curve, in the caller's coordinates.")
+      .def_property_readonly("faces", array_of<PlannedWire>(&PlannedWire::faces),
+                             "(p - 1,) int32: the triangle of each segment, -1 along an edge without one. Only across "
+                             "the surface.")
       .def("__repr__", [](const PlannedWire& wire) {
         return "<PlannedWire: " + std::to_string(wire.from) + " to " + std::to_string(wire.to) + ", " +
                std::to_string(wire.vertices.size()) + " vertices>";

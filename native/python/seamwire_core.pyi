@@ -477,6 +477,15 @@ class RayTree:
     ready: bool
     def wait(self) -> None: ...
 
+class NearestPoints:
+    """Finds the nearest points of triangles."""
+
+    def __init__(self, points: ArrayLike, triangles: ArrayLike, progress: Progress | None = None) -> None: ...
+    def find(
+        self, places: ArrayLike, normals: ArrayLike | None = None, progress: Progress | None = None
+    ) -> tuple[NDArray[np.int32], NDArray[np.float64], NDArray[np.float64]]:
+        """Return the nearest triangle for each place, (k,), the point there, (k, 3), and its distance, (k,)."""
+
 def cut_polygons(
     points: ArrayLike, corners: ArrayLike, sizes: ArrayLike
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
@@ -542,6 +551,7 @@ class PlannedWire:
     follow: Literal["min", "max"]
     vertices: NDArray[np.int32]
     points: NDArray[np.float64]
+    faces: NDArray[np.int32]
 
 class SeamPlan:
     """Seams that cut a surface into islands: `islands`, (m,), has the island of each triangle."""
@@ -555,6 +565,34 @@ class SeamPlan:
     is_reached: bool
     steps: float
     uvs: NDArray[np.float64] | None
+
+class CutCurve:
+    """A curve to be cut into a mesh."""
+
+    def __init__(
+        self,
+        points: ArrayLike,
+        start: SurfacePoint,
+        end: SurfacePoint | None = None,
+        faces: ArrayLike | None = None,
+        image_of: int | None = None,
+    ) -> None: ...
+
+class CutPlan:
+    """The changes to a mesh that cut curves into it."""
+
+    vertices: NDArray[np.int32]
+    weights: NDArray[np.float64]
+    polygons: NDArray[np.int32]
+    splits: list[tuple[tuple[int, int], list[int]]]
+    along: NDArray[np.int32]
+    across: list[tuple[int, NDArray[np.int32], bool]]
+    left_out: list[tuple[int, int]]
+    def node_at(self, corners: Sequence[int], barycentric: Sequence[float]) -> int | None:
+        """Find the node at a point of a triangle."""
+
+def plan_cuts(points: ArrayLike, triangles: ArrayLike, polygons: ArrayLike, curves: Sequence[CutCurve]) -> CutPlan:
+    """Plan how to cut curves into polygons."""
 
 class Parts:
     """The parts of a surface."""

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Wires cut into the faces of an edit mesh: edges split where they cross, faces split along them.
 
-Blender's own operations on the edit mesh do it, those that its knife is made of: so attributes come out as the knife leaves them.
+The library plans the cuts. They are made by the operations of Blender's knife, so attributes come out as the knife leaves them.
 """
 
 from __future__ import annotations
@@ -16,20 +16,29 @@ import bmesh
 import numpy as np
 from mathutils import Vector
 
+from ..core.base import native
+from ..core.base.messages import Refused
 from ..core.network.picks import FacePoint, vertices_of
-from ..core.seams import cut
-from ..core.seams.cut_nodes import CutError
 from .cut_joins import cut_layers, holding, is_left_behind, join, mark_seams
 from .unwrap import UNWRAPPED
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+    from seamwire_core import CutCurve, CutPlan
+
     from ..core.base.mesh_arrays import Arrays
     from ..core.network.picks import Edge, Pick
-    from ..core.seams.cut import Curve, CutPlan, Node
     from .edit_mesh import Cage
+
+    Node = tuple[tuple[int, ...], tuple[float, ...]]
+    """Vertices, and the weight of each."""
 
 _RINGS = 3
 """How far one looks around a pick once vertices are found that stay: those of the face that it lies in may not be the first."""
+
+
+class CutError(Refused):
+    """A wire cannot be cut into the mesh."""
 
 
 @dataclass(frozen=True)
@@ -58,29 +67,6 @@ class Cut:
     uncut: int
     wires: int = 0
     left_out: int = 0
-
-
-class CageFaces:
-    """The visible faces of an edit mesh, and the triangles that they were read as."""
-
-    def __init__(self, cage: Cage, arrays: Arrays) -> None:
-        self.points, self.triangles = arrays.points, arrays.triangles
-        self._polygons = arrays.polygons
-        self._bm = cage.bm
-
-    def polygons_at(self, vertex: int) -> Sequence[int]:
-        """Return the visible faces around a vertex."""
-        return [face.index for face in self._bm.verts[vertex].link_faces if not face.hide]
-
-    def rows_of(self, polygon: int) -> Sequence[int]:
-        """Return the triangles of a face."""
-        # Of the same type, or all of the array would be converted.
-        bounds = np.array((polygon, polygon + 1), dtype=self._polygons.dtype)
-        return range(*np.searchsorted(self._polygons, bounds).tolist())
-
-    def corners(self, polygon: int) -> Sequence[int]:
-        """Return the vertices around a face."""
-        return [vert.index for vert in self._bm.faces[polygon].verts]
 
 
 class PickedPlaces:
@@ -131,9 +117,14 @@ def _verts_that_stay(
     return [vert for vert in found if not vert[of_verts]]
 
 
-def plan(cage: Cage, arrays: Arrays, curves: Iterable[Curve], images: Mapping[int, int]) -> CutPlan:
-    """Find what curves cut, see `core.seams.cut.plan`; raises `CutError`, before anything is changed."""
-    return cut.plan(CageFaces(cage, arrays), curves, images)
+def plan(arrays: Arrays, curves: Sequence[CutCurve]) -> CutPlan:
+    """Find what curves cut. Raises `CutError` if nothing is cut."""
+    found = native.load().plan_cuts(arrays.points, arrays.triangles, arrays.polygons, curves)
+    if not len(found.along) and not found.across:
+        for _, vertex in found.left_out:
+            raise CutError("off-mesh-near", vertex=vertex)
+        raise CutError("no-wire-leaves-face")
+    return found
 
 
 def rehearse(cage: Cage, what: CutPlan) -> None:
@@ -196,37 +187,34 @@ def _carry_out(
     """Cut, and return the edges along the cuts, the seeds, and how many faces could not be cut."""
     # First of all: a new layer makes what was found before invalid.
     of_verts, of_edges = cut_layers(bm)
+    nodes = _nodes(what)
+    corners = {vertex: bm.verts[vertex] for vertices, _ in nodes for vertex in vertices}
     seed_verts = {seed: bm.verts[seed] for seed in seeds if isinstance(seed, int)}
-    at_points = {seed: what.node_at(seed.corners, seed.weights) for seed in seeds if isinstance(seed, FacePoint)}
-    faces = {polygon: (bm.faces[polygon], list(bm.faces[polygon].verts)) for polygon in what.across}
-    vert_of: dict[Node, bmesh.types.BMVert] = {}
-    nodes = what.nodes()
-    corners = {vertex: bm.verts[vertex] for node in nodes for vertex in node.vertices}
-    for node in nodes:
-        if len(node.vertices) == 1:
-            vert_of[node] = corners[node.vertices[0]]
+    faces = {polygon: (bm.faces[polygon], list(bm.faces[polygon].verts)) for polygon, _, _ in what.across}
+    vert_of = {node: corners[vertices[0]] for node, (vertices, _) in enumerate(nodes) if len(vertices) == 1}
     # Points inside faces come first, because their faces are still whole.
-    for node in what.inside():
-        vert_of[node] = _vert_inside(bm, [corners[vertex] for vertex in node.vertices], node.weights)
-    for (a, b), between in what.splits.items():
+    for node in np.flatnonzero(what.polygons >= 0).tolist():
+        vertices, weights = nodes[node]
+        vert_of[node] = _vert_inside(bm, [corners[vertex] for vertex in vertices], weights)
+    for (a, b), between in what.splits:
         last, end, passed = corners[a], corners[b], 0.0
         for node in between:
-            edge = bm.edges.get((last, end))
-            part = (node.weights[1] - passed) / (1.0 - passed)
-            _, last = bmesh.utils.edge_split(edge, last, part)
-            vert_of[node], passed = last, node.weights[1]
+            edge, weight = bm.edges.get((last, end)), nodes[node][1][1]
+            _, last = bmesh.utils.edge_split(edge, last, (weight - passed) / (1.0 - passed))
+            vert_of[node], passed = last, weight
+    at_points = {seed: what.node_at(seed.corners, seed.weights) for seed in seeds if isinstance(seed, FacePoint)}
     seed_verts |= {seed: vert_of[node] for seed, node in at_points.items() if node is not None}
-    for node, vert in vert_of.items():
-        if len(node.vertices) > 1:
-            vert[of_verts] = 1
+    new = [vert for node, vert in vert_of.items() if len(nodes[node][0]) > 1]
+    for vert in new:
+        vert[of_verts] = 1
     seams = list(_edges_along(bm, what, vert_of))
-    node_of = {vert: node for node, vert in vert_of.items()}
+    node_of = {vert: nodes[node] for node, vert in vert_of.items()}
     uncut, left = 0, set()
-    for polygon, segments in what.across.items():
+    for polygon, cuts, is_folded in what.across:
         face, rim = faces[polygon]
-        ends = [(vert_of[one], vert_of[two]) for one, two in segments]
+        ends = [(vert_of[one], vert_of[two]) for one, two in cuts.tolist()]
         edges = _edges_between(bm, ends, of_edges)
-        if polygon in what.folded or not _split(face, edges):
+        if is_folded or not _split(face, edges):
             between = {vert: node_of[vert] for vert in {*face.verts, *itertools.chain(*ends)} - {*rim}}
             with _drawn(face, rim, between, corners):
                 _split(face, edges)
@@ -235,18 +223,25 @@ def _carry_out(
         left |= loose
         seams += [edge for edge in edges if edge not in loose]
     _remove_loose(bm, [edge for edge in left if edge[of_edges]])
-    _spread_selection(bm, [vert for node, vert in vert_of.items() if len(node.vertices) > 1 and vert.is_valid])
+    _spread_selection(bm, [vert for vert in new if vert.is_valid])
     return seams, seed_verts, uncut
 
 
+def _nodes(what: CutPlan) -> list[Node]:
+    """Return the nodes of a plan, without vertices that are not used."""
+    counts = (what.vertices >= 0).sum(axis=1).tolist()
+    rows = zip(counts, what.vertices.tolist(), what.weights.tolist(), strict=True)
+    return [(tuple(vertices[:count]), tuple(weights[:count])) for count, vertices, weights in rows]
+
+
 def _edges_along(
-    bm: bmesh.types.BMesh, what: CutPlan, vert_of: Mapping[Node, bmesh.types.BMVert]
+    bm: bmesh.types.BMesh, what: CutPlan, vert_of: Mapping[int, bmesh.types.BMVert]
 ) -> Iterator[bmesh.types.BMEdge]:
     """Yield the edges that cuts run along. Raises `CutError` if there is no such edge."""
-    for one, two in what.along:
+    for one, two in what.along.tolist():
         edge = bm.edges.get((vert_of[one], vert_of[two]))
         if edge is None:
-            raise CutError("off-mesh-near", vertex=one.vertices[0])
+            raise CutError("off-mesh-near", vertex=int(what.vertices[one, 0]))
         yield edge
 
 
@@ -427,14 +422,19 @@ def _drawn(
         The vertices that nodes name.
     """
     before = {vert: vert.co.copy() for vert in (*rim, *between)}
-    for vert, (x, y) in zip(rim, cut.regular_corners(len(rim)), strict=True):
+    for vert, (x, y) in zip(rim, _regular_corners(len(rim)), strict=True):
         vert.co = (x, y, 0.0)
-    for vert, node in between.items():
-        parts = zip(node.vertices, node.weights, strict=True)
-        vert.co = sum((weight * corners[vertex].co for vertex, weight in parts), Vector())
+    for vert, parts in between.items():
+        vert.co = sum((weight * corners[vertex].co for vertex, weight in zip(*parts, strict=True)), Vector())
     face.normal_update()
     try:
         yield
     finally:
         for vert, place in before.items():
             vert.co = place
+
+
+def _regular_corners(count: int) -> NDArray[np.float64]:
+    """Return the corners of a regular polygon, (count, 2)."""
+    angles = 2.0 * np.pi * np.arange(count) / count
+    return np.stack([np.cos(angles), np.sin(angles)], axis=1)

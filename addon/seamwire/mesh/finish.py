@@ -11,26 +11,27 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..core.base import native
 from ..core.base.messages import message_of
 from ..core.network.picks import FacePoint, vertices_of
-from ..core.seams.cut_nodes import NEAR, CutError
 from ..core.seams.seam_wires import wires_between
 from ..core.seams.slide import plan as plan_slide
 from . import cut as mesh_cut
 from . import slide as mesh_slide
+from .cut import CutError
 from .object_session import ObjectSession
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator, Mapping
 
     from numpy.typing import NDArray
+    from seamwire_core import CutCurve, CutPlan
 
     from ..core.drawing.change import Change
     from ..core.network.network import Network
     from ..core.network.picks import Edge, Pick
     from ..core.network.wires import Wire
     from ..core.offers.closed_cuts import TakenCut
-    from ..core.seams.cut import CutPlan
     from .cut import Cut
 
 
@@ -116,7 +117,7 @@ def slide(mesh: ObjectSession, wires: Collection[Wire]) -> tuple[ObjectSession, 
     courses = [(image.vertices, image.points) for images in own.values() for image in images]
     seams = {edge for images in own.values() for image in images for edge in image.edges()}
     stiff = mesh_slide.stiff_vertices(mesh.cage, {vertex for chain, _ in courses for vertex in chain}, seams)
-    moves = plan_slide(mesh_cut.CageFaces(mesh.cage, mesh.arrays), courses, stiff)
+    moves = plan_slide(mesh_slide.CageFaces(mesh.cage, mesh.arrays), courses, stiff)
     if not moves:
         return mesh, 0
     mesh_slide.carry_out(mesh.obj, mesh.cage, moves)
@@ -125,7 +126,8 @@ def slide(mesh: ObjectSession, wires: Collection[Wire]) -> tuple[ObjectSession, 
     curve_of = {wire.vertices: wire.points for wire in wires}
     network = after.session.network
     kept = [
-        wire.changed(points=curve_of[wire.vertices]) if wire.vertices in curve_of else wire for wire in network.wires
+        wire.changed(points=curve_of[wire.vertices], faces=None) if wire.vertices in curve_of else wire
+        for wire in network.wires
     ]
     after.session.adopt(replace(network, wires=tuple(kept)), after.plain_seams)
     _go_on_with(after, mesh.session.taken_cuts)
@@ -147,14 +149,8 @@ def plan_cut(mesh: ObjectSession, wires: Iterable[Wire]) -> CutPlan:
     images = [
         (number, image) for number, wire in enumerate(wires) for image in mesh.session.mirrored(wire, curves=True)
     ]
-    curves = [
-        (_spot(own.start, own.vertices[0]), own.points, _spot(own.end, own.vertices[-1]))
-        for own in (*wires, *(image for _, image in images))
-    ]
-    originals = {len(wires) + row: number for row, (number, _) in enumerate(images)}
-    plan = mesh_cut.plan(mesh.cage, mesh.arrays, curves, originals)
-    if not plan.segments():
-        raise CutError("no-wire-leaves-face")
+    curves = [_curve(wire) for wire in wires] + [_curve(image, number) for number, image in images]
+    plan = mesh_cut.plan(mesh.arrays, curves)
     mesh_cut.rehearse(mesh.cage, plan)
     return plan
 
@@ -202,8 +198,8 @@ def cut(
         If no wire can be cut once former cuts were taken back. These cuts are gone then, and the wires are snapped to edges.
     """
     taken = mesh.session.taken_cuts if taken is None else taken
-    skipped = sum(number < len(wires) for number in plan.left_out)
-    wires = [wire for number, wire in enumerate(wires) if number not in plan.left_out]
+    skipped = [number for number, _ in plan.left_out if number < len(wires)]
+    wires = [wire for number, wire in enumerate(wires) if number not in skipped]
     images = [replace(image, mirror=()) for wire in wires for image in mesh.session.mirrored(wire, curves=True)]
     if kept:
         for wire in wires:
@@ -223,10 +219,10 @@ def cut(
         except ValueError as error:
             _draw_again(after, placed[: len(wires)])
             raise CutError("cut-taken-back", why=message_of(error)) from error
-        missing = [placed[number] for number in again.left_out if number < len(wires)]
+        missing = [placed[number] for number, _ in again.left_out if number < len(wires)]
         _draw_again(after, missing)
         after, done = cut(after, again, placed, taken=taken)
-        return after, replace(done, wires=len(wires) - len(missing), left_out=skipped + done.left_out)
+        return after, replace(done, wires=len(wires) - len(missing), left_out=len(skipped) + done.left_out)
     seeds = {end for wire in wires for end in (wire.start, wire.end)}
     done = mesh_cut.carry_out(mesh.cage, plan, seeds, crumb)
     after = ObjectSession(mesh.obj)
@@ -264,14 +260,13 @@ def _placed(mesh: ObjectSession, wires: Iterable[Wire], places: mesh_cut.PickedP
         vertex = places.vertex(pick)
         if vertex is not None:
             return vertex
-        point = mesh.finder(places.faces(pick))((mesh.arrays.to_object @ place).tolist())
-        return point.vertex if max(point.weights) > 1.0 - NEAR else point
+        return mesh.finder(places.faces(pick))((mesh.arrays.to_object @ place).tolist())
 
     placed = []
     for wire in wires:
         start, end = seed_at(wire.start, wire.points[0]), seed_at(wire.end, wire.points[-1])
         vertices = (*vertices_of(start), *vertices_of(end))
-        placed.append(wire.changed(vertices=vertices, start=start, end=end, images=()))
+        placed.append(wire.changed(vertices=vertices, start=start, end=end, faces=None, images=()))
     return placed
 
 
@@ -318,6 +313,10 @@ def _cut_wires(
             yield replace(wire, mirror=())
 
 
-def _spot(pick: Pick, vertex: int) -> int | FacePoint:
-    """Return where a curve begins or ends: a point in a triangle, or else the vertex that its edges begin or end at."""
-    return pick if isinstance(pick, FacePoint) else vertex
+def _curve(wire: Wire, image_of: int | None = None) -> CutCurve:
+    """Return a wire across the surface as the library cuts it. It begins and ends at points in triangles, or where its edges do."""
+    start, end = (
+        (pick.triangle, pick.weights) if isinstance(pick, FacePoint) else vertex
+        for pick, vertex in ((wire.start, wire.vertices[0]), (wire.end, wire.vertices[-1]))
+    )
+    return native.load().CutCurve(wire.points, start, end, wire.faces, image_of)

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from ..core.base.mesh_arrays import Arrays
     from ..core.network.picks import Edge
     from ..core.seams.slide import Move
     from .edit_mesh import Cage
@@ -28,6 +29,29 @@ if TYPE_CHECKING:
 
 _SAME = 6
 """Digits that corners around a vertex have in common where they hang together, as in one island of a UV map."""
+
+
+class CageFaces:
+    """The visible faces of an edit mesh, and the triangles that they were read as."""
+
+    def __init__(self, cage: Cage, arrays: Arrays) -> None:
+        self.points, self.triangles = arrays.points, arrays.triangles
+        self._polygons = arrays.polygons
+        self._bm = cage.bm
+
+    def polygons_at(self, vertex: int) -> Sequence[int]:
+        """Return the visible faces around a vertex."""
+        return [face.index for face in self._bm.verts[vertex].link_faces if not face.hide]
+
+    def rows_of(self, polygon: int) -> Sequence[int]:
+        """Return the triangles of a face."""
+        # Of the same type, or all of the array would be converted.
+        bounds = np.array((polygon, polygon + 1), dtype=self._polygons.dtype)
+        return range(*np.searchsorted(self._polygons, bounds).tolist())
+
+    def corners(self, polygon: int) -> Sequence[int]:
+        """Return the vertices around a face."""
+        return [vert.index for vert in self._bm.faces[polygon].verts]
 
 
 def stiff_vertices(cage: Cage, vertices: Iterable[int], seams: Collection[Edge]) -> set[int]:

@@ -98,7 +98,7 @@ def cut_wires(
     Halfway
         If an error comes after a mesh has changed.
     """
-    from ..core.seams.cut_nodes import CutError
+    from ..mesh.cut import CutError
     from ..mesh import edit_mesh, finish
 
     plans, problems = {}, []

@@ -175,6 +175,7 @@ def test_the_stub_names_what_there_is(planner: sw.SeamPlanner) -> None:
         "follow",
         "vertices",
         "points",
+        "faces",
     }
     assert {name for name in dir(planner) if not name.startswith("_")} == {"plan", "best_so_far"}
     assert "SeamPlanner" in repr(planner)

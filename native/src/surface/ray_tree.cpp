@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The triangle test is that of Moeller and Trumbore, "Fast, minimum storage ray-triangle intersection" (1997). The tree
-// parts triangles in halves by the middles of their boxes, along the axis on which these lie farthest apart.
+// The triangle test is that of Moeller and Trumbore, "Fast, minimum storage ray-triangle intersection" (1997).
 #include "seamwire/surface/ray_tree.hpp"
 
 #include <Eigen/Geometry>
@@ -15,15 +14,15 @@
 #include <stop_token>
 #include <thread>
 #include <utility>
+
 #include "detail/index.hpp"
+#include "surface/box_tree.hpp"
 
 namespace seamwire {
 
 using namespace detail;
 
 namespace {
-
-using Box = Eigen::AlignedBox3d;
 
 /// By how much a ray may pass a triangle, as part of its sides: else rounding would let it through between two.
 constexpr double kSlack = 1e-9;
@@ -68,23 +67,14 @@ Box box_of(const Vector& a, const Vector& b, const Vector& c) {
 struct RayTree::Parts {
   enum class State { kBuilding, kBuilt, kFailed };
 
-  /// Its triangles, where they are few; else two nodes that hold them, side by side.
-  struct Node {
-    Box box;
-    std::int32_t first = 0;  ///< in `order`, or in `nodes` where `count` is 0
-    std::int32_t count = 0;
-  };
-
   int exponent = 0;  ///< of what points were divided by, a power of two
   std::vector<Vector> points;
   std::vector<Triangle> triangles;
-  std::vector<std::int32_t> order;  ///< the triangles, node by node; those that are not finite are left out
-  std::vector<Node> nodes;          ///< the first one holds all; none: there are no triangles
+  BoxTree tree;  ///< of the triangles that are finite
   std::atomic<State> state = State::kBuilding;
   std::jthread thread;  ///< last, so that it ends first
 
   void build(const std::stop_token& stop);
-  bool make_nodes(const std::stop_token& stop);
 };
 
 namespace {
@@ -138,67 +128,17 @@ struct FirstHit {
   }
 };
 
-/// Triangles of a node that is not parted further.
-constexpr std::int32_t kMostInANode = 4;
-/// Triangles between two looks at the stop token.
-constexpr std::size_t kWorkBetweenChecks = 16384;
-
 }  // namespace
-
-/// False where it was stopped.
-bool RayTree::Parts::make_nodes(const std::stop_token& stop) {
-  // What moves when a node is parted lies in a row: most of the time here is waiting for memory.
-  struct Middle {
-    Vector at;
-    std::int32_t triangle;
-  };
-  std::vector<Middle> middles;
-  middles.reserve(triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    if (t % kWorkBetweenChecks == 0 && stop.stop_requested()) return false;
-    const auto& [a, b, c] = triangles[t];
-    if (!points[a].allFinite() || !points[b].allFinite() || !points[c].allFinite()) continue;
-    const Box box = box_of(points[a], points[b], points[c]);
-    middles.push_back({box.min() / 2 + box.max() / 2, static_cast<std::int32_t>(t)});
-  }
-  if (middles.empty()) return true;
-  nodes.reserve(middles.size());
-  nodes.push_back({.box = {}, .first = 0, .count = static_cast<std::int32_t>(middles.size())});
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    if (stop.stop_requested()) return false;
-    const std::int32_t first = nodes[n].first, count = nodes[n].count;
-    if (count <= kMostInANode) continue;
-    const auto begin = middles.begin() + first, middle = begin + count / 2, end = begin + count;
-    Box spread;
-    for (auto item = begin; item != end; ++item) spread.extend(item->at);
-    Eigen::Index axis = 0;
-    spread.sizes().maxCoeff(&axis);
-    std::nth_element(begin, middle, end, [&](const Middle& s, const Middle& t) { return s.at[axis] < t.at[axis]; });
-    nodes[n].first = static_cast<std::int32_t>(nodes.size());
-    nodes[n].count = 0;
-    nodes.push_back({.box = {}, .first = first, .count = count / 2});
-    nodes.push_back({.box = {}, .first = first + count / 2, .count = count - count / 2});
-  }
-  order.reserve(middles.size());
-  for (const Middle& item : middles) order.push_back(item.triangle);
-  // A node comes before the two that it is parted in.
-  for (std::size_t n = nodes.size(); n-- > 0;) {
-    Node& node = nodes[n];
-    if (n % kWorkBetweenChecks == 0 && stop.stop_requested()) return false;
-    for (std::int32_t i = 0; i < node.count; ++i) {
-      const auto& [a, b, c] = triangles[order[node.first + i]];
-      node.box.extend(box_of(points[a], points[b], points[c]));
-    }
-    if (node.count > 0) continue;
-    node.box = nodes[node.first].box.merged(nodes[node.first + 1].box);
-  }
-  return true;
-}
 
 void RayTree::Parts::build(const std::stop_token& stop) {
   State reached = State::kFailed;  // every triangle is looked at for ever
   try {
-    if (make_nodes(stop)) reached = State::kBuilt;
+    const auto box = [this](std::int32_t t) {
+      const auto& [a, b, c] = triangles[t];
+      const bool is_finite = points[a].allFinite() && points[b].allFinite() && points[c].allFinite();
+      return is_finite ? box_of(points[a], points[b], points[c]) : Box();
+    };
+    if (tree.build(triangles.size(), box, [&stop] { return !stop.stop_requested(); })) reached = State::kBuilt;
   } catch (...) {
     // There is no memory for it.
   }
@@ -234,19 +174,19 @@ RayHit RayTree::first_hit(const Vector& given_origin, const Vector& given_direct
     for (std::size_t t = 0; t < parts_->triangles.size(); ++t) search.look_at(static_cast<std::int32_t>(t));
     return found();
   }
+  const BoxTree& tree = parts_->tree;
   const auto comes_in_at = [&](std::int32_t node) {
-    const auto [in, out] = search.inside(parts_->nodes[node].box, search.best.distance);
+    const auto [in, out] = search.inside(tree.nodes[node].box, search.best.distance);
     return in <= out ? in : kInfinity;
   };
-  // Halves are never empty, so the tree is no deeper than a number has bits, and a node waits at each depth.
-  std::array<std::int32_t, 64> waiting{};
-  std::size_t count = parts_->nodes.empty() ? 0 : 1;
+  std::array<std::int32_t, BoxTree::kMostDepth> waiting{};  // a node at each depth
+  std::size_t count = tree.nodes.empty() ? 0 : 1;
   while (count > 0) {
-    const Parts::Node& node = parts_->nodes[waiting[--count]];
+    const BoxTree::Node& node = tree.nodes[waiting[--count]];
     // Better hits may have been found since it was put there.
     const auto [in, out] = search.inside(node.box, search.best.distance);
     if (!(in <= out)) continue;
-    for (std::int32_t i = 0; i < node.count; ++i) search.look_at(parts_->order[node.first + i]);
+    for (std::int32_t i = 0; i < node.count; ++i) search.look_at(tree.order[node.first + i]);
     if (node.count > 0) continue;
     const bool second_is_nearer = comes_in_at(node.first + 1) < comes_in_at(node.first);
     waiting[count++] = node.first + (second_is_nearer ? 0 : 1);

@@ -230,7 +230,7 @@ def across(candidate: Candidate, follow: int, begin: Pick, end: Pick) -> Wire | 
     if len(vertices) < least or len(candidate.points) < 2:
         return None
     points = np.array(candidate.points, dtype=np.float64)
-    return Wire("SURFACE", vertices, points, begin, end, follow=follow)
+    return Wire("SURFACE", vertices, points, begin, end, np.array(candidate.faces), follow=follow)
 
 
 def _goal(target: Snap, network: Network, along: Along) -> tuple[Pick, int | None]:

@@ -191,17 +191,21 @@ class RingSearch:
             return None
         at = int(np.argmin(gaps)) + 1
         parts = [
-            [(np.asarray(piece.points), [int(v) for v in piece.vertices]) for piece in cut.pieces[at:]],
             [
-                (np.asarray(piece.points)[::-1], [int(v) for v in piece.vertices][::-1])
+                (np.asarray(piece.points), [int(v) for v in piece.vertices], np.asarray(piece.faces))
+                for piece in cut.pieces[at:]
+            ],
+            [
+                (np.asarray(piece.points)[::-1], [int(v) for v in piece.vertices][::-1], np.asarray(piece.faces)[::-1])
                 for piece in cut.pieces[at - 1 :: -1]
             ],
         ]
         behind = max((part for part in parts if part), key=lambda part: _away(part, chain.points))
-        vertices = (*itertools.chain.from_iterable(piece[:-1] for _, piece in behind), behind[-1][1][-1])
-        points = np.concatenate([*(piece[:-1] for piece, _ in behind), behind[-1][0][-1:]])
-        self.joints = tuple(piece[-1] for _, piece in behind[:-1])
-        return Wire("SURFACE", vertices, points, begin, end)
+        vertices = (*itertools.chain.from_iterable(piece[:-1] for _, piece, _ in behind), behind[-1][1][-1])
+        points = np.concatenate([*(piece[:-1] for piece, _, _ in behind), behind[-1][0][-1:]])
+        faces = np.concatenate([piece for _, _, piece in behind])
+        self.joints = tuple(piece[-1] for _, piece, _ in behind[:-1])
+        return Wire("SURFACE", vertices, points, begin, end, faces)
 
 
 def _only_wire(network: Network) -> Wire | None:
@@ -240,7 +244,7 @@ def _length(points: ArrayLike) -> float:
     return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
 
 
-def _away(part: Sequence[tuple[NDArray[np.float64], object]], course: NDArray[np.float64]) -> float:
+def _away(part: Sequence[tuple[NDArray[np.float64], object, object]], course: NDArray[np.float64]) -> float:
     """Return how far pieces run from a course, in the mean."""
-    points = np.concatenate([piece for piece, _ in part])
+    points = np.concatenate([piece for piece, *_ in part])
     return float(np.mean([np.nanmin(nearest_on_segments(at, course[:-1], course[1:])[1]) for at in points]))

@@ -109,13 +109,13 @@ class Leg:
         free = isinstance(place, FacePoint) or isinstance(self.stays, FacePoint)
         if len(vertices) < (1 if free and self.wire.along == "SURFACE" else 2):
             return None
-        points = np.array(candidate.points, dtype=np.float64)
+        points, faces = np.array(candidate.points, dtype=np.float64), np.array(candidate.faces)
         if self.moving == "start":
-            vertices, points = vertices[::-1], points[::-1]
+            vertices, points, faces = vertices[::-1], points[::-1], faces[::-1]
         if self.wire.along == "EDGES":
-            points = self._points[list(vertices)]
+            points, faces = self._points[list(vertices)], None
         ends = {"start": self.wire.start, "end": self.wire.end, self.moving: place}
-        return self.wire.drawn(vertices=vertices, points=points, follow=follow, **ends)
+        return self.wire.drawn(vertices=vertices, points=points, faces=faces, follow=follow, **ends)
 
 
 def _fixed_seed(network: Network, wire: Wire, moving: End) -> tuple[Pick, bool, int]:

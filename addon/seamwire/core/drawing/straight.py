@@ -55,4 +55,4 @@ def straight_wire(live: LiveWire, begin: Pick, end: Pick, direction: Direction, 
         pick is not None and pick != vertices[at] for at, pick in zip((0, -1), ends, strict=True)
     ):
         return None
-    return Wire("SURFACE", vertices, points, begin, end, follow=follow)
+    return Wire("SURFACE", vertices, points, begin, end, faces, follow=follow)

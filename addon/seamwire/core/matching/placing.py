@@ -12,10 +12,10 @@ import numpy as np
 from ..base import native
 from ..base.geometry import Moments, creases, triangle_normals, vertex_normals
 from ..base.messages import NOTHING, Message, Refused
-from ..network.strokes import into_triangles
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
+    from seamwire_core import NearestPoints
 
 _STEPS = 30
 """Of the alignment: it has come to rest long before on shapes that are alike."""
@@ -38,8 +38,6 @@ DOUBTFUL = 0.25
 """The confidence from which on a point has a place."""
 _APART = 0.5
 """By how much more another place's distances have to be off for the best one to be sure."""
-_BLOCK = 1 << 22
-"""How many pairs of points and triangles are looked at together."""
 
 
 @dataclass(frozen=True)
@@ -242,9 +240,7 @@ class Surface:
         if not len(shape.triangles):
             raise Refused("no-visible-faces")
         self._shape = shape
-        self._corners = corners = shape.places[shape.triangles]
-        self._middles = corners.mean(axis=1)
-        self._radii = np.linalg.norm(corners - self._middles[:, None], axis=2).max(axis=1)
+        self._trees: dict[int | None, tuple[NDArray[np.int64], NearestPoints]] = {}
         self._normals = triangle_normals(shape.places, shape.triangles)
 
     @cached_property
@@ -268,28 +264,13 @@ class Surface:
         part
             The only one of the parts that counts; None: all.
         """
-        triangles = np.empty(len(places), dtype=np.int64)
-        found = np.empty((len(places), 3))
-        step = max(_BLOCK // len(self._middles), 1)
-        for start in range(0, len(places), step):
-            some = places[start : start + step]
-            square = (some**2).sum(axis=1)[:, None] - 2.0 * some @ self._middles.T + (self._middles**2).sum(axis=1)
-            middle = np.sqrt(np.maximum(square, 0.0))
-            if normals is not None:
-                facing = normals[start : start + step] @ self._normals.T >= 0.0
-                facing[~facing.any(axis=1)] = True
-                middle[~facing] = np.inf
-            if part is not None:
-                middle[:, self.parts != part] = np.inf
-                middle[np.isinf(middle).all(axis=1)] = np.where(self.parts == part, 0.0, np.inf)
-            # A triangle lies within its radius of its middle: what is farther than the nearest middle at least is not looked at.
-            reach = (middle + self._radii).min(axis=1)
-            for row in range(len(some)):
-                near = np.flatnonzero(middle[row] - self._radii <= reach[row] * (1.0 + 1e-9))
-                points = _closest(some[row], self._corners[near])
-                best = int(np.argmin(((points - some[row]) ** 2).sum(axis=1)))
-                triangles[start + row], found[start + row] = near[best], points[best]
-        return triangles, found, np.linalg.norm(found - places, axis=1)
+        if part not in self._trees:
+            rows = np.arange(len(self._shape.triangles)) if part is None else np.flatnonzero(self.parts == part)
+            tree = native.load().NearestPoints(self._shape.places, self._shape.triangles[rows])
+            self._trees[part] = rows, tree
+        rows, tree = self._trees[part]
+        triangles, points, gaps = tree.find(places, normals)
+        return rows[triangles], points, gaps
 
     def align(self, points: NDArray[np.float64], moments: Moments) -> Aligned:
         """Find what brings points of a mesh onto this one.
@@ -396,28 +377,6 @@ class Surface:
             # A whole edge away a crease is as good as the nearest vertex that is flat.
             cost += np.clip(1.0 - shape.creases[candidates] / crease, 0.0, 1.0)
         return int(candidates[np.argmin(cost)])
-
-
-def _closest(place: NDArray[np.float64], corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the point of each triangle, (k, 3, 3), that is nearest to a place, (k, 3)."""
-    origin = corners[:, 0]
-    normals = np.cross(corners[:, 1] - origin, corners[:, 2] - origin)
-    square = (normals**2).sum(axis=1)
-    off = np.einsum("ij,ij->i", place - origin, normals)
-    inside = place - (off / np.where(square > 0.0, square, 1.0))[:, None] * normals
-    best = into_triangles(inside, corners)
-    # In the plane of the triangle, and not beyond a side, that is the point; else it lies on a side.
-    within = (np.linalg.norm(best - inside, axis=1) <= 1e-12 * np.sqrt(np.sqrt(square))) & (square > 0.0)
-    gaps = np.where(within, ((best - place) ** 2).sum(axis=1), np.inf)
-    for one in range(3):
-        start, along = corners[:, one], corners[:, (one + 1) % 3] - corners[:, one]
-        length = (along**2).sum(axis=1)
-        part = np.einsum("ij,ij->i", place - start, along) / np.where(length > 0.0, length, 1.0)
-        points = start + np.clip(part, 0.0, 1.0)[:, None] * along
-        square_gaps = ((points - place) ** 2).sum(axis=1)
-        nearer = square_gaps < gaps
-        best[nearer], gaps[nearer] = points[nearer], square_gaps[nearer]
-    return best
 
 
 class Landmarks:

@@ -260,7 +260,8 @@ class Tracing:
         vertices = tuple(candidate.vertices.tolist())
         return Wire(
             record["along"], vertices, np.array(candidate.points), vertices[0], vertices[-1],
-            follow=follow, strength=float(record["strength"]), finish=record.get("finish", "SNAP"), images=(),
+            faces=np.array(candidate.faces) if record["along"] == "SURFACE" else None, follow=follow,
+            strength=float(record["strength"]), finish=record.get("finish", "SNAP"), images=(),
             planned=record.get("planned", False),
         )  # fmt: skip
 

@@ -285,6 +285,7 @@ class Symmetry:
             wire,
             vertices=vertices,
             points=points,
+            faces=None,
             start=start,
             end=start if closed else vertices[-1],
             closed=closed,

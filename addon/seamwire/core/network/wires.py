@@ -51,6 +51,8 @@ class Wire:
         each vertex.
     start, end
         The picks at its ends; the same one for a loop.
+    faces
+        (k - 1,) of a wire across the surface, the triangle that each piece of the curve lies in. None if it is not known.
     closed
         Whether it is a loop.
     marks
@@ -91,6 +93,7 @@ class Wire:
     points: NDArray[np.float64]
     start: Pick
     end: Pick
+    faces: NDArray[np.int32] | None = None
     closed: bool = False
     marks: bool = True
     mirror: tuple[int, ...] = ()
@@ -160,6 +163,7 @@ class Wire:
 
     def drawn(self, **course: object) -> Wire:
         """Return the wire with another course, which no click on an edge offered."""
+        course = {"faces": None, **course}
         return self.changed(**course, images=None, alternatives=(), kind=None, through=None, planned=False, offers=())
 
     def anew(self, **changes: object) -> Wire:

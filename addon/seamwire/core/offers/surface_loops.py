@@ -186,6 +186,7 @@ class SurfaceLoops(Offers):
                 np.array(piece.points, dtype=np.float64),
                 start,
                 end,
+                np.array(piece.faces),
             )
             for piece, start, end in zip(cut.pieces, [pick, *joints], [*joints, pick], strict=True)
         )
@@ -203,6 +204,7 @@ def _whole(pieces: tuple[Wire, ...], separates: bool) -> Wire:
         pieces[0].anew(
             vertices=sum((piece.vertices[:-1] for piece in pieces), ()),
             points=np.concatenate([piece.points[:-1] for piece in pieces] + [pieces[0].points[:1]]),
+            faces=None,
         ),
         end=pieces[0].start,
         closed=True,

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Sequence
 
     from numpy.typing import NDArray
-
-    from .cut_nodes import Faces
 
 FEATURE_ANGLE = 30.0
 """Degrees: a vertex of an edge where triangles meet at more lies on a feature."""
@@ -39,6 +37,24 @@ _THINNER = 0.25
 
 Course = tuple["Sequence[int]", "NDArray[np.float64]"]
 """The vertices of a snapped chain, and the points, (k, 3), of its curve."""
+
+
+class Faces(Protocol):
+    """The polygons of a mesh, and the triangles that they are seen as."""
+
+    points: NDArray[np.float64]
+    """(n, 3) vertices."""
+    triangles: NDArray[np.int32]
+    """(m, 3)"""
+
+    def polygons_at(self, vertex: int) -> Sequence[int]:
+        """Return the polygons around a vertex."""
+
+    def rows_of(self, polygon: int) -> Sequence[int]:
+        """Return the triangles of a polygon."""
+
+    def corners(self, polygon: int) -> Sequence[int]:
+        """Return the vertices around a polygon."""
 
 
 @dataclass(frozen=True)

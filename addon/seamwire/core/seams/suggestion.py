@@ -86,7 +86,8 @@ def planned_wires(
     return [
         Wire(
             along, tuple(wire.vertices.tolist()), np.asarray(wire.points) @ from_object.T, *wire.seeds,
-            follow=FOLLOWS.index(wire.follow), strength=strength, planned=True,
+            faces=np.array(wire.faces) if along == "SURFACE" else None, follow=FOLLOWS.index(wire.follow),
+            strength=strength, planned=True,
         )
         for wire in plan.wires
     ]  # fmt: skip

@@ -39,6 +39,8 @@ class Candidate(Protocol):
 
     follow: Kind
     points: NDArray[np.float64]
+    faces: NDArray[np.int32]
+    """The triangle of each segment, across the surface only."""
     vertices: NDArray[np.int32]
     length: float
     final: bool
@@ -91,6 +93,7 @@ class Piece(Chain, Protocol):
     """A piece of a closed cut, and the chain of edges that it snaps to."""
 
     points: NDArray[np.float64]
+    faces: NDArray[np.int32]
 
 
 class ClosedCut(Protocol):

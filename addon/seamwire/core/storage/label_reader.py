@@ -223,6 +223,7 @@ class _Wires:
             self._places.points[around] if curve is None else curve,
             through if closed and through else self._pick(row, "start", vertices[0]),
             through if closed and through else self._pick(row, "end", vertices[0] if closed else vertices[-1]),
+            None if curve is None else serialization.stored_faces(record),
             closed=closed,
             mirror=tuple(record["mirror"]),
             images=piece.images,

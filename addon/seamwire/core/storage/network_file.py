@@ -376,8 +376,8 @@ def _point(stored: object) -> NDArray[np.float64]:
     return _points([stored], 1)[0]
 
 
-_PACKED = ("curve", "places", "ends")
-"""Fields of a wire's record that its row in a file writes differently, or that follow from other fields."""
+_PACKED = ("curve", "places", "ends", "faces")
+"""Fields of a wire's record that its row in a file writes differently or leaves out, because other meshes have other triangles."""
 
 
 def _wire_row(course: Course) -> Mapping[str, object]:

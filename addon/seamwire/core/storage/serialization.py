@@ -246,6 +246,8 @@ def wire_record(wire: Wire, places: NDArray[np.float64], to_object: NDArray[np.f
     if wire.along == "SURFACE":
         record["curve"] = packed(wire.points @ to_object.T)
         record["places"] = packed(places[chain])
+        if wire.faces is not None and len(wire.faces) == len(wire.points) - 1:
+            record["faces"] = wire.faces.tolist()
     return json.loads(json.dumps(record))  # tuples become lists, as they will be when it is read again
 
 
@@ -279,6 +281,7 @@ def checked_wire(record: Record) -> Record:
         len(unpacked(record["curve"])) < 2 or len(unpacked(record["places"])) != len(vertices)
     ):
         raise ValueError
+    stored_faces(record)
     return record
 
 
@@ -315,6 +318,16 @@ def stored_curve(
     return unpacked(record["curve"]) @ np.linalg.inv(to_object).T
 
 
+def stored_faces(record: Record) -> NDArray[np.int32] | None:
+    """Return the triangles of a stored curve, see `Wire.faces`. Raises ValueError if there are too few or too many."""
+    if "faces" not in record:
+        return None
+    faces = np.array(record["faces"], dtype=np.int32)
+    if faces.shape != (len(unpacked(record["curve"])) - 1,):
+        raise ValueError
+    return faces
+
+
 def wire_of(record: Record, points: NDArray[np.float64], to_object: NDArray[np.float64]) -> Wire:
     """Return the wire of a record on the mesh that it was made on, by its numbers; its mirror images are to be found.
 
@@ -337,6 +350,7 @@ def wire_of(record: Record, points: NDArray[np.float64], to_object: NDArray[np.f
         points[list(vertices + vertices[:1] if closed else vertices)] if curve is None else curve,
         pick_of(record["start"]),
         pick_of(record["end"]),
+        None if curve is None else stored_faces(record),
         closed=closed,
         mirror=tuple(record["mirror"]),
         heading=heading if isinstance(heading, tuple) else None,

@@ -235,6 +235,8 @@ def test_wires_of_the_library_come_back_from_the_mesh_and_can_be_dragged() -> No
     assert [wire.along for wire in again.wires] == ["SURFACE"], "the other one is not there while it is hidden"
     assert again.wires[0].vertices == session.wires[1].vertices
     assert np.allclose(again.wires[0].points, session.wires[1].points, atol=1e-5)
+    assert len(again.wires[0].faces) == len(again.wires[0].points) - 1
+    assert np.array_equal(again.wires[0].faces, session.wires[1].faces)
     mesh.hidden.clear()
     mesh.open(again)
     assert sorted(wire.vertices for wire in again.wires) == sorted(wire.vertices for wire in session.wires)

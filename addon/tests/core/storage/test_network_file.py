@@ -46,7 +46,15 @@ def network() -> Network:
             wire(0, 1, 2, end=(1, 2), strength=10.0, follow=1, mirror=(0,)),
             wire(2, 3, 4, start=(1, 2), heading=(1, 2), planned=True),
             Wire("EDGES", loop, POINTS[[*loop, 7]], (7, 8), (7, 8), closed=True, kind="CLOSED", through=(7, 8)),
-            Wire("SURFACE", (30, 24, 25, 26), curve, 30, FacePoint(3, (26, 27, 33), (0.5, 0.25, 0.25)), finish="CUT"),
+            Wire(
+                "SURFACE",
+                (30, 24, 25, 26),
+                curve,
+                30,
+                FacePoint(3, (26, 27, 33), (0.5, 0.25, 0.25)),
+                np.array([41, 38]),
+                finish="CUT",
+            ),
             wire(28, 29, marks=False),
         ),
         strokes=(Stroke(POINTS[[0, 6]], np.array([[0] * 3, [6] * 3], np.int32), np.array([-1, -1]), radius=0.3),),
@@ -70,6 +78,7 @@ def test_what_is_read_is_what_was_written(network: Network) -> None:
     assert [one.end for one in wires] == [(1, 2), 4, (7, 8), 26], "a seam ends at vertices"
     for one, before in zip(wires, kept, strict=True):
         assert np.allclose(one.points, before.points, atol=1e-6)
+    assert [one.faces for one in wires] == [None] * 4, "another mesh has other triangles"
     (stroke,) = file.strokes_on(POINTS, STRETCH)
     assert np.allclose(stroke.points, POINTS[[0, 6]]) and stroke.radius == pytest.approx(0.3)
     assert not file.problem_with(36, EDGES)

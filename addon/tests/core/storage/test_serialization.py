@@ -23,6 +23,7 @@ from seamwire.core.storage.serialization import (
     Archive,
     NewerError,
     UnreadableError,
+    packed,
 )
 from setting import use
 from table import SIZE, Table, chain, paper
@@ -137,6 +138,11 @@ def spoiled(change: Callable[[dict[str, Any]], object]) -> str:
     return text_of(data)
 
 
+def line(count: int) -> str:
+    """Return a stored line of so many points."""
+    return packed(np.zeros((count, 3)))
+
+
 @pytest.mark.parametrize(
     "text",
     [
@@ -186,6 +192,9 @@ def spoiled(change: Callable[[dict[str, Any]], object]) -> str:
                 lambda wire: wire.pop("closed"),
                 lambda wire: wire.update(along="SURFACE"),
                 lambda wire: wire.update(along="SURFACE", curve="!", places="!"),
+                lambda wire: wire.update(
+                    along="SURFACE", curve=line(2), places=line(len(wire["vertices"])), faces=[0, 0]
+                ),
             ],
         ),
     ],

@@ -5,13 +5,116 @@ from __future__ import annotations
 
 import itertools
 from collections import Counter, defaultdict
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
+import seamwire_core as sw
 from numpy.typing import NDArray
-from polygons import Polygons
-from seamwire.core.seams.cut import CutPlan, plan
-from seamwire.core.seams.cut_nodes import NEAR, CutError, Node
+
+NEAR = 0.05
+"""A cut that passes a vertex or an edge at less than this goes through it."""
+Curve = tuple[int, NDArray[np.float64]] | tuple[int, NDArray[np.float64], int]
+"""Where it begins, its points, and perhaps where it ends."""
+
+
+class Polygons:
+    """Polygons in the plane or in space, as triangles that fan out from their first corners."""
+
+    def __init__(self, points: NDArray[np.float64], polygons: list[list[int]]) -> None:
+        self.points = np.column_stack([points, np.zeros((len(points), 3 - points.shape[1]))])
+        self.corners = polygons
+        cut = [(a, b, c, p) for p, (a, *rest) in enumerate(polygons) for b, c in itertools.pairwise(rest)]
+        self.triangles, self.owners = np.array(cut)[:, :3], np.array(cut)[:, 3]
+
+    def straight(self, start: int, end: int) -> tuple[int, NDArray[np.float64]]:
+        """Return the straight curve between two vertices, with a point wherever it passes a side of a triangle."""
+        a, b = self.points[start, :2], self.points[end, :2]
+        parts = {0.0, 1.0}
+        for triangle in self.triangles:
+            for c, d in itertools.pairwise([*triangle, triangle[0]]):
+                u, v, w = b - a, self.points[d, :2] - self.points[c, :2], self.points[c, :2] - a
+                area = u[0] * v[1] - u[1] * v[0]
+                if abs(area) < 1e-12:
+                    continue
+                s, t = (w[0] * v[1] - w[1] * v[0]) / area, (w[0] * u[1] - w[1] * u[0]) / area
+                if 0.0 <= s <= 1.0 and -1e-12 <= t <= 1.0 + 1e-12:
+                    parts.add(round(float(s), 12))
+        places = np.array(sorted(parts))[:, None]
+        return start, self.points[start] * (1.0 - places) + self.points[end] * places
+
+    def triangles_below(self, points: NDArray[np.float64]) -> list[int]:
+        """Return the triangle in the plane that the middle of each piece of a curve lies in."""
+        corners = self.points[self.triangles, :2]
+        found = []
+        for x, y in 0.5 * (points[1:, :2] + points[:-1, :2]):
+            (ux, uy), (vx, vy) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
+            wx, wy = x - corners[:, 0, 0], y - corners[:, 0, 1]
+            area = ux * vy - uy * vx
+            s, t = (wx * vy - wy * vx) / area, (ux * wy - uy * wx) / area
+            found.append(int(np.argmax(np.minimum.reduce([s, t, 1.0 - s - t]))))
+        return found
+
+
+@dataclass(frozen=True)
+class Node:
+    """A place that cuts pass: its vertices with their weights, and the polygon that it lies inside."""
+
+    vertices: tuple[int, ...]
+    weights: tuple[float, ...] = (1.0,)
+    polygon: int = -1
+
+    def place(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.asarray(self.weights) @ points[list(self.vertices)]
+
+
+class Plan:
+    """A plan, with nodes in place of their numbers."""
+
+    def __init__(self, found: sw.CutPlan) -> None:
+        self._found = found
+        rows = zip(found.vertices.tolist(), found.weights.tolist(), found.polygons.tolist(), strict=True)
+        self._nodes = [
+            Node(tuple(v for v in vertices if v >= 0), tuple(w for w in weights if w > 0.0), polygon)
+            for vertices, weights, polygon in rows
+        ]
+        self.splits = {edge: [self._nodes[node] for node in nodes] for edge, nodes in found.splits}
+        self.along = self._segments(found.along)
+        self.across = {polygon: self._segments(cuts) for polygon, cuts, _ in found.across}
+        self.left_out = [curve for curve, _ in found.left_out]
+
+    def _segments(self, pairs: NDArray[np.int32]) -> list[tuple[Node, Node]]:
+        return [(self._nodes[one], self._nodes[two]) for one, two in pairs.tolist()]
+
+    def segments(self) -> list[tuple[Node, Node]]:
+        return [*self.along, *itertools.chain(*self.across.values())]
+
+    def nodes(self) -> list[Node]:
+        named = set(itertools.chain(*self.segments()))
+        assert named == set(self._nodes), "a plan has no other nodes"
+        return self._nodes
+
+    def inside(self) -> list[Node]:
+        return [node for node in self._nodes if node.polygon >= 0]
+
+    def node_at(self, vertices: Sequence[int], weights: Sequence[float]) -> Node | None:
+        found = self._found.node_at(vertices, weights)
+        return None if found is None else self._nodes[found]
+
+
+def plan(
+    faces: Polygons,
+    curves: Iterable[Curve],
+    images: Mapping[int, int] | None = None,
+    triangles: Mapping[int, Sequence[int]] | None = None,
+) -> Plan:
+    """Plan cuts; with the originals of curves that are images, and the triangles of curves, by the numbers of the curves."""
+    own = [
+        sw.CutCurve(points, start, *end, faces=(triangles or {}).get(number), image_of=(images or {}).get(number))
+        for number, (start, points, *end) in enumerate(curves)
+    ]
+    return Plan(sw.plan_cuts(faces.points, faces.triangles, faces.owners, own))
 
 
 def grid(size: int, dice: np.random.Generator | None = None) -> Polygons:
@@ -30,7 +133,7 @@ def grid(size: int, dice: np.random.Generator | None = None) -> Polygons:
     return Polygons(points, polygons)
 
 
-def reached(cuts: CutPlan, start: int) -> set[Node]:
+def reached(cuts: Plan, start: int) -> set[Node]:
     beside = defaultdict(set)
     for one, two in cuts.segments():
         beside[one].add(two)
@@ -124,10 +227,9 @@ def test_random_lines_join_their_ends_and_cross_in_nodes_only(number: int) -> No
     for pair, nodes in cuts.splits.items():
         parts = [0.0, *(node.weights[1] for node in nodes), 1.0]
         assert min(np.diff(parts)) > 0.9 * NEAR, pair
-        rims = map(faces.corners, faces.polygons_at(pair[0]))
-        assert any({*pair} == {*side} for rim in rims for side in itertools.pairwise([*rim, rim[0]]))
+        assert any({*pair} == {*side} for rim in faces.corners for side in itertools.pairwise([*rim, rim[0]]))
     for polygon, own in cuts.across.items():
-        corners = {*faces.corners(polygon)}
+        corners = {*faces.corners[polygon]}
         assert all({*node.vertices} <= corners for segment in own for node in segment)
         assert crossings(faces, own) == 0
         assert len({frozenset(segment) for segment in own}) == len(own)
@@ -146,6 +248,26 @@ def test_random_lines_join_their_ends_and_cross_in_nodes_only(number: int) -> No
         assert min(gaps) < 0.15
 
 
+@pytest.mark.parametrize("number", range(20))
+def test_curves_that_name_their_triangles_are_cut_as_others_are(number: int) -> None:
+    dice = np.random.default_rng(number)
+    faces = grid(6, dice)
+    curves = [faces.straight(*dice.choice(len(faces.points), 2, replace=False).tolist()) for _ in range(4)]
+    named = {number: faces.triangles_below(points) for number, (_, points) in enumerate(curves)}
+    found, cuts = plan(faces, curves), plan(faces, curves, triangles=named)
+    assert rounded(cuts) == rounded(found)
+    wrong = {number: own[::-1] for number, own in named.items()}
+    assert rounded(plan(faces, curves, triangles=wrong)) == rounded(found)
+
+
+def rounded(cuts: Plan) -> set[frozenset[tuple[object, ...]]]:
+    """Return the cuts of a plan, to be compared with another's."""
+    return {
+        frozenset((node.vertices, tuple(np.round(node.weights, 9)), node.polygon) for node in segment)
+        for segment in cuts.segments()
+    }
+
+
 def in_row(*heights: float) -> tuple[int, NDArray[np.float64]]:
     """Return the curve over the columns of `grid(6)` at these heights in its row from 2 to 3, between corners."""
     places = [(0.0, heights[0])]
@@ -157,7 +279,7 @@ def in_row(*heights: float) -> tuple[int, NDArray[np.float64]]:
     return int(7 * heights[0]), np.array([(x, y, 0.0) for x, y in places])
 
 
-def enclosed(cuts: CutPlan) -> int:
+def enclosed(cuts: Plan) -> int:
     """Return how many islands cuts that hang together enclose."""
     return len(cuts.segments()) - len(cuts.nodes()) + 1
 
@@ -261,7 +383,7 @@ def test_a_polygon_without_area_is_passed_in_one_point(name: str, height: float)
         assert Node((goal,)) in reached(cuts, start)
         for polygon, own in cuts.across.items():
             used = {vertex for segment in own for node in segment for vertex in node.vertices}
-            assert used <= {*faces.corners(polygon)}
+            assert used <= {*faces.corners[polygon]}
 
 
 def test_of_vertices_in_one_place_a_curve_ends_at_its_own() -> None:
@@ -353,12 +475,12 @@ def test_of_faces_on_each_other_a_curve_cuts_those_that_it_runs_over() -> None:
     assert set(cuts.across) <= set(range(3, 7))
 
 
-def test_a_curve_beside_the_mesh_is_refused() -> None:
+def test_of_a_curve_beside_the_mesh_the_plan_names_the_vertex_where_it_leaves() -> None:
     faces = grid(2)
-    with pytest.raises(CutError, match="does not run over the mesh near vertex 0"):
-        plan(faces, [(0, np.array([[0.0, 0.0, 0.0], [-3.0, 0.5, 0.0]]))])
-    with pytest.raises(CutError):
-        plan(faces, [(0, np.array([[0.0, 0.0, 0.0], [0.5, 0.5, 9.0]]))])
+    for beside in ([-3.0, 0.5, 0.0], [0.5, 0.5, 9.0]):
+        found = sw.plan_cuts(faces.points, faces.triangles, faces.owners, [sw.CutCurve([[0.0, 0.0, 0.0], beside], 0)])
+        assert found.left_out == [(0, 0)]
+        assert len(found.vertices) == 0 and found.across == []
 
 
 def test_a_curve_leaves_a_polygon_over_a_side_with_corners_in_a_row() -> None:
