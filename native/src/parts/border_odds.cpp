@@ -186,12 +186,6 @@ void make_symmetric(const PlanMesh& mesh, const Polygons& polygons, const Reflec
 
 }  // namespace
 
-std::int32_t image_of_edge(const PlanMesh& mesh, const Reflection& reflection, std::int32_t edge) {
-  const std::int32_t h = mesh.half_edge_of[edge];
-  const std::int32_t a = reflection.images[mesh.start(h)], b = reflection.images[mesh.end(h)];
-  return a < 0 || b < 0 ? -1 : mesh.edge_between(a, b);
-}
-
 PieceSizes measure_pieces(const PlanMesh& mesh, std::span<const FaceFrame> frames) {
   PieceSizes sizes{find_pieces(mesh, std::vector<std::uint8_t>(mesh.edge_count(), 0)), {}};
   std::vector<Eigen::AlignedBox3d> boxes(index(sizes.pieces.count));

@@ -43,7 +43,4 @@ std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, 
                                 const EdgeBends& bends, std::span<const double> ambient,
                                 std::span<const std::uint8_t> is_marked, const Reflection* reflection);
 
-/// The mirror image of an edge; -1 without an image.
-std::int32_t image_of_edge(const PlanMesh& mesh, const Reflection& reflection, std::int32_t edge);
-
 }  // namespace seamwire::detail

@@ -14,7 +14,7 @@
 #include "parts/border_odds.hpp"
 #include "parts/joined_regions.hpp"
 #include "parts/polygons.hpp"
-#include "seams/parting_cuts.hpp"
+#include "seams/halving.hpp"
 #include "seams/plan_mesh.hpp"
 #include "seams/reflection.hpp"
 #include "seams/slit_plan.hpp"

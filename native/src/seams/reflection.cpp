@@ -83,4 +83,10 @@ std::optional<Reflection> find_reflection(const PlanMesh& mesh, int axis, const 
   return found ? found : reflection_in(mesh, axis, box_of(mesh).center()[axis], diagonal, task);
 }
 
+std::int32_t image_of_edge(const PlanMesh& mesh, const Reflection& reflection, std::int32_t edge) {
+  const std::int32_t h = mesh.half_edge_of[edge];
+  const std::int32_t a = reflection.images[mesh.start(h)], b = reflection.images[mesh.end(h)];
+  return a < 0 || b < 0 ? -1 : mesh.edge_between(a, b);
+}
+
 }  // namespace seamwire::detail

@@ -38,6 +38,9 @@ std::optional<Reflection> find_reflection(const PlanMesh& mesh, int axis, const 
 std::optional<Reflection> reflection_in(const PlanMesh& mesh, int axis, double offset, double diagonal,
                                         const Task& task = {});
 
+/// The mirror image of an edge; -1 without an image.
+std::int32_t image_of_edge(const PlanMesh& mesh, const Reflection& reflection, std::int32_t edge);
+
 /// The diagonal of the box around a mesh; 0 without vertices.
 double diagonal_of(const PlanMesh& mesh);
 
