@@ -159,6 +159,7 @@ class ObjectView:
 
     def close(self) -> None:
         """Let go of what works on threads."""
+        self.session.stop_search()
         self._islands.close()
         self.views.close()
 

@@ -11,8 +11,10 @@
 #include <numbers>
 #include <random>
 #include <set>
+#include <stop_token>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "parts/polygons.hpp"
@@ -444,6 +446,24 @@ TEST(PartFinder, finds_the_parts_of_pieces_by_themselves) {
   for (const Vector& point : other.points) mesh.points.emplace_back(point + Vector(3.0, 0.0, 0.0));
   for (const auto& [a, b, c] : other.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
   EXPECT_EQ(PartFinder(shared(mesh.surface())).find(0.0).count, 2u);
+}
+
+TEST(PartFinder, can_be_cancelled) {
+  const auto surface = shared(shapes::torus(120, 80).surface());
+  const auto until = [](double most) {
+    return Task{.stop = {}, .progress = [most](double done) { return done < most; }};
+  };
+  for (const double most : {0.0, 0.1, 0.5, 0.9}) EXPECT_THROW(PartFinder(surface, {}, until(most)), Cancelled);
+  const PartFinder finder(surface);
+  for (const double most : {0.0, 0.1, 0.5, 0.7}) EXPECT_THROW(finder.find(0.5, {}, until(most)), Cancelled);
+  EXPECT_THROW(finder.find(0.5, {.parted = {0}}, until(0.6)), Cancelled);
+  std::stop_source source;
+  source.request_stop();
+  EXPECT_THROW(finder.find(0.5, {}, {.stop = source.get_token(), .progress = {}}), Cancelled);
+  double last = 0.0;
+  const auto rises = [&](double done) { return std::exchange(last, done) <= done; };
+  EXPECT_EQ(finder.find(0.5, {.parted = {0, 0}}, {.stop = {}, .progress = rises}).count, 3u);
+  EXPECT_GT(last, 0.7);
 }
 
 TEST(PartFinder, refuses_bad_arguments) {
