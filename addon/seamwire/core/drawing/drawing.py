@@ -178,7 +178,7 @@ class Drawing:
     def find_parts(self, seams: NDArray[np.int32], goes_on: Callable[[], bool]) -> Iterator[NDArray[np.int32]]:
         """Yield the part of each triangle, (m,), for each of `AMOUNTS`; nothing if there are no parts. Any thread may.
 
-        What was measured before a stop is kept for the next search with the same seams.
+        The next search with the same seams uses the measurements of a search that was stopped.
 
         Parameters
         ----------
