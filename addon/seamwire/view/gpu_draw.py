@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import functools
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
@@ -165,7 +164,7 @@ class Lines:
         self._ground = self._make(ends) if style.dash and style.halo else None
         self._hidden: tuple[bytes, gpu.types.GPUBatch | None] = (b"", None)
         self._batch = None if style.dash else self._make(ends)
-        self._within = _Within(self._inside)
+        self._within = Within(self._inside)
 
     def _inside(self, eye: Eye) -> Lines:
         """Return those that the view's clipping border leaves; this object if it leaves all."""
@@ -305,7 +304,7 @@ def discs(centres: NDArray[np.float64], radii: NDArray[np.float64]) -> NDArray[n
     return fans.reshape(-1, 3).astype(np.float32)
 
 
-class _Within:
+class Within:
     """Keeps the part of a drawing within a view's clipping border, for the last few borders.
 
     Parameters
@@ -353,7 +352,7 @@ class Faces:
         self._points = gpu.types.GPUVertBuf(form, len(points))
         self._points.attr_fill("pos", np.ascontiguousarray(points, dtype=np.float32))
         self._pieces: list[tuple[int, NDArray[np.integer]]] = []
-        self._within = _Within(self._make)
+        self._within = Within(self._make)
 
     def clear(self) -> None:
         """Forget the triangles, not the vertices."""
@@ -385,7 +384,7 @@ class Faces:
 
     def draw_over(self, eye: Eye, colors: Sequence[Color]) -> None:
         """Draw what is seen of them over the mesh, with opacity, in the view that Blender is drawing now."""
-        _draw_over(lambda lift: self.draw(eye, colors, lift))
+        draw_over_mesh(lambda lift: self.draw(eye, colors, lift))
 
 
 class ShadedFaces:
@@ -417,7 +416,7 @@ class ShadedFaces:
                 indices=np.ascontiguousarray(seen, dtype=np.uint32),
             )
 
-        self._within = _Within(make)
+        self._within = Within(make)
 
     def draw(self, eye: Eye, lift: float) -> None:
         """Draw those that the view's clipping border leaves whole, under the depth test that is set."""
@@ -431,82 +430,11 @@ class ShadedFaces:
 
     def draw_over(self, eye: Eye) -> None:
         """Draw what is seen of them over the mesh, as `Faces.draw_over`."""
-        _draw_over(lambda lift: self.draw(eye, lift))
+        draw_over_mesh(lambda lift: self.draw(eye, lift))
 
 
-@functools.cache
-def _checker_shader() -> gpu.types.GPUShader:
-    """Return the shader of `CheckedFaces`, compiled once."""
-    info = gpu.types.GPUShaderCreateInfo()
-    info.push_constant("MAT4", "to_clip")
-    info.push_constant("VEC4", "light")
-    info.push_constant("VEC4", "dark")
-    info.vertex_in(0, "VEC3", "pos")
-    info.vertex_in(1, "VEC2", "square")
-    passed = gpu.types.GPUStageInterfaceInfo("seamwire_checker")
-    passed.smooth("VEC2", "place")
-    info.vertex_out(passed)
-    info.fragment_out(0, "VEC4", "color")
-    info.vertex_source("void main() { place = square; gl_Position = to_clip * vec4(pos, 1.0); }")
-    # Each coordinate is a wave with its zeros at the lines. Edges are as soft as a pixel; tiny squares fade out.
-    info.fragment_source(
-        """
-        void main()
-        {
-          vec2 pixel = max(fwidth(place), vec2(1e-6));
-          vec2 wave = 2.0 * abs(fract(0.5 * place) - 0.5) - 0.5;
-          vec2 sides = clamp(2.0 * wave / pixel, -1.0, 1.0);
-          float shade = sides.x * sides.y * (1.0 - smoothstep(0.3, 0.7, max(pixel.x, pixel.y)));
-          color = shade > 0.0 ? light : dark;
-          color.a *= abs(shade);
-        }
-        """
-    )
-    return gpu.shader.create_from_info(info)
-
-
-class CheckedFaces:
-    """Triangles with a checker pattern, handed to the GPU once.
-
-    Parameters
-    ----------
-    corners
-        (m, 3, 3) the points of their corners.
-    squares
-        (m, 3, 2) where the corners lie in the pattern, in squares.
-    """
-
-    def __init__(self, corners: NDArray[np.float64], squares: NDArray[np.float64]) -> None:
-        self._shader = _checker_shader()
-
-        def make(eye: Eye) -> gpu.types.GPUBatch | None:
-            inside = eye.shows(corners.reshape(-1, 3))
-            rows = slice(None) if inside is None else inside.reshape(-1, 3).all(axis=1)
-            seen = np.ascontiguousarray(corners[rows].reshape(-1, 3), dtype=np.float32)
-            if not len(seen):
-                return None
-            places = np.ascontiguousarray(squares[rows].reshape(-1, 2), dtype=np.float32)
-            return batch_for_shader(self._shader, "TRIS", {"pos": seen, "square": places})
-
-        self._within = _Within(make)
-
-    def draw_over(self, eye: Eye, light: Color, dark: Color) -> None:
-        """Draw what is seen of them over the mesh, as `Faces.draw_over`, in the colors of the squares."""
-        batch = self._within.of(eye)
-        if batch is None:
-            return
-
-        def draw(lift: float) -> None:
-            self._shader.bind()
-            self._shader.uniform_float("to_clip", gpu.matrix.get_projection_matrix() @ eye.lifted(lift))
-            self._shader.uniform_float("light", light)
-            self._shader.uniform_float("dark", dark)
-            batch.draw(self._shader)
-
-        _draw_over(draw)
-
-
-def _draw_over(draw: Callable[[float], None]) -> None:
+def draw_over_mesh(draw: Callable[[float], None]) -> None:
+    """Draw what is seen of faces over the mesh, with opacity. `draw` takes by how many pixels they are nearer."""
     if sees_through(bpy.context.space_data):
         # Else all layers of the mesh would be tinted, one over the other, and no wire would be seen to be hidden.
         with unseen():
@@ -548,7 +476,7 @@ class ColoredLines:
                 },
             )
 
-        self._within = _Within(make)
+        self._within = Within(make)
 
     def draw(self, eye: Eye) -> None:
         """Draw those that the view's clipping border leaves, under the depth test that is set."""

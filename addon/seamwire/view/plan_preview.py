@@ -19,9 +19,10 @@ from ..core.picking.sight import Sight
 from ..core.picking.surface import Surface
 from ..mesh import settings as chosen
 from ..mesh.pose import Pose
+from .checked_faces import CheckedFaces
 from .edited_objects import edited
 from .failures import failures
-from .gpu_draw import CheckedFaces, Eye, Faces, Lines, blended, sees_through
+from .gpu_draw import Eye, Faces, Lines, blended, sees_through
 from .theme import HUES, Looks, hue_colors
 
 if TYPE_CHECKING:

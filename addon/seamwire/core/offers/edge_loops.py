@@ -171,6 +171,8 @@ class LoopOffers(Offers):
         The library computes one loop at a time. The loops found are remembered as long as nothing else changes.
         """
         engines = self._engines
+        if self._parts is not None:
+            self._parts.ready()  # begins the search again if it was stopped
         self._with_parts = self._knows_parts
         metric = network, engines.metric, engines.strengths["EDGES"], engines.clamp, self._with_parts
         if metric != self._metric or len(self._known) > _MOST_KNOWN:
