@@ -31,8 +31,8 @@ def session_on(
         on = (surface,) if ready else (points, triangles, edges)
         return core.LiveWire(*on, along=way.lower(), max_anisotropy=STRENGTHS[way], clamp_percentile=CLAMP_PERCENTILE)
 
-    def parts(mirror: int | None) -> object:
-        return core.PartFinder(surface, mirror=mirror)
+    def parts(mirror: int | None, seams: NDArray[np.int32], progress: object) -> object:
+        return core.PartFinder(surface, mirror=mirror, seams=seams, progress=progress)
 
     own = surface.edges if edges is None else edges
     return Session(Drawing(make, points, edges=own, triangles=triangles, make_parts=parts, **options))

@@ -3,22 +3,26 @@
 
 from __future__ import annotations
 
+import shutil
 import threading
 from collections.abc import Callable, Iterator
+from pathlib import Path
 
 import bmesh
 import bpy
+import keymaps
 import numpy as np
 import pytest
 import stored
 import ui as driver
 from desk import choose, leave, undo_steps
-from scene import add_suzanne, edit, head, mark_wires, seams, snapshot
+from scene import add_suzanne, animate, edit, head, mark_wires, seams, snapshot
 from seamwire.core.base import native
 from seamwire.mesh.seam_islands import island_count
 from seamwire.mesh.suggestion import Suggestion
 from seamwire.operators import suggest_live
 from seamwire.operators.report import running as chains
+from seamwire.operators.steps import Stepwise
 from seamwire.operators.steps import running as searches
 from seamwire.view.edited_objects import edited
 
@@ -71,8 +75,9 @@ def invoke(ui: driver.Ui, **options: object) -> None:
 def begin(ui: driver.Ui, **options: object) -> None:
     """Begin, and keep the parts that are shown at first."""
     invoke(ui, **options)
+    shown = live()
     ui.key("RET")
-    assert live().is_kept
+    assert shown.is_kept
 
 
 def count() -> int:
@@ -509,3 +514,286 @@ def test_an_error_while_slits_are_planned_ends_it(
     ui.wait_until(lambda: not searches)
     assert seams(prism) == []
     assert not edited.covered
+
+
+# The limit of the stretch, and the map
+
+
+@pytest.mark.smoke
+@pytest.mark.oldest_and_newest
+@pytest.mark.parametrize(
+    ("more", "fewer"), [("WHEELUPMOUSE", "WHEELDOWNMOUSE"), ("PAGE_UP", "PAGE_DOWN"), ("EQUAL", "MINUS")]
+)
+def test_ctrl_and_the_wheel_or_keys_change_the_limit_of_the_stretch(
+    ui: driver.Ui, prism: bpy.types.Object, more: str, fewer: str
+) -> None:
+    invoke(ui)
+    shown = live()
+    parts, amount = count(), shown.amount
+    ui.move((0.5 * ui.region.width, 0.5 * ui.region.height))
+    ui.wait_until(lambda: shown.is_planned)
+    ui.event(more, "PRESS", ctrl=True)
+    assert shown.stretch == 22.0
+    assert not shown.is_planned, "another plan is needed"
+    for _ in range(2):
+        ui.event(fewer, "PRESS", ctrl=True)
+    assert shown.stretch == 13.0
+    assert "Stretch: up to 13 %" in shown.title
+    assert (count(), shown.amount) == (parts, amount)
+    ui.wait_until(lambda: shown.is_planned)
+    ui.key("RET")
+    ui.wait_until(lambda: not searches, 60.0)
+    assert bpy.context.window_manager.operators[-1].distortion == pytest.approx(13.0)
+
+
+def test_less_stretch_takes_more_seams(ui: driver.Ui, suzanne: bpy.types.Object, status: list[str]) -> None:
+    def planned_length() -> float:
+        ui.wait_until(lambda: shown.is_planned and bool(status[-1]), 60.0)
+        ui.wait(5)
+        return sum(each.length_of(each.best) for each in shown._suggestions)
+
+    invoke(ui, distortion=60.0, parts=0.0)
+    shown = live()
+    long_way = planned_length()
+    ui.move((0.5 * ui.region.width, 0.5 * ui.region.height))
+    for _ in range(4):
+        ui.wheel(False, ctrl=True)
+    assert shown.stretch == 17.0
+    assert planned_length() > 1.1 * long_way
+
+
+def squares() -> list[np.ndarray]:
+    """Return the maps that are shown as a checker pattern."""
+    shown = live()._preview._shown.values()
+    return [each._squares for each in shown if each._squares is not None]
+
+
+def contrast(ui: driver.Ui, at: tuple[float, float]) -> float:
+    """Return how much the brightness varies around a place in the viewport."""
+    x, y = (round(value) for value in at)
+    return float(ui.screen()[y - 15 : y + 15, x - 15 : x + 15].mean(axis=2).std())
+
+
+@pytest.mark.smoke
+@pytest.mark.oldest_and_newest
+def test_the_map_is_shown_as_squares_of_one_size_while_the_hand_rests(ui: driver.Ui, prism: bpy.types.Object) -> None:
+    side = ui.on_screen(FRONT_SIDE)
+    ui.move((5.0, 5.0))
+    plain = contrast(ui, side)
+    invoke(ui)
+    ui.wait_until(lambda: bool(squares()))
+    assert contrast(ui, side) > plain + 0.03
+    color = ui.screen()[round(side[1]) - 15 : round(side[1]) + 15, round(side[0]) - 15 : round(side[0]) + 15]
+    assert np.ptp(color.mean(axis=(0, 1))) > 0.04, "the color of the part is seen as well"
+    arrays = next(iter(live()._suggestions)).mesh.arrays
+    corners, (shown,) = arrays.in_object[arrays.triangles], squares()
+    surface = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    (a, b), (c, d) = (shown[:, 1] - shown[:, 0]).T, (shown[:, 2] - shown[:, 0]).T
+    assert 0.5 * np.abs(a * d - b * c) / surface == pytest.approx(28.0**2 / surface.sum(), rel=0.01)
+    ui.wheel(True, side)
+    assert not squares(), "the parts have changed"
+    ui.move((5.0, 5.0))
+    ui.wait_until(lambda: bool(squares()))
+    ui.key("RET")
+    ui.wait_until(lambda: not searches, 60.0)
+    assert not edited.covered
+    assert contrast(ui, side) < plain + 0.03
+
+
+# Blender meanwhile
+
+
+def saved(path: Path) -> dict[str, object]:
+    """Return what the one mesh in a file holds."""
+    copy = path.with_suffix(".copy.blend")  # Blender cannot append from the file that is open
+    shutil.copy(path, copy)
+    with bpy.data.libraries.load(str(copy)) as (there, here):
+        here.meshes = list(there.meshes)
+    (mesh,) = here.meshes
+    coordinates = np.empty(3 * len(mesh.vertices), dtype=np.float32)
+    mesh.vertices.foreach_get("co", coordinates)
+    found = {
+        "coordinates": coordinates.tolist(),
+        "edges": sorted(tuple(sorted(edge.vertices)) for edge in mesh.edges),
+        "seams": [edge.index for edge in mesh.edges if edge.use_seam],
+        "maps": [[tuple(corner.uv) for corner in layer.data] for layer in mesh.uv_layers],
+        "wires": mesh.seamwire_wires,
+    }
+    bpy.data.meshes.remove(mesh)
+    return found
+
+
+@pytest.fixture
+def alone(prism: bpy.types.Object) -> bpy.types.Object:
+    """The prism in a file without another mesh."""
+    for mesh in [mesh for mesh in bpy.data.meshes if mesh != prism.data]:
+        bpy.data.meshes.remove(mesh)
+    return prism
+
+
+@pytest.mark.smoke
+@pytest.mark.oldest_and_newest
+def test_a_file_that_is_saved_meanwhile_has_the_mesh_as_it_was(
+    ui: driver.Ui, alone: bpy.types.Object, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    # Blender itself saves automatically only after its modal operators have ended.
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "before.blend"), copy=True)
+    before, steps = snapshot(alone), undo_steps(capfd)
+    invoke(ui)
+    ui.click(ui.on_screen(FRONT_RIM))
+    ui.wait_until(lambda: live().is_planned)
+    path, parts = tmp_path / "meanwhile.blend", count()
+    bpy.app.timers.register(lambda: bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True) and None)
+    ui.wait_until(path.exists)
+    ui.wait(5)
+    assert searches
+    assert count() == parts
+    assert live().is_planned
+    ui.key("ESC")
+    ui.wait_until(lambda: not searches)
+    assert snapshot(alone) == before
+    assert undo_steps(capfd) == steps
+    assert saved(path) == saved(tmp_path / "before.blend")
+
+
+@pytest.mark.oldest_and_newest
+def test_ctrl_s_saves_meanwhile_and_nothing_is_lost(ui: driver.Ui, alone: bpy.types.Object, tmp_path: Path) -> None:
+    path = tmp_path / "model.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    try:
+        before = saved(path)
+        ui.wait(5)
+        invoke(ui)
+        ui.wheel(True, ui.on_screen(TOP))
+        ui.wait_until(lambda: live().is_planned)
+        parts = count()
+        path.unlink()
+        ui.key("S", ctrl=True)
+        ui.wait_until(path.exists)
+        ui.wait(5)
+        assert count() == parts, "the parts are still shown"
+        assert saved(path) == before
+        ui.key("RET")
+        ui.wait_until(lambda: not searches, 60.0)
+        assert seams(alone)
+    finally:
+        with ui.override():
+            bpy.ops.wm.read_homefile(app_template="", load_ui=False)
+        ui.wait(5)
+
+
+@pytest.mark.smoke
+@pytest.mark.oldest_and_newest
+def test_an_animation_plays_meanwhile(ui: driver.Ui, prism: bpy.types.Object) -> None:
+    with ui.override():
+        animate(prism)
+        prism.modifiers["Armature"].show_in_editmode = prism.modifiers["Armature"].show_on_cage = True
+        bpy.context.scene.frame_set(1)
+    ui.wait(5)
+    before = snapshot(prism)
+    invoke(ui)
+    (shown,) = live()._preview._shown.values()
+    rest = shown._curves.borders[0].copy()
+    try:
+        with ui.override():
+            bpy.ops.screen.animation_play()
+        ui.wait_until(lambda: bpy.context.scene.frame_current > 10)
+        ui.wait_until(lambda: np.abs(shown._curves.borders[0] - rest).max() > 1e-3)
+        ui.wheel(True, ui.on_screen(TOP))
+        assert count() == 9
+        ui.wait_until(lambda: live().is_planned)
+        assert searches
+    finally:
+        with ui.override():
+            bpy.ops.screen.animation_cancel(restore_frame=True)
+    ui.wait(5)
+    ui.key("ESC")
+    ui.wait_until(lambda: not searches)
+    assert snapshot(prism) == before
+
+
+@pytest.mark.smoke
+@pytest.mark.oldest_and_newest
+def test_undo_from_elsewhere_ends_it_and_the_mesh_is_as_undo_has_it(ui: driver.Ui, prism: bpy.types.Object) -> None:
+    with ui.override():
+        first = len(prism.data.vertices)
+        bpy.ops.mesh.select_all(action="SELECT")
+        bpy.ops.mesh.subdivide()
+        bpy.ops.ed.undo_push(message="Subdivided")
+    invoke(ui)
+    ui.wheel(True, ui.on_screen(TOP))
+    ui.key("Z", ctrl=True)
+    assert searches, "the shortcut does nothing meanwhile"
+    with ui.override():
+        bpy.ops.ed.undo()
+    ui.wait_until(lambda: not searches)
+    assert not edited.covered
+    obj = bpy.context.active_object
+    obj.update_from_editmode()
+    assert len(obj.data.vertices) == first
+    assert seams(obj) == []
+    with ui.override():
+        bpy.ops.ed.redo()
+    obj = bpy.context.active_object
+    obj.update_from_editmode()
+    assert len(obj.data.vertices) > first
+
+
+@pytest.mark.smoke
+@pytest.mark.oldest_and_newest
+def test_its_window_may_be_closed(ui: driver.Ui, prism: bpy.types.Object) -> None:
+    before = snapshot(prism)
+    with ui.override():
+        bpy.ops.wm.window_new()
+    other = bpy.context.window_manager.windows[-1]
+    ui.wait(5)
+    area = next(area for area in other.screen.areas if area.type == "VIEW_3D")
+    region = next(region for region in area.regions if region.type == "WINDOW")
+    with bpy.context.temp_override(window=other, area=area, region=region):
+        assert bpy.ops.mesh.seamwire_suggest("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
+    ui.wait_until(lambda: live() is not None)
+    ui.wait_until(lambda: live().is_planned)
+    ui.wheel(True, ui.on_screen(TOP))
+    assert count() == 3, "the wheel over the first window is for that window"
+    with bpy.context.temp_override(window=other):
+        bpy.ops.wm.window_close()
+    ui.wait_until(lambda: not searches)
+    assert not edited.covered
+    assert snapshot(prism) == before
+    invoke(ui)
+
+
+@pytest.mark.smoke
+@pytest.mark.oldest_and_newest
+def test_a_right_click_cancels(ui: driver.Ui, prism: bpy.types.Object) -> None:
+    before = snapshot(prism)
+    invoke(ui)
+    ui.wheel(True, ui.on_screen(TOP))
+    ui.click(ui.on_screen(TOP), "RIGHTMOUSE", shift=True)
+    assert searches, "Shift and a right click do something else"
+    ui.click(ui.on_screen(TOP), "RIGHTMOUSE")
+    ui.wait_until(lambda: not searches)
+    assert snapshot(prism) == before
+    assert not edited.covered
+
+
+@pytest.mark.oldest_and_newest
+def test_a_right_click_does_nothing_where_it_selects(
+    ui: driver.Ui, prism: bpy.types.Object, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    said: list[str] = []
+    monkeypatch.setattr(Stepwise, "_tell", lambda _, text: said.append(text or ""))
+    with keymaps.using("right-click select"):
+        ui.wait(5)
+        before = snapshot(prism)
+        invoke(ui)
+        ui.click(ui.on_screen(TOP), "RIGHTMOUSE")
+        ui.wait(5)
+        assert searches
+        assert said[-1].endswith("    Esc: Cancel")
+        ui.key("ESC")
+        ui.wait_until(lambda: not searches)
+        assert snapshot(prism) == before
+    ui.wait(5)
+    invoke(ui)
+    assert said[-1].endswith("    Esc or Right Click: Cancel")

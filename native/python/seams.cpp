@@ -208,12 +208,12 @@ PartFinder make_part_finder(const SurfaceObject& surface, const py::object& mirr
 }
 
 Parts find_parts(const PartFinder& finder, double amount, const py::object& kept, const py::object& dropped,
-                 const py::object& parted) {
+                 const py::object& parted, const py::object& progress) {
   PartEdits edits;
   if (!kept.is_none()) edits.kept = edges_from(kept, "kept");
   if (!dropped.is_none()) edits.dropped = edges_from(dropped, "dropped");
   if (!parted.is_none()) edits.parted = parted.cast<std::vector<std::int32_t>>();
-  return without_gil([&] { return finder.find(amount, edits); });
+  return Watch(progress).run([&](const Task& task) { return finder.find(amount, edits, task); });
 }
 
 py::list borders_of(const Parts& parts) {
@@ -255,7 +255,8 @@ Cancelled
       .def(py::init(&make_part_finder), py::arg("surface"), py::kw_only(), py::arg("mirror") = py::none(),
            py::arg("marked") = py::none(), py::arg("seams") = py::none(), py::arg("progress") = py::none())
       .def("find", &find_parts, py::arg("amount") = 0.5, py::kw_only(), py::arg("kept") = py::none(),
-           py::arg("dropped") = py::none(), py::arg("parted") = py::none(), R"(Find the parts.
+           py::arg("dropped") = py::none(), py::arg("parted") = py::none(), py::arg("progress") = py::none(),
+           R"(Find the parts.
 
 Parameters
 ----------
@@ -265,6 +266,8 @@ kept, dropped : (k, 2) array_like of int, optional
     Edges that have to be borders, and edges that must not be.
 parted : array_like of int, optional
     A triangle for each part that is cut in two, one after another.
+progress : callable, optional
+    Called repeatedly with the fraction done. Returning False cancels.
 
 Returns
 -------
@@ -274,6 +277,7 @@ Raises
 ------
 ValueError
     If a parameter is out of range.
+Cancelled
 )")
       .def("__repr__", [](const PartFinder&) { return std::string("<PartFinder>"); });
 }

@@ -620,6 +620,7 @@ class PartFinder:
         kept: ArrayLike | None = None,
         dropped: ArrayLike | None = None,
         parted: ArrayLike | None = None,
+        progress: Progress | None = None,
     ) -> Parts:
         """Find the parts."""
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -24,6 +25,7 @@ from ..core.seams.suggestion import (
 from ..core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
 from .object_session import ObjectSession, mirror_axes
 from .seam_islands import labels_of
+from .unwrap import STRAIGHT_COST, UP
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -87,6 +89,8 @@ class Suggestion:
         The plan to carry out; None: nothing was planned yet.
     slits
         The wires of this plan.
+    layout
+        (m, 3, 2) the map of this plan as unwrapping lays it out, in the object's units; None: not known yet.
     marked
         The number of edges that `write` made seams.
     others
@@ -117,6 +121,7 @@ class Suggestion:
         self.borders: list[NDArray[np.int32]] = []
         self.part_count = 0
         self.best: seamwire_core.SeamPlan | None = None
+        self.layout: NDArray[np.float64] | None = None
         self.slits: list[Wire] = []
         self.marked = 0
 
@@ -157,7 +162,7 @@ class Suggestion:
         self.borders = [np.asarray(chain) for chain in found.borders]
         if self._within is not None:
             self._keep_within()
-        self._planner = self.best = None
+        self._planner = self.best = self.layout = None
         self.slits = []
 
     def _found(self, amount: float, edits: PartEdits) -> seamwire_core.Parts:
@@ -256,8 +261,32 @@ class Suggestion:
             found = self._useful(planner.best_so_far)
             if found is None or not is_enough():
                 raise
+        if self._planner is not planner:
+            return  # the plan is for other parts
         from_object = np.linalg.inv(self.mesh.arrays.to_object)
         self.best, self.slits = found, planned_wires(found, self.along, STRENGTHS[self.along], from_object)
+
+    def lay_out(self, progress: Callable[[float], bool]) -> None:
+        """Find how the islands of the plan will lie in the UV map; any thread may. `progress` is that of `measure`."""
+        planner, plan, arrays = self._planner, self.best, self.mesh.arrays
+        if plan is None or plan.uvs is None:
+            return
+        try:
+            found = self._core.flatten(
+                arrays.in_object,
+                arrays.triangles,
+                self.edges_of(plan),
+                start=plan.uvs,
+                keep_apart=False,
+                straighten=STRAIGHT_COST,
+                up=UP,
+                edges=arrays.edges,
+                progress=progress,
+            ).uvs
+        except ValueError:
+            found = plan.uvs  # unwrapping may open islands further
+        if self._planner is planner:
+            self.layout = np.asarray(found)
 
     @property
     def best_so_far(self) -> seamwire_core.SeamPlan | None:
@@ -296,7 +325,7 @@ class Suggestion:
         """Return the edges, (k, 2), that cut the mesh into the islands of a plan."""
         return cut_edges(plan, self.seams)
 
-    @property
+    @cached_property
     def area(self) -> float:
         """The area of the visible surface, in the object's units squared."""
         return float(self._areas().sum())

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Literal
 
@@ -149,6 +149,10 @@ class Suggestions:
         for suggestion in self:
             suggestion.choose(amount, _own(edits, suggestion))
 
+    def limit_stretch(self, percent: float) -> None:
+        """Let the next plans have another mean stretch. `choose` drops those for the stretch before."""
+        self._wanted = replace(self._wanted, stretch=percent)
+
     @property
     def part_count(self) -> int:
         """The number of chosen parts."""
@@ -166,6 +170,11 @@ class Suggestions:
         """
         for suggestion, share in self._shares(progress):
             suggestion.plan(self._wanted.request, share, is_enough=is_enough)
+
+    def lay_out(self, progress: Progress) -> None:
+        """Find how the islands of the plans will lie in the UV map; any thread may. `progress` is that of `measure`."""
+        for suggestion, share in self._shares(progress):
+            suggestion.lay_out(share)
 
     def _shares(self, progress: Progress) -> Iterator[tuple[Suggestion, Progress]]:
         """Yield each suggestion with its share of the progress."""

@@ -43,9 +43,9 @@ JOINED = 1
 """The value for edges around faces that were joined later. Their corners may belong to several islands in the map."""
 
 
-_STRAIGHT_COST = 0.05
+STRAIGHT_COST = 0.05
 """How much a straight layout may add to an island's symmetric Dirichlet energy."""
-_UP = (0.0, 0.0, 1.0)
+UP = (0.0, 0.0, 1.0)
 """The direction of the object that points up in the map."""
 _ON_LINE = 1e-6
 """How far a UV may lie beside a line that it should lie on: UVs are rounded."""
@@ -216,8 +216,8 @@ class _Map:
             own(self._straight.seams_in_map(self.corners.vertices, self._arrays.seams)),
             start=None if places is None else places[corners],
             edges=own(self._straight.edges_in_map(self.corners.vertices, self._arrays.edges)),
-            straighten=_STRAIGHT_COST if layout.straight else None,
-            up=_UP if layout.upright else None,
+            straighten=STRAIGHT_COST if layout.straight else None,
+            up=UP if layout.upright else None,
         )
         self._are_straight[islands] = True
         bent = ~np.isin(np.asarray(flat.islands), flat.straight)

@@ -98,8 +98,8 @@ def cut_wires(
     Halfway
         If an error comes after a mesh has changed.
     """
-    from ..mesh.cut import CutError
     from ..mesh import edit_mesh, finish
+    from ..mesh.cut import CutError
 
     plans, problems = {}, []
     for mesh, own in wires.items():

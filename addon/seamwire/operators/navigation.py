@@ -67,11 +67,23 @@ def meaning(event: bpy.types.Event, manager: bpy.types.WindowManager) -> Meaning
     return Meaning.NOTHING if item is None else _meaning_of(item)
 
 
-def moves_view(event: bpy.types.Event, manager: bpy.types.WindowManager) -> bool:
-    """Return whether an event moves the view."""
+def is_harmless(event: bpy.types.Event, manager: bpy.types.WindowManager) -> bool:
+    """Return whether an event moves the mouse or the view, saves the file, plays an animation, or does something alike."""
     item = _item_for(event, manager)
     return event.type in {"MOUSEMOVE", "INBETWEEN_MOUSEMOVE"} or (
-        item is not None and item.idname.startswith(_NAVIGATION)
+        item is not None and _meaning_of(item) is Meaning.NOTHING
+    )
+
+
+def right_click_cancels(manager: bpy.types.WindowManager) -> bool:
+    """Return whether a right click cancels what runs. It does not if the user's keymap selects or moves the view with it."""
+    keymap = manager.keyconfigs.user.keymaps.get("3D View") if manager.keyconfigs.user is not None else None
+    return keymap is None or not any(
+        item.active
+        and item.type == "RIGHTMOUSE"
+        and item.idname.startswith(("view3d.select", *_NAVIGATION))
+        and (item.any or not any(int(getattr(item, name)) == 1 for name in _MODIFIERS))
+        for item in keymap.keymap_items
     )
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Divides the long work of an operator into steps, so that the interface keeps drawing.
 
-Esc cancels the operator, and nothing changes. Enter ends a step early if it already has a result.
+Esc or a right click cancels the operator, and nothing changes. Enter ends a step early if it already has a result.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Protocol
 
 import bpy
 
-from .navigation import moves_view
+from .navigation import is_harmless, right_click_cancels
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator, Sequence
@@ -168,18 +168,25 @@ class Stepwise:
             if "PASS_THROUGH" not in taken:
                 self._show()
             return taken
-        if moves_view(event, context.window_manager):
-            return {"PASS_THROUGH"}
-        if event.type == "ESC":
+        if self._cancels(context, event):
             self._cancelled = True
+        elif is_harmless(event, context.window_manager):
+            return {"PASS_THROUGH"}
         if event.type in {"RET", "NUMPAD_ENTER"} and event.value == "PRESS" and self._seen:
             self.enough = True
         is_waiting = self._is_at_work or (hand is not None and not hand.is_over and not self._is_broken)
         if is_waiting:
             self._show()
-        if is_waiting or event.type not in {"TIMER", "ESC"}:
+        if is_waiting or not (event.type == "TIMER" or self._cancelled):
             return {"RUNNING_MODAL"}
         return self._advance()
+
+    def _cancels(self, context: bpy.types.Context, event: bpy.types.Event) -> bool:
+        """Return whether an event cancels the operator, as it does for Blender's own tools."""
+        if event.type == "RIGHTMOUSE":
+            is_plain = not (event.ctrl or event.shift or event.alt or event.oskey)
+            return is_plain and event.value in {"PRESS", "DOUBLE_CLICK"} and right_click_cancels(context.window_manager)
+        return event.type == "ESC"
 
     @property
     def _is_at_work(self) -> bool:
@@ -239,7 +246,8 @@ class Stepwise:
             texts += hand.hints
         elif self._seen and not self.enough:
             texts.append("Enter: Keep This")
-        self._tell("    ".join([*texts, "Esc: Cancel"]))
+        is_right = right_click_cancels(bpy.context.window_manager)
+        self._tell("    ".join([*texts, "Esc or Right Click: Cancel" if is_right else "Esc: Cancel"]))
 
     def _tell(self, text: str | None) -> None:
         with suppress(ReferenceError):  # the workspace may be gone with its file

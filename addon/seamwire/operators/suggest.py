@@ -166,10 +166,13 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
         from .suggest_live import LiveParts
 
         with closing(PlanPreview()) as preview:
-            live = LiveParts(context.window, suggestions, preview, 0.01 * self.parts, lambda: self.enough)
+            live = LiveParts(
+                context.window, suggestions, preview, 0.01 * self.parts, self.distortion, lambda: self.enough
+            )
             while not live.is_done:
                 yield from _step(suggestions, live.step())
-            self.parts, self.edits = 100.0 * live.amount, edits_text(live.edits)
+            self.parts, self.distortion = 100.0 * live.amount, live.stretch
+            self.edits = edits_text(live.edits)
             yield from _step(suggestions, Step("Marking seams"))
 
     def _front(self, context: bpy.types.Context) -> tuple[float, float, float] | None:

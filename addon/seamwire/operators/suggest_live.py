@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Suggest Seamwires in a window: the mouse wheel turns the parts, clicks change borders, and slits follow when the hand rests."""
+"""Suggest Seamwires in a window: the mouse wheel turns the parts, clicks change borders, slits and the map follow when the hand rests."""
 
 from __future__ import annotations
 
+import math
 import time
+from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -11,7 +13,7 @@ import bpy
 
 from ..core.base import native
 from ..core.seams.parts import PartEdits, edges_of, turned
-from ..core.seams.suggestion import mean_stretch
+from ..core.seams.suggestion import mean_stretch, turned_limit
 from ..view.plan_preview import Curves, PlanPreview, Pointed
 from ..view.viewport import place_of
 from ..words.suggestion import LIVE_HINTS, parts_text
@@ -35,6 +37,8 @@ _LOOKING = 0.2
 """Seconds that a notch of the wheel may look for another number of parts."""
 _TICK = 0.02
 """Seconds between two looks at whether the hand rests."""
+_SQUARES = 28
+"""Squares of the checker pattern along the side of a square that is as large as the surface."""
 _CONFIRM = frozenset({"RET", "NUMPAD_ENTER", "SPACE"})
 _NOTCHES = {"WHEELUPMOUSE": 1, "WHEELDOWNMOUSE": -1, "PAGE_UP": 1, "PAGE_DOWN": -1, "PLUS": 1, "EQUAL": 1, "MINUS": -1}
 """How many notches each event turns."""
@@ -55,6 +59,8 @@ class LiveParts:
         Draws the parts, and the seams that are planned in them.
     amount
         The amount of parts at first, from 0 to 1.
+    stretch
+        The limit of the stretch at first, in percent.
     is_enough
         Whether to stop planning, and go on with the best plan so far.
 
@@ -62,6 +68,8 @@ class LiveParts:
     ----------
     amount
         The chosen amount of parts.
+    stretch
+        The chosen limit of the stretch.
     edits
         The changes by clicks, by the name of the object.
     is_kept
@@ -74,6 +82,7 @@ class LiveParts:
         suggestions: Suggestions,
         preview: PlanPreview,
         amount: float,
+        stretch: float,
         is_enough: Callable[[], bool],
     ) -> None:
         self._window = window
@@ -81,6 +90,7 @@ class LiveParts:
         self._preview = preview
         self._is_enough = is_enough
         self.amount = amount
+        self.stretch = stretch
         self.edits: dict[str, PartEdits] = {}
         self.is_kept = False
         self._dropped: dict[str, list[NDArray[np.int32]]] = {}
@@ -88,7 +98,8 @@ class LiveParts:
         self._version = self._worked_on = 0
         self._planned = -1
         self._rests_at = 0.0
-        self._seen: dict[Suggestion, object] = {}
+        self._seen: dict[Suggestion, tuple[object, object]] = {}
+        self._square = _square_size(suggestions)
         self._cancelled = native.load().Cancelled
         self._change()
 
@@ -116,8 +127,8 @@ class LiveParts:
 
     @property
     def title(self) -> str:
-        """The amount and the number of parts."""
-        return parts_text(self.amount, self._suggestions.part_count)
+        """The amount and the number of parts, and the limit of the stretch."""
+        return parts_text(self.amount, self._suggestions.part_count, self.stretch)
 
     @property
     def hints(self) -> Sequence[str]:
@@ -135,21 +146,21 @@ class LiveParts:
             if not goes_on(0.0):
                 return
             time.sleep(_TICK)
-        try:
+        with suppress(self._cancelled):
             self._suggestions.plan(goes_on, is_enough=self._is_enough)
-        except self._cancelled:
-            return
-        self._planned = version
+            self._planned = version
+            self._suggestions.lay_out(lambda _: goes_on(1.0) and not self.is_kept)
 
     def _look(self) -> str:
         """Show plans that are new, and return the stretch and the length of their seams."""
-        self._preview.poll()
         if not self._suggestions.are_alive:
             return ""
+        self._preview.poll()
         plans = {each: plan for each in self._suggestions if (plan := each.best_so_far) is not None}
         for suggestion, plan in plans.items():
-            if self._seen.get(suggestion) is not plan:
-                self._seen[suggestion] = plan
+            seen = self._seen.get(suggestion, (None, None))
+            if seen[0] is not plan or seen[1] is not suggestion.layout:
+                self._seen[suggestion] = plan, suggestion.layout
                 self._show(suggestion)
         if not plans:
             return ""
@@ -163,25 +174,41 @@ class LiveParts:
         """Take an event of the wheel, the mouse or the keys, as `Hand.take`."""
         if self.is_kept:
             return set()
-        is_plain = not (event.ctrl or event.alt or event.oskey)
         place = place_of(self._window, event)
         if event.type == "MOUSEMOVE":
             self._preview.point(None if place is None else self._preview.at(place))
             return {"PASS_THROUGH"}
-        if not is_plain or event.value not in _PRESSES or (event.shift and event.type not in {"PLUS", "EQUAL"}):
+        if event.alt or event.oskey or event.value not in _PRESSES:
             return set()
-        if event.type in _CONFIRM:
-            self.is_kept = True
-            self._preview.point(None)
-            return set(_TAKEN)
+        if event.shift and event.type not in {"PLUS", "EQUAL"}:
+            return set()
         is_wheel = event.type.startswith("WHEEL")
         if event.type in _NOTCHES and (place is not None or not is_wheel):
-            self._turn(_NOTCHES[event.type])
+            (self._turn_stretch if event.ctrl else self._turn)(_NOTCHES[event.type])
+            return set(_TAKEN)
+        if event.ctrl:
+            return set()
+        if event.type in _CONFIRM:
+            self._keep()
             return set(_TAKEN)
         if event.type == "LEFTMOUSE" and place is not None and not on_gizmo(place, context.preferences):
             self._click(place)
             return set(_TAKEN)
         return set()
+
+    def _keep(self) -> None:
+        """Keep the parts. The map is no longer shown."""
+        self.is_kept = True
+        self._preview.point(None)
+        for suggestion in self._suggestions:
+            self._show(suggestion)
+
+    def _turn_stretch(self, notches: int) -> None:
+        found = turned_limit(self.stretch, notches)
+        if found != self.stretch:
+            self.stretch = found
+            self._suggestions.limit_stretch(found)
+            self._change()
 
     def _turn(self, notches: int) -> None:
         until = time.monotonic() + _LOOKING
@@ -245,7 +272,21 @@ class LiveParts:
         if plan is not None:
             curves = replace(curves, slits=[wire.points for wire in plan.wires])
             cuts = suggestion.edges_of(plan)
-        self._preview.show(suggestion.mesh.obj, suggestion.mesh.arrays, curves, cuts)
+        squares = None
+        if suggestion.layout is not None and not self.is_kept:
+            squares = suggestion.layout * (_scale_of(suggestion.mesh.obj) / self._square)
+        self._preview.show(suggestion.mesh.obj, suggestion.mesh.arrays, curves, cuts, squares)
+
+
+def _scale_of(obj: bpy.types.Object) -> float:
+    """Return the mean scale of an object in the scene."""
+    return abs(obj.matrix_world.to_3x3().determinant()) ** (1.0 / 3.0)
+
+
+def _square_size(suggestions: Suggestions) -> float:
+    """Return the size of the squares on all objects, in the scene's units."""
+    area = sum(each.area * _scale_of(each.mesh.obj) ** 2 for each in suggestions)
+    return math.sqrt(area) / _SQUARES if area > 0.0 else 1.0
 
 
 def _in_units(length: float) -> str:

@@ -163,6 +163,7 @@ class ObjectView:
 
     def close(self) -> None:
         """Let go of what works on threads."""
+        self.session.stop_search()
         self._islands.close()
         self._close_layers()
         self.crest_view.close()

@@ -19,6 +19,7 @@ from ..core.picking.sight import Sight
 from ..core.picking.surface import Surface
 from ..mesh import settings as chosen
 from ..mesh.pose import Pose
+from .checked_faces import CheckedFaces
 from .edited_objects import edited
 from .failures import failures
 from .gpu_draw import Eye, Faces, Lines, blended, sees_through
@@ -30,11 +31,14 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..core.base.mesh_arrays import Arrays
-    from .theme import Style
+    from .theme import Color, Style
     from .viewport import Place
 
 _TINT = 0.35
 """The least opacity of the islands: they are what a preview is for."""
+_LIGHT: Color = (1.0, 1.0, 1.0, 0.2)
+_DARK: Color = (0.0, 0.0, 0.0, 0.3)
+"""The squares of the map. They leave the colors of the islands under them."""
 _REACH = 10.0
 """Pixels beside a border in which it is found."""
 
@@ -95,9 +99,11 @@ class _Shown:
         self._surface = self._posed_surface()  # threads prepare it
         surface = core.Surface(arrays.in_object, arrays.triangles, arrays.edges)
         self._islands = IslandMaker(arrays.triangles, lambda cuts: np.asarray(core.face_segments(surface, cuts)), HUES)
-        self._curves = Curves()
+        self._rest, self._curves = Curves(), Curves()  # on the mesh without modifiers, and as they are seen
         self._lines: list[Lines] | None = None
         self._faces: Faces | None = None
+        self._squares: NDArray[np.float64] | None = None
+        self._checks: CheckedFaces | None = None
         self._tinted: object = None
         self._count = 0
         self.hovered: int | None = None
@@ -108,12 +114,25 @@ class _Shown:
         found = self._islands.newest
         return found is not None and found.key != self._tinted
 
-    def follow(self, curves: Curves, cuts: NDArray[np.int32]) -> None:
-        """Show other curves, and ask for the islands of their cuts."""
+    def follow(self, curves: Curves, cuts: NDArray[np.int32], squares: NDArray[np.float64] | None) -> None:
+        """Show other curves and another map, and ask for the islands of the cuts."""
+        self.repose()
+        if squares is not self._squares:
+            self._squares, self._checks = squares, None
+        self._rest = curves
+        self._place_curves()
+        self._count += 1
+        self._islands.want(self._count, cuts)
+
+    def repose(self) -> None:
+        """Show all where modifiers bend the mesh to now, as in an animation."""
         if self._pose.follow(self.obj):
-            self._faces = self._tinted = None
+            self._faces = self._tinted = self._checks = None
             self._surface = self._posed_surface()
-        kinds = {field.name: getattr(curves, field.name) for field in fields(curves)}
+            self._place_curves()
+
+    def _place_curves(self) -> None:
+        kinds = {field.name: getattr(self._rest, field.name) for field in fields(Curves)}
         before = self._found_by_mouse
         self._curves = Curves(**{name: [self._pose.places(curve) for curve in own] for name, own in kinds.items()})
         self._lines = None
@@ -121,8 +140,6 @@ class _Shown:
         if len(before) != len(after) or not all(map(np.array_equal, before, after)):
             self.hovered = None  # other slits alone leave the highlight where it is
         self.__dict__.pop("_segments", None)
-        self._count += 1
-        self._islands.want(self._count, cuts)
 
     def check(self) -> None:
         """Raise what went wrong while islands were computed."""
@@ -177,6 +194,10 @@ class _Shown:
                 self._faces.add(hue, triangles)
             self._tinted = found.key
         self._faces.draw_over(eye, hue_colors(max(looks.tint, _TINT)))
+        if self._squares is not None:
+            if self._checks is None:
+                self._checks = CheckedFaces(self._pose.points[self._arrays.triangles], self._squares)
+            self._checks.draw_over(eye, _LIGHT, _DARK)
         if self._lines is None:
             self._lines = [Lines(style, _pieces(curves)) for style, curves in self._styled(looks)]
         for lines in self._lines:
@@ -215,7 +236,14 @@ class PlanPreview:
         self._shown: dict[str, _Shown] = {}
         self._handle: object | None = None
 
-    def show(self, obj: bpy.types.Object, arrays: Arrays, curves: Curves, cuts: NDArray[np.int32]) -> None:
+    def show(
+        self,
+        obj: bpy.types.Object,
+        arrays: Arrays,
+        curves: Curves,
+        cuts: NDArray[np.int32],
+        squares: NDArray[np.float64] | None = None,
+    ) -> None:
         """Draw wires over an object, and tint the islands that they make, in place of what was drawn over it.
 
         Parameters
@@ -226,6 +254,8 @@ class PlanPreview:
             The wires.
         cuts
             (c, 2) the edges that are seams with them.
+        squares
+            (m, 3, 2) the map of the corners of its triangles, in squares of a checker pattern. None: it is not drawn.
         """
         if self._handle is None and not bpy.app.background:
             self._handle = bpy.types.SpaceView3D.draw_handler_add(self._draw, (), "WINDOW", "POST_VIEW")
@@ -234,7 +264,7 @@ class PlanPreview:
             self._shown[obj.name_full] = _Shown(obj, arrays)
         shown = self._shown[obj.name_full]
         failures.take("preview")  # another plan is another try
-        failures.attempt(("preview", "follow", obj.name_full), partial(shown.follow, curves, cuts))
+        failures.attempt(("preview", "follow", obj.name_full), partial(shown.follow, curves, cuts, squares))
         edited.redraw()
 
     def at(self, place: Place) -> Pointed | None:
@@ -249,8 +279,9 @@ class PlanPreview:
             edited.redraw()
 
     def poll(self) -> None:
-        """Show islands that were computed."""
+        """Show islands that were computed, and follow the poses of the meshes."""
         for name, shown in self._shown.items():
+            failures.attempt(("preview", "follow", name), shown.repose)
             failures.attempt(("preview", "islands", name), shown.check)
         if any(shown.is_new for shown in self._shown.values()):
             edited.redraw()

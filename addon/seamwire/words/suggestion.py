@@ -15,13 +15,19 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 
-LIVE_HINTS = ("Wheel: More or Fewer Parts", "Click Border: Drop or Keep", "Click Island: Cut", "Enter: Keep")
+LIVE_HINTS = (
+    "Wheel: More or Fewer Parts",
+    "Ctrl Wheel: Stretch",
+    "Click Border: Drop or Keep",
+    "Click Island: Cut",
+    "Enter: Keep",
+)
 """The artist's choices while the parts are shown."""
 
 
-def parts_text(amount: float, number: int) -> str:
-    """Return the text on an amount of parts, from 0 to 1, and their number."""
-    return f"Parts: {100.0 * amount:.0f} %, {count(number, 'part')}"
+def parts_text(amount: float, number: int, stretch: float) -> str:
+    """Return the text on an amount of parts, from 0 to 1, their number, and the limit of the stretch in percent."""
+    return f"Parts: {100.0 * amount:.0f} %, {count(number, 'part')}    Stretch: up to {stretch:.3g} %"
 
 
 @dataclass(frozen=True)

@@ -69,3 +69,12 @@ def test_the_stub_names_what_there_is(box: sw.Surface) -> None:
 def test_cancelled(box: sw.Surface) -> None:
     with pytest.raises(sw.Cancelled):
         sw.PartFinder(box, progress=lambda _: False)
+
+
+def test_the_search_can_be_cancelled(box: sw.Surface) -> None:
+    finder = sw.PartFinder(box)
+    with pytest.raises(sw.Cancelled):
+        finder.find(progress=lambda _: False)
+    assert finder.find(progress=lambda _: True).count == 6
+    with pytest.raises(ZeroDivisionError):
+        finder.find(progress=lambda done: 1 / 0)

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "detail/index.hpp"
+#include "detail/poll.hpp"
 
 namespace seamwire::detail {
 namespace {
@@ -30,10 +31,16 @@ struct Link {
 
 class Joining {
  public:
-  Joining(std::span<const Region> regions, std::span<const RegionBorder> borders, const RegionRules& rules)
-      : regions_(regions.begin(), regions.end()), parents_(regions.size()), links_(regions.size()), rules_(rules) {
+  Joining(std::span<const Region> regions, std::span<const RegionBorder> borders, const RegionRules& rules,
+          const Task& task)
+      : regions_(regions.begin(), regions.end()),
+        parents_(regions.size()),
+        links_(regions.size()),
+        rules_(rules),
+        poll_(task, 0.0, 1.0, borders.size() + 2 * regions.size(), Poll::kFewSteps) {
     std::iota(parents_.begin(), parents_.end(), 0);
     for (const RegionBorder& border : borders) {
+      poll_.next();
       for (const auto& [a, b] : {std::pair(border.one, border.other), std::pair(border.other, border.one)}) {
         links_[a][b].add({border.gain, border.length, border.bend, border.is_kept});
       }
@@ -66,6 +73,7 @@ class Joining {
       }
     }
     while (!open_.empty()) {
+      poll_.next();
       const auto [lost, a, b] = open_.top();
       open_.pop();
       if (parents_[a] != a || parents_[b] != b) continue;
@@ -153,6 +161,7 @@ class Joining {
       if (parents_[r] == r) add(r);
     }
     while (!small.empty()) {
+      poll_.next();
       const auto [area, r] = small.top();
       small.pop();
       if (parents_[r] != r || regions_[r].area != area) continue;
@@ -169,6 +178,7 @@ class Joining {
   std::vector<std::int32_t> parents_;
   std::vector<std::map<std::int32_t, Link>> links_;
   RegionRules rules_;
+  Poll poll_;
   using Offer = std::tuple<double, std::int32_t, std::int32_t>;
   std::priority_queue<Offer, std::vector<Offer>, std::greater<>> open_;
 };
@@ -176,8 +186,8 @@ class Joining {
 }  // namespace
 
 std::vector<std::int32_t> joined_regions(std::span<const Region> regions, std::span<const RegionBorder> borders,
-                                         const RegionRules& rules) {
-  return Joining(regions, borders, rules).run();
+                                         const RegionRules& rules, const Task& task) {
+  return Joining(regions, borders, rules, task).run();
 }
 
 }  // namespace seamwire::detail

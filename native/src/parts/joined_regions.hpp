@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "seamwire/task.hpp"
+
 namespace seamwire::detail {
 
 /// A region. Lengths are in diagonals of the piece of surface in which it lies, areas in squared diagonals.
@@ -32,8 +34,8 @@ struct RegionRules {
 };
 
 /// Joins regions, always the two that gain the most, as long as that gains anything, then small and narrow ones.
-/// Returns for each region the joined region in which it is, named after one of them.
+/// Returns for each region the joined region in which it is, named after one of them. Throws Cancelled.
 std::vector<std::int32_t> joined_regions(std::span<const Region> regions, std::span<const RegionBorder> borders,
-                                         const RegionRules& rules);
+                                         const RegionRules& rules, const Task& task = {});
 
 }  // namespace seamwire::detail

@@ -13,7 +13,7 @@
 #include "detail/poll.hpp"
 #include "parts/joined_regions.hpp"
 #include "seams/border_odds.hpp"
-#include "seams/parting_cuts.hpp"
+#include "seams/halving.hpp"
 #include "seams/plan_mesh.hpp"
 #include "seams/polygons.hpp"
 #include "seams/reflection.hpp"
@@ -29,14 +29,14 @@ using namespace detail;
 
 namespace {
 
-constexpr double kMostOdds = 4.0;      // log odds are clamped to this
-constexpr double kEditOdds = 1e6;      // of an edge that somebody has kept or dropped
-constexpr double kBiasToOne = 1.2;     // how fast it falls towards one part, in log odds of the amount
-constexpr double kBiasToSharp = 2.2;   // what is added to it at the other end
-constexpr double kPartPrice = 0.2;     // of a part, in diagonals of its piece
-constexpr double kLeastArea = 0.003;   // of the area of its piece
-constexpr double kLeastWidth = 0.008;  // in diagonals of its piece
-constexpr std::size_t kLooks = 8000;   // vertices at which visibility is measured
+constexpr double kEditOdds = 1e6;               // of an edge that somebody has kept or dropped
+constexpr double kBiasToOne = 1.2;              // how fast it falls towards one part, in log odds of the amount
+constexpr double kBiasToSharp = 2.2;            // what is added to it at the other end
+constexpr double kPartPrice = 0.2;              // of a part, in diagonals of its piece
+constexpr double kLeastArea = 0.003;            // of the area of its piece
+constexpr double kLeastWidth = 0.008;           // in diagonals of its piece
+constexpr std::size_t kLooks = 8000;            // vertices at which visibility is measured
+constexpr double kJoined = 0.7, kParted = 0.8;  // of the work of find()
 
 /// The constant that an amount of parts adds to all log odds.
 double bias_of(double amount) {
@@ -133,8 +133,8 @@ struct PartFinder::Impl {
   std::vector<Edge> seams() const;
   std::vector<std::uint8_t> marked(const std::vector<Edge>& edges, const char* name) const;
   std::vector<std::uint8_t> edited(const std::vector<Edge>& edges, const char* name) const;
-  std::vector<std::int32_t> joined(double amount, const PartEdits& edits) const;
-  std::vector<std::uint8_t> borders(double amount, const PartEdits& edits) const;
+  std::vector<std::int32_t> joined(double amount, const PartEdits& edits, const Task& task) const;
+  std::vector<std::uint8_t> borders(double amount, const PartEdits& edits, const Task& task) const;
 };
 
 void PartFinder::Impl::prepare(const Task& task) {
@@ -213,7 +213,7 @@ std::vector<std::uint8_t> PartFinder::Impl::edited(const std::vector<Edge>& edge
 }
 
 /// The region of each polygon.
-std::vector<std::int32_t> PartFinder::Impl::joined(double amount, const PartEdits& edits) const {
+std::vector<std::int32_t> PartFinder::Impl::joined(double amount, const PartEdits& edits, const Task& task) const {
   const PlanMesh& mesh = problem.mesh;
   const std::vector<std::uint8_t> is_kept = edited(edits.kept, "kept"), is_dropped = edited(edits.dropped, "dropped");
   const double bias = amount > 0.0 ? bias_of(amount) : -kNever;
@@ -229,13 +229,13 @@ std::vector<std::int32_t> PartFinder::Impl::joined(double amount, const PartEdit
     found.push_back({polygons.of_face[h / 3], polygons.of_face[twin / 3], own * length, length,
                      std::abs(bends.own[e]) * length, is_kept[e] != 0});
   }
-  return joined_regions(regions, found, {.region_price = kPartPrice, .least_width = kLeastWidth});
+  return joined_regions(regions, found, {.region_price = kPartPrice, .least_width = kLeastWidth}, task);
 }
 
 /// Marks the borders of parts and the existing seams.
-std::vector<std::uint8_t> PartFinder::Impl::borders(double amount, const PartEdits& edits) const {
+std::vector<std::uint8_t> PartFinder::Impl::borders(double amount, const PartEdits& edits, const Task& task) const {
   const PlanMesh& mesh = problem.mesh;
-  const std::vector<std::int32_t> regions_of = joined(amount, edits);
+  const std::vector<std::int32_t> regions_of = joined(amount, edits, part_of(task, 0.0, kJoined));
   std::vector<std::uint8_t> is_border = problem.is_seam;
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
@@ -255,6 +255,7 @@ std::vector<std::uint8_t> PartFinder::Impl::borders(double amount, const PartEdi
     if (own == mesh.faces.end()) continue;
     parted.is_seam = is_border;
     find_pieces_of(parted);
+    task.check(kJoined);
     std::vector<std::uint8_t> is_cut(mesh.edge_count(), 0);
     mark_half(parted, parted.pieces.of_face[own - mesh.faces.begin()], is_cut);
     for (std::size_t e = 0; e < is_cut.size(); ++e) is_border[e] |= is_cut[e];
@@ -271,13 +272,14 @@ PartFinder::PartFinder(std::shared_ptr<const Surface> surface, const PartOptions
   impl_ = std::move(impl);
 }
 
-Parts PartFinder::find(double amount, const PartEdits& edits) const {
+Parts PartFinder::find(double amount, const PartEdits& edits, const Task& task) const {
   if (!(amount >= 0.0 && amount <= 1.0)) {
     throw InvalidInput("amount is " + std::to_string(amount) + ", not from 0 to 1");
   }
   const Impl& impl = *impl_;
   const PlanMesh& mesh = impl.problem.mesh;
-  const std::vector<std::uint8_t> is_border = impl.borders(amount, edits);
+  const std::vector<std::uint8_t> is_border = impl.borders(amount, edits, task);
+  task.check(kParted);
   std::vector<Edge> borders;
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     const std::int32_t h = mesh.half_edge_of[e];

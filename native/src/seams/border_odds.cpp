@@ -30,7 +30,6 @@ constexpr double kConcaveDegrees = 20.0;  // from which bend on
 constexpr double kOnPlane = 2.0;          // added on the mirror plane
 constexpr double kOnPlaneDegrees = 10.0;  // from which bend on
 constexpr double kMarked = 6.0;           // added where an artist expects a border
-constexpr double kMostOdds = 4.0;         // edges that are less likely cost the same
 constexpr double kLeastPrice = 0.05;      // of a cut along an edge that is a border for sure
 
 class BendFinder {

@@ -45,6 +45,8 @@ std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, 
 
 /// What the middle of the scale of parts adds to all log odds.
 constexpr double kMiddleBias = 0.1;
+/// Log odds are clamped to this, so that no edge alone decides.
+constexpr double kMostOdds = 4.0;
 
 /// What a cut along an edge with these log odds costs, for each unit of length: minus the logarithm of the probability
 /// that the edge is a border, and a little more. Edges inside polygons cost the most.

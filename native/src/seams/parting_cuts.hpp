@@ -18,10 +18,6 @@ std::vector<Slit> rim_cuts(const SlitProblem& problem, std::span<const std::int3
 /// How many pieces the problem's pieces can be parted into at most, with seams wherever they may run.
 std::size_t count_blocks(const SlitProblem& problem);
 
-/// Marks the edges of the cheapest cut that parts a piece into two connected parts of comparable size, and of its
-/// mirror image in another piece. Returns whether there is such a cut.
-bool mark_half(const SlitProblem& problem, std::int32_t piece, std::vector<std::uint8_t>& is_marked);
-
 /// Cuts that part the largest pieces into halves until there are `count` pieces. On a symmetric mesh they are
 /// symmetric, so there may be more. There are fewer pieces only if no seam may run inside of any.
 std::vector<Slit> halving_cuts(SlitProblem problem, std::size_t count, const Task& task);

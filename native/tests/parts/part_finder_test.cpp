@@ -11,6 +11,10 @@
 #include <numbers>
 #include <random>
 #include <set>
+#include <stop_token>
+#include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "seams/polygons.hpp"
@@ -276,12 +280,124 @@ TEST(PartFinder, takes_a_fan_of_many_triangles) {
   EXPECT_EQ(parts.count, 3u);
 }
 
+/// The length of all borders.
+double border_length(const Surface& surface, const Parts& parts) {
+  double length = 0.0;
+  for (const auto& [a, b] : edges_of(parts)) length += (surface.points()[a] - surface.points()[b]).norm();
+  return length;
+}
+
 TEST(PartFinder, parts_a_part_into_two) {
-  const auto ball = shared(shapes::icosphere(3).surface());
-  const Parts halves = PartFinder(ball).find(0.5, {.parted = {0}});
-  EXPECT_EQ(halves.count, 2u);
-  EXPECT_GT(shares(*ball, halves)[1], 0.25);
-  EXPECT_EQ(PartFinder(ball).find(0.5, {.parted = {0, 0, 0}}).count, 4u);
+  for (const int level : {3, 5}) {  // the cut of the large ball is found among blocks of its triangles, and refined
+    const auto ball = shared(shapes::icosphere(level).surface());
+    const PartFinder finder(ball);
+    const Parts halves = finder.find(0.5, {.parted = {0}});
+    EXPECT_EQ(halves.count, 2u);
+    EXPECT_GT(shares(*ball, halves)[1], 0.4);
+    EXPECT_LT(border_length(*ball, halves), 1.2 * std::numbers::pi) << "hardly longer than a great circle";
+    EXPECT_EQ(finder.find(0.5, {.parted = {0, 0, 0}}).count, 4u);
+  }
+}
+
+TEST(PartFinder, parts_bodies_into_halves_of_comparable_size) {
+  const std::vector<std::vector<std::string>> bodies{
+      {".#..........", "############", "############", "############"},  // a long box with a bump
+      {"#.......", "#.......", "#.......", "########"},                  // an L
+      {"###.....", "###.....", "########", "###.....", "###....."},      // a block with a thin rod
+      {"#.#.#.#.#", "#########"},                                        // a comb
+  };
+  for (const std::vector<std::string>& rows : bodies) {
+    for (const int n : {1, 2, 3}) {
+      const auto body = shared(shapes::plate(rows, n).surface());
+      const auto face_count = static_cast<std::int32_t>(body->triangles().size());
+      for (const std::int32_t face : {0, face_count / 2, face_count - 1}) {
+        const Parts halves = PartFinder(body).find(0.0, {.parted = {face}});
+        ASSERT_EQ(halves.count, 2u) << rows[0] << " " << n;
+        EXPECT_GE(shares(*body, halves)[1], 0.2) << rows[0] << " " << n;
+      }
+    }
+  }
+}
+
+TEST(PartFinder, parts_a_flat_l_across) {
+  // Both arms are one unit wide and three long.
+  shapes::QuadMesh mesh = shapes::quad_grid(9);
+  for (Vector& point : mesh.points) point *= 3.0;
+  std::erase_if(mesh.quads, [&](const auto& quad) {
+    const Vector middle = 0.5 * (mesh.points[index(quad[0])] + mesh.points[index(quad[2])]);
+    return middle.x() > 1.0 && middle.y() > 1.0;
+  });
+  const auto sheet = shared(mesh.surface());
+  const Parts halves = PartFinder(sheet).find(0.0, {.parted = {0}});
+  ASSERT_EQ(halves.count, 2u);
+  EXPECT_GE(shares(*sheet, halves)[1], 0.3);
+  EXPECT_NEAR(border_length(*sheet, halves), 1.0, 1e-9);
+}
+
+TEST(PartFinder, parts_the_wall_of_a_cylinder) {
+  // A flat one is cut along two lines, a long one around.
+  for (const auto& [rows, height, shortest] : {std::tuple(4, 0.2, 0.4), std::tuple(40, 5.0, 0.5 * std::numbers::pi)}) {
+    const auto wall = shared(shapes::quad_cylinder(24, rows, 0.25, height).surface());
+    const Parts halves = PartFinder(wall).find(0.0, {.parted = {0}});
+    ASSERT_EQ(halves.count, 2u) << height;
+    EXPECT_GE(shares(*wall, halves)[1], 0.4) << height;
+    EXPECT_LT(border_length(*wall, halves), 1.01 * shortest) << height;
+  }
+}
+
+TEST(PartFinder, parts_a_lid_of_spokes) {
+  const auto lid = drum(64);
+  const Parts parts = PartFinder(lid).find();
+  std::int32_t face = 0;
+  while (parts.of_face[face] != parts.of_face.back()) ++face;
+  const Parts halves = PartFinder(lid).find(0.5, {.parted = {face}});
+  ASSERT_EQ(halves.count, 4u);
+  std::vector<double> own(halves.count, 0.0);
+  double all = 0.0;
+  for (std::size_t f = 0; f < parts.of_face.size(); ++f) {
+    if (parts.of_face[f] != parts.of_face[face]) continue;
+    const auto& [a, b, c] = lid->triangles()[f];
+    const auto& points = lid->points();
+    const double area = (points[b] - points[a]).cross(points[c] - points[a]).norm();
+    own[halves.of_face[f]] += area;
+    all += area;
+  }
+  std::ranges::sort(own, std::ranges::greater());
+  EXPECT_GT(own[1], 0.2 * all);
+}
+
+TEST(PartFinder, parts_what_lies_across_the_mirror_plane_symmetrically) {
+  // Edges lie on the plane x = 0 where the number of columns is even, otherwise faces cross it.
+  for (const std::vector<std::string>& rows : std::vector<std::vector<std::string>>{
+           {"##########"}, {"#########"}, {"#.....#", "#.....#", "#######"}, {"..##..", "######"}}) {
+    for (const int n : {1, 3}) {
+      shapes::QuadMesh mesh = shapes::plate(rows, n);
+      for (Vector& point : mesh.points) point.x() -= 0.5 * static_cast<double>(rows[0].size());
+      const auto surface = shared(mesh.surface());
+      const Parts halves = PartFinder(surface, {.mirror = 0}).find(0.0, {.parted = {0}});
+      ASSERT_EQ(halves.count, 2u) << rows[0];
+      EXPECT_GE(shares(*surface, halves)[1], 0.2) << rows[0];
+      std::set<std::array<long, 3>> own, images;
+      for (const auto& [a, b] : edges_of(halves)) {
+        const Vector middle = 0.5 * (surface->points()[a] + surface->points()[b]);
+        const auto key = [&](double x) {
+          return std::array{std::lround(x * 1e4), std::lround(middle.y() * 1e4), std::lround(middle.z() * 1e4)};
+        };
+        own.insert(key(middle.x()));
+        images.insert(key(-middle.x()));
+      }
+      EXPECT_EQ(own, images) << rows[0] << " " << n;
+    }
+  }
+}
+
+TEST(PartFinder, parts_along_the_mirror_plane_where_that_is_the_shortest_cut) {
+  std::vector<std::array<double, 2>> profile;
+  for (int i = -8; i <= 8; ++i) profile.push_back({i / 8.0, 0.3 * std::sqrt(1.0 - i * i / 64.0)});
+  const auto egg = shared(shapes::lathe(24, profile).surface());
+  const Parts halves = PartFinder(egg, {.mirror = 0}).find(0.0, {.parted = {0}});
+  ASSERT_EQ(halves.count, 2u);
+  for (const auto& [a, b] : edges_of(halves)) EXPECT_NEAR(egg->points()[a].x(), 0.0, 1e-9);
 }
 
 TEST(PartFinder, joins_small_regions_unless_a_sharp_rim_encloses_them) {
@@ -330,6 +446,24 @@ TEST(PartFinder, finds_the_parts_of_pieces_by_themselves) {
   for (const Vector& point : other.points) mesh.points.emplace_back(point + Vector(3.0, 0.0, 0.0));
   for (const auto& [a, b, c] : other.triangles) mesh.triangles.push_back({first + a, first + b, first + c});
   EXPECT_EQ(PartFinder(shared(mesh.surface())).find(0.0).count, 2u);
+}
+
+TEST(PartFinder, can_be_cancelled) {
+  const auto surface = shared(shapes::torus(120, 80).surface());
+  const auto until = [](double most) {
+    return Task{.stop = {}, .progress = [most](double done) { return done < most; }};
+  };
+  for (const double most : {0.0, 0.1, 0.5, 0.9}) EXPECT_THROW(PartFinder(surface, {}, until(most)), Cancelled);
+  const PartFinder finder(surface);
+  for (const double most : {0.0, 0.1, 0.5, 0.7}) EXPECT_THROW(finder.find(0.5, {}, until(most)), Cancelled);
+  EXPECT_THROW(finder.find(0.5, {.parted = {0}}, until(0.6)), Cancelled);
+  std::stop_source source;
+  source.request_stop();
+  EXPECT_THROW(finder.find(0.5, {}, {.stop = source.get_token(), .progress = {}}), Cancelled);
+  double last = 0.0;
+  const auto rises = [&](double done) { return std::exchange(last, done) <= done; };
+  EXPECT_EQ(finder.find(0.5, {.parted = {0, 0}}, {.stop = {}, .progress = rises}).count, 3u);
+  EXPECT_GT(last, 0.7);
 }
 
 TEST(PartFinder, refuses_bad_arguments) {

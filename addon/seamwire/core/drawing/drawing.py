@@ -3,9 +3,13 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from ..base import native
 from ..base.messages import NOTHING, Message
 from ..network.history import History
 from ..network.mirror_images import MirrorImages
@@ -22,7 +26,6 @@ from .options import Options
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    import numpy as np
     from numpy.typing import ArrayLike, NDArray
     from seamwire_core import PartFinder
 
@@ -56,7 +59,8 @@ class Drawing:
     topology
         Whether mirrored vertices are found by the connections of the mesh, see `Symmetry`.
     make_parts
-        Makes the library's finder of parts, for the axis over which parts come in pairs. If None, there are no parts.
+        Makes the library's finder of parts: of the axis over which parts come in pairs, the seams, and a function that is told the
+        progress and returns whether to go on. If None, there are no parts.
 
     Attributes
     ----------
@@ -82,13 +86,14 @@ class Drawing:
         triangles: NDArray[np.int32] | None = None,
         make_stroke: Callable[[Stroke], object] = for_library,
         topology: bool = False,
-        make_parts: Callable[[int | None], PartFinder] | None = None,
+        make_parts: Callable[[int | None, NDArray[np.int32], Callable[[float], bool]], PartFinder] | None = None,
     ) -> None:
         self.points = points
         self.edges = edges
         self.triangles = triangles
         self.options = options
         self._make_parts = make_parts
+        self._finder: tuple[bytes, PartFinder] | None = None
         self.symmetry = Symmetry(points, edges, to_object, topology, triangles)
         self.images = MirrorImages(self.symmetry)
         self.stops = Stops(seams, self.symmetry)
@@ -163,14 +168,39 @@ class Drawing:
         """Return the feature strength of each vertex, (n,), or None while it is computed."""
         return self.engines.get(self.options.along).feature_strength()
 
-    def find_parts(self) -> list[NDArray[np.int32]]:
-        """Return the part of each triangle, (m,), for each of `AMOUNTS`; nothing if there are no parts. Any thread may."""
+    @property
+    def seams(self) -> NDArray[np.int32]:
+        """The edges, (k, 2), that are seams, or will be because of the kept wires. Sorted, the smaller vertex first."""
+        drawn = [edge for wire in self.network.wires if wire.marks for edge in wire.edges()]
+        known = np.sort(np.concatenate([self.stops.seams, np.array(drawn, dtype=np.int32).reshape(-1, 2)]), axis=1)
+        return np.unique(known, axis=0)
+
+    def find_parts(self, seams: NDArray[np.int32], goes_on: Callable[[], bool]) -> Iterator[NDArray[np.int32]]:
+        """Yield the part of each triangle, (m,), for each of `AMOUNTS`; nothing if there are no parts. Any thread may.
+
+        The next search with the same seams uses the measurements of a search that was stopped.
+
+        Parameters
+        ----------
+        seams
+            (k, 2) edges that part the mesh already.
+        goes_on
+            Whether to search further. Otherwise nothing more comes.
+        """
         if self._make_parts is None:
-            return []
-        axes = self.symmetry.symmetric_axes
-        preferred = [axis for axis in self.options.mirror if axis in axes]
-        finder = self._make_parts(next(iter((*preferred, *axes)), None))
-        return [finder.find(amount).of_face for amount in AMOUNTS]
+            return
+
+        def progress(_: float) -> bool:
+            return goes_on()
+
+        with suppress(native.load().Cancelled):
+            if self._finder is None or self._finder[0] != seams.tobytes():
+                axes = self.symmetry.symmetric_axes
+                preferred = [axis for axis in self.options.mirror if axis in axes]
+                axis = next(iter((*preferred, *axes)), None)
+                self._finder = seams.tobytes(), self._make_parts(axis, seams, progress)
+            for amount in AMOUNTS:
+                yield self._finder[1].find(amount, progress=progress).of_face
 
     def set(self, network: Network) -> None:
         """Go on to a network, without a step for undo."""

@@ -191,7 +191,6 @@ class Flow:
         drawing = self.drawing
         self.calm()
         drawing.stops.set_seams(seams)
-        self.gestures.loop.edges.forget()
         self.gestures.retraces.clear()
         drawing.history.forget()
         # Wires that were just cut do not know their images. Images are the edges that are seams.
@@ -200,6 +199,7 @@ class Flow:
         if seed is not None and seed != drawing.network.seed and not self.sow(seed):
             seed = None
         self.set(replace(network, seed=seed, mirror=drawing.network.mirror))
+        self.gestures.loop.edges.forget()
         self._settle()
 
     # The live wire and the offers
@@ -304,11 +304,16 @@ class Flow:
 
     def calm(self) -> None:
         """Drop everything under way, except the live wire."""
+        self.stop_search()
         self.gestures.queue.clear()
         self._last_click = None
         self.cancel_drag()
         self.cancel_line()
         self.stop_preview()
+
+    def stop_search(self) -> None:
+        """Let the search for parts end. It begins again if offers are asked for."""
+        self.gestures.loop.edges.stop_search()
 
     def end_drag(self, drag: SeedDrag) -> bool:
         """Leave the dragged seed where it is, as soon as its wires are computed."""

@@ -50,7 +50,7 @@ class LoopGesture(Gesture):
         self._live = live
         points, triangles, edges = drawing.points, drawing.triangles, drawing.edges
         is_known = triangles is not None and edges is not None
-        parts = PartBorders(points, triangles, edges, drawing.find_parts) if is_known else None
+        parts = PartBorders(points, triangles, edges, lambda: drawing.seams, drawing.find_parts) if is_known else None
         self.edges = LoopOffers(drawing.engines, drawing.stops, points, parts)
         self.cuts = SurfaceLoops(drawing.engines, triangles)
         self.problem = NOTHING

@@ -204,6 +204,10 @@ class Session:
         """Hide the way to the end. Return whether it was shown."""
         return self._flow.stop_preview()
 
+    def stop_search(self) -> None:
+        """Let the search for parts end, which works for the offers of loops. It begins again when they are asked for."""
+        self._flow.stop_search()
+
     def end_chain(self) -> None:
         """Let go of the live wire, or of a dragged seed. The kept wires stay."""
         self._flow.calm()

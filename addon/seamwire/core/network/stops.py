@@ -47,6 +47,11 @@ class Stops:
         self._seam_vertices = ranked(np.concatenate([self._seams >> _BITS, self._seams & _LOW]))
         self._last: tuple[Network, NDArray[np.int64], frozenset[Edge]] | None = None
 
+    @property
+    def seams(self) -> NDArray[np.int32]:
+        """The edges, (k, 2), that are seams already."""
+        return np.stack([self._seams >> _BITS, self._seams & _LOW], axis=1).astype(np.int32)
+
     def of(self, network: Network, live: Wire | None, begin: Iterable[int]) -> NDArray[np.int64]:
         """Return the stops of a wire, in rising order.
 

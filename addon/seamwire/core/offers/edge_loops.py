@@ -98,6 +98,7 @@ class LoopOffers(Offers):
         """Ask for the offers for a pick, or for none; return whether others vanish because of that."""
         if pick is None:
             self._directions.forget()
+            self.stop_search()
         elif self.edge != undirected(pick):
             self._directions.was_shown(self.wire, self.choice > 0)
         return super().aim(pick)
@@ -113,8 +114,15 @@ class LoopOffers(Offers):
         return network.taken_through(edge) if last is None or last.through is None else last
 
     def forget(self) -> None:
-        """Forget what was found: the seams of the mesh are others now."""
+        """Forget what was found: the seams of the mesh may be others now."""
         self._known.clear()
+        if self._parts is not None:
+            self._parts.renew()
+
+    def stop_search(self) -> None:
+        """Let the search for parts end: nobody asks for them any more."""
+        if self._parts is not None:
+            self._parts.stop()
 
     def takes(self, pick: Pick) -> bool:
         """Whether it is an edge."""
@@ -163,6 +171,8 @@ class LoopOffers(Offers):
         The library computes one loop at a time. The loops found are remembered as long as nothing else changes.
         """
         engines = self._engines
+        if self._parts is not None:
+            self._parts.ready()  # begins the search again if it was stopped
         self._with_parts = self._knows_parts
         metric = network, engines.metric, engines.strengths["EDGES"], engines.clamp, self._with_parts
         if metric != self._metric or len(self._known) > _MOST_KNOWN:

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 Chain = tuple[int, ...]
 """The vertices of a closed chain, the first one not repeated."""
 
+NO_SEAMS = np.empty((0, 2), dtype=np.int32)
 AMOUNTS = (0.5, 0.75, 1.0, 0.25)
 """How many parts there are, on the scale of *Suggest Seamwires*: the default, then more parts, then fewer."""
 AT_ONCE = 5_000
@@ -45,8 +46,11 @@ class PartBorders:
         (m, 3) what its polygons are divided into.
     edges
         (e, 2) its edges. Other sides of triangles lie within polygons, which are flat by definition.
+    seams
+        Returns the edges, (k, 2), that part the mesh already.
     find_parts
-        Returns the part of each triangle, (m,), for each of `AMOUNTS`. A thread calls it.
+        Yields the part of each triangle, (m,), for each of `AMOUNTS`. It takes the seams, and a function that returns whether to search
+        further. A thread calls it.
 
     Attributes
     ----------
@@ -61,37 +65,63 @@ class PartBorders:
         points: NDArray[np.float64],
         triangles: NDArray[np.int32],
         edges: NDArray[np.int32],
-        find_parts: Callable[[], Iterable[NDArray[np.int32]]] = tuple,
+        seams: Callable[[], NDArray[np.int32]] = lambda: NO_SEAMS,
+        find_parts: Callable[[NDArray[np.int32], Callable[[], bool]], Iterable[NDArray[np.int32]]] = lambda *_: (),
     ) -> None:
         self.half_edges = HalfEdges(points, triangles, edges)
         self._points, self._triangles = points, triangles
-        self._find_parts = find_parts
+        self._seams_now, self._find_parts = seams, find_parts
+        self._seams = NO_SEAMS
         self._steps: list[_Parts] = []
         self._thread: threading.Thread | None = None
+        self._stop = threading.Event()
+        self._working = threading.Lock()
         self._is_prepared = False
         self.is_complete = False
 
     def ready(self) -> bool:
-        """Whether flat faces can be found. The first call begins to prepare them, and then to find the parts, on a thread."""
+        """Whether flat faces can be found. This begins to prepare them, and then to find the parts, on a thread that `stop` stops."""
         if self._thread is None:
-            self._thread = threading.Thread(target=self._prepare, name="seamwire parts", daemon=True)
+            self._stop = threading.Event()
+            self._seams = self._seams_now()
+            self._thread = threading.Thread(
+                target=self._search, args=(self._seams, self._stop), name="seamwire parts", daemon=True
+            )
             self._thread.start()
             if len(self._triangles) <= AT_ONCE:
                 self._thread.join()
         return self._is_prepared
+
+    def stop(self) -> None:
+        """Let the search for parts end soon. The next call of `ready` begins it again, with what it has measured."""
+        if self._thread is not None and not self.is_complete:
+            self._stop.set()
+            self._thread = None
+
+    def renew(self) -> None:
+        """Forget the parts if the seams are others than they were found with."""
+        if self._thread is not None and not np.array_equal(self._seams, self._seams_now()):
+            self._stop.set()
+            self._thread = None
+            self._steps, self.is_complete = [], False
 
     def wait(self) -> None:
         """Wait until everything is known, if `ready` was called."""
         if self._thread is not None:
             self._thread.join()
 
-    def _prepare(self) -> None:
-        self.half_edges.prepare()
-        self._is_prepared = True
-        try:
-            self._steps = [_Parts(self.half_edges, labels) for labels in self._find_parts()]
-        finally:
-            self.is_complete = True
+    def _search(self, seams: NDArray[np.int32], stop: threading.Event) -> None:
+        with self._working:  # a search that was stopped ends first
+            if not self._is_prepared:
+                self.half_edges.prepare()
+                self._is_prepared = True
+            found: list[_Parts] = []
+            try:
+                for labels in () if stop.is_set() else self._find_parts(seams, lambda: not stop.is_set()):
+                    found.append(_Parts(self.half_edges, labels))
+            finally:
+                if not stop.is_set():
+                    self._steps, self.is_complete = found, True
 
     def borders(self, edge: Edge) -> Iterator[Chain]:
         """Yield the closed chains through an edge that are borders of parts beside it.

@@ -30,8 +30,12 @@ STRETCH = 0.17
 """The stretch that a map may have on average, unless another one is asked for: E_d = 4.2."""
 CRUMB = 0.004
 """An island with a smaller part of the mesh's area becomes part of a larger one after wires were cut into the faces."""
+LIMITS = (0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 10.0, 13.0, 17.0, 22.0, 30.0, 40.0, 60.0, 100.0, 200.0, 500.0, 1000.0)
+"""The limits of the stretch, in percent, that the wheel goes through."""
 _ISOMETRY = 4.0
 """E_d where nothing is stretched."""
+_SAME_LIMIT = 1e-3
+"""Blender rounds properties: limits that differ by a smaller part are the same."""
 _STROKE_RINGS = 3
 """How many rings of vertices a stroke without a radius reaches."""
 _UNDER = 0.75
@@ -51,6 +55,20 @@ def stretch_of(energy: float) -> float:
     if not math.isfinite(energy):
         return math.inf
     return math.exp(0.5 * math.acosh(max(energy, _ISOMETRY) / _ISOMETRY)) - 1.0
+
+
+def turned_limit(percent: float, notches: int) -> float:
+    """Return the limit of the stretch after a turn of the wheel by one notch: the next one of `LIMITS`, if there is one.
+
+    Parameters
+    ----------
+    percent
+        The limit before.
+    notches
+        1 for more stretch, -1 for less.
+    """
+    beyond = [limit for limit in LIMITS if notches * (limit - percent) > _SAME_LIMIT * percent]
+    return min(beyond, key=lambda limit: abs(limit - percent), default=percent)
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,8 @@ from ..base import native
 from .defaults import CLAMP_PERCENTILE, STRENGTHS
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import numpy as np
     import seamwire_core
     from numpy.typing import NDArray
@@ -63,15 +65,23 @@ class LiveMaker:
         self._first.wait_for_surface()
         return self._first.surface
 
-    def part_finder(self, mirror: int | None) -> seamwire_core.PartFinder:
+    def part_finder(
+        self, mirror: int | None, seams: NDArray[np.int32], progress: Callable[[float], bool]
+    ) -> seamwire_core.PartFinder:
         """Return what finds the parts of the mesh; it waits for the surface.
 
         Parameters
         ----------
         mirror
             The axis over which parts come in pairs, or None.
+        seams
+            (k, 2) edges that part the mesh already.
+        progress
+            Is told the fraction done; where it returns False, `seamwire_core.Cancelled` is raised.
         """
-        return self._core.PartFinder(self.wait(), mirror=mirror, marked=self._mesh.marked)
+        return self._core.PartFinder(
+            self.wait(), mirror=mirror, marked=self._mesh.marked, seams=seams, progress=progress
+        )
 
     def face_segments(self, cuts: NDArray[np.int32]) -> NDArray[np.int32]:
         """Return the island of each triangle where edges are cut; it waits for the surface."""

@@ -4,18 +4,20 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from fake_live import grid_edges, grid_triangles
 from grid import POINTS, SIZE, Grid, symmetry
+from numpy.typing import NDArray
 from seamwire.core.network.network import Network, Snap
 from seamwire.core.network.picks import undirected
 from seamwire.core.network.stops import Stops
 from seamwire.core.offers import part_borders
 from seamwire.core.offers.edge_loops import LoopOffers, taken
-from seamwire.core.offers.part_borders import PartBorders
+from seamwire.core.offers.part_borders import NO_SEAMS, PartBorders
 
 EDGE = (14, 15)
 
@@ -54,7 +56,11 @@ def halves(go_on: threading.Event | None = None) -> PartBorders:
     """Return the grid as two parts, with the border along its third column; they are found when they may `go_on`."""
     triangles = grid_triangles(SIZE)
     labels = ((triangles % SIZE).max(axis=1) > 2).astype(np.int32)
-    return PartBorders(POINTS, triangles, grid_edges(SIZE), lambda: [labels] if go_on is None or go_on.wait() else [])
+
+    def find(*_: object) -> list[NDArray[np.int32]]:
+        return [labels] if go_on is None or go_on.wait() else []
+
+    return PartBorders(POINTS, triangles, grid_edges(SIZE), find_parts=find)
 
 
 def test_borders_of_parts_are_offered_last() -> None:
@@ -84,7 +90,7 @@ def test_until_the_faces_are_prepared_nothing_is_offered() -> None:
     assert not offers.final
     go_on.set()
     parts._thread.join()
-    parts._prepare()
+    parts._search(NO_SEAMS, threading.Event())
     assert offers.find(EDGE, Network())
     assert offers.final
 
@@ -126,6 +132,37 @@ def test_a_motion_of_the_mouse_shows_parts_that_are_known_since(monkeypatch: pyt
     assert offers.final
     offers.point_at(Snap(edge))
     assert not offers.final
+
+
+def test_the_search_for_parts_ends_when_no_offers_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(part_borders, "AT_ONCE", 0)
+    edge, searches, ended = (2, 2 + SIZE), [], threading.Event()
+
+    def find(_: NDArray[np.int32], goes_on: Callable[[], bool]) -> Iterator[NDArray[np.int32]]:
+        searches.append(goes_on)
+        while len(searches) == 1 and goes_on():
+            pass
+        if goes_on():
+            yield ((triangles % SIZE).max(axis=1) > 2).astype(np.int32)
+        else:
+            ended.set()
+
+    triangles = grid_triangles(SIZE)
+    parts = PartBorders(POINTS, triangles, grid_edges(SIZE), find_parts=find)
+    offers = LoopOffers(Grid().engines, Stops([], symmetry()), POINTS, parts)
+    offers.aim(edge)
+    while not offers.find(edge, Network()):
+        pass
+    offers.aim(None)
+    assert ended.wait(10.0)
+    offers.wait()
+    assert not parts.is_complete
+    offers.aim(edge)
+    assert offers.find(edge, Network()), "the loops are known"
+    offers.wait()
+    assert len(searches) == 2
+    assert parts.is_complete
+    assert "FLAT" in [offer.kind for offer in offers.find(edge, Network())]
 
 
 def test_nothing_is_offered_until_it_is_computed() -> None:

@@ -4,6 +4,8 @@
 from __future__ import annotations
 
 import itertools
+import threading
+from collections.abc import Callable, Iterator
 
 import numpy as np
 import pytest
@@ -30,7 +32,7 @@ def parted(*bounds: int, triangles: NDArray[np.int32] | None = None) -> PartBord
     """Return a plate with parts between these columns, once for each amount that is given as a column."""
     faces = grid_triangles(SIZE) if triangles is None else triangles
     labels = [((faces % SIZE).max(axis=1) > bound).astype(np.int32) for bound in bounds]
-    found = PartBorders(grid_points(SIZE), faces, grid_edges(SIZE), lambda: labels)
+    found = PartBorders(grid_points(SIZE), faces, grid_edges(SIZE), find_parts=lambda *_: labels)
     assert found.ready()
     return found
 
@@ -126,3 +128,51 @@ def test_a_border_that_is_too_long_is_given_up_at_once(monkeypatch: pytest.Monke
 
     monkeypatch.setattr(part_borders, "after", counted)
     assert disc.flat_face(0) == ()
+
+
+def test_parts_are_found_anew_only_with_other_seams() -> None:
+    seams, given = [np.array([[0, 1]], dtype=np.int32)], []
+
+    def find(known: NDArray[np.int32], _: object) -> list[NDArray[np.int32]]:
+        given.append(known.tolist())
+        return [(grid_triangles(SIZE) % SIZE).max(axis=1) > 2]
+
+    parts = PartBorders(grid_points(SIZE), grid_triangles(SIZE), grid_edges(SIZE), lambda: seams[0], find)
+    for _ in range(2):
+        parts.renew()
+        assert parts.ready()
+    parts.stop()
+    assert parts.ready()
+    assert given == [[[0, 1]]], "a search that has ended is not stopped"
+    seams[0] = np.array([[1, 2]], dtype=np.int32)
+    parts.renew()
+    assert not parts.is_complete
+    assert not list(parts.around(0))
+    assert parts.ready()
+    assert parts.is_complete
+    assert given == [[[0, 1]], [[1, 2]]]
+
+
+def test_a_search_that_was_stopped_leaves_nothing_behind(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(part_borders, "AT_ONCE", 0)
+    begun, counts = threading.Event(), []
+
+    def find(_: object, goes_on: Callable[[], bool]) -> Iterator[NDArray[np.int32]]:
+        begun.set()
+        yield ((grid_triangles(SIZE) % SIZE).max(axis=1) > 2).astype(np.int32)
+        while goes_on():
+            pass
+        counts.append(threading.active_count())
+
+    parts = PartBorders(grid_points(SIZE), grid_triangles(SIZE), grid_edges(SIZE), find_parts=find)
+    parts.ready()
+    thread = parts._thread
+    assert thread is not None
+    assert begun.wait(10.0)
+    parts.stop()
+    parts.stop()
+    thread.join(10.0)
+    assert not thread.is_alive()
+    assert len(counts) == 1
+    assert not parts.is_complete
+    assert not list(parts.around(0))

@@ -55,9 +55,8 @@ class PartFinder {
   explicit PartFinder(std::shared_ptr<const Surface> surface, const PartOptions& options = {}, const Task& task = {});
 
   /// Finds parts. `amount`, from 0 to 1, says how many: 0 joins all that is connected, 1 parts at all sharp edges.
-  /// Throws InvalidInput for another amount, and for a vertex or triangle
-  /// out of range.
-  Parts find(double amount = 0.5, const PartEdits& edits = {}) const;
+  /// Throws InvalidInput for another amount, and for a vertex or triangle out of range; Cancelled.
+  Parts find(double amount = 0.5, const PartEdits& edits = {}, const Task& task = {}) const;
 
  private:
   struct Impl;
