@@ -170,6 +170,22 @@ def test_islands_are_discs_with_a_good_map_within_the_limit(
     assert all(after[key] == before[key] for key in before if key not in {"uv layers"})
 
 
+def add_sector() -> bpy.types.Object:
+    """Add a flat strip of quads along an eighth of a ring. Laid out straight, it stretches by about 4 %."""
+    turns = np.linspace(0.0, 0.25 * np.pi, 13)
+    points = [(r * math.cos(t), r * math.sin(t), 0.0) for t in turns for r in (1.0, 1.15)]
+    return add_object(points, [(2 * i, 2 * i + 1, 2 * i + 3, 2 * i + 2) for i in range(12)], name="Sector")
+
+
+@pytest.mark.parametrize(("stretch", "is_straight"), [(17.0, True), (1.0, False)])
+def test_strips_are_straight_only_within_the_limit(stretch: float, is_straight: bool) -> None:
+    obj = add_sector()
+    edit()
+    assert suggest(distortion=stretch) == {"FINISHED"}
+    assert (energy(obj) > 4.002) == is_straight
+    assert energy(obj) < energy_of(0.01 * stretch)
+
+
 def test_less_stretch_takes_longer_seams() -> None:
     obj = add_suzanne()
     edit()

@@ -89,6 +89,8 @@ class Suggestion:
         The plan to carry out; None: nothing was planned yet.
     slits
         The wires of this plan.
+    straight_cost
+        How much a straight layout may add to an island's symmetric Dirichlet energy, so that the plan stays within its limit.
     layout
         (m, 3, 2) the map of this plan as unwrapping lays it out, in the object's units; None: not known yet.
     marked
@@ -121,6 +123,7 @@ class Suggestion:
         self.borders: list[NDArray[np.int32]] = []
         self.part_count = 0
         self.best: seamwire_core.SeamPlan | None = None
+        self.straight_cost = STRAIGHT_COST
         self.layout: NDArray[np.float64] | None = None
         self.slits: list[Wire] = []
         self.marked = 0
@@ -264,6 +267,7 @@ class Suggestion:
         if self._planner is not planner:
             return  # the plan is for other parts
         from_object = np.linalg.inv(self.mesh.arrays.to_object)
+        self.straight_cost = min(STRAIGHT_COST, max(0.0, request.distortion - found.energy))
         self.best, self.slits = found, planned_wires(found, self.along, STRENGTHS[self.along], from_object)
 
     def lay_out(self, progress: Callable[[float], bool]) -> None:
@@ -278,7 +282,7 @@ class Suggestion:
                 self.edges_of(plan),
                 start=plan.uvs,
                 keep_apart=False,
-                straighten=STRAIGHT_COST,
+                straighten=self.straight_cost,
                 up=UP,
                 edges=arrays.edges,
                 progress=progress,

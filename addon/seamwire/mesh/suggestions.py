@@ -16,7 +16,7 @@ from ..words.suggestion import Outcome
 from . import edit_mesh, uv_map
 from .seam_islands import mapped, missing_cuts
 from .suggestion import Suggestion
-from .unwrap import Unwrapped, unwrap_changed
+from .unwrap import Layout, Unwrapped, unwrap_changed
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Mapping
@@ -238,7 +238,8 @@ class Suggestions:
         is_first = not any(suggestion.had_seams or suggestion.others for suggestion in self)
         is_whole = {suggestion.mesh.obj for suggestion in self} >= set(context.objects_in_mode_unique_data)
         every = is_first and is_whole and self.has_wires
-        self._unwrapped = unwrap_changed(context, every=every, starts=starts)
+        layout = Layout(straight_cost=min(suggestion.straight_cost for suggestion in self))
+        self._unwrapped = unwrap_changed(context, every=every, starts=starts, layout=layout)
         return self._unwrapped.islands
 
     def outcome(self) -> Outcome:

@@ -84,11 +84,14 @@ class Layout:
         Whether islands stand upright where Blender packs them. Otherwise Blender turns them as they need the least room.
     stack
         Whether islands of the same shape, mirrored or not, lie on each other.
+    straight_cost
+        How much a straight layout may add to an island's symmetric Dirichlet energy.
     """
 
     straight: bool = True
     upright: bool = True
     stack: bool = False
+    straight_cost: float = STRAIGHT_COST
 
 
 class _Map:
@@ -216,7 +219,7 @@ class _Map:
             own(self._straight.seams_in_map(self.corners.vertices, self._arrays.seams)),
             start=None if places is None else places[corners],
             edges=own(self._straight.edges_in_map(self.corners.vertices, self._arrays.edges)),
-            straighten=STRAIGHT_COST if layout.straight else None,
+            straighten=layout.straight_cost if layout.straight else None,
             up=UP if layout.upright else None,
         )
         self._are_straight[islands] = True
