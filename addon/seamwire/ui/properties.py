@@ -10,6 +10,7 @@ import bpy
 from ..core.drawing.options import strength_name
 from ..mesh.registration import classes, together
 from ..mesh.settings import SeamwireSettings, settings, tool_is_active
+from ..operators.bindings import HELP_PANEL
 
 if TYPE_CHECKING:
     from ..core.network.picks import Along
@@ -32,7 +33,7 @@ def draw_views(chosen: SeamwireSettings, layout: bpy.types.UILayout) -> None:
 
 
 def draw_header(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
-    """Show at most six controls in a row. Blender shows the mirror of the mesh beside them."""
+    """Show at most six controls in a row, and the help. Blender shows the mirror of the mesh beside them."""
     chosen, along = settings(context), along_of(context)
     row = layout.row(align=True)
     for name, label in _SHORT_ALONG:
@@ -48,6 +49,7 @@ def draw_header(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
         layout.prop(chosen, "straight", text="Straight", toggle=True)
     layout.prop(chosen, "clear", toggle=True)
     layout.popover(VIEW3D_PT_seamwire_overlays.bl_idname, text="Views", icon="OVERLAY")
+    layout.popover(HELP_PANEL, text="", icon="QUESTION")
 
 
 def along_of(context: bpy.types.Context) -> Along:

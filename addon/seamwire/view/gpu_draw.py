@@ -493,10 +493,10 @@ class ColoredLines:
 # On the screen: pixels of the region from its bottom left
 
 
-def text_size(scale: float, factor: float = 1.0) -> float:
+def text_size(scale: float) -> float:
     """Return the size of the interface's text, in pixels."""
     points = bpy.context.preferences.ui_styles[0].widget.points
-    return points * scale * factor
+    return points * scale
 
 
 def set_text(size: float) -> None:
