@@ -6,6 +6,7 @@ from types import SimpleNamespace
 import bpy
 import pytest
 from seamwire.mesh.settings import preferences
+from seamwire.operators import navigation
 from seamwire.ui import help as panel
 from seamwire.words import help as words
 from seamwire.words.keys import GROUPS, Action, Bindings
@@ -31,6 +32,12 @@ class Layout:
             return Layout(self.shown)
 
         return call
+
+
+@pytest.fixture(autouse=True)
+def keys_as_they_come(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let the keymaps be unchanged; other tests may have left them without keys."""
+    monkeypatch.setattr(navigation, "keys", lambda _context: Bindings())
 
 
 def shown() -> list[object]:

@@ -36,6 +36,7 @@ def draw_header(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
     """Show at most six controls in a row, and the help. Blender shows the mirror of the mesh beside them."""
     chosen, along = settings(context), along_of(context)
     row = layout.row(align=True)
+    row.ui_units_x = 9
     for name, label in _SHORT_ALONG:
         row.prop_enum(chosen, "along", name, text=label)
     if along == "SURFACE":
@@ -48,8 +49,9 @@ def draw_header(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
     if along == "SURFACE":
         layout.prop(chosen, "straight", text="Straight", toggle=True)
     layout.prop(chosen, "clear", toggle=True)
-    layout.popover(VIEW3D_PT_seamwire_overlays.bl_idname, text="Views", icon="OVERLAY")
-    layout.popover(HELP_PANEL, text="", icon="QUESTION")
+    panels = layout.row(align=True)
+    panels.popover(VIEW3D_PT_seamwire_overlays.bl_idname, text="Views")
+    panels.popover(HELP_PANEL, text="", icon="QUESTION")
 
 
 def along_of(context: bpy.types.Context) -> Along:
