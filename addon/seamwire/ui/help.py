@@ -19,7 +19,7 @@ class VIEW3D_PT_seamwire_help(bpy.types.Panel):
     bl_space_type = "VIEW_3D"
     bl_region_type = "HEADER"
     bl_label = "Seamwire Help"
-    bl_ui_units_x = 42
+    bl_ui_units_x = 44
 
     def draw(self, context: bpy.types.Context) -> None:
         """Show the first steps and the guide, and below them the keys in two columns."""

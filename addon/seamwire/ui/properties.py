@@ -36,7 +36,7 @@ def draw_header(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
     """Show at most six controls in a row, and the help. Blender shows the mirror of the mesh beside them."""
     chosen, along = settings(context), along_of(context)
     row = layout.row(align=True)
-    row.ui_units_x = 9
+    row.ui_units_x = 8.5
     for name, label in _SHORT_ALONG:
         row.prop_enum(chosen, "along", name, text=label)
     if along == "SURFACE":
@@ -44,7 +44,7 @@ def draw_header(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
         finish.ui_units_x = 5
         finish.prop(chosen, "finish")
     strength = layout.row()
-    strength.ui_units_x = 5.5
+    strength.ui_units_x = 6
     strength.prop(chosen, strength_name(along))
     if along == "SURFACE":
         layout.prop(chosen, "straight", text="Straight", toggle=True)

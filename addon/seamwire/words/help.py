@@ -14,7 +14,7 @@ STEPS = (
 )
 """Blender's icon of each gesture, and what it does."""
 FIRST_LINES = (*(text for _, text in STEPS), "Press F1 for all keys, and to hide these lines", "")
-"""What the corner of the view says to newcomers."""
+"""The lines in the corner of the view for newcomers."""
 
 _PLACES = ("guide/index.md", "../../docs/guide/index.md")
 """Where the guide lies, in a package and in a checkout."""
