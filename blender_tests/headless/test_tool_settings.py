@@ -9,6 +9,7 @@ import pytest
 from scene import add_grid, edit
 from seamwire.mesh import settings as chosen
 from seamwire.operators import chain_acts
+from seamwire.operators.bindings import HELP_PANEL
 from seamwire.ui import properties
 from seamwire.words.keys import Action
 
@@ -67,10 +68,11 @@ def shown_in(region: str) -> list[str]:
 
 
 @pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
-def test_the_header_has_at_most_six_controls(tool: chosen.SeamwireSettings, along: str) -> None:
+def test_the_header_has_at_most_six_controls_and_the_help(tool: chosen.SeamwireSettings, along: str) -> None:
     tool.along = along
-    shown = shown_in("TOOL_HEADER")
+    *shown, help_panel = shown_in("TOOL_HEADER")
     assert 3 < len(shown) <= 6
+    assert help_panel == HELP_PANEL
     assert {"along", "clear", "VIEW3D_PT_seamwire_overlays"} <= set(shown)
 
 

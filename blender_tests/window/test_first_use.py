@@ -3,19 +3,20 @@
 
 import random
 from collections.abc import Iterator
+from itertools import count
 
 import bpy
-import numpy as np
+import keymaps
 import pytest
 import ui as driver
 from desk import Desk, choose, draw, leave, reset_settings
-from scene import add_grid, edit
+from scene import add_grid, chain, edit, seams
 from seamwire.mesh.settings import preferences, settings
-from seamwire.operators import card as operator
+from seamwire.operators import draw as operator
+from seamwire.ui import help
 from seamwire.ui.properties import along_of
-from seamwire.view import card as drawing
+from seamwire.view import overlay
 from seamwire.view.edited_objects import edited
-from seamwire.words import card as words
 
 
 @pytest.fixture
@@ -106,97 +107,125 @@ def test_a_grid_of_quads_starts_along_edges(desk: Desk) -> None:
 
 
 @pytest.fixture
-def card(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> Iterator[Desk]:
+def newcomer(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> Iterator[Desk]:
     """A grid with the tool chosen for the first time."""
-    monkeypatch.setattr(words, "guide", lambda: "file:///guide/index.md")
-    preferences().show_card, preferences().chains_drawn = True, 0
+    monkeypatch.setattr(operator, "_kept", count(1))
+    preferences().first_steps = True
     bpy.context.preferences.is_dirty = False
-    choose(desk.ui)
-    desk.ui.wait(3, redraw=True)
+    desk.choose()
     yield desk
-    preferences().show_card = False
+    preferences().first_steps = False
 
 
-def part(desk: Desk, name: str) -> tuple[float, float]:
-    """Return the middle of a part of the card."""
-    placed = drawing.placed(desk.ui.area, desk.ui.region)
-    box = placed.box if name == "box" else getattr(placed, name)
-    return box.left + 0.5 * box.width, box.bottom + 0.5 * box.height
+@pytest.fixture
+def drawn(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Names of the panel with all keys, one for each time that Blender draws it."""
+    names: list[str] = []
+    draw_panel = help.VIEW3D_PT_seamwire_help.draw
+
+    def note(panel: bpy.types.Panel, context: bpy.types.Context) -> None:
+        draw_panel(panel, context)
+        names.append(panel.bl_idname)
+
+    monkeypatch.setattr(help.VIEW3D_PT_seamwire_help, "draw", note)
+    return names
 
 
-def dark_pixels(desk: Desk) -> int:
-    """Count the pixels of the card's ground around its middle."""
-    x, y = (round(at) for at in part(desk, "box"))
-    seen = desk.ui.screen()[y - 20 : y + 20, x - 60 : x + 60]
-    return int((np.abs(seen - np.array((29, 29, 32)) / 255).max(axis=-1) < 0.02).sum())
+def text_pixels(desk: Desk) -> int:
+    """Count the bright pixels where the first steps are drawn, above the text that is always there."""
+    desk.ui.move((desk.ui.region.width - 60.0, 60.0))
+    left, bottom, _, _ = overlay.free_room(desk.ui.area, desk.ui.region)
+    seen = desk.ui.screen()[bottom + 60 : bottom + 160, left : left + 300]
+    return int((seen.min(axis=-1) > 0.85).sum())
 
 
 @pytest.mark.smoke
 @pytest.mark.every_blender
-def test_the_card_is_seen_until_its_close_button_is_clicked(card: Desk) -> None:
-    assert dark_pixels(card) > 500
-    card.ui.click(part(card, "close"))
-    assert not preferences().show_card
-    assert bpy.context.preferences.is_dirty, "Blender is to save that"
-    assert dark_pixels(card) < 50
-    assert not card.running
+def test_the_first_steps_are_seen_until_they_are_turned_off(newcomer: Desk) -> None:
+    assert text_pixels(newcomer) > 500
+    preferences().first_steps = False
+    assert text_pixels(newcomer) < 50
+    choose(newcomer.ui, "builtin.select_box")
+    newcomer.choose()
+    assert text_pixels(newcomer) < 50
 
 
-def test_a_click_on_the_cards_link_opens_the_guide(card: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
-    opened = []
-    monkeypatch.setattr("webbrowser.open", opened.append)
-    card.ui.click(part(card, "link"))
-    assert opened == ["file:///guide/index.md"]
-    assert preferences().show_card
-    assert not card.running
+def test_with_another_tool_there_are_no_first_steps(newcomer: Desk) -> None:
+    choose(newcomer.ui, "builtin.select_box")
+    assert text_pixels(newcomer) < 50
 
 
-def test_clicks_and_the_wheel_go_through_the_card(card: Desk) -> None:
-    ui = card.ui
-    at = part(card, "box")
-    x, y, _ = ui.view.view_location
-    ui.view.view_location = (x - 1.2, y + 0.7, 0.0)  # the mesh lies under the card
+def test_clicks_go_through_the_first_steps_which_stay_in_a_chain(newcomer: Desk) -> None:
+    ui = newcomer.ui
+    left, bottom, _, _ = overlay.free_room(ui.area, ui.region)
+    at = left + 60.0, bottom + 100.0
+    x, y = newcomer.at(40)
+    pixel = ui.on_screen((1.0, 0.0, 0.0))[0] - ui.on_screen((0.0, 0.0, 0.0))[0]
+    ui.view.view_location = ((x - at[0]) / pixel, (y - at[1]) / pixel, 0.0)  # the mesh lies under the text
     ui.wait(2, redraw=True)
-    distance = ui.view.view_distance
-    ui.wheel(True, at)
-    assert ui.view.view_distance != distance
-    ui.move(at)
     ui.click(at)
-    assert card.running
-    assert preferences().show_card, "it comes back when the chain has ended"
-    ui.key("ESC")
-    assert dark_pixels(card) > 500
+    assert newcomer.running
+    assert text_pixels(newcomer) > 500
 
 
-def test_with_another_tool_there_is_no_card(card: Desk) -> None:
-    assert dark_pixels(card) > 500
-    choose(card.ui, "builtin.select_box")
-    assert dark_pixels(card) < 50
-
-
-def test_after_a_few_chains_the_card_is_gone(card: Desk) -> None:
+@pytest.mark.every_blender
+def test_after_a_few_chains_the_first_steps_are_gone(newcomer: Desk) -> None:
     for number in range(3):
-        assert preferences().show_card
-        draw(card, 9 * number, 9 * number + 8)
-    assert not preferences().show_card
+        assert preferences().first_steps
+        draw(newcomer, 9 * number, 9 * number + 8)
+    assert not preferences().first_steps
     assert bpy.context.preferences.is_dirty, "Blender is to save that"
-    assert dark_pixels(card) < 50
+    assert text_pixels(newcomer) < 50
 
 
-def test_in_a_quad_view_the_card_is_in_one_view(card: Desk) -> None:
-    ui = card.ui
-    with ui.override():
-        bpy.ops.screen.region_quadview()
-    try:
-        ui.wait(4, redraw=True)
-        views = [region for region in ui.area.regions if region.type == "WINDOW"]
-        assert len(views) == 4
-        with_card = []
-        for region in views:
-            with bpy.context.temp_override(window=ui.window, area=ui.area, region=region):
-                with_card.append(operator.shows_in(bpy.context))
-        assert with_card == [False, False, False, True], "in the user's view"
-    finally:
-        with ui.override():
-            bpy.ops.screen.region_quadview()
-        ui.wait(4)
+@pytest.mark.smoke
+@pytest.mark.every_blender
+def test_a_chain_goes_on_after_the_panel_with_all_keys(desk: Desk, drawn: list[str]) -> None:
+    session = desk.start()
+    desk.ui.click(desk.at(20))
+    desk.ui.move(desk.at(40))
+    desk.ui.key("F1")
+    desk.ui.wait(4, redraw=True)
+    assert drawn
+    assert desk.running
+    desk.ui.key("ESC")
+    desk.ui.wait(4)
+    assert desk.running, "the key has closed the panel"
+    desk.ui.click(desk.at(24))
+    desk.ui.wait_until(lambda: len(session.wires) == 1)
+    desk.ui.key("RET")
+    assert seams(desk.obj) == chain(20, 21, 22, 23, 24)
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize("keymap", keymaps.KEYMAPS)
+def test_f1_shows_all_keys_before_the_first_click_in_each_keymap(desk: Desk, drawn: list[str], keymap: str) -> None:
+    with keymaps.using(keymap):
+        desk.choose()
+        desk.ui.key("F1")
+        desk.ui.wait(4, redraw=True)
+        assert drawn
+        desk.ui.key("ESC")
+        desk.ui.wait(4)
+        assert not desk.running
+        del drawn[:]
+        desk.start()
+        desk.ui.click(desk.at(20))
+        desk.ui.key("F1")
+        desk.ui.wait(4, redraw=True)
+        assert drawn
+        desk.ui.key("ESC")
+        desk.ui.wait(4)
+        assert desk.running
+        desk.ui.key("ESC")
+        assert not desk.running
+
+
+def test_a_button_that_is_held_comes_before_the_keys(desk: Desk, drawn: list[str]) -> None:
+    desk.choose()
+    desk.ui.event("LEFTMOUSE", "PRESS", desk.at(40), shift=True)
+    desk.ui.move((desk.at(40)[0] + 30.0, desk.at(40)[1]), shift=True)
+    desk.ui.key("F1")
+    desk.ui.wait(4, redraw=True)
+    assert not drawn
+    assert desk.running

@@ -216,7 +216,7 @@ class Monkey:
         self.release()
         self.ui.wait(2)
         traces.enable()
-        preferences().show_card = False
+        preferences().first_steps = False
         choose(self.ui)
 
     def suggest(self) -> None:

@@ -237,18 +237,6 @@ def test_keys_can_be_bound_anew(ui: driver.Ui, desk: Desk) -> None:
     assert len(session.wires) == 3
 
 
-@pytest.mark.smoke
-@pytest.mark.every_blender
-def test_f1_shows_the_keys(desk: Desk) -> None:
-    desk.start()
-    desk.ui.move(desk.at(40))
-    before = desk.ui.pixels()
-    desk.ui.key("F1")
-    assert abs(desk.ui.pixels() - before).mean() > 0.01
-    desk.ui.key("F1")
-    assert abs(desk.ui.pixels() - before).mean() < 0.001
-
-
 # Between chains
 
 

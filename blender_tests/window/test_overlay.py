@@ -560,19 +560,6 @@ def test_the_text_tells_of_strength_clearing_and_mirror(sight: Sight) -> None:
     assert all(one.sum() > 40 for one in seen)
 
 
-def test_the_table_of_keys_is_laid_over_a_dark_ground(sight: Sight) -> None:
-    rows = [("", "Seamwire"), *((f"Key {i}", f"Does the thing of number {i}") for i in range(20))]
-    region = sight.ui.region
-    middle = (region.width / 2, region.height / 2)
-    before = sight.pixels()
-    seen = sight.pixels(keys=tuple(rows))
-    assert np.median(around(seen, middle, 60)) < 0.5 * np.median(around(before, middle, 60))
-    assert has(seen, middle, "orange", chroma=0.4, radius=180), "the keys"
-    assert text_pixels(before)[:, :110].any()
-    assert not text_pixels(sight.pixels(keys=tuple(rows[:3])))[:, :110].any(), "no text beside the table or below it"
-    assert np.abs(sight.pixels(keys=None) - before).max() < 0.1
-
-
 def test_styles_are_told_apart_by_more_than_their_hue() -> None:
     looks = Looks.of()
     styles: list[Style] = [looks.active, looks.other, looks.kept, looks.clear, looks.mirrored, looks.loop]

@@ -140,7 +140,7 @@ class Player:
         colors.wire_edit, colors.vertex, colors.vertex_size = (0.55, 0.55, 0.55), (0.55, 0.55, 0.55), 1
         from seamwire.mesh.settings import preferences, settings
 
-        preferences().show_card = False
+        preferences().first_steps = False
         settings().along, settings().finish, settings().snap = "SURFACE", "SNAP", True
         return obj
 

@@ -25,11 +25,11 @@ from film_guide import cut, guide, install, lab, looks, stretch, tool, views
 from film_hand import Film
 from film_head import animation, job
 from film_prop import wheel
-from film_stage import show_card
+from film_stage import show_first_steps
 from turns import play_strictly
 
 enable_addon()
-show_card(False)
+show_first_steps(False)
 kind, target = sys.argv[sys.argv.index("--") + 1 :]
 parts = (
     animation,

@@ -16,7 +16,7 @@ import numpy as np
 import show
 import ui as driver
 from film_hand import session, write_png
-from film_stage import EAR, EYE, FACE, aside, settings, show_card, stage, start, unwrap
+from film_stage import EAR, EYE, FACE, aside, settings, show_first_steps, stage, start, unwrap
 from lab import enable_lab, part
 from mathutils import Euler, Vector
 
@@ -76,7 +76,7 @@ def guide(film: Film) -> None:
     film.click()
     film.key("F1")
     film.picture("keys")
-    film.key("F1")
+    film.key("ESC")
     film.click("RIGHTMOUSE")
     unwrap(film)
     film.picture("unwrapped")
@@ -89,15 +89,15 @@ def tool(film: Film) -> None:
     bpy.context.preferences.view.show_tooltips = False
     stage(film)
     film.at = film.vertex(0.0, -0.6, 0.80)
-    show_card(True)
+    show_first_steps(True)
     for _ in range(20):  # the tool is at the end of the toolbar
         film.ui.wheel(up=False, at=(30.0, 300.0))
     film.ui.space.show_gizmo = True
     start(film)
     film.ui.wait(20, redraw=True)
-    film.picture(f"tool-{version}-card")
+    film.picture(f"tool-{version}-first")
     film.ui.space.show_gizmo = False
-    show_card(False)
+    show_first_steps(False)
     film.ui.wait(20, redraw=True)
     film.picture(f"tool-{version}-before")
     for kind, name in (("menu", "VIEW3D_MT_seamwire"), ("panel", "VIEW3D_PT_seamwire_overlays")):

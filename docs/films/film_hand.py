@@ -58,7 +58,7 @@ class Film:
         from seamwire.view import overlay
 
         left, bottom, width, height = overlay.free_room(bpy.context.area, bpy.context.region)
-        size = paint.text_size(1.0, 1.9)
+        size = 1.9 * paint.text_size(1.0)
         paint.set_text(size)
         wide = paint.text_width(self.caption)
         x, y = left + (width - wide) / 2.0, bottom + (1.6 * size if self.is_subtitle else height - 2.6 * size)

@@ -28,11 +28,11 @@ def settings() -> bpy.types.PropertyGroup:
     return of_tool()
 
 
-def show_card(shown: bool) -> None:
-    """Show the card of first steps, or not."""
+def show_first_steps(shown: bool) -> None:
+    """Show the first steps, or not."""
     from seamwire.mesh.settings import preferences
 
-    preferences().show_card = shown
+    preferences().first_steps = shown
 
 
 def stage(film: Film) -> None:

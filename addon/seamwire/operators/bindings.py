@@ -14,6 +14,8 @@ ACTION_OPERATOR = "mesh.seamwire_key"
 """Stands for what a key does within a chain; it does nothing by itself."""
 NAME = "Seamwire"
 """The name of the keymap that holds those keys."""
+HELP_PANEL = "VIEW3D_PT_seamwire_help"
+"""The panel with all keys."""
 
 
 def key_of(item: bpy.types.KeyMapItem) -> Key:

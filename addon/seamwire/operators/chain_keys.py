@@ -5,11 +5,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import bpy
+
 from ..core.drawing.options import strength_name
 from ..core.drawing.picture import Role
 from ..mesh.settings import settings
 from ..view.edited_objects import edited
 from ..words.keys import Action
+from .bindings import HELP_PANEL
 from .chain_gestures import rehover
 
 if TYPE_CHECKING:
@@ -106,9 +109,9 @@ def cycle_mirror(state: ChainState, _given: Given) -> None:
     state.say(f"Mirrored on {', '.join(_AXES[axis] for axis in axes)}" if axes else "Not mirrored")
 
 
-def toggle_keys(state: ChainState, _given: Given) -> None:
-    """Show the table of keys, or hide it."""
-    state.shows_keys = not state.shows_keys
+def show_keys(_state: ChainState, _given: Given) -> None:
+    """Open the panel with all keys. The chain goes on when it closes."""
+    bpy.ops.wm.call_panel("INVOKE_DEFAULT", name=HELP_PANEL)
 
 
 def undo(state: ChainState, _given: Given) -> None:

@@ -40,8 +40,6 @@ class ChainState:
         The key that shows the loop under the mouse while it is held, or an empty text.
     is_ending
         Whether the chain ends as soon as its last wire is computed.
-    shows_keys
-        Whether the table of keys is shown.
     """
 
     def __init__(self, keys: Bindings) -> None:
@@ -52,7 +50,6 @@ class ChainState:
         self.has_begun = False
         self.peek = ""
         self.is_ending = False
-        self.shows_keys = False
 
     @property
     def view(self) -> ObjectView:

@@ -4,14 +4,15 @@
 from __future__ import annotations
 
 import traceback
+from itertools import count
 from typing import TYPE_CHECKING
 
 import bpy
 
 from ..core.base.native import NativeError
-from ..mesh.settings import ALONG_ITEMS, notices, settings
+from ..mesh.settings import ALONG_ITEMS, notices, preferences, settings
 from ..words.keys import Action, Key
-from . import card, undo_steps
+from . import undo_steps
 from .edit_mesh_operator import NeedsEditMode
 from .navigation import takes
 from .report import running
@@ -33,6 +34,11 @@ _FIRST = (
 )
 _FOR_BLENDER = {"REMOVE", "NEXT", "PEEK", "BEND"}
 """If these find nothing to do, the key keeps Blender's meaning."""
+
+_ENOUGH = 3
+"""After so many chains nobody needs the first steps."""
+_kept = count(1)
+"""Numbers the chains of this session of Blender that were kept."""
 
 _CHAIN_ELSEWHERE = "A chain is being drawn in another window: end it there first"
 _SEARCH_RUNS = "A search for seams is running: wait for it, or press Esc in its window"
@@ -151,8 +157,9 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
             self.report({"WARNING"}, f"{error}: the wires of this chain were not kept")
             return {"CANCELLED"}
         self._chain.state.notices.tell(self.report)
-        if has_kept:
-            card.chain_drawn(context)
+        if has_kept and next(_kept) >= _ENOUGH and preferences(context).first_steps:
+            preferences(context).first_steps = False
+            context.preferences.is_dirty = True
         return {"FINISHED"} if has_kept else {"CANCELLED"}
 
     def _failed(self, error: Exception) -> set[str]:

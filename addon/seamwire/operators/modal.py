@@ -15,7 +15,7 @@ import bpy
 from ..mesh import settings as chosen
 from ..view.edited_objects import edited
 from ..view.viewport import place_of
-from . import bindings, navigation
+from . import navigation
 from .chain_acts import act, act_first
 from .chain_events import EventReader, Given, Sign
 from .chain_gestures import can_preview, hover
@@ -50,9 +50,7 @@ class Chain:
         self._window = ChainWindow(context)
         self._events = EventReader(self._window)
         self._shown: tuple[tuple[object, ...], tuple[object, ...]] | None = None
-        self.state = ChainState(
-            bindings.of_user(context.window_manager).without(lambda key: navigation.takes(key, context))
-        )
+        self.state = ChainState(navigation.keys(context))
         self._cleanup = ExitStack()
         try:
             edited.take_stock()
@@ -178,7 +176,6 @@ class Chain:
         picture = (
             id(state.view),
             tuple((view.session.revision, view.islands.pointed_island) for view in edited.views()),
-            state.shows_keys,
         )
         words = (
             round(100.0 * session.work.progress),
@@ -189,7 +186,7 @@ class Chain:
         )
         before, self._shown = self._shown, (picture, words)
         if before is None or picture != before[0]:
-            edited.show(state.keys.help_rows() if state.shows_keys else None)
+            edited.show()
             edited.redraw()
         if self._shown != before:
             for make in status_makers:

@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING
 
 import bpy
 
+from . import bindings
+
 if TYPE_CHECKING:
     from ..view.viewport import Place
-    from ..words.keys import Key
+    from ..words.keys import Bindings, Key
 
 _KEYMAPS = ("Mesh", "3D View Generic", "3D View", "Object Non-modal", "Frames", "Screen", "Screen Editing", "Window")
 """The keymaps of a 3D view in Edit Mode, in the order in which Blender asks them."""
@@ -127,6 +129,11 @@ def takes(key: Key, context: bpy.types.Context) -> bool:
         and (item.any or all(int(getattr(item, name)) in {-1, getattr(key, name)} for name in _MODIFIERS))
         for item in keymap.keymap_items
     )
+
+
+def keys(context: bpy.types.Context) -> Bindings:
+    """Return the keys of a chain without the buttons that move the view."""
+    return bindings.of_user(context.window_manager).without(lambda key: takes(key, context))
 
 
 def _button(item: bpy.types.KeyMapItem, inputs: bpy.types.PreferencesInput) -> str:

@@ -60,13 +60,10 @@ class SeamwirePreferences(bpy.types.AddonPreferences):
         description="Show the number of islands and other information in the 3D view",
         default=True,
     )
-    show_card: bpy.props.BoolProperty(
+    first_steps: bpy.props.BoolProperty(
         name="First Steps",
-        description="Show a card with the first steps in the 3D view until it is closed, or until a few chains are drawn",
+        description="Show the first steps in the corner of the 3D view until a few chains are drawn",
         default=True,
-    )
-    chains_drawn: bpy.props.IntProperty(
-        name="Chains Drawn", description="Chains drawn while the card was shown", options={"HIDDEN"}
     )
 
     def draw(self, context: bpy.types.Context) -> None:
@@ -78,7 +75,7 @@ class SeamwirePreferences(bpy.types.AddonPreferences):
         column.prop(self, "line_width")
         column.prop(self, "tint")
         column.prop(self, "show_text")
-        column.prop(self, "show_card")
+        column.prop(self, "first_steps")
         layout.column(heading="Mouse").prop(self, "wheel_switches")
         column = layout.column(heading="Colors")
         column.prop(self, "theme_colors")
@@ -101,6 +98,8 @@ def draw_keys(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
         _draw_key(box, keys, item, item.properties.bl_rna.properties["first"].enum_items[item.properties.first].name)
     for item in bindings.items_of(keys, islands.OPERATOR) if keys is not None else ():
         _draw_key(box, keys, item, item.properties.bl_rna.properties["which"].enum_items[item.properties.which].name)
+    for item in bindings.items_of(keys, "wm.call_panel") if keys is not None else ():
+        _draw_key(box, keys, item, Action.KEYS.value)
     keys = bindings.user_keymap(context.window_manager)
     if keys is None:
         box.label(text="No keymaps available")

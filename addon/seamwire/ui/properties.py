@@ -10,6 +10,7 @@ import bpy
 from ..core.drawing.options import strength_name
 from ..mesh.registration import classes, together
 from ..mesh.settings import SeamwireSettings, settings, tool_is_active
+from ..operators.bindings import HELP_PANEL
 
 if TYPE_CHECKING:
     from ..core.network.picks import Along
@@ -25,9 +26,10 @@ def draw_views(chosen: SeamwireSettings, layout: bpy.types.UILayout) -> None:
 
 
 def draw_header(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
-    """Show at most six controls in a row. Blender shows the mirror of the mesh beside them."""
+    """Show at most six controls in a row, and the help. Blender shows the mirror of the mesh beside them."""
     chosen, along = settings(context), along_of(context)
     row = layout.row(align=True)
+    row.ui_units_x = 8.5
     for name, label in _SHORT_ALONG:
         row.prop_enum(chosen, "along", name, text=label)
     if along == "SURFACE":
@@ -35,12 +37,14 @@ def draw_header(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
         finish.ui_units_x = 5
         finish.prop(chosen, "finish")
     strength = layout.row()
-    strength.ui_units_x = 5.5
+    strength.ui_units_x = 6
     strength.prop(chosen, strength_name(along))
     if along == "SURFACE":
         layout.prop(chosen, "straight", text="Straight", toggle=True)
     layout.prop(chosen, "clear", toggle=True)
-    layout.popover(VIEW3D_PT_seamwire_overlays.bl_idname, text="Views", icon="OVERLAY")
+    panels = layout.row(align=True)
+    panels.popover(VIEW3D_PT_seamwire_overlays.bl_idname, text="Views")
+    panels.popover(HELP_PANEL, text="", icon="QUESTION")
 
 
 def along_of(context: bpy.types.Context) -> Along:

@@ -9,7 +9,7 @@ import bpy
 
 from ..mesh.settings import TOOL
 from ..operators import hover, islands, undo_steps
-from ..operators.bindings import NAME
+from ..operators.bindings import HELP_PANEL, NAME
 from . import keymap, properties
 
 OPERATOR = "mesh.seamwire_draw"
@@ -62,6 +62,7 @@ class SeamwireTool(bpy.types.WorkSpaceTool):
             {"type": "W", "value": "PRESS", "shift": True, "ctrl": True},
             {"properties": [("which", "WORST")]},
         ),
+        ("wm.call_panel", {"type": "F1", "value": "PRESS"}, {"properties": [("name", HELP_PANEL)]}),
         (undo_steps.HINT, {"type": "F9", "value": "PRESS"}, None),
         (hover.OPERATOR, {"type": "MOUSEMOVE", "value": "ANY", "any": True}, None),
     )

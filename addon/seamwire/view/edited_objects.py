@@ -344,12 +344,12 @@ class EditedObjects:
 
     # Drawing
 
-    def show(self, help_rows: list[tuple[str, str]] | None = None) -> None:
+    def show(self) -> None:
         """Show the sessions as they are now, where that is something new."""
         for view in self.views():
-            view.show(front=view is self.front, help_rows=help_rows)
+            view.show(front=view is self.front)
         state = [(id(view), view.session.revision, view.islands.pointed_island) for view in self.views()]
-        state.append((id(self.front), bool(help_rows)))
+        state.append((id(self.front),))
         if state != self._shown:
             self._shown = state
             self.redraw()

@@ -398,10 +398,10 @@ def draw_over(draw: Callable[[float], None]) -> None:
 # On the screen: pixels of the region from its bottom left
 
 
-def text_size(scale: float, factor: float = 1.0) -> float:
+def text_size(scale: float) -> float:
     """Return the size of the interface's text, in pixels."""
     points = bpy.context.preferences.ui_styles[0].widget.points
-    return points * scale * factor
+    return points * scale
 
 
 def set_text(size: float) -> None:

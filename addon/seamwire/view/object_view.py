@@ -31,7 +31,7 @@ from .stretch_heat import StretchHeat
 from .theme import HUES
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Iterator
 
     from numpy.typing import NDArray
 
@@ -44,7 +44,6 @@ if TYPE_CHECKING:
     from ..core.solver.solver import End
     from ..mesh.settings import ToolOptions
     from .layers import Layer
-    from .text_overlay import Row
 
 
 _BYTES_A_TRIANGLE = 1_150
@@ -112,7 +111,6 @@ class ObjectView:
         self.islands = ShownIslands(self._islands, self.session, arrays.seams)
         self.stroke: tuple[NDArray[np.float64], bool] | None = None
         self._front = True
-        self._keys: tuple[Row, ...] | None = None
         self.overlay = Overlay(
             weak(self._look),  # what was prepared for a view is freed with it, and not when Python looks for cycles
             obj,
@@ -153,7 +151,6 @@ class ObjectView:
             pointed_island=self.islands.pointed_island,
             stroke=self.stroke,
             front=self._front,
-            keys=self._keys,
         )
 
     def _look(self) -> Picture:
@@ -347,10 +344,10 @@ class ObjectView:
         matrix, strokes = self.obj.matrix_world, self.session.strokes
         return self._picker.stroke_at(strokes, view, matrix, cursor, xray=self.options.xray, scale=scale)
 
-    def show(self, front: bool, help_rows: Sequence[Row] | None) -> None:
+    def show(self, front: bool) -> None:
         """Let the overlay follow."""
         self._follow_layers()
-        self._front, self._keys = front, None if help_rows is None else tuple(help_rows)
+        self._front = front
 
 
 def _flips(obj: bpy.types.Object) -> Iterator[Matrix]:

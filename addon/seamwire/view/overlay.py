@@ -13,8 +13,9 @@ from mathutils import Matrix
 from ..core.drawing.picture import LIVE, Role, SeedRole
 from ..core.network.picks import place_of, undirected
 from ..words import corner
-from . import legend, text_overlay
-from .gpu_draw import Eye, Faces, Lines, blended, draw_dots
+from ..words.help import FIRST_LINES
+from . import legend
+from .gpu_draw import Eye, Faces, Lines, blended, draw_dots, draw_text, set_text, text_size
 from .theme import Looks, Style, hue_colors
 
 if TYPE_CHECKING:
@@ -177,21 +178,18 @@ class Overlay:
         self._faces.draw_over(eye, hue_colors(self._looks.tint))
 
     def draw_on_screen(self) -> None:
-        """Draw over the region: text and the table of keys."""
+        """Draw over the region: text and legends."""
         picture = self._picture()
         if not picture.front:
             return
-        left, bottom, width, height = room = free_room(bpy.context.area, bpy.context.region)
+        room = free_room(bpy.context.area, bpy.context.region)
         if room == _NO_ROOM:
             return
         scale = bpy.context.preferences.system.ui_scale
         with blended("NONE"):
-            if self._looks.text and picture.keys is None:  # the table would cover part of it
-                lines = corner.lines(picture)
-                text_overlay.draw(lines, (left, bottom), scale, bpy.context.preferences.themes[0].view_3d.space.text_hi)
+            first = FIRST_LINES if self._looks.first_steps else ()
+            _draw_corner([*first, *(corner.lines(picture) if self._looks.text else ())], room[:2], scale)
             legend.draw(self._legends(), room, scale)
-            if picture.keys is not None:
-                text_overlay.draw_table(picture.keys, (left, bottom, width, height), scale)
 
     def _legends(self) -> list[legend.Legend]:
         of_heat = None if self.heat is None else self.heat.legend()
@@ -311,6 +309,17 @@ def _draw_dots(sheet: _Sheet, eye: Eye, hidden: bool, xray: bool) -> None:
         shown = places if inside is None else places[inside]
         if len(shown):
             draw_dots(style, shown, eye, style.hidden if hidden and not xray else 1.0, rim=xray or not hidden)
+
+
+def _draw_corner(lines: Sequence[str], at: tuple[float, float], scale: float) -> None:
+    """Draw lines of text above the lower left corner of the free room, top line first."""
+    size = text_size(scale)
+    set_text(size)
+    x, y = at[0] + 1.2 * size, at[1] + 1.1 * size
+    color = (*bpy.context.preferences.themes[0].view_3d.space.text_hi, 1.0)
+    for line in reversed(lines):
+        draw_text(line, (x, y), color)
+        y += 1.5 * size
 
 
 def free_room(area: bpy.types.Area, region: bpy.types.Region) -> tuple[float, float, float, float]:

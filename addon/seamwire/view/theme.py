@@ -103,6 +103,7 @@ class Looks:
     tint: float
     """Opacity of islands."""
     text: bool
+    first_steps: bool
 
     @classmethod
     def of(cls, theme: bpy.types.ThemeView3D | None = None, preferences: object | None = None) -> Looks:
@@ -114,7 +115,7 @@ class Looks:
             Of the 3D view; without it the colors are those that fit Blender's default one.
         preferences
             The add-on's: whatever of ``line_width``, ``active_color``, ``other_color``, ``kept_color``,
-            ``clear_color``, ``loop_color``, ``seed_color``, ``theme_colors``, ``tint`` and ``show_text`` it has.
+            ``clear_color``, ``loop_color``, ``seed_color``, ``theme_colors``, ``tint``, ``show_text`` and ``first_steps`` it has.
         """
 
         def wish(name: str, default: Sequence[float]) -> Color:
@@ -163,6 +164,7 @@ class Looks:
             open_end=Style(seam, 14.0, halo=2.5, hidden=0.3, lift=9.0),
             tint=float(getattr(preferences, "tint", 0.22)),
             text=bool(getattr(preferences, "show_text", True)),
+            first_steps=bool(getattr(preferences, "first_steps", False)),
         )
         return looks.widened(float(getattr(preferences, "line_width", 1.0)))
 

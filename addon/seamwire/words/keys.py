@@ -144,7 +144,7 @@ GROUPS = {
     "Set": (Action.SWITCH, Action.CLEAR, Action.MIRROR, Action.SNAP, Action.XRAY),
     "End and Undo": (Action.END, Action.CANCEL, Action.UNDO, Action.REDO, Action.KEYS),
 }
-"""All actions, in the groups in which the table over the view shows them."""
+"""All actions, in the groups in which the panel shows them."""
 
 _ANY = {"ctrl": -1, "shift": -1, "alt": -1, "oskey": -1}
 
@@ -286,13 +286,12 @@ class Bindings:
         """Return each action with its keys, in words, for a table."""
         return [(self.text(action), action.value) for action in Action if self.keys_of(action)]
 
-    def help_rows(self) -> list[tuple[str, str]]:
-        """Return the rows in groups, each below a heading: a row without keys."""
-        found: list[tuple[str, str]] = []
-        for heading, actions in GROUPS.items():
-            rows = [(self.text(action), action.value) for action in actions if self.keys_of(action)]
-            found += [("", heading), *rows] if rows else []
-        return found
+    def groups(self) -> dict[str, list[tuple[str, str]]]:
+        """Return the rows of each group below its heading."""
+        return {
+            heading: [(self.text(action), action.value) for action in actions if self.keys_of(action)]
+            for heading, actions in GROUPS.items()
+        }
 
 
 class DoubleClicks:

@@ -25,8 +25,8 @@ def test_each_action_is_in_one_group_of_the_table_of_keys() -> None:
     assert set(grouped) == set(Action)
 
 
-def test_the_table_of_keys_has_all_rows_below_headings() -> None:
-    rows = Bindings().help_rows()
-    assert [what for key, what in rows if not key] == list(GROUPS)
-    assert sorted(row for row in rows if row[0]) == sorted(Bindings().rows())
-    assert Bindings([(Action.CLEAR, Key("J"))]).help_rows() == [("", "Set"), ("J", Action.CLEAR.value)]
+def test_the_groups_have_all_rows_of_the_table_of_keys() -> None:
+    groups = Bindings().groups()
+    assert list(groups) == list(GROUPS)
+    assert sorted(row for rows in groups.values() for row in rows) == sorted(Bindings().rows())
+    assert Bindings([(Action.CLEAR, Key("J"))]).groups()["Set"] == [("J", Action.CLEAR.value)]

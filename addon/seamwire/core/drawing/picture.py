@@ -167,8 +167,6 @@ class Picture:
         The stroke that is being drawn: its points, (k, 3), and whether wires will follow it.
     front
         Whether the object is the one under the cursor: text tells of that one.
-    keys
-        The table of keys, while it is shown: each key with what it does.
     """
 
     options: Options = field(default_factory=Options)
@@ -194,7 +192,6 @@ class Picture:
     pointed_island: int | None = None
     stroke: tuple[NDArray[np.float64], bool] | None = None
     front: bool = True
-    keys: tuple[tuple[str, str], ...] | None = None
 
     def all(self, role: Role) -> tuple[Wire, ...]:
         """Return the wires with a role."""

@@ -1,23 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the card of first steps says, and where the guide is."""
+"""The first steps, and where the guide is."""
 
 from __future__ import annotations
 
 from functools import cache
 from pathlib import Path
-from typing import Literal
 
-Icon = Literal["CLICK", "DRAG", "ALT", "SHIFT"]
-"""A drawn icon of a gesture."""
-
-TITLE = "First Steps"
-STEPS: tuple[tuple[Icon, str], ...] = (
-    ("CLICK", "Click to begin, and click again to keep a wire"),
-    ("DRAG", "Drag to draw a seam by hand"),
-    ("ALT", "Hold Alt to pick a whole loop"),
-    ("SHIFT", "Hold Shift and drag to guide the wires"),
+STEPS = (
+    ("MOUSE_LMB", "Click to begin, and click again to keep a wire"),
+    ("MOUSE_LMB_DRAG", "Drag to draw a seam by hand"),
+    ("MOUSE_LMB", "Hold Alt to pick a whole loop"),
+    ("MOUSE_LMB_DRAG", "Hold Shift and drag to guide the wires"),
 )
-LINK = "Open the Guide"
+"""Blender's icon of each gesture, and what it does."""
+FIRST_LINES = (*(text for _, text in STEPS), "Press F1 for all keys, and to hide these lines", "")
+"""The lines in the corner of the view for newcomers."""
 
 _PLACES = ("guide/index.md", "../../docs/guide/index.md")
 """Where the guide lies, in a package and in a checkout."""
