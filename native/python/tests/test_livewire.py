@@ -111,7 +111,7 @@ def test_a_bent_wire_is_that_of_the_field_in_pieces(
     for piece, after in zip(cut.pieces, cut.pieces[1:] + cut.pieces[:1], strict=True):
         np.testing.assert_array_equal(piece.points[-1], after.points[0])
         assert piece.vertices[-1] == after.vertices[0]
-    with pytest.raises(ValueError, match=r"second: .*not edges"):
+    with pytest.raises(ValueError, match=r"second: .*not an edge"):
         live.bent_wire(3, (3, 4))
     with pytest.raises(ValueError, match="cut: expected a number that is not negative"):
         live.bent_wire(3, 300, (0, -1))
@@ -123,7 +123,7 @@ def test_closed_wires_lead_through_points_of_the_surface(surface: sw.Surface) ->
     live = sw.LiveWire(surface, max_error=0)
     with pytest.raises(ValueError, match="through: vertex 99999 is out of range"):
         live.closed_wires(99999)
-    with pytest.raises(ValueError, match="not edges"):
+    with pytest.raises(ValueError, match="not an edge"):
         live.closed_wires((3, 4))
     with pytest.raises(ValueError, match="across the surface, not along edges"):
         sw.LiveWire(surface, along="edges").closed_wires(3)

@@ -187,7 +187,7 @@ def test_what_is_not_bent_is_refused() -> None:
     field = concave_field(surface, 24 * 30)
     cut = field.closed_wires()[0]
     bent = field.bend(cut)
-    for second, why in ((99999, "second: vertex 99999 is out of range"), ((3, 4), "not edges")):
+    for second, why in ((99999, "second: vertex 99999 is out of range"), ((3, 4), "not an edge")):
         with pytest.raises(ValueError, match=why):
             bent.through(second)
     small = sw.Surface(*meshes.grid(3))
