@@ -623,7 +623,7 @@ class Session:
             self._aim_again()
         return True
 
-    # What is shown
+    # The wires and offers at the cursor
 
     def _sow(self, seed: Seed) -> bool:
         """Start the wires of a seed. If it is refused, the wires are those of the seed before."""
