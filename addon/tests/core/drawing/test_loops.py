@@ -423,6 +423,18 @@ def test_a_stored_loops_offers_wait_until_they_are_computed() -> None:
     assert session.wires[0].vertices == COMPUTED
 
 
+def test_a_stored_loops_offers_are_waited_for_across_the_surface_too() -> None:
+    table = Table()
+    table.session.loop((14, 15))
+    mesh = paper()
+    mesh.write(table.session)
+    session = Table("SURFACE", ready=(False, False)).session
+    mesh.open(session)
+    session.retrace(session.wires[0])
+    session.wait()
+    assert session.wires[0].vertices == ROW
+
+
 def test_loops_that_were_asked_for_on_an_edge_are_given_up_once_a_vertex_is_under_the_cursor() -> None:
     session = Table().session
     session.click(0)

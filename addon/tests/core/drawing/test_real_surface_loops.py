@@ -180,6 +180,13 @@ def test_bent_to_a_second_point_it_parts_the_limb_all_the_same(session: Session,
     assert session.undo()
     assert session.undo()
     assert session.edges_to_mark() == cut
+    assert session.redo()
+    assert session.undo()
+    assert session.bend(WAIST - 3 * AROUND + 12), "it can be bent elsewhere"
+    session.wait()
+    assert islands(session, triangles) == 2
+    assert session.edges_to_mark() != cut
+    assert session.undo()
     assert session.undo()
     assert session.wires == ()
 
