@@ -23,9 +23,9 @@ def stronger(session: Session, steps: int) -> bool:
 
 def insert(session: Session, wire: Wire, pick: Pick) -> bool:
     """Put a seed into a kept wire, as a chain that begins there does; return whether that was done."""
-    session._flow.calm()
-    network = session.kept.with_seed_in(wire, pick, session.drawing.points)
-    return network is not None and session._flow.change(network)
+    session._calm()
+    network = session.drawing.network.with_seed_in(wire, pick, session.drawing.points)
+    return network is not None and session._change(network)
 
 
 def end_line(session: Session) -> bool:

@@ -30,10 +30,6 @@ ROOMS = (
 )
 """The rooms of the core; each imports from itself and from those before it."""
 FLOORS = (*(f"core.{room}" for room in ROOMS), "words", "mesh", "view", "operators", "ui")
-MOST_LINES = 600
-"""The most lines of a module."""
-MOST_CLASS_LINES = 500
-"""The most lines of a class."""
 KNOWN_CYCLES = {
     ("operators.report", "operators.modal"): {
         "operators.modal",
@@ -177,19 +173,6 @@ def sent(tree: ast.Module) -> Iterator[str]:
     for node in strings(tree):
         if re.fullmatch(r"[a-z]+(-[a-z]+)+", node.value):
             yield node.value
-
-
-def too_long(path: Path) -> set[str]:
-    """Return a module's name if it is too long, and the names of its classes that are."""
-    text = path.read_text(encoding="utf-8")
-    name = name_of(path)
-    found = {name} if len(text.splitlines()) > MOST_LINES else set()
-    classes = (node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.ClassDef))
-    return found | {f"{name}.{each.name}" for each in classes if each.end_lineno - each.lineno >= MOST_CLASS_LINES}
-
-
-def test_no_module_and_no_class_is_too_long() -> None:
-    assert set().union(*map(too_long, modules())) == set()
 
 
 def test_each_message_has_words_and_all_words_are_used() -> None:

@@ -73,7 +73,7 @@ class Hand:
     def chain(self) -> tuple[object, ...]:
         """Return what no key may change."""
         names = ("along", "clear", "snap", "strength_edges", "finish")
-        kept = self.session.kept
+        kept = self.session.drawing.network
         return (
             [wire.vertices for wire in kept.wires],
             kept.strokes,

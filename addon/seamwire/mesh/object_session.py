@@ -258,7 +258,7 @@ class ObjectSession:
         self.session.adopt(replace(network, strokes=strokes), self.plain_seams)
         if not self._damaged:
             self._store()
-        self.session.recall_cuts(_taken_cuts.recall(self.session.network, self.places))
+        self.session.loops.cuts.recall(_taken_cuts.recall(self.session.network, self.places))
 
     def _set_seams(self, seams: NDArray[np.int32], labels: EdgeLabels) -> None:
         self.arrays = replace(self.arrays, seams=seams)
@@ -309,7 +309,7 @@ class ObjectSession:
     def plan(self) -> wire_labels.Plan:
         """Return what the mesh's edges must be for the session's network."""
         return wire_labels.plan(
-            self.session.kept,
+            self.session.drawing.network,
             self._labels,
             self._found,
             self._archive,
@@ -350,7 +350,9 @@ class ObjectSession:
         self._store()
         if adopt:
             self.session.adopt(replace(plan.network, seed=None), self.plain_seams)
-            _taken_cuts.keep(self.session.taken_cuts, self.session.network, self.places)
+            _taken_cuts.keep(
+                self.session.loops.cuts.taken(self.session.drawing.network), self.session.network, self.places
+            )
         return written
 
     def add(self, wires: Iterable[Wire], strokes: Iterable[Stroke] = ()) -> None:
@@ -364,7 +366,7 @@ class ObjectSession:
         """Return the network, and more wires, as they are saved to a file."""
         arrays = self.arrays
         return NetworkFile.of(
-            replace(self.session.kept, wires=(*self.session.wires, *more)),
+            replace(self.session.drawing.network, wires=(*self.session.wires, *more)),
             arrays.points,
             arrays.triangles,
             arrays.edges,

@@ -102,7 +102,7 @@ WHILE_HELD: dict[Action | Sign, Callable[[ChainState, Given], bool | None]] = {
 }
 """The function for each meaning while a button is held. A key works only on what is held, or on what is shown."""
 _FIRST = {**ACTS, Action.REMOVE: gestures.remove, Action.NEXT: gestures.retrace}
-"""The function for a press that begins a chain. If it returns False, it has found nothing to act on."""
+"""The function for a press that begins a chain."""
 _BLENDERS = frozenset({Sign.TICK, Sign.AWAY, Sign.HOVER, Sign.OTHER_TOOL, Sign.NOTHING})
 """Signs that Blender always receives too."""
 
@@ -121,11 +121,8 @@ def act(state: ChainState, given: Given) -> bool:
     return passes or (given.what in _BLENDERS and not (is_held and given.what is Sign.OTHER_TOOL))
 
 
-def act_first(state: ChainState, given: Given) -> bool:
-    """Do what begins a chain, and return whether there was something to do it to."""
-    if given.place is None:
-        return False
-    state.has_begun = True
-    if given.what is Action.BEND and not gestures.can_bend(state):
-        return False
-    return _FIRST[given.what](state, given) is not False
+def act_first(state: ChainState, given: Given) -> None:
+    """Do what begins a chain."""
+    state.has_begun = given.place is not None
+    if state.has_begun:
+        _FIRST[given.what](state, given)

@@ -10,13 +10,16 @@ import bpy
 from ..view.edited_objects import edited
 from ..words.keys import Action, drag_threshold
 from . import navigation, undo_steps
+from .chain_events import Given, Sign
 from .drag_handlers import LineHold, SeedHold, StrokeHold
 
 if TYPE_CHECKING:
     from ..core.drawing.session import Session
     from ..core.network.network import Snap
+    from ..core.network.strokes import Stroke
+    from ..core.network.wires import Wire
+    from ..view.object_view import ObjectView
     from ..view.viewport import Place
-    from .chain_events import Given
     from .chain_state import ChainState
 
 _OFFERED = (Action.LOOP, Action.BEND)
@@ -56,6 +59,7 @@ def hover(state: ChainState, given: Given) -> None:
 def rehover(state: ChainState, place: Place) -> None:
     """Show what a click would take now, after a change."""
     view, snap = edited.find(place)
+    state.find_front()
     state.session.hover(snap if view is edited.front else None)
 
 
@@ -174,16 +178,33 @@ def begin_stroke(state: ChainState, given: Given) -> None:
     state.hold = StrokeHold(given.event.type, view, given.place, given.what is Action.GUIDE, scale)
 
 
-def remove(state: ChainState, given: Given) -> bool:
-    """Remove the wire or the stroke under the mouse, and return whether there was one."""
+def has_target(state: ChainState, given: Given) -> bool:
+    """Return whether a press that may begin a chain finds something to act on, without changing anything."""
+    if given.place is None:
+        return False
+    if given.what is Sign.HOVER:
+        return can_preview(state, given)
+    if given.what is Action.BEND:
+        return can_bend(state)
+    _, wire, stroke = _drawn_at(given)
+    return wire is not None or (stroke is not None and given.what is Action.REMOVE)
+
+
+def _drawn_at(given: Given) -> tuple[ObjectView | None, Wire | None, Stroke | None]:
+    """Return the object under the mouse, and the kept wire there, or else the stroke."""
     assert given.place is not None
     view, snap = edited.find(given.place)
-    if view is None:
+    if view is None or (snap is not None and snap.to == "WIRE"):
+        return view, None if snap is None else snap.wire, None
+    return view, None, view.stroke_at(given.place.view, given.place.cursor)
+
+
+def remove(state: ChainState, given: Given) -> bool:
+    """Remove the wire or the stroke under the mouse, and return whether there was one."""
+    view, wire, stroke = _drawn_at(given)
+    if view is None or (wire is None and stroke is None):
         return False
-    wire = snap.wire if snap is not None and snap.to == "WIRE" else None
-    stroke = view.stroke_at(given.place.view, given.place.cursor) if wire is None else None
-    if wire is None and stroke is None:
-        return False
+    assert given.place is not None
     state.draw_on(view)
     if wire is not None:
         view.session.drop(wire)

@@ -51,7 +51,7 @@ def close(state: ChainState, given: Given) -> None:
     """Close the chain."""
     assert given.place is not None
     state.draw_on(state.view)
-    first = state.session.kept.closing_point
+    first = state.session.drawing.network.closing_point
     state.session.close(None if first is None else state.view.seen_along(given.place.view, first))
 
 

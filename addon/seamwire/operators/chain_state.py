@@ -54,9 +54,13 @@ class ChainState:
     @property
     def view(self) -> ObjectView:
         """The object that was pointed at last."""
+        assert edited.front is not None
+        return edited.front
+
+    def find_front(self) -> None:
+        """Let the active object be in front if none is, because a cut mesh is read anew. This may read the whole mesh."""
         if edited.front is None:
             edited.front = edited.of(bpy.context.active_object)
-        return edited.front
 
     @property
     def session(self) -> Session:

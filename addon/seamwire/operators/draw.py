@@ -75,7 +75,10 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Begin a gesture."""
         from ..mesh.edit_mesh import NothingVisibleError
-        from .modal import Chain
+        from ..view.viewport import place_of
+        from .chain_events import Given, Sign
+        from .chain_gestures import has_target
+        from .modal import Chain, prepared
 
         if self.first != "NONE" and takes(Key.of(event), context):
             return {"PASS_THROUGH"}
@@ -90,7 +93,12 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
         try:
             if self.properties.is_property_set("along"):
                 settings(context).along = self.along
-            self._chain = Chain(context)
+            state = prepared(context)
+            what = Action[self.first] if self.first in Action.__members__ else Sign.HOVER
+            given = Given(what, event, place_of(context.window, event))
+            if self.first in _FOR_BLENDER and not has_target(state, given):
+                return {"PASS_THROUGH"}
+            self._chain = Chain(context, state)
         except (ValueError, NativeError) as error:
             if self.first in _FOR_BLENDER:
                 return {"PASS_THROUGH"}
@@ -102,10 +110,8 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
         try:
             if self.first != "PEEK":
                 self._tell_problems(self._chain)
-            done = self._begin(event)
-            if not done and self.first in _FOR_BLENDER:
-                self._chain.drop()
-                return {"PASS_THROUGH"}
+            if self.first != "NONE":
+                self._chain.begin(given)
             if self._chain.state.is_idle and self.first != "NONE":
                 mirrored = self._chain.is_on_mirrored_half(event)
                 result = self._finish(context)
@@ -117,12 +123,6 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
         self._chain.show()
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"} if self.first != "PEEK" else {"RUNNING_MODAL", "PASS_THROUGH"}
-
-    def _begin(self, event: bpy.types.Event) -> bool:
-        """Do the first action, and return whether it found something to act on."""
-        if self.first == "NONE":
-            return True
-        return self._chain.peek(event) if self.first == "PEEK" else self._chain.begin(Action[self.first], event)
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Pass an event to the chain, and finish when the chain has ended."""

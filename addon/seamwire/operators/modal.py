@@ -18,7 +18,7 @@ from ..view.viewport import place_of
 from . import navigation
 from .chain_acts import act, act_first
 from .chain_events import EventReader, Given, Sign
-from .chain_gestures import can_preview, hover
+from .chain_gestures import hover
 from .chain_state import ChainState
 from .chain_window import ChainWindow
 from .report import running, status_makers
@@ -26,10 +26,17 @@ from .report import running, status_makers
 if TYPE_CHECKING:
     from ..core.drawing.session import Session
     from ..view.object_view import ObjectView
-    from ..words.keys import Action
 
 _UNSEEN = frozenset({Sign.NOTHING, Sign.TRACE, Sign.REPEAT})
 """Signs after which there is nothing new to show."""
+
+
+def prepared(context: bpy.types.Context) -> ChainState:
+    """Return the state of a chain that may begin, with the active object in Edit Mode read anew where it has changed."""
+    state = ChainState(navigation.keys(context))
+    edited.take_stock()
+    edited.follow_settings()
+    return state
 
 
 class Chain:
@@ -38,23 +45,18 @@ class Chain:
     Parameters
     ----------
     context
-        With the 3D view to draw in, and the active object in edit mode.
-
-    Attributes
-    ----------
+        With the 3D view to draw in.
     state
-        Everything that stays between two events.
+        Everything that stays between two events, see `prepared`.
     """
 
-    def __init__(self, context: bpy.types.Context) -> None:
+    def __init__(self, context: bpy.types.Context, state: ChainState) -> None:
         self._window = ChainWindow(context)
         self._events = EventReader(self._window)
         self._shown: tuple[tuple[object, ...], tuple[object, ...]] | None = None
-        self.state = ChainState(navigation.keys(context))
+        self.state = state
         self._cleanup = ExitStack()
         try:
-            edited.take_stock()
-            edited.follow_settings()
             edited.chain = True
             self._cleanup.callback(_leave_objects)
             self._cleanup.callback(self._window.set_timer, False)
@@ -133,30 +135,24 @@ class Chain:
 
     # Events
 
-    def begin(self, action: Action, event: bpy.types.Event) -> bool:
-        """Do what started the chain, under the mouse, and return whether there was something to do it to."""
-        done = act_first(self.state, Given(action, event, place_of(self._window.window, event)))
+    def begin(self, given: Given) -> None:
+        """Do what started the chain, under the mouse."""
+        if given.what is Sign.HOVER:
+            self.state.has_begun, self.state.peek = True, given.event.type
+            hover(self.state, given)
+        else:
+            act_first(self.state, given)
         self.show()
-        return done
 
     def is_on_mirrored_half(self, event: bpy.types.Event) -> bool:
         """Return whether the mouse is over faces that only a Mirror modifier shows."""
         place = place_of(self._window.window, event)
         return place is not None and any(view.is_on_mirrored_half(place.view, place.cursor) for view in edited.views())
 
-    def peek(self, event: bpy.types.Event) -> bool:
-        """Show the loop under the mouse while the key of an event is held, and return whether it shows loops."""
-        given = Given(Sign.HOVER, event, place_of(self._window.window, event))
-        if not can_preview(self.state, given):
-            return False
-        self.state.has_begun, self.state.peek = True, event.type
-        hover(self.state, given)
-        self.show()
-        return True
-
     def handle(self, context: bpy.types.Context, event: bpy.types.Event) -> bool:
         """Do what an event asks for, and return whether Blender is to have it too. `state.is_idle` tells that the chain ends."""
         state = self.state
+        state.find_front()
         is_released = event.type == state.peek and event.value == "RELEASE"
         if is_released or event.type == "WINDOW_DEACTIVATE":
             state.peek = ""
@@ -172,6 +168,7 @@ class Chain:
 
     def show(self) -> None:
         """Show the sessions as they are now."""
+        self.state.find_front()
         state, session = self.state, self.session
         picture = (
             id(state.view),

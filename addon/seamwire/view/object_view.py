@@ -160,7 +160,7 @@ class ObjectView:
 
     def close(self) -> None:
         """Let go of what works on threads."""
-        self.session.stop_search()
+        self.session.loops.edges.stop_search()
         self._islands.close()
         self._close_layers()
         self.crest_view.close()
@@ -233,7 +233,7 @@ class ObjectView:
         if failures.has("layers", self.name):
             return
         session, options = self.session, self.options
-        self.crest_view.is_wanted = options.snap or session.wants_crests
+        self.crest_view.is_wanted = options.snap or session.loops.offers.wanted
         for layer in self._layers:
             layer.follow(options, self._source(), session.drawing.engines.strokes)
         session.use_crests(self.crest_view.crests, options.show_crests)

@@ -78,7 +78,7 @@ def _turn_to(session: Session, edge: Edge, kind: LoopKind) -> bool:
         session.next_candidate()
     wanted: LoopKind | None = kind
     if kind == "FLAT" and kind not in edges:
-        border = session.part_border(edge)
+        border = session.loops.edges.part_border(edge)
         wanted = next((other for other, own in edges.items() if own == border), None)
     elif kind not in edges:
         closed, strip = edges.get("CLOSED"), edges.get("STRIP")

@@ -29,6 +29,8 @@ class BendGesture(Gesture):
         Finds closed cuts and knows which was taken last.
     """
 
+    needs_offers = True
+
     def __init__(self, drawing: Drawing, loops: LoopGesture) -> None:
         self._drawing = drawing
         self._loops = loops

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from ..network.network import Seed
+    from ..network.network import Seed, Snap
     from ..network.picks import Edge
     from ..solver.solver import LiveWire
     from .drawing import Drawing
@@ -42,6 +42,12 @@ class Extension(Gesture):
         """The extended wire that is shown."""
         self.message = NOTHING
         """Why there is no way to the end, if that is known."""
+
+    def aim(self, target: Snap | None) -> Message:
+        """Return why no wire can run to an end. The way does not depend on the target."""
+        if self._drawing.network.seed is None:
+            return Message.of("nothing-runs-on")
+        return Message.of("no-run-across") if self._drawing.options.along == "SURFACE" else NOTHING
 
     def poll(self) -> bool:
         """Show the extended wire while it is asked for. Return whether it runs elsewhere than before."""

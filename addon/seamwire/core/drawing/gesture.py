@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The base of all gestures."""
+"""The base of all gestures, and the gestures that are under way."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 from ..base.messages import NOTHING, Message
 from ..network.network import Network
@@ -24,6 +24,8 @@ class Gesture:
 
     chosen: int | None = None
     """The number of the candidate that stays the active one after the commit; None: the leading one."""
+    needs_offers = False
+    """Whether it waits for the offers of loops."""
 
     def take_warning(self) -> Message:
         """Return what to tell after its network was committed. The warning about triangles comes only once."""
@@ -65,3 +67,35 @@ class Waiting:
 
     gesture: Gesture
     target: Snap | None
+
+
+Kind = TypeVar("Kind", bound=Gesture)
+
+
+class UnderWay:
+    """The gestures of a session that are neither done nor cancelled.
+
+    Attributes
+    ----------
+    held
+        The gesture while a button is held. A released seed stays here until its wires are computed.
+    queue
+        Committed gestures that wait, the oldest first. They are committed in this order.
+    retraces
+        Kept wires that take another course once it is computed. Nothing waits for them.
+    """
+
+    def __init__(self) -> None:
+        self.held: Gesture | None = None
+        self.queue: list[Waiting] = []
+        self.retraces: list[Gesture] = []
+
+    @property
+    def gestures(self) -> list[Gesture]:
+        """All of them."""
+        held = [] if self.held is None else [self.held]
+        return [*(one.gesture for one in self.queue), *self.retraces, *held]
+
+    def holds(self, kind: type[Kind]) -> Kind | None:
+        """Return the held gesture if it is of a kind, otherwise None."""
+        return self.held if isinstance(self.held, kind) else None

@@ -11,6 +11,7 @@ import numpy as np
 from ..base.messages import Message, Refused
 from ..network.picks import vertices_of
 from ..network.symmetry import among
+from .candidates import only_vertices
 from .gesture import Gesture
 from .line_wires import EdgeLine, SurfaceLine
 
@@ -39,6 +40,11 @@ class LineGesture(Gesture):
         Whether it continues the chain from the live wire's seed.
     apart
         Whether its wires belong to no chain, and leave the chain that is drawn unchanged.
+
+    Raises
+    ------
+    Refused
+        If no line across the surface can begin there.
     """
 
     def __init__(self, drawing: Drawing, begin: Snap, goes_on: bool = False, apart: bool = False) -> None:
@@ -54,7 +60,10 @@ class LineGesture(Gesture):
         """Return a line from a pick, or from the live wire's seed."""
         drawing = self._drawing
         if drawing.options.along == "SURFACE":
-            assert drawing.triangles is not None
+            if isinstance(pick, tuple):
+                raise Refused(only_vertices(pick))
+            if drawing.triangles is None:
+                raise Refused("no-triangles")
             place = pick if seed is None else seed.begins("SURFACE")
             return SurfaceLine(drawing.engines, drawing.points, drawing.triangles, place, drawing.into_faces)
         vertex = pick if isinstance(pick, int) and not self._apart else None

@@ -45,6 +45,8 @@ class LoopGesture(Gesture):
         Why there were no offers when they were last looked for, if that is known.
     """
 
+    needs_offers = True
+
     def __init__(self, drawing: Drawing, live: WireGesture) -> None:
         self._drawing = drawing
         self._live = live
@@ -60,6 +62,7 @@ class LoopGesture(Gesture):
         self._target: Snap | None = None
         self._seen: Wire | None = None
         self._choice = 0
+        self._told_none = False
 
     @property
     def offers(self) -> Offers:
@@ -117,10 +120,34 @@ class LoopGesture(Gesture):
             return vanish
         return offers.unfinished and offers.show(target.pick, self.find(target.pick))
 
-    def stop_waiting(self) -> None:
-        """Compute no offers that nobody asks for any more, in both ways of running."""
-        self.edges.stop_waiting()
-        self.cuts.stop_waiting()
+    def show(self, message: Message, is_awaited: bool) -> tuple[bool, Message]:
+        """Show the offers at the cursor once they are computed.
+
+        Parameters
+        ----------
+        message
+            The message that is shown.
+        is_awaited
+            Whether a committed gesture waits for offers.
+
+        Returns
+        -------
+        tuple
+            Whether other offers are to be seen, and the message from here on.
+        """
+        if not is_awaited:
+            # Compute no offers that nobody asks for any more, in both ways of running.
+            self.edges.stop_waiting()
+            self.cuts.stop_waiting()
+        changed = self.poll()
+        message = self.problem or message
+        offers = self.offers
+        none = bool(offers.NONE) and offers.missing and offers.final and not self.cuts.bends
+        if none != self._told_none and (not none or not message):
+            self._told_none = none
+            if none or message == self.cuts.NONE:
+                message = offers.NONE if none else NOTHING
+        return changed, message
 
     def use_crests(self, crests: Crests | None, first: bool) -> bool:
         """Offer ridges and valleys, as the first or as the last offer. Return whether offers have to be found again."""
@@ -283,6 +310,8 @@ class NextOffer(Gesture):
     steps
         How many offers further.
     """
+
+    needs_offers = True
 
     def __init__(self, drawing: Drawing, loops: LoopGesture, wire: Wire, steps: int = 1) -> None:
         self._drawing = drawing

@@ -10,33 +10,36 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ..base.messages import NOTHING, Message, Refused, message_of
-from ..network.network import Snap
+from ..network.network import Network, Snap
+from ..network.picks import undirected
 from ..network.strokes import OffMeshError
-from .candidates import only_vertices
-from .flow import Flow
+from ..network.wires import FOLLOWS
+from ..solver.solver import MOST_WAITS
+from .bend import BendGesture
+from .extension import Extension
+from .gesture import Gesture, UnderWay, Waiting
 from .line import LineGesture
-from .loop import NextOffer
+from .loop import LoopGesture, NextOffer
 from .painter import Painter
+from .picture import Work
 from .retrace import Retrace, retraced
 from .seed_drag import SeedDrag
 from .stroke import StrokeGesture
+from .wire import WireGesture
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
     from ..fields.crests import Crests
-    from ..network.network import Network
+    from ..network.network import Seed
     from ..network.picks import Edge, Pick
     from ..network.strokes import Stroke
     from ..network.wires import Wire
-    from ..offers.closed_cuts import TakenCut
+    from ..solver.solver import LiveWire
     from .drawing import Drawing
-    from .gesture import Gesture
     from .options import Options
-    from .picture import Picture, Work
+    from .picture import Picture
 
 
 class Session:
@@ -47,6 +50,19 @@ class Session:
     drawing
         The mesh, the settings, and the engines that compute wires.
 
+    Attributes
+    ----------
+    live
+        The live wire, which knows the pick under the cursor.
+    loops, extension
+        The loops and the way to the end that a click would keep.
+    under_way
+        The gestures that are held or wait.
+    message
+        The reason why something was not done, or a warning.
+    revision
+        Grows with every change of the picture.
+
     Notes
     -----
     A method that changes something returns whether it was done; if not, `message` says why. A gesture that is not computed
@@ -55,11 +71,17 @@ class Session:
 
     def __init__(self, drawing: Drawing) -> None:
         self.drawing = drawing
-        self._flow = Flow(drawing)
-        self._gestures = self._flow.gestures
-        self._painter = Painter(drawing, self._gestures)
+        self.live = WireGesture(drawing)
+        self.loops = LoopGesture(drawing, self.live)
+        self.extension = Extension(drawing, self.live)
+        self._bend = BendGesture(drawing, self.loops)
+        self.under_way = UnderWay()
+        self.message: Message = NOTHING
+        self.revision = 0
+        self._last_click: tuple[Pick, int] | None = None
+        self._painter = Painter(drawing, self.live, self.loops, self.extension, self.under_way)
         # The live wires are made now, because what they compute first takes longest.
-        self._gestures.read_progress()
+        self._read_progress()
 
     # Gestures at the cursor
 
@@ -75,16 +97,16 @@ class Session:
         bend
             Whether to show the last closed cut, bent to it; across the surface only.
         """
-        if self._gestures.queue:
+        if self.under_way.queue:
             return
         target = None if snap is None else Snap.of(snap)
-        self._flow.aim(target)
+        self._aim(target)
         bend = bend and self.options.along == "SURFACE"
-        if bend != self._gestures.loop.cuts.bends and self._flow.message:
-            self._flow.message = NOTHING
-            self._flow.revision += 1
-        self._flow.revision += self._gestures.loop.hover(target, loop, bend)
-        self._flow.show_offers()
+        if bend != self.loops.cuts.bends and self.message:
+            self.message = NOTHING
+            self.revision += 1
+        self.revision += self.loops.hover(target, loop, bend)
+        self._show_offers()
 
     def click(self, snap: Snap | Pick) -> bool:
         """Place a seed; if a wire is live, keep it and go on from there.
@@ -92,34 +114,34 @@ class Session:
         On the chain's first seed this closes the chain. On another seed, a wire or a seam, the chain joins it and ends.
         While the way to the end or a loop is shown, that is kept.
         """
-        target, gestures = Snap.of(snap), self._gestures
-        if not gestures.queue:
-            if gestures.extension.wanted:
+        target = Snap.of(snap)
+        if not self.under_way.queue:
+            if self.extension.wanted:
                 return self.run_to_end()
-            if gestures.loop.takes(target):
-                return self.bend(target) if gestures.loop.bends else self.loop(target)
-        self._flow.cancel_drag()
-        self._flow.forget_click()
-        if gestures.queue:
-            return self._flow.wait_for(gestures.wire, target)
+            if self.loops.takes(target):
+                return self.bend(target) if self.loops.bends else self.loop(target)
+        self.drag_cancel()
+        self._last_click = None
+        if self.under_way.queue:
+            return self._wait_for(self.live, target)
         if self.drawing.network.seed is None:
             return self.start(target)
-        seen = gestures.wire.candidates.active_final and target == self.target
-        self._flow.aim(target)
-        gestures.wire.seen = seen
-        return self._flow.commit(gestures.wire, target)
+        seen = self.live.candidates.active_final and target == self.target
+        self._aim(target)
+        self.live.seen = seen
+        return self._commit(self.live, target)
 
     def start(self, snap: Snap | Pick) -> bool:
         """Begin a new chain, which ends the one before."""
         target = Snap.of(snap)
-        self._flow.calm()
+        self._calm()
         try:
-            network = self._gestures.wire.begun(target)
+            network = self.live.begun(target)
         except Refused as error:
-            return self._flow.refuse(error.message)
-        if not self._flow.change(network):
+            return self._refuse(error.message)
+        if not self._change(network):
             return False
-        self._flow.remember_click(target)
+        self._remember_click(target)
         return True
 
     def loop(self, snap: Snap | Pick) -> bool:
@@ -127,49 +149,49 @@ class Session:
 
         A click on the same edge just before is taken back, because a double click is a click first.
         """
-        target, loop = Snap.of(snap), self._gestures.loop
-        why = loop.aim(target)
+        target, loops = Snap.of(snap), self.loops
+        why = loops.aim(target)
         if why:
-            return self._flow.refuse(why)
-        self._flow.cancel_drag()
+            return self._refuse(why)
+        self.drag_cancel()
         if self.options.along == "EDGES":
-            if loop.is_crest_taken(target.pick):
+            if loops.is_crest_taken(target.pick):
                 return True  # the first press of a double click took the ridge
-            self._flow.take_back_click(target.pick)
-        return self._flow.commit(loop, target)
+            self._take_back_click(target.pick)
+        return self._commit(loops, target)
 
     def bend(self, snap: Snap | Pick) -> bool:
         """Bend the last closed cut to a point."""
-        return self.do(self._gestures.bend, snap)
+        return self.do(self._bend, snap)
 
     def do(self, gesture: Gesture, snap: Snap | Pick | None = None) -> bool:
         """Aim a gesture at a pick, and commit it as soon as it is computed; one step for undo."""
         target = None if snap is None else Snap.of(snap)
         why = gesture.aim(target)
         if why:
-            return self._flow.refuse(why)
-        self._flow.cancel_drag()
-        self._flow.forget_click()
-        return self._flow.commit(gesture, target)
+            return self._refuse(why)
+        self.drag_cancel()
+        self._last_click = None
+        return self._commit(gesture, target)
 
     def next_candidate(self) -> bool:
         """Show the next candidate, or the next offer if offers are shown."""
-        offers, candidates = self._gestures.loop.offers, self._gestures.wire.candidates
+        offers, candidates = self.loops.offers, self.live.candidates
         why = (offers if offers.wanted else candidates).advance()
         if why:
-            return self._flow.refuse(why)
-        self._flow.message = NOTHING
+            return self._refuse(why)
+        self.message = NOTHING
         if not offers.wanted:
-            self._flow.show_extension()
-        self._flow.revision += 1
+            self._show_extension()
+        self.revision += 1
         return True
 
     def close(self, seen_along: tuple[float, float, float] | None = None) -> bool:
         """Lead the live wire back to the chain's first seed, and keep it. `seen_along` is that of `Snap`."""
         first = self.drawing.network.closing_point
         if first is None:
-            return self._flow.refuse("no-chain-to-close")
-        self._gestures.extension.wanted = False
+            return self._refuse("no-chain-to-close")
+        self.extension.wanted = False
         return self.click(Snap(first, "SEED", seen_along=seen_along))
 
     def run_to_end(self, preview: bool = False) -> bool:
@@ -180,109 +202,117 @@ class Session:
         preview
             Whether to show it first, wherever the cursor goes. A click keeps it, `stop_preview` hides it.
         """
-        if self.drawing.network.seed is None:
-            return self._flow.refuse("nothing-runs-on")
-        if self.options.along == "SURFACE":
-            return self._flow.refuse("no-run-across")
-        self._flow.cancel_drag()
-        extension = self._gestures.extension
+        extension, target = self.extension, self.target
+        why = extension.aim(target)
+        if why:
+            return self._refuse(why)
+        self.drag_cancel()
         if preview:
             extension.wanted = True
-            self._flow.show_extension()
+            self._show_extension()
             found = extension.wire is not None or self.computing
-            return found or self._flow.refuse(self._flow.message or Message.of("no-way-on"))
-        target = self.target
-        if not self._gestures.queue:
-            self._gestures.wire.seen = True
-            return self._flow.commit(extension, target)
+            return found or self._refuse(self.message or Message.of("no-way-on"))
+        if not self.under_way.queue:
+            self.live.seen = True
+            return self._commit(extension, target)
         if target is None:
-            return self._flow.refuse("no-way-on")
+            return self._refuse("no-way-on")
         extension.wanted = False
-        return self._flow.wait_for(extension, target)
+        return self._wait_for(extension, target)
 
     def stop_preview(self) -> bool:
         """Hide the way to the end. Return whether it was shown."""
-        return self._flow.stop_preview()
-
-    def stop_search(self) -> None:
-        """Let the search for parts end, which works for the offers of loops. It begins again when they are asked for."""
-        self._flow.stop_search()
+        if not self.extension.wanted:
+            return False
+        self.extension.cancel()
+        self.revision += 1
+        return True
 
     def end_chain(self) -> None:
         """Let go of the live wire, or of a dragged seed. The kept wires stay."""
-        self._flow.calm()
+        self._calm()
         if self.drawing.network.seed is None:
             return
         # This is not a step for undo. Undoing the last wire afterwards makes the chain live again.
-        self._flow.set(replace(self.drawing.network, seed=None))
-        self._gestures.wire.candidates.chosen = None
-        self._flow.aim_again()
+        self._set(replace(self.drawing.network, seed=None))
+        self.live.candidates.chosen = None
+        self._aim_again()
 
     # Gestures on kept wires
 
     def retrace(self, wire: Wire) -> bool:
         """Let a kept wire take its next way: that of another metric, or the next offer of the click that took it."""
-        self._flow.calm()
+        self._calm()
         own = self.drawing.network.find(wire)
         if own is None:
-            return self._flow.refuse("wire-is-gone")
+            return self._refuse("wire-is-gone")
         if own.through is not None:
-            return self._flow.commit(NextOffer(self.drawing, self._gestures.loop, own), Snap(own.through, "WIRE", own))
+            return self._commit(NextOffer(self.drawing, self.loops, own), Snap(own.through, "WIRE", own))
         if own.closed:
-            return self._flow.refuse("loop-has-one-way")
+            return self._refuse("loop-has-one-way")
         try:
             if own.alternatives:
-                return self._flow.change(retraced(self.drawing.network, own, own.alternatives))
-            self._gestures.retraces.append(Retrace(self.drawing, own))
+                return self._change(retraced(self.drawing.network, own, own.alternatives))
+            self.under_way.retraces.append(Retrace(self.drawing, own))
         except ValueError as error:
-            return self._flow.refuse(message_of(error))
-        self._gestures.read_progress()
-        self._flow.poll_retraces()
-        return not self._flow.message
+            return self._refuse(message_of(error))
+        self._read_progress()
+        self._poll_retraces()
+        return not self.message
 
     def drop(self, wire: Wire) -> bool:
         """Remove a kept wire."""
-        self._flow.calm()
+        self._calm()
         own = self.drawing.network.find(wire)
         if own is None:
-            return self._flow.refuse("wire-is-gone")
-        return self._flow.change(self.drawing.network.without(own))
+            return self._refuse("wire-is-gone")
+        return self._change(self.drawing.network.without(own))
 
     def drag(self, snap: Snap | Pick) -> bool:
         """Take hold of a seed, or of a wire (``Snap.to == "WIRE"``), which gets a seed there. `drag_to` moves it."""
-        self._flow.calm()
+        self._calm()
         try:
-            self._gestures.drag = SeedDrag(self.drawing, Snap.of(snap))
+            self.under_way.held = SeedDrag(self.drawing, Snap.of(snap))
         except ValueError as error:
-            return self._flow.refuse(message_of(error))
-        self._gestures.wire.seedless = True
-        self._gestures.read_progress()
-        self._flow.clear_shown()
-        self._flow.revision += 1
+            return self._refuse(message_of(error))
+        self.live.seedless = True
+        self._read_progress()
+        self._clear_shown()
         return True
 
     def drag_to(self, snap: Snap | Pick | None) -> bool:
         """Move the dragged seed; its wires follow as soon as they are computed. None leaves it in place."""
-        drag = self._gestures.drag
+        drag = self.under_way.holds(SeedDrag)
         if drag is None:
-            return self._flow.refuse("no-seed-moves")
+            return self._refuse("no-seed-moves")
         if snap is None or drag.ending:
             return False
-        before = (drag.target, drag.network, self._flow.message)
-        self._gestures.wire.candidates.target = Snap.of(snap)
-        self._flow.message = drag.aim(Snap.of(snap))
-        self._gestures.read_progress()
-        self._flow.revision += before != (drag.target, drag.network, self._flow.message)
+        before = (drag.target, drag.network, self.message)
+        self.live.candidates.target = Snap.of(snap)
+        self.message = drag.aim(Snap.of(snap))
+        self._read_progress()
+        self.revision += before != (drag.target, drag.network, self.message)
         return drag.solved and not drag.message
 
     def drag_end(self) -> bool:
         """Leave the dragged seed where it is, as soon as its wires are computed; one step for undo."""
-        drag = self._gestures.drag
-        return self._flow.refuse("no-seed-moves") if drag is None else self._flow.end_drag(drag)
+        drag = self.under_way.holds(SeedDrag)
+        if drag is None:
+            return self._refuse("no-seed-moves")
+        try:
+            done = drag.commit()
+        except Refused as error:
+            self.drag_cancel()
+            return self._refuse(error.message)
+        if done is drag:
+            drag.ending = True
+            return True
+        self._let_go(SeedDrag, again=done is None)
+        return not isinstance(done, Network) or self._change(done)
 
     def drag_cancel(self) -> bool:
         """Let the dragged seed go back to where it was."""
-        return self._flow.cancel_drag()
+        return self._let_go(SeedDrag)
 
     # Lines and strokes
 
@@ -290,59 +320,59 @@ class Session:
         """Whether a line that begins at a pick continues the chain, rather than begin a new one."""
         seed, target = self.drawing.network.seed, Snap.of(snap)
         on_seed = seed is not None and target.to == "SEED" and seed.at(target.pick, self.options.along)
-        return on_seed and not self._gestures.queue
+        return on_seed and not self.under_way.queue
 
     def line_begin(self, snap: Snap | Pick) -> bool:
         """Begin a line over the surface, which `line_to` draws. At the live wire's seed it continues the chain."""
         begin = Snap.of(snap)
-        if self.options.along == "SURFACE" and isinstance(begin.pick, tuple):
-            return self._flow.refuse(only_vertices(begin.pick))
-        self._flow.cancel_drag()
+        self.drag_cancel()
         self.stop_preview()
-        if self.options.along == "SURFACE" and self.drawing.triangles is None:
-            return self._flow.refuse("no-triangles")
-        self._gestures.line = LineGesture(self.drawing, begin, self.goes_on_from(begin))
-        self._flow.forget_click()
-        self._flow.clear_shown()
-        self._flow.revision += 1
+        try:
+            self.under_way.held = LineGesture(self.drawing, begin, self.goes_on_from(begin))
+        except Refused as error:
+            return self._refuse(error.message)
+        self._last_click = None
+        self._clear_shown()
         return True
 
     def line_to(self, points: NDArray[np.float64], triangles: NDArray[np.int32], snap: Snap | Pick | None) -> bool:
         """Draw the line on: all its points (k, 3), the triangle of each (k,), and the pick under the cursor."""
-        line = self._gestures.line
+        line = self.under_way.holds(LineGesture)
         if line is None:
-            return self._flow.refuse("no-line-drawn")
+            return self._refuse("no-line-drawn")
         line.draw(points, triangles, None if snap is None else Snap.of(snap))
-        self._gestures.wire.candidates.target = line.joined
-        self._gestures.read_progress()
-        self._flow.message = line.message
-        self._flow.revision += 1
+        self.live.candidates.target = line.joined
+        self._read_progress()
+        self.message = line.message
+        self.revision += 1
         return True
 
     def line_release(self) -> LineGesture | None:
         """Take the line out of the session, to keep it with `line_keep`. Return None if no line is drawn."""
-        line, self._gestures.line = self._gestures.line, None
-        self._flow.revision += line is not None
+        line = self.under_way.holds(LineGesture)
+        if line is not None:
+            self.under_way.held = None
+            self.revision += 1
         return line
 
     def line_keep(self, line: LineGesture) -> bool:
         """Keep the wires that follow a released line, as soon as they are computed; one step for undo."""
         line.finish()
-        self._gestures.read_progress()
-        self._flow.revision += 1
+        self._read_progress()
+        self.revision += 1
         target = line.end or line.begin
-        return self._flow.wait_for(line, target) if self._gestures.queue else self._flow.commit(line, target)
+        return self._wait_for(line, target) if self.under_way.queue else self._commit(line, target)
 
     def line_cancel(self) -> bool:
         """Forget the line that is being drawn."""
-        return self._flow.cancel_line()
+        return self._let_go(LineGesture)
 
     def draw_stroke(self, points: ArrayLike | None = None, faces: ArrayLike | None = None, **how: object) -> bool:
         """Draw a stroke that live wires follow or avoid. The parameters are those of `StrokeGesture`."""
         try:
-            stroke = StrokeGesture(self.drawing, self._gestures.wire, points, faces, **how)
+            stroke = StrokeGesture(self.drawing, self.live, points, faces, **how)
         except OffMeshError as error:
-            return self._flow.refuse(message_of(error))
+            return self._refuse(message_of(error))
         return self.do(stroke)
 
     def erase(self, stroke: Stroke) -> bool:
@@ -350,31 +380,110 @@ class Session:
         network = self.drawing.network
         rest = tuple(own for own in network.strokes if own.id != stroke.id)
         if len(rest) == len(network.strokes):
-            return self._flow.refuse("stroke-is-gone")
-        self._flow.forget_click()
-        self._flow.cancel_drag()
-        return self._flow.change(replace(self.drawing.network, strokes=rest), self._gestures.wire.candidates.chosen)
+            return self._refuse("stroke-is-gone")
+        self._last_click = None
+        self.drag_cancel()
+        return self._change(replace(self.drawing.network, strokes=rest), self.live.candidates.chosen)
 
-    # Settings and views
+    # Settings
 
     def follow(self, options: Options) -> bool:
         """Draw wires with other settings from here on. Return False if that ends the chain, because the seed is not on the surface."""
-        return self._flow.follow(options)
+        before, self.drawing.options = self.drawing.options, options
+        if options == before:
+            return True
+        self.revision += 1
+        done = options.along == before.along or self._switch()
+        if options.straight != before.straight:
+            self.live.candidates.reset()
+            self._aim_again()
+        if options.computes != before.computes:
+            self._compute_anew()
+        if options.clear != before.clear:
+            self.message = NOTHING
+        if options.mirror != self.drawing.network.mirror:
+            self._set(replace(self.drawing.network, mirror=options.mirror))
+        return done
+
+    def _switch(self) -> bool:
+        """Let the live wire run the other way; if it cannot begin there, end the chain."""
+        self._calm()
+        self.live.candidates.reset()
+        self.loops.cancel()
+        seed, why = self.drawing.network.seed, NOTHING
+        if seed is not None and not self._sow(seed):
+            why = self.message
+            self._set(replace(self.drawing.network, seed=None))
+        self._aim_again()
+        self.message = why or self.message
+        return not why
+
+    def _compute_anew(self) -> None:
+        """Compute live wires with the current settings. While a seed is dragged, its wires keep their metric."""
+        options, engines = self.drawing.options, self.drawing.engines
+        if self.dragging:
+            return
+        if options.metric != engines.metric:
+            self.live.candidates.reset()
+        engines.use(options.metric, options.strengths, options.clamp)
+        self.message = NOTHING
+        self.loops.offers.clear()
+        self._aim_again()
+        self._show_offers()
 
     def use_crests(self, crests: Crests | None, first: bool) -> None:
         """Offer wires along the mesh's ridges and valleys: as the `first` of what a click offers, or as the last."""
-        if self._gestures.loop.use_crests(crests, first) and self.target is not None:
-            self._flow.show_offers()
+        if self.loops.use_crests(crests, first) and self.target is not None:
+            self._show_offers()
 
-    # Undo and redo
+    # Networks
 
-    def undo(self) -> bool:
-        """Take back what is held, else the last gesture that still waits, else the last step."""
-        return self._flow.undo()
+    def _set(self, network: Network) -> None:
+        """Go on to a network, without a step for undo."""
+        strokes = self.drawing.network.strokes
+        self.drawing.set(network)
+        if network.strokes != strokes:
+            self._read_progress()
+        self.revision += 1
 
-    def redo(self) -> bool:
-        """Bring back the step that undo took."""
-        return self._flow.redo()
+    def _change(self, network: Network, chosen: int | None = None) -> bool:
+        """Go on to a network, with a step for undo. `chosen`: the candidate that stays the active one."""
+        drawing = self.drawing
+        seed = network.seed
+        if seed is not None and seed != drawing.network.seed and not self._sow(seed):
+            return False
+        strokes = drawing.network.strokes
+        warning = drawing.step(network)
+        if drawing.network.strokes != strokes:
+            self._read_progress()
+        self.revision += 1
+        self._settle()
+        self.message = warning or self.message
+        self.live.candidates.chosen = chosen
+        return True
+
+    def _restore(self, network: Network) -> bool:
+        """Go back or forth to a network of the history."""
+        now = self.drawing.network
+        if network.seed is not None and network.seed != now.seed:
+            self._sow(network.seed)
+        back = [stroke.acts_on for stroke in network.strokes if stroke not in now.strokes]
+        self._set(replace(network, mirror=self.options.mirror))
+        self._last_click = None
+        self.loops.forget_crest()
+        self._settle()
+        if network.seed is not None and back and back[-1] != "both":
+            # As when it was drawn: the wire that a stroke is for is the active one.
+            self.live.candidates.chosen = FOLLOWS.index(back[-1])
+        return True
+
+    def _settle(self) -> None:
+        """Let the gestures follow a new network."""
+        self.live.candidates.chosen = None
+        self.loops.offers.clear()
+        self.extension.cancel()
+        self.message = NOTHING
+        self._aim_again()
 
     def adopt(self, network: Network, seams: ArrayLike) -> None:
         """Go on with a network that the mesh has now. `undo` does not lead back behind it.
@@ -386,18 +495,204 @@ class Session:
         seams
             (k, 2) the edges that are seams but no wires.
         """
-        self._flow.adopt(network, seams)
+        drawing = self.drawing
+        self._calm()
+        drawing.stops.set_seams(seams)
+        self.under_way.retraces.clear()
+        drawing.history.forget()
+        # Wires that were just cut do not know their images. Images are the edges that are seams.
+        network = drawing.images.complete(network, seams)
+        seed = network.seed
+        if seed is not None and seed != drawing.network.seed and not self._sow(seed):
+            seed = None
+        self._set(replace(network, seed=seed, mirror=drawing.network.mirror))
+        self.loops.edges.forget()
+        self._settle()
 
-    @property
-    def taken_cuts(self) -> tuple[TakenCut, ...]:
-        """The closed cuts that are still unchanged, the last one at the end."""
-        return self._gestures.loop.cuts.taken(self.drawing.network)
+    # Undo and redo
 
-    def recall_cuts(self, cuts: Iterable[TakenCut]) -> None:
-        """Let closed cuts of earlier sessions be bent, as far as their wires are here."""
-        self._gestures.loop.cuts.recall(cuts)
+    def undo(self) -> bool:
+        """Take back what is held, else the last gesture that still waits, else the last step."""
+        under_way = self.under_way
+        drag = under_way.holds(SeedDrag)
+        if (drag is None or not drag.ending) and self._let_go(Gesture):
+            return True
+        if under_way.queue:
+            under_way.queue.pop()
+            self.loops.forget_crest()
+            self.revision += 1
+            return True
+        if self.drag_cancel():
+            return True
+        if under_way.retraces:
+            under_way.retraces.pop()
+            self.revision += 1
+            return True
+        network = self.drawing.history.back(self.drawing.network)
+        return self._refuse("nothing-to-undo") if network is None else self._restore(network)
+
+    def redo(self) -> bool:
+        """Bring back the step that undo took."""
+        self.drag_cancel()
+        network = self.drawing.history.forth(self.drawing.network)
+        return self._refuse("nothing-to-redo") if network is None else self._restore(network)
+
+    def _remember_click(self, target: Snap) -> None:
+        """Let the last step be taken back by `_take_back_click`."""
+        self._last_click = (undirected(target.pick), self.drawing.history.steps)
+
+    def _take_back_click(self, edge: Pick) -> None:
+        """Undo the last click if it was on an edge, and forget it."""
+        queue = self.under_way.queue
+        last = queue[-1] if queue else None
+        clicked = last is not None and last.gesture is self.live
+        if clicked and undirected(last.target.pick) == undirected(edge):
+            queue.pop()
+        elif self._last_click == (undirected(edge), self.drawing.history.steps):
+            self._restore(self.drawing.history.forget_step(self.drawing.network))
+        self._last_click = None
+
+    # The way of a gesture to a network
+
+    def _commit(self, gesture: Gesture, target: Snap | None) -> bool:
+        """Commit a gesture, or let it wait until it is computed. Return whether it was not refused."""
+        done = self._attempt(gesture, target)
+        if not isinstance(done, Gesture):
+            return done
+        if done is not gesture and not self.under_way.queue:
+            return self._commit(done, target)
+        return self._wait_for(done, target)
+
+    def _wait_for(self, gesture: Gesture, target: Snap | None) -> bool:
+        """Commit a gesture after those that wait already."""
+        self.under_way.queue.append(Waiting(gesture, target))
+        self.revision += 1
+        return True
+
+    def _attempt(self, gesture: Gesture, target: Snap | None) -> bool | Gesture:
+        """Commit a gesture. Return whether that was done, or the gesture that waits."""
+        try:
+            done = gesture.commit()
+        except ValueError as error:
+            self._aim_again()
+            return self._refuse(message_of(error))
+        if isinstance(done, Gesture):
+            return done
+        if done is None:
+            return True
+        if not self._change(done, gesture.chosen):
+            return False
+        self.message = self.message or gesture.take_warning()
+        if gesture is self.live and target is not None:
+            self._remember_click(target)
+        return True
+
+    def _refuse(self, why: str | Message, **values: object) -> bool:
+        """Tell why something is not done: a message, or its code and values."""
+        self.message = Message.of(why, **values) if isinstance(why, str) else why
+        self.revision += 1
+        return False
+
+    def _calm(self) -> None:
+        """Drop everything under way, except the live wire."""
+        self.loops.edges.stop_search()
+        self.under_way.queue.clear()
+        self._last_click = None
+        self._let_go(Gesture)
+        self.stop_preview()
+
+    def _let_go(self, kind: type[Gesture], again: bool = True) -> bool:
+        """Forget the held gesture if it is of a kind. Return whether it was.
+
+        Parameters
+        ----------
+        kind
+            A class of gestures.
+        again
+            Whether to find the live wire again.
+        """
+        if self.under_way.holds(kind) is None:
+            return False
+        self.under_way.held = None
+        self.live.seedless = False
+        self.revision += 1
+        # While a seed was dragged, its wires kept their metric.
+        if self.drawing.engines.computes != self.options.computes:
+            self._compute_anew()
+        if again:
+            self._aim_again()
+        return True
+
+    # The wires and offers at the cursor
+
+    def _sow(self, seed: Seed) -> bool:
+        """Start the wires of a seed. If it is refused, the wires are those of the seed before."""
+        before = self.drawing.network.seed
+        try:
+            self.live.candidates.sow(seed, self.options.along)
+        except ValueError as error:
+            if before is not None and before != seed:
+                self._sow(before)
+            return self._refuse(message_of(error))
+        finally:
+            self._read_progress()
+        return True
+
+    def _aim(self, target: Snap | None, again: bool = False) -> None:
+        """Find the wires to a target; `again`: also if it is the same as before."""
+        candidates = self.live.candidates
+        same = candidates.is_aimed_at(target, self.options.straight) and candidates.final
+        if same and not again and self.loops.final:
+            return
+        before = (candidates.shown, self.message)
+        self._read_progress()
+        self.message = self.live.aim(target)
+        # Asking again while nothing is ready shows nothing new, and must not cost a redraw each time.
+        self.revision += before != (candidates.shown, self.message)
+        self._show_extension()
+
+    def _aim_again(self) -> None:
+        """Find the wires to the target once more: they may be others now."""
+        self._aim(self.target, again=True)
+
+    def _show_offers(self) -> None:
+        """Show the offers at the cursor, as soon as they are computed."""
+        if self.loops.offers.unfinished:
+            self._read_progress()
+        before = self.message
+        is_awaited = any(one.gesture.needs_offers for one in self.under_way.queue)
+        changed, self.message = self.loops.show(before, is_awaited)
+        self.revision += changed or self.message != before
+
+    def _show_extension(self) -> None:
+        """Show the live wire with its way to the end, while that is asked for."""
+        if self.extension.wanted:
+            self.revision += self.extension.poll()
+            self.message = self.extension.message or self.message
+
+    def _clear_shown(self) -> None:
+        """Show neither candidates nor offers, because something else is drawn."""
+        self.live.cancel()
+        self.loops.offers.clear()
+        self.extension.cancel()
+        self.message = NOTHING
+        self.revision += 1
 
     # Computed results
+
+    def lives(self) -> list[LiveWire]:
+        """Return the live wires that compute something for what is shown or waits."""
+        under_way = self.under_way.gestures
+        # A loop that waits is computed even if no offers are shown.
+        cuts = self.options.along == "SURFACE" and any(one.gesture is self.loops for one in self.under_way.queue)
+        return [
+            *(live for gesture in (self.live, self.loops, *under_way) for live in gesture.lives()),
+            *([self.drawing.engines.cuts()] if cuts else []),
+        ]
+
+    def _read_progress(self) -> None:
+        """Read how much is computed. Wires that are not final after all work is done stay so, so this comes before asking."""
+        self.drawing.progress = min(live.progress() for live in self.lives())
 
     def poll(self) -> bool:
         """Take in what the library has computed, and commit the gestures that waited for it.
@@ -407,23 +702,78 @@ class Session:
         bool
             Whether the picture has changed.
         """
-        return self._flow.poll()
+        drag, line, queue = self.under_way.holds(SeedDrag), self.under_way.holds(LineGesture), self.under_way.queue
+        if line is None and not self.computing and not queue and not self.under_way.retraces:
+            return False
+        before = (self.revision, round(self.drawing.progress, 2))
+        self._read_progress()
+        self._poll_retraces()
+        if drag is not None and not drag.final:
+            self.revision += drag.poll()
+            self.message = drag.message
+            if drag.final and drag.ending:
+                self.drag_end()
+        if line is not None:
+            self.revision += line.poll()
+            self.message = line.message or self.message
+        while queue and self._poll_queue():
+            pass
+        if not queue and not self.live.candidates.final:
+            self._aim_again()
+        self._show_offers()
+        self._show_extension()
+        return before != (self.revision, round(self.drawing.progress, 2))
+
+    def _poll_queue(self) -> bool:
+        """Commit the gesture that has waited longest, if it is computed. Return whether it was."""
+        queue = self.under_way.queue
+        head = queue[0]
+        if isinstance(head.gesture, LineGesture):
+            self.revision += head.gesture.poll()
+        elif head.target is not None:
+            self._aim(head.target, again=True)
+            if head.gesture is not self.live:
+                head.gesture.aim(head.target)
+        done = self._attempt(head.gesture, head.target)
+        if done is head.gesture:
+            return False
+        queue.pop(0)
+        if isinstance(done, Gesture):
+            queue.insert(0, Waiting(done, head.target))
+        return True
+
+    def _poll_retraces(self) -> None:
+        """Let the kept wires whose other ways are computed take them."""
+        for retrace in list(self.under_way.retraces):
+            if self._attempt(retrace, None) is not retrace:
+                self.under_way.retraces.remove(retrace)
 
     def wait(self) -> None:
-        """Wait until everything is computed and every waiting gesture is committed."""
-        self._flow.wait()
+        """Wait until everything is computed and every waiting gesture is committed.
+
+        If the library has done all its work and a gesture still waits, the gesture is dropped, and `message` says so.
+        """
+        queue, retraces = self.under_way.queue, self.under_way.retraces
+        rounds, before = 0, None
+        while rounds < MOST_WAITS:
+            for live in self.lives():
+                try:
+                    live.wait()
+                except ValueError as error:  # what it is to compute cannot be computed
+                    self._refuse(message_of(error))
+            self.loops.edges.wait()
+            self.poll()
+            if not queue and not retraces and not self.computing:
+                return
+            now = (*map(id, queue), *map(id, retraces), self.drawing.progress)
+            rounds, before = (rounds + 1 if now == before else 0), now
+        if self.waiting_clicks:
+            queue.clear()
+            retraces.clear()
+            self.drag_cancel()
+            self._refuse("no-result")
 
     # State
-
-    @property
-    def message(self) -> Message:
-        """The reason why something was not done, or a warning."""
-        return self._flow.message
-
-    @property
-    def revision(self) -> int:
-        """Grows with every change of the picture."""
-        return self._flow.revision
 
     @property
     def options(self) -> Options:
@@ -432,14 +782,12 @@ class Session:
 
     @property
     def network(self) -> Network:
-        """The network as it is shown: the kept wires, those that follow a dragged seed, the live seed, and the mirror."""
-        drag = self._gestures.drag
-        return self.drawing.network if drag is None else drag.network
+        """The network as it is shown: the kept wires, those that follow a dragged seed, the live seed, and the mirror.
 
-    @property
-    def kept(self) -> Network:
-        """The network without a drag that has not ended."""
-        return self.drawing.network
+        The one of `drawing` is without a drag that has not ended.
+        """
+        drag = self.under_way.holds(SeedDrag)
+        return self.drawing.network if drag is None else drag.network
 
     @property
     def wires(self) -> tuple[Wire, ...]:
@@ -465,47 +813,45 @@ class Session:
     @property
     def target(self) -> Snap | None:
         """The pick under the cursor, or that of the oldest waiting gesture."""
-        return self._gestures.wire.candidates.target
+        return self.live.candidates.target
 
     @property
     def dragging(self) -> bool:
         """Whether a seed is being moved."""
-        return self._gestures.drag is not None
+        return self.under_way.holds(SeedDrag) is not None
 
     @property
     def draws_line(self) -> bool:
         """Whether a line is being drawn."""
-        return self._gestures.line is not None
+        return self.under_way.holds(LineGesture) is not None
 
     @property
     def moved(self) -> tuple[Wire, ...]:
         """The wires that follow a dragged seed, as they run now."""
-        return () if self._gestures.drag is None else self._gestures.drag.moved
+        drag = self.under_way.holds(SeedDrag)
+        return () if drag is None else drag.moved
 
     @property
     def computing(self) -> bool:
         """Whether the library still works on the picture."""
-        return self._gestures.computing
+        drag = self.under_way.holds(SeedDrag)
+        return self.live.computing or not self.loops.final or (drag is not None and not drag.final)
 
     @property
     def waiting_clicks(self) -> int:
         """The number of committed gestures that wait for their wires."""
-        return self._gestures.waiting
-
-    @property
-    def wants_crests(self) -> bool:
-        """Whether offers are shown, which ridges and valleys belong to."""
-        return self._gestures.loop.offers.wanted
-
-    @property
-    def picture(self) -> Picture:
-        """Everything that is to be seen now."""
-        return self._painter.picture(self._flow.revision, self._flow.message)
+        drag = self.under_way.holds(SeedDrag)
+        return len(self.under_way.queue) + len(self.under_way.retraces) + (drag is not None and drag.ending)
 
     @property
     def work(self) -> Work:
         """The running computation."""
-        return self._painter.work
+        return Work(self.computing, self.drawing.progress, self.waiting_clicks)
+
+    @property
+    def picture(self) -> Picture:
+        """Everything that is to be seen now."""
+        return self._painter.picture(self.revision, self.message, self.work)
 
     def edges_to_mark(self) -> list[Edge]:
         """Return the edges that the wires make seams, each once, sorted, smaller vertex first."""
@@ -522,7 +868,3 @@ class Session:
     def mirrored(self, wire: Wire, curves: bool = False) -> list[Wire]:
         """Return the images that a wire has, or would have if it were kept now; see `Symmetry.images`."""
         return self.drawing.images.of(wire, self.network, curves)
-
-    def part_border(self, edge: Edge) -> set[Edge]:
-        """Return the edges of the likeliest border of a part beside an edge, or nothing."""
-        return self._gestures.loop.edges.part_border(edge)

@@ -157,7 +157,7 @@ def test_a_loop_that_is_kept_does_not_become_a_ridge() -> None:
     session.wait()
     session.use_crests(sheet.crests, False)
     # Stored, it has lost what else was offered: that is found anew.
-    session.adopt(replace(session.kept, wires=tuple(replace(wire, offers=()) for wire in session.wires)), [])
+    session.adopt(replace(session.drawing.network, wires=tuple(replace(wire, offers=()) for wire in session.wires)), [])
     for _ in range(4):
         session.retrace(session.wires[0])
         session.wait()
@@ -195,7 +195,7 @@ def test_a_ridge_that_is_seen_does_not_wait_for_what_else_is_offered() -> None:
     session.hover(pick, loop=True)
     assert session.picture.offered.kind == "RIDGE"
     assert session.click(pick)
-    assert not any(isinstance(waiting.gesture, LoopGesture) for waiting in session._gestures.queue)
+    assert not any(isinstance(waiting.gesture, LoopGesture) for waiting in session.under_way.queue)
     session.wait()
     assert session.wires
     assert {wire.closed for wire in session.wires} == {False}
@@ -206,7 +206,7 @@ def test_where_neither_a_ridge_nor_a_cut_is_offered_it_is_said_however_late_ridg
     session = sheet.session
     session.hover(20 * (N + 1) + 26, loop=True)
     while session.computing:
-        for live in session._gestures.lives():
+        for live in session.lives():
             live.wait()
         # Its result is final before the session has looked.
         session.use_crests(sheet.crests, False)
@@ -217,10 +217,10 @@ def test_where_neither_a_ridge_nor_a_cut_is_offered_it_is_said_however_late_ridg
 
 def test_ridges_that_are_known_later_are_offered_then(sheet: Sheet) -> None:
     session = sheet.session
-    assert not session.wants_crests
+    assert not session.loops.offers.wanted
     session.hover(sheet.pick(), loop=True)
     session.wait()
-    assert session.wants_crests
+    assert session.loops.offers.wanted
     assert "RIDGE" not in session.picture.offered.kinds
     before = session.revision
     session.use_crests(sheet.crests, True)
@@ -229,7 +229,7 @@ def test_ridges_that_are_known_later_are_offered_then(sheet: Sheet) -> None:
     session.use_crests(None, True)
     assert "RIDGE" not in session.picture.offered.kinds
     session.hover(sheet.pick())
-    assert not session.wants_crests
+    assert not session.loops.offers.wanted
 
 
 def test_what_was_taken_is_not_offered_again_until_the_cursor_was_elsewhere(sheet: Sheet) -> None:

@@ -80,14 +80,14 @@ def test_a_chain_goes_on_from_its_last_seed_in_its_direction() -> None:
 
 def test_a_click_on_the_first_seed_closes_the_loop() -> None:
     session = corner().session
-    assert session.kept.closing_point == 0
+    assert session.drawing.network.closing_point == 0
     session.hover(Snap(0, "SEED"))
     assert session.picture.intent is Intent.CLOSE
     session.click(Snap(0, "SEED"))
     assert session.wires[-1].start == 21
     assert session.wires[-1].end == 0
     assert session.seed is None
-    assert session.kept.closing_point is None
+    assert session.drawing.network.closing_point is None
 
 
 def test_close_does_the_same_wherever_the_cursor_is() -> None:
@@ -98,7 +98,7 @@ def test_close_does_the_same_wherever_the_cursor_is() -> None:
     assert session.seed is None
     session.undo()
     assert session.seed == (15, 21)
-    assert session.kept.closing_point == 0
+    assert session.drawing.network.closing_point == 0
 
 
 def test_closing_waits_for_its_wire() -> None:

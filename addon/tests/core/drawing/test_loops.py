@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What one click on an edge offers: the closed loop, the strip, the whole strip."""
+"""What one click on an edge offers: the closed loop, the strip, the whole strip. Live wires are fakes only where the time counts."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points
+from real_sessions import halves, session_on
 from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.intent import Intent
 from seamwire.core.drawing.picture import Role
@@ -22,8 +23,36 @@ from table import SIZE, Table, chain, paper
 
 ROW = (12, 13, 14, 15, 16, 17)
 COLUMN = (2, 8, 14, 20, 26, 32)
-LOOP = (14, 15, 21, 27, 26, 20)
-"""On the grid, edges along x have a closed loop, edges along y have none."""
+AROUND = (14, 15, 16, 17, 11, 5, 4, 3, 2, 1, 0, 6, 12, 13)
+"""The closed loop of edge 14-15, around the two rows below."""
+
+
+def grid(shift: float = 0.0, **options: object) -> Session:
+    """Return a session with the library's own live wires, on squares; `shift` is added to x."""
+    points = grid_points(SIZE) + np.array([shift, 0.0, 0.0])
+    numbers = np.arange(SIZE**2, dtype=np.int32).reshape(SIZE, SIZE)
+    corners = (numbers[:-1, :-1], numbers[:-1, 1:], numbers[1:, 1:], numbers[1:, :-1])
+    squares = np.stack([one.ravel() for one in corners], axis=1)
+    return session_on(points, halves(squares), grid_edges(SIZE), **options)
+
+
+def show(session: Session, edge: tuple[int, int], kind: str | None = None) -> tuple[int, ...]:
+    """Show what a click on an edge offers, of a kind or the first; return its vertices."""
+    session.hover(edge, loop=True)
+    session.wait()
+    while kind is not None and session.picture.offered.kind != kind:
+        assert session.next_candidate()
+    return shown(session)
+
+
+def take(session: Session, edge: tuple[int, int], kind: str | None = None) -> bool:
+    """Keep what a click on an edge offers, of a kind or the first; return whether that was done."""
+    if kind is not None:
+        show(session, edge, kind)
+    is_done = session.loop(edge)
+    session.wait()
+    session.hover(None)
+    return is_done
 
 
 def shown(session: Session) -> tuple[int, ...]:
@@ -31,50 +60,34 @@ def shown(session: Session) -> tuple[int, ...]:
 
 
 def test_the_closed_loop_comes_first_then_the_strip() -> None:
-    session = Table().session
-    session.hover((14, 15), loop=True)
+    session = grid()
+    assert show(session, (14, 15)) == AROUND
     assert session.picture.offered.kinds == ("CLOSED", "STRIP"), "the strip without stops is the strip"
-    assert session.picture.offered.kind == "CLOSED"
-    assert shown(session) == LOOP
     assert session.picture.intent is Intent.LOOP
 
 
 def first_offer(edge: tuple[int, int], *before: tuple[tuple[int, int], str], **options: object) -> str:
     """Return what is offered first for an edge after offers of other edges were taken."""
-    session = Table(**options).session
+    session = grid(**options)
     for other, kind in before:
-        session.hover(other, loop=True)
-        while session.picture.offered.kind != kind:
-            assert session.next_candidate()
-        assert session.loop(other)
-    session.hover(edge, loop=True)
+        assert take(session, other, kind)
+    show(session, edge)
     return session.picture.offered.kind
-
-
-def test_a_loop_with_corners_comes_after_what_goes_straight_on() -> None:
-    assert first_offer((14, 15)) == "CLOSED"
-    assert first_offer((14, 15), boxes=True) == "STRIP"
-    assert first_offer((14, 15), ((0, 1), "CLOSED"), boxes=True) == "STRIP"
 
 
 def test_what_was_taken_last_comes_first_again() -> None:
     assert first_offer((14, 15), ((30, 31), "STRIP")) == "STRIP"
-    assert first_offer((14, 15), ((30, 31), "STRIP"), ((6, 7), "CLOSED")) == "CLOSED"
-    assert first_offer((14, 15), ((30, 31), "CLOSED")) == "CLOSED"
+    assert first_offer((14, 15)) == "CLOSED"
 
 
-def test_a_loop_across_wires_or_seams_comes_later() -> None:
-    assert first_offer((14, 15), seams=[(21, 22)]) == "CLOSED", "across one"
-    seams = [(21, 22), (27, 28), (20, 19), (26, 25)]
-    assert first_offer((14, 15), seams=seams) == "PAST", "the way that ends at the first seam on each side"
-    assert first_offer((14, 15), seams=seams, boxes=True) == "STRIP"
+def test_a_loop_across_seams_comes_later() -> None:
+    assert first_offer((14, 15), seams=[(16, 22)]) == "CLOSED", "across one"
+    assert first_offer((14, 15), seams=[(16, 22), (10, 11), (7, 6), (13, 19), (3, 9)]) != "CLOSED"
 
 
-def test_where_there_is_no_closed_loop_the_strip_is_taken() -> None:
-    session = Table().session
-    session.hover((14, 20), loop=True)
-    assert session.picture.offered.kinds == ("STRIP",)
-    assert session.loop((14, 20))
+def test_a_strip_is_kept_with_its_ends_as_seeds() -> None:
+    session = grid()
+    assert take(session, (14, 20), "STRIP")
     (wire,) = session.wires
     assert wire.vertices == COLUMN
     assert not wire.closed
@@ -84,183 +97,124 @@ def test_where_there_is_no_closed_loop_the_strip_is_taken() -> None:
     assert str(session.message) == ""
 
 
-def test_a_strip_ends_at_seams_and_the_whole_one_is_offered_next() -> None:
-    session = Table(seams=[(8, 9), (26, 25)]).session
-    session.hover((14, 20), loop=True)
-    assert session.picture.offered.kinds == ("STRIP", "WHOLE")
-    assert shown(session) == (8, 14, 20, 26)
-    assert session.next_candidate()
-    assert shown(session) == COLUMN
-
-
 def test_a_strip_ends_where_its_own_edge_meets_a_seam() -> None:
-    session = Table(seams=[(14, 15)]).session
-    session.loop((14, 20))
-    assert session.wires[0].vertices == (14, 20, 26, 32)
+    assert show(grid(seams=[(14, 15)]), (14, 20), "STRIP") == (14, 20, 26, 32)
+    assert show(grid(seams=[(14, 15), (20, 21)]), (14, 20), "STRIP") == (14, 20)
 
 
-def test_a_strip_ends_at_kept_wires_and_their_images() -> None:
-    session = Table(centred=True).session
-    use(session, mirror=[1])  # what is drawn on row 1 is on row 4 as well
+def test_a_strip_ends_at_images_of_kept_wires() -> None:
+    session = grid(shift=-2.5)
+    use(session, mirror=[0])  # what is drawn on column 1 is on column 4 as well
     session.click(7)
-    session.click(10)
+    session.hover(25)
+    session.wait()
+    session.click(25)
     session.end_chain()
-    session.loop((14, 20))
-    assert session.wires[-1].vertices == (8, 14, 20, 26)
+    assert show(session, (14, 15), "STRIP") == (13, 14, 15, 16)
 
 
 def test_a_strip_ends_on_the_mirrors_plane_unless_it_runs_along_it() -> None:
-    table = Table()
-    table.points[:, 0] -= 2.0
-    session = Session(Drawing(table.session.drawing.engines._make, table.points, edges=grid_edges(SIZE)))
+    session = grid(shift=-2.0)
     use(session, mirror=[0])
-    session.hover((15, 16), loop=True)
-    session.next_candidate()
-    assert session.picture.offered.kind == "STRIP"
-    assert shown(session) == (14, 15, 16, 17)
-    session.hover((14, 20), loop=True)
-    assert shown(session) == COLUMN
+    assert show(session, (15, 16), "STRIP") == (14, 15, 16, 17)
+    assert show(session, (14, 20), "STRIP") == COLUMN
 
 
 def test_of_an_edge_that_is_a_seam_already_the_whole_strip_is_offered() -> None:
-    session = Table(seams=[(14, 20)]).session
-    session.hover((14, 20), loop=True)
-    assert session.picture.offered.kinds == ("WHOLE",)
+    session = grid(seams=[(14, 20)])
+    show(session, (14, 20))
+    assert session.picture.offered.kinds == ("CLOSED", "WHOLE")
 
 
 def test_toggling_goes_around_and_stays_while_the_edge_is_the_same() -> None:
-    session = Table().session
-    session.hover((14, 15), loop=True)
+    session = grid()
+    show(session, (14, 15))
     kinds = []
     for _ in range(4):
         kinds.append(session.picture.offered.kind)
         before = session.revision
         assert session.next_candidate()
         assert session.revision > before
-        session.hover((15, 14), loop=True)
+        show(session, (15, 14))
     assert kinds == ["CLOSED", "STRIP", "CLOSED", "STRIP"]
     assert session.picture.offered.kind == "CLOSED"
     session.next_candidate()
-    session.hover((15, 16), loop=True)
+    show(session, (15, 16))
     assert session.picture.offered.kind == "CLOSED", "another edge begins with its default"
 
 
 @pytest.mark.parametrize("keep", ["click", "loop"])
 def test_what_is_chosen_is_kept(keep: str) -> None:
-    session = Table().session
-    session.hover((14, 15), loop=True)
-    session.next_candidate()
+    session = grid()
+    show(session, (14, 15), "STRIP")
     assert getattr(session, keep)((14, 15))
+    session.wait()
     assert session.wires[0].vertices == ROW
     assert session.wires[0].kind == "STRIP"
 
 
-def test_a_single_offer_has_no_next() -> None:
-    session = Table().session
-    session.hover((14, 20), loop=True)
-    assert session.picture.offered.kinds == ("STRIP",)
-    assert not session.next_candidate()
-    assert session.message.code == "nothing-else-through-edge"
-    session.hover(None)
-    assert session.picture.offered.kinds == ()
-    assert session.picture.offered.kind is None
-
-
-def test_between_two_seams_the_strip_is_the_edge_alone() -> None:
-    session = Table(seams=[(14, 15), (20, 21)]).session
-    session.hover((14, 20), loop=True)
-    assert session.picture.offered.kinds == ("STRIP", "WHOLE")
-    assert shown(session) == (14, 20)
-
-
 def test_a_kept_loop_takes_its_next_offer_in_place() -> None:
-    session = Table().session
-    session.loop((14, 15))
+    session = grid()
+    take(session, (14, 15))
     number = session.wires[0].id
     courses = []
     for _ in range(3):
         assert session.retrace(session.wires[0])
+        session.wait()
         courses.append(session.wires[0].vertices)
         assert session.wires[0].id == number
-    assert courses == [ROW, LOOP, ROW]
-    assert session.undo()
-    assert session.wires[0].vertices == LOOP
-    assert session.undo()
-    assert session.wires[0].vertices == ROW
-    assert session.undo()
-    assert session.wires[0].vertices == LOOP
+    assert courses == [ROW, AROUND, ROW]
+    for course in (AROUND, ROW, AROUND):
+        assert session.undo()
+        assert session.wires[0].vertices == course
     assert session.undo()
     assert session.wires == ()
     assert session.redo()
     assert session.retrace(session.wires[0])
+    session.wait()
     assert session.wires[0].vertices == ROW
 
 
 def test_over_a_kept_loops_edge_the_cursor_finds_its_offers_and_a_click_replaces_it() -> None:
-    session = Table().session
-    session.loop((14, 15))
-    session.hover((14, 15), loop=True)
-    assert shown(session) == LOOP
-    assert session.loop((14, 15)), "the same again, as the second press of a double click"
+    session = grid()
+    take(session, (14, 15))
+    assert show(session, (14, 15)) == AROUND
+    assert take(session, (14, 15)), "the same again, as the second press of a double click"
     assert len(session.wires) == 1
-    session.hover((14, 15), loop=True)
-    session.next_candidate()
-    session.loop((14, 15))
+    take(session, (14, 15), "STRIP")
     assert [wire.vertices for wire in session.wires] == [ROW]
 
 
 def test_clearing_takes_the_same_strip_away() -> None:
-    session = Table().session
-    session.loop((14, 20))
+    session = grid()
+    take(session, (14, 20), "STRIP")
     use(session, clear=not session.options.clear)
-    session.loop((14, 20))
+    take(session, (14, 20), "STRIP")
     assert session.edges_to_mark() == []
     assert session.edges_to_clear() == chain(*COLUMN)
 
 
-def test_a_double_click_without_a_closed_loop_takes_the_strip() -> None:
-    session = Table().session
+def test_a_double_click_takes_its_first_click_back() -> None:
+    session = grid()
     session.click(0)
+    session.hover((14, 20))
+    session.wait()
     session.click((14, 20))
-    assert session.loop((14, 20))
-    assert [wire.vertices for wire in session.wires] == [COLUMN]
+    assert len(session.wires) == 1
+    assert take(session, (14, 20))
+    assert [wire.through for wire in session.wires] == [(14, 20)]
     assert session.seed == 0
     assert session.undo()
     assert session.wires == ()
     assert session.seed == 0
 
 
-def test_a_double_click_waits_for_the_loop() -> None:
-    table = Table(ready=(False, False))
-    session = table.session
-    session.click((14, 20))
-    session.loop((14, 20))
-    assert session.seed is None
-    assert session.waiting_clicks == 1
-    assert session.computing
-    table.compute()
-    assert [wire.vertices for wire in session.wires] == [COLUMN]
-    assert not session.computing
-
-
-def test_while_the_loop_is_computed_nothing_is_offered_yet() -> None:
-    table = Table(ready=(False, False))
-    session = table.session
-    session.hover((14, 15), loop=True)
-    assert session.picture.one(Role.OFFER) is None
-    assert session.computing
-    assert not session.next_candidate()
-    assert session.message.code == "no-loop-yet"
-    table.compute()
-    assert shown(session) == LOOP
-
-
 def test_a_strips_ends_are_seeds_that_can_be_moved_and_gone_on_from() -> None:
-    table = Table()
-    session = table.session
-    session.loop((14, 20))
+    session = grid()
+    take(session, (14, 20), "STRIP")
     session.drag(32)
     session.drag_to(33)
+    session.wait()
     assert session.drag_end()
     (wire,) = session.wires
     assert (wire.vertices[0], wire.vertices[-1]) == (2, 33)
@@ -268,144 +222,45 @@ def test_a_strips_ends_are_seeds_that_can_be_moved_and_gone_on_from() -> None:
     assert wire.offers == ()
     session.undo()
     session.click(Snap(32, "SEED"))
-    assert table.lives["EDGES"].seeded == ((26, 32), True)
+    assert session.seed == (26, 32), "the wire goes on straight"
 
 
 def test_what_goes_on_from_a_strip_stays_when_that_takes_its_next_offer() -> None:
-    session = Table(seams=[(8, 9), (26, 25)]).session
-    session.loop((14, 20))
+    session = grid(seams=[(8, 9), (26, 25)])
+    take(session, (14, 20), "STRIP")
     session.click(Snap(26, "SEED"))
+    session.hover(28)
+    session.wait()
     session.click(28)
     session.end_chain()
+    before = session.wires[1].vertices
     assert session.wires[1].heading == (20, 26)
-    session.retrace(session.wires[0])
-    assert session.wires[0].vertices == COLUMN
-    assert session.wires[1].vertices == (26, 27, 28)
+    while session.wires[0].vertices != COLUMN:
+        assert session.retrace(session.wires[0])
+        session.wait()
+    assert session.wires[1].vertices == before
     assert session.wires[1].heading is None
 
 
 def test_a_seed_in_a_strip_makes_two_ordinary_wires_of_it() -> None:
-    session = Table().session
-    session.loop((14, 20))
+    session = grid()
+    take(session, (14, 20), "STRIP")
     assert insert(session, session.wires[0], 14)
     assert [wire.vertices for wire in session.wires] == [(2, 8, 14), (14, 20, 26, 32)]
     assert [wire.offers for wire in session.wires] == [(), ()]
 
 
-def test_strips_are_stored_and_found_again() -> None:
-    table = Table()
-    table.session.loop((14, 20))
-    mesh = paper()
-    mesh.write(table.session)
-    again = Table().session
-    mesh.open(again)
-    assert again.edges_to_mark() == chain(*COLUMN)
-    assert again.seeds() == [2, 32]
-    again.drag(2)
-    assert again.drag_to(3)
-
-
-def test_an_edge_that_is_none_is_refused_in_words() -> None:
-    class NoEdge:
-        def __getattr__(self, name: str) -> object:
-            return getattr(live, name)
-
-        def loop(self, edge: object) -> object:
-            raise ValueError("there is no edge between the vertices 0 and 20")
-
-    table = Table()
-    live = table.lives["EDGES"]
-    session = Session(Drawing(lambda _: NoEdge(), table.points))
-    assert not session.loop((0, 20))
-    assert "no edge" in str(session.message)
-    session.hover((0, 20), loop=True)
-    assert session.picture.one(Role.OFFER) is None
-
-
-@pytest.mark.parametrize("order", [range(SIZE**2), range(SIZE**2)[::-1]])
-@pytest.mark.parametrize("steps", [0, 1])
-def test_a_stored_loop_or_strip_goes_through_the_same_offers_again(order: range, steps: int) -> None:
-    table = Table()
-    table.session.loop((14, 15))
-    for _ in range(steps):
-        table.session.retrace(table.session.wires[0])
-    mesh = paper()
-    mesh.write(table.session)
-    where = mesh.renumber(order)
-    assert mesh.read().network.wires[0].through == tuple(sorted(where[[14, 15]].tolist()))
-    mesh.renumber(where)
-    again = Table().session
-    mesh.open(again)
-    kept = again.wires[0]
-    number = again.wires[0].id
-    for _ in range(3):
-        assert table.session.retrace(table.session.wires[0])
-        assert again.retrace(again.wires[0])
-        assert again.wires[0].vertices == table.session.wires[0].vertices
-        assert again.wires[0].kind == table.session.wires[0].kind
-        assert again.wires[0].id == number
-    for _ in range(3):
-        assert again.undo()
-    assert again.wires[0] is kept
-
-
-def test_a_loop_that_waits_does_not_keep_a_click_before_it_waiting() -> None:
-    table = Table(ready=(False, False), islands=(21,))
-    session = table.session
-    session.click(0)
-    session.click(21)
-    session.loop((14, 15))
-    session.click(3)
-    assert session.waiting_clicks == 3
-    table.compute()
-    assert session.waiting_clicks == 0
-    assert not session.computing
-    assert [wire.vertices for wire in session.wires] == [LOOP, (0, 1, 2, 3)], "no wire reaches 21"
-
-
 def test_a_stored_loop_is_previewed_with_its_offers() -> None:
-    table = Table()
-    table.session.loop((14, 15))
+    session = grid()
+    take(session, (14, 15))
     mesh = paper()
-    mesh.write(table.session)
-    session = Table().session
-    mesh.open(session)
-    session.hover((15, 14), loop=True)
-    assert session.picture.offered.kinds == ("CLOSED", "STRIP")
-    assert session.next_candidate()
-    assert session.loop((15, 14))
-    assert [wire.vertices for wire in session.wires] == [ROW], "in place, not beside it"
-
-
-def test_a_stored_loops_offers_wait_until_they_are_computed() -> None:
-    table = Table()
-    table.session.loop((14, 15))
-    mesh = paper()
-    mesh.write(table.session)
-    again = Table("SURFACE", ready=(False, False))
-    session = again.session
-    mesh.open(session)
-    assert session.retrace(session.wires[0])
-    assert session.waiting_clicks == 1
-    assert session.computing
-    again.compute()
-    assert session.waiting_clicks == 0
-    assert not session.computing
-    assert session.wires[0].vertices == ROW
-    assert session.undo()
-    assert session.wires[0].vertices == LOOP
-
-
-def test_a_stored_loops_offers_are_waited_for_across_the_surface_too() -> None:
-    table = Table()
-    table.session.loop((14, 15))
-    mesh = paper()
-    mesh.write(table.session)
-    session = Table("SURFACE", ready=(False, False)).session
-    mesh.open(session)
-    session.retrace(session.wires[0])
-    session.wait()
-    assert session.wires[0].vertices == ROW
+    mesh.write(session)
+    again = grid()
+    mesh.open(again)
+    show(again, (15, 14))
+    assert again.picture.offered.kinds[:2] == ("CLOSED", "STRIP")
+    assert take(again, (15, 14), "STRIP")
+    assert [wire.vertices for wire in again.wires] == [ROW], "in place, not beside it"
 
 
 @pytest.mark.parametrize("axes", [(), (0,), (0, 1)])
@@ -449,6 +304,135 @@ def test_stops_are_the_vertices_of_seams_wires_and_their_images(axes: tuple[int,
     for edge in edges.tolist():
         assert stops.taken(network, tuple(edge[::-1])) == (tuple(edge) in pairs)
     assert Stops([], symmetry).of(Network(), None, (0, 1)).tolist() == []
+
+
+def test_a_single_offer_has_no_next() -> None:
+    session = Table().session
+    session.hover((14, 20), loop=True)
+    assert session.picture.offered.kinds == ("STRIP",)
+    assert not session.next_candidate()
+    assert session.message.code == "nothing-else-through-edge"
+    session.hover(None)
+    assert session.picture.offered.kinds == ()
+    assert session.picture.offered.kind is None
+
+
+def test_an_edge_that_is_none_is_refused_in_words() -> None:
+    class NoEdge:
+        def __getattr__(self, name: str) -> object:
+            return getattr(live, name)
+
+        def loop(self, edge: object) -> object:
+            raise ValueError("there is no edge between the vertices 0 and 20")
+
+    table = Table()
+    live = table.lives["EDGES"]
+    session = Session(Drawing(lambda _: NoEdge(), table.points))
+    assert not session.loop((0, 20))
+    assert "no edge" in str(session.message)
+    session.hover((0, 20), loop=True)
+    assert session.picture.one(Role.OFFER) is None
+
+
+COMPUTED = (14, 15, 21, 27, 26, 20)
+"""The loop of edge 14-15 on a fake."""
+
+
+def test_a_double_click_waits_for_the_loop() -> None:
+    table = Table(ready=(False, False))
+    session = table.session
+    session.click((14, 20))
+    session.loop((14, 20))
+    assert session.seed is None
+    assert session.waiting_clicks == 1
+    assert session.computing
+    table.compute()
+    assert [wire.vertices for wire in session.wires] == [COLUMN]
+    assert not session.computing
+
+
+def test_while_the_loop_is_computed_nothing_is_offered_yet() -> None:
+    table = Table(ready=(False, False))
+    session = table.session
+    session.hover((14, 15), loop=True)
+    assert session.picture.one(Role.OFFER) is None
+    assert session.computing
+    assert not session.next_candidate()
+    assert session.message.code == "no-loop-yet"
+    table.compute()
+    assert shown(session) == COMPUTED
+
+
+def test_a_loop_that_waits_does_not_keep_a_click_before_it_waiting() -> None:
+    table = Table(ready=(False, False), islands=(21,))
+    session = table.session
+    session.click(0)
+    session.click(21)
+    session.loop((14, 15))
+    session.click(3)
+    assert session.waiting_clicks == 3
+    table.compute()
+    assert session.waiting_clicks == 0
+    assert not session.computing
+    assert [wire.vertices for wire in session.wires] == [COMPUTED, (0, 1, 2, 3)], "no wire reaches 21"
+
+
+@pytest.mark.parametrize("order", [range(SIZE**2), range(SIZE**2)[::-1]])
+@pytest.mark.parametrize("steps", [0, 1])
+def test_a_stored_loop_or_strip_goes_through_the_same_offers_again(order: range, steps: int) -> None:
+    table = Table()
+    table.session.loop((14, 15))
+    for _ in range(steps):
+        table.session.retrace(table.session.wires[0])
+    mesh = paper()
+    mesh.write(table.session)
+    where = mesh.renumber(order)
+    assert mesh.read().network.wires[0].through == tuple(sorted(where[[14, 15]].tolist()))
+    mesh.renumber(where)
+    again = Table().session
+    mesh.open(again)
+    kept = again.wires[0]
+    number = again.wires[0].id
+    for _ in range(3):
+        assert table.session.retrace(table.session.wires[0])
+        assert again.retrace(again.wires[0])
+        assert again.wires[0].vertices == table.session.wires[0].vertices
+        assert again.wires[0].kind == table.session.wires[0].kind
+        assert again.wires[0].id == number
+    for _ in range(3):
+        assert again.undo()
+    assert again.wires[0] is kept
+
+
+def test_a_stored_loops_offers_wait_until_they_are_computed() -> None:
+    table = Table()
+    table.session.loop((14, 15))
+    mesh = paper()
+    mesh.write(table.session)
+    again = Table("SURFACE", ready=(False, False))
+    session = again.session
+    mesh.open(session)
+    assert session.retrace(session.wires[0])
+    assert session.waiting_clicks == 1
+    assert session.computing
+    again.compute()
+    assert session.waiting_clicks == 0
+    assert not session.computing
+    assert session.wires[0].vertices == ROW
+    assert session.undo()
+    assert session.wires[0].vertices == COMPUTED
+
+
+def test_a_stored_loops_offers_are_waited_for_across_the_surface_too() -> None:
+    table = Table()
+    table.session.loop((14, 15))
+    mesh = paper()
+    mesh.write(table.session)
+    session = Table("SURFACE", ready=(False, False)).session
+    mesh.open(session)
+    session.retrace(session.wires[0])
+    session.wait()
+    assert session.wires[0].vertices == ROW
 
 
 def test_loops_that_were_asked_for_on_an_edge_are_given_up_once_a_vertex_is_under_the_cursor() -> None:

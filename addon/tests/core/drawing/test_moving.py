@@ -103,7 +103,7 @@ def test_the_first_seed_of_a_chain_can_be_moved_and_still_closes_it() -> None:
     session.drag(0)
     session.drag_to(1)
     session.drag_end()
-    assert session.kept.closing_point == 1
+    assert session.drawing.network.closing_point == 1
     session.close()
     assert session.wires[-1].end == 1
 

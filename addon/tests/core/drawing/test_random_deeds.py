@@ -187,7 +187,7 @@ class Monkey:
                 around = [*wire.vertices, *wire.vertices[:1]] if wire.closed else list(wire.vertices)
                 assert np.array_equal(wire.points, self.points[around])
         assert (session.picture.offered.kind is None) == (session.picture.offered.kinds == ())
-        offers = session._gestures.loop.offers.offers
+        offers = session.loops.offers.offers
         assert len({frozenset(offer.edges()) for offer in offers}) == len(offers)
         assert (session.picture.intent is Intent.MOVE) == session.dragging
 

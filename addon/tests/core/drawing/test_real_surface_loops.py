@@ -14,8 +14,9 @@ from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Snap
 from seamwire.core.network.picks import Along, Edge, FacePoint
-from seamwire.core.offers.surface_loops import SurfaceLoops
+from seamwire.core.offers.surface_loops import NOTHING_TO_BEND, SurfaceLoops
 from seamwire.core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
+from setting import use
 
 core = pytest.importorskip("seamwire_core")
 
@@ -79,6 +80,8 @@ def test_one_click_cuts_the_limb_in_two(session: Session, triangles: NDArray[np.
     assert is_closed(session.edges_to_mark())
     assert islands(session, triangles) == 2
     assert len(session.seeds()) == 3
+    assert session.undo()
+    assert session.wires == (), "one step"
 
 
 @pytest.mark.parametrize("vertex", range(4 * AROUND, 36 * AROUND, 3 * AROUND + 7))
@@ -112,16 +115,61 @@ def test_its_seeds_can_be_dragged(session: Session, triangles: NDArray[np.int32]
     assert islands(session, triangles) == 2
 
 
-def test_from_a_tip_nothing_is_suggested(session: Session) -> None:
-    tip = AROUND * ROWS
-    session.hover(tip, loop=True)
+def shows(session: Session, vertex: int, **how: bool) -> bool:
+    """Return whether a cut is shown at a vertex once it is computed."""
+    session.hover(vertex, **how)
     session.wait()
+    return session.picture.one(Role.OFFER) is not None
+
+
+def test_from_a_tip_nothing_is_suggested_and_it_says_so_until_it_is_not_asked_for_any_more(session: Session) -> None:
+    tip = AROUND * ROWS
+    assert not shows(session, tip, loop=True)
     assert session.message == SurfaceLoops.NONE
+    revision = session.revision
+    assert not shows(session, tip, loop=True)
+    assert session.revision == revision, "nothing new to be seen"
+    assert shows(session, WAIST, loop=True)
+    assert str(session.message) == ""
+    shows(session, tip, loop=True)
+    session.hover(tip)
+    assert str(session.message) == ""
+    assert not session.loop(tip)
+    assert session.message == SurfaceLoops.NONE
+
+
+def test_after_it_was_taken_it_is_not_offered_again_until_another_point(session: Session) -> None:
+    assert shows(session, WAIST, loop=True)
+    session.click(WAIST)
+    assert not shows(session, WAIST, loop=True)
+    assert shows(session, WAIST + AROUND, loop=True)
+    assert shows(session, WAIST, loop=True)
+
+
+def test_a_cut_clears_seams_where_wires_do(session: Session) -> None:
+    session.loop(WAIST)
+    session.wait()
+    ring = session.edges_to_mark()
+    session.undo()
+    session.adopt(session.drawing.network, ring)
+    use(session, clear=True)
+    session.loop(WAIST)
+    session.wait()
+    assert session.edges_to_clear() == ring
+
+
+def test_edges_have_none_across_the_surface_and_points_none_along_edges(session: Session) -> None:
+    assert not session.loop((WAIST, WAIST + 1))
+    assert f"not edge {WAIST}-{WAIST + 1}" in str(session.message)
+    use(session, along="EDGES")
+    assert not session.loop(WAIST)
+    assert f"not vertex {WAIST}" in str(session.message)
 
 
 def test_bent_to_a_second_point_it_parts_the_limb_all_the_same(session: Session, triangles: NDArray[np.int32]) -> None:
     session.loop(WAIST)
     session.wait()
+    cut = session.edges_to_mark()
     for second in (WAIST + 5 * AROUND + 12, WAIST - 4 * AROUND + 7):
         assert session.bend(second)
         session.wait()
@@ -131,8 +179,73 @@ def test_bent_to_a_second_point_it_parts_the_limb_all_the_same(session: Session,
         assert islands(session, triangles) == 2
     assert session.undo()
     assert session.undo()
+    assert session.edges_to_mark() == cut
+    assert session.redo()
+    assert session.undo()
+    assert session.bend(WAIST - 3 * AROUND + 12), "it can be bent elsewhere"
+    session.wait()
+    assert islands(session, triangles) == 2
+    assert session.edges_to_mark() != cut
+    assert session.undo()
     assert session.undo()
     assert session.wires == ()
+
+
+@pytest.mark.parametrize("drawn", ["marking", "clearing", "cutting", "mirroring"])
+def test_a_bent_cut_does_to_the_mesh_what_the_cut_did(session: Session, drawn: str) -> None:
+    changes = {"clearing": {"clear": True}, "cutting": {"finish": "CUT"}, "mirroring": {"mirror": (0,)}}
+    before = session.options
+    use(session, **changes.get(drawn, {}))
+    session.loop(WAIST)
+    session.wait()
+    cut = session.wires[0]
+    session.follow(before)
+    if drawn == "marking":
+        use(session, clear=True)
+    assert session.bend(WAIST + 5 * AROUND + 12)
+    session.wait()
+    assert {(wire.marks, wire.finish, wire.mirror) for wire in session.wires} == {(cut.marks, cut.finish, cut.mirror)}
+
+
+def test_what_is_not_there_as_it_was_taken_is_not_bent(session: Session) -> None:
+    second = WAIST + 5 * AROUND + 12
+    assert not session.bend(second)
+    session.wait()
+    assert session.message.code == NOTHING_TO_BEND
+    session.loop(WAIST)
+    session.wait()
+    assert session.picture.can_bend
+    session.drop(session.wires[1])
+    assert not session.picture.can_bend
+    assert not shows(session, second, bend=True)
+    assert session.message.code == NOTHING_TO_BEND
+    session.undo()
+    assert session.picture.can_bend, "it is there again"
+    use(session, strength_surface=40.0)
+    assert not session.picture.can_bend, "other cuts would be found by now"
+
+
+def test_what_is_said_of_bending_goes_with_it_where_a_wire_is_live(session: Session) -> None:
+    second = WAIST + 5 * AROUND + 12
+    session.click(WAIST)
+    assert not shows(session, second, bend=True)
+    assert session.message.code == NOTHING_TO_BEND
+    revision = session.revision
+    session.hover(second)
+    assert str(session.message) == ""
+    assert session.revision > revision
+
+
+def test_edges_are_not_bent_to_and_along_edges_nothing_is(session: Session) -> None:
+    second = WAIST + 5 * AROUND + 12
+    session.loop(WAIST)
+    session.wait()
+    cut = session.edges_to_mark()
+    assert not session.bend((second, second + 1))
+    use(session, along="EDGES")
+    assert not session.bend(second)
+    assert not session.picture.can_bend
+    assert session.edges_to_mark() == cut
 
 
 def test_a_bent_cut_is_dragged_by_its_second_point(session: Session, triangles: NDArray[np.int32]) -> None:

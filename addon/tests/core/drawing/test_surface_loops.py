@@ -14,7 +14,6 @@ from seamwire.core.drawing.options import Options
 from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.picks import FacePoint
-from seamwire.core.offers.surface_loops import NOTHING_TO_BEND, SurfaceLoops
 from setting import use
 from table import SIZE, Table, chain
 
@@ -106,37 +105,6 @@ def test_cuts_that_run_apart_along_the_same_edges_are_two_where_they_are_to_be_c
     np.testing.assert_array_equal(session.wires[0].points[0], shown.points[0])
 
 
-def test_after_it_was_taken_it_is_not_offered_again_until_another_point() -> None:
-    session = table().session
-    session.hover(8, loop=True)
-    session.click(8)
-    session.hover(8, loop=True)
-    session.poll()
-    assert session.picture.one(Role.OFFER) is None
-    session.hover(9, loop=True)
-    assert session.picture.one(Role.OFFER) is not None
-    session.hover(8, loop=True)
-    assert session.picture.one(Role.OFFER) is not None
-
-
-def test_where_nothing_suggests_one_it_says_so_until_it_is_not_asked_for_any_more() -> None:
-    session = table(islands=(8,)).session
-    session.hover(8, loop=True)
-    assert session.picture.one(Role.OFFER) is None
-    assert session.message == SurfaceLoops.NONE
-    revision = session.revision
-    session.hover(8, loop=True)
-    session.poll()
-    assert session.revision == revision, "nothing new to be seen"
-    session.hover(9, loop=True)
-    assert str(session.message) == ""
-    session.hover(8, loop=True)
-    session.hover(8)
-    assert str(session.message) == ""
-    assert not session.loop(8)
-    assert session.message == SurfaceLoops.NONE
-
-
 def test_until_it_is_computed_nothing_is_shown_and_a_click_waits() -> None:
     it = table(metric_ready=(False, False))
     session = it.session
@@ -224,30 +192,6 @@ def test_a_cut_that_meets_no_edge_is_kept_only_where_it_is_to_be_cut(monkeypatch
     assert session.picture.can_bend
 
 
-@pytest.mark.parametrize("drawn", ["marking", "clearing", "cutting", "mirroring"])
-def test_a_bent_cut_does_to_the_mesh_what_the_cut_did(drawn: str) -> None:
-    session = table(centred=True).session
-
-    def switch() -> None:
-        if drawn == "clearing":
-            use(session, clear=not session.options.clear)
-        elif drawn == "cutting":
-            use(session, finish="SNAP" if session.options.finish == "CUT" else "CUT")
-        elif drawn == "mirroring":
-            use(session, mirror=() if session.options.mirror else (0,))
-
-    switch()
-    assert session.loop(8)
-    before = session.wires[0]
-    switch()
-    if drawn == "marking":
-        use(session, clear=not session.options.clear)
-    assert session.bend(28)
-    assert {(wire.marks, wire.finish, wire.mirror) for wire in session.wires} == {
-        (before.marks, before.finish, before.mirror)
-    }
-
-
 def test_cuts_are_found_in_the_concave_metric_whatever_wires_are() -> None:
     it = table()
     use(it.session, metric="campen")
@@ -257,22 +201,6 @@ def test_cuts_are_found_in_the_concave_metric_whatever_wires_are() -> None:
     assert it.lives["SURFACE"].metrics[-1] == ("concave", 40.0, None)
 
 
-def test_a_cut_clears_seams_where_wires_do() -> None:
-    session = table(seams=edges(*RIGHT)).session
-    use(session, clear=not session.options.clear)
-    session.loop(8)
-    assert session.edges_to_clear() == edges(*RIGHT)
-
-
-def test_edges_have_none_across_the_surface_and_points_none_along_edges() -> None:
-    session = table().session
-    assert not session.loop((8, 9))
-    assert "not edge 8-9" in str(session.message)
-    use(session, along="EDGES")
-    assert not session.loop(8)
-    assert "not vertex 8" in str(session.message)
-
-
 def test_without_triangles_there_is_none() -> None:
     made = table()
     session = Session(
@@ -280,10 +208,6 @@ def test_without_triangles_there_is_none() -> None:
     )
     session.hover(8, loop=True)
     assert session.picture.one(Role.OFFER) is None
-
-
-BOX = (8, 9, 10, 16, 22, 21, 20, 14)
-"""The square between vertices 8 and 22, which a cut through 8 is bent to."""
 
 
 def taken_at_8() -> Table:
@@ -312,30 +236,6 @@ def test_a_cut_that_was_taken_is_shown_bent_and_a_click_keeps_it_in_place_of_the
     assert session.picture.one(Role.OFFER) is None
 
 
-def test_undo_brings_back_the_cut_as_it_was_and_it_can_be_bent_elsewhere() -> None:
-    session = taken_at_8().session
-    assert session.bend(28)
-    assert session.undo()
-    assert session.edges_to_mark() == edges(*RIGHT)
-    assert session.redo()
-    assert session.undo()
-    assert session.bend(22)
-    assert session.edges_to_mark() == edges(*BOX)
-    assert session.undo()
-    assert session.undo()
-    assert session.wires == ()
-
-
-def test_bent_once_more_its_second_point_moves() -> None:
-    it = taken_at_8()
-    session = it.session
-    session.bend(28)
-    assert session.bend(22)
-    assert session.edges_to_mark() == edges(*BOX)
-    assert session.seeds() == [8, 22]
-    assert it.lives["SURFACE"].bent[-1] == (8, 22, (0, 0))
-
-
 def test_the_one_of_several_cuts_that_was_taken_is_the_one_that_is_bent() -> None:
     it = table()
     session = it.session
@@ -344,23 +244,6 @@ def test_the_one_of_several_cuts_that_was_taken_is_the_one_that_is_bent() -> Non
     session.click(8)
     session.bend(22)
     assert it.lives["SURFACE"].bent[-1] == (8, 22, (1, 1)), "by what the library calls it"
-
-
-def test_what_is_not_there_as_it_was_taken_is_not_bent() -> None:
-    session = table().session
-    assert not session.bend(28)
-    assert session.message.code == NOTHING_TO_BEND
-    session = taken_at_8().session
-    assert session.picture.can_bend
-    session.drop(session.wires[1])
-    assert not session.picture.can_bend
-    session.hover(28, bend=True)
-    assert session.picture.one(Role.OFFER) is None
-    assert session.message.code == NOTHING_TO_BEND
-    session.undo()
-    assert session.picture.can_bend, "it is there again"
-    use(session, strength_surface=40.0)
-    assert not session.picture.can_bend, "other cuts would be found by now"
 
 
 def test_where_none_leads_it_says_so_and_the_cut_stays() -> None:
@@ -376,18 +259,6 @@ def test_where_none_leads_it_says_so_and_the_cut_stays() -> None:
     assert str(session.message) == ""
 
 
-def test_what_is_said_of_bending_goes_with_it_where_a_wire_is_live() -> None:
-    session = table().session
-    session.click(8)
-    session.hover(28)
-    session.hover(28, bend=True)
-    assert session.message.code == NOTHING_TO_BEND
-    revision = session.revision
-    session.hover(28)
-    assert str(session.message) == ""
-    assert session.revision > revision
-
-
 def test_bending_waits_until_it_is_computed() -> None:
     it = taken_at_8()
     session = it.session
@@ -400,12 +271,3 @@ def test_bending_waits_until_it_is_computed() -> None:
     it.compute()
     assert session.waiting_clicks == 0
     assert session.seeds() == [8, 28]
-
-
-def test_edges_are_not_bent_to_and_along_edges_nothing_is() -> None:
-    session = taken_at_8().session
-    assert not session.bend((27, 28))
-    use(session, along="EDGES")
-    assert not session.bend(28)
-    assert not session.picture.can_bend
-    assert session.edges_to_mark() == edges(*RIGHT)
