@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from ..network.picks import Edge, Pick
-    from ..network.wires import Wire
+    from ...core.network.picks import Edge, Pick
+    from ...core.network.wires import Wire
 
 _TOLERANCES = (0.01, 0.05)
 """Parts by which lengths of edges may differ; the second is asked where with the first nothing is found."""

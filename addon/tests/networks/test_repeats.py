@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
-from seamwire.core.matching.repeats import Repeats, connected_groups
 from seamwire.core.network.picks import Edge
 from seamwire.core.network.wires import Wire
+from seamwire.networks.core.repeats import Repeats, connected_groups
 
 SIZE = 6
 COUNT = SIZE * SIZE

@@ -14,8 +14,8 @@ from seamwire.core.network.network import Network
 from seamwire.core.network.picks import FacePoint
 from seamwire.core.network.strokes import Stroke
 from seamwire.core.network.wires import Wire
-from seamwire.core.storage import network_file
-from seamwire.core.storage.network_file import NetworkFile, NetworkFileError
+from seamwire.networks.core import network_file
+from seamwire.networks.core.network_file import NetworkFile, NetworkFileError
 
 SIZE = 6
 POINTS = grid_points(SIZE)
