@@ -35,10 +35,10 @@ SENTENCES = {
     "no-wire-leaves-face": "Nothing to cut: every wire stays inside one face",
     "cut-taken-back": "{why}. The old cut was removed: undo restores it",
     "line-too-short": "Drag farther along the surface to draw a line",
-    "mirror-by-surface": "Mirror needs Place: Nearest Surface",
     "loop-has-one-way": "A loop has no other path",
     "loop-name": "loop at vertex {vertex}",
     "loop-too-small": "{wire}: smaller than an edge of this mesh",
+    "mirror-by-surface": "Mirror needs Place: Nearest Surface",
     "no-bend-to": "Closed cuts bend to places on the surface, not to {pick}",
     "no-build": (
         "Seamwire's compiled part, {name}, is missing: install the Seamwire package made for Python {version}"

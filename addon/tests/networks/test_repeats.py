@@ -115,6 +115,6 @@ def test_groups_are_wires_that_share_vertices_and_each_comes_once() -> None:
     chains = ((0, 1), (1, 2), (2, 8), (20, 21))
     one, two, three, apart = (Wire("EDGES", chain, points[list(chain)], *chain) for chain in chains)
     wires = [one, apart, two, three]
-    assert connected_groups([three], wires) == [[two, three, one]]
+    assert connected_groups([three], wires) == [[one, two, three]]
     assert connected_groups([one, three, apart], wires) == [[one, two, three], [apart]]
     assert connected_groups([], wires) == []

@@ -15,7 +15,7 @@ from seamwire.core.network.wires import Wire
 from seamwire.networks.core.network_file import NetworkFile, NetworkFileError
 from seamwire.networks.core.placing import Aligned, Landmarks, Shape, Similarity, Surface
 from seamwire.networks.core.tracing import Transfer
-from seamwire.networks.core.transfer import transfer, transferred_seams
+from seamwire.networks.core.transfer import transfer
 from seamwire.networks.core.work import result_of
 
 pytest.importorskip("seamwire_core")
@@ -322,12 +322,38 @@ def test_by_numbers_the_same_edges_are_marked_and_another_mesh_is_refused(file: 
         by_numbers(file, tube(12, 30))
 
 
-def test_arrays_in_arrays_out(file: NetworkFile) -> None:
+def test_automatic_takes_numbers_on_the_same_mesh_and_otherwise_the_surface(file: NetworkFile) -> None:
+    read = NetworkFile.parse(file.text())
     target = tube(23, 60)
-    edges, found = transferred_seams(file.text(), target.points, target.triangles, target.edges)
-    assert len(edges) and np.array_equal(edges, found.seams)
-    edges, found = transferred_seams(file.text(), SOURCE.points, SOURCE.triangles)
-    assert {tuple(edge) for edge in edges.tolist()} == {edge for one in network().wires for edge in one.edges()}
+    found = result_of(transfer(read, target))
+    assert len(found.seams) and np.array_equal(found.seams, by_surface(file, target).seams)
+    same = {tuple(edge) for edge in result_of(transfer(read, SOURCE)).seams.tolist()}
+    assert same == {edge for one in network().wires for edge in one.edges()}
+
+
+@pytest.mark.parametrize("place", ["SURFACE", "PAIRS"])
+def test_a_transfer_tells_its_progress_and_can_be_stopped(file: NetworkFile, place: str) -> None:
+    target = tube(23, 60)
+    pairs = [(0, 0), (4, 6), (8, 12), (40 * 16, 59 * 23)]
+    seen: list[float] = []
+
+    def note(fraction: float) -> bool:
+        seen.append(fraction)
+        return True
+
+    assert result_of(transfer(file, target, place=place, source=SOURCE, pairs=pairs), note).wires
+    assert seen == sorted(seen)
+    assert seen[0] == 0.0 and 0.5 < seen[-1] < 1.0
+    stopped = transfer(file, target, place=place, source=SOURCE, pairs=pairs)
+    assert result_of(stopped, lambda fraction: fraction < 0.5) is None
+    assert next(stopped, None) is None
+
+
+def test_choices_that_do_not_fit_are_refused(file: NetworkFile) -> None:
+    with pytest.raises(ValueError, match="Mirror needs Place: Nearest Surface"):
+        result_of(transfer(file, SOURCE, place="NUMBERS", mirror=0))
+    with pytest.raises(ValueError, match="Pairs need the source object"):
+        by_landmarks(file, None, SOURCE, [(0, 0), (1, 1), (2, 2)])
 
 
 def test_strokes_come_too() -> None:

@@ -86,10 +86,8 @@ class Shape:
         """(n,) the mean length of the edges at each vertex, in object coordinates. 0 for vertices without edges."""
         lengths = np.linalg.norm(self.places[self.edges[:, 0]] - self.places[self.edges[:, 1]], axis=1)
         ends = self.edges.reshape(-1)
-        sums, counts = (
-            np.bincount(ends, np.repeat(lengths, 2), len(self.places)),
-            np.bincount(ends, None, len(self.places)),
-        )
+        sums = np.bincount(ends, np.repeat(lengths, 2), len(self.places))
+        counts = np.bincount(ends, minlength=len(self.places))
         return np.divide(sums, counts, out=np.zeros(len(sums)), where=counts > 0)
 
     @cached_property

@@ -17,7 +17,7 @@ from ...core.solver.live_maker import LiveMaker
 from .network_file import Course, NetworkFile, NetworkFileError
 from .placing import Landmarks, Placed, Shape, Similarity, Surface
 from .tracing import STRAY, Seed, Tracing, Transfer
-from .work import PLACED, Work, result_of
+from .work import PLACED, Work
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -156,47 +156,3 @@ def _by_pairs(
         return landmarks.place(nearest(points))
 
     return (yield from Tracing(file, target, surface, live, stray=2.0 * STRAY).run(place, stroke))
-
-
-def transferred_seams(
-    text: str,
-    points: ArrayLike,
-    triangles: ArrayLike,
-    edges: ArrayLike | None = None,
-    *,
-    mirror: int | None = None,
-    align: bool = True,
-) -> tuple[NDArray[np.int32], Transfer]:
-    """Return the edges that a network marks on a mesh, for programs without Blender.
-
-    Parameters
-    ----------
-    text
-        The content of the file.
-    points
-        (n, 3) vertices.
-    triangles
-        (m, 3)
-    edges
-        (e, 2) the edges that wires may run along. None for all sides of triangles.
-    mirror, align
-        See `transfer`.
-
-    Returns
-    -------
-    tuple
-        (k, 2) the edges, and the whole result.
-
-    Raises
-    ------
-    ValueError
-        If the file or the mesh cannot be used.
-    """
-    corners = np.asarray(triangles, dtype=np.int32).reshape(-1, 3)
-    if edges is None:
-        edges = np.unique(np.sort(corners[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0)
-    target = Shape(
-        np.asarray(points, dtype=np.float64).reshape(-1, 3), corners, np.asarray(edges, dtype=np.int32).reshape(-1, 2)
-    )
-    found = result_of(transfer(NetworkFile.parse(text), target, mirror=mirror, align=align))
-    return found.seams, found
