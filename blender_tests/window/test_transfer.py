@@ -7,14 +7,15 @@ import threading
 from collections.abc import Iterator
 from pathlib import Path
 
+import bmesh
 import bpy
 import pytest
+import stored
 import ui as driver
 from desk import leave, undo_steps
 from scene import add_suzanne, edit, head, mark_wires, seams, snapshot
 from seamwire.networks.core.tracing import Tracing
 from seamwire.operators.steps import running
-from stored import agree
 
 
 class Gate:
@@ -103,23 +104,46 @@ def test_a_transfer_that_ends_marks_seams_and_one_undo_takes_it_back(
     ui.wait_until(lambda: not running)
     ui.wait(5)
     assert len(seams(target)) > 20
-    assert agree(target)
+    assert stored.agree(target)
     assert undo_steps(capfd)[-1] == "Transfer Seamwires"
     with ui.override():
         bpy.ops.ed.undo()
     assert snapshot(bpy.context.active_object) == before
 
 
+@pytest.mark.parametrize("change", ["subdivide", "move"])
 def test_a_mesh_that_is_changed_meanwhile_keeps_what_it_has(
-    ui: driver.Ui, target: bpy.types.Object, gate: Gate
+    ui: driver.Ui, target: bpy.types.Object, gate: Gate, change: str
 ) -> None:
     begin(ui, gate)
     with ui.override():
         bpy.ops.mesh.select_all(action="SELECT")
-        bpy.ops.mesh.subdivide()
+        if change == "subdivide":
+            bpy.ops.mesh.subdivide()
+        else:
+            bm = bmesh.from_edit_mesh(target.data)
+            bm.verts.ensure_lookup_table()
+            bm.verts[0].co.z += 1.0
+            bmesh.update_edit_mesh(target.data)
     gate.open()
     ui.wait_until(lambda: not running)
     assert seams(target) == []
+
+
+def test_a_wire_that_is_marked_meanwhile_stays(
+    ui: driver.Ui, target: bpy.types.Object, gate: Gate, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    start, end = head(target, 2)
+    begin(ui, gate)
+    with ui.override():
+        mark_wires(chains=f"{start} {end}")
+    (marked,) = stored.chains(target)
+    gate.open()
+    ui.wait_until(lambda: not running)
+    stored.forget(monkeypatch)
+    found = stored.chains(target)
+    assert marked in found and len(found) > 1
+    assert stored.agree(target)
 
 
 @pytest.mark.smoke

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import bpy
 
-from ..mesh.registration import classes, together
+from ..mesh.registration import classes, menu_entry, together
 
 
 class VIEW3D_MT_seamwire_network(bpy.types.Menu):
@@ -36,12 +36,6 @@ def _draw_export(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
 
 register, unregister = together(
     *classes(VIEW3D_MT_seamwire_network),
-    (
-        lambda: bpy.types.TOPBAR_MT_file_import.append(_draw_import),
-        lambda: bpy.types.TOPBAR_MT_file_import.remove(_draw_import),
-    ),
-    (
-        lambda: bpy.types.TOPBAR_MT_file_export.append(_draw_export),
-        lambda: bpy.types.TOPBAR_MT_file_export.remove(_draw_export),
-    ),
+    menu_entry("TOPBAR_MT_file_import", _draw_import),
+    menu_entry("TOPBAR_MT_file_export", _draw_export),
 )

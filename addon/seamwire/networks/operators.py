@@ -69,7 +69,7 @@ class _Placing(Stepwise):
         mirror = None if self.mirror == "NONE" else "XYZ".index(self.mirror)
         work = carry_over(mesh, source, place=self.place, mirror=mirror, align=self.align, pairs=pairs)
         found = yield from _done("Placing wires", work)
-        if not mesh.alive():
+        if self.is_beside and not (mesh.alive() and mesh.refresh(mesh.obj)):
             raise ValueError("The mesh changed while wires were placed")
         return self._write(context, mesh, found)
 

@@ -3,17 +3,11 @@
 
 from __future__ import annotations
 
-from functools import partial
-from typing import TYPE_CHECKING
-
 import bpy
 
-from ..mesh.registration import classes, together
+from ..mesh.registration import classes, menu_entry, together
 from ..mesh.settings import TOOL, settings
 from ..operators.store import ISLAND_ITEMS
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 MENUS = ("VIEW3D_MT_edit_mesh_edges", "VIEW3D_MT_uv_map", "IMAGE_MT_uvs")
 """Blender's menus that have the submenu."""
@@ -102,21 +96,8 @@ def _draw_entry(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
     _draw_tool(menu.layout)
 
 
-_ENTRIES = (
-    *((name, _draw_submenu) for name in MENUS),
-    (CONTEXT_MENU, _draw_entry),
-)
-
-
-def _add(name: str, draw: Callable[[bpy.types.Menu, bpy.types.Context], None]) -> None:
-    getattr(bpy.types, name).append(draw)
-
-
-def _remove(name: str, draw: Callable[[bpy.types.Menu, bpy.types.Context], None]) -> None:
-    getattr(bpy.types, name).remove(draw)
-
-
 register, unregister = together(
     *classes(VIEW3D_MT_seamwire, VIEW3D_MT_seamwire_finish, VIEW3D_MT_seamwire_islands, VIEW3D_MT_seamwire_views),
-    *((partial(_add, *entry), partial(_remove, *entry)) for entry in _ENTRIES),
+    *(menu_entry(name, _draw_submenu) for name in MENUS),
+    menu_entry(CONTEXT_MENU, _draw_entry),
 )

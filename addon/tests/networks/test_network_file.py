@@ -101,6 +101,10 @@ def test_one_more_wire_is_lines_more_and_no_line_changed(network: Network) -> No
     assert len(strip[1] - strip[0]) == 3, "a wire and its two seeds"
 
 
+def test_it_is_written_the_same_in_whatever_order_a_mesh_has_its_wires(network: Network) -> None:
+    assert written(replace(network, wires=network.wires[::-1])).text() == written(network).text()
+
+
 def test_it_is_written_the_same_after_it_was_read(network: Network) -> None:
     text = written(network).text()
     assert NetworkFile.parse(text).text() == text
