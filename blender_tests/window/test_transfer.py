@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Networks are placed beside the interface: the view can be moved meanwhile, and Esc leaves the mesh as it was."""
+"""Networks are placed beside the interface: the view can be moved meanwhile, and Esc changes nothing."""
 
 from __future__ import annotations
 
