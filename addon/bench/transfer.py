@@ -98,31 +98,33 @@ def near(places: NDArray, starts: NDArray, ends: NDArray, reach: NDArray) -> flo
 
 def measure(path: Path) -> None:
     """Print a line for each change."""
-    from seamwire.core.matching import transfer
-    from seamwire.core.matching.placing import Shape
     from seamwire.mesh.object_session import ObjectSession
     from seamwire.mesh.settings import settings
-    from seamwire.mesh.transfer import network_of, shape_of
+    from seamwire.networks.carry import network_of, seam_wires, shape_of
+    from seamwire.networks.core.placing import Shape
+    from seamwire.networks.core.transfer import transfer
+    from seamwire.networks.core.work import result_of
 
     source, wanted = add(path)
     drawn = ObjectSession(source)
-    file = network_of(drawn, settings())
+    file = network_of(drawn, settings(), result_of(seam_wires(drawn)))
+    own = shape_of(drawn)
     artist = drawn.arrays.points[np.array(wanted)]
     for change in CHANGES:
         target = changed(source, change)
         if not len(target.data.polygons):
             continue
-        shape = shape_of(ObjectSession(target).arrays)
+        shape = shape_of(ObjectSession(target))
         pairs: NDArray | tuple = ()
         if change.endswith("bent"):
             straight = shape.places
             pairs = spread_pairs(drawn.arrays.points, straight, np.unique(shape.triangles))
             shape = Shape(bent(straight), shape.triangles, shape.edges)
         began = time.perf_counter()
-        own = shape_of(drawn.arrays)
-        found = transfer.by_landmarks(file, own, shape, pairs) if len(pairs) else transfer.by_surface(file, shape)
+        place = "PAIRS" if len(pairs) else "SURFACE"
+        found = result_of(transfer(file, shape, place=place, source=own, pairs=pairs))
         seconds = time.perf_counter() - began
-        marked = transfer.seams(found)
+        marked = found.seams
         places = shape.places
         if change.endswith("moved"):
             back = np.array(Matrix.Rotation(-0.7, 3, (1.0, 2.0, 3.0)))

@@ -20,7 +20,6 @@ ROOMS = (
     "network",
     "solver",
     "storage",
-    "matching",
     "seams",
     "islands",
     "fields",
@@ -29,7 +28,18 @@ ROOMS = (
     "picking",
 )
 """The rooms of the core; each imports from itself and from those before it."""
-FLOORS = (*(f"core.{room}" for room in ROOMS), "words", "mesh", "view", "operators", "ui")
+FLOORS = (
+    *(f"core.{room}" for room in ROOMS),
+    "networks.core",
+    "words",
+    "mesh",
+    "view",
+    "operators",
+    "ui",
+    "networks",
+)
+CORES = ("core.", "networks.core.")
+"""The modules that do not know Blender, and hold no sentence for artists."""
 KNOWN_CYCLES = {
     ("operators.report", "operators.modal"): {
         "operators.modal",
@@ -77,8 +87,20 @@ def test_a_module_imports_from_its_own_package_or_room_and_those_below(path: Pat
     own, others = imported(path)
     name = name_of(path)
     assert [other for other in own if floor_of(other) > floor_of(name)] == []
-    if name.startswith(("core.", "words.")):
+    if name.startswith((*CORES, "words.")):
         assert not others & BLENDERS
+
+
+def test_nothing_of_the_drawing_tool_imports_networks() -> None:
+    tool = [path for path in sorted(ROOT.rglob("*.py")) if path.relative_to(ROOT).parts[0] != "networks"]
+    assert [path for path in tool for name in imported(path)[0] if name.split(".")[0] == "networks"] == []
+    named = [
+        node.value
+        for path in tool
+        for node in strings(ast.parse(path.read_text(encoding="utf-8")))
+        if re.fullmatch(r"\.?networks(\.\w+)*", node.value)
+    ]
+    assert named == ["networks.operators", "networks.menus"], "the parts that the add-on registers"
 
 
 def test_the_core_has_rooms_only() -> None:
@@ -160,7 +182,7 @@ def test_the_core_holds_no_sentence_for_artists() -> None:
     found = [
         f"{name_of(path)}:{node.lineno}: {node.value}"
         for path in modules()
-        if name_of(path).startswith("core.") and path.stem not in {"color_maps", "messages"}
+        if name_of(path).startswith(CORES) and path.stem not in {"color_maps", "messages"}
         for node in strings(ast.parse(path.read_text(encoding="utf-8")))
         if node.value.strip().count(" ") >= 2
     ]

@@ -32,6 +32,9 @@ if TYPE_CHECKING:
 
     import bpy
     import numpy as np
+    from seamwire.mesh.object_session import ObjectSession
+    from seamwire.networks.carry import Source
+    from seamwire.networks.core.network_file import NetworkFile
 
 
 def limit_memory(megabytes: int) -> None:
@@ -160,15 +163,13 @@ class Run:
 
         open_asset(Path(self._job["asset"]))
         from seamwire.mesh.object_session import ObjectSession
-        from seamwire.mesh.settings import settings
-        from seamwire.mesh.transfer import group_middles, network_of
+        from seamwire.networks.carry import group_middles
 
         made: dict[str, str] = {}
         for obj in mesh_objects():
             mesh = ObjectSession(obj)
-            try:
-                network = network_of(mesh, settings())
-            except ValueError:
+            network = _network_of(mesh)
+            if not network.courses:
                 continue
             stem = f"source-{len(made)}"
             (self._folder / f"{stem}.json").write_text(network.text(), encoding="utf-8")
@@ -256,45 +257,37 @@ class Run:
             if not self._call(obj, seamwire.suggest, options):
                 self.warnings.append(f"{obj.name}: nothing was marked")
             return
-        from seamwire.core.matching.placing import Shape
-        from seamwire.core.storage.network_file import NetworkFile
         from seamwire.mesh.object_session import ObjectSession
-        from seamwire.mesh.transfer import carry_over, group_middles, write
+        from seamwire.networks.carry import carry_over, write
+        from seamwire.networks.core.work import result_of
 
         from seamwire_batch.assets import AssetError
 
-        network, shape, pairs = self._job["network"], None, []
-        if way == "source":
-            import numpy as np
-
-            stem = self._source_of(obj)
-            network = f"{stem}.json"
-            with np.load(f"{stem}.npz") as data:
-                shape = Shape(data["points"], data["triangles"], data["edges"], data["to_object"])
-                groups = dict(zip(data["groups"].tolist(), data["middles"].tolist(), strict=True))
-            pairs = [tuple(pair) for pair in self._job["pairs"]]
-            if not pairs and self._job["place"] == "PAIRS":
-                obj.update_from_editmode()
-                here = group_middles(obj)
-                pairs = [(groups[name], here[name]) for name in groups if name in here]
         mesh = ObjectSession(obj)
         self.warnings.extend(f"{obj.name}: {notice.text}" for notice in mesh.notices.take())
-        found = carry_over(
-            mesh,
-            NetworkFile.parse(Path(network).read_text(encoding="utf-8")),
-            place=self._job["place"],
-            mirror=self._job["mirror"],
-            align=self._job["align"],
-            source=shape,
-            pairs=pairs,
-        )
-        self.warnings += [f"{obj.name}: {text}" for text in (*found.doubts, *found.lost)]
-        self.warnings += [f"{obj.name}: {seed.message}" for seed in found.seeds if seed.confidence < 0.6]
+        options = {name: self._job[name] for name in ("place", "mirror", "align")}
+        found = result_of(carry_over(mesh, self._source(obj), pairs=self._job["pairs"], **options))
+        self.warnings += [f"{obj.name}: {problem}" for problem in found.problems]
         if not found.wires:
             raise AssetError(f"{obj.name}: no wire has a place on this mesh")
         write(mesh, found)
 
-    def _source_of(self, obj: bpy.types.Object) -> str:
+    def _source(self, obj: bpy.types.Object) -> Source:
+        """Return the network for an object, from a file or from the source asset."""
+        import numpy as np
+        from seamwire.networks.carry import Source
+        from seamwire.networks.core.network_file import NetworkFile
+        from seamwire.networks.core.placing import Shape
+
+        if self._job["way"] == "network":
+            return Source(NetworkFile.parse(Path(self._job["network"]).read_text(encoding="utf-8")))
+        stem = self._stem_of(obj)
+        with np.load(f"{stem}.npz") as data:
+            shape = Shape(data["points"], data["triangles"], data["edges"], data["to_object"])
+            groups = dict(zip(data["groups"].tolist(), data["middles"].tolist(), strict=True))
+        return Source(NetworkFile.parse(Path(f"{stem}.json").read_text(encoding="utf-8")), shape, groups)
+
+    def _stem_of(self, obj: bpy.types.Object) -> str:
         from seamwire_batch.assets import AssetError
 
         sources = self._job["sources"]
@@ -375,15 +368,15 @@ class Run:
     def _save_networks(self, objects: list[bpy.types.Object]) -> None:
         """Write the seams of each object as a network beside the asset: few formats keep seams."""
         from seamwire.mesh.object_session import ObjectSession
-        from seamwire.mesh.settings import settings
-        from seamwire.mesh.transfer import network_of
 
         for number, obj in enumerate(objects):
             with _editing(obj):
                 try:
-                    network = network_of(ObjectSession(obj), settings())
+                    network = _network_of(ObjectSession(obj))
                 except ValueError:
                     continue
+            if not network.courses:
+                continue
             name = f"{self._job['name']}.{number}.json" if len(objects) > 1 else f"{self._job['name']}.json"
             (self._folder / name).write_text(network.text(), encoding="utf-8")
 
@@ -412,6 +405,15 @@ class Run:
             scene.strip(self._folder / f"{self._job['name']}.png")
         except (RuntimeError, ValueError, OSError) as error:
             self.warnings.append(f"No picture: {str(error).strip()}")
+
+
+def _network_of(mesh: ObjectSession) -> NetworkFile:
+    """Return the wires of an object, and wires along its other seams."""
+    from seamwire.mesh.settings import settings
+    from seamwire.networks.carry import network_of, seam_wires
+    from seamwire.networks.core.work import result_of
+
+    return network_of(mesh, settings(), result_of(seam_wires(mesh)))
 
 
 def _plain(name: str) -> str:

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import bpy
 import pytest
 from desk import Desk
+from seamwire.networks import menus as networks
 from seamwire.ui import menus
 
 TOP = [
@@ -33,7 +34,8 @@ BLENDERS = {
 @pytest.mark.parametrize("name", BLENDERS)
 def test_blenders_menus_have_one_entry_of_ours(desk: Desk, name: str) -> None:
     functions = getattr(bpy.types, name).draw._draw_funcs
-    (ours,) = (i for i, function in enumerate(functions) if function.__module__ == menus.__name__)
+    own = {menus.__name__, networks.__name__}
+    (ours,) = (i for i, function in enumerate(functions) if function.__module__ in own)
     drawn: list[str] = []
     draw = functions[ours]
     functions[ours] = noting(draw, drawn)
@@ -47,21 +49,21 @@ def test_blenders_menus_have_one_entry_of_ours(desk: Desk, name: str) -> None:
 @pytest.mark.smoke
 @pytest.mark.every_blender
 @pytest.mark.parametrize(
-    "menu",
-    [menus.VIEW3D_MT_seamwire, *menus.SUBMENUS],
-    ids=lambda menu: menu.bl_label,
+    "name",
+    ["VIEW3D_MT_seamwire", *menus.SUBMENUS],
 )
 def test_each_entry_of_our_menus_is_an_operator_a_menu_or_a_setting(
-    desk: Desk, menu: type[bpy.types.Menu], monkeypatch: pytest.MonkeyPatch
+    desk: Desk, name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     drawn: list[str] = []
+    menu = getattr(bpy.types, name)
     monkeypatch.setattr(menu, "draw", noting(menu.draw, drawn))
-    open_menu(desk, menu.bl_idname, drawn)
+    open_menu(desk, name, drawn)
     for entry in drawn:
         if isinstance(entry, str) and "." in entry:
             group, operator = entry.split(".")
             assert getattr(getattr(bpy.ops, group), operator).get_rna_type(), entry
-    if menu is menus.VIEW3D_MT_seamwire:
+    if name == "VIEW3D_MT_seamwire":
         assert drawn == TOP
 
 

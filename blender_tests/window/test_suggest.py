@@ -333,7 +333,7 @@ def test_beside_a_search_a_chain_in_another_window_is_refused_with_a_sentence(
         with bpy.context.temp_override(window=other, area=area, region=region):
             capfd.readouterr()
             assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT", first="CLICK") == {"CANCELLED"}
-            assert "A search for seams is running" in "".join(capfd.readouterr())
+            assert "Suggest Seamwires is running" in "".join(capfd.readouterr())
             assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT", first="REMOVE") & {"PASS_THROUGH", "CANCELLED"}
             assert not bpy.ops.mesh.seamwire_suggest.poll(), "one search at a time"
         assert not chains

@@ -21,7 +21,6 @@ from ..core.network.strokes import on_mesh
 from ..core.offers.closed_cuts import CutMemory
 from ..core.solver.live_maker import LiveMaker
 from ..core.storage import label_reader, serialization, wire_labels
-from ..core.storage.network_file import NetworkFile
 from ..core.storage.serialization import Archive, UnreadableError
 from ..core.storage.wire_labels import EdgeLabels, Found, Places
 from ..words.notices import Notices
@@ -361,20 +360,6 @@ class ObjectSession:
         drawn = (*session.wires, *wires)
         strokes = (*session.strokes, *(on_mesh(one, self.arrays.points, self.arrays.triangles) for one in strokes))
         session.adopt(replace(session.network, wires=drawn, strokes=strokes, seed=None), self.plain_seams)
-
-    def network_file(self, settings: SeamwireSettings, more: Iterable[Wire] = ()) -> NetworkFile:
-        """Return the network, and more wires, as they are saved to a file."""
-        arrays = self.arrays
-        return NetworkFile.of(
-            replace(self.session.drawing.network, wires=(*self.session.wires, *more)),
-            arrays.points,
-            arrays.triangles,
-            arrays.edges,
-            name=self.cage.mesh.name,
-            metric=settings.metric,
-            clamp=settings.clamp,
-            to_object=arrays.to_object,
-        )
 
     def take_over(self, wires: Iterable[Wire]) -> None:
         """Go on with wires along seams of the mesh: `write` makes these edges theirs, so that they go where the wires go."""

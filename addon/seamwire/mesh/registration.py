@@ -43,6 +43,11 @@ def classes(*types: type) -> tuple[Change, ...]:
     return tuple((partial(_add, each), partial(_remove, each)) for each in types)
 
 
+def menu_entry(menu: str, draw: Callable[[bpy.types.Menu, bpy.types.Context], None]) -> Change:
+    """Return the change that adds an entry to one of Blender's menus."""
+    return lambda: getattr(bpy.types, menu).append(draw), lambda: getattr(bpy.types, menu).remove(draw)
+
+
 def _add(each: type) -> None:
     bpy.utils.register_class(each)
 

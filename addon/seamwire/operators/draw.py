@@ -16,7 +16,7 @@ from . import undo_steps
 from .edit_mesh_operator import NeedsEditMode
 from .navigation import takes
 from .report import running
-from .steps import running as searches
+from .steps import running as steps
 
 if TYPE_CHECKING:
     from .modal import Chain
@@ -41,7 +41,7 @@ _kept = count(1)
 """Numbers the chains of this session of Blender that were kept."""
 
 _CHAIN_ELSEWHERE = "A chain is being drawn in another window: end it there first"
-_SEARCH_RUNS = "A search for seams is running: wait for it, or press Esc in its window"
+_STEPS_ELSEWHERE = "{} is running: wait for it, or press Esc in its window"
 
 
 class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
@@ -82,10 +82,10 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
 
         if self.first != "NONE" and takes(Key.of(event), context):
             return {"PASS_THROUGH"}
-        if running or searches:
+        if running or steps:
             if self.first in _FOR_BLENDER:
                 return {"PASS_THROUGH"}
-            self.report({"WARNING"}, _CHAIN_ELSEWHERE if running else _SEARCH_RUNS)
+            self.report({"WARNING"}, _CHAIN_ELSEWHERE if running else _STEPS_ELSEWHERE.format(steps[0].bl_label))
             return {"CANCELLED"}
         if not any(area.type == "VIEW_3D" for area in context.window.screen.areas):
             self.report({"ERROR"}, "Drawing needs a 3D view in this window")

@@ -62,21 +62,21 @@ class EditMeshOperator(NeedsEditMode):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Run, and report what cannot be done as an error."""
+        return self.outcome(lambda: self.run(context))
+
+    def outcome(self, work: Callable[[], set[str]]) -> set[str]:
+        """Do work and return its result. Report a ValueError, a NativeError or `Halfway`."""
         from ..core.base.native import NativeError
 
         try:
-            return self.run(context)
+            return work()
         except (ValueError, NativeError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
         except Halfway as error:
-            return self.stopped_halfway(error)
-
-    def stopped_halfway(self, error: Halfway) -> set[str]:
-        """Report the error, and return the result with which Blender makes a step of undo."""
-        traceback.print_exception(error.__cause__)
-        self.report({"ERROR"}, f"Stopped halfway, undo leads back: {error}")
-        return {"FINISHED"}
+            traceback.print_exception(error.__cause__)
+            self.report({"ERROR"}, f"Stopped halfway, undo leads back: {error}")
+            return {"FINISHED"}
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Do the work, and return the result that Blender expects.

@@ -13,7 +13,9 @@ from typing import TYPE_CHECKING, Protocol
 
 import bpy
 
+from .edit_mesh_operator import EditMeshOperator
 from .navigation import is_harmless, right_click_cancels
+from .report import running as chains
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator, Sequence
@@ -72,7 +74,7 @@ class Step:
     hand: Hand | None = None
 
 
-class Stepwise:
+class Stepwise(EditMeshOperator):
     """Gives an operator `execute`, and `invoke` with a thread for its steps. The operator has `steps`.
 
     Attributes
@@ -86,10 +88,21 @@ class Stepwise:
     enough = False
     is_beside = False
 
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Return whether a mesh is in Edit Mode, and neither a chain is being drawn nor another operator takes steps."""
+        if not super().poll(context):
+            return False
+        if chains:
+            cls.poll_message_set("A chain is being drawn")
+        elif running:
+            cls.poll_message_set(f"{running[0].bl_label} is running")
+        return not chains and not running
+
     def steps(self, context: bpy.types.Context) -> Generator[Step, None, set[str]]:
         """Yield the steps, and return the operator's result.
 
-        A ValueError is reported. If the generator is closed between two steps, nothing changes.
+        Errors are reported as by `outcome`. If the generator is closed between two steps, nothing changes.
         """
         raise NotImplementedError
 
@@ -102,6 +115,7 @@ class Stepwise:
         self._steps = self.steps(context)
         pointer = context.window_manager
         shown = time.monotonic()
+        step = Step("")
 
         def show(fraction: float) -> bool:
             nonlocal shown
@@ -112,16 +126,19 @@ class Stepwise:
             return True
 
         pointer.progress_begin(0.0, 100.0)
+
+        def run() -> set[str]:
+            nonlocal step
+            try:
+                while True:
+                    step = next(self._steps)
+                    if step.work is not None:
+                        step.work(show)
+            except StopIteration as end:
+                return end.value
+
         try:
-            while True:
-                step = next(self._steps)
-                if step.work is not None:
-                    step.work(show)
-        except StopIteration as end:
-            return end.value
-        except ValueError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+            return self.outcome(run)
         finally:
             self._steps.close()
             pointer.progress_end()
@@ -211,22 +228,24 @@ class Stepwise:
         result = {"CANCELLED"}
         try:
             if not self._cancelled:
-                if self._work is not None:
-                    self._work.result()
-                self._step, self._fraction, self._seen = next(self._steps), 0.0, ""
-                self.enough = False
-                self._work = self._thread.submit(self._step.work, self._progress) if self._step.work else None
-                self._show()
-                return {"RUNNING_MODAL"}
-        except StopIteration as end:
-            result = end.value
-        except ValueError as error:
-            self.report({"ERROR"}, str(error))
-        except BaseException:
-            self.end()
-            raise
-        self.end()
+                result = self.outcome(self._next)
+        finally:
+            if result != {"RUNNING_MODAL"}:
+                self.end()
         return result
+
+    def _next(self) -> set[str]:
+        """Begin the next step, or return the operator's result."""
+        if self._work is not None:
+            self._work.result()
+        try:
+            self._step, self._fraction, self._seen = next(self._steps), 0.0, ""
+        except StopIteration as end:
+            return end.value
+        self.enough = False
+        self._work = self._thread.submit(self._step.work, self._progress) if self._step.work else None
+        self._show()
+        return {"RUNNING_MODAL"}
 
     def _progress(self, fraction: float) -> bool:
         self._fraction = fraction

@@ -10,11 +10,9 @@ import bpy
 from mathutils import Vector
 
 from ..mesh.settings import AUTO_ALONG_ITEMS, AUTO_FINISH_ITEMS
-from .edit_mesh_operator import EditMeshOperator, Halfway, changing
+from .edit_mesh_operator import changing
 from .finish import cut_wires, slide_wires
-from .report import running as chains
 from .steps import Step, Stepwise, end_all
-from .steps import running as searches
 
 if TYPE_CHECKING:
     from collections.abc import Generator
@@ -25,7 +23,7 @@ _BLENDERS_FRONT = (0.0, -1.0, 0.0)
 """The direction to the viewer in Blender's front view."""
 
 
-class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
+class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
     """Mark a few hidden seams so that the mesh unwraps with little stretch. They are wires that you can move or drop. Existing seams stay"""  # noqa: D400, E501 - a tooltip
 
     bl_idname = "mesh.seamwire_suggest"
@@ -103,19 +101,6 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
         options={"HIDDEN", "SKIP_SAVE"},
     )
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Return whether a mesh is in Edit Mode, and neither a chain is being drawn nor another search runs."""
-        if not super().poll(context):
-            return False
-        if chains:
-            cls.poll_message_set("A chain is being drawn")
-            return False
-        if searches:
-            cls.poll_message_set("A search for seams is running")
-            return False
-        return True
-
     def draw(self, _context: bpy.types.Context) -> None:
         """Show the settings that have an effect."""
         layout = self.layout
@@ -139,14 +124,9 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
 
     def steps(self, context: bpy.types.Context) -> Generator[Step, None, set[str]]:
         """Yield the steps of the search, then mark or cut."""
-        from ..core.base.native import NativeError
         from ..core.seams.parts import edits_of_text
 
-        try:
-            suggestions = self._read(context)
-        except NativeError as error:
-            self.report({"ERROR"}, str(error))
-            return {"CANCELLED"}
+        suggestions = self._read(context)
         suggestions.notices.tell(self.report)
         if not suggestions:
             raise ValueError(suggestions.problem)
@@ -157,7 +137,9 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
             suggestions.choose(0.01 * self.parts, edits_of_text(self.edits))
             yield from _step(suggestions, Step("Planning seams", suggestions.plan))
         suggestions.refresh()
-        return self._carry_out(context, suggestions)
+        if suggestions.has_wires:
+            return self._change(context, suggestions)
+        return self._unwrap_uncut(context, suggestions)
 
     def _show_parts(self, context: bpy.types.Context, suggestions: Suggestions) -> Generator[Step, None, None]:
         """Yield steps until the artist has confirmed the parts that the views show, and seams are planned in them."""
@@ -193,16 +175,8 @@ class MESH_OT_seamwire_suggest(Stepwise, EditMeshOperator, bpy.types.Operator):
         objects = objects_to_cut(context.objects_in_mode_unique_data, self.selected)
         return Suggestions(objects, options, Wanted(self.distortion, self.islands, self.unwrap))
 
-    def _carry_out(self, context: bpy.types.Context, suggestions: Suggestions) -> set[str]:
-        """Write or cut the wires, unwrap, and report."""
-        if not suggestions.has_wires:
-            return self._unwrap_uncut(context, suggestions)
-        try:
-            return self._change(context, suggestions)
-        except Halfway as error:
-            return self.stopped_halfway(error)
-
     def _change(self, context: bpy.types.Context, suggestions: Suggestions) -> set[str]:
+        """Write or cut the wires, unwrap, and report."""
         to_cut = {suggestion.mesh: suggestion.slits for suggestion in suggestions.finished_by("CUT")}
         if to_cut:
             first, crumb = suggestions.write_borders, suggestions.crumb

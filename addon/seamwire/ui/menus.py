@@ -1,19 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The Seamwire submenu in Blender's Edge and UV menus, and single entries elsewhere."""
+"""The Seamwire submenu in Blender's Edge and UV menus, and the entry for the tool in the context menu."""
 
 from __future__ import annotations
 
-from functools import partial
-from typing import TYPE_CHECKING
-
 import bpy
 
-from ..mesh.registration import classes, together
+from ..mesh.registration import classes, menu_entry, together
 from ..mesh.settings import TOOL, settings
 from ..operators.store import ISLAND_ITEMS
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 MENUS = ("VIEW3D_MT_edit_mesh_edges", "VIEW3D_MT_uv_map", "IMAGE_MT_uvs")
 """Blender's menus that have the submenu."""
@@ -36,7 +30,7 @@ class VIEW3D_MT_seamwire(bpy.types.Menu):
         layout.operator("mesh.seamwire_unwrap")
         layout.separator()
         for menu in SUBMENUS:
-            layout.menu(menu.bl_idname)
+            layout.menu(menu)
 
 
 class VIEW3D_MT_seamwire_finish(bpy.types.Menu):
@@ -48,24 +42,6 @@ class VIEW3D_MT_seamwire_finish(bpy.types.Menu):
     def draw(self, _context: bpy.types.Context) -> None:
         """Show the finishes."""
         self.layout.operator_enum("mesh.seamwire_finish", "finish")
-
-
-class VIEW3D_MT_seamwire_network(bpy.types.Menu):
-    """Save wires, load them, or draw them on other meshes"""  # noqa: D400 - a tooltip
-
-    bl_idname = "VIEW3D_MT_seamwire_network"
-    bl_label = "Network"
-
-    def draw(self, _context: bpy.types.Context) -> None:
-        """Show what is done with all wires of a mesh."""
-        layout = self.layout
-        layout.operator_context = "INVOKE_DEFAULT"
-        layout.operator("mesh.seamwire_load_network", text="Load...")
-        layout.operator("mesh.seamwire_save_network", text="Save...")
-        layout.separator()
-        layout.operator("mesh.seamwire_transfer", text="Transfer")
-        layout.operator("mesh.seamwire_repeat", text="Repeat")
-        layout.operator("mesh.seamwire_take_over", text="From Seams")
 
 
 class VIEW3D_MT_seamwire_islands(bpy.types.Menu):
@@ -98,10 +74,10 @@ class VIEW3D_MT_seamwire_views(bpy.types.Menu):
 
 
 SUBMENUS = (
-    VIEW3D_MT_seamwire_finish,
-    VIEW3D_MT_seamwire_network,
-    VIEW3D_MT_seamwire_islands,
-    VIEW3D_MT_seamwire_views,
+    "VIEW3D_MT_seamwire_finish",
+    "VIEW3D_MT_seamwire_network",
+    "VIEW3D_MT_seamwire_islands",
+    "VIEW3D_MT_seamwire_views",
 )
 
 
@@ -120,31 +96,8 @@ def _draw_entry(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
     _draw_tool(menu.layout)
 
 
-def _draw_import(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
-    menu.layout.operator("mesh.seamwire_load_network", text="Seamwire Network (.json)")
-
-
-def _draw_export(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
-    menu.layout.operator("mesh.seamwire_save_network", text="Seamwire Network (.json)")
-
-
-_ENTRIES = (
-    *((name, _draw_submenu) for name in MENUS),
-    (CONTEXT_MENU, _draw_entry),
-    ("TOPBAR_MT_file_import", _draw_import),
-    ("TOPBAR_MT_file_export", _draw_export),
-)
-
-
-def _add(name: str, draw: Callable[[bpy.types.Menu, bpy.types.Context], None]) -> None:
-    getattr(bpy.types, name).append(draw)
-
-
-def _remove(name: str, draw: Callable[[bpy.types.Menu, bpy.types.Context], None]) -> None:
-    getattr(bpy.types, name).remove(draw)
-
-
 register, unregister = together(
-    *classes(VIEW3D_MT_seamwire, *SUBMENUS),
-    *((partial(_add, *entry), partial(_remove, *entry)) for entry in _ENTRIES),
+    *classes(VIEW3D_MT_seamwire, VIEW3D_MT_seamwire_finish, VIEW3D_MT_seamwire_islands, VIEW3D_MT_seamwire_views),
+    *(menu_entry(name, _draw_submenu) for name in MENUS),
+    menu_entry(CONTEXT_MENU, _draw_entry),
 )

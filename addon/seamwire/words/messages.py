@@ -38,6 +38,7 @@ SENTENCES = {
     "loop-has-one-way": "A loop has no other path",
     "loop-name": "loop at vertex {vertex}",
     "loop-too-small": "{wire}: smaller than an edge of this mesh",
+    "mirror-by-surface": "Mirror needs Place: Nearest Surface",
     "no-bend-to": "Closed cuts bend to places on the surface, not to {pick}",
     "no-build": (
         "Seamwire's compiled part, {name}, is missing: install the Seamwire package made for Python {version}"
@@ -82,6 +83,7 @@ SENTENCES = {
     "other-edges": "The network belongs to a mesh with other edges: {pick} is missing here",
     "other-vertices": "The network belongs to a mesh with {count} vertices, but this one has {here}",
     "pair-off-mesh": "Pairs: vertex {vertex} is not on a visible face of the {what}",
+    "pairs-without-source": "Pairs need the source object",
     "point-where-to-run": "Point at where the wire should run",
     "same-edges": "All wires run along the same edges here",
     "seed-lost": "seed {seed}: {degree} ({confidence:.2f})",

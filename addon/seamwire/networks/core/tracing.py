@@ -1,37 +1,38 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draws wires between seeds that were placed on another mesh.
+"""Draws wires between seeds that were placed on another mesh, and tells how sure each seed is.
 
-A wire that would run elsewhere than its original gets seeds in between, as few as keep it near. What cannot be placed is told, and
-nothing is put in its place.
+If a wire would run elsewhere than its original, it gets as few further seeds as keep it near. The result names the seeds, wires and
+strokes that cannot be placed.
 """
 
 from __future__ import annotations
 
 import itertools
+from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..base.components import groups
-from ..base.geometry import nearest_on_segments
-from ..base.messages import Message
-from ..network.strokes import Stroke, for_library, on_mesh
-from ..network.wires import LOOP_KINDS, Wire
-from ..solver.defaults import CLAMP_PERCENTILE, STRENGTHS
-from ..solver.live_maker import LiveMaker
-from ..solver.solver import by_number, final
-from ..storage.network_file import Course, NetworkFile
-from ..storage.serialization import unpacked
+from ...core.base.components import groups
+from ...core.base.geometry import nearest_on_segments
+from ...core.base.messages import Message
+from ...core.network.strokes import Stroke, for_library, on_mesh
+from ...core.network.wires import LOOP_KINDS, Wire
+from ...core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
+from ...core.solver.live_maker import LiveMaker
+from ...core.solver.solver import by_number, final
+from ...core.storage.serialization import unpacked
+from .network_file import Course, NetworkFile
 from .placing import DOUBTFUL, Placed, Shape, Surface
-from .transferred import Seed, Transfer
+from .work import PLACED, Work
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..network.picks import Along, Edge
-    from ..solver.solver import Candidate, LiveWire
+    from ...core.network.picks import Along, Edge
+    from ...core.solver.solver import Candidate, LiveWire
 
 STRAY = 1.0
 """How many edges a wire may run beside where it is to run before it gets a seed more."""
@@ -40,10 +41,87 @@ _MOST_LOST = 0.3
 """The part of a wire's course that may have no place."""
 
 
-def spacing_of(course: Course) -> float:
-    """Return the mean distance between two places of a course."""
-    lengths = np.linalg.norm(np.diff(course.places, axis=0), axis=1)
-    return float(lengths.mean()) if len(lengths) else 0.0
+DEGREES = ((0.9, "SURE"), (0.6, "LIKELY"), (DOUBTFUL, "DOUBTFUL"), (0.0, "LOST"))
+"""The least confidence of each degree of a seed."""
+
+
+@dataclass(frozen=True)
+class Seed:
+    """A seed of the network on another mesh.
+
+    Parameters
+    ----------
+    source
+        Its vertex on the mesh that it comes from.
+    mirrored
+        The axes over which it was mirrored before, 0 to 2.
+    vertex
+        Its vertex on the target, or None if it has no place.
+    confidence
+        From 0 to 1, see `DEGREES`.
+    """
+
+    source: int
+    mirrored: tuple[int, ...]
+    vertex: int | None
+    confidence: float
+
+    @property
+    def degree(self) -> str:
+        """How sure it is."""
+        return next(degree for least, degree in DEGREES if self.confidence >= least)
+
+    @property
+    def message(self) -> Message:
+        """Where it is, and how sure that is."""
+        seed, degree, confidence = self.source, self.degree, self.confidence
+        if self.vertex is None:
+            return Message.of("seed-lost", seed=seed, degree=degree, confidence=confidence)
+        return Message.of("seed-placed", seed=seed, vertex=self.vertex, degree=degree, confidence=confidence)
+
+
+@dataclass
+class Transfer:
+    """A network on another mesh.
+
+    Attributes
+    ----------
+    wires, strokes
+        The placed wires, connected as in the source, and the placed strokes.
+    seeds
+        All seeds of the network, each once.
+    lost
+        What could not be placed, and why.
+    doubts
+        What else the artist should check.
+    added
+        The number of seeds between those of the network.
+    """
+
+    wires: list[Wire] = field(default_factory=list)
+    strokes: list[Stroke] = field(default_factory=list)
+    seeds: list[Seed] = field(default_factory=list)
+    lost: list[Message] = field(default_factory=list)
+    doubts: list[Message] = field(default_factory=list)
+    added: int = 0
+
+    @property
+    def degrees(self) -> dict[str, int]:
+        """The number of seeds of each degree that occurs, the surest first."""
+        counts = Counter(seed.degree for seed in self.seeds)
+        return {degree: counts[degree] for _, degree in DEGREES if degree in counts}
+
+    @property
+    def problems(self) -> list[Message]:
+        """Everything that the artist should check: doubts, what is lost, and seeds that are not even likely."""
+        unsure = (seed.message for seed in self.seeds if seed.confidence < DEGREES[1][0])
+        return [*self.doubts, *self.lost, *unsure]
+
+    @property
+    def seams(self) -> NDArray[np.int32]:
+        """(k, 2) the edges that wires mark, sorted, each once."""
+        edges = sorted({edge for wire in self.wires for edge in wire.claims()})
+        return np.array(edges, dtype=np.int32).reshape(-1, 2)
 
 
 @dataclass(frozen=True)
@@ -58,12 +136,20 @@ class _Piece:
     confidence: NDArray[np.float64]
     creases: NDArray[np.float64]
 
+    def at(self, rows: Sequence[int]) -> _Piece:
+        """Return a piece with some of its vertices."""
+        return replace(
+            self,
+            vertices=[self.vertices[row] for row in rows],
+            triangles=self.triangles[rows],
+            places=self.places[rows],
+            confidence=self.confidence[rows],
+            creases=self.creases[rows],
+        )
+
     def part(self, begin: int, end: int) -> _Piece:
-        rows = slice(begin, end + 1)
-        return _Piece(
-            self.course, self.axes, self.vertices[rows], self.triangles[rows], self.places[rows], self.confidence[rows],
-            self.creases[rows],
-        )  # fmt: skip
+        """Return the piece from one row to another."""
+        return self.at(range(begin, end + 1))
 
     @property
     def name(self) -> str:
@@ -88,7 +174,7 @@ class Tracing:
         self, file: NetworkFile, target: Shape, surface: Surface, live: LiveMaker, stray: float = STRAY
     ) -> None:
         self._file, self._target, self._surface, self._make = file, target, surface, live
-        self._stray = stray
+        self._stray, self._done = stray, PLACED
         self._lives: dict[tuple[Along, float], LiveWire] = {}
         self._result = Transfer()
         self._library_strokes: list[object] = []
@@ -99,8 +185,16 @@ class Tracing:
         place: Callable[[Course, tuple[int, ...]], Placed],
         place_stroke: Callable[[NDArray[np.float64]], Placed],
         place_on: Callable[[Course, tuple[int, ...], int], Placed] | None = None,
-    ) -> Transfer:
-        """Draw all; parameters say where a course's vertices and a stroke's points are, and where on one part of the target alone."""
+    ) -> Work[Transfer]:
+        """Draw all wires.
+
+        Parameters
+        ----------
+        place, place_stroke
+            They return where the vertices of a course and the points of a stroke are on the target.
+        place_on
+            Returns where the vertices of a course are on one part of the target. None if all of it counts.
+        """
         result = self._result
         for number, record in enumerate(self._file.strokes, start=1):
             stroke = self._stroke(record, place_stroke(unpacked(record["points"])))
@@ -110,15 +204,20 @@ class Tracing:
                 result.strokes.append(stroke)
         self._library_strokes = [for_library(stroke) for stroke in result.strokes]
         runs = [(course, axes) for course in self._file.courses for axes in _images(course.record["mirror"])]
-        placed = [place(*run) for run in runs]
+        placed = []
+        for run in runs:
+            yield self._done
+            placed.append(place(*run))
         if place_on is not None:
             # Courses that share a vertex hang together on the mesh that they come from.
             for group in groups([[(axes, vertex) for vertex in course.record["vertices"]] for course, axes in runs]):
                 self._keep_together(group, runs, placed, place_on)
-        pieces = [self._placed(*run, found) for run, found in zip(runs, placed, strict=True)]
+        pieces = [_placed(*run, found) for run, found in zip(runs, placed, strict=True)]
         self._find_seeds(pieces)
-        for piece in self._cut(pieces):
-            result.wires += self._wires(piece)
+        pieces = list(self._cut(pieces))
+        for number, piece in enumerate(pieces):
+            self._done = PLACED + (1.0 - PLACED) * number / len(pieces)
+            result.wires += yield from self._wires(piece)
         return result
 
     def _keep_together(
@@ -146,16 +245,6 @@ class Tracing:
                 np.where(moved[:, None], there.places, before.places),
                 np.where(moved, there.confidence, before.confidence),
             )
-
-    def _placed(self, course: Course, axes: tuple[int, ...], placed: Placed) -> _Piece:
-        vertices = list(course.record["vertices"])
-        rows = list(range(len(vertices)))
-        if course.record["closed"]:
-            rows.append(0)
-        return _Piece(
-            course, axes, [vertices[row] for row in rows], placed.triangles[rows], placed.places[rows],
-            placed.confidence[rows], course.creases[rows],
-        )  # fmt: skip
 
     # Seeds
 
@@ -189,10 +278,7 @@ class Tracing:
                 # Opened where something meets it; the seam is the same.
                 begin = ([0] if (piece.axes, piece.vertices[0]) in self._vertex_of else inner)[0]
                 around = [*range(begin, last), *range(begin + 1)]
-                piece = _Piece(
-                    piece.course, piece.axes, [piece.vertices[row] for row in around], piece.triangles[around],
-                    piece.places[around], piece.confidence[around], piece.creases[around],
-                )  # fmt: skip
+                piece = piece.at(around)
                 inner = [row for row in range(1, last) if (piece.axes, piece.vertices[row]) in self._vertex_of] or [
                     last // 2
                 ]
@@ -201,12 +287,12 @@ class Tracing:
 
     # Wires
 
-    def _wires(self, piece: _Piece) -> list[Wire]:
+    def _wires(self, piece: _Piece) -> Work[list[Wire]]:
         lost = float((piece.confidence < DOUBTFUL).mean())
         if lost > _MOST_LOST:
             return self._lose(piece, "course-lost", part=lost)
         if piece.vertices[0] == piece.vertices[-1]:
-            return self._loop(piece)
+            return (yield from self._loop(piece))
         ends = [self._seed(piece, row) for row in (0, -1)]
         if None in ends:
             return self._lose(piece, "end-lost")
@@ -214,7 +300,7 @@ class Tracing:
         if start == end:
             return self._lose(piece, "ends-meet", vertex=start)
         live = self._live(piece)
-        found = self._between(live, piece, start, end)
+        found = yield from self._between(live, piece, start, end)
         if found is None:
             return self._lose(piece, "no-way", start=start, end=end)
         self._result.added += len(found) - 1
@@ -224,18 +310,19 @@ class Tracing:
         self._result.lost.append(Message.of(why, wire=piece.name, **values))
         return []
 
-    def _between(self, live: LiveWire, piece: _Piece, start: int, end: int) -> list[Wire] | None:
-        """Return wires between two vertices that run where a piece does, in order; None: there is no way."""
+    def _between(self, live: LiveWire, piece: _Piece, start: int, end: int) -> Work[list[Wire] | None]:
+        """Return wires between two vertices that run where a piece does, in order, or None if there is no way."""
+        yield self._done
         live.seed(start)
         best = self._best(live, end, piece.places)
         if best is None:
             return None
         follow, candidate, off, worst = best
         middle = self._vertex(piece, worst) if 0 < worst < len(piece.vertices) - 1 else start
-        near = self._stray * max(float(self._target.spacing[candidate.vertices].mean()), spacing_of(piece.course) / 2.0)
+        near = self._stray * max(float(self._target.spacing[candidate.vertices].mean()), piece.course.spacing / 2.0)
         if off > near and middle not in (start, end) and middle not in candidate.vertices:
-            first = self._between(live, piece.part(0, worst), start, middle)
-            second = self._between(live, piece.part(worst, len(piece.vertices) - 1), middle, end)
+            first = yield from self._between(live, piece.part(0, worst), start, middle)
+            second = yield from self._between(live, piece.part(worst, len(piece.vertices) - 1), middle, end)
             if first is not None and second is not None:
                 return [*first, *second]
         return [self._wire(piece, candidate, follow)]
@@ -247,13 +334,10 @@ class Tracing:
         for follow, candidate in enumerate(by_number(found)[0]):
             if len(candidate.vertices) < 2:
                 continue
-            off, worst = _strays(self._in_object(candidate.points), places)
+            off, worst = _strays(self._target.in_object(candidate.points), places)
             if best is None or off < best[2]:
                 best = follow, candidate, off, worst
         return best
-
-    def _in_object(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        return points if self._target.to_object is None else points @ self._target.to_object.T
 
     def _wire(self, piece: _Piece, candidate: Candidate, follow: int) -> Wire:
         record = piece.course.record
@@ -265,7 +349,7 @@ class Tracing:
             planned=record.get("planned", False),
         )  # fmt: skip
 
-    def _loop(self, piece: _Piece) -> list[Wire]:
+    def _loop(self, piece: _Piece) -> Work[list[Wire]]:
         """Return a closed wire: the loop of its kind where that runs there, else wires around it."""
         live = self._live(piece)
         whole = self._closed(live, piece)
@@ -278,7 +362,7 @@ class Tracing:
             return self._lose(piece, "loop-too-small")
         wires: list[Wire] = []
         for (begin, one), (end, other) in itertools.pairwise(zip([*rows, count], [*corners, corners[0]], strict=True)):
-            found = self._between(live, piece.part(begin, end), one, other)
+            found = yield from self._between(live, piece.part(begin, end), one, other)
             if found is None:
                 return self._lose(piece, "no-way", start=one, end=other)
             wires += found
@@ -304,9 +388,9 @@ class Tracing:
         chain = loop.vertices.tolist()
         around = [*chain, chain[0]]
         points = self._target.points[around]
-        off, _ = _strays(self._in_object(points), piece.places)
-        back, _ = _strays(piece.places, self._in_object(points))
-        if max(off, back) > self._stray * max(float(self._target.spacing[chain].mean()), spacing_of(piece.course)):
+        off, _ = _strays(self._target.in_object(points), piece.places)
+        back, _ = _strays(piece.places, self._target.in_object(points))
+        if max(off, back) > self._stray * max(float(self._target.spacing[chain].mean()), piece.course.spacing):
             return None
         return Wire(
             "EDGES", tuple(chain), points, edge, edge, closed=True, kind=record["kind"], through=edge, images=(),
@@ -358,6 +442,13 @@ class Tracing:
             float(record["eta"]), int(record["rings"]), None if record["radius"] is None else float(record["radius"]),
         )  # fmt: skip
         return on_mesh(stroke, shape.points, shape.triangles)
+
+
+def _placed(course: Course, axes: tuple[int, ...], placed: Placed) -> _Piece:
+    """Return the whole of a wire. A closed one ends at the vertex where it begins."""
+    vertices = list(course.record["vertices"])
+    whole = _Piece(course, axes, vertices, placed.triangles, placed.places, placed.confidence, course.creases)
+    return whole.at([*range(len(vertices)), 0]) if course.record["closed"] else whole
 
 
 def _images(axes: Sequence[int]) -> list[tuple[int, ...]]:

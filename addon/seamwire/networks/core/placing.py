@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..base import native
-from ..base.geometry import Moments, creases, triangle_normals, vertex_normals
-from ..base.messages import NOTHING, Message, Refused
+from ...core.base import native
+from ...core.base.geometry import Moments, creases, triangle_normals, vertex_normals
+from ...core.base.messages import NOTHING, Message, Refused
+from .work import PLACED, Work
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -64,7 +65,11 @@ class Shape:
     @cached_property
     def places(self) -> NDArray[np.float64]:
         """(n, 3) the vertices in object coordinates."""
-        return self.points if self.to_object is None else self.points @ self.to_object.T
+        return self.in_object(self.points)
+
+    def in_object(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return (k, 3) points in object coordinates."""
+        return points if self.to_object is None else points @ self.to_object.T
 
     @cached_property
     def normals(self) -> NDArray[np.float64]:
@@ -81,10 +86,8 @@ class Shape:
         """(n,) the mean length of the edges at each vertex, in object coordinates. 0 for vertices without edges."""
         lengths = np.linalg.norm(self.places[self.edges[:, 0]] - self.places[self.edges[:, 1]], axis=1)
         ends = self.edges.reshape(-1)
-        sums, counts = (
-            np.bincount(ends, np.repeat(lengths, 2), len(self.places)),
-            np.bincount(ends, None, len(self.places)),
-        )
+        sums = np.bincount(ends, np.repeat(lengths, 2), len(self.places))
+        counts = np.bincount(ends, minlength=len(self.places))
         return np.divide(sums, counts, out=np.zeros(len(sums)), where=counts > 0)
 
     @cached_property
@@ -149,11 +152,6 @@ class Similarity:
     shift: NDArray[np.float64]
 
     @classmethod
-    def none(cls) -> Similarity:
-        """Return the one that leaves everything where it is."""
-        return cls(1.0, np.eye(3), np.zeros(3))
-
-    @classmethod
     def between(cls, points: NDArray[np.float64], targets: NDArray[np.float64]) -> Similarity:
         """Return the one that brings points nearest to others, by least squares.
 
@@ -172,10 +170,10 @@ class Similarity:
         return cls(scale, rotation, other - scale * rotation @ middle)
 
     @classmethod
-    def mirroring(cls, axis: int) -> Similarity:
-        """Return the one that mirrors over an axis, 0 to 2."""
+    def mirroring(cls, *axes: int) -> Similarity:
+        """Return the one that mirrors over axes, 0 to 2. Without axes everything stays where it is."""
         signs = np.ones(3)
-        signs[axis] = -1.0
+        signs[list(axes)] = -1.0
         return cls(1.0, np.diag(signs), np.zeros(3))
 
     def of(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -272,7 +270,7 @@ class Surface:
         triangles, points, gaps = tree.find(places, normals)
         return rows[triangles], points, gaps
 
-    def align(self, points: NDArray[np.float64], moments: Moments) -> Aligned:
+    def align(self, points: NDArray[np.float64], moments: Moments) -> Work[Aligned]:
         """Find what brings points of a mesh onto this one.
 
         They stay where they are if they lie on it. Otherwise ICP starts there and from the four alignments of the principal axes without
@@ -287,7 +285,7 @@ class Surface:
         """
         size = self._shape.size
         some = points[np.linspace(0, len(points) - 1, min(len(points), _SAMPLE)).astype(np.int64)]
-        best, least = Similarity.none(), self._gap(some)
+        best, least = Similarity.mirroring(), self._gap(some)
         if least <= _ALIGNED * size or len(points) < 3:
             return Aligned(best)
         own = self._shape.moments
@@ -295,8 +293,8 @@ class Surface:
         starts = [best, *(_onto(moments, own, scale, signs) for signs in ((1, 1), (1, -1), (-1, 1), (-1, -1)))]
         starts.append(Similarity(scale, np.eye(3), own.middle - scale * moments.middle))
         found_ways = [(least, best)]
-        for start in starts:
-            current = start
+        for number, current in enumerate(starts):
+            yield PLACED * number / len(starts)
             for _ in range(_STEPS):
                 moved = current.of(some)
                 _, found, gaps = self.nearest(moved)

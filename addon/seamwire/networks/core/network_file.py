@@ -16,21 +16,21 @@ from typing import TYPE_CHECKING, Any, get_args
 
 import numpy as np
 
-from ..base.geometry import Moments, creases, vertex_normals
-from ..base.messages import NOTHING, Message, Refused
-from ..network.picks import FacePoint, place_of, undirected
-from ..solver.defaults import CLAMP_PERCENTILE
-from ..solver.solver import MetricName
-from . import serialization
-from .serialization import Record
+from ...core.base.geometry import Moments, creases, vertex_normals
+from ...core.base.messages import NOTHING, Message, Refused
+from ...core.network.picks import FacePoint, place_of, undirected
+from ...core.solver.defaults import CLAMP_PERCENTILE
+from ...core.solver.solver import MetricName
+from ...core.storage import serialization
+from ...core.storage.serialization import Record
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..network.network import Network
-    from ..network.picks import Edge, Pick
-    from ..network.strokes import Stroke
-    from ..network.wires import Wire
+    from ...core.network.network import Network
+    from ...core.network.picks import Edge, Pick
+    from ...core.network.strokes import Stroke
+    from ...core.network.wires import Wire
 
 FORMAT = "seamwire-network"
 VERSION = 1
@@ -98,6 +98,12 @@ class Course:
     creases: NDArray[np.float64]
 
     @property
+    def spacing(self) -> float:
+        """The mean distance between two places."""
+        lengths = np.linalg.norm(np.diff(self.places, axis=0), axis=1)
+        return float(lengths.mean()) if len(lengths) else 0.0
+
+    @property
     def name(self) -> Message:
         """How it is called in messages: by its seeds."""
         record = self.record
@@ -117,9 +123,9 @@ class NetworkFile:
     metric, clamp
         What wires are drawn by, and the percentile of feature strengths that counts as the strongest.
     seeds
-        In the order in which they were placed.
+        In the order of the wires that begin or end there.
     courses
-        The wires, oldest first.
+        The wires, by their vertices.
     strokes
         Records of strokes, see `serialization.stroke_record`.
     """
@@ -171,7 +177,9 @@ class NetworkFile:
             normal = place_of(pick, normals)
             return normal / max(float(np.linalg.norm(normal)), 1e-300)
 
-        kept = replace(network, wires=tuple(wire for wire in network.wires if wire.marks))
+        # A mesh does not keep the order of its wires.
+        wires = sorted((wire for wire in network.wires if wire.marks), key=lambda wire: wire.vertices)
+        kept = replace(network, wires=tuple(wires))
         courses = []
         for wire in kept.wires:
             record = serialization.wire_record(wire, places, matrix)

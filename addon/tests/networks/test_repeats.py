@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
-from seamwire.core.matching.repeats import Repeats, connected_groups
 from seamwire.core.network.picks import Edge
 from seamwire.core.network.wires import Wire
+from seamwire.networks.core.repeats import Repeats, connected_groups
 
 SIZE = 6
 COUNT = SIZE * SIZE
@@ -115,6 +115,6 @@ def test_groups_are_wires_that_share_vertices_and_each_comes_once() -> None:
     chains = ((0, 1), (1, 2), (2, 8), (20, 21))
     one, two, three, apart = (Wire("EDGES", chain, points[list(chain)], *chain) for chain in chains)
     wires = [one, apart, two, three]
-    assert connected_groups([three], wires) == [[two, three, one]]
+    assert connected_groups([three], wires) == [[one, two, three]]
     assert connected_groups([one, three, apart], wires) == [[one, two, three], [apart]]
     assert connected_groups([], wires) == []

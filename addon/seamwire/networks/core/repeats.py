@@ -13,13 +13,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...core.base.components import groups
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
     from numpy.typing import NDArray
 
-    from ..network.picks import Edge, Pick
-    from ..network.wires import Wire
+    from ...core.network.picks import Edge, Pick
+    from ...core.network.wires import Wire
 
 _TOLERANCES = (0.01, 0.05)
 """Parts by which lengths of edges may differ; the second is asked where with the first nothing is found."""
@@ -242,15 +244,6 @@ def connected_groups(wanted: Iterable[Wire], wires: Sequence[Wire]) -> list[list
     wires
         All wires that may belong to a group. Wires are connected if they share a vertex.
     """
-    groups: list[list[Wire]] = []
-    for wire in wanted:
-        if any(wire in group for group in groups):
-            continue
-        group, reached = [], {*wire.vertices}
-        left = list(wires)
-        while joined := [other for other in left if not reached.isdisjoint(other.vertices)]:
-            group += joined
-            reached.update(vertex for other in joined for vertex in other.vertices)
-            left = [other for other in left if other not in joined]
-        groups.append(group)
-    return groups
+    chosen = set(wanted)
+    found = ([wires[row] for row in rows] for rows in groups([wire.vertices for wire in wires]))
+    return [group for group in found if not chosen.isdisjoint(group)]

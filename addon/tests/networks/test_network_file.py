@@ -14,8 +14,8 @@ from seamwire.core.network.network import Network
 from seamwire.core.network.picks import FacePoint
 from seamwire.core.network.strokes import Stroke
 from seamwire.core.network.wires import Wire
-from seamwire.core.storage import network_file
-from seamwire.core.storage.network_file import NetworkFile, NetworkFileError
+from seamwire.networks.core import network_file
+from seamwire.networks.core.network_file import NetworkFile, NetworkFileError
 
 SIZE = 6
 POINTS = grid_points(SIZE)
@@ -99,6 +99,10 @@ def test_one_more_wire_is_lines_more_and_no_line_changed(network: Network) -> No
     strip = {line.rstrip(",") for line in before}, {line.rstrip(",") for line in after}
     assert not strip[0] - strip[1]
     assert len(strip[1] - strip[0]) == 3, "a wire and its two seeds"
+
+
+def test_it_is_written_the_same_in_whatever_order_a_mesh_has_its_wires(network: Network) -> None:
+    assert written(replace(network, wires=network.wires[::-1])).text() == written(network).text()
 
 
 def test_it_is_written_the_same_after_it_was_read(network: Network) -> None:

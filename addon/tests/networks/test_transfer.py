@@ -9,15 +9,28 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from seamwire.core.base.geometry import nearest_on_segments
-from seamwire.core.matching import transfer, transferred
-from seamwire.core.matching.placing import Aligned, Landmarks, Shape, Similarity, Surface
-from seamwire.core.matching.transfer import by_landmarks, by_numbers, by_surface, transferred_seams
 from seamwire.core.network.network import Network
 from seamwire.core.network.strokes import Stroke
 from seamwire.core.network.wires import Wire
-from seamwire.core.storage.network_file import NetworkFile, NetworkFileError
+from seamwire.networks.core.network_file import NetworkFile, NetworkFileError
+from seamwire.networks.core.placing import Aligned, Landmarks, Shape, Similarity, Surface
+from seamwire.networks.core.tracing import Transfer
+from seamwire.networks.core.transfer import transfer
+from seamwire.networks.core.work import result_of
 
 pytest.importorskip("seamwire_core")
+
+
+def by_numbers(file: NetworkFile, target: Shape) -> Transfer:
+    return result_of(transfer(file, target, place="NUMBERS"))
+
+
+def by_surface(file: NetworkFile, target: Shape, **options: object) -> Transfer:
+    return result_of(transfer(file, target, place="SURFACE", **options))
+
+
+def by_landmarks(file: NetworkFile, source: Shape, target: Shape, pairs: object) -> Transfer:
+    return result_of(transfer(file, target, place="PAIRS", source=source, pairs=pairs))
 
 
 def tube(around: int, along: int, bend: float = 0.0) -> Shape:
@@ -63,15 +76,15 @@ def file() -> NetworkFile:
     return NetworkFile.parse(NetworkFile.of(network(), SOURCE.points, SOURCE.triangles, SOURCE.edges).text())
 
 
-def off(found: transferred.Transfer, places: NDArray[np.float64]) -> float:
+def off(found: Transfer, places: NDArray[np.float64]) -> float:
     """Return how far the middles of marked edges are from the network at most; `places` are the target's vertices in its pose."""
-    middles = places[transfer.seams(found)].mean(axis=1)
+    middles = places[found.seams].mean(axis=1)
     starts = np.concatenate([SOURCE.points[course[:-1]] for course in COURSES])
     ends = np.concatenate([SOURCE.points[course[1:]] for course in COURSES])
     return max(float(nearest_on_segments(place, starts, ends)[1].min()) for place in middles)
 
 
-def pieces(found: transferred.Transfer) -> int:
+def pieces(found: Transfer) -> int:
     """Return in how many parts the seams hang together."""
     of: dict[int, int] = {}
 
@@ -80,7 +93,7 @@ def pieces(found: transferred.Transfer) -> int:
             vertex = of[vertex]
         return vertex
 
-    for one, two in transfer.seams(found).tolist():
+    for one, two in found.seams.tolist():
         of[root(one)] = root(two)
     return len({root(vertex) for vertex in of})
 
@@ -108,7 +121,7 @@ def test_a_wire_that_the_surface_does_not_lead_gets_seeds(file: NetworkFile) -> 
     target = tube(23, 81)
     found = by_surface(drawn, target)
     assert found.added >= 1
-    middles = target.places[transfer.seams(found)].mean(axis=1)
+    middles = target.places[found.seams].mean(axis=1)
     course = SOURCE.points[zigzag]
     gaps = [nearest_on_segments(place, course[:-1], course[1:])[1].min() for place in middles]
     assert max(gaps) <= 1.5 * target.spacing.mean()
@@ -143,15 +156,17 @@ def test_where_it_fits_as_well_turned_that_is_said_and_every_seed_is_doubtful(fi
     found = by_surface(file, target)
     assert found.lost == []
     assert [text for text in found.doubts if "network also fits" in str(text)] == found.doubts != []
-    assert {transferred.degree_of(seed.confidence) for seed in found.seeds} == {"DOUBTFUL"}
+    assert {seed.degree for seed in found.seeds} == {"DOUBTFUL"}
     assert by_surface(file, flat).doubts == [], "it lies on it as it is"
 
 
 def test_what_only_lies_elsewhere_is_not_called_turned() -> None:
-    shifted = replace(Similarity.none(), shift=np.array([2.0, 0.0, 0.0]))
-    assert str(Aligned(Similarity.none(), shifted).doubt).startswith("the network also fits in another place")
+    shifted = replace(Similarity.mirroring(), shift=np.array([2.0, 0.0, 0.0]))
+    assert str(Aligned(Similarity.mirroring(), shifted).doubt).startswith("the network also fits in another place")
     turned = replace(shifted, rotation=np.diag([-1.0, -1.0, 1.0]))
-    assert str(Aligned(Similarity.none(), turned).doubt).startswith("the network also fits if rotated by 180 degrees")
+    assert str(Aligned(Similarity.mirroring(), turned).doubt).startswith(
+        "the network also fits if rotated by 180 degrees"
+    )
 
 
 def test_it_is_mirrored(file: NetworkFile) -> None:
@@ -166,10 +181,10 @@ def test_mirror_images_of_wires_come_too() -> None:
     file = NetworkFile.of(Network((one,)), SOURCE.points, SOURCE.triangles, SOURCE.edges)
     target = tube(23, 60)
     found = by_surface(file, target)
-    middles = target.places[transfer.seams(found)].mean(axis=1)
+    middles = target.places[found.seams].mean(axis=1)
     assert middles[:, 2].min() < -0.3 and middles[:, 2].max() > 0.3
     same = by_numbers(file, SOURCE)
-    assert len(transfer.seams(same)) == 16, "all around"
+    assert len(same.seams) == 16, "all around"
 
 
 def test_places_are_found_on_a_mesh_that_is_stretched_by_its_object(file: NetworkFile) -> None:
@@ -192,7 +207,7 @@ def test_what_has_no_place_is_told_and_left_out(file: NetworkFile) -> None:
     assert any(seed.vertex is None and str(seed.message).endswith("not placed (0.00)") for seed in found.seeds) or any(
         seed.vertex is None for seed in found.seeds
     )
-    middles = target.places[transfer.seams(found)].mean(axis=1)
+    middles = target.places[found.seams].mean(axis=1)
     assert len(middles) and middles[:, 0].max() <= 0.35
     assert "LOST" in found.degrees
 
@@ -302,17 +317,43 @@ def test_by_numbers_the_same_edges_are_marked_and_another_mesh_is_refused(file: 
     posed = tube(16, 41, 0.5)
     found = by_numbers(file, posed)
     wanted = {edge for one in network().wires for edge in one.edges()}
-    assert {tuple(edge) for edge in transfer.seams(found).tolist()} == wanted
+    assert {tuple(edge) for edge in found.seams.tolist()} == wanted
     with pytest.raises(NetworkFileError, match="a mesh with 656 vertices"):
         by_numbers(file, tube(12, 30))
 
 
-def test_arrays_in_arrays_out(file: NetworkFile) -> None:
+def test_automatic_takes_numbers_on_the_same_mesh_and_otherwise_the_surface(file: NetworkFile) -> None:
+    read = NetworkFile.parse(file.text())
     target = tube(23, 60)
-    edges, found = transferred_seams(file.text(), target.points, target.triangles, target.edges)
-    assert len(edges) and np.array_equal(edges, transfer.seams(found))
-    edges, found = transferred_seams(file.text(), SOURCE.points, SOURCE.triangles)
-    assert {tuple(edge) for edge in edges.tolist()} == {edge for one in network().wires for edge in one.edges()}
+    found = result_of(transfer(read, target))
+    assert len(found.seams) and np.array_equal(found.seams, by_surface(file, target).seams)
+    same = {tuple(edge) for edge in result_of(transfer(read, SOURCE)).seams.tolist()}
+    assert same == {edge for one in network().wires for edge in one.edges()}
+
+
+@pytest.mark.parametrize("place", ["SURFACE", "PAIRS"])
+def test_a_transfer_tells_its_progress_and_can_be_stopped(file: NetworkFile, place: str) -> None:
+    target = tube(23, 60)
+    pairs = [(0, 0), (4, 6), (8, 12), (40 * 16, 59 * 23)]
+    seen: list[float] = []
+
+    def note(fraction: float) -> bool:
+        seen.append(fraction)
+        return True
+
+    assert result_of(transfer(file, target, place=place, source=SOURCE, pairs=pairs), note).wires
+    assert seen == sorted(seen)
+    assert seen[0] == 0.0 and 0.5 < seen[-1] < 1.0
+    stopped = transfer(file, target, place=place, source=SOURCE, pairs=pairs)
+    assert result_of(stopped, lambda fraction: fraction < 0.5) is None
+    assert next(stopped, None) is None
+
+
+def test_choices_that_do_not_fit_are_refused(file: NetworkFile) -> None:
+    with pytest.raises(ValueError, match="Mirror needs Place: Nearest Surface"):
+        result_of(transfer(file, SOURCE, place="NUMBERS", mirror=0))
+    with pytest.raises(ValueError, match="Pairs need the source object"):
+        by_landmarks(file, None, SOURCE, [(0, 0), (1, 1), (2, 2)])
 
 
 def test_strokes_come_too() -> None:

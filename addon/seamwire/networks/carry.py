@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Networks of objects, and networks on the mesh of an object in edit mode. The operators and `seamwire-batch` use these functions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..words.names import count
+from .core.network_file import NetworkFile
+from .core.placing import Shape
+from .core.transfer import transfer
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping, Sequence
+
+    import bpy
+
+    from ..core.network.picks import Edge
+    from ..core.network.wires import Wire
+    from ..mesh.object_session import ObjectSession
+    from ..mesh.settings import SeamwireSettings
+    from .core.tracing import Transfer
+    from .core.transfer import Place
+    from .core.work import Work
+
+
+@dataclass(frozen=True)
+class Source:
+    """A network, and what is known of the mesh that it was drawn on.
+
+    Parameters
+    ----------
+    network
+        The content of a file, or of the mesh.
+    shape
+        The mesh, or None if there is only a file.
+    groups
+        A vertex of the mesh for each name of a vertex group, see `group_middles`.
+    """
+
+    network: NetworkFile
+    shape: Shape | None = None
+    groups: Mapping[str, int] = field(default_factory=dict)
+
+
+def shape_of(mesh: ObjectSession) -> Shape:
+    """Return a mesh as it takes part in a transfer."""
+    arrays = mesh.arrays
+    return Shape(arrays.points, arrays.triangles, arrays.edges, arrays.to_object)
+
+
+def seam_wires(mesh: ObjectSession) -> Work[list[Wire]]:
+    """Find wires along the seams of an object that have none. The object is not changed. Any thread may do this."""
+    found, done = [], 0
+    for wire in mesh.session.drawing.wires_along(mesh.plain_seams):
+        yield done / len(mesh.plain_seams)
+        found.append(wire)
+        done += len(wire.edges())
+    return found
+
+
+def network_of(mesh: ObjectSession, settings: SeamwireSettings, more: Iterable[Wire] = ()) -> NetworkFile:
+    """Return the network of an object, and more wires, as they are saved to a file."""
+    arrays, session = mesh.arrays, mesh.session
+    return NetworkFile.of(
+        replace(session.kept, wires=(*session.wires, *more)),
+        arrays.points,
+        arrays.triangles,
+        arrays.edges,
+        name=mesh.cage.mesh.name,
+        metric=settings.metric,
+        clamp=settings.clamp,
+        to_object=arrays.to_object,
+    )
+
+
+def group_middles(obj: bpy.types.Object) -> dict[str, int]:
+    """Return for each vertex group that is not empty the vertex nearest to its middle, by the group's name."""
+    obj.update_from_editmode()
+    members: dict[int, list[tuple[int, float]]] = {}
+    for vertex in obj.data.vertices:
+        for membership in vertex.groups:
+            if membership.weight > 0.0:
+                members.setdefault(membership.group, []).append((vertex.index, membership.weight))
+    middles = {}
+    for group in obj.vertex_groups:
+        if group.index in members:
+            numbers, weights = zip(*members[group.index], strict=True)
+            places = np.array([obj.data.vertices[number].co for number in numbers])
+            middle = np.average(places, axis=0, weights=weights)
+            middles[group.name] = numbers[int(np.linalg.norm(places - middle, axis=1).argmin())]
+    return middles
+
+
+def carry_over(
+    target: ObjectSession,
+    source: Source,
+    *,
+    place: Place = "AUTO",
+    mirror: int | None = None,
+    align: bool = True,
+    pairs: Sequence[Edge] = (),
+) -> Work[Transfer]:
+    """Find what a network is on a mesh. Nothing is written, and any thread may do the work.
+
+    Parameters
+    ----------
+    target
+        The mesh.
+    source
+        The network.
+    place, mirror, align
+        See `transfer`.
+    pairs
+        Vertices of both meshes. Without any, PAIRS takes the vertex groups with the same names.
+
+    Raises
+    ------
+    ValueError
+        If too few vertex groups have the same names. The work raises it if something else does not fit.
+    """
+    if place == "PAIRS" and not pairs:
+        there = group_middles(target.obj)
+        pairs = [(source.groups[name], there[name]) for name in source.groups if name in there]
+        if len(pairs) < 3:
+            raise ValueError(
+                f"Give at least three pairs of vertices: the objects share {count(len(pairs), 'vertex group')}"
+            )
+    return transfer(
+        source.network,
+        shape_of(target),
+        place=place,
+        mirror=mirror,
+        align=align,
+        source=source.shape,
+        pairs=pairs,
+        topology=target.cage.mesh.use_mirror_topology,
+        live=target.make_live,
+    )
+
+
+def write(target: ObjectSession, found: Transfer) -> tuple[int, int]:
+    """Mark the seams that `carry_over` found. Return how many wires the mesh did not have, and how many edges became seams."""
+    there = {wire.vertices for wire in target.session.wires}
+    new = [wire for wire in found.wires if wire.vertices not in there]
+    target.add(new, found.strokes)
+    marked, _ = target.write(target.plan())
+    return len(new), marked

@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Networks on other meshes than they were drawn on: their seeds are placed there, and wires drawn between them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from ...core.base.geometry import Moments
+from ...core.base.messages import NOTHING, Refused
+from ...core.network.mirror_images import MirrorImages
+from ...core.network.network import Network
+from ...core.network.symmetry import Symmetry
+from ...core.solver.live_maker import LiveMaker
+from .network_file import Course, NetworkFile, NetworkFileError
+from .placing import Landmarks, Placed, Shape, Similarity, Surface
+from .tracing import STRAY, Seed, Tracing, Transfer
+from .work import PLACED, Work
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+Place = Literal["AUTO", "NUMBERS", "SURFACE", "PAIRS"]
+"""How seeds are placed: by vertex numbers, on the nearest surface, or by distances to pairs of vertices. AUTO takes numbers if the topology
+is the same, otherwise pairs if there are any, otherwise the surface."""
+
+_TURNED = 0.5
+"""The confidence of the surest seed if the network might as well lie elsewhere: doubtful."""
+
+
+def transfer(
+    file: NetworkFile,
+    target: Shape,
+    *,
+    place: Place = "AUTO",
+    mirror: int | None = None,
+    align: bool = True,
+    source: Shape | None = None,
+    pairs: ArrayLike = (),
+    topology: bool = False,
+    live: LiveMaker | None = None,
+) -> Work[Transfer]:
+    """Find what a network is on a mesh.
+
+    Parameters
+    ----------
+    file
+        The network.
+    target
+        The mesh.
+    place
+        How seeds are placed.
+    mirror
+        The axis, 0 to 2, over which the network is mirrored first, or None. Then it is placed on the surface.
+    align
+        On the surface: whether the network may be turned, scaled and moved onto the mesh, if it does not lie on it.
+    source
+        The mesh that the network was drawn on. PAIRS needs it.
+    pairs
+        (k, 2) vertices of the source and of the target that are the same point of the shape, three pairs at least.
+    topology
+        By numbers: whether mirror images are found by how the mesh is connected, see `Symmetry`.
+    live
+        Makes live wires on the target. None to make them here.
+
+    Raises
+    ------
+    ValueError
+        If the mesh, the pairs or the choices do not fit.
+    """
+    pairs = np.array(pairs, dtype=np.int64).reshape(-1, 2)
+    if mirror is not None and place in {"NUMBERS", "PAIRS"}:
+        raise Refused("mirror-by-surface")
+    if place == "AUTO":
+        same = mirror is None and not file.problem_with(len(target.points), target.edges)
+        by_pairs = len(pairs) and source is not None and mirror is None
+        place = "NUMBERS" if same else "PAIRS" if by_pairs else "SURFACE"
+    yield 0.0
+    if place == "NUMBERS":
+        return _by_numbers(file, target, topology)
+    live = live or LiveMaker(target)
+    if place == "SURFACE":
+        return (yield from _by_surface(file, target, mirror, align, live))
+    if source is None:
+        raise Refused("pairs-without-source")
+    return (yield from _by_pairs(file, source, target, pairs, live))
+
+
+def _check(file: NetworkFile, mesh: Shape) -> None:
+    """Raise NetworkFileError if a network was drawn on another mesh."""
+    problem = file.problem_with(len(mesh.points), mesh.edges)
+    if problem:
+        raise NetworkFileError(problem)
+
+
+def _by_numbers(file: NetworkFile, target: Shape, topology: bool) -> Transfer:
+    """Return a network on a mesh of the same topology, vertex by vertex."""
+    _check(file, target)
+    to_object = np.eye(3) if target.to_object is None else target.to_object
+    symmetry = Symmetry(target.points, target.edges, to_object, topology, target.triangles)
+    network = MirrorImages(symmetry).complete(Network(tuple(file.wires(target.points, to_object))))
+    wires = list(network.wires)
+    ends = dict.fromkeys(
+        vertex for wire in wires if not wire.closed for vertex in (wire.vertices[0], wire.vertices[-1])
+    )
+    seeds = [Seed(vertex, (), vertex, 1.0) for vertex in ends]
+    return Transfer(wires, file.strokes_on(target.points, to_object), seeds)
+
+
+def _by_surface(file: NetworkFile, target: Shape, mirror: int | None, align: bool, live: LiveMaker) -> Work[Transfer]:
+    """Return a network on a mesh with about the same shape and any topology."""
+    surface, doubt = Surface(target), NOTHING
+    way = Similarity.mirroring(*(() if mirror is None else (mirror,)))
+    if align and file.courses:
+        points = way.of(np.concatenate([course.places for course in file.courses]))
+        moments = file.origin.moments
+        moved = Moments(way.of(moments.middle[None])[0], way.of_normals(moments.axes))
+        aligned = yield from surface.align(points, moved)
+        way, doubt = aligned.way.after(way), aligned.doubt
+
+    def place(course: Course, axes: tuple[int, ...], part: int | None = None) -> Placed:
+        own = way.after(Similarity.mirroring(*axes))
+        spacing = own.scale * course.spacing
+        placed = surface.place(own.of(course.places), own.of_normals(course.normals), spacing, part)
+        return replace(placed, confidence=np.minimum(placed.confidence, _TURNED)) if doubt else placed
+
+    def stroke(points: NDArray[np.float64]) -> Placed:
+        moved = way.of(points)
+        return surface.place(moved, np.zeros_like(moved), float(target.spacing.mean()))
+
+    found = yield from Tracing(file, target, surface, live).run(place, stroke, place)
+    found.doubts += [doubt] if doubt else []
+    return found
+
+
+def _by_pairs(
+    file: NetworkFile, source: Shape, target: Shape, pairs: NDArray[np.int64], live: LiveMaker
+) -> Work[Transfer]:
+    """Return a network on a mesh with another pose or proportion and any topology."""
+    _check(file, source)
+    surface = Surface(target)
+    landmarks = Landmarks(source, target, pairs)
+    yield PLACED
+
+    def nearest(points: NDArray[np.float64]) -> NDArray[np.int64]:
+        return ((source.places[None] - points[:, None]) ** 2).sum(axis=2).argmin(axis=1)
+
+    def place(course: Course, axes: tuple[int, ...]) -> Placed:
+        if axes:
+            return landmarks.place(nearest(Similarity.mirroring(*axes).of(course.places)))
+        return landmarks.place(np.array(course.record["vertices"], dtype=np.int64))
+
+    def stroke(points: NDArray[np.float64]) -> Placed:
+        return landmarks.place(nearest(points))
+
+    return (yield from Tracing(file, target, surface, live, stray=2.0 * STRAY).run(place, stroke))
