@@ -66,7 +66,7 @@ def network_of(mesh: ObjectSession, settings: SeamwireSettings, more: Iterable[W
     """Return the network of an object, and more wires, as they are saved to a file."""
     arrays, session = mesh.arrays, mesh.session
     return NetworkFile.of(
-        replace(session.kept, wires=(*session.wires, *more)),
+        replace(session.drawing.network, wires=(*session.wires, *more)),
         arrays.points,
         arrays.triangles,
         arrays.edges,

@@ -65,7 +65,7 @@ double price_at(double open) {
   return seen * (1.0 + kFacePrice * face * face);
 }
 
-/// What a seam along each edge costs for its length, by the shape of the surface; 1 in a flat place.
+/// The price of a seam along each edge for its length, by the shape of the surface. It is 1 in a flat place.
 std::vector<double> shape_prices(const PlanMesh& mesh, const EdgeBends& bends, std::span<const double> odds) {
   const auto middle = [&](std::int32_t h) {
     const auto& [a, b, c] = mesh.triangles[h / 3];
