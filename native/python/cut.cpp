@@ -158,8 +158,8 @@ void bind_cut(py::module_& module) {
   module.def("plan_cuts", &make_plan, py::arg("points"), py::arg("triangles"), py::arg("polygons"), py::arg("curves"),
              R"(Plan how to cut curves into polygons.
 
-An end inside a polygon that no other curve leads on from goes back to the last edge. Curves that cross or run close to
-each other meet in common nodes. A cut that passes a vertex or an edge at less than 0.05, as a fraction of an edge's
+If a curve ends inside a polygon and no other curve continues from there, it is cut only as far as the last edge that it
+crosses. Curves that cross or run close to each other meet in common nodes. A cut that passes a vertex or an edge at less than 0.05, as a fraction of an edge's
 length or a triangle's height, goes through it.
 
 Parameters

@@ -18,6 +18,9 @@ const PolygonMesh& checked(const PolygonMesh& mesh) {
     throw InvalidInput("There are " + std::to_string(mesh.triangles.size()) + " triangles, but the polygons of " +
                        std::to_string(mesh.polygons.size()));
   }
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) {
+    if (!mesh.points[v].allFinite()) throw InvalidInput("vertex " + std::to_string(v) + ": a coordinate is not finite");
+  }
   for (std::size_t row = 0; row < mesh.triangles.size(); ++row) {
     for (const std::int32_t v : mesh.triangles[row]) {
       if (!is_index(v, mesh.points.size())) {

@@ -3,7 +3,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -14,16 +16,17 @@
 namespace seamwire::detail {
 namespace {
 
-/// Collects pieces, each once in either direction.
+/// Collects pieces, each once in either direction. Pieces in different polygons differ, except along a side.
 class DistinctPieces {
  public:
-  void add(const Piece& piece) {
-    if (known_.insert(std::minmax(piece.one, piece.two)).second) pieces.push_back(piece);
+  void add(const Piece& piece, bool is_on_side) {
+    const auto [first, last] = std::minmax(piece.one, piece.two);
+    if (known_.insert({first, last, is_on_side ? -1 : piece.polygon}).second) pieces.push_back(piece);
   }
   std::vector<Piece> pieces;
 
  private:
-  std::set<std::pair<std::int32_t, std::int32_t>> known_;
+  std::set<std::array<std::int32_t, 3>> known_;
 };
 
 /// The ends of a piece, or of what it lies on: two vertices, or nothing.
@@ -66,7 +69,7 @@ std::vector<Piece> together(const NodeTable& nodes, std::span<const Piece> piece
     for (std::int32_t* const n : {&piece.one, &piece.two}) {
       if (const auto found = same.find(*n); found != same.end()) *n = found->second;
     }
-    if (piece.one != piece.two) kept.add(piece);
+    if (piece.one != piece.two) kept.add(piece, false);
   }
   return std::move(kept.pieces);
 }
@@ -123,7 +126,7 @@ std::vector<Piece> parted(const CutMesh& mesh, const NodeTable& nodes, std::span
   for (const Piece& piece : pieces) {
     const std::optional<Edge> pair = pair_of(nodes, piece);
     if (!pair) {
-      kept.add(piece);
+      kept.add(piece, false);
       continue;
     }
     const bool is_side = mesh.is_side(piece.polygon, (*pair)[0], (*pair)[1]);
@@ -136,7 +139,7 @@ std::vector<Piece> parted(const CutMesh& mesh, const NodeTable& nodes, std::span
       }
     }
     std::ranges::stable_sort(passed, {}, part);
-    for (std::size_t i = 1; i < passed.size(); ++i) kept.add({passed[i - 1], passed[i], piece.polygon});
+    for (std::size_t i = 1; i < passed.size(); ++i) kept.add({passed[i - 1], passed[i], piece.polygon}, is_side);
   }
   return std::move(kept.pieces);
 }

@@ -27,7 +27,7 @@ class CurveEnds {
   std::map<std::array<std::int32_t, 3>, std::vector<std::int32_t>> at_;
 };
 
-/// Leaves out what leads away from a node and back: places that were near a vertex before and after others that were
+/// Removes loops that start and end at one node. They come from places near a vertex before and after places that are
 /// not.
 std::vector<Piece> without_detours(std::span<const Piece> pieces);
 
@@ -35,12 +35,12 @@ std::vector<Piece> without_detours(std::span<const Piece> pieces);
 /// along an edge or a diagonal are cut at the nodes of others that they pass.
 std::vector<Piece> joined(const CutMesh& mesh, NodeTable& nodes, std::vector<Piece> pieces);
 
-/// Leaves out the longer one of two cuts between the same nodes that enclose next to nothing; not where both nodes are
-/// ends.
+/// Leaves out the longer one of two cuts between the same nodes if they enclose next to nothing. Keeps both if both
+/// nodes are ends of curves.
 std::vector<Piece> without_slivers(const CutMesh& mesh, const NodeTable& nodes, std::span<const Piece> pieces,
                                    const CurveEnds& ends);
 
-/// Leaves out pieces that lead nowhere, to none of the ends: what moving nodes leaves behind, and ends inside polygons.
+/// Removes pieces with a dead end that is no end of a curve, and ends inside polygons.
 std::vector<Piece> without_spurs(const NodeTable& nodes, std::span<const Piece> pieces, const CurveEnds& ends);
 
 /// Whether both ends of a piece lie on one side of its polygon.

@@ -51,7 +51,7 @@ void check_curve(const PolygonMesh& mesh, std::span<const CutCurve> curves, std:
   if (!curve.faces.empty() && curve.faces.size() + 1 != curve.points.size()) {
     throw InvalidInput(name + ": expected " + std::to_string(curve.points.size() - 1) + " triangles, or none");
   }
-  if (curve.image_of >= 0) check_index(curve.image_of, number, name + ": image of curve", "earlier curves");
+  if (curve.image_of != -1) check_index(curve.image_of, number, name + ": image of curve", "earlier curves");
 }
 
 /// Leads cuts straight over a polygon, without vertices inside, where they hardly bend and nothing is in the way.

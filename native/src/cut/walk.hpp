@@ -26,9 +26,9 @@ struct Walk {
 
 /// Walks along a curve, and adds the nodes that it passes.
 ///
-/// If the curve runs in the triangles that it names, these are the ones. Otherwise the walk is the cheapest one
-/// (Dijkstra's algorithm). A step costs nothing if the next point of the curve lies in a polygon beside. Where faces
-/// lie on each other, the curve therefore runs over those that its next points are on as well.
+/// If the curve lies in the triangles that it names, the walk uses them. Otherwise the walk is the cheapest one
+/// (Dijkstra's algorithm). A step costs nothing if the next point of the curve lies in a neighboring polygon. Where
+/// faces lie on each other, the walk therefore prefers the face that also holds the next points.
 Walk walk_along(const CutMesh& mesh, const CutCurve& curve, NodeTable& nodes);
 
 }  // namespace seamwire::detail

@@ -20,7 +20,8 @@
 namespace seamwire::detail {
 namespace {
 
-constexpr double kLeastHalf = 0.2;         // of the area of a piece, if there is such a cut
+constexpr double kLeastLink = 1e-9;  // of an edge without a length, which holds its triangles together all the same
+constexpr double kLeastHalf = 0.2;   // of the area of a piece, if there is such a cut
 constexpr std::size_t kMostBlocks = 2500;  // among which a cut is looked for before it is refined
 
 /// The mirror images of edges if each of them has an image within a piece, otherwise nothing.
@@ -370,7 +371,8 @@ class Halving {
     MinimumCut network(index(nodes));
     for (std::int32_t b = 0; index(b) < blocks.count(); ++b) {
       for (const Link& link : blocks.links[b]) {
-        if (b < link.block && owner[b] != owner[link.block]) network.add(owner[b], owner[link.block], link.price);
+        if (b >= link.block || owner[b] == owner[link.block]) continue;
+        network.add(owner[b], owner[link.block], std::max(link.price, kLeastLink));
       }
     }
     const std::vector<std::uint8_t> is_source = network.source_side(kSource, kSink);

@@ -43,7 +43,7 @@ std::vector<std::int32_t> along_curve(std::span<const Vector> places) {
     std::uint32_t key = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const double part = (places[i][axis] - box.min()[axis]) / sizes[axis];
-      const auto cell = static_cast<std::uint32_t>(std::clamp(part * kCells, 0.0, kCells - 1.0));
+      const auto cell = static_cast<std::uint32_t>(part > 0.0 ? std::min(part * kCells, kCells - 1.0) : 0.0);
       for (int bit = 0; bit < 10; ++bit) key |= (cell >> bit & 1U) << (3 * bit + axis);
     }
     keys.emplace_back(key, static_cast<std::int32_t>(i));
@@ -55,10 +55,17 @@ std::vector<std::int32_t> along_curve(std::span<const Vector> places) {
   return order;
 }
 
+/// The normal of a triangle, of any length; zero if the triangle is too thin to have one.
+Vector normal_of(const Vector& u, const Vector& v) {
+  constexpr double kThin = 1e-10;  // the sine of an angle that rounding may make
+  const Vector normal = u.cross(v);
+  return normal.norm() > kThin * std::max(u.squaredNorm(), v.squaredNorm()) ? normal : Vector(Vector::Zero());
+}
+
 /// The point of a triangle that is nearest to a place.
 Vector nearest_in(const std::array<Vector, 3>& corners, const Vector& place) {
   const Vector u = corners[1] - corners[0], v = corners[2] - corners[0], w = place - corners[0];
-  const Vector normal = u.cross(v);
+  const Vector normal = normal_of(u, v);
   const double square = normal.squaredNorm();
   if (square > 0.0) {
     // Where the place lies above the triangle, that is the point below. Otherwise it lies on a side.
@@ -112,7 +119,7 @@ NearestPoints::NearestPoints(std::vector<Vector> points, std::vector<Triangle> t
   for (const std::int32_t t : impl->tree.order) {
     const auto& [a, b, c] = triangles[t];
     impl->corners.push_back({points[a], points[b], points[c]});
-    impl->normals.emplace_back((points[b] - points[a]).cross(points[c] - points[a]));
+    impl->normals.push_back(normal_of(points[b] - points[a], points[c] - points[a]));
   }
   impl_ = std::move(impl);
 }

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <limits>
+#include <utility>
 #include <vector>
 
 namespace seamwire {
@@ -51,6 +53,21 @@ TEST(PlanCuts, SplitsTheEdgeBetweenTwoQuadsAndBothQuads) {
   }
   EXPECT_TRUE(plan.along.empty());
   EXPECT_TRUE(plan.left_out.empty());
+}
+
+TEST(PlanCuts, PolygonsBackToBackAreCutEach) {
+  const std::vector<Vector> points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  const std::vector<Triangle> triangles{{0, 1, 3}, {1, 2, 3}, {3, 2, 0}, {2, 1, 0}};
+  const std::vector<std::int32_t> polygons{0, 0, 1, 1};
+  const auto diagonal = [&](std::int32_t from, std::int32_t to, std::vector<std::int32_t> faces) {
+    return CutCurve{.points = {points[from], 0.5 * (points[from] + points[to]), points[to]},
+                    .start = SurfacePoint::at_vertex(from),
+                    .end = SurfacePoint::at_vertex(to),
+                    .faces = std::move(faces)};
+  };
+  const std::vector<CutCurve> curves{diagonal(0, 2, {0, 1}), diagonal(2, 0, {2, 2})};
+  const CutPlan plan = plan_cuts({.points = points, .triangles = triangles, .polygons = polygons}, curves);
+  EXPECT_EQ(plan.across.size(), 2U);
 }
 
 TEST(PlanCuts, NamedTrianglesDecideWhereFacesLieOnEachOther) {
@@ -113,11 +130,16 @@ TEST(PlanCuts, RefusesWhatIsOutOfRange) {
   curve.faces = {0};
   EXPECT_THROW(plan(curve), InvalidInput);
   curve = across_two();
-  curve.image_of = 0;
-  EXPECT_THROW(plan(curve), InvalidInput);
+  for (const std::int32_t number : {0, -2}) {
+    curve.image_of = number;
+    EXPECT_THROW(plan(curve), InvalidInput);
+  }
   curve = across_two();
   curve.points.resize(1);
   EXPECT_THROW(plan(curve), InvalidInput);
+  row.points[2].x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(plan(across_two()), InvalidInput);
+  row.points[2].x() = 2.0;
   row.polygons.back() = 0;
   EXPECT_THROW(plan(across_two()), InvalidInput);  // not ascending
   row.polygons.assign(4, 0);

@@ -68,6 +68,14 @@ TEST(NearestPoints, TrianglesThatFaceAwayDoNotCountUnlessAllDo) {
   EXPECT_EQ(NearestPoints(points, {{0, 1, 2}}).find(places, normals)[1].triangle, 0);
 }
 
+TEST(NearestPoints, RoundingMakesNoInsideOfATriangleWithoutArea) {
+  const Vector along(0.1, 0.7, 0.9);
+  const std::vector<Vector> points{{0, 0, 0}, 7.0 * along, 0.1 * along};
+  const std::vector<Vector> places{points[1], points[2], 3.0 * along};
+  for (const NearestPoint& found : NearestPoints(points, {{0, 1, 2}}).find(places))
+    EXPECT_NEAR(found.distance, 0.0, 1e-12);
+}
+
 TEST(NearestPoints, TrianglesWithoutAreaCountAsTheirSidesDo) {
   const std::vector<Vector> points{{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {5, 5, 5}};
   const std::vector<Vector> place{{1.5, 1.0, 0.0}}, normal{{0, 0, -1}};

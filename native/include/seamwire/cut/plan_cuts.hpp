@@ -36,7 +36,8 @@ struct CutCurve {
   /// The triangle that each segment lies in, one less than points. Empty: not known. If the curve does not run in these
   /// triangles, or one of them does not exist, all are found as if they were not known.
   std::vector<std::int32_t> faces = {};
-  /// The number of an earlier curve that this one is a mirror image of; -1: none. It is skipped if that one is.
+  /// The number of an earlier curve that this one is a mirror image of; -1: none. This curve is
+  /// skipped if the earlier one is left out.
   std::int32_t image_of = -1;
 };
 
@@ -87,11 +88,13 @@ struct CutPlan {
 
 /// Plans how to cut curves into a mesh. The method is described in docs/method/finishing.md.
 ///
-/// An end inside a polygon that no other curve leads on from goes back to the last edge. Curves that cross or run close
-/// to each other meet in common nodes. Slivers between them are left out.
+/// If a curve ends inside a polygon and no other curve continues from there, it is cut only as far as the last edge
+/// that it crosses. Curves that cross or run close to each other meet in common nodes. Slivers between them are left
+/// out.
 ///
-/// Throws InvalidInput, naming the element, if sizes do not fit, if polygons are not ascending, or for an index out of
-/// range. Throws InvalidInput, too, if the triangles of a polygon that a curve passes do not form a polygon.
+/// Throws InvalidInput, naming the element, if sizes do not fit, if polygons are not ascending, for an index out of
+/// range, or for a coordinate that is not finite. Throws InvalidInput, too, if the triangles of a polygon that a curve
+/// passes do not form a polygon.
 CutPlan plan_cuts(const PolygonMesh& mesh, std::span<const CutCurve> curves);
 
 }  // namespace seamwire
