@@ -2,7 +2,8 @@
 """Functions for scripts: draw wires, suggest seams, unwrap and cut.
 
 Each works on one object, in Object Mode or Edit Mode, and leaves it in the mode that it had. If it cannot be done, they raise ValueError
-with a sentence that says why, and change nothing. Without the compiled part they raise ImportError. They push no step of Blender's undo.
+with a sentence that says why, and change nothing. Without the compiled part, `mark` raises ImportError, and the others ValueError. They
+push no step of Blender's undo.
 """
 
 from __future__ import annotations
@@ -221,12 +222,16 @@ def _editing(obj: bpy.types.Object, alone: bool = False) -> Iterator[None]:
     for other in selected:
         other.select_set(False)
     layer.objects.active = obj
-    obj.select_set(True)
-    bpy.ops.object.mode_set(mode="EDIT")
     try:
+        obj.select_set(True)
+        try:
+            bpy.ops.object.mode_set(mode="EDIT")
+        except RuntimeError as error:  # the mesh is linked, or the object is hidden
+            raise ValueError(f"{obj.name} cannot be edited: {error}") from None
         yield
     finally:
-        bpy.ops.object.mode_set(mode="OBJECT")
+        if obj.mode == "EDIT":
+            bpy.ops.object.mode_set(mode="OBJECT")
         obj.select_set(False)
         for other in selected:
             other.select_set(True)

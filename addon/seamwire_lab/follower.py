@@ -192,6 +192,8 @@ class Follower:
             return
         if tool.find() is not self._tool:
             return  # it was disabled since the last tick
+        if context.space_data is None:
+            return  # another add-on draws the view into a picture
         if context.space_data.overlay.show_overlays and obj.visible_in_viewport_get(context.space_data):
             part(obj)
 

@@ -199,6 +199,18 @@ def test_an_object_in_object_mode_is_marked_and_all_is_as_it_was() -> None:
     assert (seams(obj), seams(other)) == (chain(10, 11, 12, 13, 14), [])
 
 
+def test_an_object_that_cannot_be_edited_is_refused_and_all_is_as_it_was() -> None:
+    obj, other = add_grid(5, name="Hidden"), add_grid(5, name="Other")
+    obj.select_set(False)
+    obj.hide_viewport = True
+    with pytest.raises(ValueError, match="Hidden cannot be edited"):
+        mark_wires("10 14", obj=obj)
+    assert (obj.mode, other.mode) == ("OBJECT", "OBJECT")
+    assert bpy.context.view_layer.objects.active == other
+    assert other.select_get()
+    assert seams(obj) == []
+
+
 def test_functions_on_whole_objects_work_on_one_object_only() -> None:
     obj, other = add_grid(5, name="Marked"), add_grid(5, name="Other")
     mark_wires("10 14", obj=obj)

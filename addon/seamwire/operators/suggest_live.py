@@ -240,10 +240,12 @@ class LiveParts:
         suggestion = next(each for each in self._suggestions if each.mesh.obj.name_full == at.name)
         if at.border is None:
             return edits.part(int(suggestion.mesh.arrays.polygons[at.triangle]))
-        dropped = self._dropped.setdefault(at.name, [])
         if at.border < len(suggestion.borders):
-            dropped.append(suggestion.borders[at.border])
-            return edits.drop(edges_of(dropped[-1]))
+            chain = suggestion.borders[at.border]
+            dropped = self._dropped.setdefault(at.name, [])
+            if all(edges_of(known) != edges_of(chain) for known in dropped):
+                dropped.append(chain)
+            return edits.drop(edges_of(chain))
         return edits.keep(edges_of(self._dim(suggestion)[at.border - len(suggestion.borders)]))
 
     def _change(self) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import itertools
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 from weakref import WeakMethod
 
@@ -31,7 +32,7 @@ from .stretch_heat import StretchHeat
 from .theme import HUES
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Hashable, Iterator
 
     from numpy.typing import NDArray
 
@@ -230,12 +231,11 @@ class ObjectView:
             layer.close()
 
     def _follow_layers(self) -> None:
-        if failures.has("layers", self.name):
-            return
         session, options = self.session, self.options
         self.crest_view.is_wanted = options.snap or session.loops.offers.wanted
-        for layer in self._layers:
-            layer.follow(options, self._source(), session.drawing.engines.strokes)
+        source, strokes = self._source(), session.drawing.engines.strokes
+        for key, layer in self._working_layers():
+            failures.attempt(key, partial(layer.follow, options, source, strokes))
         session.use_crests(self.crest_view.crests, options.show_crests)
 
     def _source(self) -> End | None:
@@ -250,21 +250,24 @@ class ObjectView:
     @property
     def busy(self) -> bool:
         """Whether something is being computed: `poll` is to be called now and then."""
-        layers = any(layer.busy for layer in self._layers) and not failures.has("layers", self.name)
-        return self.mesh.busy or self.islands.busy or layers
+        return self.mesh.busy or self.islands.busy or any(layer.busy for _, layer in self._working_layers())
 
     def poll(self) -> bool:
         """Take in what was computed; return whether there is something new to be seen."""
         self.mesh.poll()
-        told = failures.attempt(("layers", self.name), self._poll_layers)
+        told = any([failures.attempt(key, layer.poll) for key, layer in self._working_layers()])
         self.session.use_crests(self.crest_view.crests, self.options.show_crests)
         # Progress is told by the status bar: the picture stays.
         seen = self.session.revision
         self.session.poll()
         return any((self.session.revision != seen, self.islands.poll(), told))
 
-    def _poll_layers(self) -> bool:
-        return any([layer.poll() for layer in self._layers])
+    def _working_layers(self) -> Iterator[tuple[tuple[Hashable, ...], Layer]]:
+        """Iterate over the layers that have not failed, each after what `failures` calls it."""
+        for number, layer in enumerate(self._layers):
+            key = ("layers", self.name, number)
+            if not failures.has(*key):
+                yield key, layer
 
     @property
     def is_stretched_anew(self) -> bool:

@@ -426,7 +426,7 @@ class Landmarks:
     def place(self, vertices: NDArray[np.int64]) -> Placed:
         """Place vertices of the source on the target, (k,).
 
-        How far the best place's distances are off, and how much farther off those of other places are, says how sure each is.
+        Each place is the surer, the smaller its error is, and the larger that of the best rival.
         """
         target, used = self._target, self._used
         size = max(target.size, 1e-300)
@@ -458,7 +458,7 @@ class Landmarks:
 
 
 def _landmark_confidence(off: float, rival: float) -> float:
-    """Return how sure a place is whose distances are so far off, where those of another place are so far off; 1 is what poses do."""
+    """Return the confidence in a place from its error and that of the best rival. An error of 1 is typical of a changed pose."""
     if not np.isfinite(off):
         return 0.0
     apart = np.clip((rival - off) / _APART, 0.0, 1.0) if np.isfinite(rival) else 1.0

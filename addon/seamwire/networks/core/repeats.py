@@ -2,8 +2,8 @@
 """Where a mesh has again what a set of edges runs along: fingers, bolts, wheels, the other hand.
 
 The set is described by a walk along it: how many edges each of its vertices has, whether that is on the border, and by how many edges
-the walk turns there. The same walk is begun at every other edge of the mesh, in both directions and mirrored, and what comes to its end
-is such a place. So what is alike is how the mesh hangs together there, not where it lies; lengths of edges have to agree too.
+the walk turns there. The same walk is begun at every other edge of the mesh, in both directions and mirrored. If it comes to its end, the
+place is a repeat. Repeats have the same connectivity and the same lengths of edges. They may lie anywhere.
 """
 
 from __future__ import annotations
@@ -74,7 +74,7 @@ class Repeats:
         Parameters
         ----------
         wires
-            Those along edges that are connected with each other: what no walk along edges reaches is left out.
+            Connected wires along edges. Edges that the walk does not reach are ignored.
         points
             (n, 3) vertices of the mesh, for the curves.
         """
