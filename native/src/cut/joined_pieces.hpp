@@ -40,7 +40,7 @@ std::vector<Piece> joined(const CutMesh& mesh, NodeTable& nodes, std::vector<Pie
 std::vector<Piece> without_slivers(const CutMesh& mesh, const NodeTable& nodes, std::span<const Piece> pieces,
                                    const CurveEnds& ends);
 
-/// Removes pieces with a dead end that is no end of a curve, and ends inside polygons.
+/// Removes pieces that end at neither an end of a curve nor another piece, and ends inside polygons.
 std::vector<Piece> without_spurs(const NodeTable& nodes, std::span<const Piece> pieces, const CurveEnds& ends);
 
 /// Whether both ends of a piece lie on one side of its polygon.
