@@ -142,7 +142,7 @@ int or None
 }
 
 CutPlan make_cut_plan(const py::object& points, const py::object& triangles, const py::object& polygons,
-                  const std::vector<CutCurve>& curves) {
+                      const std::vector<CutCurve>& curves) {
   const std::vector<Vector> own_points = points_from(points, "points");
   const std::vector<Triangle> own_triangles = triangles_from(triangles, "triangles");
   const std::vector<std::int32_t> own_polygons = numbers_from(polygons, "polygons");
@@ -155,7 +155,8 @@ CutPlan make_cut_plan(const py::object& points, const py::object& triangles, con
 void bind_cut(py::module_& module) {
   bind_curve(module);
   bind_plan(module);
-  module.def("plan_cuts", &make_cut_plan, py::arg("points"), py::arg("triangles"), py::arg("polygons"), py::arg("curves"),
+  module.def("plan_cuts", &make_cut_plan, py::arg("points"), py::arg("triangles"), py::arg("polygons"),
+             py::arg("curves"),
              R"(Plan how to cut curves into polygons.
 
 If a curve ends inside a polygon and no other curve continues from there, it is cut only as far as the last edge that it
