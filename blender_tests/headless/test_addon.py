@@ -54,6 +54,8 @@ print("Read:", sorted(dict.fromkeys(name.split(".")[0] for name in set(sys.modul
 def test_enabling_with_an_option_of_the_command_line_lists_the_add_on() -> None:
     if not bpy.app.binary_path:
         pytest.skip("Blender as a Python module cannot be started again")
+    if ADDON.startswith("bl_ext."):
+        pytest.skip("another Blender that disables an extension removes its wheels from under this one")
     code = f"""
 import addon_utils, bpy, sys
 assert {ADDON!r} not in bpy.context.preferences.addons
@@ -78,6 +80,7 @@ def test_other_versions_of_blender_are_refused() -> None:
 
 def test_blender_is_told_the_same_oldest_versions() -> None:
     package = Path(versions.__file__).parents[1]
-    assert sys.modules[ADDON].bl_info["blender"][:2] == versions.OLD
+    if not ADDON.startswith("bl_ext."):  # Blender reads no bl_info of an extension
+        assert sys.modules[ADDON].bl_info["blender"][:2] == versions.OLD
     oldest = ".".join(map(str, versions.NEW))
     assert f'blender_version_min = "{oldest}.0"' in (package / "blender_manifest.toml").read_text("utf-8")
