@@ -47,7 +47,7 @@ class Blender:
     def start(self, *arguments: str) -> str:
         """Start it with these arguments, wait for its end, and return what it printed, errors too; its exit code must be 0."""
         code, output = self.try_start(*arguments)
-        assert code == 0, output
+        assert code == 0, f"exit code {code}: {output}"
         return output
 
     def try_start(self, *arguments: str) -> tuple[int, str]:
@@ -85,7 +85,7 @@ class Blender:
     def install(self, package: Path, addon: str = "seamwire") -> str:
         """Install the package of an add-on and enable it, as a user does. Returns what Blender printed."""
         code, output = self.try_install(package, addon)
-        assert code == 0, output
+        assert code == 0, f"exit code {code}: {output}"
         return output
 
     def try_install(self, package: Path, addon: str = "seamwire") -> tuple[int, str]:

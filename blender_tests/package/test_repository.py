@@ -98,7 +98,7 @@ class Repository:
     def run(self, code: str) -> str:
         """Run code with the installed add-on enabled."""
         if not self.blender.is_python_module:
-            return without_traceback(self.blender.run(code))
+            return without_traceback(self.blender.run('ADDON = "bl_ext.seamwire_repository.seamwire"\n' + code))
         enable = "import addon_utils\nassert addon_utils.enable(ADDON, default_set=True) is not None\n"
         return without_traceback(self.blender.run(REPOSITORY.format(url=self.url) + enable + code, as_set_up=False))
 
