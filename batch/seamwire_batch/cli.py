@@ -207,7 +207,7 @@ def on_dask(scheduler: str) -> Engine:
     try:
         from distributed import Client, as_completed
     except ImportError as error:
-        raise UsageError("--engine dask needs Dask: pip install distributed") from error
+        raise UsageError("--engine dask needs Dask: pip install seamwire-batch[dask]") from error
     if not scheduler:
         raise UsageError("--engine dask needs --scheduler")
     try:

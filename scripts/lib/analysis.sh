@@ -24,7 +24,7 @@ tidy() {
 tidy_check() {
   local result=0 tidy_options=()
   cmake -S . -B build/tidy -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_INTERPROCEDURAL_OPTIMIZATION=OFF \
-    -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DSEAMWIRE_UNITY_BUILD=OFF -DSEAMWIRE_BENCHMARKS=ON -DSEAMWIRE_PYTHON=ON \
+    -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON -DSEAMWIRE_BENCHMARKS=ON -DSEAMWIRE_PYTHON=ON \
     -DPython_EXECUTABLE="$VENV/bin/python" -Dpybind11_DIR="$("$VENV/bin/python" -m pybind11 --cmakedir)" \
     >build/configure-tidy.log || { cat build/configure-tidy.log; return 1; }
   tidy 'native/*.cpp' ':!native/tests' ':!native/python' ':!native/bench' ':!native/examples' || result=1

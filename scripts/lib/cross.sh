@@ -15,7 +15,7 @@ export ZIG_GLOBAL_CACHE_DIR=$KEPT/zig
 WINDOWS_PYTHON=3.11
 
 # Which Debian, or Ubuntu, has which Python; Debian's unstable has what is newer.
-declare -A SUITES=([3.10]=jammy [3.11]=bookworm [3.13]=trixie)
+declare -A SUITES=([3.10]=jammy [3.11]=bookworm [3.12]=noble [3.13]=trixie)
 UBUNTU=http://archive.ubuntu.com/ubuntu
 
 # suite_of PYTHON
@@ -49,7 +49,7 @@ package_tools() {
 get_from() {
   local suite=$1 kind=$2 apt=$WORK/apt/$1 mirror key=/usr/share/keyrings/debian-archive-keyring.gpg
   shift 2
-  if [ "$suite" = jammy ]; then
+  if [[ $suite =~ ^(jammy|noble)$ ]]; then
     mirror=$UBUNTU
     key=$(get_ubuntu_key) || { echo "$key"; return 1; }
   else

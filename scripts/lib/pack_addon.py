@@ -28,7 +28,10 @@ def manifest(wheels: list[Path], platforms: list[str]) -> str:
 def versions() -> dict[str, str]:
     """Return the version as each file that has to tell it does."""
     found = {
-        "pyproject.toml": re.search(r'^version = "(.+)"$', (ROOT / "pyproject.toml").read_text("utf-8"), re.M),
+        **{
+            file: re.search(r'^version = "(.+)"$', (ROOT / file).read_text("utf-8"), re.M)
+            for file in ("pyproject.toml", "batch/pyproject.toml")
+        },
         "CMakeLists.txt": re.search(
             r"^project\(seamwire VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text("utf-8"), re.M
         ),
@@ -77,6 +80,8 @@ def pack(output: Path, wheels: list[Path], platforms: list[str]) -> Path:
     others = [wheel.name for wheel in wheels if wheel.name.split("-")[:2] != ["seamwire_core", version]]
     if others:
         sys.exit(f"not wheels of seamwire_core {version}: {', '.join(others)}")
+    # No Blender has Python 3.12.
+    wheels = [wheel for wheel in wheels if "-cp312-" not in wheel.name]
     path = output / f"seamwire-{version}-{'-'.join(platforms)}.zip"
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
         add_folder(archive, ADDON)

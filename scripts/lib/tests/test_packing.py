@@ -27,7 +27,8 @@ def add_wheel(folder: Path, python: str, tag: str, version: str = VERSION) -> Pa
 @pytest.mark.parametrize("platform", check_wheel.TAGS)
 def test_a_package_is_for_its_system_and_brings_the_wheels_that_it_names(tmp_path: Path, platform: str) -> None:
     wheels = [add_wheel(tmp_path, python, check_wheel.TAGS[platform]) for python in ("310", "313")]
-    package = pack_addon.pack(tmp_path, wheels, [platform])
+    without_blender = add_wheel(tmp_path, "312", check_wheel.TAGS[platform])
+    package = pack_addon.pack(tmp_path, [*wheels, without_blender], [platform])
     assert package.name == f"seamwire-{VERSION}-{platform}.zip"
     with zipfile.ZipFile(package) as archive:
         manifest = tomllib.loads(archive.read("seamwire/blender_manifest.toml").decode())

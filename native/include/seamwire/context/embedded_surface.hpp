@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "seamwire/api.hpp"
 #include "seamwire/context/metric_spec.hpp"
 #include "seamwire/context/surface_context.hpp"
 #include "seamwire/embedding/embedding.hpp"
@@ -28,7 +29,7 @@ class EmbeddedField;
 ///
 /// Immutable. Copies share the data, and any number of threads may use them at once. All points are those of the
 /// caller's surface.
-class EmbeddedSurface {
+class SEAMWIRE_API EmbeddedSurface {
  public:
   /// Embeds a surface in the metric that a spec describes. If the context has that metric embedded already, with the
   /// same options, and someone still holds it, they share it. Throws what make_metric() and embed() throw; Cancelled.
@@ -90,7 +91,7 @@ class EmbeddedSurface {
 };
 
 /// Distances over an embedded surface, and the wires that lead from their sources. Immutable; copies share the data.
-class EmbeddedField {
+class SEAMWIRE_API EmbeddedField {
  public:
   /// The embedded surface that the distances belong to.
   const EmbeddedSurface& on() const { return on_; }

@@ -5,6 +5,7 @@
 #include <span>
 #include <string_view>
 
+#include "seamwire/api.hpp"
 #include "seamwire/metric/metric.hpp"
 #include "seamwire/metric/scribble.hpp"
 
@@ -25,11 +26,11 @@ struct MetricFamilyInfo {
 };
 
 /// All families, in the order of MetricFamily.
-std::span<const MetricFamilyInfo> metric_families();
+SEAMWIRE_API std::span<const MetricFamilyInfo> metric_families();
 /// The row of one family.
-const MetricFamilyInfo& info_of(MetricFamily family);
+SEAMWIRE_API const MetricFamilyInfo& info_of(MetricFamily family);
 /// The family of that name. Throws InvalidInput for any other name; the message begins with "metric".
-MetricFamily metric_family(std::string_view name);
+SEAMWIRE_API MetricFamily metric_family(std::string_view name);
 
 /// A metric as a value: what it takes to compute it on any surface. Two specs that are equal give the same metric.
 struct MetricSpec {
@@ -60,8 +61,8 @@ struct MetricSpec {
 
 /// Whether two metrics differ only in the direction that they follow, so that lengths in both can be compared (Section
 /// 5 of the paper).
-bool is_counterpart(const MetricSpec& one, const MetricSpec& other);
+SEAMWIRE_API bool is_counterpart(const MetricSpec& one, const MetricSpec& other);
 /// Throws InvalidInput unless the spec has a direction exactly if its family has, and a strength as metric.hpp says.
-void check_metric(const MetricSpec& spec);
+SEAMWIRE_API void check_metric(const MetricSpec& spec);
 
 }  // namespace seamwire

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "seamwire/api.hpp"
 #include "seamwire/context/metric_spec.hpp"
 #include "seamwire/edges/edge_adjacency.hpp"
 #include "seamwire/embedding/embedding.hpp"
@@ -25,7 +26,7 @@ class EmbeddedSurface;
 /// Copies share the surface and what was computed. Any number of threads may use them at once. If several threads ask
 /// for the same thing, one computes it and the others wait. If that thread is cancelled, one of the others goes on in
 /// its place. If the surface cannot be built, every call that needs it throws what the constructor of Surface threw.
-class SurfaceContext {
+class SEAMWIRE_API SurfaceContext {
  public:
   /// The context of a surface. Throws InvalidInput if it is null.
   explicit SurfaceContext(std::shared_ptr<const Surface> surface);
@@ -72,6 +73,6 @@ class SurfaceContext {
 
 /// Computes the metric that a spec describes. Throws what check_metric() and the metrics of metric.hpp throw;
 /// Cancelled.
-Metric make_metric(const SurfaceContext& context, const MetricSpec& spec, const Task& task = {});
+SEAMWIRE_API Metric make_metric(const SurfaceContext& context, const MetricSpec& spec, const Task& task = {});
 
 }  // namespace seamwire

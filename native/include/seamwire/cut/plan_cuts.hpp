@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "seamwire/api.hpp"
 #include "seamwire/errors.hpp"
 #include "seamwire/surface/surface_point.hpp"
 #include "seamwire/surface/types.hpp"
@@ -95,6 +96,6 @@ struct CutPlan {
 /// Throws InvalidInput, naming the element, if sizes do not fit, if polygons are not ascending, for an index out of
 /// range, or for a coordinate that is not finite. Throws InvalidInput, too, if the triangles of a polygon that a curve
 /// passes do not form a polygon.
-CutPlan plan_cuts(const PolygonMesh& mesh, std::span<const CutCurve> curves);
+SEAMWIRE_API CutPlan plan_cuts(const PolygonMesh& mesh, std::span<const CutCurve> curves);
 
 }  // namespace seamwire

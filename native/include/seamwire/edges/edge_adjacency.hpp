@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "seamwire/api.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/task.hpp"
 
@@ -17,6 +18,6 @@ namespace seamwire {
 class EdgeAdjacency;
 
 /// Throws Cancelled.
-std::shared_ptr<const EdgeAdjacency> make_edge_adjacency(const Surface& surface, const Task& task = {});
+SEAMWIRE_API std::shared_ptr<const EdgeAdjacency> make_edge_adjacency(const Surface& surface, const Task& task = {});
 
 }  // namespace seamwire

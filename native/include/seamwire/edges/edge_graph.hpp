@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "seamwire/api.hpp"
 #include "seamwire/edges/edge_adjacency.hpp"
 #include "seamwire/metric/metric.hpp"
 #include "seamwire/metric/scribble.hpp"
@@ -36,9 +37,10 @@ class EdgeGraph;
 /// metric. So the edges that stay nearest to a stroke that attracts get the length that the stroke itself has, their
 /// Euclidean length / sqrt(eta), and turning from one of them to the next costs nothing. A later stroke that repels
 /// undoes this on the edges it runs along.
-std::shared_ptr<const EdgeGraph> make_edge_graph(const Surface& surface, const Metric& metric,
-                                                 std::shared_ptr<const EdgeAdjacency> adjacency = nullptr,
-                                                 std::span<const Scribble> scribbles = {},
-                                                 std::optional<MetricKind> kind = std::nullopt, const Task& task = {});
+SEAMWIRE_API std::shared_ptr<const EdgeGraph> make_edge_graph(const Surface& surface, const Metric& metric,
+                                                              std::shared_ptr<const EdgeAdjacency> adjacency = nullptr,
+                                                              std::span<const Scribble> scribbles = {},
+                                                              std::optional<MetricKind> kind = std::nullopt,
+                                                              const Task& task = {});
 
 }  // namespace seamwire

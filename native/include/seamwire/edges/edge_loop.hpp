@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "seamwire/api.hpp"
 #include "seamwire/edges/edge_adjacency.hpp"
 #include "seamwire/surface/types.hpp"
 
@@ -24,7 +25,7 @@ struct EdgeLoop {
 /// first or last vertex is also an inner one.
 ///
 /// `edge`: two vertices in either order; the loop has this direction. Throws InvalidInput where there is no such edge.
-EdgeLoop edge_loop(const EdgeAdjacency& adjacency, const Edge& edge, std::span<const std::int32_t> stops);
+SEAMWIRE_API EdgeLoop edge_loop(const EdgeAdjacency& adjacency, const Edge& edge, std::span<const std::int32_t> stops);
 
 /// The straight extension of a chain whose last edge runs from edge[0] to edge[1]: at each vertex over the edge that
 /// turns least. It ends at a vertex of `stops` other than edge[1], and at a boundary. A chain along a boundary goes on
@@ -32,7 +33,7 @@ EdgeLoop edge_loop(const EdgeAdjacency& adjacency, const Edge& edge, std::span<c
 ///
 /// Returns the vertices from edge[1] on; only the last one may be a repeated one. Throws InvalidInput where there is no
 /// such edge.
-std::vector<std::int32_t> extend_straight(const EdgeAdjacency& adjacency, const Edge& edge,
-                                          std::span<const std::int32_t> stops);
+SEAMWIRE_API std::vector<std::int32_t> extend_straight(const EdgeAdjacency& adjacency, const Edge& edge,
+                                                       std::span<const std::int32_t> stops);
 
 }  // namespace seamwire

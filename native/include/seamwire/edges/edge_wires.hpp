@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "seamwire/api.hpp"
 #include "seamwire/edges/edge_graph.hpp"
 #include "seamwire/task.hpp"
 
@@ -22,7 +23,7 @@ struct Pick {
 
 /// The cheapest chains from one pick to every edge and vertex. While run() is at work on one thread, another may ask
 /// for those found so far. Copies share the search.
-class EdgeWires {
+class SEAMWIRE_API EdgeWires {
  public:
   /// `turning`: q, not negative. `forward`: the seed edge has just been drawn from seed.a to seed.b, so the chain
   /// leaves it over b (a directed seed counts its turn there too). Throws InvalidInput where the seed is not a vertex
@@ -52,7 +53,7 @@ class EdgeWires {
 };
 
 /// An EdgeWires whose search has been run to its end. Throws what its constructor and run() throw.
-EdgeWires edge_wires(std::shared_ptr<const EdgeGraph> graph, const Pick& seed, double turning = 3.0,
-                     bool forward = false, const Task& task = {});
+SEAMWIRE_API EdgeWires edge_wires(std::shared_ptr<const EdgeGraph> graph, const Pick& seed, double turning = 3.0,
+                                  bool forward = false, const Task& task = {});
 
 }  // namespace seamwire

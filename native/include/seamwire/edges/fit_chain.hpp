@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "seamwire/api.hpp"
 #include "seamwire/edges/edge_adjacency.hpp"
 #include "seamwire/surface/surface.hpp"
 
@@ -43,7 +44,8 @@ struct FittedChain {
 /// Takes time in proportion to the line, not to the surface. Throws InvalidInput where points and faces differ in
 /// number, the adjacency is of another surface, a coordinate is not finite, or a face or a vertex is not part of the
 /// surface.
-FittedChain fit_chain(const Surface& surface, const EdgeAdjacency& adjacency, const DrawnLine& line,
-                      std::optional<std::int32_t> begin = std::nullopt, std::optional<std::int32_t> end = std::nullopt);
+SEAMWIRE_API FittedChain fit_chain(const Surface& surface, const EdgeAdjacency& adjacency, const DrawnLine& line,
+                                   std::optional<std::int32_t> begin = std::nullopt,
+                                   std::optional<std::int32_t> end = std::nullopt);
 
 }  // namespace seamwire

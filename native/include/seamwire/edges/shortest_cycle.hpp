@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "seamwire/api.hpp"
 #include "seamwire/edges/edge_graph.hpp"
 #include "seamwire/surface/types.hpp"
 #include "seamwire/task.hpp"
@@ -13,6 +14,7 @@ namespace seamwire {
 /// `edge`: two vertices in either order. `turning`: q, not negative. Going around a face beside the edge costs about 4
 /// `turning` edges, and no more expensive chain is found. For larger rings on finer meshes, take a larger `turning`.
 /// Throws InvalidInput where there is no such edge or `turning` is wrong; Cancelled.
-EdgeChain shortest_cycle(const EdgeGraph& graph, const Edge& edge, double turning = 20.0, const Task& task = {});
+SEAMWIRE_API EdgeChain shortest_cycle(const EdgeGraph& graph, const Edge& edge, double turning = 20.0,
+                                      const Task& task = {});
 
 }  // namespace seamwire

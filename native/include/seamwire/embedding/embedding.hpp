@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "seamwire/api.hpp"
 #include "seamwire/metric/metric.hpp"
 #include "seamwire/surface/intrinsic_mesh.hpp"
 #include "seamwire/surface/surface.hpp"
@@ -111,7 +112,8 @@ struct Embedding {
 /// \throws InvalidInput if the metric and the surface differ in size, a tensor is not finite, or an option is out of
 /// range
 /// \throws Cancelled
-Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions& options = {}, const Task& task = {});
+SEAMWIRE_API Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions& options = {},
+                             const Task& task = {});
 
 /// Embeds a surface in another metric, from its embedding in a former one. Only triangles around vertices where the two
 /// metrics differ are bisected anew. The result is that of embed(surface, metric, options), except for the numbers of
@@ -124,12 +126,12 @@ Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions
 /// degenerate faces or is not manifold and oriented. Sizes are compared with the mean edge length of `old` unless the
 /// options give one, so a stroke does not change what `max_error` means elsewhere. `old` must be of the same surface,
 /// the metric `former` and the same options. Throws InvalidInput if it cannot be, and what embed() throws.
-Embedding re_embed(const Surface& surface, const Metric& former, const Metric& metric, Embedding old,
-                   const EmbedOptions& options = {}, const Task& task = {});
+SEAMWIRE_API Embedding re_embed(const Surface& surface, const Metric& former, const Metric& metric, Embedding old,
+                                const EmbedOptions& options = {}, const Task& task = {});
 
 /// The caller's faces that are invalid in a metric before any bisection, those without an area among them, ascending:
 /// what embed() has to bisect, Embedding::invalid_before of them. Throws InvalidInput where metric and surface differ
 /// in size, or a tensor is not finite.
-std::vector<std::int32_t> invalid_faces(const Surface& surface, const Metric& metric);
+SEAMWIRE_API std::vector<std::int32_t> invalid_faces(const Surface& surface, const Metric& metric);
 
 }  // namespace seamwire

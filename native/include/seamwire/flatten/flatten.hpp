@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "seamwire/api.hpp"
 #include "seamwire/flatten/measure_map.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/task.hpp"
@@ -70,7 +71,7 @@ struct Flattening {
 /// Throws InvalidInput for a vertex out of range, and for a start of the wrong size or with numbers that are not
 /// finite. Throws it, too, for an up direction that is zero or not finite, and for an island that no opening makes
 /// possible to map. Throws Cancelled within about 20 ms at 100,000 triangles, and within 50 ms at the beginning.
-Flattening flatten(const Surface& surface, std::span<const Edge> cuts, const FlattenOptions& options = {},
-                   const Task& task = {});
+SEAMWIRE_API Flattening flatten(const Surface& surface, std::span<const Edge> cuts, const FlattenOptions& options = {},
+                                const Task& task = {});
 
 }  // namespace seamwire

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "seamwire/api.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/task.hpp"
 
@@ -36,11 +37,11 @@ struct MapReport {
 ///
 /// Throws InvalidInput for arrays of the wrong size, UVs that are not finite or above 1e152 in size, and island numbers
 /// that are negative or not below the number of triangles; Cancelled.
-MapReport measure_map(const Surface& surface, std::span<const std::array<Eigen::Vector2d, 3>> uvs,
-                      std::span<const std::int32_t> islands = {}, const Task& task = {});
+SEAMWIRE_API MapReport measure_map(const Surface& surface, std::span<const std::array<Eigen::Vector2d, 3>> uvs,
+                                   std::span<const std::int32_t> islands = {}, const Task& task = {});
 
 /// Returns MapReport::energy alone. This takes a part of the time.
-double map_energy(const Surface& surface, std::span<const std::array<Eigen::Vector2d, 3>> uvs,
-                  std::span<const std::int32_t> islands = {}, const Task& task = {});
+SEAMWIRE_API double map_energy(const Surface& surface, std::span<const std::array<Eigen::Vector2d, 3>> uvs,
+                               std::span<const std::int32_t> islands = {}, const Task& task = {});
 
 }  // namespace seamwire

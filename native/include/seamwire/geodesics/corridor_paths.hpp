@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "seamwire/api.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
 #include "seamwire/surface/surface_point.hpp"
 #include "seamwire/task.hpp"
@@ -27,7 +28,7 @@ struct CorridorPathOptions {
 ///
 /// Distances along edges are computed outwards from the seed, only as far as the targets asked for, and kept. One
 /// thread at a time; several objects may share an ExactGeodesics.
-class CorridorPaths {
+class SEAMWIRE_API CorridorPaths {
  public:
   /// Throws InvalidInput for a seed out of range.
   CorridorPaths(const ExactGeodesics& geodesics, std::int32_t seed, const CorridorPathOptions& options = {});

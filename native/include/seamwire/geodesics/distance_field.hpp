@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "seamwire/api.hpp"
 #include "seamwire/surface/intrinsic_mesh.hpp"
 #include "seamwire/surface/surface_point.hpp"
 #include "seamwire/task.hpp"
@@ -40,7 +41,7 @@ struct GeodesicCounters {
 /// Distances from a seed, or from the nearest of several sources, to every point of an IntrinsicMesh. It also traces
 /// the paths. ExactGeodesics makes exact fields, and fields from a bounded number of windows. Immutable; copies share
 /// the data.
-class DistanceField {
+class SEAMWIRE_API DistanceField {
  public:
   std::int32_t seed() const;  ///< the vertex that distances are from; -1: several, or another point
   /// What distances are from, as given.

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "seamwire/api.hpp"
 #include "seamwire/geodesics/distance_field.hpp"
 #include "seamwire/surface/intrinsic_mesh.hpp"
 #include "seamwire/surface/surface_point.hpp"
@@ -31,7 +32,7 @@ struct SolveOptions {
 /// Solver for repeated seeds on one mesh, from edge lengths alone. Its wavefront is that of Qin et al., "Fast and Exact
 /// Discrete Geodesic Computation Based on Triangle-Oriented Wavefront Propagation" (2016). Its filter is that of Xin
 /// and Wang (2009). solve() may be called from several threads at once.
-class ExactGeodesics {
+class SEAMWIRE_API ExactGeodesics {
  public:
   /// Throws InvalidInput for a length that is not positive and finite, for a triangle that fails the triangle
   /// inequality, or for twins without match. Throws Cancelled.

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "seamwire/api.hpp"
 #include "seamwire/context/along.hpp"
 #include "seamwire/context/metric_spec.hpp"
 #include "seamwire/context/surface_context.hpp"
@@ -43,7 +44,7 @@ struct LiveMetrics {
 /// - kEuclidean: The Euclidean metric. The strength does not matter.
 ///
 /// Throws InvalidInput for a strength that is not as metric.hpp says.
-LiveMetrics live_metrics(MetricFamily family, const Strength& strength, Along along = Along::kSurface);
+SEAMWIRE_API LiveMetrics live_metrics(MetricFamily family, const Strength& strength, Along along = Along::kSurface);
 
 /// How live wires run.
 struct LiveWireOptions {
@@ -131,7 +132,7 @@ struct LiveEmbedding {
 /// While the surface is being built, the members keep what they are given. They answer that nothing is there yet and
 /// nothing is final. An edge that turns out not to be part of the surface is refused at a later call. If the surface
 /// cannot be built, each member throws what the constructor of Surface threw.
-class LiveWire {
+class SEAMWIRE_API LiveWire {
  public:
   /// Throws InvalidInput for options that are not as said above and in metric.hpp.
   explicit LiveWire(const SurfaceContext& context, const LiveWireOptions& options = {});

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "seamwire/api.hpp"
 #include "seamwire/metric/curvature.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/task.hpp"
@@ -43,7 +44,7 @@ struct CrestLines {
 ///
 /// `curvature`: of principal_curvatures(), or better smoothed. Throws InvalidInput for curvatures of another size and
 /// options out of range; Cancelled.
-CrestLines crest_lines(const Surface& surface, const Curvature& curvature, const CrestLineOptions& options = {},
-                       const Task& task = {});
+SEAMWIRE_API CrestLines crest_lines(const Surface& surface, const Curvature& curvature,
+                                    const CrestLineOptions& options = {}, const Task& task = {});
 
 }  // namespace seamwire

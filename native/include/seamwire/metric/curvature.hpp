@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "seamwire/api.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/task.hpp"
 
@@ -24,16 +25,17 @@ struct Curvature {
 };
 
 /// Vertex normals weighted as in Max, "Weights for Computing Vertex Normals from Facet Normals" (1999).
-std::vector<Vector> vertex_normals(const Surface& surface);
+SEAMWIRE_API std::vector<Vector> vertex_normals(const Surface& surface);
 
 /// Rusinkiewicz, "Estimating Curvatures and Their Derivatives on Triangle Meshes" (2004), on vertex_normals().
 /// Throws Cancelled.
-Curvature principal_curvatures(const Surface& surface, const Task& task = {});
+SEAMWIRE_API Curvature principal_curvatures(const Surface& surface, const Task& task = {});
 
 /// Averages curvatures over about `radius` (unit: the side of the cube). Curvature tensors are averaged over 1-rings
 /// max(1, (radius / median edge)^2) times, 400 times at most. The tensors of neighbors are turned by the least rotation
 /// between their normals, and weighted by the area around them. The normals stay. Throws InvalidInput for curvatures of
 /// another size and a radius that is not positive and finite; Cancelled.
-Curvature smoothed_curvatures(const Surface& surface, const Curvature& curvature, double radius, const Task& task = {});
+SEAMWIRE_API Curvature smoothed_curvatures(const Surface& surface, const Curvature& curvature, double radius,
+                                           const Task& task = {});
 
 }  // namespace seamwire

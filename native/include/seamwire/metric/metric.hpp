@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "seamwire/api.hpp"
 #include "seamwire/metric/curvature.hpp"
 #include "seamwire/task.hpp"
 
@@ -43,32 +44,33 @@ struct Strength {
 };
 
 /// Throws InvalidInput where a strength is not as said there; `smallest_parameter`: 1 for Campen.
-void check_strength(const Strength& strength, double smallest_parameter = 0.0);
+SEAMWIRE_API void check_strength(const Strength& strength, double smallest_parameter = 0.0);
 
 /// Each of the metrics throws InvalidInput for curvatures of another size or that are not finite, and for a strength
 /// that is not as said above or too strong for them; Cancelled.
 ///
 /// Eq. 5, the paper's metric: l1 = 1 + gamma s, l2 = 1 / l1. Parameter: gamma; max_anisotropy A means gamma =
 /// (A - 1) / max s, or 0 where max s is but rounding (planes, spheres).
-Metric feature_metric(const Surface& surface, const Curvature& curvature, Follow follow, const Strength& strength,
-                      const Task& task = {});
+SEAMWIRE_API Metric feature_metric(const Surface& surface, const Curvature& curvature, Follow follow,
+                                   const Strength& strength, const Task& task = {});
 /// Eq. 3, Campen et al.: l1 = alpha, l2 = 1. Parameter: alpha; max_anisotropy A means alpha = A^2. Nothing to clamp.
-Metric campen_metric(const Surface& surface, const Curvature& curvature, Follow follow, const Strength& strength,
-                     const Task& task = {});
+SEAMWIRE_API Metric campen_metric(const Surface& surface, const Curvature& curvature, Follow follow,
+                                  const Strength& strength, const Task& task = {});
 /// Eq. 4, Pottmann et al., Kovacs et al.: l1 = k1^2 + beta, l2 = k2^2 + beta. Parameter: beta; at least 1e-12 of the
 /// largest k1^2 is taken, so that the norm is nowhere zero. max_anisotropy 1, and flat surfaces, give the Euclidean
 /// one.
-Metric pottmann_kovacs_metric(const Surface& surface, const Curvature& curvature, Follow follow,
-                              const Strength& strength, const Task& task = {});
+SEAMWIRE_API Metric pottmann_kovacs_metric(const Surface& surface, const Curvature& curvature, Follow follow,
+                                           const Strength& strength, const Task& task = {});
 /// Short along concave creases and, less so, ridges. Its single wires come nearest to the cuts that people make
 /// (docs/method/metric.md). M = l1 c(k2)^2 d1 d1^T + l2 c(k1)^2 d2 d2^T. In it, l1 = 1 + 0.03 t s, l2 = 1 / l1, and
 /// s = |k1| - |k2|, halved where k1 > 0 (convex). The factor is c(k) = 1 / (1 + t (1 / (0.3 + 0.7 exp(-max(0, -k) /
 /// 16)) - 1)). Normals must point outwards; curvatures are best those of smoothed_curvatures() with a radius of 0.01.
 /// `strength`: t, 0 is the Euclidean metric, 1 what was measured; InvalidInput where it is negative or not finite, as
 /// above for the rest.
-Metric concave_metric(const Surface& surface, const Curvature& curvature, double strength = 1.0, const Task& task = {});
+SEAMWIRE_API Metric concave_metric(const Surface& surface, const Curvature& curvature, double strength = 1.0,
+                                   const Task& task = {});
 /// The Euclidean metric: the identity on every tangent plane.
-Metric euclidean_metric(const Surface& surface, const Curvature& curvature, const Task& task = {});
+SEAMWIRE_API Metric euclidean_metric(const Surface& surface, const Curvature& curvature, const Task& task = {});
 
 /// A tensor with its normal. It gives any vector the norm g(e)^2 = e^T M e + sqrt(l1 l2) (n.e)^2. This is the "ambient"
 /// reading of the norm of an edge, which need not be tangent (docs/method/metric.md says why).
@@ -77,13 +79,13 @@ struct TensorAt {
   Eigen::Matrix3d tensor;  ///< as Metric::tensors
 };
 /// That norm of an edge.
-double ambient_norm(const TensorAt& at, const Vector& e);
+SEAMWIRE_API double ambient_norm(const TensorAt& at, const Vector& e);
 /// sqrt(l1 l2), which the norm above gives to the normal.
-double normal_weight(const Eigen::Matrix3d& m);
+SEAMWIRE_API double normal_weight(const Eigen::Matrix3d& m);
 /// sqrt(l1 / l2); 1 where the normal is zero.
-double anisotropy(const TensorAt& at);
+SEAMWIRE_API double anisotropy(const TensorAt& at);
 /// The largest over the vertices.
-double max_anisotropy(const Metric& metric);
+SEAMWIRE_API double max_anisotropy(const Metric& metric);
 /// The eigenvalues and eigenvectors of a tensor in its tangent plane, those of eq. 2: (e1, e2, normal) is right-handed.
 struct PrincipalAxes {
   double l1 = 1.0;             ///< the larger eigenvalue
@@ -93,15 +95,15 @@ struct PrincipalAxes {
 };
 /// Finds the principal axes of a tensor. The directions are any two if the eigenvalues are equal. If the normal is
 /// zero, the eigenvalues are 1 and the directions are zero.
-PrincipalAxes principal_axes(const TensorAt& at);
+SEAMWIRE_API PrincipalAxes principal_axes(const TensorAt& at);
 /// In the middle between two: the mean of the normals, normalised (of opposite ones, the first), and of the tensors,
 /// each turned by the least rotation onto that normal. Its anisotropy is at most that of the ends.
-TensorAt midpoint_tensor(const TensorAt& a, const TensorAt& b);
+SEAMWIRE_API TensorAt midpoint_tensor(const TensorAt& a, const TensorAt& b);
 /// Length of a straight edge along which the quadratic form varies linearly, so that its squared norm runs from a^2 to
 /// b^2: (2/3) (a^2 + a b + b^2) / (a + b); 0 where both are 0.
-double integrated_length(double norm_at_start, double norm_at_end);
+SEAMWIRE_API double integrated_length(double norm_at_start, double norm_at_end);
 /// Length of the straight edge between two of the surface's vertices, which must be in range; symmetric to the last
 /// bit.
-double edge_length(const Surface& surface, const Metric& metric, std::int32_t a, std::int32_t b);
+SEAMWIRE_API double edge_length(const Surface& surface, const Metric& metric, std::int32_t a, std::int32_t b);
 
 }  // namespace seamwire

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "seamwire/api.hpp"
 #include "seamwire/metric/metric.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/task.hpp"
@@ -54,7 +55,7 @@ struct Scribble {
 /// or out of range. A point may also be too far from the mesh: farther from its face or vertex than a twentieth of the
 /// model's longest side. Throws InvalidInput, too, for lists of different lengths, if eta, rings or a radius is out of
 /// range, and for a metric of another size; Cancelled.
-Metric apply_scribbles(const Surface& surface, const Metric& metric, std::span<const Scribble> scribbles,
-                       std::optional<MetricKind> kind = std::nullopt, const Task& task = {});
+SEAMWIRE_API Metric apply_scribbles(const Surface& surface, const Metric& metric, std::span<const Scribble> scribbles,
+                                    std::optional<MetricKind> kind = std::nullopt, const Task& task = {});
 
 }  // namespace seamwire

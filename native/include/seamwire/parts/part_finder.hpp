@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "seamwire/api.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/task.hpp"
 
@@ -49,7 +50,7 @@ struct Parts {
 /// lifted multicuts" (2015), section 5.1.
 ///
 /// A smooth body is one part. Copies share the measured edges. find() may be called from several threads.
-class PartFinder {
+class SEAMWIRE_API PartFinder {
  public:
   /// Measures the edges. Throws InvalidInput for an axis or a vertex out of range; Cancelled.
   explicit PartFinder(std::shared_ptr<const Surface> surface, const PartOptions& options = {}, const Task& task = {});

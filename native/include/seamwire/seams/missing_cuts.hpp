@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "seamwire/api.hpp"
 #include "seamwire/surface/surface.hpp"
 
 namespace seamwire {
@@ -18,7 +19,7 @@ namespace seamwire {
 ///
 /// `cut_edges`: as in face_segments(). `segments`: what that returns for them. Throws InvalidInput for a vertex out of
 /// range, and for segments of another surface or of other cuts.
-std::vector<std::int32_t> missing_cuts(const Surface& surface, std::span<const Edge> cut_edges,
-                                       std::span<const std::int32_t> segments);
+SEAMWIRE_API std::vector<std::int32_t> missing_cuts(const Surface& surface, std::span<const Edge> cut_edges,
+                                                    std::span<const std::int32_t> segments);
 
 }  // namespace seamwire

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "seamwire/api.hpp"
 #include "seamwire/context/along.hpp"
 #include "seamwire/context/surface_context.hpp"
 #include "seamwire/flatten/measure_map.hpp"
@@ -93,7 +94,7 @@ struct SeamPlan {
 /// it has one. Congruent pieces that are equally visible are planned once.
 ///
 /// Copies share the surface and what is known of it. The methods may be called from several threads.
-class SeamPlanner {
+class SEAMWIRE_API SeamPlanner {
  public:
   /// Measures the surface, on several threads. Throws InvalidInput for options that are not as described; Cancelled.
   explicit SeamPlanner(const SurfaceContext& context, const SeamPlannerOptions& options = {}, const Task& task = {});

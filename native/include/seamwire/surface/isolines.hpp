@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "seamwire/api.hpp"
 #include "seamwire/surface/surface.hpp"
 
 namespace seamwire {
@@ -24,6 +25,6 @@ struct Isolines {
 ///
 /// Throws InvalidInput where the values are of another number of vertices or one is no number, and where levels are not
 /// finite and ascending.
-Isolines isolines(const Surface& surface, std::span<const double> values, std::span<const double> levels);
+SEAMWIRE_API Isolines isolines(const Surface& surface, std::span<const double> values, std::span<const double> levels);
 
 }  // namespace seamwire

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "seamwire/api.hpp"
 #include "seamwire/errors.hpp"
 #include "seamwire/surface/types.hpp"
 #include "seamwire/surface/vector.hpp"
@@ -22,7 +23,7 @@ struct NearestPoint {
 
 /// Finds the nearest points of triangles with a tree of boxes. Triangles without an area count as their sides do.
 /// Copies share the tree. Several threads may use it.
-class NearestPoints {
+class SEAMWIRE_API NearestPoints {
  public:
   /// Builds the tree, in half a second for a million triangles. Throws InvalidInput if there is no triangle, if a
   /// triangle has a vertex that is not there, or for a coordinate that is not finite; Cancelled.

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "seamwire/api.hpp"
 #include "seamwire/errors.hpp"
 #include "seamwire/surface/types.hpp"
 #include "seamwire/surface/vector.hpp"
@@ -23,7 +24,7 @@ struct RayHit {
 /// A separate thread builds a tree of boxes. Until it is there every triangle is looked at: the answers are the same
 /// from the start, and one takes some milliseconds where it takes microseconds later. Triangles without an area, or
 /// with a corner that is not finite, are met by no ray. Copies share the tree; the last one to go stops the building.
-class RayTree {
+class SEAMWIRE_API RayTree {
  public:
   /// Throws InvalidInput where a triangle has a vertex that is not there.
   RayTree(std::vector<Vector> points, std::vector<Triangle> triangles);

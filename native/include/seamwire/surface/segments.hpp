@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "seamwire/api.hpp"
 #include "seamwire/surface/surface.hpp"
 
 namespace seamwire {
@@ -19,6 +20,6 @@ namespace seamwire {
 ///
 /// `cut_edges`: vertex pairs of either order. Pairs that are not real edges, such as diagonals of polygons, cut
 /// nothing. Throws InvalidInput for a vertex out of range.
-std::vector<std::int32_t> face_segments(const Surface& surface, std::span<const Edge> cut_edges);
+SEAMWIRE_API std::vector<std::int32_t> face_segments(const Surface& surface, std::span<const Edge> cut_edges);
 
 }  // namespace seamwire

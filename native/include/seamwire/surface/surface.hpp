@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "seamwire/api.hpp"
 #include "seamwire/errors.hpp"
 #include "seamwire/surface/types.hpp"
 #include "seamwire/surface/vector.hpp"
@@ -46,7 +47,7 @@ struct SurfaceReport {
 /// The half-edge mesh inside is manifold and consistently oriented. Where the input is not, the mesh is cut open. A
 /// vertex whose faces form several fans is one half-edge vertex for each fan (a `corner fan`). To a path the fans are
 /// one vertex. siblings() tells which faces meet at the edges where the mesh is cut open.
-class Surface {
+class SEAMWIRE_API Surface {
  public:
   /// `points`: finite. `triangles`: vertex numbers in [0, points.size()). `edges`: the real edges if faces are
   /// triangulated polygons, and edges without a face. nullopt: every edge of a triangle.

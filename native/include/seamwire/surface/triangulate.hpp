@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "seamwire/api.hpp"
 #include "seamwire/errors.hpp"
 #include "seamwire/surface/types.hpp"
 #include "seamwire/surface/vector.hpp"
@@ -21,7 +22,7 @@ struct Triangulation {
 /// the second to the fourth if one of the two triangles would lie on the other, or would have no area. `corners`:
 /// vertices, polygon by polygon; `sizes`: how many each polygon has, 3 or 4. Throws InvalidInput for other sizes, where
 /// they do not add up to the number of corners, and for a vertex out of range.
-Triangulation triangulate(std::span<const Vector> points, std::span<const std::int32_t> corners,
-                          std::span<const std::int32_t> sizes);
+SEAMWIRE_API Triangulation triangulate(std::span<const Vector> points, std::span<const std::int32_t> corners,
+                                       std::span<const std::int32_t> sizes);
 
 }  // namespace seamwire

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "seamwire/api.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
 #include "seamwire/wires/closed_wires.hpp"
 
@@ -25,7 +26,7 @@ struct BentWire {
 /// a closed line crosses it once instead, and nothing is removed.
 ///
 /// The double cover depends on the cut only. So the cut can be bent to many points, each in the time of two traces.
-class BentWires {
+class SEAMWIRE_API BentWires {
  public:
   /// From a cut that closed_wires() found with the same arguments; `geodesics` is of the embedding's mesh. Throws
   /// InvalidInput where the field has several sources, and where the cut does not lead through its seed. Throws it,

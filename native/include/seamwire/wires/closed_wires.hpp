@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "seamwire/api.hpp"
 #include "seamwire/wires/wire.hpp"
 
 namespace seamwire {
@@ -38,8 +39,9 @@ struct ClosedWire {
 ///
 /// Throws InvalidInput if the field has several sources or is of another embedding, or if the embedding is not one of
 /// the surface, as far as sizes tell; Cancelled.
-std::vector<ClosedWire> closed_wires(const Surface& surface, const Embedding& embedding, const DistanceField& field,
-                                     std::size_t count = 3, const Task& task = {});
+SEAMWIRE_API std::vector<ClosedWire> closed_wires(const Surface& surface, const Embedding& embedding,
+                                                  const DistanceField& field, std::size_t count = 3,
+                                                  const Task& task = {});
 
 /// One of the closed cuts through a point in several metrics.
 struct ClosedCutId {
@@ -53,6 +55,7 @@ struct ClosedCutId {
 /// cut of each metric comes first, in the order of the metrics. The other cuts follow, those of the first metric first.
 /// A cut that is like an earlier one, on average within 3 % of its length, is left out. Throws InvalidInput for a cut
 /// without points.
-std::vector<ClosedCutId> choose_closed_wires(std::span<const std::vector<ClosedWire>> metrics, std::size_t count = 3);
+SEAMWIRE_API std::vector<ClosedCutId> choose_closed_wires(std::span<const std::vector<ClosedWire>> metrics,
+                                                          std::size_t count = 3);
 
 }  // namespace seamwire

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "seamwire/api.hpp"
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/surface/surface_point.hpp"
@@ -14,7 +15,7 @@ namespace seamwire {
 
 /// Finds points of the caller's faces on an embedding of the surface, whose triangles are parts of them. Several
 /// threads may ask at once.
-class EmbeddedPoints {
+class SEAMWIRE_API EmbeddedPoints {
  public:
   /// Takes time proportional to the embedding. Throws InvalidInput where the embedding is not one of the surface, as
   /// far as its faces tell.

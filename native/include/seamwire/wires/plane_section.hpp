@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "seamwire/api.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/surface/surface_point.hpp"
 
@@ -27,7 +28,7 @@ struct PlaneSection {
 ///
 /// Throws InvalidInput if a point is not on the surface, or if the direction is not finite. Throws InvalidInput, too,
 /// if there is no such plane: the points are the same, or one lies behind the other along the direction.
-PlaneSection plane_section(const Surface& surface, const SurfacePoint& from, const SurfacePoint& to,
-                           const Vector& direction);
+SEAMWIRE_API PlaneSection plane_section(const Surface& surface, const SurfacePoint& from, const SurfacePoint& to,
+                                        const Vector& direction);
 
 }  // namespace seamwire

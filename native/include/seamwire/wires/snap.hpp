@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "seamwire/api.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/task.hpp"
 #include "seamwire/wires/wire.hpp"
@@ -17,7 +18,7 @@ struct SnapData;  // snap.cpp
 
 /// What snapping needs to know of a surface: its polygons (triangles joined across what is not a real edge) and the
 /// real edges around them. Immutable, so wires may be snapped on several threads.
-class SnapGraph {
+class SEAMWIRE_API SnapGraph {
  public:
   /// Takes time proportional to the surface. Throws Cancelled.
   explicit SnapGraph(const Surface& surface, const Task& task = {});
@@ -36,7 +37,7 @@ class SnapGraph {
 /// connected and repeats no vertex. It is empty if the wire is empty, or if no path of edges leads there. Takes time
 /// proportional to the faces crossed. Throws InvalidInput for a wire whose points do not lie in its faces of the
 /// surface, and a graph of a surface with other numbers of vertices, faces or edges; Cancelled.
-std::vector<std::int32_t> snap_to_edges(const Surface& surface, const SnapGraph& graph, const Wire& wire,
-                                        const Task& task = {});
+SEAMWIRE_API std::vector<std::int32_t> snap_to_edges(const Surface& surface, const SnapGraph& graph, const Wire& wire,
+                                                     const Task& task = {});
 
 }  // namespace seamwire

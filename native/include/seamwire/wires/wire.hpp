@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "seamwire/api.hpp"
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
 #include "seamwire/surface/surface.hpp"
@@ -27,17 +28,17 @@ struct Wire {
 /// segment of a path lies in one of the caller's faces. Points on a straight line in one face are left out. Throws
 /// InvalidInput where the embedding is not one of the surface, or the path not one over the embedding, as far as their
 /// sizes and the surface's first and last vertex tell.
-Wire map_wire(const Surface& surface, const Embedding& embedding, const IntrinsicPath& path);
+SEAMWIRE_API Wire map_wire(const Surface& surface, const Embedding& embedding, const IntrinsicPath& path);
 
 /// The shortest wire from the seed of a field over `embedding` to one of the caller's vertices. Throws InvalidInput for
 /// a vertex out of range, as map_wire() does, and where the field is of another embedding, as far as sizes tell; and
 /// Cancelled, as DistanceField::trace().
-Wire trace_wire(const Surface& surface, const Embedding& embedding, const DistanceField& field, std::int32_t vertex,
-                const Task& task = {});
+SEAMWIRE_API Wire trace_wire(const Surface& surface, const Embedding& embedding, const DistanceField& field,
+                             std::int32_t vertex, const Task& task = {});
 
 /// The shortest wire from the source that is nearest to a point of the embedding, to that point (EmbeddedPoints finds
 /// it). Throws as trace_wire() to a vertex.
-Wire trace_wire(const Surface& surface, const Embedding& embedding, const DistanceField& field,
-                const SurfacePoint& point, const Task& task = {});
+SEAMWIRE_API Wire trace_wire(const Surface& surface, const Embedding& embedding, const DistanceField& field,
+                             const SurfacePoint& point, const Task& task = {});
 
 }  // namespace seamwire
