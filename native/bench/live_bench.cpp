@@ -37,7 +37,6 @@
 #include "seamwire/live/livewire.hpp"
 #include "seamwire/metric/scribble.hpp"
 #include "seamwire/wires/wire.hpp"
-#include "surface/half_edge_mesh.hpp"
 
 namespace seamwire::bench {
 namespace {
@@ -195,8 +194,9 @@ Scribble stroke(const Surface& surface, std::int32_t v, int edges) {
     scribble.points.push_back(surface.points()[static_cast<std::size_t>(v)]);
     scribble.vertices.push_back(v);
     std::int32_t best = v;
-    for (const auto u : surface.half_edges().vv_range(OpenMesh::VertexHandle(v))) {
-      if (along(u.idx()) > along(best)) best = u.idx();
+    for (const auto& [a, b] : surface.edges()) {
+      if (a == v && along(b) > along(best)) best = b;
+      if (b == v && along(a) > along(best)) best = a;
     }
     v = best;
   }

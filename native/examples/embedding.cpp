@@ -29,11 +29,11 @@ int main() {
   //! [error]
 
   //! [intrinsic]
-  const IntrinsicMesh tetrahedron{.vertex_count = 4,
-                                  .triangles = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}},
-                                  .twins = {5, 8, 11, 10, 6, 0, 4, 9, 1, 7, 3, 2},
-                                  .lengths = std::vector<double>(12, 1.0),
-                                  .loose_edges = {}};
+  IntrinsicMesh tetrahedron;
+  tetrahedron.vertex_count = 4;
+  tetrahedron.triangles = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
+  tetrahedron.twins = {5, 8, 11, 10, 6, 0, 4, 9, 1, 7, 3, 2};
+  tetrahedron.lengths = std::vector<double>(12, 1.0);
   const ExactGeodesics geodesics(tetrahedron);
   std::printf("an edge is %g long\n", geodesics.solve(0).distances()[3]);
   //! [intrinsic]

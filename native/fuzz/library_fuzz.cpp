@@ -41,6 +41,7 @@
 #include "seamwire/wires/closed_wires.hpp"
 #include "seamwire/wires/snap.hpp"
 #include "seamwire/wires/wire.hpp"
+#include "surface/corner_fans.hpp"
 
 namespace seamwire {
 namespace {
@@ -344,12 +345,12 @@ std::shared_ptr<const T> held(const T& object) {
 std::optional<IntrinsicMesh> own_lengths(const Surface& surface) {
   IntrinsicMesh mesh;
   mesh.vertex_count = static_cast<std::int32_t>(surface.vertex_count());
-  mesh.twins = surface.twins();
-  mesh.siblings = surface.siblings();
-  for (const Triangle& fans : surface.face_fans()) {
+  mesh.twins = corner_fans(surface).twins;
+  mesh.siblings = corner_fans(surface).siblings;
+  for (const Triangle& fans : corner_fans(surface).triangles) {
     std::array<double, 3> lengths{};
     Triangle& corners = mesh.triangles.emplace_back();
-    for (std::size_t i = 0; i < 3; ++i) corners[i] = surface.vertex_of_fan()[static_cast<std::size_t>(fans[i])];
+    for (std::size_t i = 0; i < 3; ++i) corners[i] = corner_fans(surface).vertices[static_cast<std::size_t>(fans[i])];
     for (std::size_t i = 0; i < 3; ++i) {
       const auto [a, b] = std::minmax({corners[i], corners[(i + 1) % 3]});
       lengths[i] =

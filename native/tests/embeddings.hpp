@@ -14,7 +14,7 @@
 
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/metric/scribble.hpp"
-#include "surface/half_edge_mesh.hpp"
+#include "surface/corner_fans.hpp"
 
 /// What tests of embeddings share.
 namespace seamwire::embeddings {
@@ -44,7 +44,9 @@ inline Scribble random_scribble(const Surface& surface, std::mt19937& random, un
     scribble.vertices.push_back(v);
     scribble.points.push_back(surface.points()[at(v)]);
     std::vector<std::int32_t> around;
-    for (const auto w : surface.half_edges().vv_range(OpenMesh::VertexHandle(v))) around.push_back(w.idx());
+    const detail::CornerFans& mesh = detail::corner_fans(surface);
+    const bool is_open = mesh.for_each_leaving(v, [&](std::int32_t h) { around.push_back(mesh.tip(h)); });
+    if (is_open) mesh.for_each_leaving(v, [&](std::int32_t h) { around.push_back(mesh.apex(h)); });
     v = around[random() % around.size()];
   }
   scribble.rings = 1 + static_cast<int>(random() % most_rings);

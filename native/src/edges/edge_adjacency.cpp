@@ -10,7 +10,7 @@
 
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
-#include "surface/half_edge_mesh.hpp"
+#include "surface/corner_fans.hpp"
 
 namespace seamwire {
 
@@ -48,7 +48,7 @@ EdgeAdjacency::EdgeAdjacency(const Surface& surface, const Task& task) {
     twin_[back] = there;
   }
 
-  const std::vector<std::int32_t>& vertex_of_fan = surface.vertex_of_fan();
+  const std::vector<std::int32_t>& vertex_of_fan = corner_fans(surface).vertices;
   std::vector<std::int32_t> umbrellas(surface.vertex_count(), 0);
   for (const std::int32_t v : vertex_of_fan) ++umbrellas[v];
   const std::size_t total = surface.vertex_count() + vertex_of_fan.size();
@@ -65,45 +65,29 @@ EdgeAdjacency::EdgeAdjacency(const Surface& surface, const Task& task) {
 }
 
 void EdgeAdjacency::set_umbrella(const Surface& surface, std::int32_t fan) {
-  const HalfEdgeMesh& mesh = surface.half_edges();
-  const std::vector<std::int32_t>& vertex_of_fan = surface.vertex_of_fan();
-  const std::int32_t v = vertex_of_fan[fan];
-  const auto neighbor = [&](HalfEdgeMesh::HalfedgeHandle h) { return vertex_of_fan[mesh.to_vertex_handle(h).idx()]; };
-  const auto edge_vector = [&](HalfEdgeMesh::HalfedgeHandle h) -> Vector {
-    return surface.scale() * (surface.points()[neighbor(h)] - surface.points()[v]);
+  const CornerFans& mesh = corner_fans(surface);
+  const std::int32_t v = mesh.vertices[fan];
+  const auto edge_vector = [&](std::int32_t neighbor) -> Vector {
+    return surface.scale() * (surface.points()[neighbor] - surface.points()[v]);
   };
 
-  HalfEdgeMesh::HalfedgeHandle start = mesh.halfedge_handle(HalfEdgeMesh::VertexHandle(fan));
-  if (!start.is_valid()) return set_directions_in_space(surface, v);
-  bool open = false;
-  for (auto h = start; !open;) {  // backwards, to the umbrella's first edge if it is open
-    const auto opposite = mesh.opposite_halfedge_handle(h);
-    if (mesh.is_boundary(opposite)) {
-      open = true;
-      start = h;
-    } else if ((h = mesh.next_halfedge_handle(opposite)) == start) {
-      break;
-    }
-  }
-
   std::vector<StarEdge> star;  // of real edges; diagonals of polygons only add their angles
-  std::int32_t first_edge = -1, last_edge = -1;
+  std::int32_t first_edge = -1, last_edge = -1, last = -1;
   double total = 0.0;
-  for (auto h = start;;) {
-    last_edge = find(v, neighbor(h));
-    if (h == start) first_edge = last_edge;
+  const auto add = [&](std::int32_t neighbor) {
+    last_edge = find(v, neighbor);
+    if (last < 0) first_edge = last_edge;
     if (last_edge >= 0) star.push_back({last_edge, total, false});
-    if (mesh.is_boundary(h)) break;
-    const auto before = mesh.next_halfedge_handle(mesh.next_halfedge_handle(h));
-    const auto following = mesh.opposite_halfedge_handle(before);
-    const Vector p = edge_vector(h), r = edge_vector(following);
+  };
+  const bool open = mesh.for_each_leaving(fan, [&](std::int32_t h) {
+    const std::int32_t neighbor = mesh.vertices[mesh.tip(h)], following = mesh.vertices[mesh.apex(h)];
+    add(neighbor);
+    last = following;
+    const Vector p = edge_vector(neighbor), r = edge_vector(following);
     total += std::atan2(p.cross(r).norm(), p.dot(r));
-    if (last_edge >= 0 && find(v, neighbor(following)) >= 0) {
-      star.back().triangle = find(neighbor(h), neighbor(following)) >= 0;
-    }
-    h = following;
-    if (h == start) break;
-  }
+    if (last_edge >= 0 && find(v, following) >= 0) star.back().triangle = find(neighbor, following) >= 0;
+  });
+  if (open) add(last);
 
   // An umbrella that has an edge of the vertex twice (it was cut open there) or lacks one (a loose edge) is not single.
   std::vector<std::int32_t> distinct(star.size());

@@ -10,6 +10,7 @@
 #include "detail/prefetch.hpp"
 #include "embedding/degenerate_faces.hpp"
 #include "metric/tangent_frame.hpp"
+#include "surface/corner_fans.hpp"
 #include "surface/face_height.hpp"
 
 namespace seamwire::detail {
@@ -31,10 +32,10 @@ std::vector<std::int32_t> numbers_of(const std::vector<HalfedgeHandle>& half_edg
 void flatten(const HalfEdgeMesh& mesh, BisectedMesh& flat) {
   const std::vector<HalfedgeHandle> half_edges = half_edges_of_faces(mesh);
   const std::vector<std::int32_t> numbers = numbers_of(half_edges, mesh.n_halfedges());
-  flat.corners.resize(half_edges.size() / 3);
+  flat.triangles.resize(half_edges.size() / 3);
   flat.twins.resize(half_edges.size());
   for (std::size_t h = 0; h < half_edges.size(); ++h) {
-    flat.corners[h / 3][h % 3] = mesh.from_vertex_handle(half_edges[h]).idx();
+    flat.triangles[h / 3][h % 3] = mesh.from_vertex_handle(half_edges[h]).idx();
     flat.twins[h] = numbers[half_edges[h].idx() ^ 1];
   }
 }
@@ -56,8 +57,8 @@ std::vector<std::int32_t> left_of_cycles(const std::vector<std::int32_t>& next, 
 }  // namespace
 
 bool keeps_numbers(const Surface& surface) {
-  const auto& vertex_of_fan = surface.vertex_of_fan();
-  return vertex_of_fan.size() == surface.vertex_count() && surface.half_edges().n_faces() == surface.face_count() &&
+  const auto& vertex_of_fan = corner_fans(surface).vertices;
+  return vertex_of_fan.size() == surface.vertex_count() && corner_fans(surface).face_count() == surface.face_count() &&
          std::adjacent_find(vertex_of_fan.begin(), vertex_of_fan.end()) == vertex_of_fan.end();
 }
 
@@ -77,11 +78,11 @@ BisectedMesh::BisectedMesh(const EmbeddingInput& input, const Task& task, double
       metric(input.metric),
       rule_(rule),
       callers_faces_(input.callers_faces),
-      vertex_of_fan_(surface.vertex_of_fan()),
+      vertex_of_fan_(corner_fans(surface).vertices),
       points_(copied(surface.points(), task, progress)) {
   take_faces(input, task, progress);
   fans_ = vertex_of_fan_.size();
-  given_faces_ = corners.size();
+  given_faces_ = triangles.size();
   orient_normals();
   branches.assign(given_faces_, 1);
   depths.assign(given_faces_, 0);
@@ -92,7 +93,7 @@ BisectedMesh::BisectedMesh(const EmbeddingInput& input, const Task& task, double
     set_node(fan);
   }
   if (is_cleaned_) {
-    is_degenerate_origin_.assign(surface.face_fans().size(), false);
+    is_degenerate_origin_.assign(corner_fans(surface).triangles.size(), false);
     for (std::int32_t f = 0; index(f) < given_faces_; ++f) {
       if (is_degenerate(f)) is_degenerate_origin_[origins[f]] = true;
     }
@@ -126,16 +127,16 @@ void BisectedMesh::take_faces(const EmbeddingInput& input, const Task& task, dou
     for (std::int32_t f = 0; index(f) < origins.size(); ++f) {
       if (std::ranges::binary_search(*input.faces, origins[f])) selected.push_back(f);
     }
-    select(std::exchange(corners, {}), std::exchange(twins, {}), std::exchange(siblings, {}), selected);
+    select(std::exchange(static_cast<TriangleConnectivity&>(*this), {}), selected);
     std::erase_if(origins, [&](std::int32_t origin) { return !std::ranges::binary_search(*input.faces, origin); });
   } else if (input.faces) {
-    select(surface.face_fans(), surface.twins(), surface.siblings(), *input.faces);
+    select(corner_fans(surface), *input.faces);
     origins = *input.faces;
   } else {
-    corners = copied(surface.face_fans(), task, progress);
-    twins = copied(surface.twins(), task, progress);
-    siblings = copied(surface.siblings(), task, progress);
-    origins.resize(corners.size());
+    triangles = copied(corner_fans(surface).triangles, task, progress);
+    twins = copied(corner_fans(surface).twins, task, progress);
+    siblings = copied(corner_fans(surface).siblings, task, progress);
+    origins.resize(triangles.size());
     std::iota(origins.begin(), origins.end(), 0);
   }
 }
@@ -169,10 +170,9 @@ void BisectedMesh::link(const std::vector<std::int32_t>& cycle) {
 }
 
 // Takes some of all triangles, by ascending numbers, and numbers them and their corner fans from 0 on.
-void BisectedMesh::select(const std::vector<Triangle>& all_corners, const std::vector<std::int32_t>& all_twins,
-                          const std::vector<std::int32_t>& all_siblings, const std::vector<std::int32_t>& faces) {
+void BisectedMesh::select(const TriangleConnectivity& all, const std::vector<std::int32_t>& faces) {
   for (const std::int32_t f : faces) {
-    selected_fans_.insert(selected_fans_.end(), all_corners[f].begin(), all_corners[f].end());
+    selected_fans_.insert(selected_fans_.end(), all.triangles[f].begin(), all.triangles[f].end());
   }
   std::ranges::sort(selected_fans_);
   selected_fans_.erase(std::unique(selected_fans_.begin(), selected_fans_.end()), selected_fans_.end());
@@ -181,18 +181,18 @@ void BisectedMesh::select(const std::vector<Triangle>& all_corners, const std::v
     return at != in.end() && *at == number ? static_cast<std::int32_t>(at - in.begin()) : -1;
   };
   for (const std::int32_t f : faces) {
-    Triangle& triangle = corners.emplace_back(all_corners[f]);
+    Triangle& triangle = triangles.emplace_back(all.triangles[f]);
     for (std::int32_t& fan : triangle) fan = place(selected_fans_, fan);
     for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
-      const std::int32_t twin = all_twins[h], beyond = twin < 0 ? -1 : place(faces, twin / 3);
+      const std::int32_t twin = all.twins[h], beyond = twin < 0 ? -1 : place(faces, twin / 3);
       twins.push_back(beyond < 0 ? -1 : 3 * beyond + twin % 3);
     }
   }
-  if (!all_siblings.empty()) {
+  if (!all.siblings.empty()) {
     siblings.assign(twins.size(), -1);
     for (std::int32_t h = 0; index(h) < siblings.size(); ++h) {
       const std::int32_t first = 3 * faces[h / 3] + h % 3;
-      for (std::int32_t s = all_siblings[first]; s >= 0 && s != first; s = all_siblings[s]) {
+      for (std::int32_t s = all.siblings[first]; s >= 0 && s != first; s = all.siblings[s]) {
         const std::int32_t face = place(faces, s / 3);
         if (face < 0) continue;
         siblings[h] = 3 * face + s % 3;
@@ -205,15 +205,14 @@ void BisectedMesh::select(const std::vector<Triangle>& all_corners, const std::v
 }
 
 BisectedMesh::BisectedMesh(const Surface& on, const Metric& by, Embedding&& old)
-    : surface(on),
+    : TriangleConnectivity(std::move(static_cast<TriangleConnectivity&>(old.mesh))),
+      surface(on),
       metric(by),
-      corners(std::move(old.mesh.triangles)),
-      twins(std::move(old.mesh.twins)),
       lengths(std::move(old.mesh.lengths)),
       origins(std::move(old.source_face)),
-      branches(corners.size(), 1),
-      depths(corners.size(), 0),
-      vertex_of_fan_(on.vertex_of_fan()),
+      branches(triangles.size(), 1),
+      depths(triangles.size(), 0),
+      vertex_of_fan_(corner_fans(on).vertices),
       fans_(vertex_of_fan_.size()),
       given_faces_(on.face_count()),
       nodes_(std::make_unique_for_overwrite<MetricNode[]>(fans_)),
@@ -232,7 +231,7 @@ BisectedMesh::MetricNode BisectedMesh::node_of(const Vector& point, const Vector
 // A vertex has one normal, but its fans need not agree on which side of the surface is outside: where a one-sided
 // surface is cut they cannot. Normals in the middle of edges are means, so they must be of one side.
 void BisectedMesh::orient_normals() {
-  const std::vector<std::int32_t>& all = surface.vertex_of_fan();
+  const std::vector<std::int32_t>& all = corner_fans(surface).vertices;
   const auto is_shared = [&](std::size_t fan) {
     const std::size_t i = callers_faces_ ? index(selected_fans_[fan]) : fan;
     return (i > 0 && all[i - 1] == all[i]) || (i + 1 < all.size() && all[i + 1] == all[i]);  // ascending
@@ -242,7 +241,7 @@ void BisectedMesh::orient_normals() {
   if (!any) return;
   is_turned_.assign(fans_, false);
   std::vector<Vector> normals(fans_, Vector::Zero());
-  for (const Triangle& fans : corners) {
+  for (const Triangle& fans : triangles) {
     const auto point = [&](std::size_t i) -> const Vector& { return surface.points()[vertex_of_fan_[fans[i]]]; };
     const Vector normal = (point(1) - point(0)).cross(point(2) - point(0));
     for (const std::int32_t fan : fans) normals[fan] += normal;
@@ -299,8 +298,8 @@ void BisectedMesh::measure_all(const Task& task, double progress) {
   std::size_t edges = 0;
   for (std::int32_t h = 0; h < count; ++h) {
     poll.at(index(h));
-    if (const std::size_t ahead = index(h / 3) + kAhead; h % 3 == 0 && ahead < corners.size()) {
-      for (const std::int32_t v : corners[ahead]) prefetch(&node(v));
+    if (const std::size_t ahead = index(h / 3) + kAhead; h % 3 == 0 && ahead < triangles.size()) {
+      for (const std::int32_t v : triangles[ahead]) prefetch(&node(v));
     }
     if (const std::int32_t first = first_of_edge(h); first < h) {
       lengths[h] = lengths[first];
@@ -327,10 +326,10 @@ std::int32_t BisectedMesh::external_vertex(std::int32_t v) const {
 // runs from the middle to b.
 void BisectedMesh::halve(std::int32_t h, std::int32_t middle) {
   const std::int32_t f = h / 3, h1 = next_in_face(h);
-  const auto g = static_cast<std::int32_t>(corners.size());
+  const auto g = static_cast<std::int32_t>(triangles.size());
   const std::int32_t b = tip(h), c = tip(h1), outer = twins[h1];
-  corners[f][h1 % 3] = middle;
-  corners.push_back({middle, b, c});
+  triangles[f][h1 % 3] = middle;
+  triangles.push_back({middle, b, c});
   twins.insert(twins.end(), {-1, outer, h1});
   twins[h1] = 3 * g + 2;
   if (outer >= 0) twins[outer] = 3 * g + 1;
@@ -375,7 +374,7 @@ void BisectedMesh::bisect_siblings(std::int32_t h) {
   std::vector<std::int32_t> sides{h}, at_start, at_end;
   for_each_beyond(h, [&](std::int32_t other) { sides.push_back(other); });
   const TensorAt middle = midpoint(h);
-  const auto count = static_cast<std::int32_t>(corners.size());
+  const auto count = static_cast<std::int32_t>(triangles.size());
   const std::int32_t start = external_vertex(tail(h));
   const auto number = static_cast<std::int32_t>(points_.size() - surface.vertex_count());
   points_.emplace_back((node(tail(h)).point + node(tip(h)).point) / 2);
@@ -386,7 +385,7 @@ void BisectedMesh::bisect_siblings(std::int32_t h) {
     new_nodes_.push_back(node_of(points_.back(), middle.normal, middle.tensor));
     number_of_new_.push_back(number);
     const bool is_from_start = external_vertex(tail(side)) == start;
-    const auto half = static_cast<std::int32_t>(3 * corners.size());
+    const auto half = static_cast<std::int32_t>(3 * triangles.size());
     halve(side, own);
     (is_from_start ? at_start : at_end).push_back(side);
     (is_from_start ? at_end : at_start).push_back(half);
@@ -394,7 +393,7 @@ void BisectedMesh::bisect_siblings(std::int32_t h) {
   link(at_start);
   link(at_end);
   for (const std::int32_t half : {h, 3 * count}) set_length(half, measure(half));
-  for (std::int32_t g = count; index(g) < corners.size(); ++g) set_length(3 * g + 2, measure(3 * g + 2));
+  for (std::int32_t g = count; index(g) < triangles.size(); ++g) set_length(3 * g + 2, measure(3 * g + 2));
 }
 
 void BisectedMesh::bisect(std::int32_t h) {
@@ -405,8 +404,8 @@ void BisectedMesh::bisect(std::int32_t h) {
   if (!siblings.empty()) number_of_new_.push_back(static_cast<std::int32_t>(points_.size() - surface.vertex_count()));
   points_.emplace_back((node(tail(h)).point + node(tip(h)).point) / 2);
   new_nodes_.push_back(node_of(points_.back(), tensors_.back().normal, tensors_.back().tensor));
-  const auto half = static_cast<std::int32_t>(3 * corners.size());  // from the middle to b
-  const std::int32_t beyond_half = half + 3;                        // from the middle to a, if there is a triangle
+  const auto half = static_cast<std::int32_t>(3 * triangles.size());  // from the middle to b
+  const std::int32_t beyond_half = half + 3;                          // from the middle to a, if there is a triangle
   halve(h, middle);
   if (o >= 0) {
     halve(o, middle);
@@ -440,7 +439,7 @@ std::vector<std::int32_t> BisectedMesh::undo(const std::vector<std::int32_t>& se
   for (const std::int32_t face : seeds) add(face);
   for (std::size_t done = 0; done < faces.size();) {  // add() makes it grow
     const std::int32_t face = faces[done++];
-    const Triangle& given = surface.face_fans()[face];
+    const Triangle& given = corner_fans(surface).triangles[face];
     std::array<std::int32_t, 3> whole{-1, -1, -1};
     const auto look = [&](std::int32_t part) {
       for (std::int32_t h = 3 * part; h < 3 * part + 3; ++h) {
@@ -456,15 +455,16 @@ std::vector<std::int32_t> BisectedMesh::undo(const std::vector<std::int32_t>& se
     for (std::size_t side = 0; side < 3; ++side) {
       if (whole[side] >= 0) {
         sides.push_back({3 * face + static_cast<std::int32_t>(side), twins[whole[side]]});
-      } else if (const std::int32_t twin = surface.twins()[3 * index(face) + side]; twin >= 0) {
+      } else if (const std::int32_t twin = corner_fans(surface).twins[3 * index(face) + side]; twin >= 0) {
         add(twin / 3);
       }
     }
   }
   std::erase_if(sides, [&](const Outer& side) { return side.outside < 0 || is_undone[origins[side.outside / 3]]; });
   for (const std::int32_t face : faces) {
-    corners[face] = surface.face_fans()[face];
-    std::copy_n(surface.twins().begin() + std::ptrdiff_t{3} * face, 3, twins.begin() + std::ptrdiff_t{3} * face);
+    triangles[face] = corner_fans(surface).triangles[face];
+    std::copy_n(corner_fans(surface).twins.begin() + std::ptrdiff_t{3} * face, 3,
+                twins.begin() + std::ptrdiff_t{3} * face);
     branches[face] = 1;
     depths[face] = 0;
   }
@@ -488,7 +488,7 @@ void BisectedMesh::remove_parts(const std::vector<bool>& is_undone) {
   for (std::size_t to = given_faces_; to < end; ++to) {
     if (!is_undone[origins[to]]) continue;
     const std::size_t f = --end;
-    corners[to] = corners[f];
+    triangles[to] = triangles[f];
     origins[to] = origins[f];
     branches[to] = branches[f];
     depths[to] = depths[f];
@@ -500,7 +500,7 @@ void BisectedMesh::remove_parts(const std::vector<bool>& is_undone) {
     }
     drop_last();
   }
-  corners.resize(end);
+  triangles.resize(end);
   twins.resize(3 * end);
   lengths.resize(3 * end);
   origins.resize(end);
@@ -519,7 +519,7 @@ void BisectedMesh::remove_unused_vertices() {
   }
   std::vector<std::int32_t> renumbered(new_nodes_.size(), -1);
   for (const std::int32_t f : kept) {
-    for (const std::int32_t v : corners[f]) {
+    for (const std::int32_t v : triangles[f]) {
       if (index(v) >= fans_) renumbered[index(v) - fans_] = 0;
     }
   }
@@ -540,7 +540,7 @@ void BisectedMesh::remove_unused_vertices() {
   tensors_.resize(count);
   points_.resize(fans_ + count);
   for (const std::int32_t f : kept) {
-    for (std::int32_t& v : corners[f]) {
+    for (std::int32_t& v : triangles[f]) {
       if (index(v) >= fans_) v = renumbered[index(v) - fans_];
     }
   }
@@ -549,21 +549,21 @@ void BisectedMesh::remove_unused_vertices() {
 Embedding BisectedMesh::to_embedding(bool is_scheme_local) && {
   Embedding out;
   out.faces_added = faces_added();
-  out.faces_embedded = callers_faces_ ? given_faces_ : surface.face_fans().size();
+  out.faces_embedded = callers_faces_ ? given_faces_ : corner_fans(surface).triangles.size();
   out.mean_edge_length = mean_edge_length_;
   IntrinsicMesh& mesh = out.mesh;
   mesh.vertex_count = static_cast<std::int32_t>(points_.size());
   std::vector<std::int32_t> holes;
-  for (std::int32_t f = 0; index(f) < corners.size(); ++f) {
+  for (std::int32_t f = 0; index(f) < triangles.size(); ++f) {
     if (!is_valid(f)) holes.push_back(f);
   }
   out.invalid_left = holes.size();
   const bool is_plain = !callers_faces_ && keeps_numbers(surface);
   if (!is_plain) {
-    for (Triangle& triangle : corners) {
+    for (Triangle& triangle : triangles) {
       for (std::int32_t& v : triangle) v = external_vertex(v);
     }
-    for (std::int32_t& f : origins) f = surface.face_of_half_edge_face()[f];
+    for (std::int32_t& f : origins) f = corner_fans(surface).faces[f];
   }
   for (const std::int32_t f : holes) out.hole_faces.push_back(origins[f]);
   std::ranges::sort(out.hole_faces);
@@ -579,7 +579,7 @@ Embedding BisectedMesh::to_embedding(bool is_scheme_local) && {
   }
   if (!holes.empty()) remove_triangles(holes);
   make_twins_of_pairs();
-  mesh.triangles = std::move(corners);
+  mesh.triangles = std::move(triangles);
   mesh.twins = std::move(twins);
   mesh.siblings = std::move(siblings);
   mesh.lengths = std::move(lengths);
@@ -596,8 +596,8 @@ Embedding BisectedMesh::to_embedding(bool is_scheme_local) && {
 
 // The remaining triangles keep their order.
 void BisectedMesh::remove_triangles(const std::vector<std::int32_t>& sorted) {
-  const auto count = static_cast<std::int32_t>(corners.size());
-  std::vector<std::int32_t> moved(corners.size(), 0);
+  const auto count = static_cast<std::int32_t>(triangles.size());
+  std::vector<std::int32_t> moved(triangles.size(), 0);
   for (const std::int32_t f : sorted) moved[f] = -1;
   std::int32_t to = 0;
   for (std::int32_t& f : moved) {
@@ -613,7 +613,7 @@ void BisectedMesh::remove_triangles(const std::vector<std::int32_t>& sorted) {
   for (std::int32_t f = 0; f < count; ++f) {
     if (moved[f] < 0) continue;
     const std::size_t g = index(moved[f]);
-    corners[g] = corners[f];
+    triangles[g] = triangles[f];
     origins[g] = origins[f];
     for (std::size_t i = 0; i < 3; ++i) {
       const std::int32_t twin = twins[3 * index(f) + i];
@@ -622,7 +622,7 @@ void BisectedMesh::remove_triangles(const std::vector<std::int32_t>& sorted) {
       lengths[3 * g + i] = lengths[3 * index(f) + i];
     }
   }
-  corners.resize(index(to));
+  triangles.resize(index(to));
   origins.resize(index(to));
   twins.resize(3 * index(to));
   lengths.resize(3 * index(to));

@@ -58,7 +58,7 @@ enum class EdgeRule {
 /// Half-edge 3 f + i runs from corner i of triangle f to the next corner. The first vertices are those of the surface's
 /// half-edge mesh (its corner fans), the others midpoints of edges in the order in which they are made. Of the halves
 /// of a bisected triangle one takes its place, the other becomes the last triangle.
-class BisectedMesh {
+class BisectedMesh : public TriangleConnectivity {
  public:
   /// The triangles to embed, without those degenerate ones that can be removed. The surface and the metric must outlive
   /// the mesh. The task is told `progress`; throws Cancelled.
@@ -67,22 +67,11 @@ class BisectedMesh {
   /// set_node() before they are used.
   BisectedMesh(const Surface& on, const Metric& by, Embedding&& old);
 
-  std::size_t face_count() const { return corners.size(); }
   std::size_t vertex_count() const { return fans_ + new_nodes_.size(); }
   /// Triangles before the first bisection.
   std::size_t given_face_count() const { return given_faces_; }
-  std::size_t faces_added() const { return corners.size() - given_faces_; }
+  std::size_t faces_added() const { return triangles.size() - given_faces_; }
 
-  std::int32_t tail(std::int32_t h) const { return corners[h / 3][h % 3]; }
-  std::int32_t tip(std::int32_t h) const { return corners[h / 3][(h + 1) % 3]; }
-  bool has_siblings(std::int32_t h) const { return !siblings.empty() && siblings[h] >= 0; }
-  /// Calls visit(other) for each other half-edge of h's edge: its twin, or its siblings in the order of their cycle.
-  template <class Visit>
-  void for_each_beyond(std::int32_t h, const Visit& visit) const {
-    if (twins[h] >= 0) visit(twins[h]);
-    if (!has_siblings(h)) return;
-    for (std::int32_t other = siblings[h]; other != h; other = siblings[other]) visit(other);
-  }
   /// The lowest half-edge of h's edge.
   std::int32_t first_of_edge(std::int32_t h) const {
     std::int32_t first = h;
@@ -130,11 +119,6 @@ class BisectedMesh {
 
   const Surface& surface;
   const Metric& metric;
-  std::vector<Triangle> corners;
-  std::vector<std::int32_t> twins;  ///< per half-edge; -1 if it has none
-  /// Per half-edge without a twin: the next one of the same edge in a cycle, as in IntrinsicMesh, but two may run in
-  /// opposite ways. Empty if there are no such edges.
-  std::vector<std::int32_t> siblings;
   std::vector<double> lengths;        ///< per half-edge
   std::vector<std::int32_t> origins;  ///< per triangle: the face of the surface's half-edge mesh that it lies in
   /// Per triangle: which part of that face it is, as the number of a node of a binary tree of bisections.
@@ -162,8 +146,7 @@ class BisectedMesh {
   const MetricNode& node(std::int32_t v) const { return index(v) < fans_ ? nodes_[v] : new_nodes_[index(v) - fans_]; }
   TensorAt tensor_at(std::int32_t v) const;
   void take_faces(const EmbeddingInput& input, const Task& task, double progress);
-  void select(const std::vector<Triangle>& all_corners, const std::vector<std::int32_t>& all_twins,
-              const std::vector<std::int32_t>& all_siblings, const std::vector<std::int32_t>& faces);
+  void select(const TriangleConnectivity& all, const std::vector<std::int32_t>& faces);
   std::int32_t external_vertex(std::int32_t v) const;
   double measure_with_middle(std::int32_t h) const;
   std::pair<Vector, Vector> end_normals(std::int32_t h) const;

@@ -37,7 +37,7 @@ bool ActiveFaces::activate(BisectedMesh& mesh, std::int32_t face) {
   State& state = states_[face];
   if (state == State::kKept) return false;
   if (state == State::kGiven) {
-    for (const std::int32_t fan : mesh.corners[face]) mesh.set_node(fan);
+    for (const std::int32_t fan : mesh.triangles[face]) mesh.set_node(fan);
     state = State::kActive;
     active_.push_back(face);
     ++activations_;
@@ -117,7 +117,7 @@ void Bisection::begin_newest_vertex_bisection() {
 std::int32_t Bisection::refinement_edge(std::int32_t f) const {
   if (scheme_ == Scheme::kLongestEdge) return longest_edge(f);
   if (first_newest_ > 0) {
-    const Triangle& corners = mesh_.corners[f];
+    const Triangle& corners = mesh_.triangles[f];
     const auto newest = static_cast<std::int32_t>(std::ranges::max_element(corners) - corners.begin());
     if (index(corners[newest]) >= first_newest_) return next_in_face(3 * f + newest);
   }

@@ -10,6 +10,7 @@
 
 #include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
+#include "surface/corner_fans.hpp"
 #include "surface/face_height.hpp"
 
 namespace seamwire::detail {
@@ -32,10 +33,10 @@ class DegenerateFaces {
   DegenerateFaces(const Surface& surface, const Metric& metric)
       : surface_(surface),
         metric_(metric),
-        mesh_(surface.half_edges()),
+        mesh_(half_edge_mesh(surface)),
         origins_(mesh_.n_faces()),
-        vertex_of_fan_(surface.vertex_of_fan()),
-        names_(surface.siblings().empty() ? 0 : mesh_.n_edges()),
+        vertex_of_fan_(corner_fans(surface).vertices),
+        names_(corner_fans(surface).siblings.empty() ? 0 : mesh_.n_edges()),
         same_edges_(names_.size()) {
     std::iota(origins_.begin(), origins_.end(), 0);
     std::iota(names_.begin(), names_.end(), 0);
@@ -125,8 +126,9 @@ std::vector<VertexHandle> DegenerateFaces::fans_of(std::int32_t vertex) const {
     const bool is_left = !mesh_.status(fan).deleted() && !mesh_.is_isolated(fan);
     if (is_left && this->vertex(fan) == vertex) fans.push_back(fan);
   };
-  const auto [begin, end] = std::ranges::equal_range(surface_.vertex_of_fan(), vertex);
-  for (auto at = begin; at != end; ++at) add(VertexHandle(static_cast<int>(at - surface_.vertex_of_fan().begin())));
+  const auto [begin, end] = std::ranges::equal_range(corner_fans(surface_).vertices, vertex);
+  for (auto at = begin; at != end; ++at)
+    add(VertexHandle(static_cast<int>(at - corner_fans(surface_).vertices.begin())));
   if (const auto more = fans_merged_.find(vertex); more != fans_merged_.end()) std::ranges::for_each(more->second, add);
   return fans;
 }
@@ -135,7 +137,7 @@ std::vector<VertexHandle> DegenerateFaces::fans_of(std::int32_t vertex) const {
 void DegenerateFaces::join_siblings() {
   if (names_.empty()) return;
   const std::vector<HalfedgeHandle> half_edges = half_edges_of_faces(mesh_);
-  const std::vector<std::int32_t>& siblings = surface_.siblings();
+  const std::vector<std::int32_t>& siblings = corner_fans(surface_).siblings;
   for (std::size_t h = 0; h < siblings.size(); ++h) {
     if (siblings[h] >= 0) same_edges_.join(half_edges[h].idx() / 2, half_edges[index(siblings[h])].idx() / 2);
   }

@@ -64,7 +64,7 @@ double largest_ratio(const PlaneForm& g, const PlaneForm& h) {
 
 // error_score(), with the form of the triangle's lengths.
 double score(const BisectedMesh& mesh, std::int32_t f, const PlaneForm& g, const Plane& plane) {
-  const Triangle& corners = mesh.corners[f];
+  const Triangle& corners = mesh.triangles[f];
   const SpaceForm &a = mesh.form(corners[0]), &b = mesh.form(corners[1]), &c = mesh.form(corners[2]);
   SpaceForm mean;
   for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = (a[i] + b[i] + c[i]) / 3;
@@ -91,7 +91,7 @@ Resolution measure_resolution(const BisectedMesh& mesh, double tolerance, const 
     const double of_face = score(mesh, f, g, plane);
     highest = std::max(highest, of_face);
     if (of_face > tolerance) ++resolution.unmet;
-    for (const std::int32_t corner : mesh.corners[f]) {
+    for (const std::int32_t corner : mesh.triangles[f]) {
       largest = std::max(largest, largest_ratio(g, restricted(mesh.form(corner), plane)));
     }
   }

@@ -14,6 +14,7 @@
 #include "embedding/length_repair.hpp"
 #include "embedding/re_embedding.hpp"
 #include "metric/metric_check.hpp"
+#include "surface/corner_fans.hpp"
 #include "surface/face_height.hpp"
 
 namespace seamwire {
@@ -86,7 +87,7 @@ void sort_and_unify(std::vector<std::int32_t>& numbers) {
 
 // The result of bisection, and of length repair after it.
 Embedding finished(Bisection&& bisection, const LengthRepair& repair, const Task& task) {
-  const std::vector<std::int32_t>& face_of = bisection.mesh().surface.face_of_half_edge_face();
+  const std::vector<std::int32_t>& face_of = corner_fans(bisection.mesh().surface).faces;
   std::optional<Resolution> resolution;
   if (const double error = bisection.options().max_error; error > 0) {
     resolution = measure_resolution(bisection.mesh(), kScorePerError * error, task, 1.0);
@@ -176,7 +177,7 @@ Embedding re_embed(const Surface& surface, const Metric& former, const Metric& m
   const bool is_of_surface =
       options.faces ||
       (old.points.size() >= surface.vertex_count() &&
-       old.mesh.face_count() + old.invalid_left >= surface.face_fans().size() + old.faces_added &&
+       old.mesh.face_count() + old.invalid_left >= corner_fans(surface).triangles.size() + old.faces_added &&
        std::ranges::all_of(old.source_face, [&](std::int32_t f) { return f >= 0 && index(f) < faces; }));
   if (!is_of_surface) throw InvalidInput("the former embedding is of another surface");
   const auto embedded_anew = [&, mean_edge_length = old.mean_edge_length] {
@@ -200,8 +201,8 @@ Embedding re_embed(const Surface& surface, const Metric& former, const Metric& m
 std::vector<std::int32_t> invalid_faces(const Surface& surface, const Metric& metric) {
   check_metric(surface, metric);
   std::vector<std::int32_t> out;
-  for (std::size_t f = 0; f < surface.face_fans().size(); ++f) {
-    const std::int32_t face = surface.face_of_half_edge_face()[f];
+  for (std::size_t f = 0; f < corner_fans(surface).triangles.size(); ++f) {
+    const std::int32_t face = corner_fans(surface).faces[f];
     const auto& [a, b, c] = surface.triangles()[face];
     const auto side = [&](std::int32_t from, std::int32_t to) {
       return Vector((surface.points()[to] - surface.points()[from]) * surface.scale());

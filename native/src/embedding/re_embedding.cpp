@@ -10,19 +10,17 @@
 #include <vector>
 
 #include "embedding/bisection.hpp"
-#include "surface/half_edge_mesh.hpp"
+#include "surface/corner_fans.hpp"
 
 namespace seamwire::detail {
 namespace {
 
-// The faces at the vertices where two metrics differ.
+// The faces at the vertices where two metrics differ, ascending. The surface's fans have the numbers of its vertices.
 std::vector<std::int32_t> changed_faces(const Surface& surface, const Metric& former, const Metric& metric) {
   std::vector<std::int32_t> faces;
-  for (std::size_t v = 0; v < surface.vertex_count(); ++v) {
+  for (std::int32_t v = 0; index(v) < surface.vertex_count(); ++v) {
     if (former.tensors[v] == metric.tensors[v]) continue;
-    for (const auto f : surface.half_edges().vf_range(OpenMesh::VertexHandle(static_cast<int>(v)))) {
-      faces.push_back(f.idx());
-    }
+    corner_fans(surface).for_each_leaving(v, [&](std::int32_t h) { faces.push_back(h / 3); });
   }
   std::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
@@ -32,8 +30,8 @@ std::vector<std::int32_t> changed_faces(const Surface& surface, const Metric& fo
 }  // namespace
 
 bool is_valid_as_given(const Surface& surface, const Metric& metric, std::int32_t face) {
-  Triangle corners = surface.face_fans()[face];
-  for (std::int32_t& v : corners) v = surface.vertex_of_fan()[v];
+  Triangle corners = corner_fans(surface).triangles[face];
+  for (std::int32_t& v : corners) v = corner_fans(surface).vertices[v];
   const auto [a, b, c] = corners;
   std::array lengths{edge_length(surface, metric, a, b), edge_length(surface, metric, b, c),
                      edge_length(surface, metric, c, a)};

@@ -10,26 +10,6 @@
 
 namespace seamwire::detail {
 
-std::vector<std::vector<std::int32_t>> Island::boundaries() const {
-  // Each own vertex has at most one boundary edge that leaves it.
-  std::vector<std::int32_t> next(vertices.size(), -1);
-  for (std::int32_t h = 0; index(h) < twins.size(); ++h) {
-    if (twins[h] < 0) next[triangles[h / 3][h % 3]] = triangles[h / 3][(h + 1) % 3];
-  }
-  std::vector<std::vector<std::int32_t>> loops;
-  for (std::int32_t start = 0; index(start) < vertices.size(); ++start) {
-    if (next[start] < 0) continue;
-    loops.emplace_back();
-    for (std::int32_t v = start; next[v] >= 0;) {
-      loops.back().push_back(v);
-      const std::int32_t to = next[v];
-      next[v] = -1;
-      v = to;
-    }
-  }
-  return loops;
-}
-
 double loop_length(std::span<const std::int32_t> loop, std::span<const Vector> points) {
   double length = 0.0;
   for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -51,8 +31,9 @@ std::int32_t outer_loop(const std::vector<std::vector<std::int32_t>>& boundaries
   return outer;
 }
 
-std::vector<Island> cut_open(std::span<const Triangle> triangles, std::span<const std::int32_t> twins,
-                             std::span<const std::uint8_t> is_cut) {
+std::vector<Island> cut_open(const TriangleConnectivity& mesh, std::span<const std::uint8_t> is_cut) {
+  const std::vector<Triangle>& triangles = mesh.triangles;
+  const std::vector<std::int32_t>& twins = mesh.twins;
   const auto count = static_cast<std::int32_t>(triangles.size());
   DisjointSets faces(triangles.size()), corners(3 * triangles.size());
   for (std::int32_t h = 0; h < 3 * count; ++h) {

@@ -20,6 +20,7 @@
 #include "flatten/straight_strip.hpp"
 #include "flatten/upright.hpp"
 #include "seamwire/surface/segments.hpp"
+#include "surface/corner_fans.hpp"
 #include "surface/cuts.hpp"
 #include "surface/real_edges.hpp"
 
@@ -44,8 +45,8 @@ struct MappedIsland {
 
 /// The caller's corner of each corner of the half-edge mesh: a triangle that was turned over has two of them swapped.
 std::size_t caller_corner(const Surface& surface, std::int32_t face, std::size_t i) {
-  const Triangle& given = surface.triangles()[index(surface.face_of_half_edge_face()[face])];
-  const bool is_turned = surface.vertex_of_fan()[surface.face_fans()[face][1]] != given[1];
+  const Triangle& given = surface.triangles()[index(corner_fans(surface).faces[face])];
+  const bool is_turned = corner_fans(surface).vertices[corner_fans(surface).triangles[face][1]] != given[1];
   return is_turned && i > 0 ? 3 - i : i;
 }
 
@@ -77,7 +78,7 @@ class Flattener {
   }
 
   std::int32_t caller_face(const Island& island, std::size_t f) const {
-    return surface_.face_of_half_edge_face()[island.faces[f]];
+    return corner_fans(surface_).faces[island.faces[f]];
   }
 
  private:
@@ -181,14 +182,16 @@ class Flattener {
 /// The islands of the half-edge mesh, with vertices of the caller's.
 std::vector<Island> islands_of(const Surface& surface, std::span<const Edge> cut_edges) {
   const Cuts cuts(surface, cut_edges, "cuts");
-  std::vector<std::uint8_t> is_cut(surface.twins().size(), 0);
+  std::vector<std::uint8_t> is_cut(corner_fans(surface).twins.size(), 0);
   for (std::int32_t h = 0; index(h) < is_cut.size(); ++h) {
-    const Triangle& fans = surface.face_fans()[h / 3];
-    is_cut[h] = cuts.contains(surface.vertex_of_fan()[fans[h % 3]], surface.vertex_of_fan()[fans[(h + 1) % 3]]) ? 1 : 0;
+    const Triangle& fans = corner_fans(surface).triangles[h / 3];
+    is_cut[h] =
+        cuts.contains(corner_fans(surface).vertices[fans[h % 3]], corner_fans(surface).vertices[fans[(h + 1) % 3]]) ? 1
+                                                                                                                    : 0;
   }
-  std::vector<Island> islands = cut_open(surface.face_fans(), surface.twins(), is_cut);
+  std::vector<Island> islands = cut_open(corner_fans(surface), is_cut);
   for (Island& island : islands) {
-    for (std::int32_t& v : island.vertices) v = surface.vertex_of_fan()[v];
+    for (std::int32_t& v : island.vertices) v = corner_fans(surface).vertices[v];
   }
   return islands;
 }
@@ -232,7 +235,7 @@ FlatIsland describe(const Surface& surface, const MappedIsland& mapped) {
                   .opened = mapped.opened.opened};
   const std::vector<double> energies = triangle_energies(island, surface.points(), mapped.map.uvs);
   const auto worst = static_cast<std::size_t>(std::ranges::max_element(energies) - energies.begin());
-  flat.worst = surface.face_of_half_edge_face()[island.faces[worst]];
+  flat.worst = corner_fans(surface).faces[island.faces[worst]];
   for (const Triangle& t : island.triangles) {
     const auto corner = [&](std::size_t i) -> const Vector& { return surface.points()[index(island.vertices[t[i]])]; };
     flat.area += 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).stableNorm();
@@ -251,7 +254,7 @@ void fill_left_out(const Surface& surface, Flattening& result) {
   }
   std::vector<Eigen::Vector2d> center(result.by_island.size(), Point2::Zero());
   std::vector<double> corners(result.by_island.size(), 0.0);
-  for (const std::int32_t f : surface.face_of_half_edge_face()) {
+  for (const std::int32_t f : corner_fans(surface).faces) {
     const std::int32_t island = result.islands[f];
     for (const Eigen::Vector2d& uv : result.uvs[f]) {
       corners[island] += 1.0;
@@ -259,7 +262,7 @@ void fill_left_out(const Surface& surface, Flattening& result) {
     }
   }
   for (auto& [key, uv] : wanted) uv = center[key.first];
-  for (const std::int32_t f : surface.face_of_half_edge_face()) {
+  for (const std::int32_t f : corner_fans(surface).faces) {
     for (std::size_t i = 0; i < 3; ++i) {
       const auto found = wanted.find({result.islands[f], surface.triangles()[f][i]});
       if (found != wanted.end()) found->second = result.uvs[f][i];
@@ -287,12 +290,11 @@ Flattening flatten(const Surface& surface, std::span<const Edge> cuts, const Fla
     const Island& island = mapped[i].opened.island;
     for (std::size_t f = 0; f < island.faces.size(); ++f) {
       for (std::size_t k = 0; k < 3; ++k) {
-        result
-            .uvs[index(surface.face_of_half_edge_face()[island.faces[f]])][caller_corner(surface, island.faces[f], k)] =
+        result.uvs[index(corner_fans(surface).faces[island.faces[f]])][caller_corner(surface, island.faces[f], k)] =
             mapped[i].map.uvs[island.triangles[f][k]];
       }
     }
-    const std::int32_t first = surface.face_of_half_edge_face()[island.faces.front()];
+    const std::int32_t first = corner_fans(surface).faces[island.faces.front()];
     result.by_island[result.islands[first]] = describe(surface, mapped[i]);
   }
   fill_left_out(surface, result);

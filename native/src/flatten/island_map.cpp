@@ -159,9 +159,7 @@ class Problem {
 
   void find_outer_loop() {
     own_edges_ = edges_.size();
-    const auto euler = static_cast<std::int64_t>(island_.vertices.size()) - static_cast<std::int64_t>(edges_.size()) +
-                       static_cast<std::int64_t>(island_.triangles.size());
-    if (boundaries_.empty() || euler != 2 - static_cast<std::int64_t>(boundaries_.size())) {
+    if (boundaries_.empty() || island_.euler_characteristic() != 2 - std::ssize(boundaries_)) {
       throw InvalidInput("the island with triangle " + std::to_string(island_.faces.front()) +
                          " is neither a disc nor a disc with holes");
     }

@@ -18,6 +18,7 @@
 #include "flatten/cut_open.hpp"
 #include "flatten/measure_islands.hpp"
 #include "flatten/symmetric_dirichlet.hpp"
+#include "surface/corner_fans.hpp"
 
 namespace seamwire {
 
@@ -53,12 +54,12 @@ void check_map(const Surface& surface, std::span<const Corners> uvs, std::span<c
 class HalfEdgeMap {
  public:
   HalfEdgeMap(const Surface& surface, std::span<const Corners> uvs, std::span<const std::int32_t> islands)
-      : surface_(surface), uvs_(surface.face_fans().size()), island_(uvs_.size()) {
+      : surface_(surface), uvs_(corner_fans(surface).triangles.size()), island_(uvs_.size()) {
     for (std::size_t f = 0; f < uvs_.size(); ++f) {
-      const std::int32_t source = surface.face_of_half_edge_face()[f];
+      const std::int32_t source = corner_fans(surface).faces[f];
       uvs_[f] = uvs[index(source)];
       // Fans are listed from the caller's first corner on; a triangle that was turned over has the others swapped.
-      const std::int32_t second = surface.vertex_of_fan()[surface.face_fans()[f][1]];
+      const std::int32_t second = corner_fans(surface).vertices[corner_fans(surface).triangles[f][1]];
       if (second != surface.triangles()[index(source)][1]) std::swap(uvs_[f][1], uvs_[f][2]);
     }
     find_islands(islands);
@@ -85,7 +86,7 @@ class HalfEdgeMap {
   }
   /// Whether the triangles on both sides of an edge agree on its UVs.
   bool is_continuous(std::int32_t h) const {
-    const std::int32_t twin = surface_.twins()[h];
+    const std::int32_t twin = corner_fans(surface_).twins[h];
     return uv(h) == uv(next_in_face(twin)) && uv(next_in_face(h)) == uv(twin);
   }
   const Eigen::Vector2d& uv(std::int32_t corner) const { return uvs_[corner / 3][corner % 3]; }
@@ -93,12 +94,12 @@ class HalfEdgeMap {
  private:
   void find_islands(std::span<const std::int32_t> islands) {
     if (!islands.empty()) {
-      for (std::size_t f = 0; f < size(); ++f) island_[f] = islands[index(surface_.face_of_half_edge_face()[f])];
+      for (std::size_t f = 0; f < size(); ++f) island_[f] = islands[index(corner_fans(surface_).faces[f])];
       return;
     }
     DisjointSets sets(size());
-    for (std::int32_t h = 0; index(h) < surface_.twins().size(); ++h) {
-      if (surface_.twins()[h] > h && is_continuous(h)) sets.join(h / 3, surface_.twins()[h] / 3);
+    for (std::int32_t h = 0; index(h) < corner_fans(surface_).twins.size(); ++h) {
+      if (corner_fans(surface_).twins[h] > h && is_continuous(h)) sets.join(h / 3, corner_fans(surface_).twins[h] / 3);
     }
     std::int32_t count = 0;
     for (std::int32_t f = 0; index(f) < size(); ++f) island_[f] = sets.find(f) == f ? count++ : island_[sets.find(f)];
@@ -167,12 +168,12 @@ ScaledEnergies scaled_energies(const Surface& surface, const HalfEdgeMap& map, s
   }
   // A power of two, so that no triangle flips by rounding.
   const double unit = largest > 0.0 ? std::ldexp(1.0, std::ilogb(largest)) : 1.0;
-  const Vector origin = surface.points()[index(surface.vertex_of_fan()[0])];
+  const Vector origin = surface.points()[index(corner_fans(surface).vertices[0])];
   double area = 0.0;
   for (std::size_t f = 0; f < map.size(); ++f) {
     for (std::size_t i = 0; i < 3; ++i) {
       triangles[f][i] = static_cast<std::int32_t>(points.size());
-      const std::int32_t v = surface.vertex_of_fan()[surface.face_fans()[f][i]];
+      const std::int32_t v = corner_fans(surface).vertices[corner_fans(surface).triangles[f][i]];
       points.emplace_back(surface.scale() * (surface.points()[index(v)] - origin));
       for (const double value : map.uvs()[f][i]) flat.push_back(value / unit);
     }
@@ -189,15 +190,15 @@ class OverlapTest {
  public:
   OverlapTest(const Surface& surface, const HalfEdgeMap& map, const Task& task)
       : map_(map), task_(task), outlines_(index(map.island_count())) {
-    std::vector<std::uint8_t> is_cut(surface.twins().size(), 0);
+    std::vector<std::uint8_t> is_cut(corner_fans(surface).twins.size(), 0);
     for (std::int32_t h = 0; index(h) < is_cut.size(); ++h) {
-      const std::int32_t twin = surface.twins()[h];
+      const std::int32_t twin = corner_fans(surface).twins[h];
       if (twin < 0) continue;
       is_cut[h] = map.island(index(h / 3)) != map.island(index(twin / 3)) || !map.is_continuous(h) ? 1 : 0;
     }
     task.check(0.5);
     std::int32_t vertices = 0;
-    for (const Island& piece : cut_open(surface.face_fans(), surface.twins(), is_cut)) {
+    for (const Island& piece : cut_open(corner_fans(surface), is_cut)) {
       poll_.next();
       add_piece(piece, vertices);
       vertices += static_cast<std::int32_t>(piece.vertices.size());
@@ -355,7 +356,7 @@ MapReport detail::measure_islands(const Surface& surface, std::span<const Corner
   report.energy = energies.mean();
   std::vector<std::uint8_t> is_bad(index(map.island_count()), 0);
   for (std::size_t f = 0; f < map.size(); ++f) {
-    const std::int32_t source = surface.face_of_half_edge_face()[f];
+    const std::int32_t source = corner_fans(surface).faces[f];
     report.energies[index(source)] = energies.of(static_cast<std::int32_t>(f));
     if (map.cross(f) > 0.0) continue;
     report.flipped.push_back(source);

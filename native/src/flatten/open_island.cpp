@@ -29,8 +29,8 @@ class Paths {
           }
         }) {}
 
-  std::int32_t tail(std::int32_t h) const { return island_.triangles[h / 3][h % 3]; }
-  std::int32_t tip(std::int32_t h) const { return tail(next_in_face(h)); }
+  std::int32_t tail(std::int32_t h) const { return island_.tail(h); }
+  std::int32_t tip(std::int32_t h) const { return island_.tip(h); }
   double length(std::int32_t h) const {
     return (points_[index(island_.vertices[tail(h)])] - points_[index(island_.vertices[tip(h)])]).norm();
   }
@@ -112,12 +112,6 @@ class Paths {
   std::vector<std::int32_t> across_;   // the vertex from which the path to each vertex crosses a hole, -1 without one
 };
 
-std::int64_t euler_characteristic(const Island& island) {
-  std::int64_t edges = 0;
-  for (std::int32_t h = 0; index(h) < island.twins.size(); ++h) edges += island.twins[h] < h ? 1 : 0;
-  return static_cast<std::int64_t>(island.vertices.size()) - edges + static_cast<std::int64_t>(island.triangles.size());
-}
-
 std::vector<std::int32_t> boundary_vertices(const std::vector<std::vector<std::int32_t>>& boundaries) {
   std::vector<std::int32_t> all;
   for (const std::vector<std::int32_t>& loop : boundaries) all.insert(all.end(), loop.begin(), loop.end());
@@ -193,12 +187,12 @@ std::vector<std::uint8_t> longer_slit(const Island& island, const Paths& paths,
 
 bool is_planar(const Island& island) {
   const std::vector<std::vector<std::int32_t>> boundaries = island.boundaries();
-  return euler_characteristic(island) == 2 - static_cast<std::int64_t>(boundaries.size()) &&
+  return island.euler_characteristic() == 2 - static_cast<std::int64_t>(boundaries.size()) &&
          std::ranges::any_of(boundaries, [](const auto& loop) { return loop.size() >= 3; });
 }
 
 OpenedIsland open_along(const Island& island, const std::vector<std::uint8_t>& is_cut) {
-  std::vector<Island> parts = cut_open(island.triangles, island.twins, is_cut);
+  std::vector<Island> parts = cut_open(island, is_cut);
   if (parts.size() != 1) return {};
   OpenedIsland opened{.island = std::move(parts.front()), .opened = 0};
   for (std::int32_t& v : opened.island.vertices) v = island.vertices[v];
@@ -217,7 +211,7 @@ OpenedIsland open_to_plane(const Island& island, std::span<const std::uint8_t> i
     const std::vector<std::vector<std::int32_t>> boundaries = result.island.boundaries();
     Paths paths(result.island, is_real, points);
     std::vector<std::uint8_t> is_cut;
-    if (euler_characteristic(result.island) == 2 - static_cast<std::int64_t>(boundaries.size())) {
+    if (result.island.euler_characteristic() == 2 - static_cast<std::int64_t>(boundaries.size())) {
       is_cut =
           boundaries.empty() ? slit_in_ball(result.island, paths, task) : longer_slit(result.island, paths, boundaries);
     } else {

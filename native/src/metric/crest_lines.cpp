@@ -17,6 +17,7 @@
 #include "detail/text.hpp"
 #include "metric/tangent_frame.hpp"
 #include "seamwire/errors.hpp"
+#include "surface/corner_fans.hpp"
 #include "surface/face_height.hpp"
 
 namespace seamwire {
@@ -59,7 +60,7 @@ class Faces {
     std::array<Eigen::Vector2d, 3> corners;  // in (u, v), the first at the origin
   };
 
-  explicit Faces(const Surface& surface) : surface_(surface), is_low_(surface.face_fans().size(), 0) {
+  explicit Faces(const Surface& surface) : surface_(surface), is_low_(corner_fans(surface).triangles.size(), 0) {
     for (const std::int32_t face : half_edge_faces(surface, surface.report().low_faces)) is_low_[face] = 1;
   }
 
@@ -68,7 +69,7 @@ class Faces {
   bool is_low(std::size_t face) const { return is_low_[face] != 0; }
 
   std::int32_t vertex(std::size_t face, std::size_t corner) const {
-    return surface_.vertex_of_fan()[surface_.face_fans()[face][corner]];
+    return corner_fans(surface_).vertices[corner_fans(surface_).triangles[face][corner]];
   }
   Triangle corners(std::size_t face) const { return {vertex(face, 0), vertex(face, 1), vertex(face, 2)}; }
   Vector point(std::int32_t v) const { return surface_.scale() * surface_.points()[v]; }
@@ -216,7 +217,7 @@ class Walk {
       at += ahead * along;
       distance -= ahead;
       if (side == -1) break;
-      const std::int32_t twin = surface_.twins()[3 * face + side];
+      const std::int32_t twin = corner_fans(surface_).twins[3 * face + side];
       if (twin == -1 || faces_.is_low(twin / 3)) break;
       // Unfolded about the side, which the other face has in the other direction.
       const Eigen::Vector2d a = frame.corners[side], b = frame.corners[(side + 1) % 3];
@@ -291,7 +292,7 @@ class Tracer {
  private:
   // The lower half-edge of the edge that one belongs to.
   std::int32_t edge_of(std::int32_t half_edge) const {
-    const std::int32_t twin = surface_.twins()[half_edge];
+    const std::int32_t twin = corner_fans(surface_).twins[half_edge];
     return twin == -1 ? half_edge : std::min(half_edge, twin);
   }
 
@@ -375,7 +376,7 @@ class Tracer {
 
   // Lines are chains of segments that share an edge: each edge has two faces, each face one segment at most.
   void link(CrestLines& lines) const {
-    std::vector<std::array<std::int32_t, 2>> at_edge(surface_.twins().size(), {-1, -1});
+    std::vector<std::array<std::int32_t, 2>> at_edge(corner_fans(surface_).twins.size(), {-1, -1});
     for (std::size_t s = 0; s < segments_.size(); ++s) {
       for (const std::int32_t side : segments_[s].sides) {
         at_edge[side][at_edge[side][0] == -1 ? 0 : 1] = static_cast<std::int32_t>(s);
@@ -473,7 +474,7 @@ class Tracer {
     const std::size_t begin = lines.points.size();
     for (std::size_t i = first; i <= end; ++i) add(lines, chain.sides[i]);
     for (std::size_t i = first; i < end; ++i) {
-      lines.faces[begin + i - first] = surface_.face_of_half_edge_face()[segments_[chain.segments[i]].face];
+      lines.faces[begin + i - first] = corner_fans(surface_).faces[segments_[chain.segments[i]].face];
     }
     keep_if_strong(lines, begin);
   }

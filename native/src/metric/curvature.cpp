@@ -9,14 +9,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
+#include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "detail/prefetch.hpp"
 #include "metric/curvature_form.hpp"
 #include "metric/tangent_frame.hpp"
+#include "surface/corner_fans.hpp"
 #include "surface/face_height.hpp"
-#include "surface/half_edge_mesh.hpp"
 
 namespace seamwire {
 
@@ -53,8 +55,29 @@ class LowFaces {
   std::vector<std::int32_t>::const_iterator next_;
 };
 
+// The places of corner fans: the surface's points, gathered only if the fans are numbered otherwise.
+class FanPoints {
+ public:
+  explicit FanPoints(const Surface& surface) : points_(surface.points()) {
+    const std::vector<std::int32_t>& vertices = corner_fans(surface).vertices;
+    std::int32_t fan = 0;
+    if (std::ranges::all_of(vertices, [&](std::int32_t v) { return v == fan++; })) return;
+    gathered_.reserve(vertices.size());
+    for (const std::int32_t v : vertices) gathered_.push_back(surface.points()[v]);
+    points_ = gathered_;
+  }
+  FanPoints(const FanPoints&) = delete;
+  FanPoints& operator=(const FanPoints&) = delete;
+
+  const Vector& operator[](std::int32_t fan) const { return points_[index(fan)]; }
+
+ private:
+  std::vector<Vector> gathered_;
+  std::span<const Vector> points_;
+};
+
 // Of the face whose corners are the given points.
-inline FaceShape face_shape(const Vector* points, const Triangle& fans, double scale) {
+inline FaceShape face_shape(const FanPoints& points, const Triangle& fans, double scale) {
   const Vector &a = points[fans[0]], &b = points[fans[1]], &c = points[fans[2]];
   FaceShape shape;
   shape.edges = {Vector(scale * (c - b)), Vector(scale * (a - c)), Vector(scale * (b - a))};
@@ -70,19 +93,20 @@ Vector normalized_or_zero(const Vector& v) {
 }
 
 // Gives fans of none but low triangles the direction of the widest of them.
-void complete(const Surface& surface, const std::vector<std::int32_t>& low, std::vector<Vector>& normals) {
+void complete(const Surface& surface, const FanPoints& points, const std::vector<std::int32_t>& low,
+              std::vector<Vector>& normals) {
   struct Wide {
     std::int32_t face;
     Vector cross;
   };
   std::vector<Wide> wide;
   for (const std::int32_t f : low) {
-    const Vector cross = face_shape(surface.half_edges().points(), surface.face_fans()[f], surface.scale()).cross;
+    const Vector cross = face_shape(points, corner_fans(surface).triangles[f], surface.scale()).cross;
     if (cross.norm() > 0.0) wide.push_back({f, cross});
   }
   std::ranges::stable_sort(wide, std::ranges::greater{}, [](const Wide& w) { return w.cross.norm(); });
   for (const auto& [face, cross] : wide) {
-    for (const std::int32_t fan : surface.face_fans()[face]) {
+    for (const std::int32_t fan : corner_fans(surface).triangles[face]) {
       if (normals[fan].isZero(0.0)) normals[fan] = normalized_or_zero(cross);
     }
   }
@@ -90,9 +114,9 @@ void complete(const Surface& surface, const std::vector<std::int32_t>& low, std:
 
 // The normals of the corner fans, each on its own side of the surface; zero where a fan has no area at all.
 std::vector<Vector> fan_normals(const Surface& surface, const Task& task) {
-  std::vector<Vector> normals(surface.vertex_of_fan().size(), Vector::Zero());
-  const std::vector<Triangle>& faces = surface.face_fans();
-  const Vector* points = surface.half_edges().points();
+  std::vector<Vector> normals(corner_fans(surface).vertices.size(), Vector::Zero());
+  const std::vector<Triangle>& faces = corner_fans(surface).triangles;
+  const FanPoints points(surface);
   LowFaces low(surface);
   const Poll summing(task, 0.0, 0.2, faces.size());
   for (std::size_t f = 0; f < faces.size(); ++f) {
@@ -117,7 +141,7 @@ std::vector<Vector> fan_normals(const Surface& surface, const Task& task) {
     normalizing.next();
     normal = normalized_or_zero(normal);
   }
-  if (!low.all().empty()) complete(surface, low.all(), normals);
+  if (!low.all().empty()) complete(surface, points, low.all(), normals);
   return normals;
 }
 
@@ -129,7 +153,7 @@ struct VertexNormals {
 };
 
 VertexNormals combine(const Surface& surface, const std::vector<Vector>& fans, const Task& task) {
-  const auto& vertex_of_fan = surface.vertex_of_fan();
+  const auto& vertex_of_fan = corner_fans(surface).vertices;
   VertexNormals result;
   result.normals.assign(surface.vertex_count(), Vector::Zero());
   result.side_of_fan.assign(fans.size(), 1);
@@ -253,8 +277,8 @@ void fit_face(const FaceShape& shape, const std::array<const TangentFrame*, 3>& 
 }
 
 std::vector<Fit> fit_fans(const Surface& surface, const std::vector<TangentFrame>& frames, const Task& task) {
-  const std::vector<Triangle>& faces = surface.face_fans();
-  const Vector* points = surface.half_edges().points();
+  const std::vector<Triangle>& faces = corner_fans(surface).triangles;
+  const FanPoints points(surface);
   std::vector<Fit> fits;
   resize(fits, frames.size(), task, 0.3);
   LowFaces low(surface);
@@ -318,7 +342,7 @@ Curvature principal_curvatures(const Surface& surface, const Task& task) {
   curvature.d1.assign(count, Vector::UnitX());
   curvature.d2.assign(count, Vector::UnitY());
 
-  const auto& vertex_of_fan = surface.vertex_of_fan();
+  const auto& vertex_of_fan = corner_fans(surface).vertices;
   Poll poll(task, 0.85, 1.0, fans.size());
   for (std::size_t first = 0, end = 0; first < fans.size(); first = end) {
     poll.next();

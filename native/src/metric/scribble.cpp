@@ -19,8 +19,8 @@
 #include "detail/text.hpp"
 #include "metric/scribble_points.hpp"
 #include "metric/tangent_frame.hpp"
+#include "surface/corner_fans.hpp"
 #include "surface/exact_unit.hpp"
-#include "surface/half_edge_mesh.hpp"
 #include "surface/point_segment.hpp"
 
 namespace seamwire {
@@ -56,8 +56,14 @@ class Neighbors {
   /// The vertices that an edge joins to it, of a triangle or without one.
   template <class Visit>
   void vertices(std::int32_t v, const Visit& visit) const {
-    fans(v, [&](OpenMesh::VertexHandle fan) {
-      for (const auto other : surface_.half_edges().vv_range(fan)) visit(surface_.vertex_of_fan()[other.idx()]);
+    const CornerFans& mesh = corner_fans(surface_);
+    fans(v, [&](std::int32_t fan) {
+      std::int32_t last = -1;
+      const bool is_open = mesh.for_each_leaving(fan, [&](std::int32_t h) {
+        visit(mesh.vertices[mesh.tip(h)]);
+        last = h;
+      });
+      if (is_open) visit(mesh.vertices[mesh.apex(last)]);
     });
     for (auto edge = std::lower_bound(loose_.begin(), loose_.end(), Edge{v, -1});
          edge != loose_.end() && (*edge)[0] == v; ++edge) {
@@ -67,24 +73,22 @@ class Neighbors {
   /// The triangles of which it is a corner.
   template <class Visit>
   void triangles(std::int32_t v, const Visit& visit) const {
-    const HalfEdgeMesh& mesh = surface_.half_edges();
-    fans(v, [&](OpenMesh::VertexHandle fan) {
-      for (const auto face : mesh.vf_range(fan)) {
-        Triangle triangle;
-        std::size_t i = 0;
-        for (const auto corner : mesh.fv_range(face)) triangle[i++] = surface_.vertex_of_fan()[corner.idx()];
-        visit(triangle);
-      }
+    const CornerFans& mesh = corner_fans(surface_);
+    fans(v, [&](std::int32_t fan) {
+      mesh.for_each_leaving(fan, [&](std::int32_t h) {
+        const auto& [a, b, c] = mesh.triangles[h / 3];
+        visit(Triangle{mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
+      });
     });
   }
 
  private:
   template <class Visit>
   void fans(std::int32_t v, const Visit& visit) const {
-    const auto& vertex_of_fan = surface_.vertex_of_fan();
+    const auto& vertex_of_fan = corner_fans(surface_).vertices;
     const auto [first, last] = std::equal_range(vertex_of_fan.begin(), vertex_of_fan.end(), v);
     for (auto fan = first; fan != last; ++fan) {
-      visit(OpenMesh::VertexHandle(static_cast<int>(fan - vertex_of_fan.begin())));
+      visit(static_cast<std::int32_t>(fan - vertex_of_fan.begin()));
     }
   }
 

@@ -10,6 +10,7 @@
 #include "metric/tangent_frame.hpp"
 #include "seamwire/errors.hpp"
 #include "seamwire/metric/curvature.hpp"
+#include "surface/corner_fans.hpp"
 #include "surface/exact_unit.hpp"
 
 namespace seamwire {
@@ -45,8 +46,8 @@ Neighborhood neighborhood(const Surface& surface, const std::vector<Vector>& nor
   out.frames.reserve(normals.size());
   for (const Vector& normal : normals) out.frames.push_back(fast_tangent_frame(normal));
   out.areas.assign(normals.size(), 0.0);
-  const std::vector<Triangle>& faces = surface.face_fans();
-  const std::vector<std::int32_t>& twins = surface.twins();
+  const std::vector<Triangle>& faces = corner_fans(surface).triangles;
+  const std::vector<std::int32_t>& twins = corner_fans(surface).twins;
   std::vector<double> lengths;
   out.sides.reserve(twins.size() / 2 + 1);
   lengths.reserve(twins.size() / 2 + 1);
@@ -54,7 +55,7 @@ Neighborhood neighborhood(const Surface& surface, const std::vector<Vector>& nor
   for (std::size_t f = 0; f < faces.size(); ++f) {
     poll.at(f);
     Triangle corners;
-    for (std::size_t i = 0; i < 3; ++i) corners[i] = surface.vertex_of_fan()[faces[f][i]];
+    for (std::size_t i = 0; i < 3; ++i) corners[i] = corner_fans(surface).vertices[faces[f][i]];
     const auto point = [&](std::size_t i) -> const Vector& { return surface.points()[corners[i]]; };
     const double scale = surface.scale(), unit = exact_unit(surface), units = scale / unit;
     const Vector one = unit * (point(1) - point(0)), two = unit * (point(2) - point(0));

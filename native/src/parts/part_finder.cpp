@@ -183,7 +183,7 @@ std::vector<Edge> PartFinder::Impl::seams() const {
   for (std::int32_t e = 0; index(e) < problem.mesh.edge_count(); ++e) {
     const std::int32_t h = problem.mesh.half_edge_of[e];
     if (problem.is_seam[e] == 0 || problem.mesh.twins[h] < 0) continue;
-    found.push_back({problem.mesh.sources[problem.mesh.start(h)], problem.mesh.sources[problem.mesh.end(h)]});
+    found.push_back({problem.mesh.sources[problem.mesh.tail(h)], problem.mesh.sources[problem.mesh.tip(h)]});
   }
   return found;
 }
@@ -194,7 +194,7 @@ std::vector<std::uint8_t> PartFinder::Impl::marked(const std::vector<Edge>& edge
   const std::vector<Edge> sorted = sorted_edges(edges, surface->vertex_count(), name);
   std::vector<std::uint8_t> found;
   for (const std::int32_t h : mesh.half_edge_of) {
-    const Edge edge = ascending(mesh.sources[mesh.start(h)], mesh.sources[mesh.end(h)]);
+    const Edge edge = ascending(mesh.sources[mesh.tail(h)], mesh.sources[mesh.tip(h)]);
     found.push_back(std::ranges::binary_search(sorted, edge) ? 1 : 0);
   }
   return found;
@@ -284,7 +284,7 @@ Parts PartFinder::find(double amount, const PartEdits& edits, const Task& task) 
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     const std::int32_t h = mesh.half_edge_of[e];
     if (is_border[e] == 0 || impl.problem.is_seam[e] != 0) continue;
-    borders.push_back(ascending(mesh.sources[mesh.start(h)], mesh.sources[mesh.end(h)]));
+    borders.push_back(ascending(mesh.sources[mesh.tail(h)], mesh.sources[mesh.tip(h)]));
   }
   std::ranges::sort(borders);
   Parts parts;

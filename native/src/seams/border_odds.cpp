@@ -40,7 +40,7 @@ class BendFinder {
     const std::int32_t h = mesh_.half_edge_of[e], twin = mesh_.twins[h];
     const Vector &one = frames_[h / 3].normal, &other = frames_[twin / 3].normal;
     const double angle = kDegreesOf * std::atan2(one.cross(other).norm(), one.dot(other));
-    const Vector along = mesh_.points[mesh_.end(h)] - mesh_.points[mesh_.start(h)];
+    const Vector along = mesh_.points[mesh_.tip(h)] - mesh_.points[mesh_.tail(h)];
     return one.cross(other).dot(along) < 0.0 ? -angle : angle;
   }
 
@@ -54,8 +54,8 @@ class BendFinder {
  private:
   /// The normal at a distance from the middle of a half-edge, in the plane across it.
   Vector normal_at(std::int32_t h, double distance) const {
-    const Vector across = (mesh_.points[mesh_.end(h)] - mesh_.points[mesh_.start(h)]).normalized();
-    Vector at = 0.5 * (mesh_.points[mesh_.end(h)] + mesh_.points[mesh_.start(h)]);
+    const Vector across = (mesh_.points[mesh_.tip(h)] - mesh_.points[mesh_.tail(h)]).normalized();
+    Vector at = 0.5 * (mesh_.points[mesh_.tip(h)] + mesh_.points[mesh_.tail(h)]);
     const Vector middle = at;
     const auto height = [&](std::int32_t v) { return (mesh_.points[v] - middle).dot(across); };
     constexpr int kMostTriangles = 64;
@@ -65,13 +65,13 @@ class BendFinder {
       const std::int32_t tip = mesh_.triangles[h / 3][(k + 2) % 3];
       // Leave through the side whose ends lie on both sides of the plane.
       const double own = height(tip);
-      const double end = height(mesh_.end(h));
+      const double end = height(mesh_.tip(h));
       const bool is_next = (own > 0.0) != (end > 0.0);
       const std::int32_t side = first + (is_next ? (k + 1) % 3 : (k + 2) % 3);
-      const double a = height(mesh_.start(side)), b = height(mesh_.end(side));
+      const double a = height(mesh_.tail(side)), b = height(mesh_.tip(side));
       const double t = a != b ? std::clamp(a / (a - b), 0.0, 1.0) : 0.5;
       const Vector to =
-          mesh_.points[mesh_.start(side)] + t * (mesh_.points[mesh_.end(side)] - mesh_.points[mesh_.start(side)]);
+          mesh_.points[mesh_.tail(side)] + t * (mesh_.points[mesh_.tip(side)] - mesh_.points[mesh_.tail(side)]);
       gone += (to - at).norm();
       at = to;
       if (gone >= distance || mesh_.twins[side] < 0) break;
@@ -141,8 +141,8 @@ std::vector<std::uint8_t> are_round(const PlanMesh& mesh, const Polygons& polygo
   const Csr<std::int32_t> around(polygons.count, sides);
   const auto share_vertex = [&](std::int32_t one, std::int32_t other) {
     const std::int32_t g = mesh.half_edge_of[one], h = mesh.half_edge_of[other];
-    return mesh.start(g) == mesh.start(h) || mesh.start(g) == mesh.end(h) || mesh.end(g) == mesh.start(h) ||
-           mesh.end(g) == mesh.end(h);
+    return mesh.tail(g) == mesh.tail(h) || mesh.tail(g) == mesh.tip(h) || mesh.tip(g) == mesh.tail(h) ||
+           mesh.tip(g) == mesh.tip(h);
   };
   std::vector<std::uint8_t> found(mesh.edge_count(), 0);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
@@ -164,7 +164,7 @@ std::vector<double> openness_of(const PlanMesh& mesh, const PieceSizes& sizes, s
   std::vector<double> openness, sums(sizes.of_piece.size(), 0.0), lengths = sums;
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     const std::int32_t h = mesh.half_edge_of[e];
-    openness.push_back(0.5 * (ambient[mesh.start(h)] + ambient[mesh.end(h)]));
+    openness.push_back(0.5 * (ambient[mesh.tail(h)] + ambient[mesh.tip(h)]));
     sums[sizes.piece_of(mesh, e)] += mesh.lengths[e] * openness.back();
     lengths[sizes.piece_of(mesh, e)] += mesh.lengths[e];
   }
@@ -223,7 +223,7 @@ std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, 
   const std::vector<double> openness = openness_of(mesh, sizes, ambient);
   const auto is_on_plane = [&](std::int32_t e) {
     const std::int32_t h = mesh.half_edge_of[e];
-    return reflection != nullptr && reflection->sides[mesh.start(h)] == 0 && reflection->sides[mesh.end(h)] == 0;
+    return reflection != nullptr && reflection->sides[mesh.tail(h)] == 0 && reflection->sides[mesh.tip(h)] == 0;
   };
   std::vector<double> odds(mesh.edge_count(), -kNever);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {

@@ -122,7 +122,7 @@ EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const
   }
   double sum = 0.0, length = 0.0;
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
-    const std::int32_t a = mesh.start(mesh.half_edge_of[e]), b = mesh.end(mesh.half_edge_of[e]);
+    const std::int32_t a = mesh.tail(mesh.half_edge_of[e]), b = mesh.tip(mesh.half_edge_of[e]);
     const double seen = 0.5 * (price_at(prices.visibility[a]) + price_at(prices.visibility[b]));
     const double weight = weights.empty() ? 1.0 : 0.5 * (weights[a] + weights[b]);
     const double sharpness = ramp(std::abs(bends.own[e]), kSharpFrom, kSharpWidth);

@@ -151,7 +151,7 @@ class Halving {
     if (edge < 0) return -1;
     const std::int32_t found = mesh.half_edge_of[edge];
     // Mirroring turns triangles over.
-    return mesh.start(found) == problem_.reflection->images[mesh.end(h)] ? found : mesh.twins[found];
+    return mesh.tail(found) == problem_.reflection->images[mesh.tip(h)] ? found : mesh.twins[found];
   }
 
   /// Joins the triangles that no seam may part, and mirror images.

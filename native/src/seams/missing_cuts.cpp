@@ -8,6 +8,7 @@
 #include "detail/disjoint_sets.hpp"
 #include "detail/half_edge.hpp"
 #include "detail/index.hpp"
+#include "surface/corner_fans.hpp"
 #include "surface/real_edges.hpp"
 
 namespace seamwire {
@@ -27,9 +28,9 @@ struct Part {
 
 /// The vertices of a half-edge, the smaller one first.
 Edge edge_of(const Surface& surface, std::int32_t half_edge) {
-  const Triangle& fans = surface.face_fans()[half_edge / 3];
-  const std::int32_t a = surface.vertex_of_fan()[fans[half_edge % 3]];
-  const std::int32_t b = surface.vertex_of_fan()[fans[(half_edge + 1) % 3]];
+  const Triangle& fans = corner_fans(surface).triangles[half_edge / 3];
+  const std::int32_t a = corner_fans(surface).vertices[fans[half_edge % 3]];
+  const std::int32_t b = corner_fans(surface).vertices[fans[(half_edge + 1) % 3]];
   return ascending(a, b);
 }
 
@@ -47,11 +48,11 @@ std::vector<Edge> real_cuts(const Surface& surface, std::span<const Edge> cut_ed
 /// The parts of a cut surface. Each is listed at its first face in the half-edge mesh. `faces`: joins the faces of a
 /// part. Cut open, the surface has a vertex for each set of corners that are joined.
 std::vector<Part> find_parts(const Surface& surface, std::span<const Edge> cuts, DisjointSets& faces) {
-  const std::size_t count = surface.face_fans().size();
+  const std::size_t count = corner_fans(surface).triangles.size();
   DisjointSets corners(3 * count);
   std::vector<std::int32_t> joined;  // one half-edge of each edge inside a part
-  for (std::int32_t h = 0; index(h) < surface.twins().size(); ++h) {
-    const std::int32_t twin = surface.twins()[h];
+  for (std::int32_t h = 0; index(h) < corner_fans(surface).twins.size(); ++h) {
+    const std::int32_t twin = corner_fans(surface).twins[h];
     if (twin < h || std::ranges::binary_search(cuts, edge_of(surface, h))) continue;
     joined.push_back(h);
     faces.join(h / 3, twin / 3);
@@ -87,11 +88,11 @@ std::vector<std::int32_t> missing_cuts(const Surface& surface, std::span<const E
     check_index(segment, segments.size(), "segments: number", "triangles");
     count = std::max(count, segment + 1);
   }
-  DisjointSets faces(surface.face_fans().size());
+  DisjointSets faces(corner_fans(surface).triangles.size());
   std::vector<Part> parts = find_parts(surface, real_cuts(surface, cut_edges), faces);
   std::vector<std::int32_t> missing(index(count), 0);
   for (std::int32_t f = 0; index(f) < parts.size(); ++f) {
-    const std::int32_t segment = segments[surface.face_of_half_edge_face()[f]];
+    const std::int32_t segment = segments[corner_fans(surface).faces[f]];
     Part& part = parts[faces.find(f)];
     if (part.segment < 0) {
       part.segment = segment;

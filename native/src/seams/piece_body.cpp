@@ -20,7 +20,7 @@ Island first_island(const SlitProblem& problem, std::int32_t number) {
       is_cut[3 * k + i] = problem.is_seam[problem.mesh.edge_of[3 * static_cast<std::size_t>(piece.faces[k]) + i]];
     }
   }
-  Island island = std::move(cut_open(piece.triangles, piece.twins, is_cut).front());
+  Island island = std::move(cut_open(piece, is_cut).front());
   for (std::int32_t& face : island.faces) face = piece.faces[face];
   return island;
 }
@@ -38,13 +38,7 @@ PieceBody::PieceBody(const SlitProblem& problem, std::int32_t piece)
   }
 }
 
-std::int64_t PieceBody::genus() const {
-  const auto inner = std::ranges::count_if(island.twins, [](std::int32_t twin) { return twin >= 0; });
-  const auto edges = static_cast<std::int64_t>(island.twins.size()) - inner / 2;
-  const auto euler =
-      static_cast<std::int64_t>(island.vertices.size()) - edges + static_cast<std::int64_t>(island.triangles.size());
-  return (2 - euler - static_cast<std::int64_t>(loops.size())) / 2;
-}
+std::int64_t PieceBody::genus() const { return (2 - island.euler_characteristic() - std::ssize(loops)) / 2; }
 
 double loop_length(const PlanMesh& mesh, std::span<const std::int32_t> loop) {
   double sum = 0.0;

@@ -97,7 +97,7 @@ std::optional<Place> image_of_part(const PlanMesh& whole, std::span<const std::u
   }
   for (std::int32_t e = 0; index(e) < part.mesh.edge_count(); ++e) {
     const std::int32_t h = part.mesh.half_edge_of[e];
-    const std::int32_t image = whole.edge_between(place.vertices[part.mesh.start(h)], place.vertices[part.mesh.end(h)]);
+    const std::int32_t image = whole.edge_between(place.vertices[part.mesh.tail(h)], place.vertices[part.mesh.tip(h)]);
     if (part.mesh.is_real[e] == 0 || image < 0) {
       if (part.mesh.is_real[e] != 0 || image >= 0) return std::nullopt;
       continue;

@@ -7,6 +7,7 @@
 
 #include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
+#include "surface/corner_fans.hpp"
 
 namespace seamwire::detail {
 
@@ -32,7 +33,7 @@ void connect(PlanMesh& mesh, std::span<const Edge> real_edges) {
   mesh.is_real.clear();
   std::vector<std::pair<std::int32_t, PlanNeighbor>> neighbors, all_neighbors;
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
-    const std::int32_t a = mesh.start(mesh.half_edge_of[e]), b = mesh.end(mesh.half_edge_of[e]);
+    const std::int32_t a = mesh.tail(mesh.half_edge_of[e]), b = mesh.tip(mesh.half_edge_of[e]);
     mesh.lengths.push_back((mesh.points[b] - mesh.points[a]).norm());
     const std::int32_t one = mesh.sources[a], other = mesh.sources[b];
     const Edge edge{std::min(one, other), std::max(one, other)};
@@ -50,10 +51,10 @@ void connect(PlanMesh& mesh, std::span<const Edge> real_edges) {
 
 PlanMesh plan_mesh(const Surface& surface) {
   PlanMesh mesh;
-  mesh.triangles = surface.face_fans();
-  mesh.twins = surface.twins();
-  mesh.faces = surface.face_of_half_edge_face();
-  mesh.sources = surface.vertex_of_fan();
+  mesh.triangles = corner_fans(surface).triangles;
+  mesh.twins = corner_fans(surface).twins;
+  mesh.faces = corner_fans(surface).faces;
+  mesh.sources = corner_fans(surface).vertices;
   // The model's size first, so that no square overflows.
   mesh.scale = surface.scale();
   const auto put_points = [&] {

@@ -9,7 +9,7 @@
 
 #include "detail/csr.hpp"
 #include "seamwire/surface/surface.hpp"
-#include "seamwire/surface/types.hpp"
+#include "seamwire/surface/triangle_connectivity.hpp"
 #include "seamwire/surface/vector.hpp"
 
 namespace seamwire::detail {
@@ -24,10 +24,8 @@ struct PlanNeighbor {
 };
 
 /// The mesh on which seams are planned: flat arrays, scaled so that the whole surface has area 1.
-struct PlanMesh {
+struct PlanMesh : TriangleConnectivity {
   std::vector<Vector> points;
-  std::vector<Triangle> triangles;         ///< two triangles that share an edge run along it in opposite directions
-  std::vector<std::int32_t> twins;         ///< of half-edge 3 f + i, from corner i to the next; -1 on the boundary
   std::vector<std::int32_t> edge_of;       ///< the edge of each half-edge
   std::vector<std::int32_t> half_edge_of;  ///< one half-edge of each edge
   std::vector<double> lengths;             ///< of each edge
@@ -40,10 +38,7 @@ struct PlanMesh {
   Csr<PlanNeighbor> all_neighbors;    ///< over all edges
 
   std::size_t vertex_count() const { return points.size(); }
-  std::size_t face_count() const { return triangles.size(); }
   std::size_t edge_count() const { return half_edge_of.size(); }
-  std::int32_t start(std::int32_t half_edge) const { return triangles[half_edge / 3][half_edge % 3]; }
-  std::int32_t end(std::int32_t half_edge) const { return triangles[half_edge / 3][(half_edge + 1) % 3]; }
   bool is_boundary(std::int32_t edge) const { return twins[half_edge_of[edge]] < 0; }
   /// The real edge between two vertices, the one with the smaller number if there are two; -1 if they have no edge.
   std::int32_t edge_between(std::int32_t a, std::int32_t b) const;

@@ -31,8 +31,7 @@ double skew_of(const PlanMesh& mesh, std::span<const FaceFrame> frames, std::int
   const double fold = angle_between(frames[h / 3].normal, frames[twin / 3].normal);
   if (!(fold < kMostFold)) return kNever;
   const auto opposite = [&](std::int32_t side) { return mesh.points[mesh.triangles[side / 3][(side % 3 + 2) % 3]]; };
-  const std::array<Vector, 4> corners{mesh.points[mesh.start(h)], opposite(twin), mesh.points[mesh.end(h)],
-                                      opposite(h)};
+  const std::array<Vector, 4> corners{mesh.points[mesh.tail(h)], opposite(twin), mesh.points[mesh.tip(h)], opposite(h)};
   double deviation = 0.0;
   for (std::size_t i = 0; i < 4; ++i) {
     const Vector& at = corners[i];
@@ -97,7 +96,7 @@ EdgeLines find_lines(const PlanMesh& mesh, const Polygons& polygons) {
   std::vector<std::array<std::int32_t, 2>> next(mesh.edge_count(), {-1, -1});
   std::vector<PlanNeighbor> around;
   std::vector<std::int32_t> choice;
-  const auto end_at = [&](std::int32_t e, std::int32_t v) { return mesh.start(mesh.half_edge_of[e]) == v ? 0 : 1; };
+  const auto end_at = [&](std::int32_t e, std::int32_t v) { return mesh.tail(mesh.half_edge_of[e]) == v ? 0 : 1; };
   for (std::int32_t v = 0; index(v) < mesh.vertex_count(); ++v) {
     around.clear();
     for (const PlanNeighbor& neighbor : mesh.neighbors[v]) {
@@ -138,7 +137,7 @@ EdgeLines find_lines(const PlanMesh& mesh, const Polygons& polygons) {
     for (const int end : {0, 1}) {
       std::int32_t e = first;
       const std::int32_t h = mesh.half_edge_of[first];
-      std::int32_t v = end == 0 ? mesh.start(h) : mesh.end(h);
+      std::int32_t v = end == 0 ? mesh.tail(h) : mesh.tip(h);
       for (;;) {
         const std::int32_t following = next[e][end_at(e, v)];
         if (following < 0 || lines.of_edge[following] >= 0) break;
@@ -146,7 +145,7 @@ EdgeLines find_lines(const PlanMesh& mesh, const Polygons& polygons) {
         edges.push_back(following);
         e = following;
         const std::int32_t own = mesh.half_edge_of[e];
-        v = mesh.start(own) == v ? mesh.end(own) : mesh.start(own);
+        v = mesh.tail(own) == v ? mesh.tip(own) : mesh.tail(own);
       }
       if (end == 0) std::ranges::reverse(edges);
     }

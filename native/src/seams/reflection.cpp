@@ -22,7 +22,7 @@ bool maps_edges(const PlanMesh& mesh, const Reflection& reflection) {
   std::size_t mapped = 0;
   const auto back = [&](std::int32_t v, std::int32_t image) { return image >= 0 && reflection.images[image] == v; };
   for (const std::int32_t h : mesh.half_edge_of) {
-    const std::int32_t a = mesh.start(h), b = mesh.end(h);
+    const std::int32_t a = mesh.tail(h), b = mesh.tip(h);
     const std::int32_t a_image = reflection.images[a], b_image = reflection.images[b];
     if (!back(a, a_image) || !back(b, b_image)) continue;
     const auto& around = mesh.all_neighbors[a_image];
@@ -85,7 +85,7 @@ std::optional<Reflection> find_reflection(const PlanMesh& mesh, int axis, const 
 
 std::int32_t image_of_edge(const PlanMesh& mesh, const Reflection& reflection, std::int32_t edge) {
   const std::int32_t h = mesh.half_edge_of[edge];
-  const std::int32_t a = reflection.images[mesh.start(h)], b = reflection.images[mesh.end(h)];
+  const std::int32_t a = reflection.images[mesh.tail(h)], b = reflection.images[mesh.tip(h)];
   return a < 0 || b < 0 ? -1 : mesh.edge_between(a, b);
 }
 

@@ -68,7 +68,7 @@ std::vector<std::uint8_t> marked_edges(const PlanMesh& mesh, const std::vector<E
   std::ranges::sort(sorted);
   std::vector<std::uint8_t> is_seam;
   for (const std::int32_t h : mesh.half_edge_of) {
-    const std::int32_t a = mesh.sources[mesh.start(h)], b = mesh.sources[mesh.end(h)];
+    const std::int32_t a = mesh.sources[mesh.tail(h)], b = mesh.sources[mesh.tip(h)];
     const bool is_inner = mesh.twins[h] >= 0;
     is_seam.push_back(is_inner && std::ranges::binary_search(sorted, Edge{std::min(a, b), std::max(a, b)}) ? 1 : 0);
   }

@@ -172,7 +172,7 @@ void Collapsing::add_quadrics(std::span<const std::uint8_t> is_seam) {
   }
   for (std::int32_t e = 0; index(e) < mesh_.edge_count(); ++e) {
     if (is_seam[e] == 0 && !mesh_.is_boundary(e)) continue;
-    const std::int32_t h = mesh_.half_edge_of[e], a = mesh_.start(h), b = mesh_.end(h);
+    const std::int32_t h = mesh_.half_edge_of[e], a = mesh_.tail(h), b = mesh_.tip(h);
     features_[a].push_back(b);
     features_[b].push_back(a);
     const Vector along = mesh_.points[b] - mesh_.points[a];
@@ -305,7 +305,7 @@ SimplifiedMesh Collapsing::result() const {
   connect(out.mesh, {});
   for (const std::int32_t h : out.mesh.half_edge_of) {
     const bool is_inner = out.mesh.twins[h] >= 0;
-    const std::int32_t a = out.vertices[out.mesh.start(h)], b = out.vertices[out.mesh.end(h)];
+    const std::int32_t a = out.vertices[out.mesh.tail(h)], b = out.vertices[out.mesh.tip(h)];
     out.is_seam.push_back(is_inner && is_feature(a, b) ? 1 : 0);
   }
   return out;

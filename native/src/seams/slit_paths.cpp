@@ -64,7 +64,7 @@ std::vector<std::int32_t> TurningPaths::path(std::int32_t vertex) const {
   vertices.push_back(vertex);
   for (std::int32_t d = arrival_[vertex]; d >= 0; d = before_[d]) {
     const std::int32_t h = mesh_.half_edge_of[d / 2];
-    vertices.push_back(d % 2 == 0 ? mesh_.start(h) : mesh_.end(h));
+    vertices.push_back(d % 2 == 0 ? mesh_.tail(h) : mesh_.tip(h));
   }
   std::ranges::reverse(vertices);
   // With turns paid for, a path may come back to a vertex. The loop is left out.

@@ -42,7 +42,7 @@ class TurningPaths {
  private:
   std::int32_t tail(std::int32_t d) const {
     const std::int32_t h = mesh_.half_edge_of[d / 2];
-    return d % 2 == 0 ? mesh_.start(h) : mesh_.end(h);
+    return d % 2 == 0 ? mesh_.tail(h) : mesh_.tip(h);
   }
 
   const PlanMesh& mesh_;
@@ -67,7 +67,7 @@ void TurningPaths::find(std::span<const std::uint8_t> from, const EdgePrice& edg
         const Vector ahead = (mesh_.points[next.vertex] - mesh_.points[v]).normalized();
         total += turning * (1.0 - direction.dot(ahead));
       }
-      const std::int32_t d = 2 * next.edge + (mesh_.start(mesh_.half_edge_of[next.edge]) == v ? 0 : 1);
+      const std::int32_t d = 2 * next.edge + (mesh_.tail(mesh_.half_edge_of[next.edge]) == v ? 0 : 1);
       if (!(total < least[d])) continue;
       least[d] = total;
       before_[d] = arrived_by;

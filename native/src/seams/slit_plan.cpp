@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "detail/index.hpp"
+#include "flatten/open_island.hpp"
 
 namespace seamwire::detail {
 namespace {
@@ -77,7 +78,7 @@ Cut cut_of(const SlitProblem& problem, std::span<const Slit> slits, std::span<co
   }
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     if (cut.is_cut[e] == 0 && !mesh.is_boundary(e)) continue;
-    cut.is_on_cut[mesh.start(mesh.half_edge_of[e])] = cut.is_on_cut[mesh.end(mesh.half_edge_of[e])] = 1;
+    cut.is_on_cut[mesh.tail(mesh.half_edge_of[e])] = cut.is_on_cut[mesh.tip(mesh.half_edge_of[e])] = 1;
   }
   for (const std::int32_t root : roots) cut.is_on_cut[root] = 1;
   return cut;
@@ -99,17 +100,6 @@ std::vector<std::int32_t> pieces_of(const SlitProblem& problem, const Slit& slit
   return found;
 }
 
-bool is_mappable(const Island& island) {
-  const auto twins = std::ranges::count_if(island.twins, [](std::int32_t twin) { return twin >= 0; });
-  const auto edges = static_cast<std::int64_t>(island.twins.size()) - twins / 2;
-  const auto euler =
-      static_cast<std::int64_t>(island.vertices.size()) - edges + static_cast<std::int64_t>(island.triangles.size());
-  // Nothing is mapped to an outline of two edges.
-  const std::vector<std::vector<std::int32_t>> loops = island.boundaries();
-  const bool has_outline = std::ranges::any_of(loops, [](const auto& loop) { return loop.size() > 2; });
-  return has_outline && euler == 2 - std::ssize(loops);
-}
-
 std::optional<Island> open_piece(const SlitProblem& problem, const Cut& cut, std::int32_t piece) {
   const SlitProblem::Piece& part = problem.by_piece[piece];
   std::vector<std::uint8_t> is_cut(part.twins.size(), 0);
@@ -118,11 +108,11 @@ std::optional<Island> open_piece(const SlitProblem& problem, const Cut& cut, std
       is_cut[3 * k + i] = cut.is_cut[problem.mesh.edge_of[3 * static_cast<std::size_t>(part.faces[k]) + i]];
     }
   }
-  std::vector<Island> islands = cut_open(part.triangles, part.twins, is_cut);
+  std::vector<Island> islands = cut_open(part, is_cut);
   if (islands.size() != 1) return std::nullopt;
   Island& island = islands.front();
   for (std::int32_t& face : island.faces) face = part.faces[face];
-  if (!is_mappable(island)) return std::nullopt;
+  if (!is_planar(island)) return std::nullopt;
   return std::move(island);
 }
 

@@ -34,10 +34,8 @@ struct SlitProblem {
   Pieces pieces;
 
   /// One piece, for cut_open().
-  struct Piece {
+  struct Piece : TriangleConnectivity {
     std::vector<std::int32_t> faces;
-    std::vector<Triangle> triangles;  ///< of vertices of the mesh
-    std::vector<std::int32_t> twins;  ///< half-edges of `triangles`
     double area = 0.0;
     /// Whether a seam may run inside. If not, the piece stays as it is, and its map does not count.
     bool may_be_cut = true;
@@ -87,10 +85,6 @@ bool crosses_face(const SlitProblem& problem, const Slit& slit);
 
 /// The pieces in which a slit lies, ascending.
 std::vector<std::int32_t> pieces_of(const SlitProblem& problem, const Slit& slit);
-
-/// Whether an island has a map without flips: it is a disc, or a disc with holes, with an outline of three or more
-/// edges.
-bool is_mappable(const Island& island);
 
 /// The island of a piece with a cut; nullopt if it is not a disc, or a disc with holes.
 std::optional<Island> open_piece(const SlitProblem& problem, const Cut& cut, std::int32_t piece);

@@ -11,6 +11,7 @@
 
 #include "detail/index.hpp"
 #include "detail/run_on_threads.hpp"
+#include "flatten/open_island.hpp"
 #include "seams/slit_edits.hpp"
 
 namespace seamwire::detail {
@@ -126,7 +127,7 @@ SlitPlan SlitSolver::continued(const SlitPlan& before, const Slit& slit, const M
 CutMaps solve_cut(const PlanMesh& mesh, std::span<const std::uint8_t> is_cut, const Task& task) {
   std::vector<std::uint8_t> is_cut_half_edge(mesh.twins.size());
   for (std::size_t h = 0; h < is_cut_half_edge.size(); ++h) is_cut_half_edge[h] = is_cut[mesh.edge_of[h]];
-  std::vector<Island> islands = cut_open(mesh.triangles, mesh.twins, is_cut_half_edge);
+  std::vector<Island> islands = cut_open(mesh, is_cut_half_edge);
   std::vector<std::size_t> order(islands.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, std::ranges::greater(), [&](std::size_t i) { return islands[i].faces.size(); });
@@ -141,7 +142,7 @@ CutMaps solve_cut(const PlanMesh& mesh, std::span<const std::uint8_t> is_cut, co
   const auto fraction = [&](std::size_t done) { return done > 0 ? sizes[done - 1] / all : 0.0; };
   run_on_threads(islands.size(), task, fraction, [&](std::size_t k, const Task& own) {
     const std::size_t i = order[k];
-    if (!is_mappable(islands[i])) return;
+    if (!is_planar(islands[i])) return;
     IslandMap map = map_island(islands[i], mesh.points, kPlanMap, own);
     if (map.uvs.empty()) return;
     found.maps[i] = std::make_shared<const PieceMap>(piece_map(mesh.points, std::move(islands[i]), std::move(map)));

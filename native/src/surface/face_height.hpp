@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "seamwire/surface/surface.hpp"
+#include "surface/corner_fans.hpp"
 
 namespace seamwire::detail {
 
@@ -28,9 +29,9 @@ inline bool has_area(const Vector& a, const Vector& b, const Vector& c) {
   return cross.norm() > kNoArea * longest;
 }
 
-/// The faces of surface.half_edges() that are those of the caller's in a list, ascending as that is.
+/// The triangles of corner_fans(surface) that are those of the caller's in a list, ascending as that is.
 inline std::vector<std::int32_t> half_edge_faces(const Surface& surface, const std::vector<std::int32_t>& of_caller) {
-  const std::vector<std::int32_t>& source = surface.face_of_half_edge_face();
+  const std::vector<std::int32_t>& source = corner_fans(surface).faces;
   if (source.size() == surface.face_count()) return of_caller;
   std::vector<std::int32_t> faces;
   for (const std::int32_t face : of_caller) {

@@ -7,6 +7,7 @@
 #include "detail/half_edge.hpp"
 #include "detail/insertion_map.hpp"
 #include "detail/poll.hpp"
+#include "surface/corner_fans.hpp"
 #include "surface/face_height.hpp"
 
 namespace seamwire::detail {
@@ -14,7 +15,7 @@ namespace {
 
 /// Adds all faces of the corner fan at the tail of a half-edge.
 void insert_fan(const Surface& surface, std::int32_t half_edge, InsertionMap& faces) {
-  const std::vector<std::int32_t>& twins = surface.twins();
+  const std::vector<std::int32_t>& twins = corner_fans(surface).twins;
   std::int32_t h = half_edge;
   do {
     faces.insert(h / 3);
@@ -30,7 +31,7 @@ void insert_fan(const Surface& surface, std::int32_t half_edge, InsertionMap& fa
 
 /// Adds all other faces at an edge where more than two faces meet, or two that cannot be oriented alike.
 void insert_siblings(const Surface& surface, std::int32_t half_edge, InsertionMap& faces) {
-  const std::vector<std::int32_t>& siblings = surface.siblings();
+  const std::vector<std::int32_t>& siblings = corner_fans(surface).siblings;
   if (siblings.empty()) return;
   for (std::int32_t h = siblings[half_edge]; h >= 0 && h != half_edge; h = siblings[h]) faces.insert(h / 3);
 }
@@ -50,13 +51,13 @@ std::vector<std::int32_t> faces_within_rings(const Surface& surface, const std::
       const std::int32_t face = found.numbers()[begin];
       for (std::int32_t i = 0; i < 3; ++i) {
         insert_siblings(surface, 3 * face + i, found);
-        if (fans.insert(surface.face_fans()[face][i]).second) insert_fan(surface, 3 * face + i, found);
+        if (fans.insert(corner_fans(surface).triangles[face][i]).second) insert_fan(surface, 3 * face + i, found);
       }
     }
   }
   std::vector<std::int32_t> all;
   all.reserve(found.numbers().size());
-  for (const std::int32_t face : found.numbers()) all.push_back(surface.face_of_half_edge_face()[face]);
+  for (const std::int32_t face : found.numbers()) all.push_back(corner_fans(surface).faces[face]);
   std::ranges::sort(all);
   return all;
 }

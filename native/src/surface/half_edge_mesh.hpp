@@ -14,6 +14,7 @@
 // EigenVectorT.hh specialises what the headers above it declare.
 #include <OpenMesh/Core/Geometry/EigenVectorT.hh>
 
+#include "seamwire/surface/surface.hpp"
 #include "seamwire/surface/vector.hpp"
 
 namespace seamwire::detail {
@@ -28,7 +29,10 @@ struct HalfEdgeTraits : OpenMesh::DefaultTraits {
   FaceAttributes(0);
 };
 /// \endcond
-/// The half-edge mesh behind a Surface (Surface::half_edges()): manifold, consistently oriented, never changed.
+/// OpenMesh's half-edge mesh, for edits: removing degenerate faces collapses and flips edges.
 struct HalfEdgeMesh : OpenMesh::TriMesh_ArrayKernelT<HalfEdgeTraits> {};
+
+/// The corner fans of a surface as vertices of such a mesh, with the same numbers, and the same triangles.
+HalfEdgeMesh half_edge_mesh(const Surface& surface);
 
 }  // namespace seamwire::detail

@@ -9,6 +9,7 @@
 
 #include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
+#include "surface/corner_fans.hpp"
 #include "surface/cuts.hpp"
 #include "surface/real_edges.hpp"
 
@@ -46,7 +47,7 @@ void join_left_out(const Surface& surface, const Cuts& cuts, DisjointSets& sets)
       if (found != at_edge.end()) found->second.push_back(f);
     }
   };
-  for (const std::int32_t f : surface.face_of_half_edge_face()) add(f);
+  for (const std::int32_t f : corner_fans(surface).faces) add(f);
   const auto neighbor_of = [&](std::int32_t f) {
     std::int32_t neighbor = -1;
     for (const Edge& edge : edges_of(f)) {
@@ -82,12 +83,12 @@ void join_left_out(const Surface& surface, const Cuts& cuts, DisjointSets& sets)
 std::vector<std::int32_t> face_segments(const Surface& surface, std::span<const Edge> cut_edges) {
   const Cuts cuts(surface, cut_edges, "cut_edges");
   DisjointSets sets(surface.face_count());
-  const std::vector<std::int32_t>& source = surface.face_of_half_edge_face();
-  const std::vector<std::int32_t>& vertex_of_fan = surface.vertex_of_fan();
-  for (std::int32_t h = 0; index(h) < surface.twins().size(); ++h) {
-    const std::int32_t twin = surface.twins()[h];
+  const std::vector<std::int32_t>& source = corner_fans(surface).faces;
+  const std::vector<std::int32_t>& vertex_of_fan = corner_fans(surface).vertices;
+  for (std::int32_t h = 0; index(h) < corner_fans(surface).twins.size(); ++h) {
+    const std::int32_t twin = corner_fans(surface).twins[h];
     if (twin < h) continue;  // on the boundary, or seen from the other side
-    const Triangle& fans = surface.face_fans()[h / 3];
+    const Triangle& fans = corner_fans(surface).triangles[h / 3];
     if (cuts.contains(vertex_of_fan[fans[h % 3]], vertex_of_fan[fans[(h + 1) % 3]])) continue;
     sets.join(source[h / 3], source[twin / 3]);
   }

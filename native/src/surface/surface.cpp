@@ -17,8 +17,8 @@
 #include "detail/half_edge.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
+#include "surface/corner_fans.hpp"
 #include "surface/face_height.hpp"
-#include "surface/half_edge_mesh.hpp"
 
 namespace seamwire {
 
@@ -421,89 +421,27 @@ Fans find_fans(std::size_t vertex_count, const Faces& faces, const std::vector<I
   return fans;
 }
 
-// Links the half-edges directly. OpenMesh's add_face() finds edges by their end points. The slit along a cut edge has
-// two edges between the same two fans, and add_face() would glue or refuse them. Half-edges can represent them. Every
-// fan is one disk or half-disk by construction, so nothing here can fail.
-void link_half_edges(const std::vector<Vector>& points, const Faces& faces, const std::vector<Index>& twin,
-                     const std::vector<bool>& flipped, const Fans& fans, HalfEdgeMesh& mesh, const Task& task) {
-  using OpenMesh::FaceHandle;
-  using OpenMesh::HalfedgeHandle;
-  using OpenMesh::VertexHandle;
-
-  std::vector<HalfedgeHandle> half_edge(faces.side_count());
-  Index edge_count = 0;
-  const Poll numbering(task, 0.7, 0.73, index(faces.side_count()));
-  for (Index side = 0; side < faces.side_count(); ++side) {
-    numbering.at(index(side));
-    const Index other = twin[side];
-    if (other != kNone && other < side) {
-      half_edge[side] = HalfedgeHandle(half_edge[other].idx() + 1);
-    } else {
-      half_edge[side] = HalfedgeHandle(2 * edge_count++);
-    }
-  }
-  // In steps, as detail/poll.hpp resizes vectors.
-  const std::size_t most = std::max({fans.vertex.size(), index(edge_count), faces.corners.size()});
-  mesh.reserve(fans.vertex.size(), index(edge_count), faces.corners.size());
-  for (std::size_t size = 0; size < most;) {
-    task.check(0.73);
-    size = std::min(most, size + 16 * Poll::kSteps);
-    mesh.resize(std::min(size, fans.vertex.size()), std::min(size, index(edge_count)),
-                std::min(size, faces.corners.size()));
-  }
-  for (std::size_t fan = 0; fan < fans.vertex.size(); ++fan) {
-    mesh.set_point(VertexHandle(static_cast<int>(fan)), points[fans.vertex[fan]]);
-  }
-  const Poll linking(task, 0.75, 0.85, index(faces.side_count()));
-  for (Index side = 0; side < faces.side_count(); ++side) {
-    linking.at(index(side));
-    const bool flip = flipped[side / 3];
-    const Index tail = flip ? next_in_face(side) : side;
-    const Index tip = flip ? side : next_in_face(side);
-    const HalfedgeHandle h = half_edge[side];
-    const VertexHandle tail_fan(fans.of_corner[tail]);
-    mesh.set_vertex_handle(h, VertexHandle(fans.of_corner[tip]));
-    mesh.set_vertex_handle(mesh.opposite_halfedge_handle(h), tail_fan);
-    mesh.set_face_handle(h, FaceHandle(side / 3));
-    mesh.set_next_halfedge_handle(h, half_edge[flip ? previous_in_face(side) : next_in_face(side)]);
-    mesh.set_halfedge_handle(tail_fan, h);
-    // A face's vertices are listed from the tip of its half-edge on: from the caller's first corner.
-    if (tip % 3 == 0) mesh.set_halfedge_handle(FaceHandle(side / 3), h);
-  }
-  // OpenMesh wants a boundary vertex to know its outgoing boundary half-edge, of which each fan has one at most.
-  const auto boundary_half_edge = [&](Index side) { return mesh.opposite_halfedge_handle(half_edge[side]); };
-  for (Index side = 0; side < faces.side_count(); ++side) {
-    if (twin[side] != kNone) continue;
-    const HalfedgeHandle h = boundary_half_edge(side);
-    mesh.set_halfedge_handle(mesh.from_vertex_handle(h), h);
-  }
-  for (Index side = 0; side < faces.side_count(); ++side) {
-    if (twin[side] != kNone) continue;
-    const HalfedgeHandle h = boundary_half_edge(side);
-    mesh.set_next_halfedge_handle(h, mesh.halfedge_handle(mesh.to_vertex_handle(h)));
-  }
-}
-
-// The same in flat arrays. A face that is turned over has its sides in the other order.
-void list_faces(const Gluing& gluing, const std::vector<bool>& flipped, const Fans& fans,
-                std::vector<Triangle>& face_fans, std::vector<Index>& twins, std::vector<Index>& siblings,
+// A face that is turned over has its sides in the other order.
+void list_faces(const Gluing& gluing, const std::vector<bool>& flipped, const Fans& fans, CornerFans& out,
                 const Task& task) {
   const std::vector<Index>& twin = gluing.twin;
   const auto turned_over = [&](Index side) { return flipped[side / 3] ? side / 3 * 3 + 2 - side % 3 : side; };
-  resize(face_fans, twin.size() / 3, task, 0.9);
-  resize(twins, twin.size(), task, 0.9);
-  const Poll poll(task, 0.9, 1.0, twin.size());
+  resize(out.triangles, twin.size() / 3, task, 0.8);
+  resize(out.twins, twin.size(), task, 0.8);
+  resize(out.leaving, fans.vertex.size(), task, 0.8);
+  const Poll poll(task, 0.8, 1.0, twin.size());
   for (Index side = 0; side < static_cast<Index>(twin.size()); ++side) {
     poll.at(index(side));
-    const Index tail = flipped[side / 3] ? next_in_face(side) : side;
-    face_fans[side / 3][turned_over(side) % 3] = fans.of_corner[tail];
-    twins[turned_over(side)] = twin[side] == kNone ? -1 : turned_over(twin[side]);
+    const Index h = turned_over(side), fan = fans.of_corner[flipped[side / 3] ? next_in_face(side) : side];
+    out.triangles[h / 3][h % 3] = fan;
+    out.twins[h] = twin[side] == kNone ? -1 : turned_over(twin[side]);
+    out.leaving[fan] = h;
   }
-  resize(siblings, gluing.sibling.size(), task, 1.0);
-  const Poll listing(task, 1.0, 1.0, siblings.size());
-  for (Index side = 0; side < static_cast<Index>(siblings.size()); ++side) {
+  resize(out.siblings, gluing.sibling.size(), task, 1.0);
+  const Poll listing(task, 1.0, 1.0, out.siblings.size());
+  for (Index side = 0; side < static_cast<Index>(out.siblings.size()); ++side) {
     listing.at(index(side));
-    siblings[turned_over(side)] = gluing.sibling[side] == kNone ? -1 : turned_over(gluing.sibling[side]);
+    out.siblings[turned_over(side)] = gluing.sibling[side] == kNone ? -1 : turned_over(gluing.sibling[side]);
   }
 }
 
@@ -623,13 +561,13 @@ Surface::Surface(std::vector<Vector> points, std::vector<Triangle> triangles, st
   task.check(0.6);
   Fans fans = find_fans(points_.size(), faces, gluing.twin, task);
   task.check(0.7);
-  auto mesh = std::make_shared<HalfEdgeMesh>();
-  link_half_edges(points_, faces, gluing.twin, flipped, fans, *mesh, task);
-  mesh_ = std::move(mesh);
-  task.check(0.9);
-  list_faces(gluing, flipped, fans, face_fans_, twins_, siblings_, task);
-  vertex_of_fan_ = std::move(fans.vertex);
-  source_face_ = std::move(faces.source);
+  auto inside = std::make_shared<CornerFans>();
+  list_faces(gluing, flipped, fans, *inside, task);
+  inside->vertices = std::move(fans.vertex);
+  inside->faces = std::move(faces.source);
+  fans_ = std::move(inside);
 }
+
+const CornerFans& detail::corner_fans(const Surface& surface) { return *surface.fans_; }
 
 }  // namespace seamwire

@@ -14,6 +14,7 @@
 #include "detail/index.hpp"
 #include "geodesics/placed_point.hpp"
 #include "seamwire/errors.hpp"
+#include "surface/corner_fans.hpp"
 
 namespace seamwire {
 
@@ -71,7 +72,7 @@ class Section {
 
  private:
   std::int32_t tail(std::int32_t half_edge) const {
-    return surface_.vertex_of_fan()[surface_.face_fans()[half_edge / 3][half_edge % 3]];
+    return corner_fans(surface_).vertices[corner_fans(surface_).triangles[half_edge / 3][half_edge % 3]];
   }
   std::int32_t head(std::int32_t half_edge) const { return tail(next_in_face(half_edge)); }
 
@@ -90,7 +91,7 @@ class Section {
         if (weights[(i + 1) % 3] == 0.0 && weights[(i + 2) % 3] == 0.0) end.vertex = corners[i];
       }
       if (end.vertex == -1) {
-        const std::vector<std::int32_t>& source = surface_.face_of_half_edge_face();
+        const std::vector<std::int32_t>& source = corner_fans(surface_).faces;
         const auto at = std::ranges::lower_bound(source, point.face);
         if (at == source.end() || *at != point.face) return end;  // a face that was left out
         const auto face = static_cast<std::int32_t>(at - source.begin());
@@ -106,7 +107,7 @@ class Section {
       }
     }
     end.place = surface_.points()[end.vertex];
-    for (std::size_t f = 0; f < surface_.face_fans().size(); ++f) {
+    for (std::size_t f = 0; f < corner_fans(surface_).triangles.size(); ++f) {
       const auto side = static_cast<std::int32_t>(3 * f);
       if (tail(side) == end.vertex || tail(side + 1) == end.vertex || tail(side + 2) == end.vertex) {
         end.faces.push_back(side / 3);
@@ -131,13 +132,13 @@ class Section {
   void add(PlaneSection& section, const Vector& place, std::int32_t face) const {
     if (place == section.points.back()) return;
     section.points.push_back(place);
-    section.faces.push_back(surface_.face_of_half_edge_face()[face]);
+    section.faces.push_back(corner_fans(surface_).faces[face]);
   }
 
   // Within a face that has both points: it may lie in the plane as a whole, and is crossed nowhere then.
   PlaneSection straight(std::int32_t face) const {
     return {.points = {from_.place, to_.place},
-            .faces = {surface_.face_of_half_edge_face()[face]},
+            .faces = {corner_fans(surface_).faces[face]},
             .length = (to_.place - from_.place).norm()};
   }
 
@@ -186,7 +187,7 @@ class Section {
       if (to_.vertex == -1 && std::ranges::find(to_.faces, branch.face) != to_.faces.end()) break;
       add(branch.section, crossing(side), branch.face);
       if (to_.vertex != -1 && (tail(side) == to_.vertex || head(side) == to_.vertex)) break;
-      const std::int32_t twin = surface_.twins()[side];
+      const std::int32_t twin = corner_fans(surface_).twins[side];
       if (twin == -1) {
         branch.length = length_of(branch.section);
         for_each_beyond(side, enter);
@@ -211,9 +212,11 @@ class Section {
   // Calls visit(other) for each other half-edge of an edge.
   template <class Visit>
   void for_each_beyond(std::int32_t side, const Visit& visit) const {
-    if (surface_.twins()[side] != -1) visit(surface_.twins()[side]);
-    if (surface_.siblings().empty() || surface_.siblings()[side] == -1) return;
-    for (auto other = surface_.siblings()[side]; other != side; other = surface_.siblings()[other]) visit(other);
+    if (corner_fans(surface_).twins[side] != -1) visit(corner_fans(surface_).twins[side]);
+    if (corner_fans(surface_).siblings.empty() || corner_fans(surface_).siblings[side] == -1) return;
+    for (auto other = corner_fans(surface_).siblings[side]; other != side;
+         other = corner_fans(surface_).siblings[other])
+      visit(other);
   }
 
   const Surface& surface_;

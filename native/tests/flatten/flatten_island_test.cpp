@@ -14,6 +14,7 @@
 #include "flatten/open_island.hpp"
 #include "flatten/outline.hpp"
 #include "shapes.hpp"
+#include "surface/corner_fans.hpp"
 
 namespace seamwire {
 
@@ -23,13 +24,13 @@ namespace {
 
 /// The islands of a mesh whose vertices and fans are the same.
 std::vector<Island> islands_of(const Surface& surface, const std::set<Edge>& cuts = {}) {
-  std::vector<std::uint8_t> is_cut(surface.twins().size(), 0);
+  std::vector<std::uint8_t> is_cut(corner_fans(surface).twins.size(), 0);
   for (std::size_t h = 0; h < is_cut.size(); ++h) {
-    const Triangle& t = surface.face_fans()[h / 3];
+    const Triangle& t = corner_fans(surface).triangles[h / 3];
     const auto [a, b] = std::minmax(t[h % 3], t[(h + 1) % 3]);
     is_cut[h] = cuts.contains({a, b}) ? 1 : 0;
   }
-  return cut_open(surface.face_fans(), surface.twins(), is_cut);
+  return cut_open(corner_fans(surface), is_cut);
 }
 
 Island whole(const shapes::Mesh& mesh, const std::set<Edge>& cuts = {}) {

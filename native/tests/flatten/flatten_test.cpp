@@ -14,6 +14,7 @@
 
 #include "seamwire/surface/segments.hpp"
 #include "shapes.hpp"
+#include "surface/corner_fans.hpp"
 
 namespace seamwire {
 namespace {
@@ -40,17 +41,17 @@ MapReport expect_sound(const Surface& surface, const Flattening& flat) {
 /// hold.
 std::size_t seams_in(const Surface& surface, const CornerUvs& uvs) {
   std::size_t seams = 0;
-  for (std::size_t h = 0; h < surface.twins().size(); ++h) {
-    const std::int32_t twin = surface.twins()[h];
+  for (std::size_t h = 0; h < corner_fans(surface).twins.size(); ++h) {
+    const std::int32_t twin = corner_fans(surface).twins[h];
     if (twin < static_cast<std::int32_t>(h)) continue;
     const auto uv_of = [&](std::size_t half_edge, std::int32_t fan) -> const Eigen::Vector2d& {
-      const auto face = static_cast<std::size_t>(surface.face_of_half_edge_face()[half_edge / 3]);
+      const auto face = static_cast<std::size_t>(corner_fans(surface).faces[half_edge / 3]);
       const Triangle& given = surface.triangles()[face];
-      const std::int32_t v = surface.vertex_of_fan()[static_cast<std::size_t>(fan)];
+      const std::int32_t v = corner_fans(surface).vertices[static_cast<std::size_t>(fan)];
       return uvs[face][static_cast<std::size_t>(std::ranges::find(given, v) - given.begin())];
     };
     for (std::size_t end = 0; end < 2; ++end) {
-      const std::int32_t fan = surface.face_fans()[h / 3][(h + end) % 3];
+      const std::int32_t fan = corner_fans(surface).triangles[h / 3][(h + end) % 3];
       if (uv_of(h, fan) == uv_of(static_cast<std::size_t>(twin), fan)) continue;
       ++seams;
       break;

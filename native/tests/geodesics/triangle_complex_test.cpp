@@ -24,6 +24,7 @@
 #include "seamwire/geodesics/corridor_paths.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
 #include "shapes.hpp"
+#include "surface/corner_fans.hpp"
 
 namespace seamwire {
 
@@ -554,10 +555,10 @@ TEST(TriangleComplexes, ASurfaceNamesTheSiblingsThatGeodesicsNeed) {
     const Surface surface = mesh.surface();
     IntrinsicMesh own;
     own.vertex_count = static_cast<std::int32_t>(surface.vertex_count());
-    own.twins = surface.twins();
-    own.siblings = surface.siblings();
-    for (const Triangle& fans : surface.face_fans()) {
-      const auto vertex = [&](std::size_t i) { return surface.vertex_of_fan()[index(fans[i % 3])]; };
+    own.twins = corner_fans(surface).twins;
+    own.siblings = corner_fans(surface).siblings;
+    for (const Triangle& fans : corner_fans(surface).triangles) {
+      const auto vertex = [&](std::size_t i) { return corner_fans(surface).vertices[index(fans[i % 3])]; };
       own.triangles.push_back({vertex(0), vertex(1), vertex(2)});
       for (std::size_t i = 0; i < 3; ++i) {
         const Vector &a = mesh.points[index(vertex(i))], &b = mesh.points[index(vertex(i + 1))];

@@ -25,7 +25,7 @@ double mean_price(const SlitProblem& problem, const Condition& holds) {
   double price = 0.0, length = 0.0;
   for (std::int32_t e = 0; e < static_cast<std::int32_t>(problem.mesh.edge_count()); ++e) {
     const std::int32_t h = problem.mesh.half_edge_of[e];
-    const Vector middle = 0.5 * (problem.mesh.points[problem.mesh.start(h)] + problem.mesh.points[problem.mesh.end(h)]);
+    const Vector middle = 0.5 * (problem.mesh.points[problem.mesh.tail(h)] + problem.mesh.points[problem.mesh.tip(h)]);
     if (problem.prices.of_edge[e] == kNever || !holds(Vector(middle / problem.mesh.scale))) continue;
     price += problem.prices.of_edge[e];
     length += problem.mesh.lengths[e];
@@ -63,7 +63,7 @@ TEST(EdgePrices, DiagonalsAndKeepOutAreasHaveNone) {
   const SlitProblem problem = problem_on(surface, {.weights = weights});
   for (std::int32_t e = 0; e < static_cast<std::int32_t>(problem.mesh.edge_count()); ++e) {
     const std::int32_t h = problem.mesh.half_edge_of[e];
-    const bool is_barred = problem.mesh.is_real[e] == 0 || problem.mesh.start(h) == 5 || problem.mesh.end(h) == 5;
+    const bool is_barred = problem.mesh.is_real[e] == 0 || problem.mesh.tail(h) == 5 || problem.mesh.tip(h) == 5;
     EXPECT_EQ(problem.prices.of_edge[e] == kNever, is_barred);
     EXPECT_GE(problem.prices.of_edge[e], 0.0);
   }
@@ -95,7 +95,7 @@ TEST(EdgePrices, AreTheSameOnBothSides) {
   for (std::int32_t e = 0; e < static_cast<std::int32_t>(problem.mesh.edge_count()); ++e) {
     const std::int32_t h = problem.mesh.half_edge_of[e];
     const auto& images = problem.reflection->images;
-    const std::int32_t image = problem.mesh.edge_between(images[problem.mesh.start(h)], images[problem.mesh.end(h)]);
+    const std::int32_t image = problem.mesh.edge_between(images[problem.mesh.tail(h)], images[problem.mesh.tip(h)]);
     ASSERT_GE(image, 0);
     const double one = problem.prices.of_edge[e], other = problem.prices.of_edge[image];
     EXPECT_FALSE(std::isnan(one));

@@ -190,8 +190,8 @@ TEST(PartingCuts, HalvesAreOfComparableSizeAndSymmetric) {
   for (const SlitProblem::Piece& piece : parted.by_piece) EXPECT_GT(piece.area, 0.29);
   const PlanMesh& mesh = problem.mesh;
   for (std::int32_t e = 0; e < static_cast<std::int32_t>(mesh.edge_count()); ++e) {
-    const std::int32_t a = problem.reflection->images[mesh.start(mesh.half_edge_of[e])];
-    const std::int32_t b = problem.reflection->images[mesh.end(mesh.half_edge_of[e])];
+    const std::int32_t a = problem.reflection->images[mesh.tail(mesh.half_edge_of[e])];
+    const std::int32_t b = problem.reflection->images[mesh.tip(mesh.half_edge_of[e])];
     EXPECT_EQ(parted.is_seam[e], parted.is_seam[mesh.edge_between(a, b)]);
   }
 }

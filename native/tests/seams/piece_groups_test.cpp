@@ -61,8 +61,8 @@ TEST(MeshParts, EndAtSeamsToOtherFaces) {
   const PlanMesh whole = plan_mesh(surface);
   std::vector<std::uint8_t> is_seam;
   for (const std::int32_t h : whole.half_edge_of) {
-    is_seam.push_back(whole.points[whole.start(h)].x() == whole.points[whole.end(h)].x() &&
-                              std::abs(whole.points[whole.start(h)].x() - 0.5 * whole.points.back().x()) < 1e-12
+    is_seam.push_back(whole.points[whole.tail(h)].x() == whole.points[whole.tip(h)].x() &&
+                              std::abs(whole.points[whole.tail(h)].x() - 0.5 * whole.points.back().x()) < 1e-12
                           ? 1
                           : 0);
   }

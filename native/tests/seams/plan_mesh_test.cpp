@@ -47,9 +47,9 @@ TEST(PlanMesh, NumbersEachEdgeOnce) {
       EXPECT_EQ(mesh.edge_of[mesh.twins[h]], e);
     }
     boundary += mesh.is_boundary(e) ? 1 : 0;
-    EXPECT_EQ(mesh.edge_between(mesh.start(h), mesh.end(h)), e);
-    EXPECT_EQ(mesh.edge_between(mesh.end(h), mesh.start(h)), e);
-    EXPECT_NEAR(mesh.lengths[e], (mesh.points[mesh.start(h)] - mesh.points[mesh.end(h)]).norm(), 1e-15);
+    EXPECT_EQ(mesh.edge_between(mesh.tail(h), mesh.tip(h)), e);
+    EXPECT_EQ(mesh.edge_between(mesh.tip(h), mesh.tail(h)), e);
+    EXPECT_NEAR(mesh.lengths[e], (mesh.points[mesh.tail(h)] - mesh.points[mesh.tip(h)]).norm(), 1e-15);
   }
   EXPECT_EQ(boundary, 12U);
   EXPECT_EQ(mesh.edge_between(0, 15), -1);

@@ -24,7 +24,7 @@ inline SlitProblem problem_on(const Surface& surface, const ProblemOptions& opti
   SlitProblem problem;
   problem.mesh = plan_mesh(surface);
   const auto is_seam = [&](std::int32_t h) {
-    const std::int32_t a = problem.mesh.sources[problem.mesh.start(h)], b = problem.mesh.sources[problem.mesh.end(h)];
+    const std::int32_t a = problem.mesh.sources[problem.mesh.tail(h)], b = problem.mesh.sources[problem.mesh.tip(h)];
     return std::ranges::any_of(options.seams, [&](const Edge& e) { return e == Edge{a, b} || e == Edge{b, a}; });
   };
   for (const std::int32_t h : problem.mesh.half_edge_of) problem.is_seam.push_back(is_seam(h) ? 1 : 0);

@@ -33,8 +33,8 @@ void expect_manifold(const PlanMesh& mesh) {
     const std::int32_t twin = mesh.twins[h];
     if (twin < 0) continue;
     ASSERT_EQ(mesh.twins[twin], h);
-    ASSERT_EQ(mesh.start(twin), mesh.end(h));
-    ASSERT_EQ(mesh.end(twin), mesh.start(h));
+    ASSERT_EQ(mesh.tail(twin), mesh.tip(h));
+    ASSERT_EQ(mesh.tip(twin), mesh.tail(h));
   }
   for (const Triangle& t : mesh.triangles) ASSERT_TRUE(t[0] != t[1] && t[1] != t[2] && t[2] != t[0]);
 }
@@ -78,8 +78,8 @@ TEST(SimplifiedMesh, KeepsSeams) {
   for (std::size_t e = 0; e < simple.mesh.edge_count(); ++e) {
     if (simple.is_seam[e] == 0) continue;
     length += simple.mesh.lengths[e] / simple.mesh.scale;
-    ++at[simple.mesh.start(simple.mesh.half_edge_of[e])];
-    ++at[simple.mesh.end(simple.mesh.half_edge_of[e])];
+    ++at[simple.mesh.tail(simple.mesh.half_edge_of[e])];
+    ++at[simple.mesh.tip(simple.mesh.half_edge_of[e])];
   }
   EXPECT_NEAR(length, 2 * std::numbers::pi * 0.5, 0.1) << "the outer equator";
   for (const std::size_t count : at) EXPECT_TRUE(count == 0 || count == 2) << "it is closed";

@@ -14,6 +14,7 @@
 #include <string>
 
 #include "shapes.hpp"
+#include "surface/corner_fans.hpp"
 
 namespace seamwire {
 
@@ -28,34 +29,38 @@ using Edges = std::vector<Edge>;
 // Siblings are the half-edges without a twin of the edges that the report lists, in one cycle an edge.
 void expect_sound_siblings(const Surface& surface) {
   std::map<Edge, std::set<std::int32_t>> half_edges_of;
-  const auto vertex = [&](std::int32_t h) { return surface.vertex_of_fan()[surface.face_fans()[h / 3][h % 3]]; };
-  for (std::int32_t h = 0; h < static_cast<std::int32_t>(surface.twins().size()); ++h) {
+  const auto vertex = [&](std::int32_t h) {
+    return corner_fans(surface).vertices[corner_fans(surface).triangles[h / 3][h % 3]];
+  };
+  for (std::int32_t h = 0; h < static_cast<std::int32_t>(corner_fans(surface).twins.size()); ++h) {
     const auto [a, b] = std::minmax({vertex(h), vertex(h % 3 == 2 ? h - 2 : h + 1)});
-    if (surface.twins()[h] < 0) half_edges_of[{a, b}].insert(h);
+    if (corner_fans(surface).twins[h] < 0) half_edges_of[{a, b}].insert(h);
   }
   std::erase_if(half_edges_of, [](const auto& item) { return item.second.size() == 1; });
   std::vector<Edge> odd = surface.report().nonmanifold_edges;
   odd.insert(odd.end(), surface.report().unorientable_edges.begin(), surface.report().unorientable_edges.end());
   ASSERT_EQ(half_edges_of.size(), odd.size());
-  ASSERT_EQ(surface.siblings().size(), odd.empty() ? 0U : surface.twins().size());
+  ASSERT_EQ(corner_fans(surface).siblings.size(), odd.empty() ? 0U : corner_fans(surface).twins.size());
   std::size_t count = 0;
   for (const Edge& edge : odd) {
     std::set<std::int32_t> cycle;
     ASSERT_TRUE(half_edges_of.contains(edge));
-    for (std::int32_t h = *half_edges_of[edge].begin(); cycle.insert(h).second;) h = surface.siblings()[h];
+    for (std::int32_t h = *half_edges_of[edge].begin(); cycle.insert(h).second;) h = corner_fans(surface).siblings[h];
     EXPECT_EQ(cycle, half_edges_of[edge]);
     count += cycle.size();
   }
-  EXPECT_EQ(static_cast<std::size_t>(std::ranges::count_if(surface.siblings(), [](auto h) { return h >= 0; })), count);
+  EXPECT_EQ(
+      static_cast<std::size_t>(std::ranges::count_if(corner_fans(surface).siblings, [](auto h) { return h >= 0; })),
+      count);
 }
 
 // Every surface must be a manifold, consistently linked half-edge mesh of the caller's faces, with nothing lost and
 // nothing twice.
 void expect_sound(const Surface& surface) {
   expect_sound_siblings(surface);
-  const HalfEdgeMesh& mesh = surface.half_edges();
-  const auto& vertex_of_fan = surface.vertex_of_fan();
-  const auto& source = surface.face_of_half_edge_face();
+  const HalfEdgeMesh mesh = half_edge_mesh(surface);
+  const auto& vertex_of_fan = corner_fans(surface).vertices;
+  const auto& source = corner_fans(surface).faces;
   ASSERT_EQ(mesh.n_vertices(), vertex_of_fan.size());
   ASSERT_EQ(mesh.n_faces(), source.size());
   EXPECT_TRUE(std::ranges::is_sorted(vertex_of_fan));
@@ -104,19 +109,19 @@ void expect_sound(const Surface& surface) {
     EXPECT_EQ(f.halfedge().face(), f);
   }
   // The flat arrays say the same.
-  ASSERT_EQ(surface.face_fans().size(), mesh.n_faces());
-  ASSERT_EQ(surface.twins().size(), 3 * mesh.n_faces());
+  ASSERT_EQ(corner_fans(surface).triangles.size(), mesh.n_faces());
+  ASSERT_EQ(corner_fans(surface).twins.size(), 3 * mesh.n_faces());
   std::map<int, std::int32_t> number;  // of a half-edge with a face
   for (const auto f : mesh.faces()) {
     std::int32_t h = 3 * f.idx();
     for (auto side = f.halfedge().next(); !number.contains(side.idx()); side = side.next()) {
-      EXPECT_EQ(side.from().idx(), surface.face_fans()[f.idx()][h % 3]);
+      EXPECT_EQ(side.from().idx(), corner_fans(surface).triangles[f.idx()][h % 3]);
       number[side.idx()] = h++;
     }
   }
   for (const auto& [side, h] : number) {
     const auto beyond = mesh.opposite_halfedge_handle(OpenMesh::HalfedgeHandle(side));
-    EXPECT_EQ(surface.twins()[h], mesh.is_boundary(beyond) ? -1 : number.at(beyond.idx()));
+    EXPECT_EQ(corner_fans(surface).twins[h], mesh.is_boundary(beyond) ? -1 : number.at(beyond.idx()));
   }
 
   // Vertices that the input's edges connect stay reachable: every edge either has a face or is loose.
@@ -136,7 +141,7 @@ void expect_sound(const Surface& surface) {
 
 std::size_t boundary_edges_of_half_edges(const Surface& surface) {
   std::size_t count = 0;
-  for (const auto& edge : surface.half_edges().edges()) count += edge.is_boundary() ? 1 : 0;
+  for (const auto& edge : half_edge_mesh(surface).edges()) count += edge.is_boundary() ? 1 : 0;
   return count;
 }
 
@@ -171,11 +176,11 @@ TEST(Surface, KeepsNumbersAndFindsNothingOddOnCleanMeshes) {
     EXPECT_EQ(surface.report().boundary_edges, boundary_edges_of_half_edges(surface));
     EXPECT_EQ(surface.points(), mesh.points);
     EXPECT_EQ(surface.triangles(), mesh.triangles);
-    EXPECT_EQ(surface.edges().size(), surface.half_edges().n_edges());
+    EXPECT_EQ(surface.edges().size(), half_edge_mesh(surface).n_edges());
     EXPECT_TRUE(surface.loose_edges().empty());
-    ASSERT_EQ(surface.half_edges().n_vertices(), mesh.points.size());
-    for (std::size_t v = 0; v < mesh.points.size(); ++v) EXPECT_EQ(surface.vertex_of_fan()[v], v);
-    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) EXPECT_EQ(surface.face_of_half_edge_face()[f], f);
+    ASSERT_EQ(half_edge_mesh(surface).n_vertices(), mesh.points.size());
+    for (std::size_t v = 0; v < mesh.points.size(); ++v) EXPECT_EQ(corner_fans(surface).vertices[v], v);
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) EXPECT_EQ(corner_fans(surface).faces[f], f);
   }
 }
 
@@ -269,7 +274,7 @@ TEST(Surface, CutsAMoebiusStripWhereItsOrientationBreaks) {
   EXPECT_TRUE(surface.report().flipped_faces.empty());
   EXPECT_EQ(surface.report().boundary_edges, 24U);  // the cut has two faces, and is not one of them
   EXPECT_EQ(boundary_edges_of_half_edges(surface), 26U);
-  EXPECT_EQ(surface.half_edges().n_vertices(), 24U + 2U);  // both ends of the cut have two fans
+  EXPECT_EQ(half_edge_mesh(surface).n_vertices(), 24U + 2U);  // both ends of the cut have two fans
   EXPECT_EQ(surface.report().components, 1U);
 }
 
@@ -294,8 +299,8 @@ TEST(Surface, CutsOpenAnEdgeWithThreeFaces) {
   EXPECT_EQ(surface.report().nonmanifold_edges, (Edges{{0, 1}}));
   EXPECT_TRUE(surface.report().flipped_faces.empty());
   EXPECT_EQ(surface.report().boundary_edges, 6U);
-  EXPECT_EQ(surface.half_edges().n_edges(), 9U);
-  EXPECT_EQ(surface.vertex_of_fan(), (Numbers{0, 0, 0, 1, 1, 1, 2, 3, 4}));
+  EXPECT_EQ(half_edge_mesh(surface).n_edges(), 9U);
+  EXPECT_EQ(corner_fans(surface).vertices, (Numbers{0, 0, 0, 1, 1, 1, 2, 3, 4}));
   EXPECT_EQ(surface.report().components, 1U);
   EXPECT_EQ(surface.edges().size(), 7U);
 }
@@ -309,15 +314,15 @@ TEST(Surface, HoldsASlitOneEdgeLong) {
   const Surface surface = mesh.surface();
   expect_sound(surface);
   EXPECT_EQ(surface.report().nonmanifold_edges.size(), 1U);
-  EXPECT_EQ(surface.half_edges().n_vertices(), mesh.points.size() + 2);  // the fin has its own fan at both ends
+  EXPECT_EQ(half_edge_mesh(surface).n_vertices(), mesh.points.size() + 2);  // the fin has its own fan at both ends
   EXPECT_EQ(boundary_edges_of_half_edges(surface), 2U + 3U);
-  EXPECT_EQ(surface.half_edges().n_faces(), mesh.triangles.size());
+  EXPECT_EQ(half_edge_mesh(surface).n_faces(), mesh.triangles.size());
 }
 
 TEST(Surface, KeepsFansOfABowTieApartAndTheirVertexOne) {
   const Surface surface({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {-1, 0, 0}, {-1, -1, 0}}, {{0, 1, 2}, {0, 3, 4}});
   expect_sound(surface);
-  EXPECT_EQ(surface.vertex_of_fan(), (Numbers{0, 0, 1, 2, 3, 4}));
+  EXPECT_EQ(corner_fans(surface).vertices, (Numbers{0, 0, 1, 2, 3, 4}));
   EXPECT_EQ(surface.report().components, 1U);
   EXPECT_TRUE(is_untouched(surface.report()));
 }
@@ -329,7 +334,7 @@ TEST(Surface, LeavesOutDuplicateFacesInAnyOrderOfCorners) {
   const Surface surface = mesh.surface();
   expect_sound(surface);
   EXPECT_EQ(surface.report().duplicate_faces, (Numbers{1, 5}));
-  EXPECT_EQ(surface.face_of_half_edge_face(), (Numbers{0, 2, 3, 4}));
+  EXPECT_EQ(corner_fans(surface).faces, (Numbers{0, 2, 3, 4}));
   EXPECT_TRUE(surface.report().nonmanifold_edges.empty());
   EXPECT_EQ(surface.report().boundary_edges, 0U);
 }
@@ -356,7 +361,7 @@ TEST(Surface, KeepsZeroAreaFacesAndNamesThem) {
   const Surface surface({{0, 0, 0}, {0.1, 0.1, 0.1}, {0.3, 0.3, 0.3}, {1, 0, 0}}, {{0, 1, 2}, {0, 2, 3}});
   expect_sound(surface);
   EXPECT_EQ(surface.report().zero_area_faces, (Numbers{0}));  // in line but for rounding
-  EXPECT_EQ(surface.half_edges().n_faces(), 2U);
+  EXPECT_EQ(half_edge_mesh(surface).n_faces(), 2U);
 }
 
 TEST(Surface, TakesTheRealEdgesOfPolygons) {
@@ -365,7 +370,7 @@ TEST(Surface, TakesTheRealEdgesOfPolygons) {
                         std::vector<Edge>{{1, 0}, {0, 2}, {3, 2}, {1, 3}, {0, 1}, {2, 0}});
   EXPECT_EQ(surface.edges(), (Edges{{0, 1}, {0, 2}, {1, 3}, {2, 3}}));
   EXPECT_TRUE(surface.loose_edges().empty());
-  EXPECT_EQ(surface.half_edges().n_edges(), 5U);
+  EXPECT_EQ(half_edge_mesh(surface).n_edges(), 5U);
 }
 
 TEST(Surface, MayBeEdgesAlone) {
@@ -374,7 +379,7 @@ TEST(Surface, MayBeEdgesAlone) {
   EXPECT_EQ(surface.loose_edges(), (Edges{{0, 1}, {1, 2}}));
   EXPECT_EQ(surface.report().components, 1U);
   EXPECT_DOUBLE_EQ(surface.scale(), 0.5);
-  EXPECT_EQ(surface.half_edges().n_vertices(), 0U);
+  EXPECT_EQ(half_edge_mesh(surface).n_vertices(), 0U);
 }
 
 TEST(Surface, StaysSoundOnRandomTriangles) {

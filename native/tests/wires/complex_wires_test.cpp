@@ -19,6 +19,7 @@
 #include "seamwire/wires/snap.hpp"
 #include "seamwire/wires/wire.hpp"
 #include "shapes.hpp"
+#include "surface/corner_fans.hpp"
 #include "unowned.hpp"
 
 namespace seamwire {
@@ -32,12 +33,12 @@ std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 Embedding as_it_is(const Surface& surface) {
   Embedding out;
   out.points = surface.points();
-  out.source_face = surface.face_of_half_edge_face();
+  out.source_face = corner_fans(surface).faces;
   out.mesh.vertex_count = static_cast<std::int32_t>(surface.vertex_count());
-  out.mesh.twins = surface.twins();
-  out.mesh.siblings = surface.siblings();
-  for (const Triangle& fans : surface.face_fans()) {
-    const auto vertex = [&](std::size_t i) { return surface.vertex_of_fan()[index(fans[i % 3])]; };
+  out.mesh.twins = corner_fans(surface).twins;
+  out.mesh.siblings = corner_fans(surface).siblings;
+  for (const Triangle& fans : corner_fans(surface).triangles) {
+    const auto vertex = [&](std::size_t i) { return corner_fans(surface).vertices[index(fans[i % 3])]; };
     out.mesh.triangles.push_back({vertex(0), vertex(1), vertex(2)});
     for (std::size_t i = 0; i < 3; ++i) {
       const auto [a, b] = std::minmax({vertex(i), vertex(i + 1)});

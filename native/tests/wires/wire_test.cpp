@@ -113,11 +113,10 @@ struct Bisected {
   Embedding embedding;
 
   Bisected() {
-    embedding.mesh = {.vertex_count = 4,
-                      .triangles = {{0, 3, 2}, {3, 1, 2}},
-                      .twins = {-1, 5, -1, -1, -1, 1},
-                      .lengths = {1, 1, std::numbers::sqrt2, 1, std::numbers::sqrt2, 1},
-                      .loose_edges = {{1, 3, 1}}};
+    embedding.mesh = {{.triangles = {{0, 3, 2}, {3, 1, 2}}, .twins = {-1, 5, -1, -1, -1, 1}},
+                      4,
+                      {1, 1, std::numbers::sqrt2, 1, std::numbers::sqrt2, 1},
+                      {{1, 3, 1}}};
     embedding.points = {{0, 0, 0}, {2, 0, 0}, {1, 1, 0}, {1, 0, 0}};
     embedding.source_face = {0, 0};
   }

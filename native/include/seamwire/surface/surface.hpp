@@ -15,9 +15,11 @@
 
 namespace seamwire {
 
+class Surface;
 namespace detail {
-struct HalfEdgeMesh;  // in src/surface/half_edge_mesh.hpp
-}
+struct CornerFans;  // in src/surface/corner_fans.hpp
+const CornerFans& corner_fans(const Surface& surface);
+}  // namespace detail
 
 /// Lists unusual parts of the input. Nothing here is an error: the surface was built all the same.
 struct SurfaceReport {
@@ -44,9 +46,8 @@ struct SurfaceReport {
 /// A triangle mesh as people have it: boundaries, several components, isolated vertices, zero-area faces, mixed
 /// orientation, edges with three or more faces, duplicate faces. Keeps the caller's numbers of vertices and faces.
 ///
-/// The half-edge mesh inside is manifold and consistently oriented. Where the input is not, the mesh is cut open. A
-/// vertex whose faces form several fans is one half-edge vertex for each fan (a `corner fan`). To a path the fans are
-/// one vertex. siblings() tells which faces meet at the edges where the mesh is cut open.
+/// Inside, the surface is manifold and consistently oriented: it is cut open where the input is not. To a path, the
+/// parts of a vertex that is cut are one vertex, and all faces at an edge meet there.
 class SEAMWIRE_API Surface {
  public:
   /// `points`: finite. `triangles`: vertex numbers in [0, points.size()). `edges`: the real edges if faces are
@@ -74,42 +75,22 @@ class SEAMWIRE_API Surface {
   /// over the longest side of the bounding box of the vertices in use, or 1 if that side is zero.
   double scale() const { return scale_; }
 
-  /// The manifold mesh inside, for the library itself: its type is no part of the interface.
-  const detail::HalfEdgeMesh& half_edges() const { return *mesh_; }
-  /// Number of the caller's vertex for each vertex (corner fan) of half_edges(), ascending, and of the caller's face
-  /// for each of its faces, ascending; both are the identity on a clean mesh. A face's vertices are listed from the
-  /// caller's first corner on. A caller's vertex without a face has no fan. Two edges may join the same two fans (a
-  /// slit one edge long), so find half-edges by walking, never by their end points.
-  const std::vector<std::int32_t>& vertex_of_fan() const { return vertex_of_fan_; }
-  /// The caller's face of each face of half_edges().
-  const std::vector<std::int32_t>& face_of_half_edge_face() const { return source_face_; }
-  /// The fans at the corners of each face of half_edges(), from the caller's first corner on. Together with twins()
-  /// this is half_edges() in flat arrays, for passes over all of it.
-  const std::vector<Triangle>& face_fans() const { return face_fans_; }
-  /// The half-edge on the other side of each half-edge, -1 on the boundary. Half-edge 3 f + i runs from corner i of
-  /// face f to the next corner.
-  const std::vector<std::int32_t>& twins() const { return twins_; }
-  /// The half-edges of each edge at which half_edges() is cut open, as IntrinsicMesh::siblings has them. Empty where
-  /// the surface is manifold and orientable.
-  const std::vector<std::int32_t>& siblings() const { return siblings_; }
-  /// Edges that no face of half_edges() carries, along which a path may run all the same: edges without faces, and
-  /// edges whose faces were all left out.
+  /// Edges without a triangle along which a path may run all the same: edges without faces, and edges whose faces were
+  /// all left out.
   const std::vector<Edge>& loose_edges() const { return loose_edges_; }
 
   /// Unusual parts of the input.
   const SurfaceReport& report() const { return report_; }
 
  private:
+  friend const detail::CornerFans& detail::corner_fans(const Surface& surface);
+
   std::vector<Vector> points_;
   std::vector<Triangle> triangles_;
   std::vector<Edge> edges_;
   std::vector<Edge> loose_edges_;
-  std::vector<std::int32_t> vertex_of_fan_;
-  std::vector<std::int32_t> source_face_;
-  std::vector<Triangle> face_fans_;
-  std::vector<std::int32_t> twins_, siblings_;
   double scale_ = 1.0;
-  std::shared_ptr<const detail::HalfEdgeMesh> mesh_;  // immutable, so copies of a surface share it
+  std::shared_ptr<const detail::CornerFans> fans_;  // immutable, so copies of a surface share it
   SurfaceReport report_;
 };
 

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "detail/half_edge.hpp"
+#include "seamwire/surface/surface.hpp"
+#include "seamwire/surface/triangle_connectivity.hpp"
+
+namespace seamwire::detail {
+
+/// The mesh inside a Surface: manifold and consistently oriented. Where the caller's mesh is not, this mesh is cut
+/// open. Its vertices are corner fans: a vertex whose faces form several fans is here once for each fan. Siblings are
+/// the half-edges at edges where it is cut open. Triangles begin at the caller's first corner. Two edges may join the
+/// same two fans (a slit one edge long), so find half-edges by walking, never by their end points.
+struct CornerFans : TriangleConnectivity {
+  /// The caller's vertex of each fan, ascending: the identity on a clean mesh. A vertex without a face has no fan.
+  std::vector<std::int32_t> vertices;
+  std::vector<std::int32_t> faces;    ///< the caller's face of each triangle, ascending
+  std::vector<std::int32_t> leaving;  ///< of each fan: its half-edge in its last triangle
+
+  /// Calls visit(h) for each half-edge h of triangles that begins at a fan, counter-clockwise: from the boundary on, or
+  /// from leaving[fan] on. Returns whether the fan has a boundary.
+  template <class Visit>
+  bool for_each_leaving(std::int32_t fan, const Visit& visit) const {
+    const std::int32_t start = first_leaving(fan);
+    for (std::int32_t h = start;;) {
+      const std::int32_t next = twins[previous_in_face(h)];
+      visit(h);
+      if (next < 0) return true;
+      if (next == start) return false;
+      h = next;
+    }
+  }
+
+ private:
+  std::int32_t first_leaving(std::int32_t fan) const {
+    const std::int32_t start = leaving[fan];
+    for (std::int32_t h = start; twins[h] >= 0;) {
+      h = next_in_face(twins[h]);
+      if (h == start || twins[h] < 0) return h;
+    }
+    return start;
+  }
+};
+
+const CornerFans& corner_fans(const Surface& surface);
+
+}  // namespace seamwire::detail
