@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-/// Marks what a shared library of Seamwire shows to programs. Everything else in it is hidden. A static library defines
+/// Marks what a shared library of Seamwire exports. Everything else is hidden. A static library defines
 /// SEAMWIRE_STATIC, and then the mark is empty.
 #if defined(SEAMWIRE_STATIC)
 #define SEAMWIRE_API

@@ -7,13 +7,13 @@
 
 namespace seamwire {
 
-/// Wrong input: the message says what is wrong and where, with the numbers of the elements.
+/// Reports wrong input. The message says what is wrong and where, with the numbers of the elements.
 class SEAMWIRE_API InvalidInput : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
 };
 
-/// Long work was told to stop before its end; no result exists.
+/// Reports that the caller stopped long work before its end. There is no result.
 class SEAMWIRE_API Cancelled : public std::runtime_error {
  public:
   Cancelled() : std::runtime_error("cancelled") {}

@@ -8,17 +8,19 @@
 
 namespace seamwire {
 
-/// How the caller of long work watches it and stops it. A default Task runs silently to its end.
+/// Lets the caller of long work watch it and stop it. A default Task runs silently to its end.
 struct Task {
   std::stop_token stop;  ///< cancels from any thread
-  /// Called now and then with the fraction done, in [0, 1]. Returning false cancels. May be empty.
+  /// Receives the fraction done, in [0, 1], from time to time. Cancels the work if it returns false. May be empty.
   ///
-  /// It is called on the thread that called the function, one call after the other, even if the function works on
-  /// several threads. If it throws, the work ends as if it had been cancelled, and the exception comes out of the
-  /// function.
+  /// Calls come one after another, on the thread that called the function, even if the function uses several threads.
+  /// If a call throws, the work stops as if it were cancelled, and the function throws the same exception.
   std::function<bool(double)> progress;
 
-  /// Reports `fraction` and throws Cancelled if the caller wants no more.
+  /// Report progress, and stop if the caller wants no more.
+  ///
+  /// \param fraction the fraction done, in [0, 1]
+  /// \throws Cancelled if the task is cancelled
   void check(double fraction) const {
     if (stop.stop_requested() || (progress && !progress(fraction))) throw Cancelled();
   }

@@ -24,62 +24,120 @@ namespace seamwire {
 
 class EmbeddedField;
 
-/// A surface in a metric: its embedding, the solver for geodesics on it, and what finds the caller's points on it.
-/// Solver and point location are made when they are first needed.
+/// A surface in a metric: its embedding, the solver for geodesics on it, and the search for the caller's points on it.
 ///
-/// Immutable. Copies share the data, and any number of threads may use them at once. All points are those of the
-/// caller's surface.
+/// Solver and search are made when they are first needed. Immutable. Copies share the data, and any number of threads
+/// may use them at once. All points are points of the caller's surface.
 class SEAMWIRE_API EmbeddedSurface {
  public:
-  /// Embeds a surface in the metric that a spec describes. If the context has that metric embedded already, with the
-  /// same options, and someone still holds it, they share it. Throws what make_metric() and embed() throw; Cancelled.
+  /// Embed a surface in the metric that a spec describes.
+  ///
+  /// If the context has that metric embedded already, with the same options, and someone still holds it, they share it.
+  ///
+  /// \param context the surface
+  /// \param spec the metric
+  /// \param options how far the subdivision goes
+  /// \param task progress and cancellation
+  /// \throws InvalidInput if make_metric() or embed() rejects an argument
+  /// \throws Cancelled if the task is cancelled
   EmbeddedSurface(const SurfaceContext& context, const MetricSpec& spec, const EmbedOptions& options = {},
                   const Task& task = {});
-  /// Embeds a surface in any metric. Throws what embed() throws; Cancelled.
+  /// Embed a surface in any metric.
+  ///
+  /// \param context the surface
+  /// \param metric a metric of its vertices, not null
+  /// \param options how far the subdivision goes
+  /// \param task progress and cancellation
+  /// \throws InvalidInput if the metric is null, or embed() rejects an argument
+  /// \throws Cancelled if the task is cancelled
   EmbeddedSurface(const SurfaceContext& context, std::shared_ptr<const Metric> metric, const EmbedOptions& options = {},
                   const Task& task = {});
-  /// A surface with an existing embedding, and with its options. Throws InvalidInput if metric or embedding are not of
-  /// the surface, as far as their sizes tell.
+  /// Wrap an existing embedding, with its options.
+  ///
+  /// \param context the surface
+  /// \param metric the metric of the embedding, not null
+  /// \param embedding an embedding of the surface
+  /// \throws InvalidInput if the metric is null, or metric or embedding are of another surface, as far as their sizes
+  ///   tell
   EmbeddedSurface(const SurfaceContext& context, std::shared_ptr<const Metric> metric, Embedding embedding);
 
-  /// The surface in another metric, made from this one by re_embed() and in less time where the metrics agree. Throws
-  /// what re_embed() throws; Cancelled.
+  /// Embed the surface in a changed metric with re_embed(), which is faster where the metrics agree.
+  ///
+  /// \param metric a metric of the surface's vertices, not null
+  /// \param task progress and cancellation
+  /// \returns the surface in the changed metric
+  /// \throws InvalidInput if the metric is null, or re_embed() rejects an argument
+  /// \throws Cancelled if the task is cancelled
   EmbeddedSurface with_metric(std::shared_ptr<const Metric> metric, const Task& task = {}) const;
-  /// The surface in the metric of a spec, if the context has it embedded with these options and someone still holds it.
+  /// Find the surface in the metric of a spec, if the context has it already and someone still holds it.
+  ///
+  /// \param context the surface
+  /// \param spec the metric
+  /// \param options the options that the embedding was made with
+  /// \returns the embedded surface, or nullopt
   static std::optional<EmbeddedSurface> find(const SurfaceContext& context, const MetricSpec& spec,
                                              const EmbedOptions& options = {});
 
-  /// The surface with all that depends on it alone.
+  /// Return the surface with everything that depends on it alone.
   const SurfaceContext& context() const;
-  /// The surface that the caller gave.
+  /// Return the caller's surface.
   const Surface& surface() const;
-  /// The metric.
+  /// Return the metric.
   const Metric& metric() const { return *shared_metric(); }
-  /// The metric, to share ownership.
+  /// Return the metric, to share ownership.
   const std::shared_ptr<const Metric>& shared_metric() const;
-  /// The spec of the metric, nullopt if the metric was not made from one.
+  /// Return the spec of the metric, or nullopt if the metric was not made from a spec.
   const std::optional<MetricSpec>& spec() const;
-  /// The embedding.
+  /// Return the embedding.
   const Embedding& embedding() const { return *shared_embedding(); }
-  /// The embedding, to share ownership.
+  /// Return the embedding, to share ownership.
   const std::shared_ptr<const Embedding>& shared_embedding() const;
-  /// The solver on the embedding. Throws what its constructor throws; Cancelled.
+  /// Return the solver on the embedding.
+  ///
+  /// \param task progress and cancellation
+  /// \throws InvalidInput if the constructor of ExactGeodesics rejects the embedding
+  /// \throws Cancelled if the task is cancelled
   const ExactGeodesics& geodesics(const Task& task = {}) const;
-  /// Finds points of the surface on the embedding.
+  /// Return the search for points of the surface on the embedding.
   const EmbeddedPoints& points() const;
-  /// A point of the surface as one of the embedding. Throws InvalidInput, beginning with `what`, for a point that is
-  /// not part of the surface, a face without area, and a hole of the embedding.
+  /// Find a point of the surface on the embedding.
+  ///
+  /// \param point a point of the surface
+  /// \param what the name of the point, with which error messages begin
+  /// \returns the same point as one of the embedding
+  /// \throws InvalidInput if the point is not part of the surface, or its face was not embedded or has no area
+  /// \throws InvalidInput if the embedding has a hole there
   SurfacePoint locate(const SurfacePoint& point, const std::string& what = "point") const;
 
-  /// Exact distances from a vertex. Throws InvalidInput for a vertex out of range; Cancelled.
+  /// Compute exact distances from a vertex.
+  ///
+  /// \param seed one of the caller's vertices
+  /// \param task progress and cancellation
+  /// \returns the distances, and the wires
+  /// \throws InvalidInput if the seed is out of range, or the constructor of ExactGeodesics rejects the embedding
+  /// \throws Cancelled if the task is cancelled
   EmbeddedField field(std::int32_t seed, const Task& task = {}) const;
-  /// Exact distances from the nearest of several points. Throws as locate() and ExactGeodesics::solve() do; Cancelled.
+  /// Compute exact distances from the nearest of several points.
+  ///
+  /// \param sources one or more points of the surface
+  /// \param options when the solve may stop; its targets are points of the surface
+  /// \param task progress and cancellation
+  /// \returns the distances, and the wires
+  /// \throws InvalidInput if locate() rejects a source or a target, or ExactGeodesics::solve() rejects an argument
+  /// \throws Cancelled if the task is cancelled
   EmbeddedField field(std::span<const SurfacePoint> sources, const SolveOptions& options = {},
                       const Task& task = {}) const;
-  /// Distances from a vertex by ExactGeodesics::solve_bounded(), which throws.
+  /// Compute approximate distances from a vertex with ExactGeodesics::solve_bounded().
+  ///
+  /// \param seed one of the caller's vertices
+  /// \param windows how many windows of a list are propagated, 1 or more
+  /// \param task progress and cancellation
+  /// \returns approximate distances, and real wires
+  /// \throws InvalidInput if the seed is out of range, or `windows` is 0
+  /// \throws Cancelled if the task is cancelled
   EmbeddedField bounded_field(std::int32_t seed, std::uint32_t windows, const Task& task = {}) const;
 
-  /// Whether two embedded surfaces are copies of each other.
+  /// Return whether two embedded surfaces are copies of each other.
   friend bool operator==(const EmbeddedSurface&, const EmbeddedSurface&) = default;
 
  private:
@@ -90,23 +148,53 @@ class SEAMWIRE_API EmbeddedSurface {
   std::shared_ptr<Data> data_;
 };
 
-/// Distances over an embedded surface, and the wires that lead from their sources. Immutable; copies share the data.
+/// Distances over an embedded surface, and the wires that lead from their sources. Immutable. Copies share the data.
 class SEAMWIRE_API EmbeddedField {
  public:
-  /// The embedded surface that the distances belong to.
+  /// Return the embedded surface of the distances.
   const EmbeddedSurface& on() const { return on_; }
-  /// The distances, with the vertices and faces of the embedding: the first vertices are those of the surface.
+  /// Return the distances, with the vertices and faces of the embedding. The first vertices are those of the surface.
   const DistanceField& distances() const { return distances_; }
 
-  /// The distance of any point of the surface. Throws as EmbeddedSurface::locate() does; Cancelled.
+  /// Compute the distance of any point of the surface.
+  ///
+  /// \param point a point of the surface
+  /// \param task progress and cancellation
+  /// \returns the distance in the metric, infinite if no path leads there
+  /// \throws InvalidInput if EmbeddedSurface::locate() rejects the point
+  /// \throws Cancelled if the task is cancelled
   double distance(const SurfacePoint& point, const Task& task = {}) const;
-  /// The shortest wire to a vertex. Throws InvalidInput for a vertex out of range; Cancelled.
+  /// Trace the shortest wire to a vertex.
+  ///
+  /// \param vertex one of the caller's vertices
+  /// \param task progress and cancellation
+  /// \returns the wire, without points if the vertex is unreachable
+  /// \throws InvalidInput if the vertex is out of range
+  /// \throws Cancelled if the task is cancelled
   Wire wire(std::int32_t vertex, const Task& task = {}) const;
-  /// The shortest wire to any point. Throws as EmbeddedSurface::locate() does; Cancelled.
+  /// Trace the shortest wire to any point.
+  ///
+  /// \param point a point of the surface
+  /// \param task progress and cancellation
+  /// \returns the wire, without points if the point is unreachable
+  /// \throws InvalidInput if EmbeddedSurface::locate() rejects the point
+  /// \throws Cancelled if the task is cancelled
   Wire wire(const SurfacePoint& point, const Task& task = {}) const;
-  /// The closed wires through the seed, see seamwire::closed_wires(), which throws.
+  /// Find the closed wires through the seed, with seamwire::closed_wires().
+  ///
+  /// \param count the largest number of wires
+  /// \param task progress and cancellation
+  /// \returns the closed wires, best first
+  /// \throws InvalidInput if the field has several sources
+  /// \throws Cancelled if the task is cancelled
   std::vector<ClosedWire> closed_wires(std::size_t count = 3, const Task& task = {}) const;
-  /// What bends one of the closed wires, see BentWires, which throws. A cut of another embedded surface is refused.
+  /// Prepare the bending of one of the closed wires.
+  ///
+  /// \param cut a wire of closed_wires()
+  /// \param task progress and cancellation
+  /// \returns the object that bends it
+  /// \throws InvalidInput if the constructor of BentWires rejects the cut, such as a cut of another embedded surface
+  /// \throws Cancelled if the task is cancelled
   BentWires bend(const ClosedWire& cut, const Task& task = {}) const;
 
  private:

@@ -18,51 +18,74 @@ enum class MetricFamily { kFeature, kCampen, kPottmannKovacs, kConcave, kEuclide
 struct MetricFamilyInfo {
   MetricFamily family;         ///< the family
   std::string_view name;       ///< "feature", "campen", "pottmann_kovacs", "concave" or "euclidean"
-  std::string_view parameter;  ///< the name of Strength::parameter; empty: the family has no strength
+  std::string_view parameter;  ///< the name of Strength::parameter; empty if the family has no strength
   double least_parameter;      ///< the smallest parameter that is allowed
   Strength initial;            ///< the default strength
   bool has_directions;         ///< whether a metric follows one of the principal directions
-  bool has_clamp;              ///< whether Strength::clamp_percentile matters
+  bool has_clamp;              ///< whether Strength::clamp_percentile has an effect
 };
 
-/// All families, in the order of MetricFamily.
+/// Return all families, in the order of MetricFamily.
 SEAMWIRE_API std::span<const MetricFamilyInfo> metric_families();
-/// The row of one family.
+/// Return the description of a family.
+///
+/// \param family the family
+/// \throws InvalidInput if there is no such family
 SEAMWIRE_API const MetricFamilyInfo& info_of(MetricFamily family);
-/// The family of that name. Throws InvalidInput for any other name; the message begins with "metric".
+/// Find a family by its name.
+///
+/// \param name as in MetricFamilyInfo::name
+/// \returns the family
+/// \throws InvalidInput if there is no family of this name. The message begins with "metric".
 SEAMWIRE_API MetricFamily metric_family(std::string_view name);
 
-/// A metric as a value: what it takes to compute it on any surface. Two specs that are equal give the same metric.
+/// Describes a metric as a value that can be computed on any surface. Equal specs give equal metrics.
 struct MetricSpec {
-  MetricFamily family = MetricFamily::kEuclidean;  ///< which one
-  std::optional<Follow> follow = std::nullopt;     ///< in the families that have directions only
-  /// kConcave: the parameter is that of concave_metric(), and max_anisotropy A gives (A - 1) / 19. Euclidean: nothing
-  /// is set.
+  MetricFamily family = MetricFamily::kEuclidean;  ///< the family
+  std::optional<Follow> follow = std::nullopt;     ///< only set in families that have directions
+  /// The strength. For kConcave, the parameter is the strength of concave_metric(), and a max_anisotropy A gives (A -
+  /// 1) / 19. For kEuclidean, nothing is set.
   Strength strength = {};
 
-  /// The feature metric (eq. 5).
+  /// Describe the feature metric.
+  ///
+  /// \see Zhuang et al. 2014, eq. 5
   static MetricSpec feature(Follow follow, const Strength& strength = {.parameter = 0.1});
-  /// Campen et al.'s metric (eq. 3).
+  /// Describe Campen's metric.
+  ///
+  /// \see Zhuang et al. 2014, eq. 3
   static MetricSpec campen(Follow follow, const Strength& strength);
-  /// Pottmann et al.'s and Kovacs et al.'s metric (eq. 4).
+  /// Describe the metric of Pottmann and Kovacs.
+  ///
+  /// \see Zhuang et al. 2014, eq. 4
   static MetricSpec pottmann_kovacs(Follow follow, const Strength& strength);
-  /// The metric of concave creases, on curvatures smoothed over 0.01.
+  /// Describe the metric of concave creases, on curvatures smoothed over 0.01.
   static MetricSpec concave(const Strength& strength = {.parameter = 1.0});
-  /// The metric of concave creases that is as strong as a feature metric: gamma / 0.1, or the same maximum anisotropy.
+  /// Describe the metric of concave creases that is as strong as a feature metric.
+  ///
+  /// \param feature the strength of a feature metric
+  /// \returns the metric with the parameter gamma / 0.1, or with the same maximum anisotropy
   static MetricSpec concave_like(const Strength& feature);
-  /// The Euclidean metric.
+  /// Describe the Euclidean metric.
   static MetricSpec euclidean() { return {}; }
 
-  /// What its paths follow.
+  /// Return what the paths of the metric follow.
   MetricKind kind() const;
-  /// Member by member.
+  /// Compare member by member.
   friend bool operator==(const MetricSpec&, const MetricSpec&) = default;
 };
 
-/// Whether two metrics differ only in the direction that they follow, so that lengths in both can be compared (Section
-/// 5 of the paper).
+/// Return whether two metrics differ only in the direction that they follow. Lengths in both can then be compared.
+///
+/// \param one a metric
+/// \param other another metric
+/// \see Zhuang et al. 2014, Section 5
 SEAMWIRE_API bool is_counterpart(const MetricSpec& one, const MetricSpec& other);
-/// Throws InvalidInput unless the spec has a direction exactly if its family has, and a strength as metric.hpp says.
+/// Check a spec.
+///
+/// \param spec the spec
+/// \throws InvalidInput if the spec has a direction although its family has none, or the reverse
+/// \throws InvalidInput if check_strength() rejects the strength, or a Euclidean metric has a strength
 SEAMWIRE_API void check_metric(const MetricSpec& spec);
 
 }  // namespace seamwire

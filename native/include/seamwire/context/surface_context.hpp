@@ -20,49 +20,81 @@ namespace seamwire {
 
 class EmbeddedSurface;
 
-/// A surface with everything that depends on it alone: curvatures, edge adjacency, snap graph. Each is computed once,
-/// when it is first asked for, on the thread that asks.
+/// A surface with everything that depends on it alone: curvatures, edge adjacency, snap graph.
 ///
-/// Copies share the surface and what was computed. Any number of threads may use them at once. If several threads ask
-/// for the same thing, one computes it and the others wait. If that thread is cancelled, one of the others goes on in
-/// its place. If the surface cannot be built, every call that needs it throws what the constructor of Surface threw.
+/// Each of these is computed once, on the thread that first needs it. Copies share the surface and everything computed.
+/// Any number of threads may use them at once. If several threads need the same thing, one computes it and the others
+/// wait. If that thread is cancelled, one of the others continues in its place.
+///
+/// If the surface cannot be built, every call that needs it throws what the constructor of Surface threw.
 class SEAMWIRE_API SurfaceContext {
  public:
-  /// The context of a surface. Throws InvalidInput if it is null.
+  /// Make the context of a surface.
+  ///
+  /// \param surface the surface, not null
+  /// \throws InvalidInput if the surface is null
   explicit SurfaceContext(std::shared_ptr<const Surface> surface);
-  /// The context of a surface that is built when it is first asked for. Takes the arguments of Surface's constructor.
+  /// Make the context of a surface that is built when it is first needed.
+  ///
+  /// \param points as in the constructor of Surface
+  /// \param triangles as in the constructor of Surface
+  /// \param edges as in the constructor of Surface
   SurfaceContext(std::vector<Vector> points, std::vector<Triangle> triangles,
                  std::optional<std::vector<Edge>> edges = std::nullopt);
 
-  /// The number of vertices, which is known before the surface is built.
+  /// Return the number of vertices, which is known before the surface is built.
   std::size_t vertex_count() const;
-  /// The number of triangles, as given.
+  /// Return the number of triangles, as given. It is known before the surface is built.
   std::size_t face_count() const;
 
-  /// The surface, which is built if need be. Throws what the constructor of Surface throws; Cancelled.
+  /// Return the surface, and build it if necessary.
+  ///
+  /// \param task progress and cancellation
+  /// \throws InvalidInput if the constructor of Surface rejects its arguments
+  /// \throws Cancelled if the task is cancelled
   std::shared_ptr<const Surface> surface(const Task& task = {}) const;
-  /// principal_curvatures() of the surface. Throws Cancelled.
+  /// Return the principal_curvatures() of the surface.
+  ///
+  /// \param task progress and cancellation
+  /// \throws Cancelled if the task is cancelled
   std::shared_ptr<const Curvature> curvature(const Task& task = {}) const;
-  /// Curvature::difference(), s of eq. 5. Throws Cancelled.
+  /// Return Curvature::difference() of the surface, s of eq. 5.
+  ///
+  /// \param task progress and cancellation
+  /// \throws Cancelled if the task is cancelled
   std::shared_ptr<const std::vector<double>> feature_strength(const Task& task = {}) const;
-  /// The smoothed curvatures (radius 0.01) that the concave metric uses. Throws Cancelled.
+  /// Return the smoothed curvatures (radius 0.01) that the concave metric uses.
+  ///
+  /// \param task progress and cancellation
+  /// \throws Cancelled if the task is cancelled
   std::shared_ptr<const Curvature> smoothed_curvature(const Task& task = {}) const;
-  /// make_edge_adjacency() of the surface. Throws Cancelled.
+  /// Return the EdgeAdjacency of the surface.
+  ///
+  /// \param task progress and cancellation
+  /// \throws Cancelled if the task is cancelled
   std::shared_ptr<const EdgeAdjacency> edge_adjacency(const Task& task = {}) const;
-  /// The SnapGraph of the surface. Throws Cancelled.
+  /// Return the SnapGraph of the surface.
+  ///
+  /// \param task progress and cancellation
+  /// \throws Cancelled if the task is cancelled
   std::shared_ptr<const SnapGraph> snap_graph(const Task& task = {}) const;
 
-  /// The surface, null until it is built. Does not wait. Throws if it cannot be built.
+  /// Return the surface, or null if it is not built yet. Does not wait.
+  ///
+  /// \throws InvalidInput if the constructor of Surface rejected its arguments
   std::shared_ptr<const Surface> peek_surface() const;
-  /// feature_strength(), null until it is computed. Does not wait.
+  /// Return feature_strength(), or null if it is not computed yet. Does not wait.
   std::shared_ptr<const std::vector<double>> peek_feature_strength() const;
-  /// edge_adjacency(), null until it is computed. Does not wait.
+  /// Return edge_adjacency(), or null if it is not computed yet. Does not wait.
   std::shared_ptr<const EdgeAdjacency> peek_edge_adjacency() const;
-  /// Waits at most `seconds` until another thread has built the surface, which surface() does. Returns whether it is
-  /// built; throws if it cannot be.
+  /// Wait until another thread has built the surface, by calling surface().
+  ///
+  /// \param seconds the longest time to wait
+  /// \returns whether the surface is built
+  /// \throws InvalidInput if the constructor of Surface rejected its arguments
   bool wait_for_surface(double seconds) const;
 
-  /// Whether two contexts are copies of each other.
+  /// Return whether two contexts are copies of each other.
   friend bool operator==(const SurfaceContext&, const SurfaceContext&) = default;
 
  private:
@@ -71,8 +103,14 @@ class SEAMWIRE_API SurfaceContext {
   std::shared_ptr<Data> data_;
 };
 
-/// Computes the metric that a spec describes. Throws what check_metric() and the metrics of metric.hpp throw;
-/// Cancelled.
+/// Compute the metric that a spec describes.
+///
+/// \param context the surface
+/// \param spec the metric
+/// \param task progress and cancellation
+/// \returns the metric
+/// \throws InvalidInput if check_metric() rejects the spec, or the metric is too strong (kLargestEigenvalue)
+/// \throws Cancelled if the task is cancelled
 SEAMWIRE_API Metric make_metric(const SurfaceContext& context, const MetricSpec& spec, const Task& task = {});
 
 }  // namespace seamwire

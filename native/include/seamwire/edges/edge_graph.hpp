@@ -17,26 +17,38 @@
 
 namespace seamwire {
 
-/// A chain of real edges. It repeats no vertex, except that one from a forward seed may end where it began.
+/// A chain of real edges. It repeats no vertex, except that a chain from a forward seed may end where it began.
 struct EdgeChain {
-  std::vector<std::int32_t> vertices;  ///< in order, picked edges included; empty: no chain
-  /// The chain's cost: metric length of the model scaled to the unit cube, plus turning.
+  std::vector<std::int32_t> vertices;  ///< in order, including picked edges; empty if there is no chain
+  /// The cost of the chain: metric length of the model scaled to the unit cube, plus turning.
   double length = std::numeric_limits<double>::infinity();
 };
 
-/// EdgeAdjacency with the lengths of the edges in a metric. The cost of a chain is
-///   sum of metric lengths + q * (mean metric edge length) * sum over its inner vertices of (1 - cos kappa).
-/// Immutable, so searches may run on several threads.
+/// An EdgeAdjacency with the lengths of the edges in a metric.
+///
+/// With a factor q for turning, the cost of a chain is
+///
+///     sum of metric lengths + q * (mean metric edge length) * sum over its inner vertices of (1 - cos kappa)
+///
+/// Immutable. Any number of threads may search it at once.
 class EdgeGraph;
 
-/// `adjacency`: that of the surface if it has been made already. Throws InvalidInput where metric or adjacency are of
-/// another surface, and what apply_scribbles() throws for scribbles; Cancelled.
+/// Make the edge graph of a surface in a metric.
 ///
-/// `scribbles`: those that `metric` has been through; `kind` as in apply_scribbles(). Tensors alone lead no chain
-/// along a stroke that runs askew to the edges, since each edge is then partly across the stroke, which is long in the
-/// metric. So the edges that stay nearest to a stroke that attracts get the length that the stroke itself has, their
-/// Euclidean length / sqrt(eta), and turning from one of them to the next costs nothing. A later stroke that repels
-/// undoes this on the edges it runs along.
+/// Tensors alone do not lead a chain along a stroke that is oblique to the edges. Each edge is then partly across the
+/// stroke, which is long in the metric. So the edges that stay nearest to an attracting stroke get the stroke's length,
+/// their Euclidean length / sqrt(eta). Turning from one of them to the next costs nothing. A later stroke that repels
+/// undoes this on the edges that it runs along.
+///
+/// \param surface the surface
+/// \param metric a metric of its vertices
+/// \param adjacency the adjacency of the surface, if it exists already
+/// \param scribbles the strokes that were applied to `metric`
+/// \param kind as in apply_scribbles()
+/// \param task progress and cancellation
+/// \returns the graph, never null
+/// \throws InvalidInput if the metric or the adjacency is of another surface, or apply_scribbles() rejects a stroke
+/// \throws Cancelled if the task is cancelled
 SEAMWIRE_API std::shared_ptr<const EdgeGraph> make_edge_graph(const Surface& surface, const Metric& metric,
                                                               std::shared_ptr<const EdgeAdjacency> adjacency = nullptr,
                                                               std::span<const Scribble> scribbles = {},

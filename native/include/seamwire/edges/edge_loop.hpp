@@ -13,26 +13,40 @@ namespace seamwire {
 
 /// A run of edges straight through a mesh.
 struct EdgeLoop {
-  std::vector<std::int32_t> vertices;  ///< in order; where it is closed, the first one is not given twice
-  bool closed = false;                 ///< its ends are one vertex
+  std::vector<std::int32_t> vertices;  ///< in order; a closed loop does not repeat its first vertex
+  bool closed = false;                 ///< whether its ends are the same vertex
 };
 
-/// The edge loop through an edge, as modellers select it. It goes on in both directions over the opposite edge. A
-/// vertex has an opposite edge if it has four edges and not only triangles, or six edges and only triangles. A loop
-/// from an edge of the boundary runs along the boundary. It ends at other vertices: poles, boundaries, corners of a
-/// single face, and vertices whose faces are not a single umbrella. It also ends at a vertex of `stops`, even at an end
-/// of the edge itself, and where it meets itself. It is closed if its ends are one vertex. If it crosses itself, its
-/// first or last vertex is also an inner one.
+/// Find the edge loop through an edge, as modelers select it.
 ///
-/// `edge`: two vertices in either order; the loop has this direction. Throws InvalidInput where there is no such edge.
+/// The loop continues in both directions over the opposite edge. A vertex has opposite edges if it has four edges and
+/// not only triangles, or six edges and only triangles. A loop from a boundary edge follows the boundary.
+///
+/// - The loop ends at other vertices: poles, boundaries, corners of a single face, and vertices whose faces are not a
+///   single umbrella.
+/// - It ends at a vertex of `stops`, even at an end of the edge itself.
+/// - It ends where it meets itself. If it crosses itself, its first or last vertex is also an inner vertex.
+///
+/// \param adjacency the adjacency of the surface
+/// \param edge two vertices in either order, which give the loop its direction
+/// \param stops vertices where the loop ends
+/// \returns the loop, closed if its ends are the same vertex
+/// \throws InvalidInput if there is no such edge
 SEAMWIRE_API EdgeLoop edge_loop(const EdgeAdjacency& adjacency, const Edge& edge, std::span<const std::int32_t> stops);
 
-/// The straight extension of a chain whose last edge runs from edge[0] to edge[1]: at each vertex over the edge that
-/// turns least. It ends at a vertex of `stops` other than edge[1], and at a boundary. A chain along a boundary goes on
-/// along it. It also ends at a vertex it has visited, such as edge[0], and where every turn is 60 degrees or more.
+/// Extend a chain straight beyond its last edge.
 ///
-/// Returns the vertices from edge[1] on; only the last one may be a repeated one. Throws InvalidInput where there is no
-/// such edge.
+/// At each vertex the extension takes the edge that turns least. A chain along a boundary follows the boundary.
+///
+/// - The extension ends at a boundary, and at a vertex of `stops` other than edge[1].
+/// - It ends at a vertex that it has visited, such as edge[0].
+/// - It ends where every turn is 60 degrees or more.
+///
+/// \param adjacency the adjacency of the surface
+/// \param edge the last edge of the chain, from edge[0] to edge[1]
+/// \param stops vertices where the extension ends
+/// \returns the vertices from edge[1] on. Only the last vertex may be a repeated one.
+/// \throws InvalidInput if there is no such edge
 SEAMWIRE_API std::vector<std::int32_t> extend_straight(const EdgeAdjacency& adjacency, const Edge& edge,
                                                        std::span<const std::int32_t> stops);
 

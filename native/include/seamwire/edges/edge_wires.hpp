@@ -10,41 +10,59 @@
 
 namespace seamwire {
 
-/// A picked vertex `a` (b = -1), or the picked edge between `a` and `b`.
+/// A picked vertex `a`, or a picked edge between `a` and `b`.
 struct Pick {
   std::int32_t a = -1;  ///< the vertex, or one end of the edge
-  std::int32_t b = -1;  ///< the other end; -1: a vertex
+  std::int32_t b = -1;  ///< the other end of the edge; -1 if a vertex was picked
 
-  /// Whether an edge was picked.
+  /// Return whether an edge was picked.
   bool is_edge() const { return b >= 0; }
-  /// Member by member; the direction of an edge counts.
+  /// Compare member by member. The direction of an edge counts.
   friend bool operator==(const Pick&, const Pick&) = default;
 };
 
-/// The cheapest chains from one pick to every edge and vertex. While run() is at work on one thread, another may ask
-/// for those found so far. Copies share the search.
+/// Finds the cheapest chains from one pick to every edge and vertex.
+///
+/// While one thread executes run(), another may ask for the chains found so far. Copies share the search.
 class SEAMWIRE_API EdgeWires {
  public:
-  /// `turning`: q, not negative. `forward`: the seed edge has just been drawn from seed.a to seed.b, so the chain
-  /// leaves it over b (a directed seed counts its turn there too). Throws InvalidInput where the seed is not a vertex
-  /// or an edge of the surface.
+  /// Prepare a search.
+  ///
+  /// \param graph the edges and their lengths
+  /// \param seed a vertex or an edge of the surface
+  /// \param turning q, the factor for turning (EdgeGraph): finite, 0 or more
+  /// \param forward whether the seed edge has just been drawn from seed.a to seed.b. Then the chain leaves it over b,
+  ///   and the turn there counts too.
+  /// \throws InvalidInput if the graph is null, the seed is not part of the surface, or `turning` is out of range
   EdgeWires(std::shared_ptr<const EdgeGraph> graph, const Pick& seed, double turning = 3.0, bool forward = false);
 
-  /// Runs the search, nearest first; to be called once. Throws Cancelled: what was found until then can be asked for.
+  /// Run the search, nearest targets first. Call it only once.
+  ///
+  /// After a cancellation, chains found until then are still available.
+  ///
+  /// \param task progress and cancellation
+  /// \throws Cancelled if the task is cancelled
   void run(const Task& task = {});
 
-  /// Whether trace() gives the cheapest chain already, or knows that no chain exists. Throws InvalidInput where the
-  /// target is not a vertex or an edge of the surface.
+  /// Return whether trace() gives the cheapest chain already, or knows that there is no chain.
+  ///
+  /// \param target a vertex or an edge of the surface
+  /// \throws InvalidInput if the target is not part of the surface
   bool is_final(const Pick& target) const;
 
-  /// The cheapest chain to a target, both picks included. A picked edge has no direction: the better of both. The chain
-  /// to the seed is the seed itself. Behind a forward seed, a target at the seed's first vertex closes the chain there.
-  /// Takes time in proportion to the chain. Throws InvalidInput where the target is not a vertex or an edge of the
-  /// surface.
+  /// Trace the cheapest chain to a target, including both picks.
   ///
-  /// The cheapest walk may cross itself, where it can turn more cheaply in a small circle of short edges than at once.
-  /// The chain is then another one, without repeated vertices, though not always the cheapest of those: that is
+  /// A picked edge has no direction, so the cheaper of both directions is taken. The chain to the seed is the seed
+  /// itself. After a forward seed, a target at the seed's first vertex closes the chain there. The time is proportional
+  /// to the length of the chain.
+  ///
+  /// The cheapest walk may cross itself, if a small circle of short edges is cheaper than a sharp turn. Then the result
+  /// is another chain without repeated vertices. It need not be the cheapest such chain, because finding that is
   /// NP-hard.
+  ///
+  /// \param target a vertex or an edge of the surface
+  /// \returns the chain, without vertices if none is known
+  /// \throws InvalidInput if the target is not part of the surface
   EdgeChain trace(const Pick& target) const;
 
  private:
@@ -52,7 +70,16 @@ class SEAMWIRE_API EdgeWires {
   std::shared_ptr<Run> run_;
 };
 
-/// An EdgeWires whose search has been run to its end. Throws what its constructor and run() throw.
+/// Make an EdgeWires and run its search.
+///
+/// \param graph the edges and their lengths
+/// \param seed a vertex or an edge of the surface
+/// \param turning q, the factor for turning (EdgeGraph): finite, 0 or more
+/// \param forward whether the seed edge has just been drawn from seed.a to seed.b
+/// \param task progress and cancellation
+/// \returns the finished search
+/// \throws InvalidInput if the constructor of EdgeWires rejects its arguments
+/// \throws Cancelled if the task is cancelled
 SEAMWIRE_API EdgeWires edge_wires(std::shared_ptr<const EdgeGraph> graph, const Pick& seed, double turning = 3.0,
                                   bool forward = false, const Task& task = {});
 

@@ -8,12 +8,19 @@
 
 namespace seamwire {
 
-/// The cheapest closed chain through an edge, without repeated vertices; the first vertex is not given twice. Empty if
-/// no such chain exists. As for EdgeWires::trace(), a cheapest walk that crosses itself is replaced by another chain.
+/// Find the cheapest closed chain through an edge, without repeated vertices.
 ///
-/// `edge`: two vertices in either order. `turning`: q, not negative. Going around a face beside the edge costs about 4
-/// `turning` edges, and no more expensive chain is found. For larger rings on finer meshes, take a larger `turning`.
-/// Throws InvalidInput where there is no such edge or `turning` is wrong; Cancelled.
+/// If the cheapest walk crosses itself, another chain replaces it, as in EdgeWires::trace(). Going around a face beside
+/// the edge costs about 4 `turning` edges, so no more expensive chain is found. To find larger rings on finer meshes,
+/// use a larger `turning`.
+///
+/// \param graph the edges and their lengths
+/// \param edge two vertices in either order
+/// \param turning q, the factor for turning (EdgeGraph): finite, 0 or more
+/// \param task progress and cancellation
+/// \returns the chain, which does not repeat its first vertex. It is empty if there is no such chain.
+/// \throws InvalidInput if there is no such edge, or `turning` is out of range
+/// \throws Cancelled if the task is cancelled
 SEAMWIRE_API EdgeChain shortest_cycle(const EdgeGraph& graph, const Edge& edge, double turning = 20.0,
                                       const Task& task = {});
 

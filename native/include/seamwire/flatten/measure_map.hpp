@@ -18,29 +18,47 @@ using CornerUvs = std::vector<std::array<Eigen::Vector2d, 3>>;
 
 /// Measures of a UV map of a surface.
 struct MapReport {
-  /// The symmetric Dirichlet energy E_d: its mean over the area of the surface after the whole map has been scaled
-  /// uniformly such that this is lowest. The worst triangles, .1 % of the area, and flipped ones are left out. 4 for an
+  /// The symmetric Dirichlet energy E_d, mean over the area of the surface. The whole map is first scaled uniformly
+  /// such that this is lowest. The worst triangles (0.1 % of the area) and flipped triangles are left out. 4 for an
   /// isometry; infinite if no triangle remains.
   double energy = 0.0;
-  std::vector<double> energies;           ///< E_d of each triangle at that scale; infinite for flipped ones
-  std::vector<std::int32_t> flipped;      ///< triangles turned over or without an area in the map, against their island
-  std::vector<std::int32_t> overlapping;  ///< islands that cover a part of the plane twice, or flip a triangle
-  std::vector<std::int32_t> colliding;    ///< islands that cover a part of another island, and those other islands
+  /// E_d of each triangle at that scale, infinite for flipped triangles. 0 for triangles that the surface left out.
+  std::vector<double> energies;
+  /// Triangles that the map turns over, compared with their island, or that have no area in it; ascending.
+  std::vector<std::int32_t> flipped;
+  /// Islands that cover a part of the plane twice, or flip a triangle; ascending.
+  std::vector<std::int32_t> overlapping;
+  /// Islands that cover a part of another island, and those other islands; ascending.
+  std::vector<std::int32_t> colliding;
 };
 
-/// Measures any UV map of a surface. `uvs`: for each of the caller's triangles. `islands`: the island of each triangle,
-/// numbered from 0. If that is empty, triangles are in one island if they agree on the UVs of an edge that they share.
-/// An island may be mirrored as a whole. Triangles that the surface left out are not measured; their energy is 0.
+/// Measure any UV map of a surface.
 ///
-/// Islands and parts of islands may touch. Outlines that cross by less than 1e-6 of an island's size only touch.
-/// Between islands, the limit is 1e-6 of the largest coordinate. All lists ascend.
+/// Islands and parts of islands may touch. Outlines of one island that cross by less than 1e-6 of its size only touch.
+/// Between islands, the limit is 1e-6 of the largest coordinate. An island may be mirrored as a whole. Triangles that
+/// the surface left out are not measured.
 ///
-/// Throws InvalidInput for arrays of the wrong size, UVs that are not finite or above 1e152 in size, and island numbers
-/// that are negative or not below the number of triangles; Cancelled.
+/// \param surface the surface
+/// \param uvs UVs of each of the caller's triangles, finite and below 1e152 in size
+/// \param islands the island of each triangle, from 0. Empty: triangles are in one island if they agree on the UVs of a
+///   shared edge.
+/// \param task progress and cancellation
+/// \returns the measures
+/// \throws InvalidInput if an array has the wrong size, a UV is out of range, or an island number is not below the
+///   number of triangles
+/// \throws Cancelled if the task is cancelled
 SEAMWIRE_API MapReport measure_map(const Surface& surface, std::span<const std::array<Eigen::Vector2d, 3>> uvs,
                                    std::span<const std::int32_t> islands = {}, const Task& task = {});
 
-/// Returns MapReport::energy alone. This takes a part of the time.
+/// Compute MapReport::energy alone, in less time.
+///
+/// \param surface the surface
+/// \param uvs as in measure_map()
+/// \param islands as in measure_map()
+/// \param task progress and cancellation
+/// \returns the energy: 4 for an isometry, infinite if no triangle remains
+/// \throws InvalidInput if measure_map() rejects an argument
+/// \throws Cancelled if the task is cancelled
 SEAMWIRE_API double map_energy(const Surface& surface, std::span<const std::array<Eigen::Vector2d, 3>> uvs,
                                std::span<const std::int32_t> islands = {}, const Task& task = {});
 

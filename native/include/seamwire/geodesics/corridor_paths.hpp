@@ -12,37 +12,64 @@
 
 namespace seamwire {
 
-/// How much is looked at for a path.
+/// Limits of the search for a path.
 struct CorridorPathOptions {
-  /// Vertices of the corridor that is searched for a path. 0: 1000, and eight times the root of the mesh's number of
-  /// vertices.
+  /// Number of vertices in the corridor that is searched for a path. 0: 1000 + 8 sqrt(number of vertices).
   std::size_t corridor_vertices = 0;
-  /// Windows of a list that go on within it, as ExactGeodesics::solve()'s; 0: all, which finds the shortest path there.
+  /// Windows of a list that are propagated in the corridor, as in ExactGeodesics::solve_bounded(). 0: all of them,
+  /// which finds the shortest path in the corridor.
   std::uint32_t windows = 8;
 };
 
-/// Paths from one seed to any point at once, before there is a DistanceField. Each is a real path over the surface,
-/// with its true length: a locally shortest one within a corridor of triangles around the shortest chains of edges. So
-/// it is never shorter than the geodesic, and mostly is the geodesic. The same for the same input, whatever was asked
-/// for before.
+/// Finds paths from one seed to any point, without a DistanceField.
 ///
-/// Distances along edges are computed outwards from the seed, only as far as the targets asked for, and kept. One
-/// thread at a time; several objects may share an ExactGeodesics.
+/// Each path is a real path over the surface, with its true length. It is locally shortest in a corridor of triangles
+/// around the shortest chains of edges. So it is never shorter than the geodesic, and mostly it is the geodesic. The
+/// result does not depend on earlier calls.
+///
+/// Distances along edges are computed outwards from the seed, only as far as the targets need them, and kept. Only one
+/// thread at a time may use an object. Several objects may share an ExactGeodesics.
 class SEAMWIRE_API CorridorPaths {
  public:
-  /// Throws InvalidInput for a seed out of range.
+  /// Prepare paths from a vertex.
+  ///
+  /// \param geodesics the solver of the mesh
+  /// \param seed a vertex of the mesh
+  /// \param options limits of the search
+  /// \throws InvalidInput if the seed is out of range
   CorridorPaths(const ExactGeodesics& geodesics, std::int32_t seed, const CorridorPathOptions& options = {});
-  /// From any point. Throws InvalidInput as DistanceField::distance() does.
+  /// Prepare paths from any point.
+  ///
+  /// \param geodesics the solver of the mesh
+  /// \param seed a point of the mesh
+  /// \param options limits of the search
+  /// \throws InvalidInput if DistanceField::distance() rejects the seed
   CorridorPaths(const ExactGeodesics& geodesics, const SurfacePoint& seed, const CorridorPathOptions& options = {});
   ~CorridorPaths();
-  CorridorPaths(CorridorPaths&&) noexcept;             ///< leaves one that may only be destroyed
-  CorridorPaths& operator=(CorridorPaths&&) noexcept;  ///< as moving
+  CorridorPaths(CorridorPaths&&) noexcept;             ///< the other object may then only be destroyed or assigned to
+  CorridorPaths& operator=(CorridorPaths&&) noexcept;  ///< the other object may then only be destroyed or assigned to
 
-  std::int32_t seed() const;  ///< the vertex that paths begin at; -1: another point
-  /// A path as DistanceField::trace() gives one. Throws InvalidInput for a target out of range; Cancelled, after which
-  /// the object can be used as before.
+  /// Return the vertex where paths begin, -1 if it is another point.
+  std::int32_t seed() const;
+  /// Find a path to a vertex.
+  ///
+  /// After a cancellation, the object is still usable.
+  ///
+  /// \param target a vertex of the mesh
+  /// \param task progress and cancellation
+  /// \returns a path like those of DistanceField::trace(). It has no points if the target is unreachable.
+  /// \throws InvalidInput if the target is out of range
+  /// \throws Cancelled if the task is cancelled
   IntrinsicPath path(std::int32_t target, const Task& task = {});
-  /// To any point. Throws InvalidInput as DistanceField::distance() does; Cancelled.
+  /// Find a path to any point.
+  ///
+  /// After a cancellation, the object is still usable.
+  ///
+  /// \param target a point of the mesh
+  /// \param task progress and cancellation
+  /// \returns a path like those of DistanceField::trace(). It has no points if the target is unreachable.
+  /// \throws InvalidInput if DistanceField::distance() rejects the target
+  /// \throws Cancelled if the task is cancelled
   IntrinsicPath path(const SurfacePoint& target, const Task& task = {});
 
  private:

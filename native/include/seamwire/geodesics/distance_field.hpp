@@ -15,21 +15,22 @@
 
 namespace seamwire {
 
-/// A point that a geodesic passes: a vertex, a point on an edge, or, at its ends, a point within a face. One of
-/// `vertex`, `half_edge` and `face` is not -1.
+/// A point that a geodesic passes: a vertex, a point on an edge, or, at its ends, a point inside a face.
+///
+/// Exactly one of `vertex`, `half_edge` and `face` is set.
 struct PathPoint {
-  std::int32_t vertex = -1;             ///< -1: no vertex
-  std::int32_t half_edge = -1;          ///< -1: not on an edge
-  double t = 0.0;                       ///< 0 at the tail of the half-edge, 1 at its tip
-  std::int32_t face = -1;               ///< -1: not within a face
+  std::int32_t vertex = -1;             ///< -1 if the point is not a vertex
+  std::int32_t half_edge = -1;          ///< -1 if the point is not on an edge
+  double t = 0.0;                       ///< in [0, 1]: 0 at the tail of the half-edge, 1 at its tip
+  std::int32_t face = -1;               ///< -1 if the point is not inside a face
   std::array<double, 3> barycentric{};  ///< in `face`
 };
 
-/// A geodesic over an IntrinsicMesh, from a source to a target: straight in each triangle.
+/// A geodesic over an IntrinsicMesh, from a source to a target. It is straight in each triangle.
 struct IntrinsicPath {
-  std::vector<PathPoint> points;    ///< empty where the target is unreachable; one point where it is the source
-  std::vector<std::int32_t> faces;  ///< the triangle each segment crosses or bounds; -1 along a loose edge
-  double length = std::numeric_limits<double>::infinity();  ///< sum of the segments' lengths
+  std::vector<PathPoint> points;    ///< empty if the target is unreachable; one point if it is the source
+  std::vector<std::int32_t> faces;  ///< the triangle that each segment crosses or bounds; -1 along a loose edge
+  double length = std::numeric_limits<double>::infinity();  ///< sum of the lengths of the segments
 };
 
 /// Counts the work of a solve. The counts are the same for the same input on every machine.
@@ -38,41 +39,66 @@ struct GeodesicCounters {
   std::size_t windows = 0;  ///< windows propagated
 };
 
-/// Distances from a seed, or from the nearest of several sources, to every point of an IntrinsicMesh. It also traces
-/// the paths. ExactGeodesics makes exact fields, and fields from a bounded number of windows. Immutable; copies share
-/// the data.
+/// Distances from a seed, or from the nearest of several sources, to every point of an IntrinsicMesh.
+///
+/// It also traces the paths. ExactGeodesics makes exact fields, and fields from a bounded number of windows. Immutable.
+/// Copies share the data.
 class SEAMWIRE_API DistanceField {
  public:
-  std::int32_t seed() const;  ///< the vertex that distances are from; -1: several, or another point
-  /// What distances are from, as given.
+  /// Return the vertex that distances start from, -1 if there are several sources or the source is not a vertex.
+  std::int32_t seed() const;
+  /// Return the points that distances start from, as given.
   const std::vector<SurfacePoint>& sources() const;
-  bool is_exact() const;                     ///< or from a bounded number of windows
-  const GeodesicCounters& counters() const;  ///< the work that it took
-  /// Distances beyond it are given as infinite: that at which the solve stopped, or infinity.
+  /// Return whether the field is exact. If not, it comes from a bounded number of windows.
+  bool is_exact() const;
+  /// Return how much work the solve took.
+  const GeodesicCounters& counters() const;
+  /// Return the distance at which the solve stopped, or infinity. Larger distances are infinite.
   double radius() const;
-  /// Whether the field may be one over a mesh, as far as the numbers of vertices and triangles tell.
+  /// Return whether the mesh has the same numbers of vertices and triangles as the field's mesh.
   bool fits(const IntrinsicMesh& mesh) const;
-  /// Stands for the mesh: the same for all fields of one ExactGeodesics and its copies, and for no other field.
+  /// Return a handle that identifies the mesh. All fields of one ExactGeodesics and its copies have the same handle,
+  /// and no other field has it.
   std::weak_ptr<const void> mesh() const;
-  /// One a vertex; infinite where no path leads. Where the field is not exact they may be too long or too short.
+  /// Return the distance of each vertex, infinite if no path leads there.
+  ///
+  /// If the field is not exact, distances may be too long or too short.
   const std::vector<double>& distances() const;
 
-  /// The shortest path from the seed to a vertex, in time proportional to the triangles it crosses. Its length is the
-  /// distance to rounding (1e-9 of it in the tests). If the field is not exact, it is still a real path, with its true
-  /// length. It is the shortest path within the triangles around the path that the field tells. It may be longer than
-  /// the geodesic, but not shorter.
+  /// Trace the shortest path from the nearest source to a vertex.
   ///
-  /// Throws InvalidInput for a vertex out of range; Cancelled, where the path takes long.
+  /// The path's length is the distance, up to rounding. Tracing takes time proportional to the number of triangles that
+  /// the path crosses.
+  ///
+  /// If the field is not exact, the path is still real, with its true length. It is the shortest path in the triangles
+  /// around the path that the field tells. It may be longer than the geodesic, but not shorter.
+  ///
+  /// \param vertex a vertex of the mesh
+  /// \param task progress and cancellation
+  /// \returns the path, without points if the vertex is unreachable or beyond radius()
+  /// \throws InvalidInput if the vertex is out of range
+  /// \throws Cancelled if the task is cancelled
   IntrinsicPath trace(std::int32_t vertex, const Task& task = {}) const;
 
-  /// The distance of any point: exact too, not interpolated from the vertices; in time about proportional to the
-  /// triangles that the path crosses. Where the field is not exact, the length of trace(). Infinite where no path
-  /// leads, or beyond radius().
+  /// Compute the distance of any point.
   ///
-  /// Throws InvalidInput for a vertex or a face out of range, and for barycentric coordinates that are not finite, less
-  /// than 0, or whose sum is not 1; Cancelled.
+  /// It is exact too, not interpolated from the vertices. If the field is not exact, it is the length of trace(). The
+  /// time is about proportional to the number of triangles that the path crosses.
+  ///
+  /// \param point a point of the mesh
+  /// \param task progress and cancellation
+  /// \returns the distance, infinite if no path leads there or it is beyond radius()
+  /// \throws InvalidInput if the vertex or the face is out of range
+  /// \throws InvalidInput if barycentric coordinates are not finite, or below 0, or their sum is not 1
+  /// \throws Cancelled if the task is cancelled
   double distance(const SurfacePoint& point, const Task& task = {}) const;
-  /// The shortest path from the source nearest to a point to that point, as to a vertex. Throws as distance().
+  /// Trace the shortest path from the nearest source to any point.
+  ///
+  /// \param point a point of the mesh
+  /// \param task progress and cancellation
+  /// \returns the path, with the same properties as to a vertex
+  /// \throws InvalidInput if distance() rejects the point
+  /// \throws Cancelled if the task is cancelled
   IntrinsicPath trace(const SurfacePoint& point, const Task& task = {}) const;
 
  private:

@@ -19,41 +19,81 @@ namespace detail {
 class GeodesicMesh;  // the solver's own form of the mesh
 }
 
-/// When a solve may stop. The front looks back by no more than the mesh's longest edge, so what it saves is less where
-/// that is long.
+/// When a solve may stop.
+///
+/// A distance is final once the front is the length of the mesh's longest edge beyond it. So stopping early saves less
+/// on a mesh with a long edge.
 struct SolveOptions {
-  /// Distances beyond it are not wanted: they are given as infinite. 0 or more.
+  /// Largest distance to compute, 0 or more. Larger distances are infinite in the result.
   double max_distance = std::numeric_limits<double>::infinity();
-  /// Distances and paths are wanted here only: where this is not empty, the solve stops when all are known (or are
-  /// beyond max_distance). DistanceField::radius() tells how far it came.
+  /// Points whose distances and paths are needed. The solve stops once all are known, or are beyond `max_distance`.
+  /// DistanceField::radius() tells how far it came. Empty: the whole mesh.
   std::vector<SurfacePoint> targets;
 };
 
-/// Solver for repeated seeds on one mesh, from edge lengths alone. Its wavefront is that of Qin et al., "Fast and Exact
-/// Discrete Geodesic Computation Based on Triangle-Oriented Wavefront Propagation" (2016). Its filter is that of Xin
-/// and Wang (2009). solve() may be called from several threads at once.
+/// Computes geodesic distances on one mesh, from edge lengths alone. It is prepared once and then used for many seeds.
+///
+/// Copies share the prepared mesh. Any number of threads may call the members at once.
+///
+/// \see Qin et al. 2016, "Fast and Exact Discrete Geodesic Computation Based on Triangle-Oriented Wavefront
+///   Propagation", for the wavefront
+/// \see Xin and Wang 2009, for the filter
 class SEAMWIRE_API ExactGeodesics {
  public:
-  /// Throws InvalidInput for a length that is not positive and finite, for a triangle that fails the triangle
-  /// inequality, or for twins without match. Throws Cancelled.
+  /// Prepare a mesh.
+  ///
+  /// \param mesh the mesh. Lengths are at most 1e76, and the longest one is at least 1e-76.
+  /// \param task progress and cancellation
+  /// \throws InvalidInput if a vertex or a length is out of range, or a triangle violates the triangle inequality
+  /// \throws InvalidInput if arrays have the wrong size, or twins or siblings do not match
+  /// \throws Cancelled if the task is cancelled
   explicit ExactGeodesics(const IntrinsicMesh& mesh, const Task& task = {});
-  /// The same as from `mesh` alone, in less time if most of it equals `former_mesh`, including the numbers. `former`
-  /// was made from `former_mesh`. The mesh of an embedding made by re_embed() is such a mesh. Equal parts are shared
-  /// with `former`. Throws what the other constructor throws. Throws InvalidInput if `former_mesh` differs in size from
-  /// the mesh that `former` was made from.
+  /// Prepare a mesh that mostly equals another one, in less time.
+  ///
+  /// The result is the same as that of the other constructor. Equal parts, including their numbers, are shared with
+  /// `former`. re_embed() makes meshes that mostly equal the former ones.
+  ///
+  /// \param former the solver that was made from `former_mesh`
+  /// \param former_mesh the mesh of `former`
+  /// \param mesh the new mesh
+  /// \param task progress and cancellation
+  /// \throws InvalidInput if the other constructor rejects the new mesh, or `former_mesh` differs in size from the mesh
+  ///   of `former`
+  /// \throws Cancelled if the task is cancelled
   ExactGeodesics(const ExactGeodesics& former, const IntrinsicMesh& former_mesh, const IntrinsicMesh& mesh,
                  const Task& task = {});
-  /// Throws InvalidInput for a seed out of range; Cancelled.
+  /// Compute exact distances from a vertex.
+  ///
+  /// \param seed a vertex of the mesh
+  /// \param task progress and cancellation
+  /// \returns the distances, and the paths
+  /// \throws InvalidInput if the seed is out of range
+  /// \throws Cancelled if the task is cancelled
   DistanceField solve(std::int32_t seed, const Task& task = {}) const;
 
-  /// Distances from the nearest of one or several sources, each any point of the mesh. Throws InvalidInput for no
-  /// source, for sources and targets as DistanceField::distance() does, and for a max_distance that is negative or not
-  /// a number; Cancelled.
+  /// Compute exact distances from the nearest of several points.
+  ///
+  /// \param sources one or more points of the mesh
+  /// \param options when the solve may stop
+  /// \param task progress and cancellation
+  /// \returns the distances, and the paths
+  /// \throws InvalidInput if there is no source, or DistanceField::distance() rejects a source or a target
+  /// \throws InvalidInput if the largest distance is negative or not a number
+  /// \throws Cancelled if the task is cancelled
   DistanceField solve(std::span<const SurfacePoint> sources, const SolveOptions& options = {},
                       const Task& task = {}) const;
 
-  /// The same as from a seed, with at most `windows` > 0 windows of a list going on: those around the shortest way to
-  /// the apex, stretched over what the others covered. The more windows, the longer it takes and the nearer it comes.
+  /// Compute approximate distances from a vertex.
+  ///
+  /// In each list of windows, only the windows around the shortest way to the apex are propagated. They are stretched
+  /// over the part that the others covered. More windows take more time and come nearer to the exact distances.
+  ///
+  /// \param seed a vertex of the mesh
+  /// \param windows how many windows of a list are propagated, 1 or more
+  /// \param task progress and cancellation
+  /// \returns approximate distances, and real paths
+  /// \throws InvalidInput if the seed is out of range, or `windows` is 0
+  /// \throws Cancelled if the task is cancelled
   DistanceField solve_bounded(std::int32_t seed, std::uint32_t windows, const Task& task = {}) const;
 
  private:

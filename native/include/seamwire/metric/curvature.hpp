@@ -9,32 +9,55 @@
 
 namespace seamwire {
 
-/// Principal curvatures at the caller's vertices, of the model scaled to the unit cube (unit: 1 / side of the cube).
-/// Never infinite or NaN. Triangles lower than 2^-22 of the cube (SurfaceReport::low_faces) are skipped;
-/// a vertex with no other has curvature 0, and a zero normal if none has any area. A vertex of several corner fans
-/// takes the side of its first fan: fans that face the other way count turned over, each fitted with its own normals.
+/// Principal curvatures at the caller's vertices, of the model scaled to the unit cube. The unit is 1 / side of the
+/// cube.
+///
+/// Values are never infinite or NaN. Triangles lower than 2^-22 of the cube (SurfaceReport::low_faces) are ignored. A
+/// vertex without other triangles has curvature 0. Its normal is zero if none of its triangles has an area. If a vertex
+/// has several corner fans, the first fan decides which side is up. Fans that face the other way count turned over.
+/// Each fan is fitted with its own normals.
 struct Curvature {
-  std::vector<double> k1;       ///< the one larger in size
-  std::vector<double> k2;       ///< the other one
-  std::vector<Vector> d1;       ///< direction of k1: unit, in the tangent plane; any without a normal
-  std::vector<Vector> d2;       ///< direction of k2, orthogonal to that of k1
-  std::vector<Vector> normals;  ///< unit
+  std::vector<double> k1;       ///< the curvature that is larger in size
+  std::vector<double> k2;       ///< the other curvature
+  std::vector<Vector> d1;       ///< direction of k1: unit, in the tangent plane; arbitrary without a normal
+  std::vector<Vector> d2;       ///< direction of k2, orthogonal to d1
+  std::vector<Vector> normals;  ///< unit, or zero
 
-  /// s of eq. 5: |k1| - |k2|, the strength of a ridge or valley.
+  /// Return |k1| - |k2| at each vertex, the strength of a ridge or valley.
+  ///
+  /// \see Zhuang et al. 2014, Section 3, s of eq. 5
   std::vector<double> difference() const;
 };
 
-/// Vertex normals weighted as in Max, "Weights for Computing Vertex Normals from Facet Normals" (1999).
+/// Compute vertex normals, weighted as by Max.
+///
+/// \param surface the surface
+/// \returns a unit normal for each of the caller's vertices, zero if none of its triangles has an area
+/// \see Max 1999, "Weights for Computing Vertex Normals from Facet Normals"
 SEAMWIRE_API std::vector<Vector> vertex_normals(const Surface& surface);
 
-/// Rusinkiewicz, "Estimating Curvatures and Their Derivatives on Triangle Meshes" (2004), on vertex_normals().
-/// Throws Cancelled.
+/// Compute principal curvatures on vertex_normals().
+///
+/// \param surface the surface
+/// \param task progress and cancellation
+/// \returns the curvatures at the caller's vertices
+/// \throws Cancelled if the task is cancelled
+/// \see Rusinkiewicz 2004, "Estimating Curvatures and Their Derivatives on Triangle Meshes"
 SEAMWIRE_API Curvature principal_curvatures(const Surface& surface, const Task& task = {});
 
-/// Averages curvatures over about `radius` (unit: the side of the cube). Curvature tensors are averaged over 1-rings
-/// max(1, (radius / median edge)^2) times, 400 times at most. The tensors of neighbors are turned by the least rotation
-/// between their normals, and weighted by the area around them. The normals stay. Throws InvalidInput for curvatures of
-/// another size and a radius that is not positive and finite; Cancelled.
+/// Average curvatures over about a radius.
+///
+/// Curvature tensors are averaged over 1-rings, max(1, (radius / median edge)^2) times but at most 400 times. Tensors
+/// of neighbors are turned by the least rotation between their normals, and weighted by the area around them. Normals
+/// do not change.
+///
+/// \param surface the surface
+/// \param curvature curvatures at its vertices
+/// \param radius finite, above 0, of the model scaled to the unit cube
+/// \param task progress and cancellation
+/// \returns the averaged curvatures
+/// \throws InvalidInput if the curvatures differ from the surface in size, or the radius is not positive and finite
+/// \throws Cancelled if the task is cancelled
 SEAMWIRE_API Curvature smoothed_curvatures(const Surface& surface, const Curvature& curvature, double radius,
                                            const Task& task = {});
 

@@ -11,99 +11,197 @@
 
 namespace seamwire {
 
-/// Larger eigenvalues of a tensor are refused, and smaller ones than its inverse: the square of a triangle's area would
-/// not be a number, or be lost.
+/// The largest eigenvalue of a tensor that is accepted. The smallest one is its inverse.
+///
+/// Beyond these, the square of a triangle's area would overflow or underflow.
 inline constexpr double kLargestEigenvalue = 1e150;
 
-/// An anisotropic metric: at each of the caller's vertices a tensor on the tangent plane (eq. 1), in coordinates of the
-/// model scaled to the unit cube. Lengths scale by the square roots of its eigenvalues.
+/// An anisotropic metric: a tensor on the tangent plane at each of the caller's vertices.
+///
+/// Coordinates are those of the model scaled to the unit cube. Lengths scale by the square roots of the eigenvalues.
+///
+/// \see Zhuang et al. 2014, Section 2.1, eq. 1
 struct Metric {
-  std::vector<Vector> normals;           ///< unit; zero at vertices without a face, where the metric is Euclidean
+  /// Unit normals. Zero at vertices without a face that has an area. There the metric is Euclidean.
+  std::vector<Vector> normals;
   std::vector<Eigen::Matrix3d> tensors;  ///< symmetric, l1 e1 e1^T + l2 e2 e2^T; maps the normal to zero
 
-  /// The number of vertices.
+  /// Return the number of vertices.
   std::size_t size() const { return tensors.size(); }
 };
 
-/// The principal direction that paths follow: that of the minimal curvature (M_min: along ridges and valleys), or that
-/// of the maximal one (M_max).
+/// The principal direction that paths follow: minimal curvature (M_min, along ridges and valleys) or maximal curvature
+/// (M_max).
 enum class Follow { kMin, kMax };
 
-/// How strong a metric is: by its own parameter, or such that its maximum anisotropy, sup sqrt(l1 / l2), is the one
-/// given. Exactly one of the two is set. Both must be finite; parameter >= 0 (Campen: >= 1), max_anisotropy >= 1; else
-/// InvalidInput.
+/// How strong a metric is: its own parameter, or its maximum anisotropy. Exactly one of the two is set.
+///
+/// The maximum anisotropy is sup sqrt(l1 / l2) over the surface.
 struct Strength {
-  std::optional<double> parameter = std::nullopt;       ///< gamma, alpha or beta
-  std::optional<double> max_anisotropy = std::nullopt;  ///< A
-  /// s above this percentile (0 < p <= 100) of its values counts as that value, so that single noisy vertices do not
-  /// decide.
+  std::optional<double> parameter = std::nullopt;       ///< gamma, alpha or beta: finite, 0 or more; alpha is 1 or more
+  std::optional<double> max_anisotropy = std::nullopt;  ///< A: finite, 1 or more
+  /// Percentile p of the values of s, in (0, 100]. Larger values of s count as the value at this percentile. So single
+  /// noisy vertices do not decide. nullopt: no clamping.
   std::optional<double> clamp_percentile = std::nullopt;
 
-  /// Member by member.
+  /// Compare member by member.
   friend bool operator==(const Strength&, const Strength&) = default;
 };
 
-/// Throws InvalidInput where a strength is not as said there; `smallest_parameter`: 1 for Campen.
+/// Check a strength.
+///
+/// \param strength the strength
+/// \param smallest_parameter the smallest parameter that is allowed: 1 for Campen's metric, 0 for others
+/// \throws InvalidInput if not exactly one of `parameter` and `max_anisotropy` is set
+/// \throws InvalidInput if a value is not finite or out of range
 SEAMWIRE_API void check_strength(const Strength& strength, double smallest_parameter = 0.0);
 
-/// Each of the metrics throws InvalidInput for curvatures of another size or that are not finite, and for a strength
-/// that is not as said above or too strong for them; Cancelled.
+/// Make the paper's metric, with l1 = 1 + gamma s and l2 = 1 / l1.
 ///
-/// Eq. 5, the paper's metric: l1 = 1 + gamma s, l2 = 1 / l1. Parameter: gamma; max_anisotropy A means gamma =
-/// (A - 1) / max s, or 0 where max s is but rounding (planes, spheres).
+/// The parameter is gamma. A maximum anisotropy A means gamma = (A - 1) / max s. It means 0 if max s is only rounding,
+/// as on planes and spheres.
+///
+/// \param surface the surface
+/// \param curvature curvatures at its vertices
+/// \param follow the direction that paths follow
+/// \param strength gamma or A
+/// \param task progress and cancellation
+/// \returns the metric
+/// \throws InvalidInput if the curvatures differ from the surface in size or are not finite
+/// \throws InvalidInput if check_strength() rejects the strength, or the metric is too strong (kLargestEigenvalue)
+/// \throws Cancelled if the task is cancelled
+/// \see Zhuang et al. 2014, Section 3, eq. 5
 SEAMWIRE_API Metric feature_metric(const Surface& surface, const Curvature& curvature, Follow follow,
                                    const Strength& strength, const Task& task = {});
-/// Eq. 3, Campen et al.: l1 = alpha, l2 = 1. Parameter: alpha; max_anisotropy A means alpha = A^2. Nothing to clamp.
+/// Make Campen's metric, with l1 = alpha and l2 = 1.
+///
+/// The parameter is alpha. A maximum anisotropy A means alpha = A^2. The percentile has no effect.
+///
+/// \param surface the surface
+/// \param curvature curvatures at its vertices
+/// \param follow the direction that paths follow
+/// \param strength alpha or A
+/// \param task progress and cancellation
+/// \returns the metric
+/// \throws InvalidInput if the curvatures differ from the surface in size or are not finite
+/// \throws InvalidInput if check_strength() rejects the strength, or the metric is too strong (kLargestEigenvalue)
+/// \throws Cancelled if the task is cancelled
+/// \see Zhuang et al. 2014, Section 2.2, eq. 3; Campen et al.
 SEAMWIRE_API Metric campen_metric(const Surface& surface, const Curvature& curvature, Follow follow,
                                   const Strength& strength, const Task& task = {});
-/// Eq. 4, Pottmann et al., Kovacs et al.: l1 = k1^2 + beta, l2 = k2^2 + beta. Parameter: beta; at least 1e-12 of the
-/// largest k1^2 is taken, so that the norm is nowhere zero. max_anisotropy 1, and flat surfaces, give the Euclidean
-/// one.
+/// Make the metric of Pottmann and Kovacs, with l1 = k1^2 + beta and l2 = k2^2 + beta.
+///
+/// The parameter is beta. A beta below 1e-12 of the largest k1^2 counts as that value, so that the norm is nowhere
+/// zero. A maximum anisotropy of 1, and flat surfaces, give the Euclidean metric.
+///
+/// \param surface the surface
+/// \param curvature curvatures at its vertices
+/// \param follow the direction that paths follow
+/// \param strength beta or A
+/// \param task progress and cancellation
+/// \returns the metric
+/// \throws InvalidInput if the curvatures differ from the surface in size or are not finite
+/// \throws InvalidInput if check_strength() rejects the strength, or the metric is too strong (kLargestEigenvalue)
+/// \throws Cancelled if the task is cancelled
+/// \see Zhuang et al. 2014, Section 2.2, eq. 4; Pottmann et al.; Kovacs et al.
 SEAMWIRE_API Metric pottmann_kovacs_metric(const Surface& surface, const Curvature& curvature, Follow follow,
                                            const Strength& strength, const Task& task = {});
-/// Short along concave creases and, less so, ridges. Its single wires come nearest to the cuts that people make
-/// (docs/method/metric.md). M = l1 c(k2)^2 d1 d1^T + l2 c(k1)^2 d2 d2^T. In it, l1 = 1 + 0.03 t s, l2 = 1 / l1, and
-/// s = |k1| - |k2|, halved where k1 > 0 (convex). The factor is c(k) = 1 / (1 + t (1 / (0.3 + 0.7 exp(-max(0, -k) /
-/// 16)) - 1)). Normals must point outwards; curvatures are best those of smoothed_curvatures() with a radius of 0.01.
-/// `strength`: t, 0 is the Euclidean metric, 1 what was measured; InvalidInput where it is negative or not finite, as
-/// above for the rest.
+/// Make a metric that is short along concave creases and, less so, along ridges.
+///
+///     M = l1 c(k2)^2 d1 d1^T + l2 c(k1)^2 d2 d2^T
+///     l1 = 1 + 0.03 t s,  l2 = 1 / l1
+///     s = |k1| - |k2|, halved where k1 > 0 (convex)
+///     c(k) = 1 / (1 + t (1 / (0.3 + 0.7 exp(-max(0, -k) / 16)) - 1))
+///
+/// Normals must point outwards. docs/method/metric.md describes how the metric was chosen.
+///
+/// \param surface the surface
+/// \param curvature preferably of smoothed_curvatures() with a radius of 0.01
+/// \param strength t: finite, 0 or more; 0 gives the Euclidean metric, 1 is the usual strength
+/// \param task progress and cancellation
+/// \returns the metric
+/// \throws InvalidInput if the curvatures differ from the surface in size or are not finite
+/// \throws InvalidInput if the strength is negative, not finite, or too strong (kLargestEigenvalue)
+/// \throws Cancelled if the task is cancelled
 SEAMWIRE_API Metric concave_metric(const Surface& surface, const Curvature& curvature, double strength = 1.0,
                                    const Task& task = {});
-/// The Euclidean metric: the identity on every tangent plane.
+/// Make the Euclidean metric: the identity on every tangent plane.
+///
+/// \param surface the surface
+/// \param curvature curvatures at its vertices, of which only the normals are used
+/// \param task progress and cancellation
+/// \returns the metric
+/// \throws InvalidInput if the curvatures differ from the surface in size or are not finite
+/// \throws Cancelled if the task is cancelled
 SEAMWIRE_API Metric euclidean_metric(const Surface& surface, const Curvature& curvature, const Task& task = {});
 
-/// A tensor with its normal. It gives any vector the norm g(e)^2 = e^T M e + sqrt(l1 l2) (n.e)^2. This is the "ambient"
-/// reading of the norm of an edge, which need not be tangent (docs/method/metric.md says why).
+/// A tensor with its normal.
 struct TensorAt {
   Vector normal;           ///< unit, or zero
-  Eigen::Matrix3d tensor;  ///< as Metric::tensors
+  Eigen::Matrix3d tensor;  ///< as in Metric::tensors
 };
-/// That norm of an edge.
+/// Compute the norm g of a vector that need not be tangent, with g(e)^2 = e^T M e + sqrt(l1 l2) (n.e)^2.
+///
+/// This is the *ambient* reading of the norm of an edge. docs/method/metric.md gives the reason.
+///
+/// \param at the tensor M with its normal n
+/// \param e the vector
+/// \returns the norm, 0 or more
 SEAMWIRE_API double ambient_norm(const TensorAt& at, const Vector& e);
-/// sqrt(l1 l2), which the norm above gives to the normal.
+/// Compute sqrt(l1 l2), the weight of the normal part in ambient_norm().
+///
+/// \param m a tensor, as in Metric::tensors
+/// \returns the weight, 0 or more
 SEAMWIRE_API double normal_weight(const Eigen::Matrix3d& m);
-/// sqrt(l1 / l2); 1 where the normal is zero.
+/// Compute the anisotropy sqrt(l1 / l2) of a tensor.
+///
+/// \param at the tensor
+/// \returns 1 or more; 1 if the normal is zero
 SEAMWIRE_API double anisotropy(const TensorAt& at);
-/// The largest over the vertices.
+/// Compute the largest anisotropy over the vertices of a metric.
+///
+/// \param metric the metric
+/// \returns 1 or more
 SEAMWIRE_API double max_anisotropy(const Metric& metric);
-/// The eigenvalues and eigenvectors of a tensor in its tangent plane, those of eq. 2: (e1, e2, normal) is right-handed.
+/// The eigenvalues and eigenvectors of a tensor in its tangent plane. (e1, e2, normal) is right-handed.
+///
+/// \see Zhuang et al. 2014, Section 2.1, eq. 2
 struct PrincipalAxes {
   double l1 = 1.0;             ///< the larger eigenvalue
-  double l2 = 1.0;             ///< the smaller one, above 0
-  Vector e1 = Vector::Zero();  ///< unit, the direction of l1
-  Vector e2 = Vector::Zero();  ///< unit, the direction of l2
+  double l2 = 1.0;             ///< the smaller eigenvalue, above 0
+  Vector e1 = Vector::Zero();  ///< direction of l1: unit, or zero
+  Vector e2 = Vector::Zero();  ///< direction of l2: unit, or zero
 };
-/// Finds the principal axes of a tensor. The directions are any two if the eigenvalues are equal. If the normal is
-/// zero, the eigenvalues are 1 and the directions are zero.
+/// Find the principal axes of a tensor.
+///
+/// \param at the tensor
+/// \returns the axes. If the eigenvalues are equal, the directions are arbitrary. If the normal is zero, the
+///   eigenvalues are 1 and the directions are zero.
 SEAMWIRE_API PrincipalAxes principal_axes(const TensorAt& at);
-/// In the middle between two: the mean of the normals, normalised (of opposite ones, the first), and of the tensors,
-/// each turned by the least rotation onto that normal. Its anisotropy is at most that of the ends.
+/// Interpolate the tensor in the middle between two.
+///
+/// The normal is the normalized mean of both normals, or the first normal if they are opposite. The tensor is the mean
+/// of both tensors, each turned onto that normal by the least rotation. Its anisotropy is at most that of the ends.
+///
+/// \param a the tensor at one end
+/// \param b the tensor at the other end
+/// \returns the tensor in the middle
 SEAMWIRE_API TensorAt midpoint_tensor(const TensorAt& a, const TensorAt& b);
-/// Length of a straight edge along which the quadratic form varies linearly, so that its squared norm runs from a^2 to
-/// b^2: (2/3) (a^2 + a b + b^2) / (a + b); 0 where both are 0.
+/// Compute the length of a straight edge along which the quadratic form varies linearly.
+///
+/// With the norms a and b of the edge at its ends, it is (2/3) (a^2 + a b + b^2) / (a + b).
+///
+/// \param norm_at_start a, 0 or more
+/// \param norm_at_end b, 0 or more
+/// \returns the length; 0 if both norms are 0
 SEAMWIRE_API double integrated_length(double norm_at_start, double norm_at_end);
-/// Length of the straight edge between two of the surface's vertices, which must be in range; symmetric to the last
-/// bit.
+/// Compute the length of the straight edge between two vertices.
+///
+/// \param surface the surface
+/// \param metric a metric of its vertices
+/// \param a a vertex of the surface, not checked
+/// \param b another vertex of the surface, not checked
+/// \returns the length, of the model scaled to the unit cube; exactly the same if `a` and `b` are swapped
 SEAMWIRE_API double edge_length(const Surface& surface, const Metric& metric, std::int32_t a, std::int32_t b);
 
 }  // namespace seamwire

@@ -14,49 +14,61 @@ namespace seamwire {
 
 /// Options of a PartFinder.
 struct PartOptions {
-  /// The axis, 0 to 2, along which a plane mirrors the surface, as in SeamPlannerOptions. On a symmetric surface parts
-  /// are symmetric. -1 if they need not be.
+  /// The axis, 0 (x) to 2 (z), in whose direction the surface is mirrored, as in SeamPlannerOptions. Parts of a
+  /// symmetric surface are then symmetric. -1: they need not be.
   int mirror = -1;
-  /// Edges where an artist expects a border, as vertex pairs: marked sharp, or between materials.
+  /// Edges where an artist expects a border, as vertex pairs: edges marked sharp, or edges between materials.
   std::vector<Edge> marked = {};
-  /// Existing seams, as vertex pairs. They part the surface already.
+  /// Existing seams, as vertex pairs. They separate parts already.
   std::vector<Edge> seams = {};
 };
 
-/// What somebody has changed by hand. The edits count more than the shape.
+/// Changes made by hand. They outweigh the shape.
 struct PartEdits {
-  std::vector<Edge> kept = {};            ///< edges that have to be borders
+  std::vector<Edge> kept = {};            ///< edges that must be borders
   std::vector<Edge> dropped = {};         ///< edges that must not be borders
-  std::vector<std::int32_t> parted = {};  ///< a triangle for each part that is cut in two, one after another
+  std::vector<std::int32_t> parted = {};  ///< a triangle of each part to cut in two, one after another
 };
 
 /// The parts of a surface.
 struct Parts {
-  std::vector<std::int32_t> of_face;  ///< the part of each of the caller's triangles, as face_segments() numbers them
-  std::size_t count = 0;              ///< how many parts there are
+  std::vector<std::int32_t> of_face;  ///< the part of each of the caller's triangles, numbered as in face_segments()
+  std::size_t count = 0;              ///< number of parts
   /// The borders between parts, without the existing seams: chains of vertices along real edges, from junction to
   /// junction. A closed chain ends with its first vertex.
   std::vector<std::vector<std::int32_t>> borders;
 };
 
-/// Finds the parts that an artist would make islands of: the walls, lids and plugs of props and machines.
+/// Finds the parts of which an artist would make islands: the walls, lids and plugs of props and machines.
 ///
-/// Each edge has log odds of being a border, by how sharp it is, on its own and along the line of edges that it
-/// continues. Pairs of triangles that form a quad count as a quad. Two regions are joined if their common
-/// edges are probably not a border. Small regions stay only if a sharp rim encloses them. Steps of a chamfer join a
-/// neighbor.
+/// Each edge has log odds of being a border. They depend on how sharp it is, on its own and along the line of edges
+/// that it continues. Pairs of triangles that form a quad count as a quad. Two regions are joined if their common edges
+/// are probably not a border. A small region stays only if a sharp rim encloses it. Steps of a chamfer join a neighbor.
+/// A smooth body is one part.
 ///
-/// Joining is greedy additive edge contraction: Keuper et al., "Efficient decomposition of image and mesh graphs by
-/// lifted multicuts" (2015), section 5.1.
+/// Copies share the measured edges. Several threads may call find() at once.
 ///
-/// A smooth body is one part. Copies share the measured edges. find() may be called from several threads.
+/// \see Keuper et al. 2015, "Efficient decomposition of image and mesh graphs by lifted multicuts", Section 5.1, for
+///   the greedy additive edge contraction
 class SEAMWIRE_API PartFinder {
  public:
-  /// Measures the edges. Throws InvalidInput for an axis or a vertex out of range; Cancelled.
+  /// Measure the edges of a surface.
+  ///
+  /// \param surface the surface, not null
+  /// \param options what is known about parts
+  /// \param task progress and cancellation
+  /// \throws InvalidInput if the surface is null, or an axis or a vertex is out of range
+  /// \throws Cancelled if the task is cancelled
   explicit PartFinder(std::shared_ptr<const Surface> surface, const PartOptions& options = {}, const Task& task = {});
 
-  /// Finds parts. `amount`, from 0 to 1, says how many: 0 joins all that is connected, 1 parts at all sharp edges.
-  /// Throws InvalidInput for another amount, and for a vertex or triangle out of range; Cancelled.
+  /// Find parts.
+  ///
+  /// \param amount how many, from 0 to 1: 0 joins everything that is connected, 1 separates parts at all sharp edges
+  /// \param edits changes made by hand
+  /// \param task progress and cancellation
+  /// \returns the parts and their borders
+  /// \throws InvalidInput if the amount, a vertex or a triangle is out of range
+  /// \throws Cancelled if the task is cancelled
   Parts find(double amount = 0.5, const PartEdits& edits = {}, const Task& task = {}) const;
 
  private:

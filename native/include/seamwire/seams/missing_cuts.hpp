@@ -10,15 +10,19 @@
 
 namespace seamwire {
 
-/// How many more cuts each segment needs to become a disc. That is 0 for a disc, 1 for a tube or a closed ball,
-/// and 3 for a torus. Each cut leads from border to border. A segment without a border needs another cut
-/// first to get one.
+/// Count how many more cuts each segment needs to become a disc.
+///
+/// A disc needs 0, a tube or a closed ball needs 1, and a torus needs 3. Each cut leads from border to border. A
+/// segment without a border needs another cut first to get one.
 ///
 /// Triangles that share only a vertex are not joined. Non-manifold and unorientable edges are borders of their
-/// triangles, as in face_segments(): a Moebius strip is a disc.
+/// triangles, as in face_segments(). So a Moebius strip is a disc.
 ///
-/// `cut_edges`: as in face_segments(). `segments`: what that returns for them. Throws InvalidInput for a vertex out of
-/// range, and for segments of another surface or of other cuts.
+/// \param surface the surface
+/// \param cut_edges as in face_segments()
+/// \param segments the result of face_segments() for these cuts
+/// \returns the number of cuts for each segment
+/// \throws InvalidInput if a vertex is out of range, or the segments are of another surface or of other cuts
 SEAMWIRE_API std::vector<std::int32_t> missing_cuts(const Surface& surface, std::span<const Edge> cut_edges,
                                                     std::span<const std::int32_t> segments);
 

@@ -8,20 +8,22 @@
 
 namespace seamwire {
 
-/// An edge without a face, along which a path may run. Its length is finite and not negative: it is 0 between vertices
-/// at the same place.
+/// An edge without a face, along which a path may run.
 struct LooseEdge {
   std::int32_t a;  ///< one end
-  std::int32_t b;  ///< the other one
-  double length;   ///< 0 or more
+  std::int32_t b;  ///< the other end
+  double length;   ///< finite, 0 or more; 0 between vertices at the same place
 };
 
-/// Triangles glued along edges, known by their edge lengths alone. Twins are oriented alike. The triangles at any other
-/// edge may be oriented in any way, and there may be any number of them.
+/// Triangles glued along edges, known by their edge lengths alone.
+///
+/// Twins have the same orientation. Triangles at other edges may have any orientation, and there may be any number of
+/// them.
 struct IntrinsicMesh : TriangleConnectivity {
-  std::int32_t vertex_count = 0;  ///< in triangles or not
-  std::vector<double> lengths;    ///< per half-edge, positive, the same for all half-edges of an edge; each triangle
-                                  ///< fulfils the triangle inequality
+  std::int32_t vertex_count = 0;  ///< number of vertices, with or without triangles
+  /// Per half-edge: its length, above 0. It is the same for all half-edges of an edge. Each triangle satisfies the
+  /// triangle inequality.
+  std::vector<double> lengths;
   std::vector<LooseEdge> loose_edges;  ///< edges without a triangle
 };
 

@@ -11,20 +11,26 @@
 
 namespace seamwire {
 
-/// Where a function on a surface has given values: straight segments, each across one triangle. Together they are
-/// closed curves, or end on the boundary and at triangles that are left out.
+/// The curves where a function on a surface has given values, as straight segments across one triangle each.
+///
+/// Together the segments form closed curves, or curves that end on the boundary and at triangles that are left out.
 struct Isolines {
   std::vector<std::array<Vector, 2>> segments;  ///< both ends, in the caller's coordinates
-  std::vector<std::int32_t> faces;              ///< the caller's triangle that each lies in
-  std::vector<std::int32_t> levels;             ///< which of the levels each is at
+  std::vector<std::int32_t> faces;              ///< the caller's triangle of each segment
+  std::vector<std::int32_t> levels;             ///< the level of each segment, an index
 };
 
-/// The isolines of a function that is linear on each triangle. `values`: one for each of the caller's vertices;
-/// infinite ones leave out the triangles around. `levels`: finite, ascending. A vertex exactly at a level counts as
-/// above it. The higher values lie to the left of a segment, as seen from where its triangle is counterclockwise.
+/// Find the isolines of a function that is linear on each triangle.
 ///
-/// Throws InvalidInput where the values are of another number of vertices or one is no number, and where levels are not
-/// finite and ascending.
+/// A vertex exactly at a level counts as above it. The higher values lie to the left of a segment, seen from where its
+/// triangle is counterclockwise.
+///
+/// \param surface the surface
+/// \param values one for each of the caller's vertices. An infinite value leaves out the triangles around its vertex.
+/// \param levels finite, ascending
+/// \returns the segments of all levels
+/// \throws InvalidInput if there is not one value for each vertex, or a value is not a number
+/// \throws InvalidInput if the levels are not finite and ascending
 SEAMWIRE_API Isolines isolines(const Surface& surface, std::span<const double> values, std::span<const double> levels);
 
 }  // namespace seamwire

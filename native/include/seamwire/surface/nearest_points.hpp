@@ -16,24 +16,34 @@ namespace seamwire {
 
 /// The point of some triangles that is nearest to a place.
 struct NearestPoint {
-  std::int32_t triangle = -1;     ///< of those at the same distance, usually the one with the smallest number
+  std::int32_t triangle = -1;     ///< its triangle; of several at the same distance, usually the smallest number
   Vector point = Vector::Zero();  ///< in the caller's coordinates
-  double distance = 0.0;          ///< from the place, in the same unit
+  double distance = 0.0;          ///< from the place, in the caller's unit, 0 or more
 };
 
-/// Finds the nearest points of triangles with a tree of boxes. Triangles without an area count as their sides do.
-/// Copies share the tree. Several threads may use it.
+/// Finds the nearest points of triangles with a tree of boxes.
+///
+/// A triangle without an area counts as its sides do. Copies share the tree. Several threads may use it at once.
 class SEAMWIRE_API NearestPoints {
  public:
-  /// Builds the tree, in half a second for a million triangles. Throws InvalidInput if there is no triangle, if a
-  /// triangle has a vertex that is not there, or for a coordinate that is not finite; Cancelled.
+  /// Build the tree.
+  ///
+  /// \param points finite coordinates
+  /// \param triangles vertex numbers in [0, points.size())
+  /// \param task progress and cancellation
+  /// \throws InvalidInput if there is no triangle, a vertex is out of range, or a coordinate is not finite
+  /// \throws Cancelled if the task is cancelled
   NearestPoints(std::vector<Vector> points, std::vector<Triangle> triangles, const Task& task = {});
 
-  /// Returns the nearest point for each place. `normals`: a direction for each place; triangles that face away from it
-  /// do not count, unless all do. Triangles without an area never face away. Empty: all triangles count.
+  /// Find the nearest point for each place, on several threads.
   ///
-  /// Works on several threads. Throws InvalidInput if there are not as many normals as places, or for a coordinate that
-  /// is not finite; Cancelled.
+  /// \param places finite coordinates
+  /// \param normals a direction for each place. Triangles that face away from it do not count, unless all do. Triangles
+  ///   without an area never face away. Empty: all triangles count.
+  /// \param task progress and cancellation
+  /// \returns the nearest points, in the order of the places
+  /// \throws InvalidInput if the numbers of normals and places differ, or a coordinate is not finite
+  /// \throws Cancelled if the task is cancelled
   std::vector<NearestPoint> find(std::span<const Vector> places, std::span<const Vector> normals = {},
                                  const Task& task = {}) const;
 

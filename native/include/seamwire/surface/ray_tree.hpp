@@ -15,27 +15,41 @@ namespace seamwire {
 
 /// Where a ray meets a triangle.
 struct RayHit {
-  std::int32_t triangle = -1;  ///< -1: it meets none
-  double distance = 0.0;       ///< in lengths of the ray's direction
+  std::int32_t triangle = -1;  ///< -1 if the ray meets no triangle
+  double distance = 0.0;       ///< from the origin, in lengths of the ray's direction, 0 or more
 };
 
 /// Finds the first triangle that a ray meets, from either side.
 ///
-/// A separate thread builds a tree of boxes. Until it is there every triangle is looked at: the answers are the same
-/// from the start, and one takes some milliseconds where it takes microseconds later. Triangles without an area, or
-/// with a corner that is not finite, are met by no ray. Copies share the tree; the last one to go stops the building.
+/// A separate thread builds a tree of boxes. Until the tree is ready, each query checks every triangle. The answers are
+/// the same, but take milliseconds instead of microseconds. Rays miss triangles without an area, and triangles with a
+/// corner that is not finite.
+///
+/// Copies share the tree. Several threads may use it at once. Destroying the last copy stops the building.
 class SEAMWIRE_API RayTree {
  public:
-  /// Throws InvalidInput where a triangle has a vertex that is not there.
+  /// Start to build the tree, and return at once.
+  ///
+  /// \param points coordinates
+  /// \param triangles vertex numbers in [0, points.size())
+  /// \throws InvalidInput if a vertex is out of range
   RayTree(std::vector<Vector> points, std::vector<Triangle> triangles);
 
-  /// Of triangles that are met at the same distance, the one with the smallest number. A ray that runs along an edge or
-  /// through a vertex meets the triangles there.
+  /// Find the first triangle that a ray meets.
+  ///
+  /// A ray that runs along an edge or through a vertex meets the triangles there.
+  ///
+  /// \param origin where the ray starts
+  /// \param direction where it leads, of any length
+  /// \returns the first hit. Of several triangles at the same distance, it has the smallest number.
   RayHit first_hit(const Vector& origin, const Vector& direction) const;
 
-  /// Whether the tree is built.
+  /// Return whether the tree is built.
   bool ready() const;
-  /// Waits until it is, or until there turns out to be no memory for it. Throws Cancelled.
+  /// Wait until the tree is built, or until there is not enough memory for it.
+  ///
+  /// \param task cancellation; the reported fraction stays 0
+  /// \throws Cancelled if the task is cancelled
   void wait(const Task& task = {}) const;
 
  private:

@@ -21,65 +21,81 @@ struct CornerFans;  // in src/surface/corner_fans.hpp
 const CornerFans& corner_fans(const Surface& surface);
 }  // namespace detail
 
-/// Lists unusual parts of the input. Nothing here is an error: the surface was built all the same.
+/// Lists unusual parts of the input. They are not errors, and the surface was built despite them.
 struct SurfaceReport {
-  /// Edges with three or more faces. Geodesics cross them from each face to each other one. Normals and curvature end
-  /// there as at a boundary, and so do islands.
+  /// Edges with three or more faces. Geodesics cross such an edge from each face to each other face. Normals, curvature
+  /// and islands end there as at a boundary.
   std::vector<Edge> nonmanifold_edges;
-  /// Edges with two faces that cannot be oriented alike, as on a Moebius strip. Geodesics cross them. Normals and
-  /// curvature end there as at a boundary, and so do islands.
+  /// Edges with two faces that cannot have the same orientation, as on a Moebius strip. Geodesics cross them. Normals,
+  /// curvature and islands end there as at a boundary.
   std::vector<Edge> unorientable_edges;
-  std::vector<std::int32_t> flipped_faces;  ///< turned over to agree with their neighbors
-  /// Lower than 1e-9 of their longest side, with three different corners: kept, but an embedding removes them, or
-  /// leaves them as holes.
+  std::vector<std::int32_t> flipped_faces;  ///< faces turned over to agree with their neighbors
+  /// Faces with three different corners, but lower than 1e-9 of their longest side. The surface keeps them. An
+  /// embedding removes them, or leaves them as holes.
   std::vector<std::int32_t> zero_area_faces;
-  /// Lower than 2^-22 of the unit cube, those without an area among them: kept, but which way they face is nothing but
-  /// rounding, so normals and curvature leave them out.
+  /// Faces lower than 2^-22 of the unit cube, including faces without an area. The surface keeps them. Normals and
+  /// curvature ignore them, because only rounding decides which way they face.
   std::vector<std::int32_t> low_faces;
-  std::vector<std::int32_t> degenerate_faces;   ///< two corners are one vertex: left out, their edges stay
-  std::vector<std::int32_t> duplicate_faces;    ///< same three vertices as an earlier face: left out
-  std::vector<std::int32_t> isolated_vertices;  ///< in no face and no edge
-  std::size_t boundary_edges = 0;               ///< edges with one face
-  std::size_t components = 0;                   ///< connected by edges; isolated vertices are not counted
+  /// Faces with the same vertex at two corners. They are left out, but their edges stay.
+  std::vector<std::int32_t> degenerate_faces;
+  std::vector<std::int32_t> duplicate_faces;    ///< faces with the same three vertices as an earlier face; left out
+  std::vector<std::int32_t> isolated_vertices;  ///< vertices without a face or an edge
+  std::size_t boundary_edges = 0;               ///< number of edges with one face
+  std::size_t components = 0;                   ///< number of parts connected by edges, without isolated vertices
 };
 
-/// A triangle mesh as people have it: boundaries, several components, isolated vertices, zero-area faces, mixed
-/// orientation, edges with three or more faces, duplicate faces. Keeps the caller's numbers of vertices and faces.
+/// A triangle mesh as people have it, with the caller's numbers of vertices and faces.
 ///
-/// Inside, the surface is manifold and consistently oriented: it is cut open where the input is not. To a path, the
-/// parts of a vertex that is cut are one vertex, and all faces at an edge meet there.
+/// It may have boundaries, several components, isolated vertices, faces without an area, and mixed orientation. It may
+/// also have edges with three or more faces, and duplicate faces.
+///
+/// Inside, the surface is cut open where it is not manifold or not consistently oriented. Paths do not see these cuts:
+/// to a path, a vertex is one vertex, and all faces at an edge meet there.
+///
+/// Immutable. Copies share the mesh inside.
 class SEAMWIRE_API Surface {
  public:
-  /// `points`: finite. `triangles`: vertex numbers in [0, points.size()). `edges`: the real edges if faces are
-  /// triangulated polygons, and edges without a face. nullopt: every edge of a triangle.
+  /// Build a surface.
   ///
-  /// Throws InvalidInput, naming the element, for a coordinate that is not finite or above 1e150 in size, and for an
-  /// index out of range. Throws InvalidInput, too, for an edge from a vertex to itself, or a mesh without any edge.
-  /// Throws Cancelled within about a tenth of a second at a million faces.
+  /// Cancelling takes effect within about 0.1 s at a million faces.
+  ///
+  /// \param points finite coordinates, at most 1e150 in size
+  /// \param triangles vertex numbers in [0, points.size())
+  /// \param edges the real edges if faces are triangulated polygons, and edges without a face; nullopt if every edge of
+  ///   a triangle is real
+  /// \param task progress and cancellation
+  /// \throws InvalidInput if a coordinate is not finite or above 1e150 in size, or an index is out of range. The
+  ///   message names the element.
+  /// \throws InvalidInput if an edge joins a vertex to itself, or the mesh has no edge
+  /// \throws Cancelled if the task is cancelled
   Surface(std::vector<Vector> points, std::vector<Triangle> triangles,
           std::optional<std::vector<Edge>> edges = std::nullopt, const Task& task = {});
 
-  /// The number of points, used or not.
+  /// Return the number of points, used or not.
   std::size_t vertex_count() const { return points_.size(); }
-  /// The number of triangles, as given.
+  /// Return the number of triangles that the caller gave.
   std::size_t face_count() const { return triangles_.size(); }
 
-  /// The caller's coordinates, triangles (as given, not turned) and real edges (unique, smaller vertex first, sorted).
+  /// Return the caller's coordinates.
   const std::vector<Vector>& points() const { return points_; }
-  /// As given, not turned.
+  /// Return the caller's triangles, in their original orientation.
   const std::vector<Triangle>& triangles() const { return triangles_; }
-  /// The real edges: unique, smaller vertex first, sorted.
+  /// Return the real edges: unique, smaller vertex first, sorted.
   const std::vector<Edge>& edges() const { return edges_; }
 
-  /// Multiply the caller's coordinates by this to fit the model into the unit cube (Section 3 of the paper). It is one
-  /// over the longest side of the bounding box of the vertices in use, or 1 if that side is zero.
+  /// Return the factor that scales the caller's coordinates to the unit cube.
+  ///
+  /// It is one over the longest side of the bounding box of the used vertices, or 1 if that side is 0.
+  ///
+  /// \see Zhuang et al. 2014, Section 3
   double scale() const { return scale_; }
 
-  /// Edges without a triangle along which a path may run all the same: edges without faces, and edges whose faces were
-  /// all left out.
+  /// Return edges along which a path may run, although no triangle has them.
+  ///
+  /// They are edges without faces, and edges whose faces were all left out.
   const std::vector<Edge>& loose_edges() const { return loose_edges_; }
 
-  /// Unusual parts of the input.
+  /// Return the unusual parts of the input.
   const SurfaceReport& report() const { return report_; }
 
  private:

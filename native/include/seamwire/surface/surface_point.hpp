@@ -6,18 +6,22 @@
 
 namespace seamwire {
 
-/// A point of a triangle mesh: a vertex, or a point of a face by barycentric coordinates, one for each of its corners,
-/// in their order. If a coordinate is exactly 0, the point is on the edge opposite to that corner. If two are 0, the
-/// point is the third corner. A coordinate below 2^-53, which the sum of the others does not notice, counts as 0.
+/// A point of a triangle mesh: a vertex, or a point of a face with barycentric coordinates.
+///
+/// Coordinate i belongs to corner i of the face. If one coordinate is exactly 0, the point is on the edge opposite to
+/// that corner. If two are 0, the point is the third corner. A coordinate below 2^-53 counts as 0, because adding it to
+/// the others does not change their sum.
 struct SurfacePoint {
-  std::int32_t face = -1;               ///< not looked at where `vertex` says which point it is
-  std::array<double, 3> barycentric{};  ///< 0 or more; their sum is 1 within 1e-9, and is made 1 by dividing by it
-  std::int32_t vertex = -1;             ///< a vertex, with a face or without; -1: `face` and `barycentric` say
+  std::int32_t face = -1;               ///< ignored if `vertex` is set
+  std::array<double, 3> barycentric{};  ///< each 0 or more; their sum is 1 within 1e-9, and they are divided by it
+  std::int32_t vertex = -1;  ///< a vertex, with or without a face; -1 if the point is given by `face` and `barycentric`
 
-  /// The point that a vertex is.
+  /// Make the point of a vertex.
+  ///
+  /// \param v the vertex
   static SurfacePoint at_vertex(std::int32_t v) { return {.vertex = v}; }
 
-  /// The same numbers, not only the same point.
+  /// Compare the numbers. Points at the same place may have different numbers.
   bool operator==(const SurfacePoint&) const = default;
 };
 

@@ -10,30 +10,35 @@
 
 namespace seamwire {
 
-/// Triangles that are glued along edges, without any geometry. Half-edge 3 f + i runs from corner i of triangle f to
-/// the next corner. A vertex may have any number of fans of triangles, or none.
+/// Triangles that are glued along edges, without any geometry.
+///
+/// Half-edge 3 f + i runs from corner i to corner (i + 1) mod 3 of triangle f. A vertex may have any number of fans of
+/// triangles, or no triangle.
 struct SEAMWIRE_API TriangleConnectivity {
   std::vector<Triangle> triangles;  ///< vertex numbers
-  /// Per half-edge: the other half-edge of its edge, which runs the opposite way; -1 if it has none.
+  /// Per half-edge: the other half-edge of its edge, which runs the opposite way, or -1.
   std::vector<std::int32_t> twins;
-  /// Per half-edge without a twin whose edge has other triangles: the next half-edge of the same edge, in a cycle
-  /// through all of them. They are three or more, or two that run the same way. -1 for every other half-edge. Empty if
-  /// there are no such edges. The term is geometry-central's (SurfaceMesh, "general" meshes).
+  /// Per half-edge: the next half-edge of the same edge, if the half-edge has no twin but the edge has other triangles.
+  /// Otherwise -1. Siblings form a cycle of three or more half-edges, or of two that run the same way. Empty if there
+  /// are no siblings. The term is geometry-central's (SurfaceMesh, "general" meshes).
   std::vector<std::int32_t> siblings{};
 
-  /// The number of triangles.
+  /// Return the number of triangles.
   std::size_t face_count() const { return triangles.size(); }
-  /// The vertex that a half-edge begins at.
+  /// Return the vertex where a half-edge begins.
   std::int32_t tail(std::int32_t half_edge) const { return corner(half_edge / 3, half_edge % 3); }
-  /// The vertex that a half-edge ends at.
+  /// Return the vertex where a half-edge ends.
   std::int32_t tip(std::int32_t half_edge) const { return corner(half_edge / 3, (half_edge + 1) % 3); }
-  /// The vertex opposite to a half-edge, in its triangle.
+  /// Return the vertex opposite to a half-edge, in its triangle.
   std::int32_t apex(std::int32_t half_edge) const { return corner(half_edge / 3, (half_edge + 2) % 3); }
-  /// Whether a half-edge has siblings.
+  /// Return whether a half-edge has siblings.
   bool has_siblings(std::int32_t half_edge) const {
     return !siblings.empty() && siblings[static_cast<std::size_t>(half_edge)] >= 0;
   }
-  /// Calls visit(other) for each other half-edge of a half-edge's edge: its twin, or its siblings in their order.
+  /// Call a function for each other half-edge of the same edge: its twin, or its siblings in the order of their cycle.
+  ///
+  /// \param half_edge the half-edge
+  /// \param visit called as visit(other)
   template <class Visit>
   void for_each_beyond(std::int32_t half_edge, const Visit& visit) const {
     const std::int32_t twin = twins[static_cast<std::size_t>(half_edge)];
@@ -44,11 +49,15 @@ struct SEAMWIRE_API TriangleConnectivity {
       visit(other);
     }
   }
-  /// V - E + F, the Euler characteristic, of a mesh of that many vertices without siblings.
+  /// Return the Euler characteristic V - E + F. Siblings count as separate edges.
+  ///
+  /// \param vertex_count V, which the triangles alone do not tell
+  /// \returns the characteristic
   std::int64_t euler_characteristic(std::size_t vertex_count) const;
-  /// The boundary loops: vertices in the direction of the triangles along them. At most one boundary half-edge may
-  /// begin at each of the `vertex_count` vertices. The loops are ordered by their smallest vertex, with which each
-  /// begins.
+  /// Return the boundary loops: vertices in the direction of the triangles along them.
+  ///
+  /// \param vertex_count the number of vertices. At most one boundary half-edge begins at each of them.
+  /// \returns the loops, ordered by their smallest vertex. Each loop begins with its smallest vertex.
   std::vector<std::vector<std::int32_t>> boundary_loops(std::size_t vertex_count) const;
 
  private:

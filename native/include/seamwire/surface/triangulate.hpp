@@ -14,14 +14,21 @@ namespace seamwire {
 
 /// Polygons as triangles.
 struct Triangulation {
-  std::vector<Triangle> triangles;     ///< in the order of the polygons, turned the same way
+  std::vector<Triangle> triangles;     ///< in the order and orientation of the polygons
   std::vector<std::int32_t> polygons;  ///< the polygon of each triangle
 };
 
-/// Triangulates triangles and quads as Blender does. A quad is cut from its first corner to its third. It is cut from
-/// the second to the fourth if one of the two triangles would lie on the other, or would have no area. `corners`:
-/// vertices, polygon by polygon; `sizes`: how many each polygon has, 3 or 4. Throws InvalidInput for other sizes, where
-/// they do not add up to the number of corners, and for a vertex out of range.
+/// Triangulate triangles and quads as Blender does.
+///
+/// A quad is cut from its first corner to its third. If one of the two triangles would lie on the other, or have no
+/// area, it is cut from the second to the fourth.
+///
+/// \param points coordinates
+/// \param corners vertex numbers in [0, points.size()), polygon by polygon
+/// \param sizes the number of corners of each polygon, 3 or 4
+/// \returns the triangles, and the polygon of each
+/// \throws InvalidInput if a size is not 3 or 4, the sizes do not add up to the number of corners, or a vertex is out
+///   of range
 SEAMWIRE_API Triangulation triangulate(std::span<const Vector> points, std::span<const std::int32_t> corners,
                                        std::span<const std::int32_t> sizes);
 

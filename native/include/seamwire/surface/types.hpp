@@ -6,8 +6,9 @@
 
 namespace seamwire {
 
-/// Elements are numbered from 0; -1 stands for none.
-using Triangle = std::array<std::int32_t, 3>;  ///< vertex numbers
-using Edge = std::array<std::int32_t, 2>;      ///< vertex numbers, the smaller one first where it is not directed
+/// The three vertices of a triangle, numbered from 0.
+using Triangle = std::array<std::int32_t, 3>;
+/// The two vertices of an edge, numbered from 0. The smaller number comes first if the edge has no direction.
+using Edge = std::array<std::int32_t, 2>;
 
 }  // namespace seamwire

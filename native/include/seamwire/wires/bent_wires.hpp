@@ -16,30 +16,45 @@ struct BentWire {
   Wire back;   ///< from the second point to the seed
 };
 
-/// Bends a closed cut, so that it leads through a second point as well. The result is the shortest closed wire through
-/// both points that runs around the same thing as the cut. docs/method/closed-cuts.md.
+/// Bends a closed cut, so that it also leads through a second point.
 ///
-/// The place deepest on each side of the cut, a face or a hole, is removed, and a line joins the two places. The rest
-/// has a double cover: a closed wire ends on the sheet that it began on if it crosses the line an even number of times.
+/// The result is the shortest closed wire through both points that runs around the same thing as the cut. The deepest
+/// place on each side of the cut, a face or a hole, is removed, and a line joins the two places. The rest has a double
+/// cover. There, a closed wire ends on the sheet where it began if it crosses the line an even number of times.
+///
 /// The shortest wires lead from the seed on one sheet to the second point on both sheets. Together they cross the line
 /// an odd number of times, so they separate the two places, as the cut does. If the cut does not separate the surface,
-/// a closed line crosses it once instead, and nothing is removed.
+/// a closed line crosses it once instead, and nothing is removed. See docs/method/closed-cuts.md.
 ///
-/// The double cover depends on the cut only. So the cut can be bent to many points, each in the time of two traces.
+/// The double cover depends on the cut only. So each point that a cut is bent to takes only the time of two traces.
 class SEAMWIRE_API BentWires {
  public:
-  /// From a cut that closed_wires() found with the same arguments; `geodesics` is of the embedding's mesh. Throws
-  /// InvalidInput where the field has several sources, and where the cut does not lead through its seed. Throws it,
-  /// too, where sizes show that embedding, geodesics or field do not belong together; Cancelled.
+  /// Prepare the bending of a cut that closed_wires() found.
+  ///
+  /// \param surface the surface, not null
+  /// \param embedding the embedding of the cut, not null
+  /// \param geodesics the solver on the embedding's mesh
+  /// \param field the field of the cut
+  /// \param cut the cut
+  /// \param task progress and cancellation
+  /// \throws InvalidInput if the surface or the embedding is null, or the field has several sources
+  /// \throws InvalidInput if the cut does not lead through the seed of the field, or is of another embedding
+  /// \throws InvalidInput if sizes show that embedding, geodesics and field do not belong together
+  /// \throws Cancelled if the task is cancelled
   BentWires(std::shared_ptr<const Surface> surface, std::shared_ptr<const Embedding> embedding,
             const ExactGeodesics& geodesics, const DistanceField& field, const ClosedWire& cut, const Task& task = {});
   ~BentWires();
-  BentWires(BentWires&&) noexcept;             ///< leaves one that may only be destroyed
-  BentWires& operator=(BentWires&&) noexcept;  ///< as moving
+  BentWires(BentWires&&) noexcept;             ///< the other object may then only be destroyed or assigned to
+  BentWires& operator=(BentWires&&) noexcept;  ///< the other object may then only be destroyed or assigned to
 
-  /// Finds the cut that also leads through a second point of the embedding (EmbeddedPoints finds such points). Returns
-  /// nullopt if no cut leads there: from another part of the surface, or from the place that was taken out. Throws
-  /// InvalidInput if the point is not on the embedding; Cancelled.
+  /// Find the cut that also leads through a second point.
+  ///
+  /// \param second a point of the embedding, which EmbeddedPoints finds
+  /// \param task progress and cancellation
+  /// \returns the cut. nullopt if no cut leads there, because the point is on another part of the surface or at a place
+  ///   that was removed.
+  /// \throws InvalidInput if the point is not on the embedding
+  /// \throws Cancelled if the task is cancelled
   std::optional<BentWire> through(const SurfacePoint& second, const Task& task = {}) const;
 
  private:

@@ -13,23 +13,33 @@
 
 namespace seamwire {
 
-/// Finds points of the caller's faces on an embedding of the surface, whose triangles are parts of them. Several
-/// threads may ask at once.
+/// Finds points of the caller's faces on an embedding of the surface, whose triangles are parts of these faces.
+///
+/// Several threads may use it at once.
 class SEAMWIRE_API EmbeddedPoints {
  public:
-  /// Takes time proportional to the embedding. Throws InvalidInput where the embedding is not one of the surface, as
-  /// far as its faces tell.
+  /// Prepare the search, in time proportional to the size of the embedding.
+  ///
+  /// \param surface the surface, not null
+  /// \param embedding an embedding of the surface, not null
+  /// \throws InvalidInput if an argument is null, or the embedding is of another surface, as far as its faces and
+  ///   points tell
   EmbeddedPoints(std::shared_ptr<const Surface> surface, std::shared_ptr<const Embedding> embedding);
   ~EmbeddedPoints();
-  EmbeddedPoints(EmbeddedPoints&&) noexcept;             ///< leaves one that may only be destroyed
-  EmbeddedPoints& operator=(EmbeddedPoints&&) noexcept;  ///< as moving
+  EmbeddedPoints(EmbeddedPoints&&) noexcept;             ///< the other object may then only be destroyed or assigned to
+  EmbeddedPoints& operator=(EmbeddedPoints&&) noexcept;  ///< the other object may then only be destroyed or assigned to
 
-  /// The same point as one of the embedding, in time proportional to the parts of its face. A point on an edge of the
-  /// surface is on an edge of the embedding. Vertices keep their numbers. Nothing where the embedding has a hole, or
-  /// the face no area.
+  /// Find a point of the surface on the embedding.
   ///
-  /// Throws InvalidInput, which begins with `what`, for a vertex or a face out of range, and for barycentric
-  /// coordinates that are not finite, less than 0, or whose sum is not 1.
+  /// A point on an edge of the surface is on an edge of the embedding. Vertices keep their numbers. The time is
+  /// proportional to the number of triangles in its face.
+  ///
+  /// \param point a point of the surface
+  /// \param what the name of the point, with which error messages begin
+  /// \returns the same point as one of the embedding. nullopt if the embedding has a hole there, or the face has no
+  ///   area.
+  /// \throws InvalidInput if a vertex or a face is out of range
+  /// \throws InvalidInput if barycentric coordinates are not finite, or below 0, or their sum is not 1
   std::optional<SurfacePoint> find(const SurfacePoint& point, const std::string& what = "point") const;
 
  private:

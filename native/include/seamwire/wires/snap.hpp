@@ -16,11 +16,17 @@ namespace detail {
 struct SnapData;  // snap.cpp
 }
 
-/// What snapping needs to know of a surface: its polygons (triangles joined across what is not a real edge) and the
-/// real edges around them. Immutable, so wires may be snapped on several threads.
+/// What snap_to_edges() needs to know of a surface: its polygons, and the real edges around them.
+///
+/// Polygons are triangles joined across edges that are not real. Immutable. Copies share the data, and any number of
+/// threads may use it at once.
 class SEAMWIRE_API SnapGraph {
  public:
-  /// Takes time proportional to the surface. Throws Cancelled.
+  /// Find the polygons of a surface, in time proportional to its size.
+  ///
+  /// \param surface the surface
+  /// \param task progress and cancellation
+  /// \throws Cancelled if the task is cancelled
   explicit SnapGraph(const Surface& surface, const Task& task = {});
 
  private:
@@ -30,13 +36,24 @@ class SEAMWIRE_API SnapGraph {
   std::shared_ptr<const detail::SnapData> data_;
 };
 
-/// Finds a path of real edges (Surface::edges()) from wire.from to wire.to that stays close to the wire and hardly
-/// zigzags. Its edges are those of the polygons that the wire crosses, and of the polygons that share an edge with
-/// these. If they do not connect the ends, the polygons around them are added, ring by ring. The path minimizes a sum:
-/// its integral of the distance to the wire, and 1/2 (|u| |v| - u v) for any two consecutive edges u and v. It is
-/// connected and repeats no vertex. It is empty if the wire is empty, or if no path of edges leads there. Takes time
-/// proportional to the faces crossed. Throws InvalidInput for a wire whose points do not lie in its faces of the
-/// surface, and a graph of a surface with other numbers of vertices, faces or edges; Cancelled.
+/// Find a path of real edges that stays close to a wire and hardly zigzags.
+///
+/// The path leads from wire.from to wire.to along Surface::edges(). Its edges belong to the polygons that the wire
+/// crosses, and to polygons that share an edge with these. If these edges do not connect the ends, the polygons around
+/// them are added, ring by ring.
+///
+/// The path minimizes the sum of two terms. The first is its integral of the distance to the wire. The second is 1/2
+/// (|u| |v| - u v) for any two consecutive edges u and v. The path repeats no vertex. The time is proportional to the
+/// number of faces crossed.
+///
+/// \param surface the surface
+/// \param graph the SnapGraph of the surface
+/// \param wire a wire from one vertex to another
+/// \param task progress and cancellation
+/// \returns the vertices of the path. Empty if the wire is empty, or no path of edges connects its ends.
+/// \throws InvalidInput if the wire does not begin and end at vertices, or its points do not lie in its faces
+/// \throws InvalidInput if the graph is of a surface with other numbers of vertices, faces or edges
+/// \throws Cancelled if the task is cancelled
 SEAMWIRE_API std::vector<std::int32_t> snap_to_edges(const Surface& surface, const SnapGraph& graph, const Wire& wire,
                                                      const Task& task = {});
 

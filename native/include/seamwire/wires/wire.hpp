@@ -14,30 +14,54 @@ namespace seamwire {
 
 /// A geodesic on the caller's surface, from `from` to `to`.
 struct Wire {
-  std::int32_t from = -1;              ///< the caller's vertex; -1: another point
-  std::int32_t to = -1;                ///< the caller's vertex; -1: another point
-  std::vector<Vector> points;          ///< in the caller's coordinates; empty where `to` is unreachable
-  std::vector<std::int32_t> vertices;  ///< per point: the caller's vertex it is, or -1
-  std::vector<std::int32_t> faces;     ///< the caller's face that each segment lies in; -1 along an edge without a face
+  std::int32_t from = -1;              ///< the caller's vertex; -1 if it is another point
+  std::int32_t to = -1;                ///< the caller's vertex; -1 if it is another point
+  std::vector<Vector> points;          ///< in the caller's coordinates; empty if `to` is unreachable
+  std::vector<std::int32_t> vertices;  ///< per point: the caller's vertex, -1 if the point is not a vertex
+  std::vector<std::int32_t> faces;  ///< per segment: the caller's face that it lies in; -1 along an edge without a face
   double length = std::numeric_limits<double>::infinity();  ///< in the metric, of the model scaled to the unit cube
-  double euclidean_length =
-      std::numeric_limits<double>::infinity();  ///< of the points, of the model scaled to the unit cube
+  /// In space, of the model scaled to the unit cube.
+  double euclidean_length = std::numeric_limits<double>::infinity();
 };
 
-/// Maps a path over an embedding to the caller's surface. New vertices of an embedding are midpoints of edges, so each
-/// segment of a path lies in one of the caller's faces. Points on a straight line in one face are left out. Throws
-/// InvalidInput where the embedding is not one of the surface, or the path not one over the embedding, as far as their
-/// sizes and the surface's first and last vertex tell.
+/// Map a path over an embedding to the caller's surface.
+///
+/// New vertices of an embedding are midpoints of edges, so each segment of a path lies in one of the caller's faces.
+/// Points inside a straight line in one face are left out.
+///
+/// \param surface the surface
+/// \param embedding an embedding of the surface
+/// \param path a path over the embedding
+/// \returns the wire, without points if the path has no points
+/// \throws InvalidInput if the embedding is of another surface, or the path is of another embedding. Sizes, and the
+///   first and last vertex of the surface, are compared.
 SEAMWIRE_API Wire map_wire(const Surface& surface, const Embedding& embedding, const IntrinsicPath& path);
 
-/// The shortest wire from the seed of a field over `embedding` to one of the caller's vertices. Throws InvalidInput for
-/// a vertex out of range, as map_wire() does, and where the field is of another embedding, as far as sizes tell; and
-/// Cancelled, as DistanceField::trace().
+/// Trace the shortest wire from the seed of a field to a vertex.
+///
+/// \param surface the surface
+/// \param embedding an embedding of the surface
+/// \param field distances over the embedding
+/// \param vertex one of the caller's vertices
+/// \param task progress and cancellation
+/// \returns the wire, without points if the vertex is unreachable
+/// \throws InvalidInput if the vertex is out of range
+/// \throws InvalidInput if the field is of another embedding, or the embedding of another surface, as far as sizes tell
+/// \throws Cancelled if the task is cancelled
 SEAMWIRE_API Wire trace_wire(const Surface& surface, const Embedding& embedding, const DistanceField& field,
                              std::int32_t vertex, const Task& task = {});
 
-/// The shortest wire from the source that is nearest to a point of the embedding, to that point (EmbeddedPoints finds
-/// it). Throws as trace_wire() to a vertex.
+/// Trace the shortest wire to a point of the embedding, from the nearest source of a field.
+///
+/// \param surface the surface
+/// \param embedding an embedding of the surface
+/// \param field distances over the embedding
+/// \param point a point of the embedding, which EmbeddedPoints finds
+/// \param task progress and cancellation
+/// \returns the wire, without points if the point is unreachable
+/// \throws InvalidInput if DistanceField::trace() rejects the point
+/// \throws InvalidInput if the field is of another embedding, or the embedding of another surface, as far as sizes tell
+/// \throws Cancelled if the task is cancelled
 SEAMWIRE_API Wire trace_wire(const Surface& surface, const Embedding& embedding, const DistanceField& field,
                              const SurfacePoint& point, const Task& task = {});
 
