@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mesh.hpp"
-#include "seamwire/flatten/flatten.hpp"
+#include "seamwire/parameterization/flatten.hpp"
 #include "seamwire/parts/part_finder.hpp"
 #include "seamwire/seams/seam_planner.hpp"
 

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "seamwire/flatten/flatten.hpp"
+#include "seamwire/parameterization/flatten.hpp"
 #include "seamwire/surface/surface.hpp"
 
 /// Conversions between NumPy's arrays and the library's vectors.

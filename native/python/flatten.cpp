@@ -12,8 +12,8 @@
 #include "arrays.hpp"
 #include "held.hpp"
 #include "rooms.hpp"
-#include "seamwire/flatten/flatten.hpp"
-#include "seamwire/flatten/measure_map.hpp"
+#include "seamwire/parameterization/flatten.hpp"
+#include "seamwire/parameterization/measure_map.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "watch.hpp"
 

@@ -11,8 +11,8 @@
 #include "metric.hpp"
 #include "names.hpp"
 #include "rooms.hpp"
-#include "seamwire/context/metric_spec.hpp"
 #include "seamwire/context/surface_context.hpp"
+#include "seamwire/metric/metric_spec.hpp"
 #include "surface.hpp"
 #include "watch.hpp"
 

@@ -45,7 +45,7 @@ tidy_check() {
 vectorized_kernels() {
   local kernels result=0 loops width count compile
   [ "$(uname -m)" = x86_64 ] || { say "Kernels: checked on x86-64 only"; return; }
-  for kernels in native/src/geodesics/window_kernels.cpp native/src/flatten/dirichlet_kernels.cpp; do
+  for kernels in native/src/geodesics/window_kernels.cpp native/src/parameterization/dirichlet_kernels.cpp; do
     compile=(-std=c++20 -O3 -march=x86-64-v2 -ffp-contract=off -fno-math-errno -fno-trapping-math -Inative/include -Inative/src
       -c "$kernels" -o /dev/null)
     loops=$(grep -c '^  SEAMWIRE_VECTORIZE$' "$kernels")

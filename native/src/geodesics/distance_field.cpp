@@ -45,7 +45,7 @@ bool DistanceField::fits(const IntrinsicMesh& mesh) const {
   return data_->mesh->vertex_count() == index(mesh.vertex_count) &&
          data_->mesh->half_edge_count() == 3 * mesh.face_count();
 }
-std::weak_ptr<const void> DistanceField::mesh() const { return data_->mesh; }
+std::weak_ptr<const void> DistanceField::mesh_id() const { return data_->mesh; }
 const std::vector<double>& DistanceField::distances() const { return data_->distances; }
 
 IntrinsicPath DistanceField::trace(std::int32_t vertex, const Task& task) const {

@@ -22,7 +22,7 @@ double length_of(std::span<const Vector> line) {
 
 class Carrying {
  public:
-  Carrying(const SlitProblem& simple, const SimplifiedMesh& mesh, const SlitProblem& original,
+  Carrying(const SlitProblem& simple, const DecimatedMesh& mesh, const SlitProblem& original,
            std::span<const Slit> slits)
       : simple_(simple),
         mesh_(mesh),
@@ -98,7 +98,7 @@ class Carrying {
   }
 
   const SlitProblem& simple_;
-  const SimplifiedMesh& mesh_;
+  const DecimatedMesh& mesh_;
   const SlitProblem& original_;
   double spread_;
   std::vector<std::uint8_t> is_on_cut_;
@@ -107,7 +107,7 @@ class Carrying {
 
 }  // namespace
 
-std::vector<Slit> carried_slits(const SlitProblem& simple, const SimplifiedMesh& mesh, const SlitProblem& original,
+std::vector<Slit> carried_slits(const SlitProblem& simple, const DecimatedMesh& mesh, const SlitProblem& original,
                                 std::span<const Slit> slits) {
   Carrying carrying(simple, mesh, original, slits);
   std::vector<Slit> carried;

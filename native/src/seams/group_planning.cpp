@@ -35,7 +35,7 @@ std::array<RoundWork, kRounds + 1> work_of_rounds(const GroupProblem& group, dou
   std::array<RoundWork, kRounds + 1> rounds{};
   for (RoundWork& round : rounds) {
     round = {budget * faces, map};
-    if (!group.simplified_mesh) break;
+    if (!group.decimated) break;
     budget *= kLaterBudget;
   }
   return rounds;
@@ -150,7 +150,7 @@ void GroupPlanning::search_once(const SlitGoal& goal, const std::function<void()
     return part_of(task, begin, done / all);
   };
   for (int round = 0;; ++round) {
-    const bool is_simplified = group_->simplified_mesh.has_value();
+    const bool is_simplified = group_->decimated.has_value();
     bool is_start = true;  // which grow() has shown
     const auto tell = [&](const SlitPlan& plan) {
       if (std::exchange(is_start, false) || round > 0 || !found) return;
@@ -182,8 +182,8 @@ void GroupPlanning::search_once(const SlitGoal& goal, const std::function<void()
 std::vector<Slit> GroupPlanning::on_original(const std::vector<Slit>& slits) const {
   std::vector<Slit> all = rings_;
   all.insert(all.end(), slits.begin(), slits.end());
-  if (!group_->simplified_mesh) return all;
-  all = carried_slits(problem(), *group_->simplified_mesh, group_->original, all);
+  if (!group_->decimated) return all;
+  all = carried_slits(problem(), *group_->decimated, group_->original, all);
   // A closed cut may not have been carried whole.
   if (least_pieces_ > 0) {
     std::ranges::move(halving_cuts(with_seams(group_->original, all), least_pieces_, {}), std::back_inserter(all));
@@ -194,7 +194,7 @@ std::vector<Slit> GroupPlanning::on_original(const std::vector<Slit>& slits) con
 /// Adds the cuts that pieces of the original mesh need where slits were not carried whole. `simple`: the slits that
 /// were carried, beside the rings.
 std::vector<Slit> GroupPlanning::completed(std::vector<Slit> slits, const std::vector<Slit>& simple) const {
-  if (!group_->simplified_mesh) return slits;
+  if (!group_->decimated) return slits;
   const SlitProblem original = with_seams(group_->original, slits);
   if (missing_cuts_of(original) > missing_cuts_of(with_seams(problem(), simple))) {
     std::ranges::move(grow_tree(original, false, {}).slits, std::back_inserter(slits));

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "seams/decimation.hpp"
 #include "seams/neck_rings.hpp"
 #include "seams/piece_groups.hpp"
-#include "seams/simplified_mesh.hpp"
 #include "seams/slit_plan.hpp"
 #include "seams/slit_search.hpp"
 #include "seams/slit_solver.hpp"
@@ -22,12 +22,12 @@ namespace seamwire::detail {
 /// A group of pieces that is planned by itself, and the places on the surface where copies of it lie.
 struct GroupProblem {
   SlitProblem original;
-  std::optional<SimplifiedMesh> simplified_mesh;  ///< of the original, if that is large
-  SlitProblem simple;                             ///< on that
-  double size = 1.0;                              ///< the root of each copy's share of the surface's area
+  std::optional<DecimatedMesh> decimated;  ///< of the original, if that is large
+  SlitProblem simple;                      ///< on that
+  double size = 1.0;                       ///< the root of each copy's share of the surface's area
   std::vector<Place> places;
 
-  const SlitProblem& searched() const { return simplified_mesh ? simple : original; }
+  const SlitProblem& searched() const { return decimated ? simple : original; }
   /// About how many times a Newton step moves a triangle, if the search takes all of its budget and every round.
   double work(double budget) const;
   /// The share of the whole surface's area that all copies have, without pieces that may not be cut.

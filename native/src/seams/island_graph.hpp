@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "detail/csr.hpp"
-#include "flatten/cut_open.hpp"
+#include "parameterization/cut_open.hpp"
 #include "seamwire/surface/vector.hpp"
 #include "seamwire/task.hpp"
 

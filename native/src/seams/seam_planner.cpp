@@ -15,7 +15,7 @@
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "detail/run_on_threads.hpp"
-#include "flatten/measure_islands.hpp"
+#include "parameterization/measure_islands.hpp"
 #include "seams/group_planning.hpp"
 #include "seams/piece_groups.hpp"
 #include "seams/planned_wires.hpp"
@@ -153,9 +153,9 @@ void SeamPlanner::Impl::find_meshes(const Task& task) {
     const std::size_t wanted = std::max(kSimplified * count / all, kLeastSimplified);
     if (all <= kMostTriangles || count * kSimplified <= wanted * kMostTriangles) continue;
     SlitProblem& original = group.original;
-    group.simplified_mesh = simplified(original.mesh, original.is_seam, original.mirror(), wanted, own);
-    group.simple.mesh = group.simplified_mesh->mesh;
-    group.simple.is_seam = group.simplified_mesh->is_seam;
+    group.decimated = decimate(original.mesh, original.is_seam, original.mirror(), wanted, own);
+    group.simple.mesh = group.decimated->mesh;
+    group.simple.is_seam = group.decimated->is_seam;
     if (original.reflection) {
       group.simple.reflection = reflection_in(group.simple.mesh, options.mirror, original.reflection->offset,
                                               diagonal_of(group.simple.mesh), own);
@@ -185,9 +185,7 @@ Visibility SeamPlanner::Impl::visibility_of_all(const Task& task) const {
   for (const GroupProblem& group : groups) {
     const PlanMesh& own = group.searched().mesh;
     for (std::size_t k = 1; k < group.places.size(); ++k) {
-      const auto vertex = [&](std::int32_t v) {
-        return group.simplified_mesh ? group.simplified_mesh->vertices[v] : v;
-      };
+      const auto vertex = [&](std::int32_t v) { return group.decimated ? group.decimated->vertices[v] : v; };
       add(own, group.size, [&](std::int32_t v) { return whole.points[group.places[k].vertices[vertex(v)]]; });
     }
   }
@@ -206,10 +204,10 @@ void SeamPlanner::Impl::find_prices_of_all(const Visibility& visibility) {
                    .ambient = part(visibility.ambient, mesh.vertex_count())};
     begin += mesh.vertex_count();
     SlitProblem& original = group.original;
-    if (group.simplified_mesh) {
+    if (group.decimated) {
       group.simple.prices = find_prices(mesh, own, group.simple.reflection, weights_of(mesh));
       Visibility all;
-      for (const std::int32_t v : nearest_of(original.mesh, group.simplified_mesh->vertices)) {
+      for (const std::int32_t v : nearest_of(original.mesh, group.decimated->vertices)) {
         all.ambient.push_back(v < 0 ? 0.0 : own.ambient[v]);
         if (options.front) all.front.push_back(v < 0 ? 0.0 : own.front[v]);
       }
@@ -240,7 +238,7 @@ void SeamPlanner::Impl::join_copies() {
   groups = std::move(joined);
   for (GroupProblem& group : groups) {
     find_pieces_of(group.original);
-    if (group.simplified_mesh) find_pieces_of(group.simple);
+    if (group.decimated) find_pieces_of(group.simple);
   }
 }
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "detail/index.hpp"
-#include "flatten/open_island.hpp"
+#include "parameterization/open_island.hpp"
 
 namespace seamwire::detail {
 namespace {

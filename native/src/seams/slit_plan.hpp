@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "flatten/island_map.hpp"
+#include "parameterization/island_map.hpp"
 #include "seams/edge_prices.hpp"
 #include "seams/plan_mesh.hpp"
 #include "seams/reflection.hpp"

@@ -11,7 +11,7 @@
 
 #include "detail/index.hpp"
 #include "detail/run_on_threads.hpp"
-#include "flatten/open_island.hpp"
+#include "parameterization/open_island.hpp"
 #include "seams/slit_edits.hpp"
 
 namespace seamwire::detail {

@@ -16,7 +16,7 @@
 #include "geodesics/placed_point.hpp"
 #include "wires/curve_check.hpp"
 #include "wires/path_position.hpp"
-#include "wires/vertex_tree.hpp"
+#include "wires/spanning_tree.hpp"
 
 namespace seamwire {
 
@@ -36,7 +36,7 @@ struct Crossed {
 class Sides {
  public:
   Sides(const IntrinsicMesh& mesh, const DistanceField& field, std::int32_t half_edge, const Task& task)
-      : mesh_(mesh), edges_(mesh, task), is_in_tree_(vertex_tree(mesh, edges_, field.distances(), task)) {
+      : mesh_(mesh), edges_(mesh, task), is_in_tree_(spanning_tree(mesh, edges_, field.distances(), task)) {
     std::size_t holes_seen = 0;
     for (std::size_t e = 0; e < edges_.count(); ++e) {
       const std::int32_t h = edges_.half_edges[e], twin = mesh_.twins[h];
@@ -256,7 +256,7 @@ Crossed line_across(const Surface& surface, const Embedding& embedding, const Ex
   if (field.sources().size() != 1) {
     throw InvalidInput("a cut leads through one seed: the field has " + std::to_string(field.sources().size()));
   }
-  if (!is_same(cut.mesh, field.mesh())) throw InvalidInput("the cut is of another embedding");
+  if (!is_same(cut.mesh, field.mesh_id())) throw InvalidInput("the cut is of another embedding");
   Sides sides(embedding.mesh, field, cut.half_edge, task);
   const std::vector<Vector>& points = cut.wire.points;
   const Vector seed = position(embedding, field.sources().front());

@@ -26,7 +26,7 @@
 #include "wires/loop_parts.hpp"
 #include "wires/path_position.hpp"
 #include "wires/polyline.hpp"
-#include "wires/vertex_tree.hpp"
+#include "wires/spanning_tree.hpp"
 
 namespace seamwire {
 
@@ -280,7 +280,7 @@ double CutLocus::length_over(std::int32_t half_edge) const {
 /// The edges that close loops, the longest first. `face_of` names the one that a face counts as.
 template <class FaceOf>
 std::vector<Closing> CutLocus::closing_edges(const MeshEdges& edges, const FaceOf& face_of) const {
-  const std::vector<std::uint8_t> is_in_tree = vertex_tree(mesh_, edges, field_.distances(), task_);
+  const std::vector<std::uint8_t> is_in_tree = spanning_tree(mesh_, edges, field_.distances(), task_);
   std::vector<Closing> closing;
   closing.reserve(edges.count());
   std::size_t holes_seen = 0;
@@ -563,7 +563,7 @@ std::vector<ClosedWire> closed_wires(const Surface& surface, const Embedding& em
   if (count == 0) return {};
   const RisingProgress rising(task);
   std::vector<ClosedWire> best = CutLocus(surface, embedding, field, rising.task()).best(count);
-  for (ClosedWire& cut : best) cut.mesh = field.mesh();
+  for (ClosedWire& cut : best) cut.mesh = field.mesh_id();
   return best;
 }
 

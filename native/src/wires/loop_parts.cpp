@@ -23,7 +23,7 @@ LoopParts::LoopParts(const IntrinsicMesh& mesh, const std::vector<double>& dista
       for (const std::int32_t f : faces_of_edge_[e]) visit(f, e);
     }
   });
-  const std::vector<std::uint8_t> is_in_tree = vertex_tree(mesh, edges_, distances, task);
+  const std::vector<std::uint8_t> is_in_tree = spanning_tree(mesh, edges_, distances, task);
   tree_ = Csr<Step>(index(mesh.vertex_count), [&](const auto& visit) {
     for (std::int32_t e = 0; index(e) < edges_.count(); ++e) {
       const std::int32_t h = edges_.half_edges[e];

@@ -7,7 +7,7 @@
 #include "detail/csr.hpp"
 #include "seamwire/surface/intrinsic_mesh.hpp"
 #include "seamwire/task.hpp"
-#include "wires/vertex_tree.hpp"
+#include "wires/spanning_tree.hpp"
 
 namespace seamwire::detail {
 

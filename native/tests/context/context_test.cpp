@@ -15,8 +15,8 @@
 
 #include "detail/computed_once.hpp"
 #include "seamwire/context/embedded_surface.hpp"
-#include "seamwire/context/metric_spec.hpp"
 #include "seamwire/context/surface_context.hpp"
+#include "seamwire/metric/metric_spec.hpp"
 #include "shapes.hpp"
 
 namespace seamwire {

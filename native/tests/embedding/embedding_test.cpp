@@ -253,7 +253,7 @@ TEST(Embed, SplitsLargestPerimeterFirst) {
       const std::vector<Triangle> before = mesh.corners;
       is_done = bisection.work_off({}, mesh.faces_added() + 2, progress);
       const bool is_first =
-          std::ranges::any_of(first, [&](std::int32_t f) { return mesh.corners[at(f)] != before[at(f)]; });
+          std::ranges::any_of(first, [&](std::int32_t f) { return mesh.triangles[at(f)] != before[at(f)]; });
       ASSERT_TRUE(is_first) << "step " << steps;
     }
     EXPECT_GT(steps, 50);

@@ -18,7 +18,7 @@
 #include "seamwire/context/surface_context.hpp"
 #include "seamwire/edges/edge_graph.hpp"
 #include "seamwire/edges/edge_wires.hpp"
-#include "seamwire/flatten/flatten.hpp"
+#include "seamwire/parameterization/flatten.hpp"
 #include "seamwire/parts/part_finder.hpp"
 #include "seamwire/seams/seam_planner.hpp"
 #include "shapes.hpp"

@@ -22,7 +22,7 @@ namespace {
 struct Simplified {
   Simplified(const Surface& surface, std::size_t triangles, const ProblemOptions& options = {})
       : original(problem_on(surface, options)),
-        mesh(simplified(original.mesh, original.is_seam, original.mirror(), triangles, {})) {
+        mesh(decimate(original.mesh, original.is_seam, original.mirror(), triangles, {})) {
     simple.mesh = mesh.mesh;
     simple.is_seam = mesh.is_seam;
     if (options.mirror >= 0) simple.reflection = find_reflection(simple.mesh, options.mirror);
@@ -34,7 +34,7 @@ struct Simplified {
   }
 
   SlitProblem original;
-  SimplifiedMesh mesh;
+  DecimatedMesh mesh;
   SlitProblem simple;
 };
 

@@ -141,7 +141,8 @@ void expect_sound(const Surface& surface) {
 
 std::size_t boundary_edges_of_half_edges(const Surface& surface) {
   std::size_t count = 0;
-  for (const auto& edge : half_edge_mesh(surface).edges()) count += edge.is_boundary() ? 1 : 0;
+  const HalfEdgeMesh mesh = half_edge_mesh(surface);
+  for (const auto& edge : mesh.edges()) count += edge.is_boundary() ? 1 : 0;
   return count;
 }
 

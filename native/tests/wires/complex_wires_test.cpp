@@ -33,12 +33,12 @@ std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 Embedding as_it_is(const Surface& surface) {
   Embedding out;
   out.points = surface.points();
-  out.source_face = corner_fans(surface).faces;
+  out.source_face = detail::corner_fans(surface).faces;
   out.mesh.vertex_count = static_cast<std::int32_t>(surface.vertex_count());
-  out.mesh.twins = corner_fans(surface).twins;
-  out.mesh.siblings = corner_fans(surface).siblings;
-  for (const Triangle& fans : corner_fans(surface).triangles) {
-    const auto vertex = [&](std::size_t i) { return corner_fans(surface).vertices[index(fans[i % 3])]; };
+  out.mesh.twins = detail::corner_fans(surface).twins;
+  out.mesh.siblings = detail::corner_fans(surface).siblings;
+  for (const Triangle& fans : detail::corner_fans(surface).triangles) {
+    const auto vertex = [&](std::size_t i) { return detail::corner_fans(surface).vertices[index(fans[i % 3])]; };
     out.mesh.triangles.push_back({vertex(0), vertex(1), vertex(2)});
     for (std::size_t i = 0; i < 3; ++i) {
       const auto [a, b] = std::minmax({vertex(i), vertex(i + 1)});

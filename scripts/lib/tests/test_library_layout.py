@@ -16,7 +16,7 @@ ROOMS = (
     "geodesics",
     "edges",
     "wires",
-    "flatten",
+    "parameterization",
     "context",
     "seams",
     "parts",

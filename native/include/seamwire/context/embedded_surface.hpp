@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "seamwire/api.hpp"
-#include "seamwire/context/metric_spec.hpp"
 #include "seamwire/context/surface_context.hpp"
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
+#include "seamwire/metric/metric_spec.hpp"
 #include "seamwire/wires/bent_wires.hpp"
 #include "seamwire/wires/closed_wires.hpp"
 #include "seamwire/wires/embedded_points.hpp"

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "seamwire/api.hpp"
-#include "seamwire/context/metric_spec.hpp"
 #include "seamwire/edges/edge_adjacency.hpp"
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/metric/curvature.hpp"
 #include "seamwire/metric/metric.hpp"
+#include "seamwire/metric/metric_spec.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/task.hpp"
 #include "seamwire/wires/snap.hpp"

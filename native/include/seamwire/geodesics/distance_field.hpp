@@ -59,7 +59,7 @@ class SEAMWIRE_API DistanceField {
   bool fits(const IntrinsicMesh& mesh) const;
   /// Return a handle that identifies the mesh. All fields of one ExactGeodesics and its copies have the same handle,
   /// and no other field has it.
-  std::weak_ptr<const void> mesh() const;
+  std::weak_ptr<const void> mesh_id() const;
   /// Return the distance of each vertex, infinite if no path leads there.
   ///
   /// If the field is not exact, distances may be too long or too short.

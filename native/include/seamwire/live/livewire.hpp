@@ -12,11 +12,11 @@
 
 #include "seamwire/api.hpp"
 #include "seamwire/context/along.hpp"
-#include "seamwire/context/metric_spec.hpp"
 #include "seamwire/context/surface_context.hpp"
 #include "seamwire/edges/edge_loop.hpp"
 #include "seamwire/edges/edge_wires.hpp"
 #include "seamwire/edges/fit_chain.hpp"
+#include "seamwire/metric/metric_spec.hpp"
 #include "seamwire/metric/scribble.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/surface/surface_point.hpp"

@@ -12,8 +12,8 @@
 #include "seamwire/api.hpp"
 #include "seamwire/context/along.hpp"
 #include "seamwire/context/surface_context.hpp"
-#include "seamwire/flatten/measure_map.hpp"
 #include "seamwire/metric/metric.hpp"
+#include "seamwire/parameterization/measure_map.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/task.hpp"
 

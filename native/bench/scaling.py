@@ -1,0 +1,268 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How time and memory of the module's functions grow with the mesh.
+
+    python native/bench/scaling.py [--triangles N] [--page PAGE] [NAME...]
+
+Each function runs on meshes of N, 4 N and 16 N triangles (N is 8,000 without the option), in a process of its own. The program prints a row
+of a Markdown table for each: processor time and the memory that the call adds at its peak. *growth* is the exponent between the last two
+sizes: 1 is proportional, 2 quadratic. The exit code is 1 if a growth exceeds 1.2, except for functions with a stated larger limit.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from math import log
+from pathlib import Path
+
+import numpy as np
+import seamwire_core as sw
+from auto_seams_report import markdown, with_tables
+
+Work = Callable[[], object]
+MOST_GROWTH = 1.2
+# Shorter times are noise.
+LEAST_SECONDS = 0.02
+LEAST_BYTES = 4e6
+
+
+def torus(triangles: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the points and triangles of a bumpy torus."""
+    rows = round((triangles / 6) ** 0.5)
+    columns = 3 * rows
+    u, v = np.meshgrid(np.arange(columns) / columns, np.arange(rows) / rows, indexing="ij")
+    u, v = 2 * np.pi * u, 2 * np.pi * v
+    radius = 0.35 + 0.04 * np.sin(9 * u) * np.sin(6 * v)
+    points = np.stack(
+        [(1 + radius * np.cos(v)) * np.cos(u), (1 + radius * np.cos(v)) * np.sin(u), radius * np.sin(v)], -1
+    )
+    i, j = np.meshgrid(np.arange(columns), np.arange(rows), indexing="ij")
+    a, b = i * rows + j, (i + 1) % columns * rows + j
+    c, d = (i + 1) % columns * rows + (j + 1) % rows, i * rows + (j + 1) % rows
+    faces = np.concatenate([np.stack([a, b, c], -1).reshape(-1, 3), np.stack([a, c, d], -1).reshape(-1, 3)])
+    return points.reshape(-1, 3), faces.astype(np.int32)
+
+
+def boxes(triangles: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return unequal boxes side by side, of twelve triangles each."""
+    count = triangles // 12
+    corners = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], float)
+    sides = np.array([[0, 2, 3], [0, 3, 1], [4, 5, 7], [4, 7, 6], [0, 1, 5], [0, 5, 4]])
+    sides = np.concatenate([sides, [[2, 6, 7], [2, 7, 3], [0, 4, 6], [0, 6, 2], [1, 3, 7], [1, 7, 5]]])
+    edge = int(np.ceil(count ** (1 / 3)))
+    places = np.stack(np.unravel_index(np.arange(count), (edge, edge, edge)), 1)
+    sizes = np.random.default_rng(0).uniform(0.2, 0.8, (count, 1, 3))
+    points = (corners * sizes + places[:, None]).reshape(-1, 3)
+    return points, (sides + 8 * np.arange(count)[:, None, None]).reshape(-1, 3).astype(np.int32)
+
+
+def fan(triangles: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return a disc of triangles around one vertex."""
+    angles = 2 * np.pi * np.arange(triangles) / triangles
+    rim = np.stack([np.cos(angles), np.sin(angles), 0 * angles], -1)
+    number = np.arange(triangles)
+    faces = np.stack([0 * number, 1 + number, 1 + (number + 1) % triangles], -1)
+    return np.concatenate([[[0, 0, 0]], rim]), faces.astype(np.int32)
+
+
+def ring(triangles: int) -> np.ndarray:
+    """Return the edges of the torus around its tube and around its hole, which cut it to a disc."""
+    rows = round((triangles / 6) ** 0.5)
+    columns = 3 * rows
+    around = np.arange(rows)
+    tube = np.stack([around, (around + 1) % rows], -1)
+    along = np.arange(columns)
+    return np.concatenate([tube, np.stack([along * rows, (along + 1) % columns * rows], -1)])
+
+
+def all_work() -> dict[str, tuple[Callable[[int], Work], float]]:
+    """Return for each function what prepares its call, from the number of triangles, and the growth that is allowed."""
+    feature = sw.MetricSpec("feature", "min", max_anisotropy=10, clamp_percentile=99)
+
+    def surface(n: int) -> sw.Surface:
+        return sw.Surface(*torus(n))
+
+    def metric(n: int) -> tuple[sw.Surface, sw.Metric]:
+        on = surface(n)
+        return on, sw.make_metric(on, feature)
+
+    def embedded(n: int) -> sw.Embedding:
+        return sw.embed(*metric(n))
+
+    def far(n: int) -> int:
+        return len(torus(n)[0]) // 2
+
+    def after(prepare: Callable[[int], object], call: Callable[..., object]) -> Callable[[int], Work]:
+        def prepared(n: int) -> Work:
+            made = prepare(n)
+            arguments = made if isinstance(made, tuple) else (made,)
+            return lambda: call(*arguments)
+
+        return prepared
+
+    def flat(n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        points, triangles = torus(n)
+        return points, triangles, sw.flatten(points, triangles, ring(n)).uvs
+
+    def field(n: int) -> tuple[sw.DistanceField, int]:
+        return sw.distance_field(embedded(n), 0), far(n)
+
+    def wire(n: int) -> tuple[sw.Surface, sw.Wire]:
+        on, by = metric(n)
+        return on, sw.distance_field(sw.embed(on, by), 0).trace(far(n))
+
+    def line(n: int) -> tuple[sw.Surface, np.ndarray, np.ndarray]:
+        on = surface(n)
+        faces = np.arange(0, 2 * round((n / 6) ** 0.5), 2, np.int32)
+        return on, on.points[on.triangles[faces]].mean(1), faces
+
+    def places(n: int) -> tuple[sw.NearestPoints, np.ndarray]:
+        points, triangles = torus(n)
+        return sw.NearestPoints(points, triangles), points + 0.01
+
+    def hits(n: int) -> object:
+        tree = sw.RayTree(*torus(n))
+        tree.wait()
+        return tree
+
+    def seam_plan(make: Callable[[int], tuple[np.ndarray, np.ndarray]]) -> Callable[[int], Work]:
+        return after(lambda n: sw.Surface(*make(n)), lambda on: sw.SeamPlanner(on, along="edges").plan(steps=1))
+
+    def live(n: int) -> object:
+        points, triangles = torus(n)
+        wires = sw.LiveWire(points, triangles, along="edges")
+        wires.wait_for_surface()
+        wires.seed(0)
+        wires.wait()
+        return wires.wires(len(points) // 2)
+
+    def cut(n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, list[sw.CutCurve]]:
+        points, triangles = torus(n)
+        section = sw.plane_section(sw.Surface(points, triangles), 0, far(n), [0, 0, 1])
+        curve = sw.CutCurve(section[0], 0, far(n), section[1])
+        return points, triangles, np.arange(len(triangles), dtype=np.int32), [curve]
+
+    def proportional(
+        prepare: Callable[[int], Work], growth: float = MOST_GROWTH
+    ) -> tuple[Callable[[int], Work], float]:
+        return prepare, growth
+
+    work = {
+        "Surface": after(torus, sw.Surface),
+        "principal_curvatures": after(surface, sw.principal_curvatures),
+        "smoothed_curvatures": after(
+            lambda n: (on := surface(n), sw.principal_curvatures(on), 0.01), sw.smoothed_curvatures
+        ),
+        "make_metric": after(lambda n: (surface(n), feature), sw.make_metric),
+        "crest_lines": after(lambda n: (on := surface(n), sw.principal_curvatures(on)), sw.crest_lines),
+        "embed": after(metric, sw.embed),
+        "invalid_faces": after(metric, sw.invalid_faces),
+        "metric_lengths": after(metric, sw.metric_lengths),
+        "DistanceField.trace": after(field, lambda distances, to: distances.trace(to)),
+        "snap_to_edges": after(wire, sw.snap_to_edges),
+        "edge_wires": after(lambda n: (*metric(n), 0), sw.edge_wires),
+        "shortest_cycle": after(lambda n: (*metric(n), (0, 1)), sw.shortest_cycle),
+        "fit_chain": after(line, sw.fit_chain),
+        "isolines": after(lambda n: (on := surface(n), on.points[:, 2], [-0.1, 0.0, 0.1]), sw.isolines),
+        "plane_section": after(lambda n: (surface(n), 0, far(n), [0, 0, 1]), sw.plane_section),
+        "face_segments": after(lambda n: (surface(n), ring(n)), sw.face_segments),
+        "missing_cuts": after(lambda n: (on := surface(n), ring(n), sw.face_segments(on, ring(n))), sw.missing_cuts),
+        "cut_polygons": after(
+            lambda n: (torus(n)[0], torus(n)[1].ravel(), np.full(len(torus(n)[1]), 3, np.int32)), sw.cut_polygons
+        ),
+        "plan_cuts": after(cut, sw.plan_cuts),
+        "RayTree": after(torus, lambda points, triangles: sw.RayTree(points, triangles).wait()),
+        "RayTree.first_hit": after(
+            hits, lambda tree: [tree.first_hit([3, y, 0.1], [-1, 0, 0]) for y in np.linspace(-1, 1, 999)]
+        ),
+        "NearestPoints": after(torus, sw.NearestPoints),
+        "NearestPoints.find": after(places, lambda tree, near: tree.find(near)),
+        "flatten": after(lambda n: (*torus(n), ring(n)), sw.flatten),
+        "measure_map": after(flat, sw.measure_map),
+        "PartFinder": after(surface, sw.PartFinder),
+        "PartFinder.find": after(lambda n: sw.PartFinder(surface(n)), lambda finder: finder.find(0.5)),
+        "SeamPlanner.plan": seam_plan(torus),
+        "SeamPlanner.plan, boxes": seam_plan(boxes),
+        "SeamPlanner.plan, a fan": seam_plan(fan),
+        "LiveWire along edges": lambda n: lambda: live(n),
+    }
+    return {
+        **{name: proportional(prepare) for name, prepare in work.items()},
+        # Each window crosses as many triangles as the surface is wide, so an exact front has up to n^1.5 windows.
+        "distance_field": proportional(after(embedded, lambda on: sw.distance_field(on, 0)), 1.5),
+        "closed_wires": proportional(after(field, lambda distances, _: distances.closed_wires()), 1.5),
+    }
+
+
+def measured(name: str, triangles: int) -> tuple[float, float]:
+    """Return the processor time of a call, and the memory that it adds at its peak."""
+    work = all_work()[name][0](triangles)
+    Path("/proc/self/clear_refs").write_text("5")  # forgets the peak so far
+    before = memory("VmRSS")
+    start = time.process_time()
+    work()
+    return time.process_time() - start, memory("VmHWM") - before
+
+
+def memory(kind: str) -> float:
+    """Return a figure of /proc/self/status in bytes."""
+    return 1024.0 * int(Path("/proc/self/status").read_text().split(f"{kind}:")[1].split()[0])
+
+
+def growth(small: float, large: float, least: float) -> float:
+    """Return the exponent between two sizes that differ by a factor of four."""
+    return log(max(large, least) / max(small, least)) / log(4)
+
+
+def main() -> int:
+    """Print the table."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--triangles", type=int, default=8000)
+    parser.add_argument("--page", type=Path, help="a Markdown page with a table `scaling`, to be replaced")
+    parser.add_argument("--one", action="store_true", help=argparse.SUPPRESS)
+    parser.add_argument("names", nargs="*", metavar="NAME")
+    arguments = parser.parse_args()
+    if arguments.one:
+        print(json.dumps(measured(arguments.names[0], arguments.triangles)))
+        return 0
+    rows, is_fine = [], True
+    for name, (_, limit) in all_work().items():
+        if arguments.names and name not in arguments.names:
+            continue
+        results = []
+        for factor in (1, 4, 16):
+            command = [sys.executable, __file__, "--one", "--triangles", str(factor * arguments.triangles), name]
+            done = subprocess.run(command, capture_output=True, text=True, check=False)
+            if done.returncode != 0:
+                sys.exit(f"{name}: {done.stderr}")
+            results.append(json.loads(done.stdout))
+        (_, one, two), (_, small, large) = zip(*results, strict=True)
+        in_time, in_memory = growth(one, two, LEAST_SECONDS), growth(small, large, LEAST_BYTES)
+        is_fine &= in_time <= limit and in_memory <= limit
+        cells = [f"{seconds:.2f}" for seconds, _ in results] + [f"{amount / 1e6:.0f}" for _, amount in results]
+        rows.append([name, *cells, f"{in_time:.2f}", f"{in_memory:.2f}", f"{limit:g}"])
+        print("| " + " | ".join(rows[-1]) + " |", flush=True)
+    titles = [
+        "function",
+        "n: s",
+        "4 n: s",
+        "16 n: s",
+        "n: MB",
+        "4 n: MB",
+        "16 n: MB",
+        "growth, s",
+        "growth, MB",
+        "limit",
+    ]
+    if arguments.page:
+        page = arguments.page.read_text("utf-8")
+        arguments.page.write_text(with_tables(page, {"scaling": markdown(titles, rows)}), "utf-8")
+    return 0 if is_fine else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "seamwire/parameterization/flatten.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "detail/half_edge.hpp"
+#include "detail/index.hpp"
+#include "detail/run_on_threads.hpp"
+#include "parameterization/cut_open.hpp"
+#include "parameterization/island_map.hpp"
+#include "parameterization/open_island.hpp"
+#include "parameterization/straight_strip.hpp"
+#include "parameterization/upright.hpp"
+#include "seamwire/surface/segments.hpp"
+#include "surface/corner_fans.hpp"
+#include "surface/cuts.hpp"
+#include "surface/real_edges.hpp"
+
+namespace seamwire {
+
+using namespace detail;
+
+namespace {
+
+/// How often an island is opened further because numbers cannot hold its map.
+constexpr int kMostOpenings = 32;
+/// A map with this mean energy shrinks triangles by more than a million. Programs store UVs in single precision, which
+/// leaves no area of them. Maps that people can use have less than 1e7.
+constexpr double kLostEnergy = 1e12;
+
+/// An island of the half-edge mesh, its map, and which of the caller's corners its own corners are.
+struct MappedIsland {
+  OpenedIsland opened;  ///< its faces are those of the half-edge mesh
+  IslandMap map;
+  bool is_straight = false;
+};
+
+/// The caller's corner of each corner of the half-edge mesh: a triangle that was turned over has two of them swapped.
+std::size_t caller_corner(const Surface& surface, std::int32_t face, std::size_t i) {
+  const Triangle& given = surface.triangles()[index(corner_fans(surface).faces[face])];
+  const bool is_turned = corner_fans(surface).vertices[corner_fans(surface).triangles[face][1]] != given[1];
+  return is_turned && i > 0 ? 3 - i : i;
+}
+
+class Flattener {
+ public:
+  Flattener(const Surface& surface, const FlattenOptions& options) : surface_(surface), options_(options) {
+    if (options.up && !(options.up->allFinite() && options.up->stableNorm() > 0.0)) {
+      throw InvalidInput("up is no direction: it is zero or not finite");
+    }
+    if (options.start.empty()) return;
+    if (options.start.size() != surface.face_count()) {
+      throw InvalidInput("start has " + std::to_string(options.start.size()) + " items: there are " +
+                         std::to_string(surface.face_count()) + " triangles");
+    }
+    for (std::size_t f = 0; f < options.start.size(); ++f) {
+      if (std::ranges::all_of(options.start[f], [](const auto& uv) { return uv.allFinite(); })) continue;
+      throw InvalidInput("start: triangle " + std::to_string(f) + " has a UV that is not finite");
+    }
+  }
+
+  /// The island's map, straight and upright as the options say.
+  MappedIsland map(const Island& island, const Task& task) const {
+    MappedIsland result = flattened(island, task);
+    if (options_.straighten) straighten(result);
+    if (options_.up) {
+      turn_upright(result.opened.island, surface_.points(), *options_.up, result.is_straight, result.map.uvs);
+    }
+    return result;
+  }
+
+  std::int32_t caller_face(const Island& island, std::size_t f) const {
+    return corner_fans(surface_).faces[island.faces[f]];
+  }
+
+ private:
+  MappedIsland flattened(const Island& island, const Task& task) const {
+    const MapOptions options{
+        .max_steps = options_.max_steps, .tolerance = options_.tolerance, .keep_apart = options_.keep_apart};
+    std::optional<MappedIsland> started = continued(island, options, task);
+    const auto is_finished = [&](const IslandMap& map) {
+      return map.steps < options.max_steps && !(map.overlaps && options.keep_apart);
+    };
+    if (started && is_finished(started->map)) return std::move(*started);
+    MappedIsland result = from_tutte(island, options, task);
+    const auto rank = [](const IslandMap& map) { return std::pair(map.overlaps, map.energy); };
+    return started && rank(started->map) < rank(result.map) ? std::move(*started) : std::move(result);
+  }
+
+  /// A straight map neither flips a triangle nor covers itself, because each quad is a rectangle of a grid.
+  void straighten(MappedIsland& mapped) const {
+    const Island& island = mapped.opened.island;
+    std::optional<std::vector<Point2>> straight = straight_map(island, real_half_edges(island), surface_.points());
+    if (!straight) return;
+    const double energy = mean_energy(island, surface_.points(), *straight);
+    if (!(energy <= mapped.map.energy + *options_.straighten)) return;
+    turn_by_quarters(mapped.map.uvs, *straight);
+    mapped.map.uvs = std::move(*straight);
+    mapped.map.energy = energy;
+    mapped.map.overlaps = false;
+    mapped.is_straight = true;
+  }
+
+  const Eigen::Vector2d& start_of(const Island& island, std::int32_t h) const {
+    const std::int32_t face = island.faces[h / 3];
+    return options_.start[index(caller_face(island, index(h / 3)))][caller_corner(surface_, face, index(h % 3))];
+  }
+
+  /// Whether each half-edge of an island is a real edge.
+  std::vector<std::uint8_t> real_half_edges(const Island& island) const {
+    std::vector<std::uint8_t> is_real;
+    is_real.reserve(island.twins.size());
+    for (const Triangle& t : island.triangles) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        is_real.push_back(has_edge(surface_, {island.vertices[t[i]], island.vertices[t[(i + 1) % 3]]}) ? 1 : 0);
+      }
+    }
+    return is_real;
+  }
+
+  /// The island is opened further until double precision can hold the embedding, and single precision the map.
+  MappedIsland from_tutte(const Island& island, const MapOptions& options, const Task& task) const {
+    const std::vector<std::uint8_t> is_real = real_half_edges(island);
+    MappedIsland result{.opened = open_to_plane(island, is_real, surface_.points(), task), .map = {}};
+    for (int opening = 0;; ++opening) {
+      result.map = map_island(result.opened.island, surface_.points(), options, task);
+      if (result.map.energy < kLostEnergy) return result;
+      OpenedIsland further;
+      if (opening < kMostOpenings) further = open_to_farthest(result.opened.island, is_real, surface_.points(), task);
+      if (further.opened == 0) {
+        if (!result.map.uvs.empty()) return result;
+        throw InvalidInput("the island with triangle " + std::to_string(caller_face(island, 0)) +
+                           " cannot be flattened in double precision; cut it further");
+      }
+      further.opened += result.opened.opened;
+      result.opened = std::move(further);
+    }
+  }
+
+  /// The island's map from the start; nullopt if it cannot start there.
+  std::optional<MappedIsland> continued(const Island& island, const MapOptions& options, const Task& task) const {
+    if (options_.start.empty()) return std::nullopt;
+    std::vector<std::uint8_t> is_cut(island.twins.size(), 0);
+    for (std::int32_t h = 0; index(h) < island.twins.size(); ++h) {
+      const std::int32_t twin = island.twins[h];
+      if (twin < h) continue;
+      const bool agrees = start_of(island, h) == start_of(island, next_in_face(twin)) &&
+                          start_of(island, next_in_face(h)) == start_of(island, twin);
+      if (agrees) continue;
+      if (!has_edge(surface_, {island.vertices[island.triangles[h / 3][h % 3]],
+                               island.vertices[island.triangles[h / 3][(h + 1) % 3]]})) {
+        return std::nullopt;  // a polygon has two UVs at a corner
+      }
+      is_cut[h] = is_cut[twin] = 1;
+    }
+    MappedIsland result{.opened = open_along(island, is_cut), .map = {}};
+    const Island& own = result.opened.island;
+    if (own.triangles.empty() || (result.opened.opened > 0 && is_planar(island)) || !is_planar(own))
+      return std::nullopt;
+    std::vector<Point2> uvs(own.vertices.size());
+    for (std::int32_t h = 0; index(h) < own.twins.size(); ++h) uvs[own.triangles[h / 3][h % 3]] = start_of(own, h);
+    for (const auto& [a, b, c] : own.triangles) {
+      const Point2 ab = uvs[b] - uvs[a], ac = uvs[c] - uvs[a];
+      if (!(ab.x() * ac.y() - ab.y() * ac.x() > 0.0)) return std::nullopt;
+    }
+    result.map = continue_map(own, surface_.points(), uvs, options, task);
+    return result;
+  }
+
+  const Surface& surface_;
+  const FlattenOptions& options_;
+};
+
+/// The islands of the half-edge mesh, with vertices of the caller's.
+std::vector<Island> islands_of(const Surface& surface, std::span<const Edge> cut_edges) {
+  const Cuts cuts(surface, cut_edges, "cuts");
+  std::vector<std::uint8_t> is_cut(corner_fans(surface).twins.size(), 0);
+  for (std::int32_t h = 0; index(h) < is_cut.size(); ++h) {
+    const Triangle& fans = corner_fans(surface).triangles[h / 3];
+    is_cut[h] =
+        cuts.contains(corner_fans(surface).vertices[fans[h % 3]], corner_fans(surface).vertices[fans[(h + 1) % 3]]) ? 1
+                                                                                                                    : 0;
+  }
+  std::vector<Island> islands = cut_open(corner_fans(surface), is_cut);
+  for (Island& island : islands) {
+    for (std::int32_t& v : island.vertices) v = corner_fans(surface).vertices[v];
+  }
+  return islands;
+}
+
+/// Maps all islands, those with the most triangles first.
+std::vector<MappedIsland> map_all(const Surface& surface, const std::vector<Island>& islands,
+                                  const FlattenOptions& options, const Task& task) {
+  const Flattener flattener(surface, options);
+  std::vector<MappedIsland> mapped(islands.size());
+  std::vector<std::atomic<double>> progress(islands.size());
+  std::vector<std::size_t> order(islands.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, std::ranges::greater(), [&](std::size_t i) { return islands[i].faces.size(); });
+  const auto fraction = [&](std::size_t) {
+    double done = 0.0, all = 0.0;
+    for (std::size_t i = 0; i < islands.size(); ++i) {
+      const auto size = static_cast<double>(islands[i].faces.size());
+      done += size * progress[i];
+      all += size;
+    }
+    return all > 0.0 ? 0.9 * done / all : 0.0;
+  };
+  run_on_threads(islands.size(), task, fraction, [&](std::size_t k, const Task& own) {
+    const std::size_t i = order[k];
+    const auto report = [&](double done) {
+      if (done > progress[i]) progress[i] = done;
+      return true;
+    };
+    mapped[i] = flattener.map(islands[i], {.stop = own.stop, .progress = report});
+    progress[i] = 1.0;
+  });
+  return mapped;
+}
+
+FlatIsland describe(const Surface& surface, const MappedIsland& mapped) {
+  const Island& island = mapped.opened.island;
+  FlatIsland flat{.energy = mapped.map.energy,
+                  .steps = mapped.map.steps,
+                  .overlaps = mapped.map.overlaps,
+                  .is_straight = mapped.is_straight,
+                  .opened = mapped.opened.opened};
+  const std::vector<double> energies = triangle_energies(island, surface.points(), mapped.map.uvs);
+  const auto worst = static_cast<std::size_t>(std::ranges::max_element(energies) - energies.begin());
+  flat.worst = corner_fans(surface).faces[island.faces[worst]];
+  for (const Triangle& t : island.triangles) {
+    const auto corner = [&](std::size_t i) -> const Vector& { return surface.points()[index(island.vertices[t[i]])]; };
+    flat.area += 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).stableNorm();
+  }
+  return flat;
+}
+
+/// UVs for the corners of triangles that the surface left out.
+void fill_left_out(const Surface& surface, Flattening& result) {
+  std::vector<std::int32_t> left_out = surface.report().degenerate_faces;
+  left_out.insert(left_out.end(), surface.report().duplicate_faces.begin(), surface.report().duplicate_faces.end());
+  if (left_out.empty()) return;
+  std::map<std::pair<std::int32_t, std::int32_t>, Eigen::Vector2d> wanted;  // by island and vertex
+  for (const std::int32_t f : left_out) {
+    for (const std::int32_t v : surface.triangles()[f]) wanted.emplace(std::pair(result.islands[f], v), Point2::Zero());
+  }
+  std::vector<Eigen::Vector2d> center(result.by_island.size(), Point2::Zero());
+  std::vector<double> corners(result.by_island.size(), 0.0);
+  for (const std::int32_t f : corner_fans(surface).faces) {
+    const std::int32_t island = result.islands[f];
+    for (const Eigen::Vector2d& uv : result.uvs[f]) {
+      corners[island] += 1.0;
+      center[island] += (uv - center[island]) / corners[island];
+    }
+  }
+  for (auto& [key, uv] : wanted) uv = center[key.first];
+  for (const std::int32_t f : corner_fans(surface).faces) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto found = wanted.find({result.islands[f], surface.triangles()[f][i]});
+      if (found != wanted.end()) found->second = result.uvs[f][i];
+    }
+  }
+  for (const std::int32_t f : left_out) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      result.uvs[f][i] = wanted.at({result.islands[f], surface.triangles()[f][i]});
+    }
+  }
+}
+
+}  // namespace
+
+Flattening flatten(const Surface& surface, std::span<const Edge> cuts, const FlattenOptions& options,
+                   const Task& task) {
+  task.check(0.0);
+  const std::vector<Island> islands = islands_of(surface, cuts);
+  Flattening result;
+  result.islands = face_segments(surface, cuts);
+  const std::vector<MappedIsland> mapped = map_all(surface, islands, options, task);
+  result.uvs.assign(surface.face_count(), {Point2::Zero(), Point2::Zero(), Point2::Zero()});
+  result.by_island.resize(result.islands.empty() ? 0 : index(std::ranges::max(result.islands) + 1));
+  for (std::size_t i = 0; i < islands.size(); ++i) {
+    const Island& island = mapped[i].opened.island;
+    for (std::size_t f = 0; f < island.faces.size(); ++f) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        result.uvs[index(corner_fans(surface).faces[island.faces[f]])][caller_corner(surface, island.faces[f], k)] =
+            mapped[i].map.uvs[island.triangles[f][k]];
+      }
+    }
+    const std::int32_t first = corner_fans(surface).faces[island.faces.front()];
+    result.by_island[result.islands[first]] = describe(surface, mapped[i]);
+  }
+  fill_left_out(surface, result);
+  task.check(0.95);
+  result.energy = map_energy(surface, result.uvs, result.islands, {.stop = task.stop, .progress = {}});
+  return result;
+}
+
+}  // namespace seamwire

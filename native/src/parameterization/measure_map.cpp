@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "seamwire/parameterization/measure_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <string>
+
+#include "detail/csr.hpp"
+#include "detail/disjoint_sets.hpp"
+#include "detail/half_edge.hpp"
+#include "detail/index.hpp"
+#include "detail/poll.hpp"
+#include "parameterization/box_grid.hpp"
+#include "parameterization/coverage.hpp"
+#include "parameterization/cut_open.hpp"
+#include "parameterization/measure_islands.hpp"
+#include "parameterization/symmetric_dirichlet.hpp"
+#include "surface/corner_fans.hpp"
+
+namespace seamwire {
+
+using namespace detail;
+
+namespace {
+
+using Corners = std::array<Eigen::Vector2d, 3>;
+
+/// The part of the area whose worst triangles do not count.
+constexpr double kLeftOut = 1e-3;
+/// Parts of an outline that cross by less than this part of the island's size only touch.
+constexpr double kTouching = 1e-6;
+
+void check_map(const Surface& surface, std::span<const Corners> uvs, std::span<const std::int32_t> islands) {
+  const auto check_size = [&](const char* what, std::size_t size) {
+    if (size == surface.face_count()) return;
+    throw InvalidInput(std::string(what) + " has " + std::to_string(size) + " items: there are " +
+                       std::to_string(surface.face_count()) + " triangles");
+  };
+  check_size("uvs", uvs.size());
+  if (!islands.empty()) check_size("islands", islands.size());
+  for (std::size_t f = 0; f < uvs.size(); ++f) {
+    const auto is_fine = [](const Eigen::Vector2d& uv) { return uv.allFinite() && uv.cwiseAbs().maxCoeff() < 1e152; };
+    if (!std::ranges::all_of(uvs[f], is_fine)) {
+      throw InvalidInput("triangle " + std::to_string(f) + " has a UV that is not finite or above 1e152 in size");
+    }
+    if (!islands.empty()) check_index(islands[f], uvs.size(), "islands: number", "triangles");
+  }
+}
+
+/// A map of the triangles of a surface's half-edge mesh.
+class HalfEdgeMap {
+ public:
+  HalfEdgeMap(const Surface& surface, std::span<const Corners> uvs, std::span<const std::int32_t> islands)
+      : surface_(surface), uvs_(corner_fans(surface).triangles.size()), island_(uvs_.size()) {
+    for (std::size_t f = 0; f < uvs_.size(); ++f) {
+      const std::int32_t source = corner_fans(surface).faces[f];
+      uvs_[f] = uvs[index(source)];
+      // Fans are listed from the caller's first corner on; a triangle that was turned over has the others swapped.
+      const std::int32_t second = corner_fans(surface).vertices[corner_fans(surface).triangles[f][1]];
+      if (second != surface.triangles()[index(source)][1]) std::swap(uvs_[f][1], uvs_[f][2]);
+    }
+    find_islands(islands);
+    turn_islands();
+  }
+
+  std::size_t size() const { return uvs_.size(); }
+  std::int32_t island(std::size_t face) const { return island_[face]; }
+  std::int32_t island_count() const { return island_.empty() ? 0 : std::ranges::max(island_) + 1; }
+  /// Of all triangles, those of mirrored islands turned over.
+  const std::vector<Corners>& uvs() const { return uvs_; }
+  bool is_mirrored(std::int32_t island) const { return is_mirrored_[island] != 0; }
+  /// Of a triangle, as they lie in the map.
+  Corners placed_uvs(std::size_t face) const {
+    Corners corners = uvs_[face];
+    if (!is_mirrored(island_[face])) return corners;
+    for (Eigen::Vector2d& uv : corners) uv.x() = -uv.x();
+    return corners;
+  }
+  /// Twice the area.
+  double cross(std::size_t face) const {
+    const auto& [a, b, c] = uvs_[face];
+    return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+  }
+  /// Whether the triangles on both sides of an edge agree on its UVs.
+  bool is_continuous(std::int32_t h) const {
+    const std::int32_t twin = corner_fans(surface_).twins[h];
+    return uv(h) == uv(next_in_face(twin)) && uv(next_in_face(h)) == uv(twin);
+  }
+  const Eigen::Vector2d& uv(std::int32_t corner) const { return uvs_[corner / 3][corner % 3]; }
+
+ private:
+  void find_islands(std::span<const std::int32_t> islands) {
+    if (!islands.empty()) {
+      for (std::size_t f = 0; f < size(); ++f) island_[f] = islands[index(corner_fans(surface_).faces[f])];
+      return;
+    }
+    DisjointSets sets(size());
+    for (std::int32_t h = 0; index(h) < corner_fans(surface_).twins.size(); ++h) {
+      if (corner_fans(surface_).twins[h] > h && is_continuous(h)) sets.join(h / 3, corner_fans(surface_).twins[h] / 3);
+    }
+    std::int32_t count = 0;
+    for (std::int32_t f = 0; index(f) < size(); ++f) island_[f] = sets.find(f) == f ? count++ : island_[sets.find(f)];
+  }
+  /// Mirrors the islands of which more area is clockwise.
+  void turn_islands() {
+    std::vector<double> area(index(island_count()), 0.0);
+    for (std::size_t f = 0; f < size(); ++f) area[island_[f]] += cross(f);
+    for (const double sum : area) is_mirrored_.push_back(sum < 0.0 ? 1 : 0);
+    for (std::size_t f = 0; f < size(); ++f) {
+      if (is_mirrored_[island_[f]] == 0) continue;
+      for (Eigen::Vector2d& uv : uvs_[f]) uv.x() = -uv.x();
+    }
+  }
+
+  const Surface& surface_;
+  std::vector<Corners> uvs_;
+  std::vector<std::int32_t> island_;
+  std::vector<std::uint8_t> is_mirrored_;  // of each island
+};
+
+/// The energies at the scale at which their mean is lowest, without the worst triangles.
+class ScaledEnergies {
+ public:
+  ScaledEnergies(std::vector<std::array<double, 2>> parts, const std::vector<double>& weights, double squared_scale)
+      : parts_(std::move(parts)), weights_(weights), squared_scale_(squared_scale) {
+    for (std::int32_t f = 0; index(f) < parts_.size(); ++f) {
+      if (std::isfinite(of(f))) order_.push_back(f);
+    }
+    // Which triangles are worst depends on the scale, and the scale on them.
+    for (int round = 0; round < 4; ++round) find_scale();
+  }
+  double of(std::int32_t f) const { return squared_scale_ * parts_[f][0] + parts_[f][1] / squared_scale_; }
+  double mean() const { return mean_; }
+
+ private:
+  void find_scale() {
+    std::ranges::stable_sort(order_, {}, [&](std::int32_t f) { return of(f); });
+    double all = 0.0, area = 0.0, stretched = 0.0, shrunk = 0.0;
+    for (const std::int32_t f : order_) all += weights_[f];
+    for (const std::int32_t f : order_) {
+      if (area > 0.0 && area + weights_[f] > (1.0 - kLeftOut) * all) break;
+      area += weights_[f];
+      stretched += weights_[f] * parts_[f][0];
+      shrunk += weights_[f] * parts_[f][1];
+    }
+    if (!(area > 0.0)) return;
+    squared_scale_ = std::sqrt(shrunk / stretched);
+    mean_ = 2.0 * std::sqrt(shrunk) * std::sqrt(stretched) / area;
+  }
+
+  std::vector<std::array<double, 2>> parts_;
+  const std::vector<double>& weights_;
+  double squared_scale_;
+  std::vector<std::int32_t> order_;  // of the triangles that are not flipped, by energy
+  double mean_ = std::numeric_limits<double>::infinity();
+};
+
+ScaledEnergies scaled_energies(const Surface& surface, const HalfEdgeMap& map, std::vector<double>& weights) {
+  std::vector<Triangle> triangles(map.size());
+  std::vector<Vector> points;
+  std::vector<double> flat;
+  double largest = 0.0;
+  for (const Corners& corners : map.uvs()) {
+    for (const Eigen::Vector2d& uv : corners) largest = std::max(largest, uv.cwiseAbs().maxCoeff());
+  }
+  // A power of two, so that no triangle flips by rounding.
+  const double unit = largest > 0.0 ? std::ldexp(1.0, std::ilogb(largest)) : 1.0;
+  const Vector origin = surface.points()[index(corner_fans(surface).vertices[0])];
+  double area = 0.0;
+  for (std::size_t f = 0; f < map.size(); ++f) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      triangles[f][i] = static_cast<std::int32_t>(points.size());
+      const std::int32_t v = corner_fans(surface).vertices[corner_fans(surface).triangles[f][i]];
+      points.emplace_back(surface.scale() * (surface.points()[index(v)] - origin));
+      for (const double value : map.uvs()[f][i]) flat.push_back(value / unit);
+    }
+    area += std::max(0.0, map.cross(f) / unit / unit);
+  }
+  const SymmetricDirichlet energy(std::move(triangles), points);
+  weights = energy.weights();
+  // To begin with, the whole map has the area of the surface.
+  return {energy.parts(flat), weights, area > 0.0 ? 2.0 * energy.area() / area : 1.0};
+}
+
+/// Finds islands that cover a part of the plane twice, and islands that cover a part of another one.
+class OverlapTest {
+ public:
+  OverlapTest(const Surface& surface, const HalfEdgeMap& map, const Task& task)
+      : map_(map), task_(task), outlines_(index(map.island_count())) {
+    std::vector<std::uint8_t> is_cut(corner_fans(surface).twins.size(), 0);
+    for (std::int32_t h = 0; index(h) < is_cut.size(); ++h) {
+      const std::int32_t twin = corner_fans(surface).twins[h];
+      if (twin < 0) continue;
+      is_cut[h] = map.island(index(h / 3)) != map.island(index(twin / 3)) || !map.is_continuous(h) ? 1 : 0;
+    }
+    task.check(0.5);
+    std::int32_t vertices = 0;
+    for (const Island& piece : cut_open(corner_fans(surface), is_cut)) {
+      poll_.next();
+      add_piece(piece, vertices);
+      vertices += static_cast<std::int32_t>(piece.vertices.size());
+    }
+  }
+
+  /// `is_bad`: islands that are known to overlap.
+  std::vector<std::int32_t> overlapping(const std::vector<std::uint8_t>& is_bad) const {
+    std::vector<std::int32_t> found;
+    for (std::size_t i = 0; i < outlines_.size(); ++i) {
+      poll_.next();
+      const IslandOutline& outline = outlines_[i];
+      const auto is_double = [&] {
+        return Coverage(outline.sides, outline.inner, kTouching * outline.box.size(), task_).is_double();
+      };
+      if (is_bad[i] != 0 || outline.is_wound || (!outline.sides.empty() && is_double())) {
+        found.push_back(static_cast<std::int32_t>(i));
+      }
+    }
+    return found;
+  }
+
+  std::vector<std::int32_t> colliding() const {
+    std::vector<const IslandOutline*> outlines;
+    std::vector<Box> boxes;
+    double largest = 0.0;
+    for (const IslandOutline& outline : outlines_) {
+      if (outline.sides.empty()) continue;
+      outlines.push_back(&outline);
+      boxes.push_back(outline.box);
+      for (std::size_t k = 0; k < 2; ++k) {
+        largest = std::max({largest, std::abs(outline.box.low[k]), std::abs(outline.box.high[k])});
+      }
+    }
+    // Only islands whose boxes meet can collide.
+    std::vector<OutlineSide> sides;
+    std::vector<InnerPoint> inner;
+    const BoxGrid grid(boxes);
+    for (std::size_t i = 0; i < outlines.size(); ++i) {
+      poll_.next();
+      bool is_near = false;
+      grid.for_each_meeting(boxes[i], [&](std::int32_t other) { is_near = is_near || index(other) != i; });
+      if (!is_near) continue;
+      inner.insert(inner.end(), outlines[i]->inner.begin(), outlines[i]->inner.end());
+      sides.insert(sides.end(), outlines[i]->sides.begin(), outlines[i]->sides.end());
+    }
+    std::vector<std::uint8_t> is_colliding(outlines_.size(), 0);
+    if (!sides.empty()) {
+      Coverage(std::move(sides), std::move(inner), kTouching * largest, task_).mark_colliding(is_colliding);
+    }
+    std::vector<std::int32_t> found;
+    for (std::int32_t i = 0; index(i) < is_colliding.size(); ++i) {
+      if (is_colliding[index(i)] != 0) found.push_back(i);
+    }
+    return found;
+  }
+
+ private:
+  struct IslandOutline {
+    std::vector<OutlineSide> sides;
+    std::vector<InnerPoint> inner;
+    Box box;
+    bool is_wound = false;  // closed, or around an inner vertex twice
+  };
+
+  /// `first`: the number of the piece's first vertex.
+  void add_piece(const Island& piece, std::int32_t first) {
+    const std::int32_t island = map_.island(index(piece.faces.front()));
+    IslandOutline& outline = outlines_[index(island)];
+    std::vector<Eigen::Vector2d> own(piece.vertices.size());
+    double largest = -1.0;
+    InnerPoint inner{.place = {0.0, 0.0}, .group = island, .reach = 0.0};
+    for (std::size_t f = 0; f < piece.faces.size(); ++f) {
+      const Corners corners = map_.placed_uvs(index(piece.faces[f]));
+      double longest = 0.0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        own[index(piece.triangles[f][i])] = corners[i];
+        outline.box.add(corners[i].data());
+        longest = std::max(longest, (corners[(i + 1) % 3] - corners[i]).norm());
+      }
+      const double doubled = map_.cross(index(piece.faces[f]));
+      if (!(doubled > largest)) continue;
+      largest = doubled;
+      inner.place = corners[0] + ((corners[1] - corners[0]) + (corners[2] - corners[0])) / 3.0;
+      inner.reach = longest > 0.0 ? doubled / longest / 3.0 : 0.0;
+    }
+    outline.inner.push_back(inner);
+    const std::vector<std::vector<std::int32_t>> boundaries = piece.boundaries();
+    outline.is_wound = outline.is_wound || boundaries.empty() || winds_around_a_vertex(piece, own);
+    for (const std::vector<std::int32_t>& loop : boundaries) {
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const std::int32_t tail = loop[i], tip = loop[(i + 1) % loop.size()];
+        OutlineSide side{own[index(tail)], own[index(tip)], first + tail, first + tip, island};
+        if (map_.is_mirrored(island)) {
+          std::swap(side.from, side.to);
+          std::swap(side.tail, side.tip);
+        }
+        outline.sides.push_back(side);
+      }
+      mark_longest(std::span(outline.sides).last(loop.size()));
+    }
+  }
+
+  /// Whether the triangles around an inner vertex go around it more than once.
+  bool winds_around_a_vertex(const Island& piece, const std::vector<Eigen::Vector2d>& own) const {
+    std::vector<double> angle(piece.vertices.size(), 0.0);
+    std::vector<std::uint8_t> is_border(piece.vertices.size(), 0);
+    for (std::int32_t h = 0; index(h) < piece.twins.size(); ++h) {
+      const Triangle& t = piece.triangles[h / 3];
+      const Eigen::Vector2d& at = own[index(t[h % 3])];
+      const Eigen::Vector2d to = own[index(t[(h + 1) % 3])] - at, back = own[index(t[(h + 2) % 3])] - at;
+      angle[t[h % 3]] += std::atan2(to.x() * back.y() - to.y() * back.x(), to.dot(back));
+      if (piece.twins[h] < 0) is_border[t[h % 3]] = 1;
+    }
+    for (std::size_t v = 0; v < angle.size(); ++v) {
+      if (is_border[v] == 0 && std::abs(angle[v]) > 3.0 * std::numbers::pi) return true;
+    }
+    return false;
+  }
+
+  const HalfEdgeMap& map_;
+  const Task& task_;
+  mutable Poll poll_{task_, 0.5, 0.5, 1, Poll::kFewSteps};
+  std::vector<IslandOutline> outlines_;
+};
+
+}  // namespace
+
+double map_energy(const Surface& surface, std::span<const Corners> uvs, std::span<const std::int32_t> islands,
+                  const Task& task) {
+  check_map(surface, uvs, islands);
+  task.check(0.0);
+  const HalfEdgeMap map(surface, uvs, islands);
+  if (map.size() == 0) return std::numeric_limits<double>::infinity();
+  task.check(0.1);
+  std::vector<double> weights;
+  return scaled_energies(surface, map, weights).mean();
+}
+
+MapReport detail::measure_islands(const Surface& surface, std::span<const Corners> uvs,
+                                  std::span<const std::int32_t> islands, bool are_placed, const Task& given_task) {
+  const RisingProgress rising(given_task);
+  const Task& task = rising.task();
+  check_map(surface, uvs, islands);
+  task.check(0.0);
+  MapReport report;
+  report.energy = std::numeric_limits<double>::infinity();
+  report.energies.assign(surface.face_count(), 0.0);
+  const HalfEdgeMap map(surface, uvs, islands);
+  if (map.size() == 0) return report;
+  task.check(0.1);
+  std::vector<double> weights;
+  const ScaledEnergies energies = scaled_energies(surface, map, weights);
+  task.check(0.4);
+  report.energy = energies.mean();
+  std::vector<std::uint8_t> is_bad(index(map.island_count()), 0);
+  for (std::size_t f = 0; f < map.size(); ++f) {
+    const std::int32_t source = corner_fans(surface).faces[f];
+    report.energies[index(source)] = energies.of(static_cast<std::int32_t>(f));
+    if (map.cross(f) > 0.0) continue;
+    report.flipped.push_back(source);
+    is_bad[map.island(f)] = 1;
+  }
+  const OverlapTest test(surface, map, task);
+  report.overlapping = test.overlapping(is_bad);
+  if (are_placed) report.colliding = test.colliding();
+  return report;
+}
+
+MapReport measure_map(const Surface& surface, std::span<const Corners> uvs, std::span<const std::int32_t> islands,
+                      const Task& task) {
+  return measure_islands(surface, uvs, islands, true, task);
+}
+
+}  // namespace seamwire

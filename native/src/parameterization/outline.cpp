@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "parameterization/outline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "detail/index.hpp"
+#include "parameterization/box_grid.hpp"
+#include "parameterization/coverage.hpp"
+
+namespace seamwire::detail {
+namespace {
+
+constexpr double kBarrierWeight = 1e-3;
+
+const double* at(std::span<const double> map, std::int32_t v) { return map.data() + 2 * index(v); }
+
+/// A point's distance from an edge, and how far along the edge its nearest point is, from 0 to 1.
+struct Nearest {
+  double distance, along, x, y;  // x, y: from the nearest point to the point
+};
+Nearest nearest_on_edge(const double* point, const double* a, const double* b) {
+  const double dx = b[0] - a[0], dy = b[1] - a[1], px = point[0] - a[0], py = point[1] - a[1];
+  const double squared = dx * dx + dy * dy;
+  const double along = squared > 0.0 ? std::clamp((px * dx + py * dy) / squared, 0.0, 1.0) : 0.0;
+  const double x = px - along * dx, y = py - along * dy;
+  return {std::sqrt(x * x + y * y), along, x, y};
+}
+
+}  // namespace
+
+Outline::Outline(const std::vector<std::vector<std::int32_t>>& boundaries, double reach) : reach_(reach) {
+  for (const std::vector<std::int32_t>& loop : boundaries) {
+    for (std::size_t i = 0; i < loop.size(); ++i) edges_.push_back({loop[i], loop[(i + 1) % loop.size()]});
+    loop_sizes_.push_back(loop.size());
+  }
+}
+
+bool Outline::covers_twice(std::span<const double> map, double tolerance, const Task& task) const {
+  std::vector<OutlineSide> sides;
+  sides.reserve(edges_.size());
+  for (const auto& [a, b] : edges_) {
+    sides.push_back({{at(map, a)[0], at(map, a)[1]}, {at(map, b)[0], at(map, b)[1]}, a, b, 0});
+  }
+  std::size_t begin = 0;
+  for (const std::size_t size : loop_sizes_) {
+    mark_longest(std::span(sides).subspan(begin, size));
+    begin += size;
+  }
+  return Coverage(std::move(sides), {}, tolerance, task).is_double();
+}
+
+std::vector<Outline::Pair> Outline::close_pairs(std::span<const double> map, double factor) const {
+  std::vector<Box> boxes(edges_.size());
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    for (const std::int32_t v : edges_[e]) boxes[e].add(at(map, v), factor * reach_);
+  }
+  const BoxGrid grid(boxes);
+  std::vector<Pair> pairs;
+  for (const auto& [vertex, next] : edges_) {
+    Box box;
+    box.add(at(map, vertex));
+    grid.for_each_meeting(box, [&, vertex = vertex](std::int32_t e) {
+      const auto& [a, b] = edges_[index(e)];
+      if (vertex == a || vertex == b) return;
+      const Pair pair{vertex, a, b};
+      const double distance = nearest_on_edge(at(map, vertex), at(map, a), at(map, b)).distance;
+      if (distance < factor * reach_) pairs.push_back(pair);
+    });
+  }
+  return pairs;
+}
+
+double Outline::energy(std::span<const double> map) const {
+  double sum = 0.0;
+  for (const Pair& pair : close_pairs(map, 1.0)) {
+    const double distance = nearest_on_edge(at(map, pair.vertex), at(map, pair.a), at(map, pair.b)).distance;
+    const double excess = reach_ / distance - 1.0;
+    sum += excess * excess;
+  }
+  return kBarrierWeight * sum;
+}
+
+Outline::Slope Outline::slope(const Pair& pair, std::span<const double> map) const {
+  const Nearest near = nearest_on_edge(at(map, pair.vertex), at(map, pair.a), at(map, pair.b));
+  const double x = near.x / near.distance, y = near.y / near.distance, back = 1.0 - near.along;
+  const double ratio = reach_ / near.distance;
+  Slope slope{{x, y, -back * x, -back * y, -near.along * x, -near.along * y}, 0.0, 0.0};
+  if (ratio <= 1.0) return slope;
+  slope.first = -2.0 * kBarrierWeight * (ratio - 1.0) * ratio / near.distance;
+  slope.second = kBarrierWeight * (6.0 * ratio - 4.0) * ratio / (near.distance * near.distance);
+  return slope;
+}
+
+double Outline::first_contact(std::span<const double> map, std::span<const double> direction, double most) const {
+  std::vector<Box> boxes(edges_.size());
+  const auto add_way = [&](Box& box, std::int32_t v) {
+    const double* from = at(map, v);
+    const double* by = at(direction, v);
+    const std::array<double, 2> to{from[0] + most * by[0], from[1] + most * by[1]};
+    box.add(from);
+    box.add(to.data());
+  };
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    for (const std::int32_t v : edges_[e]) add_way(boxes[e], v);
+  }
+  const BoxGrid grid(boxes);
+  double least = most;
+  const auto try_pair = [&](std::int32_t vertex, std::int32_t a, std::int32_t b) {
+    const auto difference = [](const double* to, const double* from) {
+      return std::array<double, 2>{to[0] - from[0], to[1] - from[1]};
+    };
+    const auto cross = [](const std::array<double, 2>& m, const std::array<double, 2>& n) {
+      return m[0] * n[1] - m[1] * n[0];
+    };
+    const auto side = difference(at(map, b), at(map, a)), off = difference(at(map, vertex), at(map, a));
+    const auto side_move = difference(at(direction, b), at(direction, a));
+    const auto off_move = difference(at(direction, vertex), at(direction, a));
+    // The vertex is in line with the edge at the roots of a quadratic polynomial.
+    const double c0 = cross(side, off), c2 = cross(side_move, off_move);
+    const double c1 = cross(side, off_move) + cross(side_move, off);
+    const double discriminant = c1 * c1 - 4.0 * c0 * c2;
+    if (discriminant < 0.0) return;
+    const double sum = -0.5 * (c1 + std::copysign(std::sqrt(discriminant), c1));
+    for (const double root : {sum / c2, c0 / sum}) {
+      if (!(root > 0.0 && root < least)) continue;
+      const std::array<double, 2> s{side[0] + root * side_move[0], side[1] + root * side_move[1]};
+      const std::array<double, 2> o{off[0] + root * off_move[0], off[1] + root * off_move[1]};
+      const double along = s[0] * o[0] + s[1] * o[1], squared = s[0] * s[0] + s[1] * s[1];
+      constexpr double kSlack = 1e-6;  // of the edge's length, for rounding
+      if (along >= -kSlack * squared && along <= (1.0 + kSlack) * squared) least = root;
+    }
+  };
+  for (const auto& [vertex, next] : edges_) {
+    Box box;
+    add_way(box, vertex);
+    grid.for_each_meeting(box, [&, vertex = vertex](std::int32_t e) {
+      const auto& [a, b] = edges_[index(e)];
+      if (vertex != a && vertex != b) try_pair(vertex, a, b);
+    });
+  }
+  return least;
+}
+
+}  // namespace seamwire::detail

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "wires/spanning_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "detail/disjoint_sets.hpp"
+#include "detail/half_edge.hpp"
+#include "detail/index.hpp"
+#include "detail/poll.hpp"
+
+namespace seamwire::detail {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// One end of a half-edge.
+struct End {
+  std::int32_t half_edge;
+  bool is_tip;
+};
+
+/// The next edge of the boundary around the vertex at the end of one. Nothing where an edge with three or more
+/// triangles comes first.
+std::optional<End> next_of_boundary(const IntrinsicMesh& mesh, End at) {
+  while (true) {
+    at = {at.is_tip ? next_in_face(at.half_edge) : previous_in_face(at.half_edge), !at.is_tip};
+    const std::int32_t h = at.half_edge, twin = mesh.twins[h];
+    if (twin >= 0) {
+      at = {twin, !at.is_tip};
+    } else if (mesh.has_siblings(h)) {
+      const std::int32_t sibling = mesh.siblings[h];
+      if (mesh.siblings[sibling] != h) return std::nullopt;
+      at = {sibling, mesh.tail(sibling) == mesh.tail(h) ? at.is_tip : !at.is_tip};
+    } else {
+      return at;
+    }
+  }
+}
+
+/// Calls visit(half_edge) for each edge of a boundary, which may be closed or not.
+template <class Visit>
+void walk_boundary(const IntrinsicMesh& mesh, std::int32_t first, const Visit& visit) {
+  visit(first);
+  for (const bool is_tip : {true, false}) {
+    std::optional<End> at = next_of_boundary(mesh, {first, is_tip});
+    for (; at && at->half_edge != first; at = next_of_boundary(mesh, {at->half_edge, !at->is_tip})) {
+      visit(at->half_edge);
+    }
+    if (at) return;  // it is closed
+  }
+}
+
+}  // namespace
+
+MeshEdges::MeshEdges(const IntrinsicMesh& mesh, const Task& task) : face_count(mesh.face_count()) {
+  std::vector<std::int32_t> hole_of(3 * face_count, -1);
+  half_edges.reserve(3 * face_count / 2 + 1);
+  const Poll poll(task, 0.0, 0.1, 3 * face_count);
+  for (std::int32_t h = 0; index(h) < 3 * face_count; ++h) {
+    poll.at(index(h));
+    std::int32_t first = h;
+    mesh.for_each_beyond(h, [&](std::int32_t other) { first = std::min(first, other); });
+    if (first < h) continue;
+    half_edges.push_back(h);
+    if (mesh.twins[h] >= 0 || mesh.has_siblings(h)) continue;
+    if (hole_of[h] < 0) {
+      const auto hole = static_cast<std::int32_t>(face_count + hole_count++);
+      walk_boundary(mesh, h, [&](std::int32_t at) { hole_of[at] = hole; });
+    }
+    holes.push_back(hole_of[h]);
+  }
+}
+
+std::vector<std::uint8_t> spanning_tree(const IntrinsicMesh& mesh, const MeshEdges& edges,
+                                        const std::vector<double>& distances, const Task& task) {
+  struct Up {
+    double length = kInfinity;
+    std::int32_t to = -1, edge = -1;
+  };
+  std::vector<Up> up(index(mesh.vertex_count));
+  const auto see = [&](std::int32_t a, std::int32_t b, double length, std::int32_t edge) {
+    if (distances[b] < distances[a]) std::swap(a, b);
+    if (!(distances[a] < distances[b])) return;
+    if (distances[a] + length < up[b].length) up[b] = {distances[a] + length, a, edge};
+  };
+  for (std::size_t e = 0; e < edges.count(); ++e) {
+    const std::int32_t h = edges.half_edges[e];
+    see(mesh.tail(h), mesh.tip(h), mesh.lengths[h], static_cast<std::int32_t>(e));
+  }
+  for (const LooseEdge& edge : mesh.loose_edges) see(edge.a, edge.b, edge.length, -1);
+  task.check(0.2);
+
+  std::vector<std::uint8_t> is_in(edges.count(), 0);
+  DisjointSets parts(up.size());
+  for (std::int32_t v = 0; v < mesh.vertex_count; ++v) {
+    if (up[v].to < 0) continue;
+    parts.join(v, up[v].to);
+    if (up[v].edge >= 0) is_in[up[v].edge] = 1;
+  }
+  struct Bridge {
+    double length;
+    std::int32_t edge, a, b;
+  };
+  std::vector<Bridge> bridges;
+  const auto see_bridge = [&](std::int32_t a, std::int32_t b, double length, std::int32_t edge) {
+    const double whole = distances[a] + distances[b] + length;
+    if (std::isfinite(whole) && parts.find(a) != parts.find(b)) bridges.push_back({whole, edge, a, b});
+  };
+  for (const LooseEdge& edge : mesh.loose_edges) see_bridge(edge.a, edge.b, edge.length, -1);
+  for (std::size_t e = 0; e < edges.count(); ++e) {
+    const std::int32_t h = edges.half_edges[e];
+    see_bridge(mesh.tail(h), mesh.tip(h), mesh.lengths[h], static_cast<std::int32_t>(e));
+  }
+  std::ranges::sort(bridges, {}, [](const Bridge& bridge) { return std::pair(bridge.length, bridge.edge); });
+  for (const Bridge& bridge : bridges) {
+    if (parts.join(bridge.a, bridge.b) && bridge.edge >= 0) is_in[bridge.edge] = 1;
+  }
+  task.check(0.25);
+  return is_in;
+}
+
+}  // namespace seamwire::detail
