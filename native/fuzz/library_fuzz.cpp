@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "intrinsic.hpp"
 #include "seamwire/edges/edge_loop.hpp"
 #include "seamwire/edges/edge_wires.hpp"
 #include "seamwire/edges/fit_chain.hpp"
@@ -41,7 +42,6 @@
 #include "seamwire/wires/closed_wires.hpp"
 #include "seamwire/wires/snap.hpp"
 #include "seamwire/wires/wire.hpp"
-#include "surface/corner_fans.hpp"
 
 namespace seamwire {
 namespace {
@@ -343,26 +343,16 @@ std::shared_ptr<const T> held(const T& object) {
 
 /// The surface's own lengths, with all triangles that have an area in their own.
 std::optional<IntrinsicMesh> own_lengths(const Surface& surface) {
-  IntrinsicMesh mesh;
-  mesh.vertex_count = static_cast<std::int32_t>(surface.vertex_count());
-  mesh.twins = corner_fans(surface).twins;
-  mesh.siblings = corner_fans(surface).siblings;
-  for (const Triangle& fans : corner_fans(surface).triangles) {
-    std::array<double, 3> lengths{};
-    Triangle& corners = mesh.triangles.emplace_back();
-    for (std::size_t i = 0; i < 3; ++i) corners[i] = corner_fans(surface).vertices[static_cast<std::size_t>(fans[i])];
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto [a, b] = std::minmax({corners[i], corners[(i + 1) % 3]});
-      lengths[i] =
-          surface.scale() *
-          (surface.points()[static_cast<std::size_t>(a)] - surface.points()[static_cast<std::size_t>(b)]).norm();
-    }
-    std::array<double, 3> sorted = lengths;
+  const auto length = [&](std::int32_t a, std::int32_t b) {
+    return surface.scale() *
+           (surface.points()[static_cast<std::size_t>(a)] - surface.points()[static_cast<std::size_t>(b)]).norm();
+  };
+  for (const auto& [a, b, c] : surface.triangles()) {
+    std::array<double, 3> sorted{length(a, b), length(b, c), length(c, a)};
     std::ranges::sort(sorted);
     if (!(sorted[0] > 1e-6) || !(sorted[0] + sorted[1] - sorted[2] > 1e-6 * sorted[2])) return std::nullopt;
-    mesh.lengths.insert(mesh.lengths.end(), lengths.begin(), lengths.end());
   }
-  return mesh;
+  return shapes::intrinsic({.points = surface.points(), .triangles = surface.triangles()}, length);
 }
 
 /// Exact geodesics on the triangles as they are, over every edge.

@@ -250,7 +250,7 @@ TEST(Embed, SplitsLargestPerimeterFirst) {
       for (std::int32_t f = 0; at(f) < mesh.face_count(); ++f) {
         if (!mesh.is_valid(f) && static_cast<float>(mesh.perimeter(f, kind)) == largest) first.push_back(f);
       }
-      const std::vector<Triangle> before = mesh.corners;
+      const std::vector<Triangle> before = mesh.triangles;
       is_done = bisection.work_off({}, mesh.faces_added() + 2, progress);
       const bool is_first =
           std::ranges::any_of(first, [&](std::int32_t f) { return mesh.triangles[at(f)] != before[at(f)]; });

@@ -77,7 +77,7 @@ struct UncutCurve {
 };
 
 /// The changes to a mesh that cut curves into it. A node's number is its index in `nodes`.
-struct CutPlan {
+struct SEAMWIRE_API CutPlan {
   std::vector<CutNode> nodes;                      ///< all nodes of the plan
   std::vector<EdgeSplit> splits;                   ///< the edges that get new vertices
   std::vector<std::array<std::int32_t, 2>> along;  ///< cuts between two neighboring vertices or nodes of one edge

@@ -16,7 +16,7 @@ namespace seamwire {
 /// vertex without other triangles has curvature 0. Its normal is zero if none of its triangles has an area. If a vertex
 /// has several corner fans, the first fan decides which side is up. Fans that face the other way count turned over.
 /// Each fan is fitted with its own normals.
-struct Curvature {
+struct SEAMWIRE_API Curvature {
   std::vector<double> k1;       ///< the curvature that is larger in size
   std::vector<double> k2;       ///< the other curvature
   std::vector<Vector> d1;       ///< direction of k1: unit, in the tangent plane; arbitrary without a normal

@@ -40,7 +40,7 @@ SEAMWIRE_API const MetricFamilyInfo& info_of(MetricFamily family);
 SEAMWIRE_API MetricFamily metric_family(std::string_view name);
 
 /// Describes a metric as a value that can be computed on any surface. Equal specs give equal metrics.
-struct MetricSpec {
+struct SEAMWIRE_API MetricSpec {
   MetricFamily family = MetricFamily::kEuclidean;  ///< the family
   std::optional<Follow> follow = std::nullopt;     ///< only set in families that have directions
   /// The strength. For kConcave, the parameter is the strength of concave_metric(), and a max_anisotropy A gives (A -
