@@ -19,8 +19,7 @@ import bpy
 
 from .core.drawing.options import Options, strength_name
 from .core.network.picks import FacePoint, undirected
-from .mesh import edit_mesh, settings
-from .mesh import finish as finishes
+from .mesh import edit_mesh, finishes, settings
 from .mesh.object_session import ObjectSession
 from .words.reports import gaps, left_out
 from .words.scripted import draw_chain, draw_loop

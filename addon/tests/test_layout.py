@@ -1,20 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Imports run downwards only, between packages and between rooms of the core; no two modules need each other."""
+"""Imports run downwards only, no two modules need each other, and each module and class has a name of its own."""
 
 from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
+from collections import defaultdict
+from collections.abc import Iterable, Iterator
 from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
 from blender_refusal import BLENDERS
-from seamwire.words.messages import SENTENCES
+from seamwire.words.sentences import SENTENCES
 
 ROOT = Path(__file__).parent.parent / "seamwire"
 LAB = ROOT.parent / "seamwire_lab"
+BATCH = ROOT.parents[1] / "batch" / "seamwire_batch"
 ROOMS = (
     "base",
     "network",
@@ -91,6 +93,36 @@ def test_a_module_imports_from_its_own_package_or_room_and_those_below(path: Pat
         assert not others & BLENDERS
 
 
+def shared(named: Iterable[tuple[str, str]]) -> dict[str, list[str]]:
+    """Return the names that are given in several places, with these places."""
+    places = defaultdict(list)
+    for name, place in named:
+        places[name].append(place)
+    return {name: found for name, found in places.items() if len(found) > 1}
+
+
+def named_files() -> list[Path]:
+    """Return the modules of both add-ons and of the command for batches. Each folder has an `__init__`."""
+    files = [path for folder in (ROOT, LAB, BATCH) for path in sorted(folder.rglob("*.py"))]
+    return [path for path in files if path.name != "__init__.py"]
+
+
+def test_each_module_has_a_name_of_its_own() -> None:
+    assert len(named_files()) > 100
+    assert shared((path.stem, str(path.parent)) for path in named_files()) == {}
+
+
+def test_each_class_has_a_name_of_its_own() -> None:
+    named = [
+        (node.name, path.name)
+        for path in named_files()
+        for node in ast.parse(path.read_text(encoding="utf-8")).body
+        if isinstance(node, ast.ClassDef)
+    ]
+    assert len(named) > 100
+    assert shared(named) == {}
+
+
 def test_nothing_of_the_drawing_tool_imports_networks() -> None:
     tool = [path for path in sorted(ROOT.rglob("*.py")) if path.relative_to(ROOT).parts[0] != "networks"]
     assert [path for path in tool for name in imported(path)[0] if name.split(".")[0] == "networks"] == []
@@ -100,7 +132,7 @@ def test_nothing_of_the_drawing_tool_imports_networks() -> None:
         for node in strings(ast.parse(path.read_text(encoding="utf-8")))
         if re.fullmatch(r"\.?networks(\.\w+)*", node.value)
     ]
-    assert named == ["networks.operators", "networks.menus"], "the parts that the add-on registers"
+    assert named == ["networks.network_operators", "networks.network_menus"], "the parts that the add-on registers"
 
 
 def test_the_core_has_rooms_only() -> None:
@@ -198,7 +230,7 @@ def sent(tree: ast.Module) -> Iterator[str]:
 
 
 def test_each_message_has_words_and_all_words_are_used() -> None:
-    trees = [ast.parse(path.read_text(encoding="utf-8")) for path in modules() if path.stem != "messages"]
+    trees = [ast.parse(path.read_text(encoding="utf-8")) for path in modules() if path.stem != "sentences"]
     codes = {code for tree in trees for code in sent(tree)}
     called = {
         node.args[0].value

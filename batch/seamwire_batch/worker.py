@@ -314,7 +314,7 @@ class Run:
     def _check_map(self, obj: bpy.types.Object) -> None:
         """Warn of what is wrong with the UV map that an object in edit mode has."""
         from seamwire.core.islands.map_faults import find_faults
-        from seamwire.core.seams.suggestion import stretch_of
+        from seamwire.core.seams.seam_plan import stretch_of
         from seamwire.mesh import uv_map
         from seamwire.mesh.seam_islands import mapped
         from seamwire.words.maps import in_words, not_reached, percent
@@ -386,13 +386,13 @@ class Run:
         from seamwire.mesh import edit_mesh
         from seamwire.mesh.seam_islands import labels_of
 
-        from seamwire_batch.pictures import Network, Scene
+        from seamwire_batch.pictures import Marks, Scene
 
         try:
             whole = _joined(objects)
             arrays = edit_mesh.read(whole)
             wires = list(wires_between(arrays.seams, (), arrays.points))
-            network = Network(wires, labels_of(arrays))
+            network = Marks(wires, labels_of(arrays))
             scene = Scene(
                 whole,
                 network,

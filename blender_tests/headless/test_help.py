@@ -8,7 +8,7 @@ import pytest
 from seamwire.mesh.settings import preferences
 from seamwire.operators import navigation
 from seamwire.ui import help as panel
-from seamwire.words import help as words
+from seamwire.words import first_steps as words
 from seamwire.words.keys import GROUPS, Action, Bindings
 
 

@@ -8,8 +8,8 @@ import pytest
 from mathutils import Euler, Matrix, Vector
 from mathutils.bvhtree import BVHTree
 from scene import add_grid, add_suzanne, edit
+from seamwire.core.picking.camera import Camera
 from seamwire.core.picking.picker import Picker
-from seamwire.core.picking.view import View
 from seamwire.mesh import edit_mesh
 
 pytestmark = pytest.mark.every_blender
@@ -17,12 +17,12 @@ pytestmark = pytest.mark.every_blender
 SIZE = 400.0
 
 
-def from_above(half: float = 1.25) -> View:
+def from_above(half: float = 1.25) -> Camera:
     """Return a view down on the square of this half size around the origin: x to the right, y up."""
-    return View(SIZE, SIZE, np.diag([1.0 / half, 1.0 / half, -0.1, 1.0]))
+    return Camera(SIZE, SIZE, np.diag([1.0 / half, 1.0 / half, -0.1, 1.0]))
 
 
-def pixel(view: View, point: Vector) -> tuple[float, float]:
+def pixel(view: Camera, point: Vector) -> tuple[float, float]:
     return tuple(view.to_pixels(np.array([point]))[0].tolist())
 
 
@@ -102,7 +102,7 @@ def test_numbers_that_other_operators_leave_in_the_mesh_do_not_count() -> None:
     cage.write([(6, 7)], labels={(6, 7): 1})
 
     def renumber() -> None:
-        # What View Selected does to vertices that are not selected.
+        # What Camera Selected does to vertices that are not selected.
         for v in bm.verts:
             v.index = -1
 

@@ -11,7 +11,7 @@ import traces
 import ui as driver
 from desk import Desk, draw
 from scene import seams
-from seamwire.mesh.suggestion import Suggestion
+from seamwire.mesh.seam_search import Suggestion
 from seamwire.operators import bindings, steps
 from seamwire.view.edited_objects import edited
 from seamwire.words.keys import NUMBERS, Action, Bindings

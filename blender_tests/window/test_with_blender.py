@@ -17,7 +17,7 @@ from scene import chain, edit, mark_wires, seams
 from seamwire.core.drawing.picture import Role, SeedRole
 from seamwire.core.drawing.session import Session
 from seamwire.core.storage.serialization import Archive
-from seamwire.mesh import edit_mesh, finish
+from seamwire.mesh import edit_mesh, finishes
 from seamwire.mesh.settings import TOOL
 from seamwire.operators import chain_record
 from seamwire.operators.report import running
@@ -663,7 +663,7 @@ def test_wires_are_kept_with_a_step_of_undo_if_drawing_and_cutting_them_fail(
 
     desk.choose()
     monkeypatch.setattr(ObjectView, "renew", fail)
-    monkeypatch.setattr(finish, "apply", fail)
+    monkeypatch.setattr(finishes, "apply", fail)
     draw(desk, 36, 44)
     monkeypatch.undo()
     dismiss(desk.ui)

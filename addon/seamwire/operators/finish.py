@@ -98,14 +98,14 @@ def cut_wires(
     Halfway
         If an error comes after a mesh has changed.
     """
-    from ..mesh import edit_mesh, finish
+    from ..mesh import edit_mesh, finishes
     from ..mesh.cut import CutError
 
     plans, problems = {}, []
     for mesh, own in wires.items():
         try:
             if own:
-                plans[mesh] = finish.plan_cut(mesh, own)
+                plans[mesh] = finishes.plan_cut(mesh, own)
         except CutError as error:
             problems.append(f"{mesh.obj.name}: {error}" if len(wires) > 1 else str(error))
     if not plans:
@@ -115,7 +115,7 @@ def cut_wires(
         operator.report({"WARNING"}, problem if kept else f"{problem}: no wire was added")
     with changing():
         first()
-        cuts = [finish.cut(mesh, plan, wires[mesh], kept, crumb=crumb)[1] for mesh, plan in plans.items()]
+        cuts = [finishes.cut(mesh, plan, wires[mesh], kept, crumb=crumb)[1] for mesh, plan in plans.items()]
         if live_unwrap:
             edit_mesh.live_unwrap(context)
     uncut = sum(cut.uncut for cut in cuts)
@@ -135,9 +135,11 @@ def cut_wires(
 
 def slide_wires(wires: Mapping[ObjectSession, Collection[Wire]]) -> str:
     """Slide the vertices of kept wires onto the wires, and return a report. The sessions of the meshes end."""
-    from ..mesh import finish
+    from ..mesh import finishes
 
-    return f"{count(sum(finish.slide(mesh, own)[1] for mesh, own in wires.items() if own), 'vertex', 'vertices')} moved"
+    return (
+        f"{count(sum(finishes.slide(mesh, own)[1] for mesh, own in wires.items() if own), 'vertex', 'vertices')} moved"
+    )
 
 
 register, unregister = bpy.utils.register_classes_factory((MESH_OT_seamwire_finish,))

@@ -7,7 +7,7 @@ import bpy
 
 from ..mesh.registration import classes, menu_entry, together
 from ..mesh.settings import TOOL, settings
-from ..operators.store import ISLAND_ITEMS
+from ..operators.store_islands import ISLAND_ITEMS
 
 MENUS = ("VIEW3D_MT_edit_mesh_edges", "VIEW3D_MT_uv_map", "IMAGE_MT_uvs")
 """Blender's menus that have the submenu."""

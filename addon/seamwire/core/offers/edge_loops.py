@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from ..network.stops import Stops
     from ..network.wires import LoopKind
     from ..solver.solver import Engines, LiveWire
-    from .part_borders import Chain, PartBorders
+    from .part_borders import PartBorders, VertexChain
 
 
 _BY_KIND: Mapping[LoopKind, float] = {"CLOSED": 0.0, "PAST": 0.2, "STRIP": 0.5, "WHOLE": 0.7, "FLAT": 0.8}
@@ -240,7 +240,7 @@ class LoopOffers(Offers):
         snap = self._snap
         return None if snap is None or undirected(snap.pick) != undirected(edge) else snap.triangle
 
-    def _nearest_first(self, chains: Sequence[Chain], edge: Edge) -> list[Chain]:
+    def _nearest_first(self, chains: Sequence[VertexChain], edge: Edge) -> list[VertexChain]:
         return sorted(chains, key=lambda chain: self._gaps(_sides(chain), edge).min())
 
     def _gaps(self, sides: Sequence[Edge], edge: Edge) -> NDArray[np.float64]:
@@ -248,7 +248,7 @@ class LoopOffers(Offers):
         middle = self._points[[*edge]].mean(axis=0)
         return nearest_on_segments(middle, *self._points[np.array(sides)].transpose(1, 0, 2))[1]
 
-    def _border(self, chain: Chain, edge: Edge) -> Wire | None:
+    def _border(self, chain: VertexChain, edge: Edge) -> Wire | None:
         """Return a border as the offer of an edge that it need not run along, or None if there is no border."""
         sides = _sides(chain)
         if not sides:

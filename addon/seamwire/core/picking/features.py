@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ..fields.crests import Crests
     from ..network.picks import Pick
     from .sight import Sight
-    from .surface import Surface
+    from .surface import VisibleSurface
 
 FEATURE_REACH = 10.0
 """Pixels in which the strongest feature is looked for."""
@@ -41,7 +41,7 @@ class FeaturePicker:
         The mesh.
     """
 
-    def __init__(self, surface: Surface) -> None:
+    def __init__(self, surface: VisibleSurface) -> None:
         self._surface = surface
         self._strength: tuple[object, float] = (None, 0.0)
         self._crests: tuple[Crests | None, Segments] = (None, Segments([]))

@@ -71,25 +71,25 @@ def _meant_for(stroke: Stroke, kinds: tuple[Kind, ...]) -> Stroke | None:
     return replace(stroke, acts_on=kinds[number]) if number < len(kinds) else None
 
 
-class Chain(Protocol):
+class EdgeChain(Protocol):
     """A chain of edges."""
 
     vertices: NDArray[np.int32]
 
 
-class Loop(Chain, Protocol):
+class Loop(EdgeChain, Protocol):
     """A closed chain of edges. It has no vertices if there is no chain, or if it is not `final` yet."""
 
     final: bool
 
 
-class EdgeLoop(Chain, Protocol):
+class EdgeLoop(EdgeChain, Protocol):
     """A straight chain of edges; no vertices where it cannot be told yet."""
 
     closed: bool
 
 
-class Piece(Chain, Protocol):
+class Piece(EdgeChain, Protocol):
     """A piece of a closed cut, and the chain of edges that it snaps to."""
 
     points: NDArray[np.float64]
@@ -113,7 +113,7 @@ class ClosedCuts(Protocol):
     final: bool
 
 
-class FittedChain(Chain, Protocol):
+class FittedChain(EdgeChain, Protocol):
     """The chain of edges that fits a line; no vertices where none does, or where it cannot be told yet."""
 
     places: NDArray[np.float64]
@@ -158,7 +158,7 @@ class LiveWire(Protocol):
     def bent_wire(self, through: End, second: End, cut: tuple[int, int]) -> ClosedCuts:
         """Return one of these cuts, by its id, bent to a second point, as far as it is computed."""
 
-    def extend_straight(self, edge: Edge, stops: Iterable[int]) -> Chain:
+    def extend_straight(self, edge: Edge, stops: Iterable[int]) -> EdgeChain:
         """Return the straight way on from the end of a directed edge until a stop, a boundary or itself."""
 
     def edge_loop(self, edge: Edge, stops: Iterable[int]) -> EdgeLoop:

@@ -10,11 +10,11 @@ from seamwire.core.base.mesh_arrays import Arrays
 from seamwire.core.network.network import Snap
 from seamwire.core.network.picks import FacePoint, Pick
 from seamwire.core.network.wires import Wire
+from seamwire.core.picking.camera import Camera
 from seamwire.core.picking.picker import Picker
 from seamwire.core.picking.segments import nearest_edge
 from seamwire.core.picking.sight import Sight
-from seamwire.core.picking.surface import Surface
-from seamwire.core.picking.view import View
+from seamwire.core.picking.surface import VisibleSurface
 
 pytest.importorskip("seamwire_core")
 
@@ -22,15 +22,15 @@ SIZE = 400.0
 HERE = np.eye(4)
 
 
-def from_above(half: float = 1.25, perspective: bool = False) -> View:
+def from_above(half: float = 1.25, perspective: bool = False) -> Camera:
     """Return a view down on the square of this half size around the origin: x to the right, y up."""
     if perspective:
         # The eye is at (0, 0, 5): at the height of the origin the view shows the same as without perspective.
         near, far, eye = 0.1, 100.0, 5.0
         depth = [[0, 0, -(far + near) / (far - near), -2 * far * near / (far - near)], [0, 0, -1, 0]]
         projection = np.array([[eye / half, 0, 0, 0], [0, eye / half, 0, 0], *depth])
-        return View(SIZE, SIZE, projection @ moved(0.0, 0.0, -eye))
-    return View(SIZE, SIZE, np.diag([1.0 / half, 1.0 / half, -0.1, 1.0]))
+        return Camera(SIZE, SIZE, projection @ moved(0.0, 0.0, -eye))
+    return Camera(SIZE, SIZE, np.diag([1.0 / half, 1.0 / half, -0.1, 1.0]))
 
 
 def moved(x: float, y: float, z: float) -> np.ndarray:
@@ -52,11 +52,11 @@ def turned(*angles: float) -> np.ndarray:
     return matrix
 
 
-def pixel(view: View, point: tuple[float, float, float]) -> tuple[float, float]:
+def pixel(view: Camera, point: tuple[float, float, float]) -> tuple[float, float]:
     return tuple(view.to_pixels(np.array([point]))[0].tolist())
 
 
-def beside(view: View, point: tuple[float, float, float], x: float, y: float) -> tuple[float, float]:
+def beside(view: Camera, point: tuple[float, float, float], x: float, y: float) -> tuple[float, float]:
     at = pixel(view, point)
     return at[0] + x, at[1] + y
 
@@ -161,7 +161,7 @@ def test_the_place_on_the_surface_is_given_as_the_mesh_has_it() -> None:
     weights = np.linalg.solve(np.column_stack([corners[:, :2], np.ones(3)]).T, (*point[:2], 1.0))
     assert weights.min() > -1e-6, "it lies in the triangle named"
     assert find.surface_at(view, matrix, pixel(view, (3.0, 0.0, -1.0))) is None
-    surface, sight = Surface(arrays), Sight.of(view, matrix, (0.0, 0.0))
+    surface, sight = VisibleSurface(arrays), Sight.of(view, matrix, (0.0, 0.0))
     assert surface.sees(sight, np.array((0.2, 0.4, 0.0)))
     assert not surface.sees(sight, np.array((0.2, 0.4, -0.5)))
 
@@ -470,7 +470,7 @@ def three_planes() -> Arrays:
 def test_the_cursor_is_inside_a_face_where_it_is_far_from_the_nearest_edge() -> None:
     picker, view = (
         Picker(arrays_of(grid_places(3), grid_polygons(3))),
-        View(400.0, 400.0, np.diag([1.0, 1.0, -0.1, 1.0])),
+        Camera(400.0, 400.0, np.diag([1.0, 1.0, -0.1, 1.0])),
     )
 
     def inside(x: float, y: float, **options: object) -> bool:

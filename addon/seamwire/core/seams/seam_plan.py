@@ -72,7 +72,7 @@ def turned_limit(percent: float, notches: int) -> float:
 
 
 @dataclass(frozen=True)
-class Request:
+class PlanRequest:
     """Requirements for a plan.
 
     Parameters

@@ -15,7 +15,7 @@ from ..core.base import native
 from ..core.base.messages import message_of
 from ..core.network.picks import FacePoint, vertices_of
 from ..core.seams.seam_wires import wires_between
-from ..core.seams.slide import plan as plan_slide
+from ..core.seams.slide_plan import plan as plan_slide
 from . import cut as mesh_cut
 from . import slide as mesh_slide
 from .cut import CutError

@@ -39,7 +39,7 @@ Course = tuple["Sequence[int]", "NDArray[np.float64]"]
 """The vertices of a snapped chain, and the points, (k, 3), of its curve."""
 
 
-class Faces(Protocol):
+class SlidFaces(Protocol):
     """The polygons of a mesh, and the triangles that they are seen as."""
 
     points: NDArray[np.float64]
@@ -76,7 +76,7 @@ class Move:
     weights: tuple[float, ...]
 
 
-def plan(faces: Faces, courses: Iterable[Course], fixed: Collection[int] = ()) -> dict[int, Move]:
+def plan(faces: SlidFaces, courses: Iterable[Course], fixed: Collection[int] = ()) -> dict[int, Move]:
     """Find where vertices go.
 
     Parameters
@@ -112,7 +112,7 @@ def places(points: NDArray[np.float64], moves: Iterable[Move]) -> NDArray[np.flo
     return np.array([np.array(move.weights) @ points[list(move.corners)] for move in moves]).reshape(-1, 3)
 
 
-def _is_on_feature(faces: Faces, vertex: int) -> bool:
+def _is_on_feature(faces: SlidFaces, vertex: int) -> bool:
     """Whether a vertex lies on a sharp edge, on the border or where sheets meet."""
     beside: dict[int, list[NDArray[np.float64]]] = defaultdict(list)
     for polygon in faces.polygons_at(vertex):
@@ -154,7 +154,7 @@ def _spread(chain: NDArray[np.float64], curve: NDArray[np.float64]) -> NDArray[n
     return np.stack([np.interp(at, along, curve[:, axis]) for axis in range(3)], axis=1)
 
 
-def _to(faces: Faces, vertex: int, place: NDArray[np.float64]) -> Move | None:
+def _to(faces: SlidFaces, vertex: int, place: NDArray[np.float64]) -> Move | None:
     """Return the move of a vertex to a place on the faces around it; None where it does not lie there."""
     owners = [(polygon, row) for polygon in faces.polygons_at(vertex) for row in faces.rows_of(polygon)]
     triangles = faces.triangles[[row for _, row in owners]]
@@ -165,7 +165,7 @@ def _to(faces: Faces, vertex: int, place: NDArray[np.float64]) -> Move | None:
     return Move(owners[best][0], tuple(triangles[best].tolist()), tuple(weights[best].tolist()))
 
 
-def _onto(faces: Faces, vertex: int, curves: Sequence[NDArray[np.float64]]) -> Move | None:
+def _onto(faces: SlidFaces, vertex: int, curves: Sequence[NDArray[np.float64]]) -> Move | None:
     """Return the move of a vertex to the nearest point of its curve within the faces around it, or to where its curves cross."""
     owners = [(polygon, row) for polygon in faces.polygons_at(vertex) for row in faces.rows_of(polygon)]
     triangles = faces.triangles[[row for _, row in owners]]
@@ -196,7 +196,7 @@ def _nearest_within(
     return None
 
 
-def _without_damage(faces: Faces, moves: dict[int, Move]) -> dict[int, Move]:
+def _without_damage(faces: SlidFaces, moves: dict[int, Move]) -> dict[int, Move]:
     """Make moves shorter, or leave them out, until no corner of a face turns over or gets thin."""
     touched = {polygon for vertex in moves for polygon in faces.polygons_at(vertex)}
     triples = [triple for polygon in sorted(touched) for triple in _corner_triples(faces.corners(polygon))]
