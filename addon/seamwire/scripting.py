@@ -13,28 +13,30 @@ import operator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING, Literal, Union, get_args
+from typing import TYPE_CHECKING, Union
 
 import bpy
 
-from .core.drawing.options import Options, strength_name
 from .core.network.picks import FacePoint, undirected
+from .core.offers.edge_loops import KIND_COSTS
 from .mesh import edit_mesh, finishes, settings
 from .mesh.object_session import ObjectSession
+from .terms.choices import ALONG, FINISHES, METRICS
+from .terms.options import Options, strength_name
 from .words.reports import gaps, left_out
 from .words.scripted import draw_chain, draw_loop
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
 
-    from .core.network.picks import Along, Finish, Pick
+    from .core.network.picks import Pick
     from .core.network.wires import Wire
-    from .core.solver.solver import MetricName
+    from .terms.choices import Along, Finish, MetricName
 
 Seed = Union[int, "tuple[int, int]", "tuple[float, float, float]"]
 """A vertex, an edge as its two vertices, or a place in object coordinates."""
-Take = Literal["FIRST", "CLOSED", "STRIP", "PAST", "WHOLE", "FLAT"]
-_TAKES = get_args(Take)
+TAKES = ("FIRST", *KIND_COSTS)
+"""Which loop along edges `mark` takes: the first that a click would offer, or one of a kind."""
 
 
 @dataclass(frozen=True)
@@ -62,7 +64,7 @@ def mark(
     chains: Sequence[Sequence[Seed]] = (),
     *,
     loops: Sequence[Seed] = (),
-    take: Take = "FIRST",
+    take: str = "FIRST",
     strokes: Sequence[Sequence[int]] = (),
     avoid: Sequence[Sequence[int]] = (),
     along: Along = "EDGES",
@@ -105,10 +107,10 @@ def mark(
     ValueError
         If an argument is wrong, or no seam was marked. The message names the chain and the seed, such as ``chains[0][2]``.
     """
-    _one_of("along", along, [item[0] for item in settings.ALONG_ITEMS])
-    _one_of("finish", finish, [item[0] for item in settings.FINISH_ITEMS])
-    _one_of("metric", metric, [item[0] for item in settings.METRIC_ITEMS])
-    _one_of("take", take, _TAKES)
+    _one_of("along", along, ALONG)
+    _one_of("finish", finish, FINISHES)
+    _one_of("metric", metric, METRICS)
+    _one_of("take", take, TAKES)
     across = along == "SURFACE"
     if across and finish == "CUT" and clear:
         raise ValueError("A cut cannot clear seams: choose another finish")

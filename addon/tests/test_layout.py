@@ -31,6 +31,7 @@ ROOMS = (
 )
 """The rooms of the core; each imports from itself and from those before it."""
 FLOORS = (
+    "terms",
     *(f"core.{room}" for room in ROOMS),
     "networks.core",
     "words",

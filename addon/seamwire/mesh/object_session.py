@@ -23,21 +23,21 @@ from ..core.solver.live_maker import LiveMaker
 from ..core.storage import label_reader, serialization, wire_labels
 from ..core.storage.serialization import Archive, UnreadableError
 from ..core.storage.wire_labels import EdgeLabels, Found, Places
+from ..terms.options import Options
 from ..words.notices import Notices
 from . import edit_mesh
 from .auto import auto_for
-from .settings import ToolOptions, mirror_axes, snapshot
+from .settings import mirror_axes, snapshot
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Sequence
 
     from numpy.typing import NDArray
 
-    from ..core.drawing.options import Options
     from ..core.network.network import Network
     from ..core.network.strokes import Stroke
     from ..core.network.wires import Wire
-    from ..core.solver.defaults import Auto
+    from ..terms.options import Auto
     from .settings import SeamwireSettings
 
 _MOMENT = 0.1
@@ -102,7 +102,7 @@ class ObjectSession:
             Drawing(
                 self.make_live,
                 self.arrays.points,
-                options or ToolOptions(mirror=mirror_axes(obj.data)),
+                options or Options(mirror=mirror_axes(obj.data)),
                 edges=self.arrays.edges,
                 to_object=self.arrays.to_object,
                 triangles=self.arrays.triangles,

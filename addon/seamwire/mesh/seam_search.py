@@ -31,7 +31,7 @@ from ..core.seams.seam_plan import (
     stretch_of,
     stroke_weights,
 )
-from ..core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
+from ..terms.options import CLAMP_PERCENTILE, STRENGTHS
 from ..words.notices import Notices
 from ..words.search_report import Outcome
 from . import edit_mesh, uv_map
@@ -46,8 +46,8 @@ if TYPE_CHECKING:
     import seamwire_core
     from numpy.typing import NDArray
 
-    from ..core.network.picks import Along, Finish
     from ..core.network.wires import Wire
+    from ..terms.choices import Along, Finish
 
 Progress = Callable[[float], bool]
 """Takes the finished fraction, and returns whether to continue."""

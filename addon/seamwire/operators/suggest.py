@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import bpy
 from mathutils import Vector
 
-from ..mesh.settings import AUTO_ALONG_ITEMS, AUTO_FINISH_ITEMS
+from ..terms.choices import ALONG, AUTO_ALONG, AUTO_FINISH, FINISHES, items
 from .edit_mesh_operator import changing
 from .finish import cut_wires, slide_wires
 from .steps import Step, Stepwise, end_all
@@ -71,13 +71,13 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
     along: bpy.props.EnumProperty(
         name="Along",
         description="How wires run on the mesh",
-        items=AUTO_ALONG_ITEMS,
+        items=items(ALONG, AUTO_ALONG),
         default="AUTO",
     )
     finish: bpy.props.EnumProperty(
         name="Finish",
         description="How a wire across the surface becomes a seam",
-        items=AUTO_FINISH_ITEMS,
+        items=items(FINISHES, AUTO_FINISH),
         default="AUTO",
     )
     symmetric: bpy.props.BoolProperty(

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 
     import seamwire_core
 
-    from ..core.drawing.options import Options
     from ..mesh.pose import Pose
+    from ..terms.options import Options
     from .gpu_draw import Eye
 
 _RIDGE = Style((0.98, 0.45, 0.10, 1.0), 2.0, halo=1.0, lift=4.0)

@@ -11,9 +11,9 @@ if TYPE_CHECKING:
     import seamwire_core
 
     from ..core.base.mesh_arrays import Arrays
-    from ..core.drawing.options import Options
     from ..core.solver.solver import End
     from ..mesh.pose import Pose
+    from ..terms.options import Options
     from .gpu_draw import Eye
     from .legend import Legend
 

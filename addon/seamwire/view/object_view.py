@@ -43,7 +43,7 @@ if TYPE_CHECKING:
     from ..core.network.strokes import Stroke
     from ..core.picking.camera import Camera as View
     from ..core.solver.solver import End
-    from ..mesh.settings import ToolOptions
+    from ..terms.options import Options as ToolOptions
     from .layers import Layer
 
 

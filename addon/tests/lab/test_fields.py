@@ -12,6 +12,7 @@ import pytest
 from seamwire.core.base.newest import Newest
 from seamwire.core.fields.color_maps import colors
 from seamwire.core.solver.solver import by_number, kinds_of
+from seamwire.terms.choices import METRICS
 from seamwire_lab import color_tables
 from seamwire_lab.fields import ELLIPSES, PATHS, FieldMaker, FieldRequest, Paths, at_vertices, band_levels, spread
 
@@ -99,7 +100,7 @@ def test_what_is_asked_for_again_in_another_way_is_made_of_what_is_there() -> No
     assert (calls.count("embed"), calls.count("distance_field")) == (2, 3)
 
 
-@pytest.mark.parametrize("metric", ["feature", "campen", "pottmann_kovacs", "concave", "euclidean"])
+@pytest.mark.parametrize("metric", METRICS)
 @pytest.mark.parametrize("follow", ["min", "max"])
 def test_distances_are_as_long_as_the_wires_of_the_same_settings(metric: str, follow: str) -> None:
     points, triangles = torus()

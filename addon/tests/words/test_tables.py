@@ -3,20 +3,12 @@
 
 from __future__ import annotations
 
-from typing import get_args
-
-from seamwire.core.network.wires import LoopKind
 from seamwire.words.keys import GROUPS, NUMBERS, Action, Bindings, Key
-from seamwire.words.names import LOOP_NAMES
 
 
 def test_each_action_has_a_number() -> None:
     assert set(NUMBERS) == set(Action)
     assert len(set(NUMBERS.values())) == len(NUMBERS)
-
-
-def test_each_loop_has_a_name() -> None:
-    assert set(LOOP_NAMES) == set(get_args(LoopKind))
 
 
 def test_each_action_is_in_one_group_of_the_table_of_keys() -> None:

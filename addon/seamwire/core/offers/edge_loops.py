@@ -23,15 +23,15 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from ...terms.choices import LoopKind
     from ..network.network import Network, Snap
     from ..network.picks import Edge, Pick
     from ..network.stops import Stops
-    from ..network.wires import LoopKind
     from ..solver.solver import Engines, LiveWire
     from .part_borders import PartBorders, VertexChain
 
 
-_BY_KIND: Mapping[LoopKind, float] = {"CLOSED": 0.0, "PAST": 0.2, "STRIP": 0.5, "WHOLE": 0.7, "FLAT": 0.8}
+KIND_COSTS: Mapping[LoopKind, float] = {"CLOSED": 0.0, "PAST": 0.2, "STRIP": 0.5, "WHOLE": 0.7, "FLAT": 0.8}
 _LOOP_CROSSES = 0.7
 _STRIP_CROSSES = 0.2
 """How unlikely an offer is, in corners of a loop; being of another kind than what was taken last counts as a corner, too.
@@ -410,7 +410,7 @@ def _unlikeliness(
     assert wire.kind is not None
     inner = wire.vertices if wire.closed else wire.vertices[1:-1]
     crossings = min(int(among(np.array(inner, dtype=np.int64), kept).sum()), _MOST_CROSSINGS)
-    cost = _BY_KIND[wire.kind] + (wire.kind != last)
+    cost = KIND_COSTS[wire.kind] + (wire.kind != last)
     if wire.kind in {"CLOSED", "FLAT"}:
         return cost + _LOOP_CROSSES * crossings + min(corners(live, wire.vertices, points), _MOST_CORNERS)
     return cost + _STRIP_CROSSES * crossings

@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ..solver.defaults import PLACED, SCANNED
+from ...terms.options import PLACED, SCANNED
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..solver.defaults import Auto
+    from ...terms.options import Auto
 
 _FEW = 2_000
 """The edges of a mesh with fewer triangles count as placed: its maker had to spare triangles."""

@@ -5,33 +5,29 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Literal, Protocol, TypeVar, get_args
+from typing import TYPE_CHECKING, Protocol, TypeVar
 
+from ...terms.choices import KINDS, METRICS, Kind, MetricName
+from ...terms.options import CLAMP_PERCENTILE, STRENGTHS
 from ..base.messages import NOTHING, Message, Refused
 from ..network.picks import FacePoint
 from ..network.wires import FOLLOWS
-from .defaults import CLAMP_PERCENTILE, STRENGTHS
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
     from seamwire_core import Surface
 
-    from ..network.picks import Along, Edge, Pick
+    from ...terms.choices import Along
+    from ..network.picks import Edge, Pick
     from ..network.strokes import Stroke
 
-MetricName = Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"]
-"""What draws wires to features, as the library calls it."""
-
-Kind = Literal["min", "max", "concave", "euclidean"]
-"""The library's name for what a wire follows: a direction of curvature, concave creases, or nothing."""
-_KINDS: tuple[Kind, ...] = get_args(Kind)
-_KINDS_OF: Mapping[MetricName, tuple[Kind, ...]] = {"concave": ("concave", "euclidean"), "euclidean": ("euclidean",)}
+_KINDS: tuple[Kind, ...] = tuple(KINDS)
 
 
 def kinds_of(metric: MetricName) -> tuple[Kind, ...]:
     """Return what the wires of a metric follow, by `Wire.follow`."""
-    return _KINDS_OF.get(metric, ("min", "max", "concave"))
+    return METRICS[metric].follows
 
 
 class Candidate(Protocol):

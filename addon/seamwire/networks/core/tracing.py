@@ -20,10 +20,10 @@ from ...core.base.geometry import nearest_on_segments
 from ...core.base.messages import Message
 from ...core.network.strokes import Stroke, for_library, on_mesh
 from ...core.network.wires import LOOP_KINDS, Wire
-from ...core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
 from ...core.solver.live_maker import LiveMaker
 from ...core.solver.solver import by_number, final
 from ...core.storage.serialization import unpacked
+from ...terms.options import CLAMP_PERCENTILE, STRENGTHS
 from .network_file import Course, NetworkFile
 from .placing import DOUBTFUL, NearestSurface, Placed, Shape
 from .work import PLACED, Work
@@ -31,8 +31,9 @@ from .work import PLACED, Work
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ...core.network.picks import Along, Edge
+    from ...core.network.picks import Edge
     from ...core.solver.solver import Candidate, LiveWire
+    from ...terms.choices import Along
 
 STRAY = 1.0
 """How many edges a wire may run beside where it is to run before it gets a seed more."""

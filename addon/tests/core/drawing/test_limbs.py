@@ -10,10 +10,10 @@ from seamwire.core.base.mesh_arrays import Arrays
 from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Snap
-from seamwire.core.network.picks import Along
 from seamwire.core.picking.camera import Camera
 from seamwire.core.picking.picker import Picker
 from seamwire.core.solver.live_maker import LiveMaker
+from seamwire.terms.choices import Along
 from setting import use
 
 pytest.importorskip("seamwire_core")
