@@ -149,7 +149,7 @@ def mark(
             raise ValueError(". ".join(["No seam was marked", *problems]))
         if across and finish == "CUT":
             return _cut(mesh, wires, problems)
-        return _write(mesh, wires, problems, slides=across and finish == "SLIDE" and not clear)
+        return _write(mesh, wires, problems, "SNAP" if clear or not across else finish)
 
 
 def suggest(obj: bpy.types.Object, **options: object) -> bool:
@@ -176,10 +176,10 @@ def cut(obj: bpy.types.Object) -> bool:
         return _call(bpy.ops.mesh.seamwire_finish, {"finish": "CUT"})
 
 
-def _write(mesh: ObjectSession, wires: list[Wire], problems: list[str], slides: bool) -> Marked:
+def _write(mesh: ObjectSession, wires: list[Wire], problems: list[str], finish: Finish) -> Marked:
     marked, cleared = mesh.write(mesh.plan())
-    if slides:
-        finishes.slide(mesh, wires)
+    if finish in finishes.FINISHERS:
+        finishes.FINISHERS[finish](mesh, wires)
     if marked or cleared:
         edit_mesh.live_unwrap(bpy.context)
     return Marked(len(wires), marked, cleared, tuple(problems))

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 import numpy as np
 from mathutils import Vector
@@ -543,7 +543,7 @@ class SeamSearch:
         smallest = (suggestion.smallest() for suggestion in self if suggestion.along == "SURFACE" and suggestion.slits)
         return _CUT_CRUMB * min(smallest, default=0.0)
 
-    def finished_by(self, finish: Literal["CUT", "SLIDE"]) -> list[Suggestion]:
+    def finished_by(self, finish: Finish) -> list[Suggestion]:
         """Return the suggestions with wires across the surface that become seams in this way."""
         across = (suggestion for suggestion in self if suggestion.along == "SURFACE" and suggestion.slits)
         return [suggestion for suggestion in across if suggestion.finish == finish]

@@ -11,7 +11,7 @@ from mathutils import Vector
 
 from ..terms.choices import ALONG, AUTO_ALONG, AUTO_FINISH, FINISHES, items
 from .edit_mesh_operator import changing
-from .finish import cut_wires, slide_wires
+from .finish import cut_wires, move_vertices
 from .steps import Step, Stepwise, end_all
 
 if TYPE_CHECKING:
@@ -174,6 +174,8 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
 
     def _change(self, context: bpy.types.Context, search: SeamSearch) -> set[str]:
         """Write or cut the wires, unwrap, and report."""
+        from ..mesh.finishes import FINISHERS
+
         to_cut = {suggestion.mesh: suggestion.slits for suggestion in search.finished_by("CUT")}
         if to_cut:
             first, crumb = search.write_borders, search.crumb
@@ -181,7 +183,8 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
                 return {"CANCELLED"}
         with changing():
             search.write()
-            slide_wires({suggestion.mesh: suggestion.slits for suggestion in search.finished_by("SLIDE")})
+            for finish in FINISHERS:
+                move_vertices(finish, {suggestion.mesh: suggestion.slits for suggestion in search.finished_by(finish)})
             self._unwrap(context, search)
             self._report_outcome(search)
         return {"FINISHED"}
