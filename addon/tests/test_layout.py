@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Imports run downwards only, no two modules need each other, and each module and class has a name of its own."""
+"""Imports run downwards only, no two modules need each other, and no two modules or classes share a name."""
 
 from __future__ import annotations
 
@@ -108,12 +108,12 @@ def named_files() -> list[Path]:
     return [path for path in files if path.name != "__init__.py"]
 
 
-def test_each_module_has_a_name_of_its_own() -> None:
+def test_no_two_modules_share_a_name() -> None:
     assert len(named_files()) > 100
     assert shared((path.stem, str(path.parent)) for path in named_files()) == {}
 
 
-def test_each_class_has_a_name_of_its_own() -> None:
+def test_no_two_classes_share_a_name() -> None:
     named = [
         (node.name, path.name)
         for path in named_files()
@@ -122,6 +122,18 @@ def test_each_class_has_a_name_of_its_own() -> None:
     ]
     assert len(named) > 100
     assert shared(named) == {}
+
+
+def test_the_page_of_words_names_what_there_is() -> None:
+    text = (ROOT.parents[1] / "docs/development/words.md").read_text(encoding="utf-8")
+    named = re.findall(r"^\| .* \| `(\S+)` `(\w+)` \|$", text, re.MULTILINE)
+    assert len(named) == text.count("\n| ") - 1 > 20
+    missing = [
+        f"{path} {name}"
+        for path, name in named
+        if not re.search(rf"^(class )?{name}\b", (ROOT / path).read_text(encoding="utf-8"), re.MULTILINE)
+    ]
+    assert missing == []
 
 
 def test_nothing_of_the_drawing_tool_imports_networks() -> None:
