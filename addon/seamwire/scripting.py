@@ -116,7 +116,7 @@ def mark(
         raise ValueError("A cut cannot clear seams: choose another finish")
     if across and take != "FIRST":
         raise ValueError("take needs along='EDGES'")
-    with _editing(obj):
+    with editing(obj):
         mirrored = settings.mirror_axes(obj.data) if mirror is None else tuple(map(_axis, mirror))
         options = Options(along=along, finish=finish, metric=metric, clear=clear, mirror=mirrored)
         if strength is not None:
@@ -157,7 +157,7 @@ def suggest(obj: bpy.types.Object, **options: object) -> bool:
 
     `options` are those of the operator, such as ``parts=50``.
     """
-    with _editing(obj, alone=True):
+    with editing(obj, alone=True):
         return _call(bpy.ops.mesh.seamwire_suggest, options)
 
 
@@ -166,13 +166,13 @@ def unwrap(obj: bpy.types.Object, **options: object) -> bool:
 
     `options` are those of *Unwrap Changed Islands*, such as ``changed_only=False``.
     """
-    with _editing(obj, alone=True):
+    with editing(obj, alone=True):
         return _call(bpy.ops.mesh.seamwire_unwrap, options)
 
 
 def cut(obj: bpy.types.Object) -> bool:
     """Cut all kept wires across the surface into the faces, and return whether the mesh has changed."""
-    with _editing(obj, alone=True):
+    with editing(obj, alone=True):
         return _call(bpy.ops.mesh.seamwire_finish, {"finish": "CUT"})
 
 
@@ -202,7 +202,7 @@ def _call(work: Callable[..., set[str]], options: dict[str, object]) -> bool:
 
 
 @contextmanager
-def _editing(obj: bpy.types.Object, alone: bool = False) -> Iterator[None]:
+def editing(obj: bpy.types.Object, alone: bool = False) -> Iterator[None]:
     """Have an object in Edit Mode, then restore all modes and selections. With `alone`, no other mesh may be in Edit Mode."""
     if not isinstance(obj, bpy.types.Object):
         raise ValueError(f"{obj!r} is not an object")
@@ -228,7 +228,7 @@ def _editing(obj: bpy.types.Object, alone: bool = False) -> Iterator[None]:
         try:
             bpy.ops.object.mode_set(mode="EDIT")
         except RuntimeError as error:  # the mesh is linked, or the object is hidden
-            raise ValueError(f"{obj.name} cannot be edited: {error}") from None
+            raise ValueError(f"{obj.name} cannot be edited: {str(error).strip().removeprefix('Error: ')}") from None
         yield
     finally:
         if obj.mode == "EDIT":

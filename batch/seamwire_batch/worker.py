@@ -14,6 +14,7 @@ import pkgutil
 import sys
 import time
 import traceback
+from contextlib import ExitStack, contextmanager
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -28,7 +29,7 @@ if "seamwire_batch" not in sys.modules:
     _spec.loader.exec_module(sys.modules["seamwire_batch"])
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     import bpy
     import numpy as np
@@ -422,37 +423,24 @@ def _plain(name: str) -> str:
     return head if dot and tail.isdigit() else name
 
 
-class _editing:  # noqa: N801 - reads as a statement
-    """Edit mode for one object alone, hidden or not."""
+@contextmanager
+def _editing(obj: bpy.types.Object) -> Iterator[None]:
+    """Have an object in Edit Mode, hidden or not; raises AssetError."""
+    from seamwire.scripting import editing
 
-    def __init__(self, obj: bpy.types.Object) -> None:
-        self._obj = obj
+    from seamwire_batch.assets import AssetError
 
-    def __enter__(self) -> None:
-        import bpy
-
-        from seamwire_batch.assets import AssetError
-
-        obj = self._obj
-        for other in bpy.context.view_layer.objects:
-            if other.select_get():
-                other.select_set(False)
-        self._was = obj.hide_get(), obj.hide_viewport, obj.hide_select
-        obj.hide_viewport = obj.hide_select = False
-        obj.hide_set(False)
-        bpy.context.view_layer.objects.active = obj
-        obj.select_set(True)
+    hidden, *flags = obj.hide_get(), obj.hide_viewport, obj.hide_select
+    obj.hide_viewport = obj.hide_select = False
+    obj.hide_set(False)
+    with ExitStack() as stack:
         try:
-            bpy.ops.object.mode_set(mode="EDIT")
-        except RuntimeError as error:
-            raise AssetError(f"{obj.name} cannot be edited: {str(error).strip().removeprefix('Error: ')}") from error
-
-    def __exit__(self, *_: object) -> None:
-        import bpy
-
-        bpy.ops.object.mode_set(mode="OBJECT")
-        hidden, self._obj.hide_viewport, self._obj.hide_select = self._was
-        self._obj.hide_set(hidden)
+            stack.enter_context(editing(obj))
+        except ValueError as error:
+            raise AssetError(str(error)) from error
+        yield
+    obj.hide_viewport, obj.hide_select = flags
+    obj.hide_set(hidden)
 
 
 def _joined(objects: list[bpy.types.Object]) -> bpy.types.Object:

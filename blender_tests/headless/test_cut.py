@@ -36,8 +36,7 @@ from seamwire.mesh import finishes
 from seamwire.mesh.cut_joins import CUT_EDGES, CUT_VERTS
 from seamwire.mesh.edit_mesh import LABELS
 from seamwire.mesh.object_session import ObjectSession
-from seamwire.mesh.seam_islands import island_count
-from stored import agree, session_on, write
+from stored import agree, island_count, session_on, write
 
 
 def cut(chains: str, **options: object) -> object:

@@ -21,9 +21,9 @@ from seamwire.core.seams.parts import PartEdits, edits_text
 from seamwire.core.seams.seam_plan import PlanRequest, energy_of, stretch_of
 from seamwire.mesh import edit_mesh, seam_islands, seam_search, uv_map
 from seamwire.mesh.object_session import ObjectSession
-from seamwire.mesh.seam_islands import island_count as islands
 from seamwire.view.shown_islands import ShownIslands
 from stored import agree, chains, session_on
+from stored import island_count as islands
 
 
 def open_islands(obj: bpy.types.Object) -> int:

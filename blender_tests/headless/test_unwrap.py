@@ -13,9 +13,9 @@ from scene import add_grid, add_layers, add_object, add_suzanne, edit, mark_wire
 from seamwire.core.base import native
 from seamwire.core.drawing.change import Change
 from seamwire.mesh import finishes
-from seamwire.mesh.seam_islands import island_count, worst_island
+from seamwire.mesh.seam_islands import worst_island
 from seamwire.mesh.unwrap import UNWRAPPED
-from stored import session_on, write
+from stored import island_count, session_on, write
 
 ROWS = 9
 OWN = "edges int .seamwire_unwrapped"

@@ -14,7 +14,7 @@ import stored
 import ui as driver
 from desk import ORANGE, Desk, choose, dismiss, draw, shows, undo_steps
 from scene import chain, edit, mark_wires, seams
-from seamwire.core.drawing.picture import Role, SeedRole
+from seamwire.core.drawing.picture import Role, SeedRole, ShownSeed
 from seamwire.core.drawing.session import Session
 from seamwire.core.storage.serialization import Archive
 from seamwire.mesh import edit_mesh, finishes
@@ -59,7 +59,7 @@ def test_between_chains_no_operator_of_ours_runs_and_what_a_click_takes_is_lit(d
     desk.ui.move(desk.at(40))
     assert session.picture.one(Role.HOVERED) is not None
     desk.ui.move(desk.at(36))
-    assert session.picture.seed_as(SeedRole.HOVERED) == 36
+    assert ShownSeed(36, SeedRole.HOVERED) in session.picture.seeds
     assert modal_operators(desk.ui) == []
 
 

@@ -202,10 +202,6 @@ class Picture:
         """Return the first wire with one of some roles."""
         return next((shown.wire for shown in self.wires if shown.role in roles), None)
 
-    def seed_as(self, role: SeedRole) -> Pick | None:
-        """Return the seed with a role."""
-        return next((shown.pick for shown in self.seeds if shown.role is role), None)
-
     @property
     def active(self) -> Wire | None:
         """The wire that a click would keep, computed or not."""

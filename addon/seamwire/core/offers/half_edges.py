@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
-from ..base.geometry import triangle_areas
+from ..base.geometry import triangle_areas, triangle_normals
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -131,10 +131,7 @@ class HalfEdges:
     @cached_property
     def normals(self) -> NDArray[np.float64]:
         """(m, 3) of the triangles, of length one; of triangles without area zero."""
-        a, b, c = (self._points[self._triangles[:, i]] for i in range(3))
-        normals = np.cross(b - a, c - a)
-        lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-        return np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0.0)
+        return triangle_normals(self._points, self._triangles)
 
     @cached_property
     def twins(self) -> NDArray[np.int64]:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..base.geometry import triangle_normals
 from ..network.picks import FacePoint
 from .segments import Segments
 
@@ -65,10 +66,7 @@ class FeaturePicker:
         """Return the edges at vertices where the mesh ends, where faces meet at a sharp angle, or where more than two meet."""
         surface = self._surface
         triangles = surface.triangles[surface.triangles_at.rows(vertices)]
-        a, b, c = (surface.points[triangles[:, i]] for i in range(3))
-        normals = np.cross(b - a, c - a)
-        lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-        normals = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0.0)
+        normals = triangle_normals(surface.points, triangles)
         sides: dict[tuple[int, int], list[NDArray[np.float64]]] = {}
         for (one, two, three), normal in zip(triangles.tolist(), normals, strict=True):
             for tail, tip in ((one, two), (two, three), (three, one)):

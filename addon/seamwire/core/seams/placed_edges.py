@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ...terms.options import PLACED, SCANNED
+from ..base.geometry import triangle_normals
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -163,8 +164,7 @@ class _Pairs:
         self._starts, self._ends = one[here], other[here]
         self._tips = opposite[self._sides]
         self._is_inner = polygons[here // 3] == polygons[there // 3]
-        corners = points[triangles]
-        normals = _unit(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
+        normals = triangle_normals(points, triangles)
         turned = np.where(one[here] == one[there], -1.0, 1.0)[:, None]
         self._normals = np.stack([normals[here // 3], turned * normals[there // 3]])
 

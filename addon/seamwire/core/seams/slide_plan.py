@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from ..base.geometry import barycentric, nearest_on_segments, relative_heights
+from ..base.geometry import barycentric, nearest_on_segments, relative_heights, triangle_normals
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Sequence
@@ -117,7 +117,7 @@ def _is_on_feature(faces: SlidFaces, vertex: int) -> bool:
     beside: dict[int, list[NDArray[np.float64]]] = defaultdict(list)
     for polygon in faces.polygons_at(vertex):
         triples = _corner_triples(faces.corners(polygon))
-        normal = _normals(faces.points[np.array(triples)]).sum(axis=0)
+        normal = triangle_normals(faces.points, np.array(triples)).sum(axis=0)
         normal /= max(float(np.linalg.norm(normal)), 1e-300)
         for before, at, after in triples:
             if at == vertex:
@@ -130,13 +130,6 @@ def _is_on_feature(faces: SlidFaces, vertex: int) -> bool:
 def _corner_triples(rim: Sequence[int]) -> list[tuple[int, int, int]]:
     """Return each corner of a polygon with those before and after it."""
     return [(rim[at - 1], rim[at], rim[(at + 1) % len(rim)]) for at in range(len(rim))]
-
-
-def _normals(corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the unit normals of triangles, (k, 3, 3); zero where one has no area."""
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-    return np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0.0)
 
 
 def _spread(chain: NDArray[np.float64], curve: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -201,13 +194,13 @@ def _without_damage(faces: SlidFaces, moves: dict[int, Move]) -> dict[int, Move]
     touched = {polygon for vertex in moves for polygon in faces.polygons_at(vertex)}
     triples = [triple for polygon in sorted(touched) for triple in _corner_triples(faces.corners(polygon))]
     triangles = np.array(triples, dtype=np.int64).reshape(-1, 3)
-    normals, heights = _normals(faces.points[triangles]), relative_heights(faces.points[triangles])
+    normals, heights = triangle_normals(faces.points, triangles), relative_heights(faces.points[triangles])
     halved: dict[int, int] = defaultdict(int)
     moved = faces.points.copy()
     while moves:
         moved[list(moves)] = places(faces.points, moves.values())
         now = moved[triangles]
-        cosines = np.einsum("ij,ij->i", normals, _normals(now))
+        cosines = np.einsum("ij,ij->i", normals, triangle_normals(moved, triangles))
         bad = ((cosines < _TURNED) | (relative_heights(now) < _THINNER * heights)) & (heights > 0.0)
         guilty = {vertex for vertex in triangles[bad].ravel().tolist() if vertex in moves}
         if not guilty:
