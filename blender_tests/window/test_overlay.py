@@ -56,6 +56,10 @@ class Said:
     def network_revision(self) -> int:
         return self.picture.network_revision
 
+    @property
+    def wires(self) -> tuple[Wire, ...]:
+        return self.cuts
+
     def edges_to_mark(self) -> list[Edge]:
         return [edge for wire in self.cuts if wire.marks for edge in wire.edges()]
 
