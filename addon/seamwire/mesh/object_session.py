@@ -81,8 +81,6 @@ class ObjectSession:
     ----------
     notices
         Problems with the wires that are stored with the mesh.
-    generation
-        Grows whenever the edit mesh was read anew.
     symmetric
         The axes over which the mesh is symmetric; None while that is not known.
 
@@ -111,7 +109,6 @@ class ObjectSession:
             )
         )
         self.notices = Notices()
-        self.generation = 0
         self.plain_seams: NDArray[np.int32] = self.arrays.seams
         self.symmetric: tuple[int, ...] | None = None
         self._symmetry_error: Exception | None = None
@@ -211,7 +208,6 @@ class ObjectSession:
         labels = self.cage.labels()
         same = labels.same_as(self._labels) and np.array_equal(arrays.seams, self.arrays.seams)
         self.arrays = replace(self.arrays, seams=arrays.seams)
-        self.generation += 1
         if not same:
             self._adopt(labels)
         elif self._found.known:
@@ -242,7 +238,6 @@ class ObjectSession:
             return False
         if not arrays.same_as(self.arrays):
             return False
-        self.generation += 1
         self._set_seams(arrays.seams, self._labels)
         return True
 

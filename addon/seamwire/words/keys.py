@@ -221,20 +221,12 @@ class Bindings:
                 merged.remove(replace(key, type=WHEEL[1]))
         return ", ".join(key.text for key in merged)
 
-    def icon(self, action: Action, single: bool = True) -> tuple[str, str]:
-        """Return the icon of the first key of an action, and what must be written before what it does.
-
-        Parameters
-        ----------
-        action
-            The action of the key.
-        single
-            Prefer a key to a double click.
-        """
+    def icon(self, action: Action) -> tuple[str, str]:
+        """Return the icon of an action's first key, no double click if possible, and the text before its name."""
         keys = self.keys_of(action)
         if not keys:
             return "", ""
-        key = next((key for key in keys if not single or key.value != "DOUBLE_CLICK"), keys[0])
+        key = next((key for key in keys if key.value != "DOUBLE_CLICK"), keys[0])
         if not key.icon:
             return "", key.text
         wheel = "Wheel" if key.type in WHEEL else ""

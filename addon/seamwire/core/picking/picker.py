@@ -128,34 +128,6 @@ class Picker:
         feature = None if strength is None else self._features.strongest_at(sight, pick, strength)
         return Snap(pick) if feature is None else Snap(feature, "FEATURE")
 
-    def pick(
-        self,
-        camera: Camera,
-        matrix: ArrayLike,
-        cursor: tuple[float, float],
-        vertices_only: bool,
-        scale: float = 1.0,
-        edges_only: bool = False,
-    ) -> Pick | None:
-        """Return the edge or the vertex under the cursor.
-
-        Parameters
-        ----------
-        camera, matrix, cursor
-            The camera of the view, the object and the pixel.
-        vertices_only, edges_only
-            Find vertices alone, or edges.
-        scale
-            Of the display.
-
-        Returns
-        -------
-        int, tuple of int or None
-            A vertex, an edge by its vertices, or nothing.
-        """
-        sight = Sight.of(camera, matrix, cursor, scale)
-        return None if sight is None else self._plain.at(sight, vertices_only, edges_only)
-
     def stroke_at(
         self,
         strokes: Sequence[Stroke],
