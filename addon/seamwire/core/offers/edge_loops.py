@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.geometry import nearest_on_segments
+from ..base.half_edges import among
 from ..base.messages import Message
 from ..network.picks import undirected
 from ..network.stops import ranked
-from ..network.symmetry import among
 from ..network.wires import Wire
 from .crossing import Direction, Directions, as_crossing, as_kept, is_loop_of
 from .hairpins import is_hairpin

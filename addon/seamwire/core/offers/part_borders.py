@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .half_edges import HalfEdges, after
+from ..base.half_edges import after
+from .turns import SurfaceEdges
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -68,7 +69,7 @@ class PartBorders:
         seams: Callable[[], NDArray[np.int32]] = lambda: NO_SEAMS,
         find_parts: Callable[[NDArray[np.int32], Callable[[], bool]], Iterable[NDArray[np.int32]]] = lambda *_: (),
     ) -> None:
-        self.half_edges = HalfEdges(points, triangles, edges)
+        self.half_edges = SurfaceEdges(points, triangles, edges)
         self._points, self._triangles = points, triangles
         self._seams_now, self._find_parts = seams, find_parts
         self._seams = NO_SEAMS
@@ -204,7 +205,7 @@ class PartBorders:
 class _Parts:
     """The parts for one amount: `labels` has the part of each triangle, (m,)."""
 
-    half_edges: HalfEdges
+    half_edges: SurfaceEdges
     labels: NDArray[np.int32]
 
     def __post_init__(self) -> None:
