@@ -33,5 +33,5 @@ def empty_scene() -> None:
 def lab_settings() -> Iterator[bpy.types.PropertyGroup]:
     """Enable Seamwire Lab, and return its settings."""
     enable_lab()
-    yield part("settings").settings()
+    yield part("lab_settings").settings()
     disable_lab()

@@ -9,6 +9,7 @@ from scene import Edge, seams
 from seamwire.core.storage.serialization import Archive
 from seamwire.mesh import object_session
 from seamwire.mesh.object_session import ObjectSession
+from seamwire.mesh.seam_islands import missing_cuts
 
 
 def session_on(obj: bpy.types.Object) -> ObjectSession:
@@ -41,3 +42,8 @@ def agree(obj: bpy.types.Object, plain: list[Edge] | tuple[Edge, ...] = ()) -> b
 def forget(patch: pytest.MonkeyPatch) -> None:
     """Forget the records of all meshes, as a Blender that was just started knows none."""
     patch.setattr(object_session, "_archive", Archive())
+
+
+def island_count(obj: bpy.types.Object) -> int:
+    """Return how many islands an object in Edit Mode has."""
+    return len(missing_cuts(obj))

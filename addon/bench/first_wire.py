@@ -52,12 +52,12 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
     from the click to the first wire, from the click to both final wires, and from a move of the cursor to the next wire.
     """
     from seamwire.core.drawing import drawing, session
-    from seamwire.core.drawing.options import Options
+    from seamwire.core.picking.camera import Camera
     from seamwire.core.picking.picker import Picker
-    from seamwire.core.picking.view import View
     from seamwire.core.solver.live_maker import LiveMaker
     from seamwire.mesh import edit_mesh
     from seamwire.operators.chain_window import TICK
+    from seamwire.terms.options import Options
 
     steps = {}
     watch = Watch()
@@ -65,7 +65,7 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
     arrays = edit_mesh.read(obj)
     steps["read"] = watch.lap()
     wires = session.Session(drawing.Drawing(LiveMaker(arrays), arrays.points, Options(along=along)))
-    Picker(arrays).depth(View(1.0, 1.0, np.eye(4)), obj.matrix_world, (0.5, 0.5))
+    Picker(arrays).depth(Camera(1.0, 1.0, np.eye(4)), obj.matrix_world, (0.5, 0.5))
     steps["begun"] = watch.lap()
     wires.wait()
     steps["ready"] = watch.lap()

@@ -19,14 +19,14 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from seamwire.core.base.mesh_arrays import Arrays
 from seamwire.core.network.wires import Wire
+from seamwire.core.picking.camera import Camera
 from seamwire.core.picking.picker import Picker
-from seamwire.core.picking.view import View
 
 SIDES = (317, 513, 1025)
 """Vertices along a side: a hundred thousand, a quarter of a million and a million quads."""
 COMPARED = SIDES[1:]
 """On these, more vertices lie within reach than a snap looks at."""
-VIEW = View(400.0, 400.0, np.diag([0.8, 0.8, -0.1, 1.0]))
+VIEW = Camera(400.0, 400.0, np.diag([0.8, 0.8, -0.1, 1.0]))
 CURSORS = [(120.0 + 4.0 * step, 131.0 + 3.0 * step) for step in range(40)]
 
 

@@ -8,7 +8,7 @@
   the library's metrics that the candidates minimize.
 - Layers: `add_layer` draws something below the wires of each edited object. If a layer has its own settings, it calls `tell_listeners`
   after a change.
-- Drawing: `Eye`, `Lines`, `Faces` and what they need, legends, and colors for numbers.
+- Drawing: `Eye`, `Lines`, `ColoredFaces` and what they need, legends, and colors for numbers.
 """
 
 from __future__ import annotations
@@ -18,15 +18,15 @@ from typing import TYPE_CHECKING
 from .core.base.mesh_arrays import Arrays
 from .core.base.native import load
 from .core.base.newest import Newest
-from .core.drawing.options import Options, strength_name
 from .core.fields.color_maps import ColorMap, colors, steps
 from .core.solver.solver import kinds_of
 from .mesh.auto import auto_for
 from .mesh.edit_mesh import edit_bmesh, read, read_evaluated
 from .mesh.pose import Pose
 from .mesh.settings import settings, snapshot, tell_listeners
+from .terms.options import Options, strength_name
 from .view.edited_objects import edited
-from .view.gpu_draw import Eye, Faces, Lines, Within, blended, draw_over, whole
+from .view.gpu_draw import ColoredFaces, Eye, Lines, Within, blended, draw_over, whole
 from .view.layers import Layer, makers
 from .view.legend import Legend
 from .view.legend import draw as draw_legends
@@ -40,8 +40,8 @@ __all__ = [
     "Arrays",
     "Color",
     "ColorMap",
+    "ColoredFaces",
     "Eye",
-    "Faces",
     "Layer",
     "Legend",
     "Lines",

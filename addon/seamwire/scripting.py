@@ -13,29 +13,30 @@ import operator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING, Literal, Union, get_args
+from typing import TYPE_CHECKING, Union
 
 import bpy
 
-from .core.drawing.options import Options, strength_name
 from .core.network.picks import FacePoint, undirected
-from .mesh import edit_mesh, settings
-from .mesh import finish as finishes
+from .core.offers.edge_loops import KIND_COSTS
+from .mesh import edit_mesh, finishes, settings
 from .mesh.object_session import ObjectSession
+from .terms.choices import ALONG, FINISHES, METRICS
+from .terms.options import Options, strength_name
 from .words.reports import gaps, left_out
 from .words.scripted import draw_chain, draw_loop
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
 
-    from .core.network.picks import Along, Finish, Pick
+    from .core.network.picks import Pick
     from .core.network.wires import Wire
-    from .core.solver.solver import MetricName
+    from .terms.choices import Along, Finish, MetricName
 
 Seed = Union[int, "tuple[int, int]", "tuple[float, float, float]"]
 """A vertex, an edge as its two vertices, or a place in object coordinates."""
-Take = Literal["FIRST", "CLOSED", "STRIP", "PAST", "WHOLE", "FLAT"]
-_TAKES = get_args(Take)
+TAKES = ("FIRST", *KIND_COSTS)
+"""Which loop along edges `mark` takes: the first that a click would offer, or one of a kind."""
 
 
 @dataclass(frozen=True)
@@ -63,7 +64,7 @@ def mark(
     chains: Sequence[Sequence[Seed]] = (),
     *,
     loops: Sequence[Seed] = (),
-    take: Take = "FIRST",
+    take: str = "FIRST",
     strokes: Sequence[Sequence[int]] = (),
     avoid: Sequence[Sequence[int]] = (),
     along: Along = "EDGES",
@@ -106,16 +107,16 @@ def mark(
     ValueError
         If an argument is wrong, or no seam was marked. The message names the chain and the seed, such as ``chains[0][2]``.
     """
-    _one_of("along", along, [item[0] for item in settings.ALONG_ITEMS])
-    _one_of("finish", finish, [item[0] for item in settings.FINISH_ITEMS])
-    _one_of("metric", metric, [item[0] for item in settings.METRIC_ITEMS])
-    _one_of("take", take, _TAKES)
+    _one_of("along", along, ALONG)
+    _one_of("finish", finish, FINISHES)
+    _one_of("metric", metric, METRICS)
+    _one_of("take", take, TAKES)
     across = along == "SURFACE"
     if across and finish == "CUT" and clear:
         raise ValueError("A cut cannot clear seams: choose another finish")
     if across and take != "FIRST":
         raise ValueError("take needs along='EDGES'")
-    with _editing(obj):
+    with editing(obj):
         mirrored = settings.mirror_axes(obj.data) if mirror is None else tuple(map(_axis, mirror))
         options = Options(along=along, finish=finish, metric=metric, clear=clear, mirror=mirrored)
         if strength is not None:
@@ -148,7 +149,7 @@ def mark(
             raise ValueError(". ".join(["No seam was marked", *problems]))
         if across and finish == "CUT":
             return _cut(mesh, wires, problems)
-        return _write(mesh, wires, problems, slides=across and finish == "SLIDE" and not clear)
+        return _write(mesh, wires, problems, "SNAP" if clear or not across else finish)
 
 
 def suggest(obj: bpy.types.Object, **options: object) -> bool:
@@ -156,7 +157,7 @@ def suggest(obj: bpy.types.Object, **options: object) -> bool:
 
     `options` are those of the operator, such as ``parts=50``.
     """
-    with _editing(obj, alone=True):
+    with editing(obj, alone=True):
         return _call(bpy.ops.mesh.seamwire_suggest, options)
 
 
@@ -165,20 +166,20 @@ def unwrap(obj: bpy.types.Object, **options: object) -> bool:
 
     `options` are those of *Unwrap Changed Islands*, such as ``changed_only=False``.
     """
-    with _editing(obj, alone=True):
+    with editing(obj, alone=True):
         return _call(bpy.ops.mesh.seamwire_unwrap, options)
 
 
 def cut(obj: bpy.types.Object) -> bool:
     """Cut all kept wires across the surface into the faces, and return whether the mesh has changed."""
-    with _editing(obj, alone=True):
+    with editing(obj, alone=True):
         return _call(bpy.ops.mesh.seamwire_finish, {"finish": "CUT"})
 
 
-def _write(mesh: ObjectSession, wires: list[Wire], problems: list[str], slides: bool) -> Marked:
+def _write(mesh: ObjectSession, wires: list[Wire], problems: list[str], finish: Finish) -> Marked:
     marked, cleared = mesh.write(mesh.plan())
-    if slides:
-        finishes.slide(mesh, wires)
+    if finish in finishes.FINISHERS:
+        finishes.FINISHERS[finish](mesh, wires)
     if marked or cleared:
         edit_mesh.live_unwrap(bpy.context)
     return Marked(len(wires), marked, cleared, tuple(problems))
@@ -201,7 +202,7 @@ def _call(work: Callable[..., set[str]], options: dict[str, object]) -> bool:
 
 
 @contextmanager
-def _editing(obj: bpy.types.Object, alone: bool = False) -> Iterator[None]:
+def editing(obj: bpy.types.Object, alone: bool = False) -> Iterator[None]:
     """Have an object in Edit Mode, then restore all modes and selections. With `alone`, no other mesh may be in Edit Mode."""
     if not isinstance(obj, bpy.types.Object):
         raise ValueError(f"{obj!r} is not an object")
@@ -227,7 +228,7 @@ def _editing(obj: bpy.types.Object, alone: bool = False) -> Iterator[None]:
         try:
             bpy.ops.object.mode_set(mode="EDIT")
         except RuntimeError as error:  # the mesh is linked, or the object is hidden
-            raise ValueError(f"{obj.name} cannot be edited: {error}") from None
+            raise ValueError(f"{obj.name} cannot be edited: {str(error).strip().removeprefix('Error: ')}") from None
         yield
     finally:
         if obj.mode == "EDIT":

@@ -21,7 +21,7 @@ bl_info = {
 for _name in [name for name in sys.modules if name.startswith(f"{__name__}.")]:
     del sys.modules[_name]
 
-_PARTS = ("settings", "store", "panel", "follower")
+_PARTS = ("lab_settings", "store_fields", "panel", "follower")
 
 
 def register() -> None:

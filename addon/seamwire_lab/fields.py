@@ -34,7 +34,7 @@ _RADIUS, _LONGEST = 0.33, 1.5
 
 
 @dataclass(frozen=True)
-class Request:
+class FieldRequest:
     """The fields to compute, and their metric.
 
     Parameters
@@ -167,7 +167,7 @@ class Silhouette:
 class Fields:
     """The results for a request. A field is None if it was not requested or has no source."""
 
-    request: Request
+    request: FieldRequest
     strength: NDArray[np.float64] | None = None
     concavity: NDArray[np.float64] | None = None
     silhouette: Silhouette | None = None
@@ -273,7 +273,7 @@ class FieldMaker:
             self._kept[name] = key, make()
         return self._kept[name][1]
 
-    def make(self, request: Request) -> Fields:
+    def make(self, request: FieldRequest) -> Fields:
         """Compute fields now.
 
         Raises
@@ -331,10 +331,10 @@ class FieldMaker:
 
         return self._once("silhouette", None, make)
 
-    def _distance(self, request: Request) -> NDArray[np.float64]:
+    def _distance(self, request: FieldRequest) -> NDArray[np.float64]:
         return self._once("distance", (request.metric_key, request.source), lambda: self._field(request).distances)
 
-    def metric(self, request: Request) -> seamwire_core.Metric:
+    def metric(self, request: FieldRequest) -> seamwire_core.Metric:
         """Return the metric that wires are short in, as the library's live wires have it."""
 
         def make() -> seamwire_core.Metric:
@@ -346,11 +346,11 @@ class FieldMaker:
 
         return self._once("metric", request.metric_key, make)
 
-    def _plain_metric(self, request: Request) -> seamwire_core.Metric:
+    def _plain_metric(self, request: FieldRequest) -> seamwire_core.Metric:
         """Return the metric without strokes."""
         return self._core.make_metric(self.surface(), self._spec(request), progress=self._go_on)
 
-    def _spec(self, request: Request) -> seamwire_core.MetricSpec:
+    def _spec(self, request: FieldRequest) -> seamwire_core.MetricSpec:
         if request.kind == "euclidean":
             return self._core.MetricSpec("euclidean")
         if request.kind == "concave":
@@ -360,7 +360,7 @@ class FieldMaker:
             request.metric, request.kind, max_anisotropy=request.strength, clamp_percentile=clamp
         )
 
-    def embedding(self, request: Request) -> seamwire_core.Embedding:
+    def embedding(self, request: FieldRequest) -> seamwire_core.Embedding:
         """Return the surface embedded in that metric."""
         metric = self.metric(request)
         return self._once(
@@ -369,7 +369,7 @@ class FieldMaker:
             lambda: self._core.embed(self.surface(), metric, progress=self._go_on),
         )
 
-    def _field(self, request: Request) -> seamwire_core.DistanceField:
+    def _field(self, request: FieldRequest) -> seamwire_core.DistanceField:
         source = request.source
         seeds = list(source) if isinstance(source, tuple) and not isinstance(source[1], tuple) else source
         embedding = self.embedding(request)
@@ -379,7 +379,7 @@ class FieldMaker:
             lambda: self._core.distance_field(embedding, seeds, progress=self._go_on),
         )
 
-    def _ellipses(self, request: Request) -> Ellipses:
+    def _ellipses(self, request: FieldRequest) -> Ellipses:
         def make() -> Ellipses:
             metric, surface = self.metric(request), self.surface()
             used = np.unique(surface.triangles)
@@ -410,7 +410,7 @@ class FieldMaker:
 
         return self._once("ellipses", request.metric_key, make)
 
-    def _paths(self, request: Request) -> Paths:
+    def _paths(self, request: FieldRequest) -> Paths:
         def make() -> Paths:
             used = np.unique(self.surface().triangles)
             targets = used[spread(self.surface().points[used], PATHS)[0]]
@@ -418,7 +418,7 @@ class FieldMaker:
 
         return self._once("paths", (request.metric_key, request.source), make)
 
-    def _isolines(self, request: Request) -> Isolines:
+    def _isolines(self, request: FieldRequest) -> Isolines:
         def make() -> Isolines:
             distances = self._field(request).distances
             levels = band_levels(float(distances[np.isfinite(distances)].max(initial=0.0)))
@@ -427,7 +427,7 @@ class FieldMaker:
 
         return self._once("isolines", (request.metric_key, request.source), make)
 
-    def _invalid(self, request: Request) -> Invalid:
+    def _invalid(self, request: FieldRequest) -> Invalid:
         def make() -> Invalid:
             embedding, surface = self.embedding(request), self.surface()
             before = self._core.invalid_faces(surface, self.metric(request))

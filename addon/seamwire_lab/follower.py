@@ -14,7 +14,7 @@ import bpy
 from mathutils import Matrix
 
 from . import tool
-from .settings import listeners, settings
+from .lab_settings import listeners, settings
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -33,7 +33,7 @@ _PAUSE = 0.3
 """Seconds after which a changed mesh is read again. A mesh that is being changed changes all the time."""
 
 
-class _Shown:
+class _ActiveViews:
     """The views of the active object of Object Mode, or the reason why it has none."""
 
     def __init__(self, found: ModuleType, obj: bpy.types.Object) -> None:
@@ -81,7 +81,7 @@ class Follower:
 
     def __init__(self) -> None:
         self._tool: ModuleType | None = None
-        self._shown: _Shown | None = None
+        self._shown: _ActiveViews | None = None
         self._active: tuple[str, str] | None = None
         self._handles: list[object] = []
         self._changed = 0.0
@@ -160,7 +160,7 @@ class Follower:
         if obj is None or self._tool is None:
             return _IDLE
         if self._shown is None:
-            self._shown = _Shown(self._tool, obj)
+            self._shown = _ActiveViews(self._tool, obj)
             _redraw()
         self._shown.attempt(self._follow)
         return _RHYTHM if self.views is not None and self.views.busy else _IDLE

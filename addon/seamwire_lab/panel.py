@@ -6,8 +6,8 @@ from __future__ import annotations
 import bpy
 
 from . import tool
-from .settings import LINES, settings
-from .store import ITEMS, OPERATOR
+from .lab_settings import LINES, settings
+from .store_fields import ITEMS, OPERATOR
 
 
 class VIEW3D_PT_seamwire_lab(bpy.types.Panel):

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from . import color_maps, fields
-from .drawing import ColoredLines, ShadedFaces
-from .fields import FieldMaker, Request
-from .settings import LINES, settings
+from . import color_tables, fields
+from .fields import FieldMaker, FieldRequest
+from .lab_settings import LINES, settings
+from .shaded import ColoredLines, ShadedFaces
 from .tool import interface
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     import seamwire_core
     from numpy.typing import NDArray
-    from seamwire.interface import Arrays, Color, ColorMap, Eye, Faces, Legend, Lines, Options, Pose
+    from seamwire.interface import Arrays, Color, ColoredFaces, ColorMap, Eye, Legend, Lines, Options, Pose
 
     from .fields import Ellipses, Fields, Part, Source
 
@@ -45,11 +45,11 @@ _PARTS: dict[str, Part] = dict(zip(LINES, ("SILHOUETTE", "ELLIPSES", "PATHS", "I
 
 def request_for(
     options: Options, parts: frozenset[Part], source: Source | None, strokes: tuple[object, ...] = ()
-) -> Request:
+) -> FieldRequest:
     """Return a request for fields in the metric that the settings of the tool and of this add-on name."""
     kinds = interface().kinds_of(options.metric)
     kind = kinds[min(("MIN", "MAX").index(settings().shown_metric), len(kinds) - 1)]
-    return Request(parts, options.metric, options.strength, options.clamp, kind, source, strokes)
+    return FieldRequest(parts, options.metric, options.strength, options.clamp, kind, source, strokes)
 
 
 class Views:
@@ -72,10 +72,10 @@ class Views:
         core = self._tool.load()
         maker = FieldMaker(core, surface, lambda: not self._maker.superseded)
         self._maker = self._tool.Newest(maker.make, "seamwire-lab", (core.Cancelled,))
-        self._asked: Request | None = None
+        self._asked: FieldRequest | None = None
         self._heat: Part | None = None
         self._visible: frozenset[Part] = frozenset()
-        self._request = Request(frozenset())
+        self._request = FieldRequest(frozenset())
         self._made: dict[str, tuple[object, object]] = {}
         self._seen: Fields | None = None
 
@@ -208,8 +208,8 @@ class Views:
             kept[:] = eye.key, self._lines(_SILHOUETTE, segments)
         return kept[1]
 
-    def _invalid_faces(self, invalid: fields.Invalid) -> Faces:
-        faces = self._tool.Faces(self._pose.points)
+    def _invalid_faces(self, invalid: fields.Invalid) -> ColoredFaces:
+        faces = self._tool.ColoredFaces(self._pose.points)
         for color, numbers in enumerate((invalid.split, invalid.repaired, invalid.left)):
             if len(numbers):
                 faces.add(color, self._arrays.triangles[numbers])
@@ -263,12 +263,12 @@ class HeatScale:
         """Return the scale for the values of a heat view."""
         some = values[np.isfinite(values)]
         if heat == "DISTANCE":
-            return cls(0.0, float(some.max(initial=0.0)), color_maps.PLASMA, False)
+            return cls(0.0, float(some.max(initial=0.0)), color_tables.PLASMA, False)
         high = float(np.percentile(np.abs(some), _PERCENTILE)) if len(some) else 0.0
         clipped = bool(np.abs(some).max(initial=0.0) > high)
         if heat == "CONCAVITY":
-            return cls(-high, high, color_maps.PURPLE_ORANGE, clipped)
-        return cls(0.0, high, color_maps.VIRIDIS, clipped)
+            return cls(-high, high, color_tables.PURPLE_ORANGE, clipped)
+        return cls(0.0, high, color_tables.VIRIDIS, clipped)
 
     def colors(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the colors of numbers, (n, 3)."""
@@ -314,7 +314,7 @@ def _text(number: float) -> str:
 def _ellipse_faces(ellipses: Ellipses) -> tuple[ShadedFaces, ShadedFaces]:
     """Return the rims of ellipses, and the colored insides that lie above the rims."""
     colors = np.ones((len(ellipses.centres), 4))
-    colors[:, :3] = interface().colors(_anisotropy_parts(ellipses), color_maps.VIRIDIS)
+    colors[:, :3] = interface().colors(_anisotropy_parts(ellipses), color_tables.VIRIDIS)
     rims = np.broadcast_to(np.array(_RIM), colors.shape)
     return _fans(ellipses, _RIM_WIDTH * ellipses.spacing, rims), _fans(ellipses, 0.0, colors)
 
@@ -363,7 +363,7 @@ def _of_invalid(invalid: fields.Invalid) -> Legend:
 def _of_ellipses(ellipses: Ellipses) -> Legend:
     largest = float(ellipses.anisotropy.max(initial=1.0))
     marks = ((0.0, "1"), (0.5, _text(largest**0.5)), (1.0, _text(largest)))
-    return _legend(("Anisotropy; long where paths are short",), interface().steps(color_maps.VIRIDIS, _STEPS), marks)
+    return _legend(("Anisotropy; long where paths are short",), interface().steps(color_tables.VIRIDIS, _STEPS), marks)
 
 
 def _of_silhouette(_silhouette: fields.Silhouette) -> Legend:

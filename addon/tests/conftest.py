@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 sys.path.insert(0, str(Path(__file__).parent.parent))
-importlib.import_module("seamwire.words.messages")  # messages become text
+importlib.import_module("seamwire.words.sentences")  # messages become text
 
 
 @pytest.fixture(autouse=True)

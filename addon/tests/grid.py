@@ -6,10 +6,10 @@ from __future__ import annotations
 from fake_live import FakeLive, grid_edges, grid_points
 from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.network.network import Network
-from seamwire.core.network.picks import Along
 from seamwire.core.network.symmetry import Symmetry
 from seamwire.core.network.wires import Wire
 from seamwire.core.solver.solver import Engines
+from seamwire.terms.choices import Along
 
 SIZE = 6
 POINTS = grid_points(SIZE)

@@ -8,8 +8,8 @@ import pytest
 from numpy.typing import NDArray
 from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.session import Session
-from seamwire.core.network.picks import Along
-from seamwire.core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
+from seamwire.terms.choices import Along
+from seamwire.terms.options import CLAMP_PERCENTILE, STRENGTHS
 
 core = pytest.importorskip("seamwire_core")
 

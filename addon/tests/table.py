@@ -8,9 +8,9 @@ import itertools
 from fake_live import FakeLive, grid_edges, grid_points, grid_triangles
 from paper_mesh import PaperMesh
 from seamwire.core.drawing.drawing import Drawing
-from seamwire.core.drawing.options import Options
 from seamwire.core.drawing.session import Session
-from seamwire.core.network.picks import Along
+from seamwire.terms.choices import Along
+from seamwire.terms.options import Options
 
 SIZE = 6
 

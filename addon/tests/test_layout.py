@@ -1,20 +1,22 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Imports run downwards only, between packages and between rooms of the core; no two modules need each other."""
+"""Imports run downwards only, no two modules need each other, and no two modules or classes share a name."""
 
 from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
+from collections import defaultdict
+from collections.abc import Iterable, Iterator
 from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
 from blender_refusal import BLENDERS
-from seamwire.words.messages import SENTENCES
+from seamwire.words.sentences import SENTENCES
 
 ROOT = Path(__file__).parent.parent / "seamwire"
 LAB = ROOT.parent / "seamwire_lab"
+BATCH = ROOT.parents[1] / "batch" / "seamwire_batch"
 ROOMS = (
     "base",
     "network",
@@ -29,6 +31,7 @@ ROOMS = (
 )
 """The rooms of the core; each imports from itself and from those before it."""
 FLOORS = (
+    "terms",
     *(f"core.{room}" for room in ROOMS),
     "networks.core",
     "words",
@@ -91,6 +94,48 @@ def test_a_module_imports_from_its_own_package_or_room_and_those_below(path: Pat
         assert not others & BLENDERS
 
 
+def shared(named: Iterable[tuple[str, str]]) -> dict[str, list[str]]:
+    """Return the names that are given in several places, with these places."""
+    places = defaultdict(list)
+    for name, place in named:
+        places[name].append(place)
+    return {name: found for name, found in places.items() if len(found) > 1}
+
+
+def named_files() -> list[Path]:
+    """Return the modules of both add-ons and of the command for batches. Each folder has an `__init__`."""
+    files = [path for folder in (ROOT, LAB, BATCH) for path in sorted(folder.rglob("*.py"))]
+    return [path for path in files if path.name != "__init__.py"]
+
+
+def test_no_two_modules_share_a_name() -> None:
+    assert len(named_files()) > 100
+    assert shared((path.stem, str(path.parent)) for path in named_files()) == {}
+
+
+def test_no_two_classes_share_a_name() -> None:
+    named = [
+        (node.name, path.name)
+        for path in named_files()
+        for node in ast.parse(path.read_text(encoding="utf-8")).body
+        if isinstance(node, ast.ClassDef)
+    ]
+    assert len(named) > 100
+    assert shared(named) == {}
+
+
+def test_the_page_of_words_names_what_there_is() -> None:
+    text = (ROOT.parents[1] / "docs/development/words.md").read_text(encoding="utf-8")
+    named = re.findall(r"^\| .* \| `(\S+)` `(\w+)` \|$", text, re.MULTILINE)
+    assert len(named) == text.count("\n| ") - 1 > 20
+    missing = [
+        f"{path} {name}"
+        for path, name in named
+        if not re.search(rf"^(class )?{name}\b", (ROOT / path).read_text(encoding="utf-8"), re.MULTILINE)
+    ]
+    assert missing == []
+
+
 def test_nothing_of_the_drawing_tool_imports_networks() -> None:
     tool = [path for path in sorted(ROOT.rglob("*.py")) if path.relative_to(ROOT).parts[0] != "networks"]
     assert [path for path in tool for name in imported(path)[0] if name.split(".")[0] == "networks"] == []
@@ -100,7 +145,7 @@ def test_nothing_of_the_drawing_tool_imports_networks() -> None:
         for node in strings(ast.parse(path.read_text(encoding="utf-8")))
         if re.fullmatch(r"\.?networks(\.\w+)*", node.value)
     ]
-    assert named == ["networks.operators", "networks.menus"], "the parts that the add-on registers"
+    assert named == ["networks.network_operators", "networks.network_menus"], "the parts that the add-on registers"
 
 
 def test_the_core_has_rooms_only() -> None:
@@ -198,7 +243,7 @@ def sent(tree: ast.Module) -> Iterator[str]:
 
 
 def test_each_message_has_words_and_all_words_are_used() -> None:
-    trees = [ast.parse(path.read_text(encoding="utf-8")) for path in modules() if path.stem != "messages"]
+    trees = [ast.parse(path.read_text(encoding="utf-8")) for path in modules() if path.stem != "sentences"]
     codes = {code for tree in trees for code in sent(tree)}
     called = {
         node.args[0].value

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from . import process, tables
-from .jobs import PARTS, Job, Journal, Machine, Options, UsageError, find_assets, is_done
+from .jobs import PARTS, Job, Journal, Machine, SeamOptions, UsageError, find_assets, is_done
 
 EPILOG = """\
 Exit codes: 0 if all assets are done, 1 if some are not and the table says why, 2 if nothing was begun. A run that was ended goes on when it
@@ -115,7 +115,7 @@ def _shard(text: str) -> tuple[int, int]:
     return number, count
 
 
-def options_of(arguments: argparse.Namespace) -> Options:
+def options_of(arguments: argparse.Namespace) -> SeamOptions:
     """Return the options of a run; raises UsageError."""
     ways = [way for way in ("network", "source", "mark", "suggest") if getattr(arguments, way)]
     if len(ways) != 1:
@@ -134,7 +134,7 @@ def options_of(arguments: argparse.Namespace) -> Options:
         pairs.append((int(match[1]), int(match[2])))
     if arguments.place == "pairs" and way != "source":
         raise UsageError("--place pairs needs --source: distances are those on the mesh that has the seams")
-    return Options(
+    return SeamOptions(
         way,
         network=str(Path(arguments.network).resolve()) if arguments.network else "",
         source=str(Path(arguments.source).resolve()) if arguments.source else "",
@@ -232,7 +232,7 @@ def on_dask(scheduler: str) -> Engine:
     return work
 
 
-def read_source(options: Options, machine: Machine, out: Path, name: str) -> dict[str, str]:
+def read_source(options: SeamOptions, machine: Machine, out: Path, name: str) -> dict[str, str]:
     """Make networks of the objects of a source asset, in a separate Blender; return their files' stems by the objects' names."""
     folder = out / PARTS / f"source-{name}"
     shutil.rmtree(folder, ignore_errors=True)

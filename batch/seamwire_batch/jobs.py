@@ -22,7 +22,7 @@ class UsageError(Exception):
 
 
 @dataclass(frozen=True)
-class Options:
+class SeamOptions:
     """How seams are made, the same for all assets of a run: see `cli` for what each means."""
 
     way: str
@@ -92,7 +92,7 @@ class Job:
     asset: str
     name: str
     out: str
-    options: Options
+    options: SeamOptions
     machine: Machine
     sources: dict[str, str] = field(default_factory=dict)
 

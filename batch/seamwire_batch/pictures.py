@@ -39,7 +39,7 @@ PALETTE = (
 
 
 @dataclass(frozen=True)
-class Network:
+class Marks:
     """The marks on a model.
 
     Parameters
@@ -76,7 +76,7 @@ class Scene:
     def __init__(
         self,
         obj: bpy.types.Object,
-        network: Network,
+        network: Marks,
         triangles: NDArray[np.int32],
         polygon_of: NDArray[np.int32],
         size: int = 720,
@@ -164,7 +164,7 @@ class Scene:
             self._mesh.use_auto_smooth = True
             self._mesh.auto_smooth_angle = radians(40)
 
-    def _make_wires(self, network: Network) -> bpy.types.Object:
+    def _make_wires(self, network: Marks) -> bpy.types.Object:
         curve = bpy.data.curves.new("Seamwires", "CURVE")
         curve.dimensions = "3D"
         curve.bevel_depth = 0.006 * self._radius
@@ -180,7 +180,7 @@ class Scene:
         bpy.context.scene.collection.objects.link(wires)
         return wires
 
-    def _make_seeds(self, network: Network) -> list[bpy.types.Object]:
+    def _make_seeds(self, network: Marks) -> list[bpy.types.Object]:
         seeds = sorted({seed for wire in network.wires for seed in (wire.start, wire.end)})
         bpy.ops.mesh.primitive_uv_sphere_add(segments=16, ring_count=8, radius=0.016 * self._radius)
         ball = bpy.context.object
@@ -335,7 +335,7 @@ class Scene:
         return picture
 
 
-def _coloring(network: Network, triangles: NDArray[np.int32]) -> NDArray[np.int64]:
+def _coloring(network: Marks, triangles: NDArray[np.int32]) -> NDArray[np.int64]:
     """Choose for each island a color of the palette that none of its neighbours has, where there is one."""
     sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
     owner = np.tile(network.islands, 3)

@@ -14,6 +14,7 @@ import pkgutil
 import sys
 import time
 import traceback
+from contextlib import ExitStack, contextmanager
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -28,7 +29,7 @@ if "seamwire_batch" not in sys.modules:
     _spec.loader.exec_module(sys.modules["seamwire_batch"])
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     import bpy
     import numpy as np
@@ -314,7 +315,7 @@ class Run:
     def _check_map(self, obj: bpy.types.Object) -> None:
         """Warn of what is wrong with the UV map that an object in edit mode has."""
         from seamwire.core.islands.map_faults import find_faults
-        from seamwire.core.seams.suggestion import stretch_of
+        from seamwire.core.seams.seam_plan import stretch_of
         from seamwire.mesh import uv_map
         from seamwire.mesh.seam_islands import mapped
         from seamwire.words.maps import in_words, not_reached, percent
@@ -386,13 +387,13 @@ class Run:
         from seamwire.mesh import edit_mesh
         from seamwire.mesh.seam_islands import labels_of
 
-        from seamwire_batch.pictures import Network, Scene
+        from seamwire_batch.pictures import Marks, Scene
 
         try:
             whole = _joined(objects)
             arrays = edit_mesh.read(whole)
             wires = list(wires_between(arrays.seams, (), arrays.points))
-            network = Network(wires, labels_of(arrays))
+            network = Marks(wires, labels_of(arrays))
             scene = Scene(
                 whole,
                 network,
@@ -422,37 +423,24 @@ def _plain(name: str) -> str:
     return head if dot and tail.isdigit() else name
 
 
-class _editing:  # noqa: N801 - reads as a statement
-    """Edit mode for one object alone, hidden or not."""
+@contextmanager
+def _editing(obj: bpy.types.Object) -> Iterator[None]:
+    """Have an object in Edit Mode, hidden or not; raises AssetError."""
+    from seamwire.scripting import editing
 
-    def __init__(self, obj: bpy.types.Object) -> None:
-        self._obj = obj
+    from seamwire_batch.assets import AssetError
 
-    def __enter__(self) -> None:
-        import bpy
-
-        from seamwire_batch.assets import AssetError
-
-        obj = self._obj
-        for other in bpy.context.view_layer.objects:
-            if other.select_get():
-                other.select_set(False)
-        self._was = obj.hide_get(), obj.hide_viewport, obj.hide_select
-        obj.hide_viewport = obj.hide_select = False
-        obj.hide_set(False)
-        bpy.context.view_layer.objects.active = obj
-        obj.select_set(True)
+    hidden, *flags = obj.hide_get(), obj.hide_viewport, obj.hide_select
+    obj.hide_viewport = obj.hide_select = False
+    obj.hide_set(False)
+    with ExitStack() as stack:
         try:
-            bpy.ops.object.mode_set(mode="EDIT")
-        except RuntimeError as error:
-            raise AssetError(f"{obj.name} cannot be edited: {str(error).strip().removeprefix('Error: ')}") from error
-
-    def __exit__(self, *_: object) -> None:
-        import bpy
-
-        bpy.ops.object.mode_set(mode="OBJECT")
-        hidden, self._obj.hide_viewport, self._obj.hide_select = self._was
-        self._obj.hide_set(hidden)
+            stack.enter_context(editing(obj))
+        except ValueError as error:
+            raise AssetError(str(error)) from error
+        yield
+    obj.hide_viewport, obj.hide_select = flags
+    obj.hide_set(hidden)
 
 
 def _joined(objects: list[bpy.types.Object]) -> bpy.types.Object:

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 from place import ASSETS, ENDS, Place
 from seamwire_batch import cli, worker
-from seamwire_batch.jobs import Job, Journal, Machine, Options, UsageError, find_assets
+from seamwire_batch.jobs import Job, Journal, Machine, SeamOptions, UsageError, find_assets
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="processes end otherwise there")
 
@@ -218,11 +218,11 @@ def test_a_file_name_that_is_not_utf_8_costs_no_table(tmp_path: Path, capsys: py
 
 
 def test_options_tell_results_apart() -> None:
-    one = Options("mark", arguments={"chains": "0 1"})
-    assert one.fingerprint() == Options("mark", arguments={"chains": "0 1"}).fingerprint()
-    assert one.fingerprint() != Options("mark", arguments={"chains": "0 2"}).fingerprint()
-    assert one.fingerprint() != Options("mark", arguments={"chains": "0 1"}, align=False).fingerprint()
-    assert one.fingerprint() != Options("mark", arguments={"chains": "0 1"}, unwrap={"upright": "0"}).fingerprint()
+    one = SeamOptions("mark", arguments={"chains": "0 1"})
+    assert one.fingerprint() == SeamOptions("mark", arguments={"chains": "0 1"}).fingerprint()
+    assert one.fingerprint() != SeamOptions("mark", arguments={"chains": "0 2"}).fingerprint()
+    assert one.fingerprint() != SeamOptions("mark", arguments={"chains": "0 1"}, align=False).fingerprint()
+    assert one.fingerprint() != SeamOptions("mark", arguments={"chains": "0 1"}, unwrap={"upright": "0"}).fingerprint()
 
 
 def test_arguments_are_names_and_values(place: Place, capsys: pytest.CaptureFixture) -> None:
@@ -234,7 +234,7 @@ def test_arguments_are_names_and_values(place: Place, capsys: pytest.CaptureFixt
 
 
 def test_a_job_is_told_as_json(tmp_path: Path) -> None:
-    job = Job("/a/b.STL", "x/b.STL", "/out", Options("suggest"), Machine(("blender",)))
+    job = Job("/a/b.STL", "x/b.STL", "/out", SeamOptions("suggest"), Machine(("blender",)))
     told = json.loads(json.dumps(job.told(tmp_path)))
     assert (told["name"], told["output"], told["way"]) == ("b.STL", "b.STL.blend", "suggest")
 

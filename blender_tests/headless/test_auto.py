@@ -8,8 +8,8 @@ import bpy
 import pytest
 from scene import edit
 from seamwire.core.seams import placed_edges
-from seamwire.core.solver.defaults import PLACED, SCANNED, Auto
 from seamwire.mesh.object_session import ObjectSession
+from seamwire.terms.options import PLACED, SCANNED, Auto
 
 
 @pytest.fixture

@@ -32,12 +32,11 @@ from seamwire.core.drawing.change import Change
 from seamwire.core.network.network import Network
 from seamwire.core.network.wires import Wire
 from seamwire.mesh import cut as mesh_cut
-from seamwire.mesh import finish
+from seamwire.mesh import finishes
 from seamwire.mesh.cut_joins import CUT_EDGES, CUT_VERTS
 from seamwire.mesh.edit_mesh import LABELS
 from seamwire.mesh.object_session import ObjectSession
-from seamwire.mesh.seam_islands import island_count
-from stored import agree, session_on, write
+from stored import agree, island_count, session_on, write
 
 
 def cut(chains: str, **options: object) -> object:
@@ -314,14 +313,14 @@ def test_an_object_that_cannot_be_cut_is_named_and_the_others_are_cut(
     for obj in (first, second):
         mark_wires("0 14", obj=obj, along="SURFACE", metric="euclidean")
     before = seams(first)
-    plan = finish.plan_cut
+    plan = finishes.plan_cut
 
     def plan_second(mesh: ObjectSession, wires: object) -> object:
         if mesh.obj.name == "First":
             raise mesh_cut.CutError("no-wire-leaves-face")
         return plan(mesh, wires)
 
-    monkeypatch.setattr(finish, "plan_cut", plan_second)
+    monkeypatch.setattr(finishes, "plan_cut", plan_second)
     assert bpy.ops.mesh.seamwire_finish(finish="CUT") == {"FINISHED"}
     said = capfd.readouterr().out
     assert "First: Nothing to cut: every wire stays inside one face" in said
@@ -601,9 +600,9 @@ def test_a_wire_that_left_the_mesh_keeps_no_other_from_being_cut() -> None:
     mark_wires(chains="0 16; 64 79", along="SURFACE")
     mesh = session_on(obj)
     wires = [wire if wire.start == 64 else replace(wire, points=wire.points * 3.0) for wire in mesh.session.wires]
-    plan = finish.plan_cut(mesh, wires)
+    plan = finishes.plan_cut(mesh, wires)
     assert [wires[number].start for number, _ in plan.left_out] == [0]
-    assert finish.cut(mesh, plan, wires, kept=True)[1].wires == 1
+    assert finishes.cut(mesh, plan, wires, kept=True)[1].wires == 1
     kept = session_on(obj).session.wires
     assert sorted((wire.along, wire.start) for wire in kept) == [("EDGES", 64), ("SURFACE", 0)]
     assert agree(obj)
@@ -619,7 +618,7 @@ def test_the_tool_tells_of_a_wire_that_is_not_cut() -> None:
     wires = [replace(wire, finish="CUT", stored=0) for wire in before.wires]
     wires[0] = replace(wires[0], points=wires[0].points * 3.0)
     mesh.session.adopt(replace(before, wires=tuple(wires)), mesh.plain_seams)
-    _, done = finish.apply(mesh, Change(before, mesh.session.network))
+    _, done = finishes.apply(mesh, Change(before, mesh.session.network))
     assert (done.cut, done.left_out, done.problem) == (1, 1, "")
     assert 79 in joined(obj, 64) and 16 in joined(obj, 0), "the other stays snapped"
 
@@ -628,13 +627,13 @@ def test_a_wire_that_leaves_the_mesh_where_a_cut_was_taken_back_is_kept(monkeypa
     obj = add_grid(9)
     edit()
     mesh, change = with_a_cut_to_take_back()
-    placed = finish._placed
+    placed = finishes._placed
 
     def astray(*what: object) -> list[Wire]:
         return [wire.changed(points=wire.points * (3.0 if wire.start == 64 else 1.0)) for wire in placed(*what)]
 
-    monkeypatch.setattr(finish, "_placed", astray)
-    _, done = finish.apply(mesh, change)
+    monkeypatch.setattr(finishes, "_placed", astray)
+    _, done = finishes.apply(mesh, change)
     assert (done.cut, done.left_out, done.problem) == (1, 1, "")
     kept = session_on(obj).session.wires
     assert sorted((wire.along, wire.start, wire.end) for wire in kept) == [("EDGES", 8, 36), ("SURFACE", 64, 79)]
@@ -648,7 +647,7 @@ def test_a_cut_that_ends_after_another_was_taken_back_says_so(failing: str, monk
     obj = add_grid(9)
     edit()
     mesh, change = with_a_cut_to_take_back()
-    plan = finish.plan_cut
+    plan = finishes.plan_cut
 
     def refuse_place(*_: object) -> object:
         raise ValueError("too far away")
@@ -658,10 +657,10 @@ def test_a_cut_that_ends_after_another_was_taken_back_says_so(failing: str, monk
             return plan(own, wires)
         raise ValueError("too far away")
 
-    monkeypatch.setattr(finish, "plan_cut", refuse_plan)
+    monkeypatch.setattr(finishes, "plan_cut", refuse_plan)
     if failing == "finder":
-        monkeypatch.setattr(finish, "_placed", refuse_place)
-    _, done = finish.apply(mesh, change)
+        monkeypatch.setattr(finishes, "_placed", refuse_place)
+    _, done = finishes.apply(mesh, change)
     assert (done.cut, done.problem) == (0, "too far away. The old cut was removed: undo restores it")
     kept = sorted((wire.along, wire.start, wire.end) for wire in session_on(obj).session.wires)
     assert kept == ([] if failing == "finder" else [("SURFACE", 8, 36), ("SURFACE", 64, 79)])
@@ -879,7 +878,7 @@ def remove(obj: bpy.types.Object, *seeds: int) -> None:
 def _finish(mesh: ObjectSession, before: Network) -> None:
     change = Change(before, mesh.session.network)
     write(mesh)
-    finish.apply(mesh, change)
+    finishes.apply(mesh, change)
 
 
 def content(obj: bpy.types.Object) -> dict[str, object]:
@@ -1312,7 +1311,7 @@ def lines(obj: bpy.types.Object, *ends: tuple[tuple[float, float], tuple[float, 
 
 def cut_with(mesh: ObjectSession, crumb: float) -> None:
     wires = mesh.session.wires
-    finish.cut(mesh, finish.plan_cut(mesh, wires), wires, kept=True, crumb=crumb)
+    finishes.cut(mesh, finishes.plan_cut(mesh, wires), wires, kept=True, crumb=crumb)
 
 
 @pytest.mark.parametrize(("crumb", "islands"), [(0.0, 7), (5e-4, 7), (1e-3, 6)])

@@ -7,7 +7,7 @@ import bmesh
 import bpy
 import pytest
 from scene import add_grid, edit, mark_wires, snapshot
-from seamwire.mesh import edit_mesh, finish, seam_islands
+from seamwire.mesh import edit_mesh, finishes, seam_islands
 from seamwire.mesh.object_session import ObjectSession
 
 
@@ -84,7 +84,7 @@ def test_undo_leads_back_from_an_error_at_the_second_mesh_that_is_cut(
     bpy.ops.ed.undo_push(message="Marked")
     before = states(grids)
     with monkeypatch.context() as failing:
-        failing.setattr(finish, "cut", fail_at(2, finish.cut))
+        failing.setattr(finishes, "cut", fail_at(2, finishes.cut))
         with pytest.raises(RuntimeError, match="Stopped halfway"):
             bpy.ops.mesh.seamwire_finish("EXEC_DEFAULT", True, finish="CUT")
     counts = [len(bmesh.from_edit_mesh(bpy.data.objects[each].data).verts) for each in grids]

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a picker finds on a mesh that was read from Blender. How it finds it is tested without Blender."""
 
+from functools import partial
+
 import bmesh
 import bpy
 import numpy as np
@@ -8,8 +10,8 @@ import pytest
 from mathutils import Euler, Matrix, Vector
 from mathutils.bvhtree import BVHTree
 from scene import add_grid, add_suzanne, edit
+from seamwire.core.picking.camera import Camera
 from seamwire.core.picking.picker import Picker
-from seamwire.core.picking.view import View
 from seamwire.mesh import edit_mesh
 
 pytestmark = pytest.mark.every_blender
@@ -17,12 +19,18 @@ pytestmark = pytest.mark.every_blender
 SIZE = 400.0
 
 
-def from_above(half: float = 1.25) -> View:
+def from_above(half: float = 1.25) -> Camera:
     """Return a view down on the square of this half size around the origin: x to the right, y up."""
-    return View(SIZE, SIZE, np.diag([1.0 / half, 1.0 / half, -0.1, 1.0]))
+    return Camera(SIZE, SIZE, np.diag([1.0 / half, 1.0 / half, -0.1, 1.0]))
 
 
-def pixel(view: View, point: Vector) -> tuple[float, float]:
+def picked(found: Picker, *where: object, vertices_only: bool) -> object:
+    """Return what a click would take of the plain mesh."""
+    snap = found.snap(*where, vertices_only=vertices_only)
+    return None if snap is None else snap.pick
+
+
+def pixel(view: Camera, point: Vector) -> tuple[float, float]:
     return tuple(view.to_pixels(np.array([point]))[0].tolist())
 
 
@@ -40,7 +48,7 @@ def test_picks_follow_an_objects_rotation_and_its_uneven_scale() -> None:
     )
     bpy.context.view_layer.update()
     edit()
-    pick, view = picker(obj).pick, from_above()
+    pick, view = partial(picked, picker(obj)), from_above()
     bm = bmesh.from_edit_mesh(obj.data)
     bm.verts.index_update()
     bm.faces.index_update()
@@ -88,7 +96,7 @@ def test_edges_without_faces_are_picked_too() -> None:
     bm.edges.new((bm.verts[3], bm.verts.new((1.0, 1.2, 0.0))))
     bmesh.update_edit_mesh(obj.data)
     view = from_above()
-    assert set(picker(obj).pick(view, Matrix(), pixel(view, (1.0, 1.1, 0.0)), vertices_only=False)) == {3, 4}
+    assert set(picked(picker(obj), view, Matrix(), pixel(view, (1.0, 1.1, 0.0)), vertices_only=False)) == {3, 4}
 
 
 def test_numbers_that_other_operators_leave_in_the_mesh_do_not_count() -> None:
@@ -102,7 +110,7 @@ def test_numbers_that_other_operators_leave_in_the_mesh_do_not_count() -> None:
     cage.write([(6, 7)], labels={(6, 7): 1})
 
     def renumber() -> None:
-        # What View Selected does to vertices that are not selected.
+        # What Camera Selected does to vertices that are not selected.
         for v in bm.verts:
             v.index = -1
 
@@ -112,4 +120,4 @@ def test_numbers_that_other_operators_leave_in_the_mesh_do_not_count() -> None:
     assert np.sort(cage.labels().pairs).tolist() == [[6, 7]]
     renumber()
     view = from_above()
-    assert set(picker(obj).pick(view, Matrix(), pixel(view, (0.25, 0.0, 0.0)), vertices_only=False)) == {12, 13}
+    assert set(picked(picker(obj), view, Matrix(), pixel(view, (0.25, 0.0, 0.0)), vertices_only=False)) == {12, 13}

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scene import add_grid, add_object, add_suzanne, edit
 from seamwire.mesh import edit_mesh
-from seamwire.mesh.seam_islands import island_count as islands
+from stored import island_count as islands
 
 pytestmark = pytest.mark.every_blender
 

@@ -6,6 +6,8 @@ import bpy
 import numpy as np
 import pytest
 from scene import add_grid, add_layers, edit, mark_wires, seams, snapshot
+from seamwire.mesh.finishes import FINISHERS
+from seamwire.terms.choices import FINISHES
 from stored import agree, session_on
 
 CHAIN = "14 45"
@@ -223,3 +225,7 @@ def test_a_dragged_wire_is_known_to_slide() -> None:
     obj = add_quads()
     mark()
     assert [wire.finish for wire in session_on(obj).session.wires] == ["SLIDE"]
+
+
+def test_each_finish_has_a_function() -> None:
+    assert set(FINISHES) == {"SNAP", "CUT", *FINISHERS}

@@ -18,12 +18,12 @@ from seamwire.core.base import native
 from seamwire.core.islands.islands import IslandMaker
 from seamwire.core.seams.gaps import Gap, GapFinder
 from seamwire.core.seams.parts import PartEdits, edits_text
-from seamwire.core.seams.suggestion import Request, energy_of, stretch_of
-from seamwire.mesh import edit_mesh, seam_islands, suggestion, suggestions, uv_map
+from seamwire.core.seams.seam_plan import PlanRequest, energy_of, stretch_of
+from seamwire.mesh import edit_mesh, seam_islands, seam_search, uv_map
 from seamwire.mesh.object_session import ObjectSession
-from seamwire.mesh.seam_islands import island_count as islands
 from seamwire.view.shown_islands import ShownIslands
 from stored import agree, chains, session_on
+from stored import island_count as islands
 
 
 def open_islands(obj: bpy.types.Object) -> int:
@@ -323,13 +323,13 @@ class Unreached:
 def test_what_the_report_says_of_the_limit_is_true_of_the_map_and_not_of_the_plan(
     monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    plan = suggestion.Suggestion.plan
+    plan = seam_search.Suggestion.plan
 
-    def looser(self: suggestion.Suggestion, request: Request, *arguments: object, **options: object) -> None:
+    def looser(self: seam_search.Suggestion, request: PlanRequest, *arguments: object, **options: object) -> None:
         plan(self, replace(request, distortion=energy_of(0.6)), *arguments, **options)
         self.best = Unreached(self.best)
 
-    monkeypatch.setattr(suggestion.Suggestion, "plan", looser)
+    monkeypatch.setattr(seam_search.Suggestion, "plan", looser)
     obj = add_ball(subdivisions=3)
     edit()
     assert suggest(distortion=9.0) == {"FINISHED"}
@@ -349,7 +349,7 @@ def test_maps_that_cannot_be_made_have_no_stretch_in_the_report(
     def fail(*_: object, **__: object) -> None:
         raise ValueError("as the test wants it")
 
-    monkeypatch.setattr(suggestions, "unwrap_changed", fail)
+    monkeypatch.setattr(seam_search, "unwrap_changed", fail)
     add_cube()
     edit()
     assert suggest(distortion=40.0) == {"FINISHED"}
@@ -384,7 +384,7 @@ def test_the_report_tells_of_the_islands_that_the_mesh_has(
 ) -> None:
     assert seam_islands.missing_cuts(suzanne).tolist() == [1, 0, 0]  # the head is a tube
     # As if a cut through faces had failed to part them.
-    monkeypatch.setattr(suggestion.Suggestion, "write", lambda *_: None)
+    monkeypatch.setattr(seam_search.Suggestion, "write", lambda *_: None)
     assert suggest() == {"FINISHED"}
     assert "3 islands, 1 with holes" in capfd.readouterr().out
 

@@ -91,14 +91,14 @@ def test_every_setting_is_shown_once_outside_the_header(tool: chosen.SeamwireSet
 
 def test_the_sidebar_has_a_panel_for_each_group(tool: chosen.SeamwireSettings) -> None:
     assert shown_in("UI") == []
-    for name, _ in properties.GROUPS:
+    for name in properties.GROUPS:
         panel = getattr(bpy.types, f"VIEW3D_PT_seamwire_{name.lower()}")
         assert (panel.bl_region_type, panel.bl_parent_id) == ("UI", "VIEW3D_PT_active_tool")
 
 
 def test_options_have_the_defaults_of_the_settings(tool: chosen.SeamwireSettings) -> None:
-    options = chosen.ToolOptions()
-    for field in fields(chosen.ToolOptions):
+    options = chosen.Options()
+    for field in fields(chosen.Options):
         prop = tool.bl_rna.properties.get(field.name)
         if prop is not None and prop.type in {"BOOLEAN", "ENUM"} and field.name not in {"along", "finish"}:
             assert prop.default == getattr(options, field.name), field.name

@@ -12,10 +12,10 @@ from maps import areas, energy, flipped, in_square, overlapping_pairs, signed_ar
 from scene import add_grid, add_layers, add_object, add_suzanne, edit, mark_wires, snapshot
 from seamwire.core.base import native
 from seamwire.core.drawing.change import Change
-from seamwire.mesh import finish
-from seamwire.mesh.seam_islands import island_count, worst_island
+from seamwire.mesh import finishes
+from seamwire.mesh.seam_islands import worst_island
 from seamwire.mesh.unwrap import UNWRAPPED
-from stored import session_on, write
+from stored import island_count, session_on, write
 
 ROWS = 9
 OWN = "edges int .seamwire_unwrapped"
@@ -354,7 +354,7 @@ def test_islands_that_were_parted_by_a_cut_are_unwrapped_as_one_once_it_is_taken
     for wire in before.wires:
         mesh.session.drop(wire)
     write(mesh)
-    assert finish.apply(mesh, Change(before, mesh.session.network))[1].taken_back > 0
+    assert finishes.apply(mesh, Change(before, mesh.session.network))[1].taken_back > 0
     assert island_count(obj) == 1
     assert worst_island(obj, "AREA").value > whole + 0.1
     assert unwrap() == {"FINISHED"}

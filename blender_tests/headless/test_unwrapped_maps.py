@@ -11,7 +11,7 @@ import pytest
 from maps import flipped, folded, in_square, overlapping_pairs, signed_areas, triangles
 from scene import add_grid, add_object, edit, snapshot
 from seamwire.mesh import unwrap as unwrapping
-from seamwire.operators.unwrap import unwrap_after_chain
+from seamwire.operators.unwrap_islands import unwrap_after_chain
 
 
 def add_torus() -> None:

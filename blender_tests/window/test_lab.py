@@ -157,8 +157,8 @@ def test_the_silhouette_follows_the_view(desk: Desk, perspective: str) -> None:
 
 def test_turning_the_view_hands_nothing_to_the_gpu_again(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     made: list[str] = []
-    drawing, lab_views = part("drawing"), part("views")
-    places = {"ShadedFaces": drawing, "ColoredLines": drawing, "Lines": gpu_draw, "Faces": gpu_draw}
+    drawing, lab_views = part("shaded"), part("views")
+    places = {"ShadedFaces": drawing, "ColoredLines": drawing, "Lines": gpu_draw, "ColoredFaces": gpu_draw}
     for name, home in places.items():
         kind = getattr(home, name)
 
@@ -173,7 +173,7 @@ def test_turning_the_view_hands_nothing_to_the_gpu_again(desk: Desk, monkeypatch
         setattr(settings(), name, value)
     desk.ui.wait_until(shown)
     screen(desk)
-    assert set(made) == {"ShadedFaces", "ColoredLines", "Lines", "Faces"}
+    assert set(made) == {"ShadedFaces", "ColoredLines", "Lines", "ColoredFaces"}
     made.clear()
     for step in range(8):
         desk.ui.view.view_rotation = (0.7, 0.7, 0.02 * step, 0.0)
@@ -222,7 +222,7 @@ def test_convex_is_orange_and_concave_purple(ui: driver.Ui) -> None:
         desk.ui.wait_until(shown)
         assert (views().fields.concavity[36:45] > 0.0).all()
         seen = near(screen(desk), desk.at(31, 41)).mean(axis=0)
-        orange, purple = colors(np.array([0.85, 0.15]), part("color_maps").PURPLE_ORANGE)
+        orange, purple = colors(np.array([0.85, 0.15]), part("color_tables").PURPLE_ORANGE)
         assert np.linalg.norm(seen - orange) < np.linalg.norm(seen - purple)
         assert seen[0] > seen[2] + 0.1
     finally:

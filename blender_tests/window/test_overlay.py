@@ -18,7 +18,6 @@ import show
 import ui as driver
 from numpy.typing import NDArray
 from scene import add_grid, add_object, edit
-from seamwire.core.drawing.options import Options
 from seamwire.core.drawing.picture import Offered, Picture, Role, ShownWire, shown_seeds
 from seamwire.core.islands.islands import IslandMaker
 from seamwire.core.network.network import Snap
@@ -26,6 +25,7 @@ from seamwire.core.network.picks import Edge
 from seamwire.core.network.wires import Wire
 from seamwire.mesh import edit_mesh
 from seamwire.mesh.pose import Pose
+from seamwire.terms.options import Options
 from seamwire.view.overlay import Overlay
 from seamwire.view.shown_islands import ShownIslands
 from seamwire.view.theme import Looks, Style
@@ -55,6 +55,10 @@ class Said:
     @property
     def network_revision(self) -> int:
         return self.picture.network_revision
+
+    @property
+    def wires(self) -> tuple[Wire, ...]:
+        return self.cuts
 
     def edges_to_mark(self) -> list[Edge]:
         return [edge for wire in self.cuts if wire.marks for edge in wire.edges()]

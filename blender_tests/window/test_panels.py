@@ -109,7 +109,7 @@ def test_the_views_are_shown_in_a_popover_and_the_groups_in_the_sidebar(
     if IS_OLD:
         return  # a script cannot choose the sidebar's tab
     groups: list[str] = []
-    for name, _ in properties.GROUPS:
+    for name in properties.GROUPS:
         group = getattr(bpy.types, f"VIEW3D_PT_seamwire_{name.lower()}")
         monkeypatch.setattr(group, "draw", noted(group.draw, groups))
     ui.space.show_region_ui = True

@@ -18,13 +18,13 @@ import ui as driver
 from desk import choose, leave, undo_steps
 from scene import add_suzanne, animate, edit, head, mark_wires, seams, snapshot
 from seamwire.core.base import native
-from seamwire.mesh.seam_islands import island_count
-from seamwire.mesh.suggestion import Suggestion
+from seamwire.mesh.seam_search import Suggestion
 from seamwire.operators import suggest_live
 from seamwire.operators.report import running as chains
 from seamwire.operators.steps import Stepwise
 from seamwire.operators.steps import running as searches
 from seamwire.view.edited_objects import edited
+from stored import island_count
 
 
 @pytest.fixture
@@ -82,7 +82,7 @@ def begin(ui: driver.Ui, **options: object) -> None:
 
 def count() -> int:
     """Return the number of parts that are shown."""
-    return live()._suggestions.part_count
+    return live()._search.part_count
 
 
 class Waiting:
@@ -550,7 +550,7 @@ def test_less_stretch_takes_more_seams(ui: driver.Ui, suzanne: bpy.types.Object,
     def planned_length() -> float:
         ui.wait_until(lambda: shown.is_planned and bool(status[-1]), 60.0)
         ui.wait(5)
-        return sum(each.length_of(each.best) for each in shown._suggestions)
+        return sum(each.length_of(each.best) for each in shown._search)
 
     invoke(ui, distortion=60.0, parts=0.0)
     shown = live()
@@ -585,7 +585,7 @@ def test_the_map_is_shown_as_squares_of_one_size_while_the_hand_rests(ui: driver
     assert contrast(ui, side) > plain + 0.03
     color = ui.screen()[round(side[1]) - 15 : round(side[1]) + 15, round(side[0]) - 15 : round(side[0]) + 15]
     assert np.ptp(color.mean(axis=(0, 1))) > 0.04, "the color of the part is seen as well"
-    arrays = next(iter(live()._suggestions)).mesh.arrays
+    arrays = next(iter(live()._search)).mesh.arrays
     corners, (shown,) = arrays.in_object[arrays.triangles], squares()
     surface = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
     (a, b), (c, d) = (shown[:, 1] - shown[:, 0]).T, (shown[:, 2] - shown[:, 0]).T

@@ -14,10 +14,10 @@ import stored
 import ui as driver
 from desk import ORANGE, Desk, choose, dismiss, draw, shows, undo_steps
 from scene import chain, edit, mark_wires, seams
-from seamwire.core.drawing.picture import Role, SeedRole
+from seamwire.core.drawing.picture import Role, SeedRole, ShownSeed
 from seamwire.core.drawing.session import Session
 from seamwire.core.storage.serialization import Archive
-from seamwire.mesh import edit_mesh, finish
+from seamwire.mesh import edit_mesh, finishes
 from seamwire.mesh.settings import TOOL
 from seamwire.operators import chain_record
 from seamwire.operators.report import running
@@ -59,7 +59,7 @@ def test_between_chains_no_operator_of_ours_runs_and_what_a_click_takes_is_lit(d
     desk.ui.move(desk.at(40))
     assert session.picture.one(Role.HOVERED) is not None
     desk.ui.move(desk.at(36))
-    assert session.picture.seed_as(SeedRole.HOVERED) == 36
+    assert ShownSeed(36, SeedRole.HOVERED) in session.picture.seeds
     assert modal_operators(desk.ui) == []
 
 
@@ -663,7 +663,7 @@ def test_wires_are_kept_with_a_step_of_undo_if_drawing_and_cutting_them_fail(
 
     desk.choose()
     monkeypatch.setattr(ObjectView, "renew", fail)
-    monkeypatch.setattr(finish, "apply", fail)
+    monkeypatch.setattr(finishes, "apply", fail)
     draw(desk, 36, 44)
     monkeypatch.undo()
     dismiss(desk.ui)

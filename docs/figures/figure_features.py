@@ -21,7 +21,7 @@ from path_traffic import (
     vertex_areas,
 )
 from seamwire.core.fields.color_maps import colors
-from seamwire_lab.color_maps import PURPLE_ORANGE
+from seamwire_lab.color_tables import PURPLE_ORANGE
 from seamwire_lab.fields import spread
 
 if TYPE_CHECKING:

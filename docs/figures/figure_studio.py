@@ -12,7 +12,7 @@ from figure_models import Model
 from figure_sheet import Bar, with_inset
 from figure_stage import INK, SEED, Stage
 from seamwire.core.fields.color_maps import STRETCH, colors
-from seamwire_lab.color_maps import VIRIDIS
+from seamwire_lab.color_tables import VIRIDIS
 from seamwire_lab.fields import Paths, spread
 
 if TYPE_CHECKING:

@@ -46,7 +46,7 @@ from seamwire.core.offers.edge_loops import find_offers, past_poles  # these kno
 from seamwire.core.offers.part_borders import AMOUNTS, PartBorders
 
 if TYPE_CHECKING:
-    from seamwire.core.network.wires import LoopKind
+    from seamwire.terms.choices import LoopKind
 
 Pair = tuple[int, int]
 Edges = frozenset[Pair]

@@ -25,7 +25,7 @@ sys.path.insert(0, str(Path(__file__).parents[2] / "docs/figures"))
 sys.path.insert(0, str(Path(__file__).parents[2] / "addon"))
 from figure_models import read
 from seamwire.core.base.geometry import barycentric, nearest_on_segments  # these know no Blender
-from seamwire.core.seams.slide import places, plan
+from seamwire.core.seams.slide_plan import places, plan
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     import bpy
 
     from ..core.base.mesh_arrays import Arrays
-    from ..core.solver.defaults import Auto
+    from ..terms.options import Auto
 
 
 def auto_for(obj: bpy.types.Object, arrays: Arrays) -> Auto:

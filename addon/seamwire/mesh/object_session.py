@@ -23,21 +23,21 @@ from ..core.solver.live_maker import LiveMaker
 from ..core.storage import label_reader, serialization, wire_labels
 from ..core.storage.serialization import Archive, UnreadableError
 from ..core.storage.wire_labels import EdgeLabels, Found, Places
+from ..terms.options import Options
 from ..words.notices import Notices
 from . import edit_mesh
 from .auto import auto_for
-from .settings import ToolOptions, mirror_axes, snapshot
+from .settings import mirror_axes, snapshot
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Sequence
 
     from numpy.typing import NDArray
 
-    from ..core.drawing.options import Options
     from ..core.network.network import Network
     from ..core.network.strokes import Stroke
     from ..core.network.wires import Wire
-    from ..core.solver.defaults import Auto
+    from ..terms.options import Auto
     from .settings import SeamwireSettings
 
 _MOMENT = 0.1
@@ -81,8 +81,6 @@ class ObjectSession:
     ----------
     notices
         Problems with the wires that are stored with the mesh.
-    generation
-        Grows whenever the edit mesh was read anew.
     symmetric
         The axes over which the mesh is symmetric; None while that is not known.
 
@@ -102,7 +100,7 @@ class ObjectSession:
             Drawing(
                 self.make_live,
                 self.arrays.points,
-                options or ToolOptions(mirror=mirror_axes(obj.data)),
+                options or Options(mirror=mirror_axes(obj.data)),
                 edges=self.arrays.edges,
                 to_object=self.arrays.to_object,
                 triangles=self.arrays.triangles,
@@ -111,7 +109,6 @@ class ObjectSession:
             )
         )
         self.notices = Notices()
-        self.generation = 0
         self.plain_seams: NDArray[np.int32] = self.arrays.seams
         self.symmetric: tuple[int, ...] | None = None
         self._symmetry_error: Exception | None = None
@@ -211,7 +208,6 @@ class ObjectSession:
         labels = self.cage.labels()
         same = labels.same_as(self._labels) and np.array_equal(arrays.seams, self.arrays.seams)
         self.arrays = replace(self.arrays, seams=arrays.seams)
-        self.generation += 1
         if not same:
             self._adopt(labels)
         elif self._found.known:
@@ -242,7 +238,6 @@ class ObjectSession:
             return False
         if not arrays.same_as(self.arrays):
             return False
-        self.generation += 1
         self._set_seams(arrays.seams, self._labels)
         return True
 

@@ -12,6 +12,7 @@ import bpy
 import numpy as np
 
 from ..core.base import native
+from ..core.base.geometry import area_normals
 from ..core.islands.islands import choose_hues, neighbours, places_of
 from ..core.islands.map_faults import MappedSurface
 from ..core.islands.stretch import IslandStretch, Stretch
@@ -41,11 +42,6 @@ def labels_of(arrays: Arrays) -> NDArray[np.int32]:
     core = native.load()
     surface = core.Surface(arrays.points, arrays.triangles, arrays.edges)
     return np.asarray(core.face_segments(surface, arrays.seams))
-
-
-def island_count(obj: bpy.types.Object) -> int:
-    """Return how many islands an edit mesh has; raises as `edit_mesh.read`."""
-    return int(labels_of(edit_mesh.read(obj)).max(initial=-1)) + 1
 
 
 def _missing_cuts(arrays: Arrays) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
@@ -189,8 +185,7 @@ def worst_island(obj: bpy.types.Object, kind: str) -> Worst | None:
     values = islands.angle if kind == "ANGLE" else islands.area
     number = int(values.argmax())
     rows = labels == number
-    a, b, c = (arrays.in_object[arrays.triangles[rows, corner]] for corner in range(3))
-    normals = np.cross(b - a, c - a)
+    normals = area_normals(arrays.in_object, arrays.triangles[rows])
     facing = normals.sum(axis=0) / max(float(np.linalg.norm(normals, axis=1).sum()), 1e-300)
     return Worst(float(values[number]), np.unique(arrays.polygons[rows]), len(values), facing)
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from ..core.base.mesh_arrays import Arrays
     from ..core.network.picks import Edge
-    from ..core.seams.slide import Move
+    from ..core.seams.slide_plan import Move
     from .edit_mesh import Cage
 
     Value = Vector | float

@@ -386,14 +386,13 @@ class _Map:
 
 def unwrap_changed(
     context: bpy.types.Context,
-    objects: Sequence[bpy.types.Object] | None = None,
     *,
     method: str = "SEAMWIRE",
     layout: Layout = Layout(),
     every: bool = False,
     starts: Mapping[bpy.types.Object, NDArray[np.float64]] = MappingProxyType({}),
 ) -> Unwrapped:
-    """Unwrap the islands whose seams have changed, of some objects in edit mode, else of all; selections stay.
+    """Unwrap the islands whose seams have changed, of all objects in edit mode; selections stay.
 
     Where nothing stays, all islands are packed by Blender. Else each new island gets the texel density it had, and a place
     near its old one, see `core.uv_islands.place`; islands with pinned corners stay where Blender's unwrap puts them.
@@ -402,8 +401,6 @@ def unwrap_changed(
     ----------
     context
         In edit mode.
-    objects
-        The objects to unwrap; None: all that are in edit mode.
     method
         ``SEAMWIRE``: least symmetric Dirichlet energy, without flips and overlaps, see ``seamwire_core.flatten``; islands with pinned
         corners are left to Blender. ``ANGLE_BASED`` or ``CONFORMAL``: Blender's unwrap of that name.
@@ -420,7 +417,7 @@ def unwrap_changed(
         If there is nothing to unwrap, or it cannot be unwrapped; then nothing is changed.
     """
     maps, problem = [], ""
-    for obj in context.objects_in_mode_unique_data if objects is None else objects:
+    for obj in context.objects_in_mode_unique_data:
         try:
             maps.append(_Map(obj, every))
         except ValueError as error:

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from ..core.drawing.options import strength_name
 from ..core.drawing.picture import Role
 from ..mesh.settings import settings
+from ..terms.options import strength_name
 from ..view.edited_objects import edited
 from ..words.keys import Action
 from .bindings import HELP_PANEL

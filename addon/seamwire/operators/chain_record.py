@@ -11,13 +11,12 @@ import bpy
 
 from ..core.drawing.change import Change
 from ..core.network.network import Network
-from ..mesh import finish
+from ..mesh import finishes
 from ..view.edited_objects import edited
 from ..view.object_view import let_blender_tell
-from ..words.names import count
-from ..words.reports import gaps, left_out, summary
+from ..words.reports import summary
 from . import undo_steps
-from .unwrap import unwrap_after_chain
+from .unwrap_islands import unwrap_after_chain
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -184,21 +183,7 @@ def _apply(view: ObjectView, change: Change) -> str:
     """Let the mesh do what a change asks, and return what was done, in words."""
     if not view.mesh.alive():
         return ""
-    _, done = finish.apply(view.mesh, change)
-    if not done:
-        return ""
-    edited.forget(view)
-    parts = []
-    if done.slid:
-        parts.append(f"{count(done.slid, 'wire')} slid, {count(done.moved, 'vertex', 'vertices')} moved")
-    if done.cut:
-        parts.append(f"{count(done.cut, 'wire')} cut, {count(done.edges, 'edge')} marked")
-    if done.uncut:
-        parts.append(gaps(done.uncut))
-    if done.left_out:
-        parts.append(left_out(done.left_out))
-    if done.problem:
-        parts.append(f"not cut: {done.problem}")
-    if done.taken_back:
-        parts.append("cut taken back")
-    return ", ".join(parts)
+    _, done = finishes.apply(view.mesh, change)
+    if done.text:
+        edited.forget(view)
+    return done.text

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from ..core.drawing.line import LineGesture
     from ..core.network.network import Snap
-    from ..core.picking.view import View
+    from ..core.picking.camera import Camera
     from ..view.object_view import ObjectView
     from ..view.viewport import Place
 
@@ -141,8 +141,8 @@ class Trail:
             self._add(place.view, (start[0] + part * (end[0] - start[0]), start[1] + part * (end[1] - start[1])))
         self.last = place
 
-    def _add(self, view: View, cursor: tuple[float, float]) -> None:
-        found = None if self.left else self._view.surface_at(view, cursor)
+    def _add(self, camera: Camera, cursor: tuple[float, float]) -> None:
+        found = None if self.left else self._view.surface_at(camera, cursor)
         if found is None:
             # Over the rim it ends; begun beside the model, it has not begun.
             self.left = self._ends_at_rim and bool(self.points)

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..core.base.native import NativeError
-from ..mesh.settings import ALONG_ITEMS, notices, preferences, settings
+from ..mesh.settings import notices, preferences, settings
+from ..terms.choices import ALONG, items
 from ..words.keys import Action, Key
 from . import undo_steps
 from .edit_mesh_operator import NeedsEditMode
@@ -55,7 +56,7 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
     along: bpy.props.EnumProperty(
         name="Along",
         description="How wires run on the mesh. If not given, as set in the tool",
-        items=ALONG_ITEMS,
+        items=items(ALONG),
         options={"SKIP_SAVE"},
     )
     first: bpy.props.EnumProperty(

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
+from ..terms.choices import FINISHES, items
 from ..words.names import count
 from ..words.reports import gaps, left_out
 from .edit_mesh_operator import EditMeshOperator, changing, description_of_item
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
 
     from ..core.network.wires import Wire
     from ..mesh.object_session import ObjectSession
+    from ..terms.choices import Finish
 
 
 class MESH_OT_seamwire_finish(EditMeshOperator, bpy.types.Operator):
@@ -27,16 +29,14 @@ class MESH_OT_seamwire_finish(EditMeshOperator, bpy.types.Operator):
     finish: bpy.props.EnumProperty(
         name="Finish",
         description="How a seam comes to lie on its wire",
-        items=(
-            ("CUT", "Cut", "Cut the wires into the faces"),
-            ("SLIDE", "Slide", "Slide the vertices of the nearest edges onto the wires"),
-        ),
+        items=tuple(item for item in items(FINISHES) if item[0] != "SNAP"),
+        default="CUT",
     )
 
     description = description_of_item("finish")
 
     def run(self, context: bpy.types.Context) -> set[str]:
-        """Cut or slide the wires of all objects in Edit Mode."""
+        """Finish the wires of all objects in Edit Mode."""
         from ..mesh import edit_mesh
 
         wires = _wires_across(self, context)
@@ -45,7 +45,7 @@ class MESH_OT_seamwire_finish(EditMeshOperator, bpy.types.Operator):
         if self.finish == "CUT":
             return cut_wires(self, context, wires, kept=True)
         with changing():
-            done = slide_wires(wires)
+            done = move_vertices(self.finish, wires)
             edit_mesh.live_unwrap(context)
         self.report({"INFO"}, f"{count(sum(map(len, wires.values())), 'wire')}: {done}")
         return {"FINISHED"}
@@ -98,14 +98,14 @@ def cut_wires(
     Halfway
         If an error comes after a mesh has changed.
     """
-    from ..mesh import edit_mesh, finish
+    from ..mesh import edit_mesh, finishes
     from ..mesh.cut import CutError
 
     plans, problems = {}, []
     for mesh, own in wires.items():
         try:
             if own:
-                plans[mesh] = finish.plan_cut(mesh, own)
+                plans[mesh] = finishes.plan_cut(mesh, own)
         except CutError as error:
             problems.append(f"{mesh.obj.name}: {error}" if len(wires) > 1 else str(error))
     if not plans:
@@ -115,7 +115,7 @@ def cut_wires(
         operator.report({"WARNING"}, problem if kept else f"{problem}: no wire was added")
     with changing():
         first()
-        cuts = [finish.cut(mesh, plan, wires[mesh], kept, crumb=crumb)[1] for mesh, plan in plans.items()]
+        cuts = [finishes.cut(mesh, plan, wires[mesh], kept, crumb=crumb)[1] for mesh, plan in plans.items()]
         if live_unwrap:
             edit_mesh.live_unwrap(context)
     uncut = sum(cut.uncut for cut in cuts)
@@ -133,11 +133,11 @@ def cut_wires(
     return {"FINISHED"}
 
 
-def slide_wires(wires: Mapping[ObjectSession, Collection[Wire]]) -> str:
-    """Slide the vertices of kept wires onto the wires, and return a report. The sessions of the meshes end."""
-    from ..mesh import finish
+def move_vertices(finish: Finish, wires: Mapping[ObjectSession, Collection[Wire]]) -> str:
+    """Finish kept wires by one of `FINISHERS`, and return a report. The sessions of the meshes end."""
+    from ..mesh.finishes import FINISHERS
 
-    return f"{count(sum(finish.slide(mesh, own)[1] for mesh, own in wires.items() if own), 'vertex', 'vertices')} moved"
+    return f"{count(sum(FINISHERS[finish](mesh, own)[1] for mesh, own in wires.items() if own), 'vertex', 'vertices')} moved"
 
 
 register, unregister = bpy.utils.register_classes_factory((MESH_OT_seamwire_finish,))

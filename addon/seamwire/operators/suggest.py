@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING
 import bpy
 from mathutils import Vector
 
-from ..mesh.settings import AUTO_ALONG_ITEMS, AUTO_FINISH_ITEMS
+from ..terms.choices import ALONG, AUTO_ALONG, AUTO_FINISH, FINISHES, items
 from .edit_mesh_operator import changing
-from .finish import cut_wires, slide_wires
+from .finish import cut_wires, move_vertices
 from .steps import Step, Stepwise, end_all
 
 if TYPE_CHECKING:
     from collections.abc import Generator
 
-    from ..mesh.suggestions import Suggestions
+    from ..mesh.seam_search import SeamSearch
 
 _BLENDERS_FRONT = (0.0, -1.0, 0.0)
 """The direction to the viewer in Blender's front view."""
@@ -71,13 +71,13 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
     along: bpy.props.EnumProperty(
         name="Along",
         description="How wires run on the mesh",
-        items=AUTO_ALONG_ITEMS,
+        items=items(ALONG, AUTO_ALONG),
         default="AUTO",
     )
     finish: bpy.props.EnumProperty(
         name="Finish",
         description="How a wire across the surface becomes a seam",
-        items=AUTO_FINISH_ITEMS,
+        items=items(FINISHES, AUTO_FINISH),
         default="AUTO",
     )
     symmetric: bpy.props.BoolProperty(
@@ -126,36 +126,34 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         """Yield the steps of the search, then mark or cut."""
         from ..core.seams.parts import edits_of_text
 
-        suggestions = self._read(context)
-        suggestions.notices.tell(self.report)
-        if not suggestions:
-            raise ValueError(suggestions.problem)
-        yield from _step(suggestions, Step("Finding parts", suggestions.measure))
+        search = self._read(context)
+        search.notices.tell(self.report)
+        if not search:
+            raise ValueError(search.problem)
+        yield from _step(search, Step("Finding parts", search.measure))
         if self.is_beside:
-            yield from self._show_parts(context, suggestions)
+            yield from self._show_parts(context, search)
         else:
-            suggestions.choose(0.01 * self.parts, edits_of_text(self.edits))
-            yield from _step(suggestions, Step("Planning seams", suggestions.plan))
-        suggestions.refresh()
-        if suggestions.has_wires:
-            return self._change(context, suggestions)
-        return self._unwrap_uncut(context, suggestions)
+            search.choose(0.01 * self.parts, edits_of_text(self.edits))
+            yield from _step(search, Step("Planning seams", search.plan))
+        search.refresh()
+        if search.has_wires:
+            return self._change(context, search)
+        return self._unwrap_uncut(context, search)
 
-    def _show_parts(self, context: bpy.types.Context, suggestions: Suggestions) -> Generator[Step, None, None]:
+    def _show_parts(self, context: bpy.types.Context, search: SeamSearch) -> Generator[Step, None, None]:
         """Yield steps until the artist has confirmed the parts that the views show, and seams are planned in them."""
         from ..core.seams.parts import edits_text
         from ..view.plan_preview import PlanPreview
         from .suggest_live import LiveParts
 
         with closing(PlanPreview()) as preview:
-            live = LiveParts(
-                context.window, suggestions, preview, 0.01 * self.parts, self.distortion, lambda: self.enough
-            )
+            live = LiveParts(context.window, search, preview, 0.01 * self.parts, self.distortion, lambda: self.enough)
             while not live.is_done:
-                yield from _step(suggestions, live.step())
+                yield from _step(search, live.step())
             self.parts, self.distortion = 100.0 * live.amount, live.stretch
             self.edits = edits_text(live.edits)
-            yield from _step(suggestions, Step("Marking seams"))
+            yield from _step(search, Step("Marking seams"))
 
     def _front(self, context: bpy.types.Context) -> tuple[float, float, float] | None:
         """Return the direction to the viewer whom seams hide from, in world space, or None to hide from all sides."""
@@ -165,52 +163,54 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
             return _BLENDERS_FRONT
         return tuple(self.view_direction) if any(self.view_direction) else _towards_viewer(context)
 
-    def _read(self, context: bpy.types.Context) -> Suggestions:
+    def _read(self, context: bpy.types.Context) -> SeamSearch:
         """Read the meshes in Edit Mode."""
-        from ..mesh.suggestion import Options
-        from ..mesh.suggestions import Suggestions, Wanted, objects_to_cut
+        from ..mesh.seam_search import SeamSearch, SearchOptions, Wanted, objects_to_cut
 
         along, finish = (None if chosen == "AUTO" else chosen for chosen in (self.along, self.finish))
-        options = Options(along, finish, self.symmetric, self._front(context))
+        options = SearchOptions(along, finish, self.symmetric, self._front(context))
         objects = objects_to_cut(context.objects_in_mode_unique_data, self.selected)
-        return Suggestions(objects, options, Wanted(self.distortion, self.islands, self.unwrap))
+        return SeamSearch(objects, options, Wanted(self.distortion, self.islands, self.unwrap))
 
-    def _change(self, context: bpy.types.Context, suggestions: Suggestions) -> set[str]:
+    def _change(self, context: bpy.types.Context, search: SeamSearch) -> set[str]:
         """Write or cut the wires, unwrap, and report."""
-        to_cut = {suggestion.mesh: suggestion.slits for suggestion in suggestions.finished_by("CUT")}
+        from ..mesh.finishes import FINISHERS
+
+        to_cut = {suggestion.mesh: suggestion.slits for suggestion in search.finished_by("CUT")}
         if to_cut:
-            first, crumb = suggestions.write_borders, suggestions.crumb
+            first, crumb = search.write_borders, search.crumb
             if cut_wires(self, context, to_cut, crumb=crumb, live_unwrap=False, first=first) == {"CANCELLED"}:
                 return {"CANCELLED"}
         with changing():
-            suggestions.write()
-            slide_wires({suggestion.mesh: suggestion.slits for suggestion in suggestions.finished_by("SLIDE")})
-            self._unwrap(context, suggestions)
-            self._report_outcome(suggestions)
+            search.write()
+            for finish in FINISHERS:
+                move_vertices(finish, {suggestion.mesh: suggestion.slits for suggestion in search.finished_by(finish)})
+            self._unwrap(context, search)
+            self._report_outcome(search)
         return {"FINISHED"}
 
-    def _report_outcome(self, suggestions: Suggestions) -> None:
-        outcome = suggestions.outcome()
+    def _report_outcome(self, search: SeamSearch) -> None:
+        outcome = search.outcome()
         self.report({"INFO"} if outcome.is_good else {"WARNING"}, outcome.text)
 
-    def _unwrap_uncut(self, context: bpy.types.Context, suggestions: Suggestions) -> set[str]:
+    def _unwrap_uncut(self, context: bpy.types.Context, search: SeamSearch) -> set[str]:
         """Unwrap although no seam is needed, report it, and return the operator's result."""
-        unwrapped = self._unwrap(context, suggestions) if self.unwrap else 0
-        self._report_outcome(suggestions)
+        unwrapped = self._unwrap(context, search) if self.unwrap else 0
+        self._report_outcome(search)
         return {"FINISHED"} if unwrapped else {"CANCELLED"}
 
-    def _unwrap(self, context: bpy.types.Context, suggestions: Suggestions) -> int:
+    def _unwrap(self, context: bpy.types.Context, search: SeamSearch) -> int:
         """Unwrap, and report what cannot be unwrapped. Return the number of unwrapped islands."""
         from ..core.base.native import NativeError
 
         try:
-            return suggestions.unwrap(context)
+            return search.unwrap(context)
         except (ValueError, NativeError) as error:
             self.report({"WARNING"}, str(error))
             return 0
 
 
-def _step(suggestions: Suggestions, step: Step) -> Generator[Step, None, None]:
+def _step(search: SeamSearch, step: Step) -> Generator[Step, None, None]:
     """Yield one step.
 
     Raises
@@ -219,7 +219,7 @@ def _step(suggestions: Suggestions, step: Step) -> Generator[Step, None, None]:
         If a mesh changed during the step.
     """
     yield step
-    if not suggestions.are_alive:
+    if not search.are_alive:
         raise ValueError("The mesh changed during the search")
 
 

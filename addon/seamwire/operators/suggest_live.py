@@ -13,10 +13,10 @@ import bpy
 
 from ..core.base import native
 from ..core.seams.parts import PartEdits, edges_of, turned
-from ..core.seams.suggestion import mean_stretch, turned_limit
+from ..core.seams.seam_plan import mean_stretch, turned_limit
 from ..view.plan_preview import Curves, PlanPreview, Pointed
 from ..view.viewport import place_of
-from ..words.suggestion import LIVE_HINTS, parts_text
+from ..words.search_report import LIVE_HINTS, parts_text
 from .navigation import on_gizmo
 from .steps import Step
 
@@ -26,8 +26,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from ..mesh.suggestion import Suggestion
-    from ..mesh.suggestions import Suggestions
+    from ..mesh.seam_search import SeamSearch, Suggestion
     from ..view.viewport import Place
     from .steps import Progress
 
@@ -53,7 +52,7 @@ class LiveParts:
     ----------
     window
         Where events come from.
-    suggestions
+    search
         Measured for parts.
     preview
         Draws the parts, and the seams that are planned in them.
@@ -79,14 +78,14 @@ class LiveParts:
     def __init__(
         self,
         window: bpy.types.Window,
-        suggestions: Suggestions,
+        search: SeamSearch,
         preview: PlanPreview,
         amount: float,
         stretch: float,
         is_enough: Callable[[], bool],
     ) -> None:
         self._window = window
-        self._suggestions = suggestions
+        self._search = search
         self._preview = preview
         self._is_enough = is_enough
         self.amount = amount
@@ -99,7 +98,7 @@ class LiveParts:
         self._planned = -1
         self._rests_at = 0.0
         self._seen: dict[Suggestion, tuple[object, object]] = {}
-        self._square = _square_size(suggestions)
+        self._square = _square_size(search)
         self._cancelled = native.load().Cancelled
         self._change()
 
@@ -123,12 +122,12 @@ class LiveParts:
     @property
     def is_over(self) -> bool:
         """Whether the step has nothing to wait for."""
-        return self.is_kept or self._worked_on != self._version or not self._suggestions.are_alive
+        return self.is_kept or self._worked_on != self._version or not self._search.are_alive
 
     @property
     def title(self) -> str:
         """The amount and the number of parts, and the limit of the stretch."""
-        return parts_text(self.amount, self._suggestions.part_count, self.stretch)
+        return parts_text(self.amount, self._search.part_count, self.stretch)
 
     @property
     def hints(self) -> Sequence[str]:
@@ -147,16 +146,16 @@ class LiveParts:
                 return
             time.sleep(_TICK)
         with suppress(self._cancelled):
-            self._suggestions.plan(goes_on, is_enough=self._is_enough)
+            self._search.plan(goes_on, is_enough=self._is_enough)
             self._planned = version
-            self._suggestions.lay_out(lambda _: goes_on(1.0) and not self.is_kept)
+            self._search.lay_out(lambda _: goes_on(1.0) and not self.is_kept)
 
     def _look(self) -> str:
         """Show plans that are new, and return the stretch and the length of their seams."""
-        if not self._suggestions.are_alive:
+        if not self._search.are_alive:
             return ""
         self._preview.poll()
-        plans = {each: plan for each in self._suggestions if (plan := each.best_so_far) is not None}
+        plans = {each: plan for each in self._search if (plan := each.best_so_far) is not None}
         for suggestion, plan in plans.items():
             seen = self._seen.get(suggestion, (None, None))
             if seen[0] is not plan or seen[1] is not suggestion.layout:
@@ -200,14 +199,14 @@ class LiveParts:
         """Keep the parts. The map is no longer shown."""
         self.is_kept = True
         self._preview.point(None)
-        for suggestion in self._suggestions:
+        for suggestion in self._search:
             self._show(suggestion)
 
     def _turn_stretch(self, notches: int) -> None:
         found = turned_limit(self.stretch, notches)
         if found != self.stretch:
             self.stretch = found
-            self._suggestions.limit_stretch(found)
+            self._search.limit_stretch(found)
             self._change()
 
     def _turn(self, notches: int) -> None:
@@ -220,7 +219,7 @@ class LiveParts:
     def _count(self, amount: float) -> int:
         """Return the number of parts for an amount."""
         if amount not in self._counts:
-            self._counts[amount] = self._suggestions.count(amount, self.edits)
+            self._counts[amount] = self._search.count(amount, self.edits)
         return self._counts[amount]
 
     def _click(self, place: Place) -> None:
@@ -228,7 +227,7 @@ class LiveParts:
         if at is None:
             return
         edits = {**self.edits, at.name: self._edited(self.edits.get(at.name, PartEdits()), at)}
-        if at.border is None and self._suggestions.count(self.amount, edits) == self._suggestions.part_count:
+        if at.border is None and self._search.count(self.amount, edits) == self._search.part_count:
             return  # the part cannot be cut
         self.edits = edits
         self._counts.clear()
@@ -237,7 +236,7 @@ class LiveParts:
 
     def _edited(self, edits: PartEdits, at: Pointed) -> PartEdits:
         """Return the edits of an object after a click."""
-        suggestion = next(each for each in self._suggestions if each.mesh.obj.name_full == at.name)
+        suggestion = next(each for each in self._search if each.mesh.obj.name_full == at.name)
         if at.border is None:
             return edits.part(int(suggestion.mesh.arrays.polygons[at.triangle]))
         if at.border < len(suggestion.borders):
@@ -252,8 +251,8 @@ class LiveParts:
         """Find the parts anew, and show them at once."""
         self._version += 1
         self._rests_at = time.monotonic() + _REST
-        self._suggestions.choose(self.amount, self.edits)
-        for suggestion in self._suggestions:
+        self._search.choose(self.amount, self.edits)
+        for suggestion in self._search:
             self._show(suggestion)
 
     # The picture
@@ -285,9 +284,9 @@ def _scale_of(obj: bpy.types.Object) -> float:
     return abs(obj.matrix_world.to_3x3().determinant()) ** (1.0 / 3.0)
 
 
-def _square_size(suggestions: Suggestions) -> float:
+def _square_size(search: SeamSearch) -> float:
     """Return the size of the squares on all objects, in the scene's units."""
-    area = sum(each.area * _scale_of(each.mesh.obj) ** 2 for each in suggestions)
+    area = sum(each.area * _scale_of(each.mesh.obj) ** 2 for each in search)
     return math.sqrt(area) / _SQUARES if area > 0.0 else 1.0
 
 

@@ -25,7 +25,7 @@ HINTS = {DRAW: ADJUST_DRAWN, EDIT: ADJUST_EDITED}
 HINT = "mesh.seamwire_show_hint"
 
 
-class _Step:
+class _UndoStep:
     """Pushes a step of undo for a chain."""
 
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO", "INTERNAL"}
@@ -35,14 +35,14 @@ class _Step:
         return {"FINISHED"}
 
 
-class MESH_OT_seamwire_step_draw(_Step, bpy.types.Operator):
+class MESH_OT_seamwire_step_draw(_UndoStep, bpy.types.Operator):
     """Push a step of undo for a chain"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_step_draw"
     bl_label = DRAW
 
 
-class MESH_OT_seamwire_step_edit(_Step, bpy.types.Operator):
+class MESH_OT_seamwire_step_edit(_UndoStep, bpy.types.Operator):
     """Push a step of undo for a chain"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_step_edit"

@@ -9,7 +9,7 @@ from ..mesh.registration import classes, together
 from ..mesh.settings import preferences
 from ..operators import navigation
 from ..operators.bindings import HELP_PANEL
-from ..words.help import STEPS, guide
+from ..words.first_steps import STEPS, guide
 
 
 class VIEW3D_PT_seamwire_help(bpy.types.Panel):

@@ -10,7 +10,7 @@ import bpy
 from ..mesh.registration import classes, together
 from ..mesh.settings import TOOL
 from ..operators.bindings import ACTION_OPERATOR, NAME
-from ..words.keys import KEYS, NUMBERS
+from ..words.keys import KEYS, Action
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -28,7 +28,7 @@ class MESH_OT_seamwire_key(bpy.types.Operator):
     action: bpy.props.EnumProperty(
         name="Action",
         description="Action of the key",
-        items=tuple((action.name, action.value, "", "NONE", number) for action, number in NUMBERS.items()),
+        items=tuple((action.name, action.text, "", "NONE", action.number) for action in Action),
     )
 
     @classmethod

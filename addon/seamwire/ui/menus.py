@@ -7,7 +7,9 @@ import bpy
 
 from ..mesh.registration import classes, menu_entry, together
 from ..mesh.settings import TOOL, settings
-from ..operators.store import ISLAND_ITEMS
+from ..operators.store_islands import ISLAND_ITEMS
+from ..terms.options import SETTINGS
+from .properties import VIEWS
 
 MENUS = ("VIEW3D_MT_edit_mesh_edges", "VIEW3D_MT_uv_map", "IMAGE_MT_uvs")
 """Blender's menus that have the submenu."""
@@ -69,8 +71,9 @@ class VIEW3D_MT_seamwire_views(bpy.types.Menu):
     def draw(self, context: bpy.types.Context) -> None:
         """Show the views as toggles."""
         layout, chosen = self.layout, settings(context)
-        layout.prop_menu_enum(chosen, "heat")
-        layout.prop(chosen, "show_crests")
+        for name, setting in SETTINGS.items():
+            if setting.group == VIEWS:
+                (layout.prop if setting.choices is None else layout.prop_menu_enum)(chosen, name)
 
 
 SUBMENUS = (

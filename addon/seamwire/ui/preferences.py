@@ -7,7 +7,7 @@ import bpy
 
 from ..mesh.registration import classes, together
 from ..mesh.settings import ADDON, SeamwireSettings
-from ..operators import bindings, islands
+from ..operators import bindings, select_islands
 from ..words.keys import Action
 from . import toolbar
 
@@ -96,10 +96,10 @@ def draw_keys(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
     keys = configuration.keymaps.get(toolbar.KEYMAP) if configuration is not None else None
     for item in bindings.items_of(keys, toolbar.OPERATOR) if keys is not None else ():
         _draw_key(box, keys, item, item.properties.bl_rna.properties["first"].enum_items[item.properties.first].name)
-    for item in bindings.items_of(keys, islands.OPERATOR) if keys is not None else ():
+    for item in bindings.items_of(keys, select_islands.OPERATOR) if keys is not None else ():
         _draw_key(box, keys, item, item.properties.bl_rna.properties["which"].enum_items[item.properties.which].name)
     for item in bindings.items_of(keys, "wm.call_panel") if keys is not None else ():
-        _draw_key(box, keys, item, Action.KEYS.value)
+        _draw_key(box, keys, item, Action.KEYS.text)
     keys = bindings.user_keymap(context.window_manager)
     if keys is None:
         box.label(text="No keymaps available")
@@ -111,7 +111,7 @@ def draw_keys(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
     items = bindings.items_of(keys, bindings.ACTION_OPERATOR)
     for item in sorted(items, key=lambda item: order.index(Action[item.properties.action])):
         action = Action[item.properties.action]
-        _draw_key(box, keys, item, action.value if action is not last else "")
+        _draw_key(box, keys, item, action.text if action is not last else "")
         last = action
     row = box.row()
     row.context_pointer_set("keymap", keys)

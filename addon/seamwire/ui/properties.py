@@ -7,22 +7,22 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from ..core.drawing.options import strength_name
 from ..mesh.registration import classes, together
-from ..mesh.settings import SeamwireSettings, settings, tool_is_active
+from ..mesh.settings import settings, tool_is_active
 from ..operators.bindings import HELP_PANEL
+from ..terms.choices import ALONG
+from ..terms.options import SETTINGS, strength_name
 
 if TYPE_CHECKING:
-    from ..core.network.picks import Along
+    from ..terms.choices import Along
 
+VIEWS = "Views"
+"""The group of settings that a popover and a menu show."""
+GROUPS = tuple(dict.fromkeys(setting.group for setting in SETTINGS.values() if setting.group != VIEWS))
+"""The groups of settings that have panels."""
+_STRENGTHS = {strength_name(along) for along in ALONG}
 _SHORT_ALONG = (("AUTO", "Auto"), ("EDGES", "Edges"), ("SURFACE", "Surface"))
 """How the header names the choices of *Along*, so that Blender's controls have room beside ours."""
-
-
-def draw_views(chosen: SeamwireSettings, layout: bpy.types.UILayout) -> None:
-    """Show the views of the mesh and of its UV map in a column."""
-    layout.prop(chosen, "heat")
-    layout.column(heading="Show").prop(chosen, "show_crests")
 
 
 def draw_header(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
@@ -58,49 +58,26 @@ def along_of(context: bpy.types.Context) -> Along:
     return edited.best_along(context.edit_object)
 
 
-def draw_drawing(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
-    """Show how wires are drawn."""
-    chosen, obj = settings(context), context.edit_object
-    along = along_of(context)
-    layout.prop(chosen, "along")
-    layout.prop(chosen, strength_name(along))
-    toggles = _whole_width(layout)
-    straight = toggles.row()
-    straight.active = along == "SURFACE"
-    straight.prop(chosen, "straight")
-    toggles.prop(chosen, "clear")
-    toggles.prop(chosen, "snap")
-    toggles.prop(chosen, "xray")
+def draw_group(context: bpy.types.Context, layout: bpy.types.UILayout, group: str) -> None:
+    """Show the settings of a group. A setting without an effect is grayed out. Of both strengths only one is shown."""
+    chosen, along = settings(context), along_of(context)
+    # Names of toggles need the whole width of the sidebar.
+    toggles: bpy.types.UILayout | None = None
+    for name, setting in SETTINGS.items():
+        if setting.group != group or name in _STRENGTHS - {strength_name(along)}:
+            continue
+        is_toggle = chosen.bl_rna.properties[name].type == "BOOLEAN"
+        if is_toggle and toggles is None:
+            toggles = layout.column(heading="Show") if group == VIEWS else layout.column()
+            toggles.use_property_split = group == VIEWS
+        row = (toggles if is_toggle else layout).row()
+        row.active = setting.matters(along, chosen.metric)
+        row.prop(chosen, name, slider=setting.slider)
+    obj = context.edit_object if group == "Drawing" else None
     if obj is not None and obj.type == "MESH":
         row = layout.row(align=True, heading="Mirror")
         for axis in "xyz":
             row.prop(obj.data, f"use_mirror_{axis}", text=axis.upper(), toggle=True)
-
-
-def draw_finish(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
-    """Show how wires across the surface become seams."""
-    chosen = settings(context)
-    layout.active = along_of(context) == "SURFACE"
-    layout.prop(chosen, "finish")
-
-
-def draw_islands(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
-    """Show what happens to the islands that seams make."""
-    _whole_width(layout).prop(settings(context), "unwrap")
-
-
-def draw_advanced(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
-    """Show what artists seldom need."""
-    chosen = settings(context)
-    layout.prop(chosen, "metric")
-    percentile = layout.column()
-    percentile.active = chosen.metric != "euclidean"
-    percentile.prop(chosen, "clamp", slider=True)
-    layout.prop(chosen, "stroke_radius")
-
-
-GROUPS = (("Drawing", draw_drawing), ("Finish", draw_finish), ("Islands", draw_islands), ("Advanced", draw_advanced))
-"""The groups of settings, with what draws each."""
 
 
 def draw_settings(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
@@ -109,17 +86,10 @@ def draw_settings(context: bpy.types.Context, layout: bpy.types.UILayout) -> Non
     if region in {"TOOL_HEADER", "HEADER"}:
         draw_header(context, layout)
     elif region != "UI":
-        for name, draw in GROUPS:
+        for group in GROUPS:
             box = layout.box()
-            box.label(text=name)
-            draw(context, _split(box.column()))
-
-
-def _whole_width(layout: bpy.types.UILayout) -> bpy.types.UILayout:
-    """Return a column for toggles whose names need the whole width of the sidebar."""
-    column = layout.column()
-    column.use_property_split = False
-    return column
+            box.label(text=group)
+            draw_group(context, _split(box.column()), group)
 
 
 def _split(layout: bpy.types.UILayout) -> bpy.types.UILayout:
@@ -141,18 +111,17 @@ class VIEW3D_PT_seamwire_overlays(bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         """Show the views, as Blender shows its overlays."""
         self.layout.label(text="Seamwire Views")
-        draw_views(settings(context), _split(self.layout))
+        draw_group(context, _split(self.layout), VIEWS)
 
 
 def _panel(name: str) -> type[bpy.types.Panel]:
     """Return the panel of a group in the sidebar, below the active tool."""
-    draw_group = dict(GROUPS)[name]
 
     def poll(_cls: type, context: bpy.types.Context) -> bool:
         return tool_is_active(context)
 
     def draw(self: bpy.types.Panel, context: bpy.types.Context) -> None:
-        draw_group(context, _split(self.layout))
+        draw_group(context, _split(self.layout), name)
 
     body = {
         "__doc__": f"Settings of the Seamwire tool: {name}",
@@ -168,4 +137,4 @@ def _panel(name: str) -> type[bpy.types.Panel]:
     return type(f"VIEW3D_PT_seamwire_{name.lower()}", (bpy.types.Panel,), body)
 
 
-register, unregister = together(*classes(VIEW3D_PT_seamwire_overlays, *(_panel(name) for name, _ in GROUPS)))
+register, unregister = together(*classes(VIEW3D_PT_seamwire_overlays, *map(_panel, GROUPS)))

@@ -8,7 +8,7 @@ from pathlib import Path
 import bpy
 
 from ..mesh.settings import TOOL
-from ..operators import hover, islands, undo_steps
+from ..operators import hover, select_islands, undo_steps
 from ..operators.bindings import HELP_PANEL, NAME
 from . import keymap, properties
 
@@ -58,7 +58,7 @@ class SeamwireTool(bpy.types.WorkSpaceTool):
         _key("PEEK", "LEFT_SHIFT", alt=True),
         _key("PEEK", "LEFT_SHIFT", alt=True, shift=True),
         (
-            islands.OPERATOR,
+            select_islands.OPERATOR,
             {"type": "W", "value": "PRESS", "shift": True, "ctrl": True},
             {"properties": [("which", "WORST")]},
         ),

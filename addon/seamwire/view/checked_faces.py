@@ -76,7 +76,7 @@ class CheckedFaces:
         self._within = Within(make)
 
     def draw_over(self, eye: Eye, light: Color, dark: Color) -> None:
-        """Draw what is seen of them over the mesh, as `Faces.draw_over`, in the colors of the squares."""
+        """Draw what is seen of them over the mesh, as `ColoredFaces.draw_over`, in the colors of the squares."""
         batch = self._within.of(eye)
         if batch is None:
             return

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from ..core.base.newest import Newest
 from ..core.fields.crests import Crests
 from .gpu_draw import Lines, blended
+from .layers import Layer
 from .legend import Legend
 from .theme import Style
 
@@ -17,16 +18,16 @@ if TYPE_CHECKING:
 
     import seamwire_core
 
-    from ..core.drawing.options import Options
     from ..mesh.pose import Pose
+    from ..terms.options import Options
     from .gpu_draw import Eye
 
 _RIDGE = Style((0.98, 0.45, 0.10, 1.0), 2.0, halo=1.0, lift=4.0)
 _VALLEY = Style((0.20, 0.50, 1.0, 1.0), 2.0, halo=1.0, lift=4.0)
 
 
-class CrestView:
-    """The layer of ridges and valleys, see `Layer`.
+class CrestView(Layer):
+    """The layer of ridges and valleys.
 
     Parameters
     ----------
@@ -90,10 +91,6 @@ class CrestView:
     def repose(self) -> None:
         """Draw the lines where the pose has them now."""
         self._lines = None
-
-    def draw_heat(self, _eye: Eye) -> bool:
-        """Color nothing."""
-        return False
 
     def draw_lines(self, eye: Eye) -> None:
         """Draw the lines, ridges above valleys."""

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from ..core.network.network import Snap
-    from ..core.network.picks import Along
+    from ..terms.choices import Along
     from .viewport import Place
 
 _RHYTHM = 0.05

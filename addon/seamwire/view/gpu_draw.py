@@ -333,7 +333,7 @@ def whole(triangles: NDArray[np.integer], inside: NDArray[np.bool_] | None) -> N
     return triangles if inside is None else triangles[inside[triangles].all(axis=1)]
 
 
-class Faces:
+class ColoredFaces:
     """Triangles of one mesh, drawn in a few colors; the vertices are handed to the GPU once.
 
     Parameters

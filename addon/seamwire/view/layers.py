@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -11,9 +11,9 @@ if TYPE_CHECKING:
     import seamwire_core
 
     from ..core.base.mesh_arrays import Arrays
-    from ..core.drawing.options import Options
     from ..core.solver.solver import End
     from ..mesh.pose import Pose
+    from ..terms.options import Options
     from .gpu_draw import Eye
     from .legend import Legend
 
@@ -21,12 +21,13 @@ if TYPE_CHECKING:
     """Makes a layer of the mesh, a function that waits for the library's surface of it, and the pose in which it is seen."""
 
 
-class Layer(Protocol):
-    """A layer over one object."""
+class Layer:
+    """A layer over one object. This one shows nothing."""
 
     @property
     def busy(self) -> bool:
         """Whether something is being computed, so that `poll` must be called from time to time."""
+        return False
 
     def follow(self, options: Options, source: End | None, strokes: tuple[object, ...]) -> None:
         """Show what the settings ask for.
@@ -43,18 +44,21 @@ class Layer(Protocol):
 
     def poll(self) -> bool:
         """Return whether there is something new to see since the last call. Raise what went wrong in a thread."""
+        return False
 
     def repose(self) -> None:
         """Draw everything where the pose has it now."""
 
-    def draw_heat(self, eye: Eye) -> bool:
+    def draw_heat(self, _eye: Eye) -> bool:
         """Color the faces, and return whether there was anything to color. The first layer that does so replaces the islands' tint."""
+        return False
 
     def draw_lines(self, eye: Eye) -> None:
         """Draw everything else."""
 
     def legends(self) -> list[Legend]:
         """Return the legends, the lowest first."""
+        return []
 
     def close(self) -> None:
         """End all computations."""

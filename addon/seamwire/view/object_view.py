@@ -41,9 +41,9 @@ if TYPE_CHECKING:
     from ..core.network.network import Snap
     from ..core.network.picks import Pick
     from ..core.network.strokes import Stroke
-    from ..core.picking.view import View
+    from ..core.picking.camera import Camera as View
     from ..core.solver.solver import End
-    from ..mesh.settings import ToolOptions
+    from ..terms.options import Options as ToolOptions
     from .layers import Layer
 
 

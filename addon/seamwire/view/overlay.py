@@ -13,9 +13,9 @@ from mathutils import Matrix
 from ..core.drawing.picture import LIVE, Role, SeedRole
 from ..core.network.picks import place_of, undirected
 from ..words import corner
-from ..words.help import FIRST_LINES
+from ..words.first_steps import FIRST_LINES
 from . import legend
-from .gpu_draw import Eye, Faces, Lines, blended, draw_dots, draw_text, set_text, text_size
+from .gpu_draw import ColoredFaces, Eye, Lines, blended, draw_dots, draw_text, set_text, text_size
 from .theme import Looks, Style, hue_colors
 
 if TYPE_CHECKING:
@@ -112,7 +112,7 @@ class Overlay:
         self._live: tuple[object, _Sheet] = (None, _Sheet(pose))
         self._bands: tuple[object, _Sheet] = (None, _Sheet(pose))
         self._gaps: tuple[object, _Sheet] = (None, _Sheet(pose))
-        self._faces: Faces | None = None
+        self._faces: ColoredFaces | None = None
         self._tinted: object = None
 
     def renew(self, obj: bpy.types.Object) -> None:
@@ -168,7 +168,7 @@ class Overlay:
         if found is None or self._looks.tint <= 0.0:
             return
         if self._faces is None:
-            self._faces = Faces(self._pose.points)
+            self._faces = ColoredFaces(self._pose.points)
         if found.key != self._tinted:
             self._faces.clear()
             # Without a cut the parts of a mesh are no news, and tinting them would only change its colors.

@@ -16,13 +16,13 @@ from ..core.base import native
 from ..core.islands.islands import IslandMaker
 from ..core.picking.segments import Segments
 from ..core.picking.sight import Sight
-from ..core.picking.surface import Surface
+from ..core.picking.surface import VisibleSurface
 from ..mesh import settings as chosen
 from ..mesh.pose import Pose
 from .checked_faces import CheckedFaces
 from .edited_objects import edited
 from .failures import failures
-from .gpu_draw import Eye, Faces, Lines, blended, sees_through
+from .gpu_draw import ColoredFaces, Eye, Lines, blended, sees_through
 from .theme import HUES, Looks, hue_colors
 
 if TYPE_CHECKING:
@@ -81,7 +81,7 @@ class Pointed:
     triangle: int | None
 
 
-class _Shown:
+class _ObjectPreview:
     """The drawing over one object.
 
     Parameters
@@ -101,7 +101,7 @@ class _Shown:
         self._islands = IslandMaker(arrays.triangles, lambda cuts: np.asarray(core.face_segments(surface, cuts)), HUES)
         self._rest, self._curves = Curves(), Curves()  # on the mesh without modifiers, and as they are seen
         self._lines: list[Lines] | None = None
-        self._faces: Faces | None = None
+        self._faces: ColoredFaces | None = None
         self._squares: NDArray[np.float64] | None = None
         self._checks: CheckedFaces | None = None
         self._tinted: object = None
@@ -151,8 +151,8 @@ class _Shown:
 
     # Under the mouse
 
-    def _posed_surface(self) -> Surface:
-        return Surface(replace(self._arrays, points=self._pose.points))
+    def _posed_surface(self) -> VisibleSurface:
+        return VisibleSurface(replace(self._arrays, points=self._pose.points))
 
     @cached_property
     def _segments(self) -> Segments:
@@ -187,7 +187,7 @@ class _Shown:
         eye = Eye(bpy.context.region_data, self.obj.matrix_world)
         found = self._islands.newest
         if self._faces is None:
-            self._faces = Faces(self._pose.points)
+            self._faces = ColoredFaces(self._pose.points)
         if found is not None and found.key != self._tinted:
             self._faces.clear()
             for hue, triangles in found.pieces:
@@ -233,7 +233,7 @@ class PlanPreview:
     """The drawing, in all 3D views, until it is closed."""
 
     def __init__(self) -> None:
-        self._shown: dict[str, _Shown] = {}
+        self._shown: dict[str, _ObjectPreview] = {}
         self._handle: object | None = None
 
     def show(
@@ -261,7 +261,7 @@ class PlanPreview:
             self._handle = bpy.types.SpaceView3D.draw_handler_add(self._draw, (), "WINDOW", "POST_VIEW")
             edited.covered = True
         if obj.name_full not in self._shown:
-            self._shown[obj.name_full] = _Shown(obj, arrays)
+            self._shown[obj.name_full] = _ObjectPreview(obj, arrays)
         shown = self._shown[obj.name_full]
         failures.take("preview")  # another plan is another try
         failures.attempt(("preview", "follow", obj.name_full), partial(shown.follow, curves, cuts, squares))

@@ -86,7 +86,7 @@ class StretchHeat:
         self._known = False
         self._missing = False
         self._revision = 0
-        self._faces: gpu_draw.Faces | None = None
+        self._faces: gpu_draw.ColoredFaces | None = None
         self._drawn = -1
         self._outline: tuple[object, gpu_draw.Lines | None] = (None, None)
         self._summary: tuple[object, Summary | None] = (None, None)
@@ -172,7 +172,7 @@ class StretchHeat:
     def draw(self, eye: Eye) -> None:
         """Draw the heat over the faces, and the outline of the worst island."""
         if self._faces is None:
-            self._faces = gpu_draw.Faces(self._pose.points)
+            self._faces = gpu_draw.ColoredFaces(self._pose.points)
         if self._drawn != self._revision:
             self._drawn = self._revision
             self._fill(self._faces)
@@ -182,7 +182,7 @@ class StretchHeat:
             with gpu_draw.blended("LESS_EQUAL"):
                 lines.draw(eye)
 
-    def _fill(self, faces: gpu_draw.Faces) -> None:
+    def _fill(self, faces: gpu_draw.ColoredFaces) -> None:
         steps = np.minimum(self.values * (_STEPS / HOT), _STEPS - 1).astype(np.uint8)
         order = np.argsort(steps, kind="stable")
         bounds = np.searchsorted(steps[order], np.arange(_STEPS + 1))

@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..core.picking.view import View
+from ..core.picking.camera import Camera
 
 if TYPE_CHECKING:
     import bpy
     from numpy.typing import NDArray
 
 
-def view_of(region: bpy.types.Region, region_3d: bpy.types.RegionView3D) -> View:
+def view_of(region: bpy.types.Region, region_3d: bpy.types.RegionView3D) -> Camera:
     """Return how a 3D region sees the world."""
     perspective = np.array(region_3d.perspective_matrix, dtype=np.float64)
-    return View(region.width, region.height, perspective, clipping_planes(region_3d))
+    return Camera(region.width, region.height, perspective, clipping_planes(region_3d))
 
 
 def clipping_planes(region_3d: bpy.types.RegionView3D) -> NDArray[np.float64]:
@@ -47,7 +47,7 @@ class Place:
 
     area: bpy.types.Area
     region: bpy.types.Region
-    view: View
+    view: Camera
     cursor: tuple[float, float]
     x: int
     y: int

@@ -5,20 +5,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .names import LOOP_NAMES, count
+from ..terms.choices import KINDS, LOOPS, METRICS, ignores_shape
+from .names import count
 
 if TYPE_CHECKING:
     from ..core.drawing.picture import Picture
     from ..core.islands.islands import Islands
-
-_METRICS = {
-    "feature": "",
-    "concave": "concave creases",
-    "euclidean": "shortest paths",
-}
-FOLLOWS = ("Along ridges", "Across ridges", "In creases")
-"""The names of candidates, by what they follow."""
-_FOLLOWS_IN = {"concave": ("In creases", "Shortest path"), "euclidean": ("Shortest path",)}
 
 
 def _islands(islands: Islands) -> str:
@@ -40,9 +32,9 @@ def lines(picture: Picture) -> list[str]:
     options, offered, choice, islands = picture.options, picture.offered, picture.choice, picture.islands
     if offered.kind is not None:
         which = f" ({offered.number + 1} of {len(offered.kinds)})" if len(offered.kinds) > 1 else ""
-        found.append(LOOP_NAMES[offered.kind].capitalize() + which)
+        found.append(LOOPS[offered.kind].capitalize() + which)
     if picture.active is not None and choice.count > 1:
-        which = _FOLLOWS_IN.get(options.metric, FOLLOWS)[picture.active.follow]
+        which = KINDS[METRICS[options.metric].follows[picture.active.follow]]
         if choice.straight:
             which = "Straight in the view"
         elif choice.around:
@@ -53,8 +45,9 @@ def lines(picture: Picture) -> list[str]:
         if picture.pointed_island is not None:
             found.append(_island(islands, picture.pointed_island))
     way = "Along edges" if options.along == "EDGES" else "Across the surface"
-    metric = _METRICS.get(options.metric, options.metric)
-    strength = "" if options.metric == "euclidean" else f"strength {picture.strength:.3g}"
+    default = next(iter(METRICS))
+    metric = "" if options.metric == default else METRICS[options.metric].name.lower()
+    strength = "" if ignores_shape(options.metric) else f"strength {picture.strength:.3g}"
     found.append(", ".join(part for part in (way, strength, metric) if part))
     modes = [
         "" if options.marking else "Clearing seams",

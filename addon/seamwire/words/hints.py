@@ -6,14 +6,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from ..terms.choices import LOOPS, ignores_shape
 from .keys import Action, Bindings, Key
-from .names import LOOP_NAMES, count
+from .names import count
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from ..core.drawing.picture import Picture
-    from ..core.network.wires import LoopKind
+    from ..terms.choices import LoopKind
 
 Hint = tuple[str, str]
 """The name of one of Blender's icons, and a text."""
@@ -134,7 +135,7 @@ def _click(picture: Picture) -> Iterator[Deed]:
 
 def _offer(kind: LoopKind) -> str:
     # Title case as Blender has it: small words stay small.
-    return " ".join(word if word in {"a", "of"} else word.capitalize() for word in LOOP_NAMES[kind].split())
+    return " ".join(word if word in {"a", "of"} else word.capitalize() for word in LOOPS[kind].split())
 
 
 def _wires(picture: Picture) -> Iterator[Deed]:
@@ -168,7 +169,7 @@ def _guides(status: Status) -> Iterator[Deed]:
     picture, options = status.picture, status.picture.options
     if status.mirror_offer and not options.mirror:
         yield Action.MIRROR, f"Mirror? Symmetric on {status.mirror_offer}"
-    if options.metric != "euclidean":
+    if not ignores_shape(options.metric):
         yield Action.STRONGER, f"Strength {picture.strength:.3g}"
     yield Action.CLEAR, "Switch to Clear" if options.marking else "Switch to Mark"
     yield Action.SWITCH, "Across Surface" if options.along == "EDGES" else "Along Edges"

@@ -32,60 +32,6 @@ class Preferences(Protocol):
     system: Any
 
 
-class Action(Enum):
-    """Everything that keys can do. The values are the names in the preferences and in the table of keys."""
-
-    CLICK = "Add Seed, Keep Wire, Join (drag: Draw Line, Move Seed)"
-    NEW_CHAIN = "New Chain"
-    LOOP = "Add Loop"
-    BEND = "Bend Closed Cut"
-    REMOVE = "Remove Wire or Stroke"
-    GUIDE = "Draw Guide Stroke (drag)"
-    AVOID = "Draw Avoid Stroke (drag)"
-    END = "End Chain"
-    CANCEL = "Cancel Wire"
-    NEXT = "Next Candidate"
-    STRONGER = "Follow Shape More"
-    WEAKER = "Follow Shape Less"
-    CLOSE = "Close Chain"
-    EXTEND = "Extend to End"
-    CLEAR = "Mark or Clear Seams"
-    XRAY = "X-Ray"
-    MIRROR = "Mirror"
-    SWITCH = "Along Edges or Across Surface"
-    SNAP = "Snap to Features"
-    KEYS = "Show Keys"
-    UNDO = "Undo in Chain"
-    REDO = "Redo in Chain"
-
-
-NUMBERS = {
-    Action.CLICK: 1,
-    Action.NEW_CHAIN: 2,
-    Action.LOOP: 3,
-    Action.REMOVE: 4,
-    Action.GUIDE: 5,
-    Action.AVOID: 6,
-    Action.END: 7,
-    Action.NEXT: 8,
-    Action.STRONGER: 9,
-    Action.WEAKER: 10,
-    Action.CLOSE: 11,
-    Action.EXTEND: 12,
-    Action.CLEAR: 13,
-    Action.XRAY: 14,
-    Action.MIRROR: 15,
-    Action.SWITCH: 16,
-    Action.SNAP: 17,
-    Action.KEYS: 18,
-    Action.UNDO: 19,
-    Action.REDO: 20,
-    Action.CANCEL: 21,
-    Action.BEND: 22,
-}
-"""What Blender stores of an action with the keys that a user has changed: a number is never given to another action."""
-
-
 @dataclass(frozen=True)
 class Key:
     """A key or a button with its modifiers: 1 held, 0 not held, -1 either."""
@@ -138,49 +84,61 @@ class Key:
         return f"EVENT_{self.type}" if letter or function else ""
 
 
-GROUPS = {
-    "Draw": (Action.CLICK, Action.LOOP, Action.BEND, Action.NEW_CHAIN, Action.GUIDE, Action.AVOID),
-    "Change the Wire": (Action.NEXT, Action.STRONGER, Action.WEAKER, Action.EXTEND, Action.CLOSE, Action.REMOVE),
-    "Set": (Action.SWITCH, Action.CLEAR, Action.MIRROR, Action.SNAP, Action.XRAY),
-    "End and Undo": (Action.END, Action.CANCEL, Action.UNDO, Action.REDO, Action.KEYS),
-}
-"""All actions, in the groups in which the panel shows them."""
-
 _ANY = {"ctrl": -1, "shift": -1, "alt": -1, "oskey": -1}
 
-KEYS: tuple[tuple[Action, Key], ...] = (
-    (Action.LOOP, Key("LEFTMOUSE", "DOUBLE_CLICK")),
-    (Action.LOOP, Key("LEFTMOUSE", alt=1)),
-    (Action.BEND, Key("LEFTMOUSE", shift=1, alt=1)),
-    (Action.NEW_CHAIN, Key("LEFTMOUSE", ctrl=1)),
-    (Action.GUIDE, Key("LEFTMOUSE", shift=1)),
-    (Action.AVOID, Key("LEFTMOUSE", ctrl=1, shift=1)),
-    (Action.CLICK, Key("LEFTMOUSE")),
-    (Action.END, Key("RIGHTMOUSE")),
-    (Action.END, Key("RET")),
-    (Action.END, Key("NUMPAD_ENTER")),
-    (Action.CANCEL, Key("ESC", **_ANY)),
-    (Action.NEXT, Key("W")),
-    (Action.NEXT, Key("W", alt=1)),
-    (Action.NEXT, Key("WHEELUPMOUSE", alt=1)),
-    (Action.NEXT, Key("WHEELDOWNMOUSE", alt=1)),
-    (Action.STRONGER, Key("WHEELUPMOUSE", shift=1)),
-    (Action.WEAKER, Key("WHEELDOWNMOUSE", shift=1)),
-    (Action.REMOVE, Key("X")),
-    (Action.REMOVE, Key("DEL")),
-    (Action.CLOSE, Key("C")),
-    (Action.EXTEND, Key("F")),
-    (Action.CLEAR, Key("S")),
-    (Action.XRAY, Key("V")),
-    (Action.MIRROR, Key("M")),
-    (Action.SWITCH, Key("E")),
-    (Action.SNAP, Key("TAB", shift=1)),
-    (Action.KEYS, Key("F1")),
-    (Action.UNDO, Key("Z", ctrl=1)),
-    (Action.UNDO, Key("BACK_SPACE")),
-    (Action.REDO, Key("Z", ctrl=1, shift=1)),
-)
-"""The first that matches counts."""
+
+class Action(Enum):
+    """Everything that keys can do.
+
+    Parameters
+    ----------
+    text
+        Its name in the preferences and in the table of keys.
+    number
+        What Blender stores of it with the keys that a user has changed. A number is never given to another action.
+    group
+        Where the panel with all keys shows it.
+    keys
+        Its keys.
+    """
+
+    CLICK = ("Add Seed, Keep Wire, Join (drag: Draw Line, Move Seed)", 1, "Draw", Key("LEFTMOUSE"))
+    LOOP = ("Add Loop", 3, "Draw", Key("LEFTMOUSE", "DOUBLE_CLICK"), Key("LEFTMOUSE", alt=1))
+    BEND = ("Bend Closed Cut", 22, "Draw", Key("LEFTMOUSE", shift=1, alt=1))
+    NEW_CHAIN = ("New Chain", 2, "Draw", Key("LEFTMOUSE", ctrl=1))
+    GUIDE = ("Draw Guide Stroke (drag)", 5, "Draw", Key("LEFTMOUSE", shift=1))
+    AVOID = ("Draw Avoid Stroke (drag)", 6, "Draw", Key("LEFTMOUSE", ctrl=1, shift=1))
+    NEXT = (
+        "Next Candidate",
+        8,
+        "Change the Wire",
+        Key("W"),
+        Key("W", alt=1),
+        Key("WHEELUPMOUSE", alt=1),
+        Key("WHEELDOWNMOUSE", alt=1),
+    )
+    STRONGER = ("Follow Shape More", 9, "Change the Wire", Key("WHEELUPMOUSE", shift=1))
+    WEAKER = ("Follow Shape Less", 10, "Change the Wire", Key("WHEELDOWNMOUSE", shift=1))
+    EXTEND = ("Extend to End", 12, "Change the Wire", Key("F"))
+    CLOSE = ("Close Chain", 11, "Change the Wire", Key("C"))
+    REMOVE = ("Remove Wire or Stroke", 4, "Change the Wire", Key("X"), Key("DEL"))
+    SWITCH = ("Along Edges or Across Surface", 16, "Set", Key("E"))
+    CLEAR = ("Mark or Clear Seams", 13, "Set", Key("S"))
+    MIRROR = ("Mirror", 15, "Set", Key("M"))
+    SNAP = ("Snap to Features", 17, "Set", Key("TAB", shift=1))
+    XRAY = ("X-Ray", 14, "Set", Key("V"))
+    END = ("End Chain", 7, "End and Undo", Key("RIGHTMOUSE"), Key("RET"), Key("NUMPAD_ENTER"))
+    CANCEL = ("Cancel Wire", 21, "End and Undo", Key("ESC", **_ANY))
+    UNDO = ("Undo in Chain", 19, "End and Undo", Key("Z", ctrl=1), Key("BACK_SPACE"))
+    REDO = ("Redo in Chain", 20, "End and Undo", Key("Z", ctrl=1, shift=1))
+    KEYS = ("Show Keys", 18, "End and Undo", Key("F1"))
+
+    def __init__(self, text: str, number: int, group: str, *keys: Key) -> None:
+        self.text, self.number, self.group, self.keys = text, number, group, keys
+
+
+KEYS = tuple((action, key) for action in Action for key in action.keys)
+"""All actions with each of their keys."""
 
 _NAMES = {
     "LEFTMOUSE": "Click",
@@ -263,20 +221,12 @@ class Bindings:
                 merged.remove(replace(key, type=WHEEL[1]))
         return ", ".join(key.text for key in merged)
 
-    def icon(self, action: Action, single: bool = True) -> tuple[str, str]:
-        """Return the icon of the first key of an action, and what must be written before what it does.
-
-        Parameters
-        ----------
-        action
-            The action of the key.
-        single
-            Prefer a key to a double click.
-        """
+    def icon(self, action: Action) -> tuple[str, str]:
+        """Return the icon of an action's first key, no double click if possible, and the text before its name."""
         keys = self.keys_of(action)
         if not keys:
             return "", ""
-        key = next((key for key in keys if not single or key.value != "DOUBLE_CLICK"), keys[0])
+        key = next((key for key in keys if key.value != "DOUBLE_CLICK"), keys[0])
         if not key.icon:
             return "", key.text
         wheel = "Wheel" if key.type in WHEEL else ""
@@ -284,14 +234,15 @@ class Bindings:
 
     def rows(self) -> list[tuple[str, str]]:
         """Return each action with its keys, in words, for a table."""
-        return [(self.text(action), action.value) for action in Action if self.keys_of(action)]
+        return [(self.text(action), action.text) for action in Action if self.keys_of(action)]
 
     def groups(self) -> dict[str, list[tuple[str, str]]]:
         """Return the rows of each group below its heading."""
-        return {
-            heading: [(self.text(action), action.value) for action in actions if self.keys_of(action)]
-            for heading, actions in GROUPS.items()
-        }
+        found: dict[str, list[tuple[str, str]]] = {action.group: [] for action in Action}
+        for action in Action:
+            if self.keys_of(action):
+                found[action.group].append((self.text(action), action.text))
+        return found
 
 
 class DoubleClicks:

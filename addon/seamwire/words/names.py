@@ -6,24 +6,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from ..core.network.picks import Pick
-    from ..core.network.wires import LoopKind
 
-LOOP_NAMES: Mapping[LoopKind, str] = {
-    "CLOSED": "closed loop",
-    "CROSSING": "crossing loop",
-    "STRIP": "strip",
-    "PAST": "strip past poles",
-    "WHOLE": "whole strip",
-    "FLAT": "border of part",
-    "ACROSS": "closed cut",
-    "HANDLE": "cut of a handle",
-    "RIDGE": "ridge",
-    "VALLEY": "valley",
-}
-"""The names of loops."""
 DEGREE_NAMES = {"SURE": "sure", "LIKELY": "likely", "DOUBTFUL": "doubtful", "LOST": "not placed"}
 """How sure a transferred seed is."""
 

@@ -11,16 +11,13 @@ ADJUST_EDITED = ("Undo takes it back. To edit more, point at a wire:", "swap its
 """The text after something was moved, swapped, bent or removed."""
 
 
-def summary(wires: int, marked: int, cleared: int, touched: int = 0) -> str:
-    """Return a report. `touched` is the number of edges below new wires, including edges that were already seams."""
+def summary(wires: int, marked: int, cleared: int) -> str:
+    """Return a report."""
     parts = [count(wires, "wire")]
     if marked or not cleared:
         parts.append(f"{count(marked, 'edge')} marked")
     if cleared:
         parts.append(f"{count(cleared, 'edge')} cleared")
-    already = touched - marked - cleared
-    if already > 0:
-        parts.append(f"{already} already seams" if not cleared else f"{already} unchanged")
     return ", ".join(parts)
 
 

@@ -6,14 +6,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..core.drawing.picture import Role
-from .names import LOOP_NAMES, pick_name
+from ..terms.choices import LOOPS
+from .names import pick_name
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from ..core.drawing.session import Session
     from ..core.network.picks import Edge, Pick
-    from ..core.network.wires import LoopKind
+    from ..terms.choices import LoopKind
 
 
 def draw_chain(session: Session, seeds: Iterable[Pick]) -> list[str]:
@@ -54,7 +55,7 @@ def draw_loop(session: Session, pick: Pick, kind: LoopKind | None = None) -> str
     """
     before = session.wires
     if kind is not None and isinstance(pick, tuple) and not _turn_to(session, pick, kind):
-        return f"No {LOOP_NAMES[kind]} runs through {pick_name(pick)}"
+        return f"No {LOOPS[kind]} runs through {pick_name(pick)}"
     done = session.loop(pick)
     session.wait()
     if done and session.wires != before:

@@ -12,8 +12,9 @@ import pytest
 from seamwire.core.base.newest import Newest
 from seamwire.core.fields.color_maps import colors
 from seamwire.core.solver.solver import by_number, kinds_of
-from seamwire_lab import color_maps
-from seamwire_lab.fields import ELLIPSES, PATHS, FieldMaker, Paths, Request, at_vertices, band_levels, spread
+from seamwire.terms.choices import METRICS
+from seamwire_lab import color_tables
+from seamwire_lab.fields import ELLIPSES, PATHS, FieldMaker, FieldRequest, Paths, at_vertices, band_levels, spread
 
 sw = pytest.importorskip("seamwire_core")
 
@@ -36,7 +37,7 @@ def maker(*mesh: np.ndarray) -> FieldMaker:
 
 def test_all_that_is_shown_is_of_the_mesh_that_it_is_asked_for() -> None:
     points, _ = torus()
-    made = maker().make(Request(ALL, strength=20.0, kind="max", source=3))
+    made = maker().make(FieldRequest(ALL, strength=20.0, kind="max", source=3))
     assert made.strength.shape == made.concavity.shape == made.distance.shape == (len(points),)
     # Of the unit cube, which the torus fills: convex outside, k1 is 1 / r everywhere.
     assert made.concavity == pytest.approx(np.full(len(points), 1 / 0.15), rel=0.05)
@@ -56,7 +57,7 @@ def test_all_that_is_shown_is_of_the_mesh_that_it_is_asked_for() -> None:
 
 @pytest.mark.parametrize("eye", [(0.0, 0.0, 1.0, 0.0), (3.0, 1.0, 2.0, 1.0), (0.1, -0.2, -5.0, 1.0)])
 def test_a_silhouette_is_where_normals_are_square_to_the_view(eye: tuple[float, ...]) -> None:
-    made = maker(*torus(160, 96)).make(Request(frozenset({"SILHOUETTE"})))
+    made = maker(*torus(160, 96)).make(FieldRequest(frozenset({"SILHOUETTE"})))
     pieces = made.silhouette.seen_from(np.array(eye))
     assert len(pieces) > 100
     middles = pieces.mean(axis=1)
@@ -72,7 +73,7 @@ def test_a_silhouette_is_where_normals_are_square_to_the_view(eye: tuple[float, 
 
 
 def test_without_a_source_nothing_of_distances_is_made() -> None:
-    made = maker().make(Request(ALL))
+    made = maker().make(FieldRequest(ALL))
     assert made.distance is made.paths is made.isolines is None
     assert made.strength is not None
 
@@ -88,7 +89,7 @@ def test_what_is_asked_for_again_in_another_way_is_made_of_what_is_there() -> No
             return getattr(sw, name)
 
     fields = FieldMaker(Counting(), lambda: sw.Surface(*torus()))
-    first = Request(frozenset({"STRENGTH"}), source=3)
+    first = FieldRequest(frozenset({"STRENGTH"}), source=3)
     fields.make(first)
     fields.make(replace(first, parts=frozenset({"PATHS"})))
     fields.make(replace(first, parts=frozenset({"PATHS", "ISOLINES"})))
@@ -99,7 +100,7 @@ def test_what_is_asked_for_again_in_another_way_is_made_of_what_is_there() -> No
     assert (calls.count("embed"), calls.count("distance_field")) == (2, 3)
 
 
-@pytest.mark.parametrize("metric", ["feature", "campen", "pottmann_kovacs", "concave", "euclidean"])
+@pytest.mark.parametrize("metric", METRICS)
 @pytest.mark.parametrize("follow", ["min", "max"])
 def test_distances_are_as_long_as_the_wires_of_the_same_settings(metric: str, follow: str) -> None:
     points, triangles = torus()
@@ -114,7 +115,7 @@ def test_distances_are_as_long_as_the_wires_of_the_same_settings(metric: str, fo
     wire = wires[("min", "max").index(follow)]
     kinds = kinds_of(metric)
     kind = kinds[min(("min", "max").index(follow), len(kinds) - 1)]
-    made = maker().make(Request(frozenset({"DISTANCE"}), metric, 8.0, 95.0, kind, 3))
+    made = maker().make(FieldRequest(frozenset({"DISTANCE"}), metric, 8.0, 95.0, kind, 3))
     assert made.distance[250] == pytest.approx(wire.length, rel=1e-9)
 
 
@@ -126,7 +127,7 @@ def test_strokes_are_part_of_the_metric_as_they_are_of_wires() -> None:
     live.seed(3)
     live.wait()
     wire = next(wire for wire in live.wires(250).wires if wire.follow == "min")
-    plain = Request(frozenset({"DISTANCE"}), "feature", 8.0, 100.0, "min", 3)
+    plain = FieldRequest(frozenset({"DISTANCE"}), "feature", 8.0, 100.0, "min", 3)
     fields = maker()
     assert fields.make(replace(plain, strokes=(stroke,))).distance[250] == pytest.approx(wire.length, rel=1e-9)
     assert fields.make(plain).distance[250] != pytest.approx(wire.length, rel=1e-9)
@@ -134,9 +135,9 @@ def test_strokes_are_part_of_the_metric_as_they_are_of_wires() -> None:
 
 def test_distances_are_from_points_of_triangles_and_from_edges_too() -> None:
     _, triangles = torus()
-    middle = maker().make(Request(frozenset({"DISTANCE"}), source=(7, (0.2, 0.3, 0.5)))).distance
+    middle = maker().make(FieldRequest(frozenset({"DISTANCE"}), source=(7, (0.2, 0.3, 0.5)))).distance
     assert 0.0 < middle[triangles[7]].min() < 0.1
-    edge = maker().make(Request(frozenset({"DISTANCE"}), source=(0, 1))).distance
+    edge = maker().make(FieldRequest(frozenset({"DISTANCE"}), source=(0, 1))).distance
     assert edge[0] == edge[1] == 0.0
 
 
@@ -145,7 +146,7 @@ def test_the_newest_request_wins_and_a_thread_computes_it() -> None:
     fields = FieldMaker(sw, lambda: sw.Surface(*mesh), lambda: not thread.superseded)
     thread = Newest(fields.make, "test", (sw.Cancelled,))
     for source in range(6):
-        thread.want(Request(frozenset({"DISTANCE"}), source=source))
+        thread.want(FieldRequest(frozenset({"DISTANCE"}), source=source))
     end = time.monotonic() + 30.0
     while thread.busy and time.monotonic() < end:
         time.sleep(0.01)
@@ -157,7 +158,7 @@ def test_the_newest_request_wins_and_a_thread_computes_it() -> None:
 def test_a_computation_ends_as_soon_as_it_is_told_to() -> None:
     fields = FieldMaker(sw, lambda: sw.Surface(*torus()), lambda: False)
     with pytest.raises(sw.Cancelled):
-        fields.make(Request(frozenset({"DISTANCE"}), source=0))
+        fields.make(FieldRequest(frozenset({"DISTANCE"}), source=0))
 
 
 def waves(n: int = 40) -> tuple[np.ndarray, np.ndarray]:
@@ -230,18 +231,18 @@ def test_bands_are_evenly_spaced_at_round_numbers(largest: float, step: float) -
 
 @pytest.mark.parametrize("name", ["VIRIDIS", "PLASMA"])
 def test_unsigned_maps_rise_in_brightness_evenly(name: str) -> None:
-    lightness = _lightness(colors(np.linspace(0, 1, 33), getattr(color_maps, name)))
+    lightness = _lightness(colors(np.linspace(0, 1, 33), getattr(color_tables, name)))
     rises = np.diff(lightness)
     assert rises.min() > 0.3 * rises.mean()
     assert rises.max() < 2.0 * rises.mean()
 
 
 def test_the_signed_map_is_light_in_the_middle_and_as_dark_at_both_ends() -> None:
-    lightness = _lightness(colors(np.linspace(0, 1, 41), color_maps.PURPLE_ORANGE))
+    lightness = _lightness(colors(np.linspace(0, 1, 41), color_tables.PURPLE_ORANGE))
     assert lightness.argmax() == 20
     assert (np.diff(lightness)[:20] > 0).all()
     assert (np.diff(lightness)[20:] < 0).all()
-    red, blue = colors(np.array([0.8, 0.2]), color_maps.PURPLE_ORANGE)[:, [0, 2]].T
+    red, blue = colors(np.array([0.8, 0.2]), color_tables.PURPLE_ORANGE)[:, [0, 2]].T
     assert red[0] > blue[0]
     assert red[1] < blue[1]
 

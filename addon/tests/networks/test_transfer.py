@@ -13,7 +13,7 @@ from seamwire.core.network.network import Network
 from seamwire.core.network.strokes import Stroke
 from seamwire.core.network.wires import Wire
 from seamwire.networks.core.network_file import NetworkFile, NetworkFileError
-from seamwire.networks.core.placing import Aligned, Landmarks, Shape, Similarity, Surface
+from seamwire.networks.core.placing import Aligned, Landmarks, NearestSurface, Shape, Similarity
 from seamwire.networks.core.tracing import Transfer
 from seamwire.networks.core.transfer import transfer
 from seamwire.networks.core.work import result_of
@@ -374,7 +374,7 @@ def test_the_nearest_points_are_those_of_all_triangles() -> None:
     shape = tube(9, 12)
     draw = np.random.default_rng(3)
     places = draw.normal(size=(40, 3))
-    _, points, gaps = Surface(shape).nearest(places)
+    _, points, gaps = NearestSurface(shape).nearest(places)
     weights = draw.dirichlet([1.0, 1.0, 1.0], size=2000)
     weights = np.concatenate([weights, np.eye(3)])
     samples = np.einsum("sw,twd->tsd", weights, shape.points[shape.triangles]).reshape(-1, 3)
@@ -388,8 +388,8 @@ def test_sides_that_face_away_do_not_count() -> None:
     points = np.array([[x, y, z] for z in (0.0, 0.01) for x, y in ((0, 0), (1, 0), (0, 1))], dtype=float)
     shape = Shape(points, np.array([[0, 2, 1], [3, 4, 5]], np.int32), np.array([[0, 1], [3, 4]], np.int32))
     place = np.array([[0.2, 0.2, 0.008]])
-    assert Surface(shape).nearest(place, np.array([[0.0, 0.0, -1.0]]))[0].tolist() == [0]
-    assert Surface(shape).nearest(place, np.array([[0.0, 0.0, 1.0]]))[0].tolist() == [1]
+    assert NearestSurface(shape).nearest(place, np.array([[0.0, 0.0, -1.0]]))[0].tolist() == [0]
+    assert NearestSurface(shape).nearest(place, np.array([[0.0, 0.0, 1.0]]))[0].tolist() == [1]
 
 
 def test_a_similarity_is_found_again() -> None:
@@ -410,7 +410,7 @@ def test_a_crease_stays_on_the_crease() -> None:
     a, b, c, d = number[:-1, :-1].ravel(), number[1:, :-1].ravel(), number[1:, 1:].ravel(), number[:-1, 1:].ravel()
     triangles = np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)]).astype(np.int32)
     edges = np.unique(np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1), axis=0).astype(np.int32)
-    surface = Surface(Shape(points, triangles, edges))
+    surface = NearestSurface(Shape(points, triangles, edges))
     place = np.array([0.3, 1.0, -0.3])
     triangle = int(surface.nearest(place[None])[0][0])
     assert surface.vertex(triangle, place, crease=90.0) == 7

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 from seamwire.core.islands.islands import Islands
 from seamwire.core.seams.gaps import Gap
-from seamwire.words.corner import FOLLOWS, lines
+from seamwire.terms.choices import KINDS
+from seamwire.words.corner import lines
 from table import Table
 
 
@@ -49,4 +50,4 @@ def test_the_island_under_the_mouse_says_what_it_needs_once_the_mesh_is_parted()
 
 
 def test_candidates_have_names_of_what_is_seen() -> None:
-    assert not any("curvature" in name for name in FOLLOWS)
+    assert not any("curvature" in name for name in KINDS.values())

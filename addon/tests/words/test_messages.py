@@ -9,7 +9,7 @@ from string import Formatter
 
 import pytest
 from seamwire.core.base.messages import Message
-from seamwire.words.messages import SENTENCES
+from seamwire.words.sentences import SENTENCES
 
 ROOT = Path(__file__).parents[2] / "seamwire"
 SENDERS = {

@@ -80,12 +80,12 @@ def triangle_areas(points: NDArray[np.float64], triangles: NDArray[np.int32]) ->
     triangles
         (m, 3)
     """
-    return 0.5 * np.linalg.norm(_area_normals(points, triangles), axis=1)
+    return 0.5 * np.linalg.norm(area_normals(points, triangles), axis=1)
 
 
 def triangle_normals(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:
     """Return unit normals of triangles, (m, 3). Triangles without area have zero. Parameters are those of `triangle_areas`."""
-    return _units(_area_normals(points, triangles))
+    return units(area_normals(points, triangles))
 
 
 def relative_heights(corners: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -106,19 +106,19 @@ def vertex_normals(points: NDArray[np.float64], triangles: NDArray[np.int32]) ->
     triangles
         (m, 3)
     """
-    rows, normals = triangles.reshape(-1), _area_normals(points, triangles)
-    return _units(np.stack([np.bincount(rows, np.repeat(column, 3), len(points)) for column in normals.T], axis=1))
+    rows, normals = triangles.reshape(-1), area_normals(points, triangles)
+    return units(np.stack([np.bincount(rows, np.repeat(column, 3), len(points)) for column in normals.T], axis=1))
 
 
-def _area_normals(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:
+def area_normals(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:
     """Return normals of triangles, (m, 3), twice as long as the areas."""
     a, b, c = points[triangles].transpose(1, 0, 2)
     return np.cross(b - a, c - a)
 
 
-def _units(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return vectors, (k, 3), with length 1, or 0 if they have none."""
-    lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
+def units(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return vectors, (..., 3), with length 1, or 0 if they have none."""
+    lengths = np.linalg.norm(vectors, axis=-1, keepdims=True)
     return np.divide(vectors, lengths, out=np.zeros_like(vectors), where=lengths > 0.0)
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What there is to tell the artist, as codes and values. The words are not here, see ``words/messages.py``."""
+"""What there is to tell the artist, as codes and values. The words are not here, see ``words/sentences.py``."""
 
 from __future__ import annotations
 

@@ -7,11 +7,11 @@ import threading
 from collections.abc import Callable
 from typing import Generic, TypeVar
 
-Request = TypeVar("Request")
+Asked = TypeVar("Asked")
 Answer = TypeVar("Answer")
 
 
-class Newest(Generic[Request, Answer]):
+class Newest(Generic[Asked, Answer]):
     """Answers requests in its own thread. Only the newest waiting request is answered.
 
     Parameters
@@ -24,14 +24,12 @@ class Newest(Generic[Request, Answer]):
         What `make` raises where it was stopped for a newer request.
     """
 
-    def __init__(
-        self, make: Callable[[Request], Answer], name: str, given_up: tuple[type[Exception], ...] = ()
-    ) -> None:
-        self._make: Callable[[Request], Answer] | None = make
+    def __init__(self, make: Callable[[Asked], Answer], name: str, given_up: tuple[type[Exception], ...] = ()) -> None:
+        self._make: Callable[[Asked], Answer] | None = make
         self._name = name
         self._given_up = given_up
         self._lock = threading.Lock()
-        self._wanted: list[Request] = []
+        self._wanted: list[Asked] = []
         self._working = False
         self._closed = False
         self._error: Exception | None = None
@@ -58,7 +56,7 @@ class Newest(Generic[Request, Answer]):
         """Whether what is being computed is not wanted any more."""
         return bool(self._wanted) or self._closed
 
-    def want(self, request: Request) -> None:
+    def want(self, request: Asked) -> None:
         """Ask for something."""
         with self._lock:
             if self._closed:
@@ -69,7 +67,7 @@ class Newest(Generic[Request, Answer]):
             self._working = True
         threading.Thread(target=self._work, name=self._name, daemon=True).start()
 
-    def answer_now(self, request: Request) -> None:
+    def answer_now(self, request: Asked) -> None:
         """Answer at once, on the thread that asks."""
         if self._make is not None:
             self._answer = self._make(request)

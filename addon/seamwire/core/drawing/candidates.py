@@ -18,10 +18,11 @@ from .straight import straight_wire
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from ...terms.choices import Along
+    from ...terms.options import Options
     from ..network.network import Seed
-    from ..network.picks import Along, Pick
+    from ..network.picks import Pick
     from ..solver.solver import Candidate, Engines
-    from .options import Options
 
 
 class CandidateWires:

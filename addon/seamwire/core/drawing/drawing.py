@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...terms.options import Options
 from ..base import native
 from ..base.messages import NOTHING, Message
 from ..network.history import History
@@ -21,7 +22,6 @@ from ..network.symmetry import Symmetry
 from ..offers.part_borders import AMOUNTS
 from ..seams.seam_wires import seam_chains, waiting, wires_along
 from ..solver.solver import Engines
-from .options import Options
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -29,7 +29,8 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
     from seamwire_core import PartFinder
 
-    from ..network.picks import Along, Pick
+    from ...terms.choices import Along
+    from ..network.picks import Pick
     from ..network.strokes import Stroke
     from ..network.wires import Wire
     from ..solver.solver import LiveWire

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..base.half_edges import among
 from ..base.messages import Message, Refused
 from ..network.picks import vertices_of
-from ..network.symmetry import among
 from .candidates import only_vertices
 from .gesture import Gesture
 from .line_wires import EdgeLine, SurfaceLine

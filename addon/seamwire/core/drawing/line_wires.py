@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
+from ..base.half_edges import among
 from ..base.messages import NOTHING, Message, message_of
 from ..network.picks import FacePoint
-from ..network.symmetry import among
 from ..network.wires import Wire
 from ..seams.seam_wires import wires_along
 from ..solver.solver import by_number, for_live

@@ -7,11 +7,11 @@ from dataclasses import dataclass, field, replace
 from enum import Enum, auto
 from typing import TYPE_CHECKING
 
+from ...terms.options import Options
 from ..base.messages import NOTHING, Message
 from ..network.network import Network, Snap
 from ..network.picks import undirected
 from .intent import Intent
-from .options import Options
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -19,10 +19,11 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from ...terms.choices import Finish, LoopKind
     from ..islands.islands import Islands
-    from ..network.picks import Edge, Finish, Pick
+    from ..network.picks import Edge, Pick
     from ..network.strokes import Stroke
-    from ..network.wires import LoopKind, Wire
+    from ..network.wires import Wire
     from .candidates import CandidateWires
     from .line import LineGesture
     from .seed_drag import SeedDrag
@@ -200,10 +201,6 @@ class Picture:
     def one(self, *roles: Role) -> Wire | None:
         """Return the first wire with one of some roles."""
         return next((shown.wire for shown in self.wires if shown.role in roles), None)
-
-    def seed_as(self, role: SeedRole) -> Pick | None:
-        """Return the seed with a role."""
-        return next((shown.pick for shown in self.seeds if shown.role is role), None)
 
     @property
     def active(self) -> Wire | None:

@@ -20,8 +20,9 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
+    from ...terms.choices import Along
     from ..network.network import Network, Snap
-    from ..network.picks import Along, Edge, Pick
+    from ..network.picks import Edge, Pick
     from ..solver.solver import ClosedCut, Engines, LiveWire
 
     Found = TypeVar("Found")

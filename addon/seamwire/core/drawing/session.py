@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
+    from ...terms.options import Options
     from ..fields.crests import Crests
     from ..network.network import Seed
     from ..network.picks import Edge, Pick
@@ -38,7 +39,6 @@ if TYPE_CHECKING:
     from ..network.wires import Wire
     from ..solver.solver import LiveWire
     from .drawing import Drawing
-    from .options import Options
     from .picture import Picture
 
 

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     import seamwire_core
     from numpy.typing import NDArray
 
+    from ...terms.choices import LoopKind
     from ..network.picks import Pick
-    from ..network.wires import LoopKind
 
 CREST_KINDS: tuple[LoopKind, ...] = ("RIDGE", "VALLEY")
 """What their offers are."""

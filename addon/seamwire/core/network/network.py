@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from .picks import Along, Edge, End, FacePoint, Pick, undirected, vertices_of
+from ...terms.choices import Along
+from .picks import Edge, End, FacePoint, Pick, undirected, vertices_of
 from .wires import Wire, split
 
 if TYPE_CHECKING:

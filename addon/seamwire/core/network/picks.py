@@ -13,13 +13,6 @@ from ..base.geometry import barycentric, nearest_on_segments
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-Along = Literal["EDGES", "SURFACE"]
-"""Where wires run: along the mesh's edges, or across its surface."""
-
-Finish = Literal["SNAP", "SLIDE", "CUT"]
-"""What becomes the seam of a wire across the surface: the edges nearest to it, these with their vertices slid onto it, or itself, cut
-into the faces."""
-
 
 @dataclass(frozen=True)
 class FacePoint:

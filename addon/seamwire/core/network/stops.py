@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..base.half_edges import among
 from .picks import undirected
-from .symmetry import among
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

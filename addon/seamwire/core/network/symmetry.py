@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..base.half_edges import HalfEdges, after, among
 from ..base.spatial_hash import SpatialHash
 from .wires import Wire
 
@@ -306,93 +307,47 @@ def _combinations(axes: tuple[int, ...]) -> list[tuple[int, ...]]:
     return [some for count in range(1, len(axes) + 1) for some in itertools.combinations(axes, count)]
 
 
-class _HalfEdges:
-    """The half-edges of the polygons that triangles make up; half-edge 3 f + i leads from corner i of triangle f to the next.
+class _PolygonEdges(HalfEdges):
+    """The half-edges of the polygons that triangles make up. The triangles are alike oriented.
 
-    Parameters
+    Attributes
     ----------
-    triangles
-        (m, 3), alike oriented.
-    edges
-        (e, 2) those of the polygons.
-    count
-        How many vertices there are.
+    following, preceding
+        (3m,) the half-edges beside each in its polygon, past the diagonals that cut the polygon into triangles. -1 if there is none.
+    sides
+        (3m,) how many half-edges the polygon of each has. 0 if it is not closed, or has too many.
     """
 
     def __init__(self, triangles: NDArray[np.int32], edges: NDArray[np.int32], count: int) -> None:
-        corners = triangles.astype(np.int64)
-        self._count = count
-        self.start = corners.ravel()
-        self.end = np.roll(corners, -1, axis=1).ravel()
-        keys = np.minimum(self.start, self.end) * count + np.maximum(self.start, self.end)
-        order = np.argsort(keys, kind="stable")
-        ranked = keys[order]
-        # Where more than two meet, or faces are turned over, nothing leads on.
-        first = np.flatnonzero(np.diff(ranked, prepend=-1))
-        couples = np.diff(first, append=len(keys)) == 2
-        one, two = order[first[couples]], order[first[couples] + 1]
-        opposite = self.start[one] == self.end[two]
-        self.twin = np.full(len(keys), -1)
-        self.twin[one[opposite]] = two[opposite]
-        self.twin[two[opposite]] = one[opposite]
-        self._keys, self._order = ranked, order
-        wanted = edges.astype(np.int64)
-        wanted = np.sort(wanted.min(axis=1) * count + wanted.max(axis=1))
-        inner = np.empty(len(keys), dtype=bool)
-        inner[order] = ~among(ranked, wanted)
-        numbers = np.arange(len(keys))
-        following = numbers - numbers % 3 + (numbers + 1) % 3
-        # From corner to corner of a polygon, past the diagonals that cut it into triangles.
-        after = following.copy()
-        left = numbers[inner[after]]
+        super().__init__(triangles, edges, count)
+        numbers, inner = np.arange(len(self.tails)), ~self.visible
+        self.following = after(numbers)
+        left = numbers[inner[self.following]]
         for _ in range(_MOST_SIDES):
             if not len(left):
                 break
-            across = self.twin[after[left]]
-            after[left] = np.where(across >= 0, following[across], -1)
-            left = left[(after[left] >= 0) & inner[after[left]]]
-        after[left] = -1
-        after[inner] = -1
-        self.after = after
-        self.before = np.full(len(keys), -1)
-        known = numbers[after >= 0]
-        self.before[after[known]] = known
+            across = self.twins[self.following[left]]
+            self.following[left] = np.where(across >= 0, after(across), -1)
+            left = left[(self.following[left] >= 0) & inner[self.following[left]]]
+        self.following[left] = -1
+        self.following[inner] = -1
+        self.preceding = np.full(len(numbers), -1)
+        known = numbers[self.following >= 0]
+        self.preceding[self.following[known]] = known
         self.sides = self._sides(known)
 
     def _sides(self, left: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Return of how many half-edges the polygon of each is; 0: it is not closed, or has too many."""
-        sides = np.zeros(len(self.start), dtype=np.int64)
-        at = self.after[left]
+        """Count the half-edges of each polygon."""
+        sides = np.zeros(len(self.tails), dtype=np.int64)
+        at = self.following[left]
         for count in range(1, _MOST_SIDES + 1):
             done = at == left
             sides[left[done]] = count
-            left, at = left[~done], self.after[at[~done]]
+            left, at = left[~done], self.following[at[~done]]
             left, at = left[at >= 0], at[at >= 0]
             if not len(left):
                 break
         return sides
-
-    def between(self, start: NDArray[np.int64], end: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Return a half-edge from each vertex to its partner, or -1."""
-        found = np.full(len(start), -1)
-        if not len(self._keys):
-            return found
-        wanted = np.minimum(start, end) * self._count + np.maximum(start, end)
-        order = np.argsort(wanted)
-        for side, aside in (("left", 0), ("right", -1)):
-            # A half-edge and its twin are neighbors in this order.
-            at = np.searchsorted(self._keys, wanted[order], side) + aside
-            half = self._order[np.clip(at, 0, len(self._keys) - 1)]
-            fits = (self.start[half] == start[order]) & (self.end[half] == end[order])
-            found[order[fits]] = half[fits]
-        return found
-
-
-def among(values: NDArray[np.int64], ranked: NDArray[np.int64]) -> NDArray[np.bool_]:
-    """Return which values, best in rising order, are among others in rising order."""
-    if not len(ranked):
-        return np.zeros(len(values), dtype=bool)
-    return ranked[np.minimum(np.searchsorted(ranked, values), len(ranked) - 1)] == values
 
 
 def grown_partners(
@@ -417,9 +372,9 @@ def grown_partners(
     (n,) array
         Partners; those by place where growing does not come; -1: none.
     """
-    half = _HalfEdges(triangles, edges, len(by_place))
-    known = np.flatnonzero((by_place[half.start] >= 0) & (by_place[half.end] >= 0) & (half.sides > 0))
-    images = half.between(by_place[half.end[known]], by_place[half.start[known]])
+    half = _PolygonEdges(triangles, edges, len(by_place))
+    known = np.flatnonzero((by_place[half.tails] >= 0) & (by_place[half.tips] >= 0) & (half.sides > 0))
+    images = half.between(by_place[half.tips[known]], by_place[half.tails[known]])
     known, images = known[images >= 0], images[images >= 0]
     partners = np.full(len(by_place), -1)
     told = by_place >= 0
@@ -443,9 +398,9 @@ def grown_partners(
     return partners
 
 
-def _grow(half: _HalfEdges, ones: NDArray[np.int64], images: NDArray[np.int64], partners: NDArray[np.int64]) -> None:
+def _grow(half: _PolygonEdges, ones: NDArray[np.int64], images: NDArray[np.int64], partners: NDArray[np.int64]) -> None:
     """Enter the partners of all vertices that half-edges and their images lead to, unless they have others already."""
-    image_of = np.full(len(half.start), -1)
+    image_of = np.full(len(half.tails), -1)
     while len(ones):
         fits = (ones >= 0) & (images >= 0)
         ones, images = ones[fits], images[fits]
@@ -457,8 +412,8 @@ def _grow(half: _HalfEdges, ones: NDArray[np.int64], images: NDArray[np.int64], 
         ones, images = ones[order], images[order]
         fits = np.diff(ones, prepend=-1) > 0
         ones, images = ones[fits], images[fits]
-        vertices = np.concatenate([half.start[ones], half.end[ones]])
-        others = np.concatenate([half.end[images], half.start[images]])
+        vertices = np.concatenate([half.tails[ones], half.tips[ones]])
+        others = np.concatenate([half.tips[images], half.tails[images]])
         new = (partners[vertices] < 0) & (partners[others] < 0)
         _enter(partners, vertices[new], others[new])
         both = (partners[vertices] == others).reshape(2, -1).all(axis=0)
@@ -466,8 +421,8 @@ def _grow(half: _HalfEdges, ones: NDArray[np.int64], images: NDArray[np.int64], 
         image_of[ones] = images
         image_of[images] = ones
         ones, images = (
-            np.concatenate([half.after[ones], half.before[ones], half.twin[ones]]),
-            np.concatenate([half.before[images], half.after[images], half.twin[images]]),
+            np.concatenate([half.following[ones], half.preceding[ones], half.twins[ones]]),
+            np.concatenate([half.preceding[images], half.following[images], half.twins[images]]),
         )
 
 

@@ -9,12 +9,13 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Literal, get_args
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from ...terms.choices import LOOPS, Along, Finish, LoopKind
 from ..base.geometry import nearest_on_segments
-from .picks import Along, Edge, Finish, Pick, undirected
+from .picks import Edge, Pick, undirected
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -23,14 +24,7 @@ FOLLOWS: tuple[Literal["min", "max", "concave"], ...] = ("min", "max", "concave"
 """The library's names of wires, by `Wire.follow`: along the least curvature, along the most curvature, or along concave creases (only
 across the surface). Files have these numbers."""
 
-LoopKind = Literal["CLOSED", "CROSSING", "STRIP", "PAST", "WHOLE", "FLAT", "ACROSS", "HANDLE", "RIDGE", "VALLEY"]
-"""The kind of loop that a click takes as a whole.
-
-An edge has the closed loop of the metric, the loop or strip that crosses the edge, and the border of a part or face. It also has the
-straight strip up to what is there already, the same past poles, and the whole strip. A point of the surface has a closed cut that
-separates, or a cut around or through a handle, which does not. Both have a ridge or a valley as far as it is one."""
-
-LOOP_KINDS: frozenset[LoopKind] = frozenset(get_args(LoopKind)) - {"CROSSING"}
+LOOP_KINDS: frozenset[LoopKind] = frozenset(LOOPS) - {"CROSSING"}
 """The kinds of kept loops. A crossing loop is kept as a closed loop or a strip."""
 
 _ids = itertools.count()

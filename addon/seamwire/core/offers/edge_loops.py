@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.geometry import nearest_on_segments
+from ..base.half_edges import among
 from ..base.messages import Message
 from ..network.picks import undirected
 from ..network.stops import ranked
-from ..network.symmetry import among
 from ..network.wires import Wire
 from .crossing import Direction, Directions, as_crossing, as_kept, is_loop_of
 from .hairpins import is_hairpin
@@ -23,15 +23,15 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from ...terms.choices import LoopKind
     from ..network.network import Network, Snap
     from ..network.picks import Edge, Pick
     from ..network.stops import Stops
-    from ..network.wires import LoopKind
     from ..solver.solver import Engines, LiveWire
-    from .part_borders import Chain, PartBorders
+    from .part_borders import PartBorders, VertexChain
 
 
-_BY_KIND: Mapping[LoopKind, float] = {"CLOSED": 0.0, "PAST": 0.2, "STRIP": 0.5, "WHOLE": 0.7, "FLAT": 0.8}
+KIND_COSTS: Mapping[LoopKind, float] = {"CLOSED": 0.0, "PAST": 0.2, "STRIP": 0.5, "WHOLE": 0.7, "FLAT": 0.8}
 _LOOP_CROSSES = 0.7
 _STRIP_CROSSES = 0.2
 """How unlikely an offer is, in corners of a loop; being of another kind than what was taken last counts as a corner, too.
@@ -240,7 +240,7 @@ class LoopOffers(Offers):
         snap = self._snap
         return None if snap is None or undirected(snap.pick) != undirected(edge) else snap.triangle
 
-    def _nearest_first(self, chains: Sequence[Chain], edge: Edge) -> list[Chain]:
+    def _nearest_first(self, chains: Sequence[VertexChain], edge: Edge) -> list[VertexChain]:
         return sorted(chains, key=lambda chain: self._gaps(_sides(chain), edge).min())
 
     def _gaps(self, sides: Sequence[Edge], edge: Edge) -> NDArray[np.float64]:
@@ -248,7 +248,7 @@ class LoopOffers(Offers):
         middle = self._points[[*edge]].mean(axis=0)
         return nearest_on_segments(middle, *self._points[np.array(sides)].transpose(1, 0, 2))[1]
 
-    def _border(self, chain: Chain, edge: Edge) -> Wire | None:
+    def _border(self, chain: VertexChain, edge: Edge) -> Wire | None:
         """Return a border as the offer of an edge that it need not run along, or None if there is no border."""
         sides = _sides(chain)
         if not sides:
@@ -410,7 +410,7 @@ def _unlikeliness(
     assert wire.kind is not None
     inner = wire.vertices if wire.closed else wire.vertices[1:-1]
     crossings = min(int(among(np.array(inner, dtype=np.int64), kept).sum()), _MOST_CROSSINGS)
-    cost = _BY_KIND[wire.kind] + (wire.kind != last)
+    cost = KIND_COSTS[wire.kind] + (wire.kind != last)
     if wire.kind in {"CLOSED", "FLAT"}:
         return cost + _LOOP_CROSSES * crossings + min(corners(live, wire.vertices, points), _MOST_CORNERS)
     return cost + _STRIP_CROSSES * crossings

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from .half_edges import HalfEdges
+    from .turns import SurfaceEdges
 
 _BEND = np.radians(135.0)
 """A chain that turns so far within the surface comes back: up, over a rim, and down again."""
@@ -25,7 +25,7 @@ _TINY = 0.2
 """Such a circle of few edges is tiny if the square of its length is below this part of the surface's area."""
 
 
-def is_hairpin(chain: Sequence[int], points: NDArray[np.float64], half_edges: HalfEdges) -> bool:
+def is_hairpin(chain: Sequence[int], points: NDArray[np.float64], half_edges: SurfaceEdges) -> bool:
     """Return whether a closed chain doubles back within a short way, or is a tiny circle of a few edges.
 
     How far it turns is measured within the surface: a ring that leads over the rims of a thin plate goes straight on.

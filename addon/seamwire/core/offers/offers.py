@@ -10,9 +10,9 @@ from ..network.picks import undirected
 from ..network.wires import Wire
 
 if TYPE_CHECKING:
+    from ...terms.choices import LoopKind
     from ..network.network import Network
     from ..network.picks import Pick
-    from ..network.wires import LoopKind
 
 
 class Offers:

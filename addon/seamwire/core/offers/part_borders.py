@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .half_edges import HalfEdges, after
+from ..base.half_edges import after
+from .turns import SurfaceEdges
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
     from ..network.picks import Edge
 
-Chain = tuple[int, ...]
+VertexChain = tuple[int, ...]
 """The vertices of a closed chain, the first one not repeated."""
 
 NO_SEAMS = np.empty((0, 2), dtype=np.int32)
@@ -68,7 +69,7 @@ class PartBorders:
         seams: Callable[[], NDArray[np.int32]] = lambda: NO_SEAMS,
         find_parts: Callable[[NDArray[np.int32], Callable[[], bool]], Iterable[NDArray[np.int32]]] = lambda *_: (),
     ) -> None:
-        self.half_edges = HalfEdges(points, triangles, edges)
+        self.half_edges = SurfaceEdges(points, triangles, edges)
         self._points, self._triangles = points, triangles
         self._seams_now, self._find_parts = seams, find_parts
         self._seams = NO_SEAMS
@@ -123,7 +124,7 @@ class PartBorders:
                 if not stop.is_set():
                     self._steps, self.is_complete = found, True
 
-    def borders(self, edge: Edge) -> Iterator[Chain]:
+    def borders(self, edge: Edge) -> Iterator[VertexChain]:
         """Yield the closed chains through an edge that are borders of parts beside it.
 
         A part may have several borders. A chain that meets itself is left out. Chains may come more than once.
@@ -137,12 +138,12 @@ class PartBorders:
             found = (chain for side in self.half_edges.of(edge) for chain in parts.borders(side // 3))
             yield from sorted((chain for chain in found if _has_edge(chain, edge)), key=len)
 
-    def around(self, triangle: int) -> Iterator[tuple[Chain, ...]]:
+    def around(self, triangle: int) -> Iterator[tuple[VertexChain, ...]]:
         """Yield the borders of the part that a triangle belongs to, for each of `AMOUNTS`."""
         for parts in self._steps:
             yield parts.borders(triangle)
 
-    def rims(self, edge: Edge) -> tuple[Chain, ...]:
+    def rims(self, edge: Edge) -> tuple[VertexChain, ...]:
         """Return both rims of the tube inside of which an edge lies, or nothing. The tube is a part, or an open piece."""
         sides = [side // 3 for side in self.half_edges.of(edge)]
         parts = self._steps[0] if self._steps and sides else None
@@ -159,7 +160,7 @@ class PartBorders:
                 if sides.visible[side] and self.rims(found) is rims and set(found) != set(edge):
                     yield found
 
-    def flat_face(self, triangle: int) -> Chain:
+    def flat_face(self, triangle: int) -> VertexChain:
         """Return the outer border of the flat face that a triangle is part of, or nothing if that meets itself.
 
         The face is the polygon of the triangle, with all polygons around it that lie in the same plane.
@@ -195,7 +196,7 @@ class PartBorders:
             new = np.unique(beside[(is_flat | ~sides.visible[own]) & ~is_in_face[beside]])
         return is_in_face
 
-    def _length(self, chain: Chain) -> float:
+    def _length(self, chain: VertexChain) -> float:
         around = self._points[[*chain, chain[0]]]
         return float(np.linalg.norm(np.diff(around, axis=0), axis=1).sum())
 
@@ -204,12 +205,12 @@ class PartBorders:
 class _Parts:
     """The parts for one amount: `labels` has the part of each triangle, (m,)."""
 
-    half_edges: HalfEdges
+    half_edges: SurfaceEdges
     labels: NDArray[np.int32]
 
     def __post_init__(self) -> None:
-        self._found: dict[int, tuple[Chain, ...]] = {}
-        self._rims: dict[int, tuple[Chain, ...]] = {}
+        self._found: dict[int, tuple[VertexChain, ...]] = {}
+        self._rims: dict[int, tuple[VertexChain, ...]] = {}
         _ = self._outer  # on the thread that finds the parts
 
     @cached_property
@@ -221,7 +222,7 @@ class _Parts:
         outer = outer[np.argsort(own[outer], kind="stable")]
         return outer, own[outer]
 
-    def borders(self, triangle: int) -> tuple[Chain, ...]:
+    def borders(self, triangle: int) -> tuple[VertexChain, ...]:
         """Return the borders of the part with a triangle between parts. Borders that meet themselves are left out."""
         part = int(self.labels[triangle])
         if part not in self._found:
@@ -230,7 +231,7 @@ class _Parts:
             self._found[part] = tuple(chain for chain in chains if len(set(chain)) == len(chain) > 2)
         return self._found[part]
 
-    def rims(self, triangle: int) -> tuple[Chain, ...]:
+    def rims(self, triangle: int) -> tuple[VertexChain, ...]:
         """Return both rims of the part with a triangle if that is a tube, or nothing."""
         part = int(self.labels[triangle])
         if part not in self._rims:
@@ -257,7 +258,7 @@ class _Parts:
         return _borders(twins, self._sides_of(part), is_inner)
 
 
-def _has_edge(chain: Chain, edge: Edge) -> bool:
+def _has_edge(chain: VertexChain, edge: Edge) -> bool:
     ends = set(edge)
     return any({one, two} == ends for one, two in zip(chain, chain[1:] + chain[:1], strict=True))
 

@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from ...terms.choices import LoopKind
     from ..network.network import Network
     from ..network.picks import Pick
-    from ..network.wires import LoopKind
     from ..solver.solver import ClosedCut, Engines, LiveWire
 
 

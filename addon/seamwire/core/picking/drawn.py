@@ -12,8 +12,8 @@ import numpy as np
 from ..base.geometry import nearest_on_segments
 from ..network.network import Snap
 from ..network.picks import place_of
+from .camera import Projected
 from .segments import Segments
-from .view import Projected
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from ..network.strokes import Stroke
     from ..network.wires import Wire
     from .sight import Sight
-    from .surface import Surface
+    from .surface import VisibleSurface
 
 SEED_REACH = 9.0
 """Pixels beside a seed in which it is found..."""
@@ -59,7 +59,7 @@ class DrawnPicker:
         (s, 2) the edges that are seams and that no wire runs along.
     """
 
-    def __init__(self, surface: Surface, seams: ArrayLike) -> None:
+    def __init__(self, surface: VisibleSurface, seams: ArrayLike) -> None:
         self._surface = surface
         self._seam_edges = np.asarray(seams, dtype=np.int64).reshape(-1, 2)
         self._drawn: _Drawn | None = None
@@ -81,8 +81,8 @@ class DrawnPicker:
         """Return the seed, otherwise the wire, otherwise the seam under the cursor."""
         surface, drawn = self._surface, self._drawn_now(session)
         cursor, reach = sight.cursor, SEED_REACH * sight.scale
-        rows = drawn.seeds.near(sight.view, sight.matrix, cursor, reach)
-        x, y, _ = drawn.seeds.seen(sight.view, sight.matrix)
+        rows = drawn.seeds.near(sight.camera, sight.matrix, cursor, reach)
+        x, y, _ = drawn.seeds.seen(sight.camera, sight.matrix)
         gaps = np.hypot(x[rows] - cursor[0], y[rows] - cursor[1])
         for i in np.argsort(gaps, kind="stable").tolist():
             if gaps[i] <= reach and surface.can_pick(sight, drawn.seeds.points[rows[i]]):
@@ -124,7 +124,7 @@ class DrawnPicker:
         return self._drawn
 
 
-def stroke_at(strokes: Sequence[Stroke], sight: Sight, surface: Surface) -> Stroke | None:
+def stroke_at(strokes: Sequence[Stroke], sight: Sight, surface: VisibleSurface) -> Stroke | None:
     """Return the stroke nearest to the cursor. Of equally near strokes, it is the newest.
 
     Parameters

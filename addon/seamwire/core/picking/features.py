@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..base.geometry import triangle_normals
 from ..network.picks import FacePoint
 from .segments import Segments
 
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from ..fields.crests import Crests
     from ..network.picks import Pick
     from .sight import Sight
-    from .surface import Surface
+    from .surface import VisibleSurface
 
 FEATURE_REACH = 10.0
 """Pixels in which the strongest feature is looked for."""
@@ -41,7 +42,7 @@ class FeaturePicker:
         The mesh.
     """
 
-    def __init__(self, surface: Surface) -> None:
+    def __init__(self, surface: VisibleSurface) -> None:
         self._surface = surface
         self._strength: tuple[object, float] = (None, 0.0)
         self._crests: tuple[Crests | None, Segments] = (None, Segments([]))
@@ -65,10 +66,7 @@ class FeaturePicker:
         """Return the edges at vertices where the mesh ends, where faces meet at a sharp angle, or where more than two meet."""
         surface = self._surface
         triangles = surface.triangles[surface.triangles_at.rows(vertices)]
-        a, b, c = (surface.points[triangles[:, i]] for i in range(3))
-        normals = np.cross(b - a, c - a)
-        lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-        normals = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0.0)
+        normals = triangle_normals(surface.points, triangles)
         sides: dict[tuple[int, int], list[NDArray[np.float64]]] = {}
         for (one, two, three), normal in zip(triangles.tolist(), normals, strict=True):
             for tail, tip in ((one, two), (two, three), (three, one)):

@@ -13,7 +13,7 @@ from .drawn import DrawnPicker, stroke_at
 from .features import FeaturePicker
 from .plain import PlainPicker
 from .sight import Sight
-from .surface import Surface
+from .surface import VisibleSurface
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -25,8 +25,8 @@ if TYPE_CHECKING:
     from ..fields.crests import Crests
     from ..network.picks import Pick
     from ..network.strokes import Stroke
+    from .camera import Camera
     from .surface import Bend
-    from .view import View
 
 
 class Picker:
@@ -42,11 +42,11 @@ class Picker:
     seams
         (s, 2) the edges that are seams and that no wire runs along.
     bend
-        As in `Surface`.
+        As in `VisibleSurface`.
     """
 
     def __init__(self, arrays: Arrays, seams: ArrayLike = (), bend: Bend | None = None) -> None:
-        self._surface = Surface(arrays, bend)
+        self._surface = VisibleSurface(arrays, bend)
         self._plain = PlainPicker(self._surface)
         self._features = FeaturePicker(self._surface)
         self._drawn = DrawnPicker(self._surface, seams)
@@ -61,7 +61,7 @@ class Picker:
 
     def snap(
         self,
-        view: View,
+        camera: Camera,
         matrix: ArrayLike,
         cursor: tuple[float, float],
         *,
@@ -79,8 +79,8 @@ class Picker:
 
         Parameters
         ----------
-        view, matrix, cursor
-            The view, the object and the pixel.
+        camera, matrix, cursor
+            The camera of the view, the object and the pixel.
         vertices_only, edges_only
             Find vertices of the mesh alone, or edges.
         anywhere
@@ -99,7 +99,7 @@ class Picker:
         scale
             Of the display.
         """
-        sight = Sight.of(view, matrix, cursor, scale, xray)
+        sight = Sight.of(camera, matrix, cursor, scale, xray)
         if sight is None:
             return None
         if session is not None:
@@ -128,51 +128,23 @@ class Picker:
         feature = None if strength is None else self._features.strongest_at(sight, pick, strength)
         return Snap(pick) if feature is None else Snap(feature, "FEATURE")
 
-    def pick(
-        self,
-        view: View,
-        matrix: ArrayLike,
-        cursor: tuple[float, float],
-        vertices_only: bool,
-        scale: float = 1.0,
-        edges_only: bool = False,
-    ) -> Pick | None:
-        """Return the edge or the vertex under the cursor.
-
-        Parameters
-        ----------
-        view, matrix, cursor
-            The view, the object and the pixel.
-        vertices_only, edges_only
-            Find vertices alone, or edges.
-        scale
-            Of the display.
-
-        Returns
-        -------
-        int, tuple of int or None
-            A vertex, an edge by its vertices, or nothing.
-        """
-        sight = Sight.of(view, matrix, cursor, scale)
-        return None if sight is None else self._plain.at(sight, vertices_only, edges_only)
-
     def stroke_at(
         self,
         strokes: Sequence[Stroke],
-        view: View,
+        camera: Camera,
         matrix: ArrayLike,
         cursor: tuple[float, float],
         xray: bool = False,
         scale: float = 1.0,
     ) -> Stroke | None:
         """Return the stroke under the cursor. `strokes` are given oldest first."""
-        sight = Sight.of(view, matrix, cursor, scale, xray)
+        sight = Sight.of(camera, matrix, cursor, scale, xray)
         return None if sight is None else stroke_at(strokes, sight, self._surface)
 
-    def seen_along(self, view: View, matrix: ArrayLike, pick: Pick) -> tuple[float, float, float] | None:
+    def seen_along(self, camera: Camera, matrix: ArrayLike, pick: Pick) -> tuple[float, float, float] | None:
         """Return the direction from the viewer to a pick, in the coordinates of the mesh, or None if it lies behind the viewer."""
         surface = self._surface
-        sight = Sight.of(view, matrix, (0.0, 0.0))
+        sight = Sight.of(camera, matrix, (0.0, 0.0))
         if sight is None:
             return None
         pixel = sight.pixels((surface.to_object @ place_of(pick, surface.points))[None])[0]
@@ -182,16 +154,16 @@ class Picker:
         x, y, z = (far - near).tolist()
         return x, y, z
 
-    def depth(self, view: View, matrix: ArrayLike, cursor: tuple[float, float]) -> float | None:
+    def depth(self, camera: Camera, matrix: ArrayLike, cursor: tuple[float, float]) -> float | None:
         """Return how far the face under the cursor is from the near plane, in world units, or None beside the mesh."""
-        sight = Sight.of(view, matrix, cursor)
+        sight = Sight.of(camera, matrix, cursor)
         hit = None if sight is None else self._surface.cast(sight, cursor)
-        return None if hit is None else float(np.linalg.norm(sight.to_world(hit[1]) - view.ray(cursor)[0]))
+        return None if hit is None else float(np.linalg.norm(sight.to_world(hit[1]) - camera.ray(cursor)[0]))
 
     def surface_at(
-        self, view: View, matrix: ArrayLike, cursor: tuple[float, float]
+        self, camera: Camera, matrix: ArrayLike, cursor: tuple[float, float]
     ) -> tuple[NDArray[np.float64], int] | None:
         """Return the point of the surface under the cursor, in the coordinates of the mesh, and its triangle."""
-        sight = Sight.of(view, matrix, cursor)
+        sight = Sight.of(camera, matrix, cursor)
         hit = None if sight is None else self._surface.cast(sight, cursor)
         return None if hit is None else (self._surface.to_points @ hit[1], hit[0])

@@ -12,9 +12,9 @@ import numpy as np
 from ..base.geometry import nearest_on_segments
 from ..network.network import Snap
 from ..network.picks import FacePoint
+from .camera import Projected
 from .segments import VERTEX_RADIUS, VERTEX_SHARE, Segments, nearest_edge
 from .surface import MAX_NEAR
-from .view import Projected
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from ..network.picks import Edge, Pick
     from .sight import Sight
-    from .surface import Surface
+    from .surface import VisibleSurface
 
 REACH = 14.0
 """Pixels beside the mesh in which it is still found: rims and silhouettes are hard to hit."""
@@ -48,7 +48,7 @@ class PlainPicker:
         The mesh.
     """
 
-    def __init__(self, surface: Surface) -> None:
+    def __init__(self, surface: VisibleSurface) -> None:
         self._surface = surface
 
     def at(self, sight: Sight, vertices_only: bool, edges_only: bool) -> Pick | None:
@@ -73,9 +73,9 @@ class PlainPicker:
         """Return the vertex or edge that is nearest on the screen, however much lies before it."""
         edges, cursor, reach = self._surface.edges, sight.cursor, REACH * sight.scale
         numbers, projected = self._vertices
-        x, y, depth = projected.seen(sight.view, sight.matrix)
+        x, y, depth = projected.seen(sight.camera, sight.matrix)
         for radius in (reach, 5.0 * reach):
-            rows = projected.near(sight.view, sight.matrix, cursor, radius)
+            rows = projected.near(sight.camera, sight.matrix, cursor, radius)
             if len(rows):
                 break
         if vertices_only:
@@ -206,7 +206,7 @@ class PlainPicker:
         rows = self._triangles_of(set(surface.polygons[surface.triangles_at.rows(corners)].tolist()))
         triangles, owners = surface.triangles[rows], surface.polygons[rows].tolist()
         # The volume between the eye and a triangle is below 0 for those that turn one side to it, and above 0 for the others.
-        to_clip = (sight.view.perspective @ sight.matrix)[[0, 1, 3]]
+        to_clip = (sight.camera.perspective @ sight.matrix)[[0, 1, 3]]
         places = surface.in_object(surface.points[triangles]) @ to_clip[:, :3].T + to_clip[:, 3]
         facing = dict.fromkeys(owners, 0.0)
         for owner, volume in zip(owners, np.linalg.det(places).tolist(), strict=True):

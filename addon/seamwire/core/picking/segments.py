@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.geometry import nearest_on_segments
-from .view import Projected
+from .camera import Projected
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -44,8 +44,8 @@ class Segments:
         """Yield owners and their points under the cursor, nearest first. An owner that lies there several times comes several times."""
         if not len(self.owners):
             return
-        starts = np.stack(self.starts.seen(sight.view, sight.matrix)[:2], axis=1)
-        ends = np.stack(self.ends.seen(sight.view, sight.matrix)[:2], axis=1)
+        starts = np.stack(self.starts.seen(sight.camera, sight.matrix)[:2], axis=1)
+        ends = np.stack(self.ends.seen(sight.camera, sight.matrix)[:2], axis=1)
         part, gaps = nearest_on_segments(sight.cursor, starts, ends)
         rows = np.flatnonzero(gaps <= radius)
         for row in rows[np.argsort(gaps[rows], kind="stable")][:_MAX_PIECES].tolist():

@@ -12,7 +12,7 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from .view import View
+    from .camera import Camera
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,8 +21,8 @@ class Sight:
 
     Parameters
     ----------
-    view
-        The view.
+    camera
+        How the view shows the world.
     matrix
         (4, 4) the object's matrix. It may rotate, scale and shear.
     cursor
@@ -33,7 +33,7 @@ class Sight:
         Whether to find what lies behind faces too.
     """
 
-    view: View
+    camera: Camera
     matrix: NDArray[np.float64]
     cursor: tuple[float, float]
     scale: float = 1.0
@@ -41,11 +41,11 @@ class Sight:
 
     @classmethod
     def of(
-        cls, view: View, matrix: ArrayLike, cursor: tuple[float, float], scale: float = 1.0, xray: bool = False
+        cls, camera: Camera, matrix: ArrayLike, cursor: tuple[float, float], scale: float = 1.0, xray: bool = False
     ) -> Sight | None:
         """Return the sight of an object, or None if its matrix flattens it so that nothing of it can be picked."""
         placed = np.array(matrix, dtype=np.float64)
-        return None if abs(float(np.linalg.det(placed))) < 1e-30 else cls(view, placed, cursor, scale, xray)
+        return None if abs(float(np.linalg.det(placed))) < 1e-30 else cls(camera, placed, cursor, scale, xray)
 
     @cached_property
     def inverse(self) -> NDArray[np.float64]:
@@ -62,4 +62,4 @@ class Sight:
 
     def pixels(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return where (k, 3) points in object coordinates are seen, (k, 2)."""
-        return self.view.to_pixels(self.to_world(points))
+        return self.camera.to_pixels(self.to_world(points))

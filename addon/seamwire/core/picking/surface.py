@@ -24,7 +24,7 @@ MAX_NEAR = 400
 """Vertices that are looked at near the cursor. Of more within a few pixels, as in a far view, nobody can tell which is meant."""
 
 
-class Surface:
+class VisibleSurface:
     """The visible part of an edit mesh.
 
     Parameters
@@ -81,7 +81,7 @@ class Surface:
 
     def ray(self, sight: Sight, pixel: tuple[float, float]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return both ends of the line that a pixel shows, in the coordinates of the points."""
-        near, far = sight.from_world(np.array(sight.view.ray(pixel))) @ self.to_points.T
+        near, far = sight.from_world(np.array(sight.camera.ray(pixel))) @ self.to_points.T
         return near, far
 
     def cast(self, sight: Sight, pixel: tuple[float, float]) -> tuple[int, NDArray[np.float64]] | None:
@@ -102,16 +102,16 @@ class Surface:
         A face that is nearer by no more than a few pixels hides nothing, because the place may lie in a crease.
         """
         world = sight.to_world(place)
-        pixel = sight.view.to_pixels(world[None])[0]
+        pixel = sight.camera.to_pixels(world[None])[0]
         if np.isnan(pixel).any():
             return False
         at = (float(pixel[0]), float(pixel[1]))
         hit = self.cast(sight, at)
         if hit is None:
             return True
-        near = sight.view.ray(at)[0]
+        near = sight.camera.ray(at)[0]
         before = np.linalg.norm(world - near) - np.linalg.norm(sight.to_world(hit[1]) - near)
-        return bool(before <= 6.0 * sight.view.pixel_size(world))
+        return bool(before <= 6.0 * sight.camera.pixel_size(world))
 
     def vertices_near(self, sight: Sight, pick: Pick, reach: float) -> dict[int, float]:
         """Return the vertices within reach of the cursor, and how near they are, walking over the mesh from a pick.

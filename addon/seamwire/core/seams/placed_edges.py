@@ -14,12 +14,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from ..solver.defaults import PLACED, SCANNED
+from ...terms.options import PLACED, SCANNED
+from ..base.geometry import triangle_normals, units
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..solver.defaults import Auto
+    from ...terms.options import Auto
 
 _FEW = 2_000
 """The edges of a mesh with fewer triangles count as placed: its maker had to spare triangles."""
@@ -163,8 +164,7 @@ class _Pairs:
         self._starts, self._ends = one[here], other[here]
         self._tips = opposite[self._sides]
         self._is_inner = polygons[here // 3] == polygons[there // 3]
-        corners = points[triangles]
-        normals = _unit(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
+        normals = triangle_normals(points, triangles)
         turned = np.where(one[here] == one[there], -1.0, 1.0)[:, None]
         self._normals = np.stack([normals[here // 3], turned * normals[there // 3]])
 
@@ -172,7 +172,7 @@ class _Pairs:
     def _is_diagonal(self) -> NDArray[np.bool_]:
         """Which edges are diagonals of quads, (k,). Two triangles are a quad if each is the other's best partner for it."""
         quads = self._points[np.stack([self._starts, self._tips[0], self._ends, self._tips[1]])]
-        sides = _unit(np.roll(quads, -1, axis=0) - quads)
+        sides = units(np.roll(quads, -1, axis=0) - quads)
         skew = np.abs(np.einsum("ckx,ckx->ck", sides, np.roll(sides, 1, axis=0))).max(axis=0)
         best = np.full(self._triangles.size, np.inf)
         best[self._sides] = skew
@@ -193,7 +193,7 @@ class _Pairs:
         triangulations and normal cycle, 2003). The difference of its two curvatures is the weight of the edge.
         """
         along = (self._points[self._ends] - self._points[self._starts]) / self.lengths[:, None]
-        beside = _unit(np.cross(self._normals.sum(axis=0), along))
+        beside = units(np.cross(self._normals.sum(axis=0), along))
         bends = self._bends() * self.lengths
         difference, twist = np.zeros_like(bends), np.zeros_like(bends)
         for i, j in itertools.product(range(3), repeat=2):
@@ -228,8 +228,3 @@ class _Pairs:
         """Return the sums at vertices, (n,), of what each edge brings to its two ends."""
         count = len(self._points)
         return np.bincount(self._starts, at_starts, count) + np.bincount(self._ends, at_ends, count)
-
-
-def _unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
-    lengths = np.linalg.norm(vectors, axis=-1, keepdims=True)
-    return np.divide(vectors, lengths, out=np.zeros_like(vectors), where=lengths > 0.0)

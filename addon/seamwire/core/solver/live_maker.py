@@ -5,8 +5,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Protocol
 
+from ...terms.options import CLAMP_PERCENTILE, STRENGTHS
 from ..base import native
-from .defaults import CLAMP_PERCENTILE, STRENGTHS
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import seamwire_core
     from numpy.typing import NDArray
 
-    from ..network.picks import Along
+    from ...terms.choices import Along
     from .solver import LiveWire
 
 

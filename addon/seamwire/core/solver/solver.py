@@ -5,33 +5,29 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Literal, Protocol, TypeVar, get_args
+from typing import TYPE_CHECKING, Protocol, TypeVar
 
+from ...terms.choices import KINDS, METRICS, Kind, MetricName
+from ...terms.options import CLAMP_PERCENTILE, STRENGTHS
 from ..base.messages import NOTHING, Message, Refused
 from ..network.picks import FacePoint
 from ..network.wires import FOLLOWS
-from .defaults import CLAMP_PERCENTILE, STRENGTHS
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
     from seamwire_core import Surface
 
-    from ..network.picks import Along, Edge, Pick
+    from ...terms.choices import Along
+    from ..network.picks import Edge, Pick
     from ..network.strokes import Stroke
 
-MetricName = Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"]
-"""What draws wires to features, as the library calls it."""
-
-Kind = Literal["min", "max", "concave", "euclidean"]
-"""The library's name for what a wire follows: a direction of curvature, concave creases, or nothing."""
-_KINDS: tuple[Kind, ...] = get_args(Kind)
-_KINDS_OF: Mapping[MetricName, tuple[Kind, ...]] = {"concave": ("concave", "euclidean"), "euclidean": ("euclidean",)}
+_KINDS: tuple[Kind, ...] = tuple(KINDS)
 
 
 def kinds_of(metric: MetricName) -> tuple[Kind, ...]:
     """Return what the wires of a metric follow, by `Wire.follow`."""
-    return _KINDS_OF.get(metric, ("min", "max", "concave"))
+    return METRICS[metric].follows
 
 
 class Candidate(Protocol):
@@ -71,25 +67,25 @@ def _meant_for(stroke: Stroke, kinds: tuple[Kind, ...]) -> Stroke | None:
     return replace(stroke, acts_on=kinds[number]) if number < len(kinds) else None
 
 
-class Chain(Protocol):
+class EdgeChain(Protocol):
     """A chain of edges."""
 
     vertices: NDArray[np.int32]
 
 
-class Loop(Chain, Protocol):
+class Loop(EdgeChain, Protocol):
     """A closed chain of edges. It has no vertices if there is no chain, or if it is not `final` yet."""
 
     final: bool
 
 
-class EdgeLoop(Chain, Protocol):
+class EdgeLoop(EdgeChain, Protocol):
     """A straight chain of edges; no vertices where it cannot be told yet."""
 
     closed: bool
 
 
-class Piece(Chain, Protocol):
+class Piece(EdgeChain, Protocol):
     """A piece of a closed cut, and the chain of edges that it snaps to."""
 
     points: NDArray[np.float64]
@@ -113,7 +109,7 @@ class ClosedCuts(Protocol):
     final: bool
 
 
-class FittedChain(Chain, Protocol):
+class FittedChain(EdgeChain, Protocol):
     """The chain of edges that fits a line; no vertices where none does, or where it cannot be told yet."""
 
     places: NDArray[np.float64]
@@ -158,7 +154,7 @@ class LiveWire(Protocol):
     def bent_wire(self, through: End, second: End, cut: tuple[int, int]) -> ClosedCuts:
         """Return one of these cuts, by its id, bent to a second point, as far as it is computed."""
 
-    def extend_straight(self, edge: Edge, stops: Iterable[int]) -> Chain:
+    def extend_straight(self, edge: Edge, stops: Iterable[int]) -> EdgeChain:
         """Return the straight way on from the end of a directed edge until a stop, a boundary or itself."""
 
     def edge_loop(self, edge: Edge, stops: Iterable[int]) -> EdgeLoop:

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...terms.choices import ALONG, FINISHES
 from ..base.messages import Refused
 from ..base.spatial_hash import SpatialHash
 from ..network.picks import FacePoint, undirected
@@ -261,11 +262,11 @@ def checked_wire(record: Record) -> Record:
         and len(vertices) >= (3 if record["closed"] else 2)
         and ends.shape == (2, 3)
         and np.isfinite(ends).all()
-        and record["along"] in ("EDGES", "SURFACE")
+        and record["along"] in ALONG
         and record["follow"] in range(len(FOLLOWS))
         and np.isfinite(float(record["strength"]))
         and all(axis in (0, 1, 2) for axis in record["mirror"])
-        and record.get("finish", "SNAP") in ("SNAP", "SLIDE", "CUT")
+        and record.get("finish", "SNAP") in FINISHES
         and type(record.get("planned", False)) is bool
         and (record["heading"] is None or isinstance(pick_of(record["heading"]), tuple))
     )

@@ -12,17 +12,17 @@ import json
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, get_args
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...core.base.geometry import Moments, creases, vertex_normals
 from ...core.base.messages import NOTHING, Message, Refused
 from ...core.network.picks import FacePoint, place_of, undirected
-from ...core.solver.defaults import CLAMP_PERCENTILE
-from ...core.solver.solver import MetricName
 from ...core.storage import serialization
 from ...core.storage.serialization import Record
+from ...terms.choices import METRICS, MetricName
+from ...terms.options import CLAMP_PERCENTILE
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -260,7 +260,7 @@ class NetworkFile:
             origin = Origin(str(mesh["name"]), *counts, moments)
             where = "metric"
             metric, clamp = data["metric"], float(data["clamp"])
-            if metric not in get_args(MetricName) or not 0.0 < clamp <= 100.0:
+            if metric not in METRICS or not 0.0 < clamp <= 100.0:
                 raise ValueError
             seeds, courses, strokes = [], [], []
             for number, row in enumerate(data["seeds"], start=1):

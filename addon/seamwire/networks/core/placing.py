@@ -220,7 +220,7 @@ class Aligned:
         return Message.of("fits-moved")
 
 
-class Surface:
+class NearestSurface:
     """Finds the points of a mesh that are nearest to places.
 
     Parameters

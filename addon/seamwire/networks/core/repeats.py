@@ -28,7 +28,7 @@ _TOLERANCES = (0.01, 0.05)
 
 
 @dataclass(frozen=True)
-class _Step:
+class _WalkStep:
     """One edge of the walk.
 
     Parameters
@@ -100,12 +100,12 @@ class Repeats:
             if len(seen) > 1:
                 return
 
-    def _walk(self, edges: list[int]) -> list[_Step]:
+    def _walk(self, edges: list[int]) -> list[_WalkStep]:
         """Return a walk along all edges that hang together with the first one, breadth first."""
         left = set(edges[1:])
-        steps = [_Step(2 * edges[0], -1, 0)]
+        steps = [_WalkStep(2 * edges[0], -1, 0)]
         # The walk starts from both ends of the first edge. The way back to its other end counts as a step.
-        steps.append(_Step(2 * edges[0] + 1, -1, 0))
+        steps.append(_WalkStep(2 * edges[0] + 1, -1, 0))
         at = 0
         while at < len(steps):
             back = steps[at].dart ^ 1
@@ -114,11 +114,11 @@ class Repeats:
                 if dart >> 1 in left:
                     left.discard(dart >> 1)
                     turn = (self._place[dart] - self._place[back]) % self._valence[vertex]
-                    steps.append(_Step(dart, at, int(turn)))
+                    steps.append(_WalkStep(dart, at, int(turn)))
             at += 1
         return steps
 
-    def _follow(self, steps: list[_Step], tolerance: float, sense: int) -> NDArray[np.int64]:
+    def _follow(self, steps: list[_WalkStep], tolerance: float, sense: int) -> NDArray[np.int64]:
         """Return the darts, (k, steps), of all walks that are like one, counterclockwise or mirrored."""
         begin = np.arange(len(self._tails))
         darts = np.empty((len(begin), len(steps)), dtype=np.int64)
@@ -147,7 +147,7 @@ class Repeats:
             alike &= self._place[others ^ 1] == wanted
         return alike
 
-    def _matched(self, steps: list[_Step], darts: list[int]) -> dict[int, int] | None:
+    def _matched(self, steps: list[_WalkStep], darts: list[int]) -> dict[int, int] | None:
         """Return which vertices those of the walk are at another place; None: not one to one."""
         to: dict[int, int] = {}
         for step, dart in zip(steps, darts, strict=True):

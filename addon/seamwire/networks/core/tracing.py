@@ -20,19 +20,20 @@ from ...core.base.geometry import nearest_on_segments
 from ...core.base.messages import Message
 from ...core.network.strokes import Stroke, for_library, on_mesh
 from ...core.network.wires import LOOP_KINDS, Wire
-from ...core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
 from ...core.solver.live_maker import LiveMaker
 from ...core.solver.solver import by_number, final
 from ...core.storage.serialization import unpacked
+from ...terms.options import CLAMP_PERCENTILE, STRENGTHS
 from .network_file import Course, NetworkFile
-from .placing import DOUBTFUL, Placed, Shape, Surface
+from .placing import DOUBTFUL, NearestSurface, Placed, Shape
 from .work import PLACED, Work
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ...core.network.picks import Along, Edge
+    from ...core.network.picks import Edge
     from ...core.solver.solver import Candidate, LiveWire
+    from ...terms.choices import Along
 
 STRAY = 1.0
 """How many edges a wire may run beside where it is to run before it gets a seed more."""
@@ -46,7 +47,7 @@ DEGREES = ((0.9, "SURE"), (0.6, "LIKELY"), (DOUBTFUL, "DOUBTFUL"), (0.0, "LOST")
 
 
 @dataclass(frozen=True)
-class Seed:
+class PlacedSeed:
     """A seed of the network on another mesh.
 
     Parameters
@@ -100,7 +101,7 @@ class Transfer:
 
     wires: list[Wire] = field(default_factory=list)
     strokes: list[Stroke] = field(default_factory=list)
-    seeds: list[Seed] = field(default_factory=list)
+    seeds: list[PlacedSeed] = field(default_factory=list)
     lost: list[Message] = field(default_factory=list)
     doubts: list[Message] = field(default_factory=list)
     added: int = 0
@@ -125,7 +126,7 @@ class Transfer:
 
 
 @dataclass(frozen=True)
-class _Piece:
+class _CoursePart:
     """A part of a wire between two seeds of the network: its vertices on the source, and where they are on the target."""
 
     course: Course
@@ -136,7 +137,7 @@ class _Piece:
     confidence: NDArray[np.float64]
     creases: NDArray[np.float64]
 
-    def at(self, rows: Sequence[int]) -> _Piece:
+    def at(self, rows: Sequence[int]) -> _CoursePart:
         """Return a piece with some of its vertices."""
         return replace(
             self,
@@ -147,7 +148,7 @@ class _Piece:
             creases=self.creases[rows],
         )
 
-    def part(self, begin: int, end: int) -> _Piece:
+    def part(self, begin: int, end: int) -> _CoursePart:
         """Return the piece from one row to another."""
         return self.at(range(begin, end + 1))
 
@@ -171,7 +172,7 @@ class Tracing:
     """
 
     def __init__(
-        self, file: NetworkFile, target: Shape, surface: Surface, live: LiveMaker, stray: float = STRAY
+        self, file: NetworkFile, target: Shape, surface: NearestSurface, live: LiveMaker, stray: float = STRAY
     ) -> None:
         self._file, self._target, self._surface, self._make = file, target, surface, live
         self._stray, self._done = stray, PLACED
@@ -248,7 +249,7 @@ class Tracing:
 
     # Seeds
 
-    def _find_seeds(self, pieces: Sequence[_Piece]) -> None:
+    def _find_seeds(self, pieces: Sequence[_CoursePart]) -> None:
         """Place each vertex where wires end once, so that what met meets."""
         for piece in pieces:
             if piece.course.record["closed"]:
@@ -256,19 +257,19 @@ class Tracing:
             for row in (0, -1):
                 self._seed(piece, row)
 
-    def _seed(self, piece: _Piece, row: int) -> int | None:
+    def _seed(self, piece: _CoursePart, row: int) -> int | None:
         key = piece.axes, piece.vertices[row]
         if key not in self._vertex_of:
             confidence = float(piece.confidence[row])
             vertex = self._vertex(piece, row) if confidence >= DOUBTFUL else None
             self._vertex_of[key] = vertex
-            self._result.seeds.append(Seed(key[1], key[0], vertex, confidence))
+            self._result.seeds.append(PlacedSeed(key[1], key[0], vertex, confidence))
         return self._vertex_of[key]
 
-    def _vertex(self, piece: _Piece, row: int) -> int:
+    def _vertex(self, piece: _CoursePart, row: int) -> int:
         return self._surface.vertex(int(piece.triangles[row]), piece.places[row], float(piece.creases[row]))
 
-    def _cut(self, pieces: Iterable[_Piece]) -> Iterable[_Piece]:
+    def _cut(self, pieces: Iterable[_CoursePart]) -> Iterable[_CoursePart]:
         """Yield the pieces, cut wherever another one ends within them."""
         for piece in pieces:
             last = len(piece.vertices) - 1
@@ -287,7 +288,7 @@ class Tracing:
 
     # Wires
 
-    def _wires(self, piece: _Piece) -> Work[list[Wire]]:
+    def _wires(self, piece: _CoursePart) -> Work[list[Wire]]:
         lost = float((piece.confidence < DOUBTFUL).mean())
         if lost > _MOST_LOST:
             return self._lose(piece, "course-lost", part=lost)
@@ -306,11 +307,11 @@ class Tracing:
         self._result.added += len(found) - 1
         return found
 
-    def _lose(self, piece: _Piece, why: str, **values: object) -> list[Wire]:
+    def _lose(self, piece: _CoursePart, why: str, **values: object) -> list[Wire]:
         self._result.lost.append(Message.of(why, wire=piece.name, **values))
         return []
 
-    def _between(self, live: LiveWire, piece: _Piece, start: int, end: int) -> Work[list[Wire] | None]:
+    def _between(self, live: LiveWire, piece: _CoursePart, start: int, end: int) -> Work[list[Wire] | None]:
         """Return wires between two vertices that run where a piece does, in order, or None if there is no way."""
         yield self._done
         live.seed(start)
@@ -339,7 +340,7 @@ class Tracing:
                 best = follow, candidate, off, worst
         return best
 
-    def _wire(self, piece: _Piece, candidate: Candidate, follow: int) -> Wire:
+    def _wire(self, piece: _CoursePart, candidate: Candidate, follow: int) -> Wire:
         record = piece.course.record
         vertices = tuple(candidate.vertices.tolist())
         return Wire(
@@ -349,7 +350,7 @@ class Tracing:
             planned=record.get("planned", False),
         )  # fmt: skip
 
-    def _loop(self, piece: _Piece) -> Work[list[Wire]]:
+    def _loop(self, piece: _CoursePart) -> Work[list[Wire]]:
         """Return a closed wire: the loop of its kind where that runs there, else wires around it."""
         live = self._live(piece)
         whole = self._closed(live, piece)
@@ -369,7 +370,7 @@ class Tracing:
         self._result.added += len(wires)
         return wires
 
-    def _closed(self, live: LiveWire, piece: _Piece) -> Wire | None:
+    def _closed(self, live: LiveWire, piece: _CoursePart) -> Wire | None:
         record = piece.course.record
         if record["along"] != "EDGES" or record.get("kind") not in LOOP_KINDS:
             return None
@@ -397,7 +398,7 @@ class Tracing:
             follow=record["follow"], strength=float(record["strength"]),
         )  # fmt: skip
 
-    def _edge(self, piece: _Piece) -> Edge | None:
+    def _edge(self, piece: _CoursePart) -> Edge | None:
         """Return the edge of the target through which a loop runs, along its course."""
         vertex = self._vertex(piece, 0)
         along = piece.places[1] - piece.places[-2]
@@ -409,7 +410,7 @@ class Tracing:
                 best = fits, (min(vertex, other), max(vertex, other))
         return None if best is None else best[1]
 
-    def _live(self, piece: _Piece) -> LiveWire:
+    def _live(self, piece: _CoursePart) -> LiveWire:
         """Return live wires that run as those of a piece did."""
         record = piece.course.record
         key = record["along"], float(record["strength"])
@@ -444,10 +445,10 @@ class Tracing:
         return on_mesh(stroke, shape.points, shape.triangles)
 
 
-def _placed(course: Course, axes: tuple[int, ...], placed: Placed) -> _Piece:
+def _placed(course: Course, axes: tuple[int, ...], placed: Placed) -> _CoursePart:
     """Return the whole of a wire. A closed one ends at the vertex where it begins."""
     vertices = list(course.record["vertices"])
-    whole = _Piece(course, axes, vertices, placed.triangles, placed.places, placed.confidence, course.creases)
+    whole = _CoursePart(course, axes, vertices, placed.triangles, placed.places, placed.confidence, course.creases)
     return whole.at([*range(len(vertices)), 0]) if course.record["closed"] else whole
 
 

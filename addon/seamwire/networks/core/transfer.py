@@ -15,8 +15,8 @@ from ...core.network.network import Network
 from ...core.network.symmetry import Symmetry
 from ...core.solver.live_maker import LiveMaker
 from .network_file import Course, NetworkFile, NetworkFileError
-from .placing import Landmarks, Placed, Shape, Similarity, Surface
-from .tracing import STRAY, Seed, Tracing, Transfer
+from .placing import Landmarks, NearestSurface, Placed, Shape, Similarity
+from .tracing import STRAY, PlacedSeed, Tracing, Transfer
 from .work import PLACED, Work
 
 if TYPE_CHECKING:
@@ -105,13 +105,13 @@ def _by_numbers(file: NetworkFile, target: Shape, topology: bool) -> Transfer:
     ends = dict.fromkeys(
         vertex for wire in wires if not wire.closed for vertex in (wire.vertices[0], wire.vertices[-1])
     )
-    seeds = [Seed(vertex, (), vertex, 1.0) for vertex in ends]
+    seeds = [PlacedSeed(vertex, (), vertex, 1.0) for vertex in ends]
     return Transfer(wires, file.strokes_on(target.points, to_object), seeds)
 
 
 def _by_surface(file: NetworkFile, target: Shape, mirror: int | None, align: bool, live: LiveMaker) -> Work[Transfer]:
     """Return a network on a mesh with about the same shape and any topology."""
-    surface, doubt = Surface(target), NOTHING
+    surface, doubt = NearestSurface(target), NOTHING
     way = Similarity.mirroring(*(() if mirror is None else (mirror,)))
     if align and file.courses:
         points = way.of(np.concatenate([course.places for course in file.courses]))
@@ -140,7 +140,7 @@ def _by_pairs(
 ) -> Work[Transfer]:
     """Return a network on a mesh with another pose or proportion and any topology."""
     _check(file, source)
-    surface = Surface(target)
+    surface = NearestSurface(target)
     landmarks = Landmarks(source, target, pairs)
     yield PLACED
 

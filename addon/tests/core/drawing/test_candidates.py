@@ -7,8 +7,8 @@ import pytest
 from grid import POINTS, SIZE, Grid
 from seamwire.core.base.messages import Message
 from seamwire.core.drawing.candidates import CandidateWires
-from seamwire.core.drawing.options import Options
 from seamwire.core.network.network import Network, Seed, Snap
+from seamwire.terms.options import Options
 
 
 def aimed(at: int, **options: object) -> tuple[CandidateWires, Message]:

@@ -11,13 +11,13 @@ import pytest
 from numpy.typing import NDArray
 from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.loop import LoopGesture
-from seamwire.core.drawing.options import Options
 from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
 from seamwire.core.fields.crests import Crests
-from seamwire.core.network.picks import Along, FacePoint, Pick
+from seamwire.core.network.picks import FacePoint, Pick
 from seamwire.core.offers.surface_loops import SurfaceLoops
-from seamwire.core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
+from seamwire.terms.choices import Along
+from seamwire.terms.options import CLAMP_PERCENTILE, STRENGTHS, Options
 from setting import use
 
 core = pytest.importorskip("seamwire_core")

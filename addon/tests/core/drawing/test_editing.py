@@ -9,7 +9,7 @@ import pytest
 from fake_live import FakeLive
 from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.intent import Intent
-from seamwire.core.drawing.picture import Role, SeedRole
+from seamwire.core.drawing.picture import Role, SeedRole, ShownSeed
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Network, Snap
 from setting import insert, use
@@ -68,7 +68,7 @@ def test_a_chain_goes_on_from_its_last_seed_in_its_direction() -> None:
     session.end_chain()
     session.hover(Snap(21, "SEED"))
     assert session.picture.intent is Intent.CONTINUE
-    assert session.picture.seed_as(SeedRole.HOVERED) == 21
+    assert ShownSeed(21, SeedRole.HOVERED) in session.picture.seeds
     session.click(Snap(21, "SEED"))
     assert table.lives["EDGES"].seeded == ((15, 21), True)
     session.click(22)

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from seamwire.core.drawing.drawing import Drawing
-from seamwire.core.drawing.options import Options
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Snap
 from seamwire.core.network.picks import FacePoint, place_of
 from seamwire.core.storage.serialization import wire_record
+from seamwire.terms.options import Options
 from setting import use
 
 core = pytest.importorskip("seamwire_core")

@@ -10,10 +10,10 @@ from seamwire.core.base.mesh_arrays import Arrays
 from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Snap
-from seamwire.core.network.picks import Along
+from seamwire.core.picking.camera import Camera
 from seamwire.core.picking.picker import Picker
-from seamwire.core.picking.view import View
 from seamwire.core.solver.live_maker import LiveMaker
+from seamwire.terms.choices import Along
 from setting import use
 
 pytest.importorskip("seamwire_core")
@@ -56,7 +56,7 @@ class Alt:
         )
         self.session = Session(drawing)
         half = 200.0 / pixels_a_unit
-        self.view = View(400.0, 400.0, np.diag([1.0 / half, 1.0 / half, -0.1, 1.0]))
+        self.view = Camera(400.0, 400.0, np.diag([1.0 / half, 1.0 / half, -0.1, 1.0]))
         self.picker = Picker(arrays)
 
     def snap(self, x: float, y: float) -> Snap:

@@ -11,12 +11,12 @@ from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
 from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.intent import Intent
-from seamwire.core.drawing.options import Options
 from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Snap
-from seamwire.core.network.picks import Along, FacePoint, undirected
-from seamwire.core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
+from seamwire.core.network.picks import FacePoint, undirected
+from seamwire.terms.choices import Along
+from seamwire.terms.options import CLAMP_PERCENTILE, STRENGTHS, Options
 from setting import end_line, stronger, use
 from table import Table
 

@@ -16,8 +16,8 @@ from seamwire.core.drawing.intent import Intent
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Network, Snap
 from seamwire.core.network.picks import Edge, Pick
-from seamwire.core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
 from seamwire.core.storage.wire_labels import Plan
+from seamwire.terms.options import CLAMP_PERCENTILE, STRENGTHS
 from setting import end_line, insert, stronger, use
 
 core = pytest.importorskip("seamwire_core")
@@ -84,7 +84,7 @@ class Monkey:
             lambda: session.run_to_end(preview=self.dice.random() < 0.5),
             lambda: use(session, along=self.dice.choice(["EDGES", "EDGES", "SURFACE"])),
             lambda: stronger(session, self.dice.choice([-1, 1])),
-            lambda: use(session, metric=self.dice.choice(["feature", "campen", "euclidean"])),
+            lambda: use(session, metric=self.dice.choice(["feature", "concave", "euclidean"])),
             lambda: use(session, mirror=self.dice.choice([(), (0,), (0, 1)])),
             lambda: use(session, clear=not session.options.clear),
             self.with_wire(session.retrace),

@@ -9,12 +9,11 @@ from fake_live import grid_edges
 from numpy.typing import NDArray
 from paper_mesh import PaperMesh
 from seamwire.core.drawing.drawing import Drawing
-from seamwire.core.drawing.options import Options
 from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Snap
-from seamwire.core.network.picks import Along
-from seamwire.core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
+from seamwire.terms.choices import Along
+from seamwire.terms.options import CLAMP_PERCENTILE, STRENGTHS, Options
 from setting import insert, stronger, use
 
 core = pytest.importorskip("seamwire_core")

@@ -13,8 +13,8 @@ from paper_mesh import PaperMesh
 from real_sessions import AROUND, RINGS, ball, halves, meridian, session_on, sides, tube
 from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
-from seamwire.core.network.picks import Along
 from seamwire.core.offers.edge_loops import corners
+from seamwire.terms.choices import Along
 from setting import use
 
 core = pytest.importorskip("seamwire_core")

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from seamwire.core.drawing.drawing import Drawing
-from seamwire.core.drawing.options import Options
 from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Snap
-from seamwire.core.network.picks import Along, Edge, FacePoint
+from seamwire.core.network.picks import Edge, FacePoint
 from seamwire.core.offers.surface_loops import NOTHING_TO_BEND, SurfaceLoops
-from seamwire.core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
+from seamwire.terms.choices import Along
+from seamwire.terms.options import CLAMP_PERCENTILE, STRENGTHS, Options
 from setting import use
 
 core = pytest.importorskip("seamwire_core")

@@ -65,7 +65,7 @@ def test_a_stroke_is_for_the_wire_that_leads_and_another_metrics_wires_are_other
     assert session.picture.active.follow == 2
     table.lives["EDGES"].metric_ready = (True, True)
     session.hover(None)
-    use(session, metric="campen")
+    use(session, metric="concave")
     session.draw_stroke(vertices=(1, 2, 3))
     assert session.strokes[-1].acts_on == "min"
 

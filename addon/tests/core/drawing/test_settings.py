@@ -41,10 +41,10 @@ def test_each_way_of_running_has_its_own_strength_and_both_the_metric() -> None:
     table = Table()
     session = table.session
     stronger(session, 1)
-    use(session, metric="campen")
+    use(session, metric="concave")
     use(session, along="SURFACE")
     assert session.drawing.strength == 20.0
-    assert table.lives["SURFACE"].metrics == [("campen", 20.0, 99.0)]
+    assert table.lives["SURFACE"].metrics == [("concave", 20.0, 99.0)]
     use(session, along="EDGES")
     assert session.drawing.strength == 12.5
 

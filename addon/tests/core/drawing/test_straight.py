@@ -6,11 +6,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from seamwire.core.drawing.drawing import Drawing
-from seamwire.core.drawing.options import Options
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Snap
-from seamwire.core.network.picks import Along, FacePoint
-from seamwire.core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
+from seamwire.core.network.picks import FacePoint
+from seamwire.terms.choices import Along
+from seamwire.terms.options import CLAMP_PERCENTILE, STRENGTHS, Options
 from setting import use
 
 core = pytest.importorskip("seamwire_core")

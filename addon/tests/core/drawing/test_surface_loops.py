@@ -10,10 +10,10 @@ import pytest
 from fake_live import FakeCuts, FakeLive, grid_edges
 from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.intent import Intent
-from seamwire.core.drawing.options import Options
 from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.picks import FacePoint
+from seamwire.terms.options import Options
 from setting import use
 from table import SIZE, Table, chain
 
@@ -194,7 +194,7 @@ def test_a_cut_that_meets_no_edge_is_kept_only_where_it_is_to_be_cut(monkeypatch
 
 def test_cuts_are_found_in_the_concave_metric_whatever_wires_are() -> None:
     it = table()
-    use(it.session, metric="campen")
+    use(it.session, metric="concave")
     it.session.hover(8, loop=True)
     assert it.lives["SURFACE"].metrics == [("concave", 20.0, None)]
     use(it.session, strength_surface=40.0)

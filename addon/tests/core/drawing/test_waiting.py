@@ -10,10 +10,10 @@ from seamwire.core.base.messages import Refused
 from seamwire.core.drawing import candidates
 from seamwire.core.fields.crests import Crests
 from seamwire.core.network.network import Snap
-from seamwire.core.network.picks import Along
 from seamwire.core.network.wires import Wire
 from seamwire.core.seams.seam_wires import waiting, wires_along
 from seamwire.core.solver.solver import final
+from seamwire.terms.choices import Along
 from setting import use
 from table import SIZE, Table, courses
 

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
+from seamwire.core.base.half_edges import after
 from seamwire.core.offers import part_borders
-from seamwire.core.offers.half_edges import after
 from seamwire.core.offers.part_borders import PartBorders
 
 SIZE = 6

@@ -11,7 +11,7 @@ import pytest
 from numpy.typing import NDArray
 from seamwire.core.seams import placed_edges
 from seamwire.core.seams.placed_edges import EdgeSigns, OtherSigns, auto_for
-from seamwire.core.solver.defaults import PLACED, SCANNED, Auto
+from seamwire.terms.options import PLACED, SCANNED, Auto
 
 Mesh = tuple[NDArray[np.float64], NDArray[np.int32]]
 """(n, 3) vertices and (m, 3) triangles."""

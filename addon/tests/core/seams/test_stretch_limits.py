@@ -7,7 +7,7 @@ import itertools
 
 import numpy as np
 import pytest
-from seamwire.core.seams.suggestion import LIMITS, turned_limit
+from seamwire.core.seams.seam_plan import LIMITS, turned_limit
 
 
 def test_each_notch_goes_to_the_next_limit_and_back() -> None:

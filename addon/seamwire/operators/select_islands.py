@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import bpy
 from mathutils import Vector
 
-from ..mesh.settings import STRETCH_ITEMS, settings
+from ..mesh.settings import settings
+from ..terms.choices import STRETCHES, items
 from ..words.names import count
 from .edit_mesh_operator import EditMeshOperator, description_of_item
 
@@ -40,7 +41,7 @@ class MESH_OT_seamwire_select_islands(EditMeshOperator, bpy.types.Operator):
     kind: bpy.props.EnumProperty(
         name="Stretch",
         description="Kind of stretch; if not given, the one that the tool shows, or angles",
-        items=STRETCH_ITEMS,
+        items=items(STRETCHES),
         options={"SKIP_SAVE"},
     )
 
@@ -87,7 +88,7 @@ class MESH_OT_seamwire_select_islands(EditMeshOperator, bpy.types.Operator):
         context
             Tells which view to turn.
         kind
-            An item of `STRETCH_ITEMS`.
+            A row of `STRETCHES`.
         """
         from ..mesh import edit_mesh
         from ..mesh.seam_islands import worst_island

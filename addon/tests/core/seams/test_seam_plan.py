@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from seamwire.core.network.strokes import Stroke, through_vertices
-from seamwire.core.seams.suggestion import (
+from seamwire.core.seams.seam_plan import (
     STRETCH,
     curves_length,
     cut_edges,

@@ -4,7 +4,7 @@
 import pytest
 from seamwire.core.islands.map_faults import MapFaults
 from seamwire.words.maps import in_words, is_beyond, not_reached, percent
-from seamwire.words.suggestion import Outcome
+from seamwire.words.search_report import Outcome
 
 
 def test_a_good_result_is_told_in_numbers() -> None:

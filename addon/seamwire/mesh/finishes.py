@@ -15,14 +15,17 @@ from ..core.base import native
 from ..core.base.messages import message_of
 from ..core.network.picks import FacePoint, vertices_of
 from ..core.seams.seam_wires import wires_between
-from ..core.seams.slide import plan as plan_slide
+from ..core.seams.slide_plan import plan as plan_slide
+from ..terms.choices import FINISHES
+from ..words.names import count
+from ..words.reports import gaps, left_out
 from . import cut as mesh_cut
 from . import slide as mesh_slide
 from .cut import CutError
 from .object_session import ObjectSession
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Iterator, Mapping
+    from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 
     from numpy.typing import NDArray
     from seamwire_core import CutCurve, CutPlan
@@ -32,6 +35,7 @@ if TYPE_CHECKING:
     from ..core.network.picks import Edge, Pick
     from ..core.network.wires import Wire
     from ..core.offers.closed_cuts import TakenCut
+    from ..terms.choices import Finish
     from .cut import Cut
 
 
@@ -41,8 +45,8 @@ class Finished:
 
     Parameters
     ----------
-    slid, moved
-        How many wires were slid onto, and how many vertices were.
+    reports
+        What each of `FINISHERS` has done.
     cut, edges, uncut
         How many wires were cut into the faces, how many edges they run along, and how many faces could not be cut.
     left_out
@@ -53,8 +57,7 @@ class Finished:
         How many edges of former cuts went, where nothing was cut in their place.
     """
 
-    slid: int = 0
-    moved: int = 0
+    reports: tuple[str, ...] = ()
     cut: int = 0
     edges: int = 0
     uncut: int = 0
@@ -62,12 +65,25 @@ class Finished:
     problem: str = ""
     taken_back: int = 0
 
-    def __bool__(self) -> bool:
-        return self != Finished()
+    @property
+    def text(self) -> str:
+        """The report; an empty text if nothing was done."""
+        parts = list(self.reports)
+        if self.cut:
+            parts.append(f"{count(self.cut, 'wire')} cut, {count(self.edges, 'edge')} marked")
+        if self.uncut:
+            parts.append(gaps(self.uncut))
+        if self.left_out:
+            parts.append(left_out(self.left_out))
+        if self.problem:
+            parts.append(f"not cut: {self.problem}")
+        if self.taken_back:
+            parts.append("cut taken back")
+        return ", ".join(parts)
 
 
 def apply(mesh: ObjectSession, change: Change) -> tuple[ObjectSession | None, Finished]:
-    """Let the mesh do what a change asks, once it has the wires: slide, cut, and take back cuts that are wires' no more.
+    """Let the mesh do what a change asks, once it has the wires: finish them, and take back cuts that are wires' no more.
 
     Parameters
     ----------
@@ -84,15 +100,18 @@ def apply(mesh: ObjectSession, change: Change) -> tuple[ObjectSession | None, Fi
         The counts of everything that was done.
     """
     wires = [wire for wire in mesh.session.wires if change.finishes(wire)]
-    slides = [wire for wire in wires if wire.finish == "SLIDE"]
+    drawn = {wire.vertices: wire.finish for wire in wires}
+    reports = []
+    for name, finisher in FINISHERS.items():
+        own = [wire for wire in wires if wire.finish == name]
+        if own:
+            mesh, moved = finisher(mesh, own)
+            reports.append(
+                f"{FINISHES[name].name}: {count(len(own), 'wire')}, {count(moved, 'vertex', 'vertices')} moved"
+            )
+            wires = [wire for wire in mesh.session.wires if drawn.get(wire.vertices) == wire.finish]
     cuts = [wire for wire in wires if wire.finish == "CUT"]
-    moved = 0
-    if slides:
-        drawn = {wire.vertices for wire in cuts}
-        mesh, moved = slide(mesh, slides)
-        if moved:
-            cuts = [wire for wire in mesh.session.wires if wire.vertices in drawn]
-    finished = Finished(len(slides), moved)
+    finished = Finished(tuple(reports))
     if not cuts:
         taken_back = _take_back(mesh, change.before)
         return None if taken_back else mesh, replace(finished, taken_back=taken_back)
@@ -133,6 +152,13 @@ def slide(mesh: ObjectSession, wires: Collection[Wire]) -> tuple[ObjectSession, 
     _go_on_with(after, mesh.session.loops.cuts.taken(mesh.session.drawing.network))
     after.write(after.plan())
     return after, len(moves)
+
+
+FINISHERS: Mapping[Finish, Callable[[ObjectSession, Collection[Wire]], tuple[ObjectSession, int]]] = {"SLIDE": slide}
+"""Functions that finish wires which the mesh has as seams along the nearest edges. Each may move vertices, and does not renumber them.
+
+They return the session that goes on, and the number of moved vertices. "SNAP" needs no function. "CUT" comes last, because it renumbers.
+"""
 
 
 def plan_cut(mesh: ObjectSession, wires: Iterable[Wire]) -> CutPlan:

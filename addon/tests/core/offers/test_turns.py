@@ -8,14 +8,14 @@ import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from polygon_meshes import arrays_of
 from seamwire.core.offers.hairpins import is_hairpin
-from seamwire.core.offers.half_edges import HalfEdges
+from seamwire.core.offers.turns import SurfaceEdges
 
 SIZE = 9
 """Vertices along a side of the sheet; vertex SIZE * row + column."""
 
 
-def sheet() -> HalfEdges:
-    return HalfEdges(grid_points(SIZE), grid_triangles(SIZE), grid_edges(SIZE))
+def sheet() -> SurfaceEdges:
+    return SurfaceEdges(grid_points(SIZE), grid_triangles(SIZE), grid_edges(SIZE))
 
 
 def box(left: int, low: int, width: int, height: int) -> list[int]:
@@ -48,7 +48,7 @@ def test_a_ring_over_the_rims_of_a_thin_plate_goes_straight_on() -> None:
         for (x, z), (to_x, to_z) in zip(ring, ring[1:] + ring[:1], strict=True):
             quads.append([number[x, low, z], number[x, high, z], number[to_x, high, to_z], number[to_x, low, to_z]])
     arrays = arrays_of(corners, quads)
-    plate = HalfEdges(arrays.points, arrays.triangles, arrays.edges)
+    plate = SurfaceEdges(arrays.points, arrays.triangles, arrays.edges)
     ring = [number[corner] for corner in ((0.0, 4.0, 0.0), (0.0, 4.0, 0.1), (8.0, 4.0, 0.1), (8.0, 4.0, 0.0))]
     assert np.degrees(plate.turns(ring)).tolist() == pytest.approx([0.0] * 4)
     assert not is_hairpin(ring, arrays.points, plate)
@@ -66,7 +66,7 @@ def test_a_narrow_box_is_a_hairpin(width: int, height: int, hairpin: bool) -> No
 def test_a_circle_of_a_few_edges_is_a_hairpin_where_it_is_tiny() -> None:
     large = 41
     points = grid_points(large)
-    half_edges = HalfEdges(points, grid_triangles(large), grid_edges(large))
+    half_edges = SurfaceEdges(points, grid_triangles(large), grid_edges(large))
     face = [large + 1, large + 2, 2 * large + 2, 2 * large + 1]
     assert is_hairpin(face, points, half_edges)
     assert not is_hairpin(box(3, 3, 1, 1), grid_points(SIZE), sheet())
@@ -77,6 +77,6 @@ def test_around_the_middle_of_a_large_fan_a_chain_is_taken_for_straight() -> Non
     angles = np.arange(count) * 2.0 * np.pi / count
     points = np.vstack([np.stack([np.cos(angles), np.sin(angles), np.zeros(count)], axis=1), np.zeros(3)])
     arrays = arrays_of(points, [(i, (i + 1) % count, count) for i in range(count)])
-    turns = HalfEdges(arrays.points, arrays.triangles, arrays.edges).turns([count, 0, 1])
+    turns = SurfaceEdges(arrays.points, arrays.triangles, arrays.edges).turns([count, 0, 1])
     assert turns[0] == pytest.approx(np.pi - 2.0 * np.pi / count), "on the side where the faces are few"
-    assert HalfEdges(arrays.points, arrays.triangles, arrays.edges).turns([0, count, count // 2])[1] == 0.0
+    assert SurfaceEdges(arrays.points, arrays.triangles, arrays.edges).turns([0, count, count // 2])[1] == 0.0

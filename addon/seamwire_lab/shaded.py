@@ -58,7 +58,7 @@ class ShadedFaces:
             batch.draw(self._shader)
 
     def draw_over(self, eye: Eye) -> None:
-        """Draw what is seen of them over the mesh, as `Faces.draw_over`."""
+        """Draw what is seen of them over the mesh, as `ColoredFaces.draw_over`."""
         interface().draw_over(lambda lift: self.draw(eye, lift))
 
 

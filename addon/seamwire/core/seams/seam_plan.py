@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     import seamwire_core
     from numpy.typing import NDArray
 
-    from ..network.picks import Along
+    from ...terms.choices import Along
     from ..network.strokes import Stroke
 
 STRETCH = 0.17
@@ -72,7 +72,7 @@ def turned_limit(percent: float, notches: int) -> float:
 
 
 @dataclass(frozen=True)
-class Request:
+class PlanRequest:
     """Requirements for a plan.
 
     Parameters

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from ..base.geometry import barycentric, nearest_on_segments, relative_heights
+from ..base.geometry import barycentric, nearest_on_segments, relative_heights, triangle_normals
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Sequence
@@ -39,7 +39,7 @@ Course = tuple["Sequence[int]", "NDArray[np.float64]"]
 """The vertices of a snapped chain, and the points, (k, 3), of its curve."""
 
 
-class Faces(Protocol):
+class SlidFaces(Protocol):
     """The polygons of a mesh, and the triangles that they are seen as."""
 
     points: NDArray[np.float64]
@@ -76,7 +76,7 @@ class Move:
     weights: tuple[float, ...]
 
 
-def plan(faces: Faces, courses: Iterable[Course], fixed: Collection[int] = ()) -> dict[int, Move]:
+def plan(faces: SlidFaces, courses: Iterable[Course], fixed: Collection[int] = ()) -> dict[int, Move]:
     """Find where vertices go.
 
     Parameters
@@ -112,12 +112,12 @@ def places(points: NDArray[np.float64], moves: Iterable[Move]) -> NDArray[np.flo
     return np.array([np.array(move.weights) @ points[list(move.corners)] for move in moves]).reshape(-1, 3)
 
 
-def _is_on_feature(faces: Faces, vertex: int) -> bool:
+def _is_on_feature(faces: SlidFaces, vertex: int) -> bool:
     """Whether a vertex lies on a sharp edge, on the border or where sheets meet."""
     beside: dict[int, list[NDArray[np.float64]]] = defaultdict(list)
     for polygon in faces.polygons_at(vertex):
         triples = _corner_triples(faces.corners(polygon))
-        normal = _normals(faces.points[np.array(triples)]).sum(axis=0)
+        normal = triangle_normals(faces.points, np.array(triples)).sum(axis=0)
         normal /= max(float(np.linalg.norm(normal)), 1e-300)
         for before, at, after in triples:
             if at == vertex:
@@ -130,13 +130,6 @@ def _is_on_feature(faces: Faces, vertex: int) -> bool:
 def _corner_triples(rim: Sequence[int]) -> list[tuple[int, int, int]]:
     """Return each corner of a polygon with those before and after it."""
     return [(rim[at - 1], rim[at], rim[(at + 1) % len(rim)]) for at in range(len(rim))]
-
-
-def _normals(corners: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the unit normals of triangles, (k, 3, 3); zero where one has no area."""
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-    return np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0.0)
 
 
 def _spread(chain: NDArray[np.float64], curve: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -154,7 +147,7 @@ def _spread(chain: NDArray[np.float64], curve: NDArray[np.float64]) -> NDArray[n
     return np.stack([np.interp(at, along, curve[:, axis]) for axis in range(3)], axis=1)
 
 
-def _to(faces: Faces, vertex: int, place: NDArray[np.float64]) -> Move | None:
+def _to(faces: SlidFaces, vertex: int, place: NDArray[np.float64]) -> Move | None:
     """Return the move of a vertex to a place on the faces around it; None where it does not lie there."""
     owners = [(polygon, row) for polygon in faces.polygons_at(vertex) for row in faces.rows_of(polygon)]
     triangles = faces.triangles[[row for _, row in owners]]
@@ -165,7 +158,7 @@ def _to(faces: Faces, vertex: int, place: NDArray[np.float64]) -> Move | None:
     return Move(owners[best][0], tuple(triangles[best].tolist()), tuple(weights[best].tolist()))
 
 
-def _onto(faces: Faces, vertex: int, curves: Sequence[NDArray[np.float64]]) -> Move | None:
+def _onto(faces: SlidFaces, vertex: int, curves: Sequence[NDArray[np.float64]]) -> Move | None:
     """Return the move of a vertex to the nearest point of its curve within the faces around it, or to where its curves cross."""
     owners = [(polygon, row) for polygon in faces.polygons_at(vertex) for row in faces.rows_of(polygon)]
     triangles = faces.triangles[[row for _, row in owners]]
@@ -196,18 +189,18 @@ def _nearest_within(
     return None
 
 
-def _without_damage(faces: Faces, moves: dict[int, Move]) -> dict[int, Move]:
+def _without_damage(faces: SlidFaces, moves: dict[int, Move]) -> dict[int, Move]:
     """Make moves shorter, or leave them out, until no corner of a face turns over or gets thin."""
     touched = {polygon for vertex in moves for polygon in faces.polygons_at(vertex)}
     triples = [triple for polygon in sorted(touched) for triple in _corner_triples(faces.corners(polygon))]
     triangles = np.array(triples, dtype=np.int64).reshape(-1, 3)
-    normals, heights = _normals(faces.points[triangles]), relative_heights(faces.points[triangles])
+    normals, heights = triangle_normals(faces.points, triangles), relative_heights(faces.points[triangles])
     halved: dict[int, int] = defaultdict(int)
     moved = faces.points.copy()
     while moves:
         moved[list(moves)] = places(faces.points, moves.values())
         now = moved[triangles]
-        cosines = np.einsum("ij,ij->i", normals, _normals(now))
+        cosines = np.einsum("ij,ij->i", normals, triangle_normals(moved, triangles))
         bad = ((cosines < _TURNED) | (relative_heights(now) < _THINNER * heights)) & (heights > 0.0)
         guilty = {vertex for vertex in triangles[bad].ravel().tolist() if vertex in moves}
         if not guilty:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class View:
+class Camera:
     """How a region sees the world.
 
     Parameters
@@ -68,7 +68,7 @@ class View:
 
 
 class Projected:
-    """Points and where they are seen, computed anew only when the view or the object has moved.
+    """Points and where they are seen, computed anew only when the camera or the object has moved.
 
     Parameters
     ----------
@@ -81,32 +81,32 @@ class Projected:
         self._key: tuple[object, ...] = ()
         self._found: tuple[NDArray, ...] = ()
 
-    def seen(self, view: View, matrix: ArrayLike) -> tuple[NDArray, NDArray, NDArray]:
+    def seen(self, camera: Camera, matrix: ArrayLike) -> tuple[NDArray, NDArray, NDArray]:
         """Return x and y in pixels and the depth, larger farther away; NaN behind the viewer."""
         world = np.array(matrix, dtype=np.float64)
-        key = (view.width, view.height, view.perspective.tobytes(), view.clipped.tobytes(), world.tobytes())
+        key = (camera.width, camera.height, camera.perspective.tobytes(), camera.clipped.tobytes(), world.tobytes())
         if key != self._key:
-            to_clip = (view.perspective @ world).astype(self.points.dtype)
+            to_clip = (camera.perspective @ world).astype(self.points.dtype)
             clip = self.points @ to_clip[:, :3].T
             clip += to_clip[:, 3]
             with np.errstate(divide="ignore", invalid="ignore"):
                 shown = clip[:, 3] > 1e-9
-                if len(view.clipped):
-                    shown &= view.shows(self.points @ world[:3, :3].T + world[:3, 3])
+                if len(camera.clipped):
+                    shown &= camera.shows(self.points @ world[:3, :3].T + world[:3, 3])
                 w = np.where(shown, clip[:, 3], np.nan)
                 self._found = tuple(
                     np.ascontiguousarray(part)
                     for part in (
-                        (clip[:, 0] / w + 1.0) * (0.5 * view.width),
-                        (clip[:, 1] / w + 1.0) * (0.5 * view.height),
+                        (clip[:, 0] / w + 1.0) * (0.5 * camera.width),
+                        (clip[:, 1] / w + 1.0) * (0.5 * camera.height),
                         clip[:, 2] / w,
                     )
                 )
             self._key = key
         return self._found
 
-    def near(self, view: View, matrix: ArrayLike, cursor: tuple[float, float], radius: float) -> NDArray[np.int64]:
+    def near(self, camera: Camera, matrix: ArrayLike, cursor: tuple[float, float], radius: float) -> NDArray[np.int64]:
         """Return the rows of the points that are seen in a square around the cursor."""
-        x, y, _ = self.seen(view, matrix)
+        x, y, _ = self.seen(camera, matrix)
         rows = np.flatnonzero(np.abs(x - cursor[0]) <= radius)
         return rows[np.abs(y[rows] - cursor[1]) <= radius]

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from polygons import Polygons
-from seamwire.core.seams.slide import Move, places, plan
+from seamwire.core.seams.slide_plan import Move, places, plan
 
 SIZE = 9
 

@@ -1,0 +1,233 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""All settings of the tool: their defaults, limits, names and tooltips, and their values at one moment."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, fields, replace
+from typing import NamedTuple
+
+from .choices import (
+    ALONG,
+    AUTO_ALONG,
+    AUTO_FINISH,
+    FINISHES,
+    HEATS,
+    METRICS,
+    Along,
+    Finish,
+    Metric,
+    MetricName,
+    Term,
+    ignores_shape,
+)
+
+STRENGTHS: Mapping[Along, float] = {"EDGES": 10.0, "SURFACE": 20.0}
+"""The metric's largest anisotropy to begin with: how strongly wires are drawn to features; docs/method/defaults.md says why."""
+STRENGTH_STEP = 1.25
+STRENGTH_RANGE = (1.0, 100.0)
+CLAMP_PERCENTILE = 99.0
+"""The percentile of feature strengths that counts as the strongest, to begin with."""
+
+
+class Auto(NamedTuple):
+    """The values that Auto stands for: how wires run, and how wires across the surface become seams."""
+
+    along: Along
+    finish: Finish
+
+
+PLACED = Auto("EDGES", "SNAP")
+"""For meshes whose edges an artist placed: nothing cuts their faces."""
+SCANNED = Auto("SURFACE", "CUT")
+"""For scans, sculpts and remeshed surfaces."""
+
+
+class Setting(NamedTuple):
+    """How Blender shows a setting.
+
+    Parameters
+    ----------
+    name, tooltip
+        Its words.
+    group
+        The panel that shows it: Drawing, Finish, Islands or Advanced, or Views.
+    limits
+        Of a number: smaller and larger values are moved to the limits.
+    choices
+        The table of its values.
+    auto
+        The tooltip of Auto, if that is the default in Blender. `Auto` has the value that it stands for.
+    matters
+        Whether it has an effect, for a way of running and a metric. Otherwise it is grayed out.
+    slider
+        Whether a number is shown as a slider.
+    others
+        More arguments of Blender's property.
+    """
+
+    name: str
+    tooltip: str
+    group: str
+    limits: tuple[float, float] | None = None
+    choices: Mapping[str, Term | Metric] | None = None
+    auto: str = ""
+    matters: Callable[[Along, MetricName], bool] = lambda _along, _metric: True
+    slider: bool = False
+    others: Mapping[str, object] = {}
+
+
+def _shown(*words: str, **others: object) -> dict[str, Setting]:
+    """Return what a field of `Options` has of its setting."""
+    return {"setting": Setting(*words, **others)}
+
+
+def _across(along: Along, _metric: MetricName) -> bool:
+    return along == "SURFACE"
+
+
+def _strength(along: Along) -> dict[str, Setting]:
+    return _shown(
+        "Strength",
+        "How strongly wires follow the shape. 1 gives the shortest path",
+        "Drawing",
+        limits=STRENGTH_RANGE,
+        matters=lambda way, _: way == along,
+    )
+
+
+@dataclass(frozen=True)
+class Options:
+    """A snapshot of the settings. Values beyond their limits are moved to the limits.
+
+    Parameters
+    ----------
+    mirror
+        The axes, 0 to 2, over which wires are mirrored. It is a setting of the mesh.
+    strength_edges, strength_surface
+        The metric's largest anisotropy, for each way of running.
+    clamp
+        The percentile of feature strengths that counts as the strongest.
+    stroke_radius
+        In the object's units; 0: ten rings of vertices.
+    """
+
+    along: Along = field(
+        default="EDGES",
+        metadata=_shown("Along", "How wires run on the mesh", "Drawing", choices=ALONG, auto=AUTO_ALONG),
+    )
+    strength_edges: float = field(default=STRENGTHS["EDGES"], metadata=_strength("EDGES"))
+    strength_surface: float = field(default=STRENGTHS["SURFACE"], metadata=_strength("SURFACE"))
+    finish: Finish = field(
+        default="SNAP",
+        metadata=_shown(
+            "Finish",
+            "How a wire across the surface becomes a seam when its chain ends",
+            "Finish",
+            choices=FINISHES,
+            auto=AUTO_FINISH,
+            matters=_across,
+        ),
+    )
+    straight: bool = field(
+        default=False,
+        metadata=_shown(
+            "Straight in View", "Offer the wire that is straight on screen first", "Drawing", matters=_across
+        ),
+    )
+    clear: bool = field(default=False, metadata=_shown("Clear Seams", "Clear seams instead of marking them", "Drawing"))
+    snap: bool = field(
+        default=False,
+        metadata=_shown(
+            "Snap to Features", "Snap seeds to ridges, valleys and other features near the cursor", "Drawing"
+        ),
+    )
+    xray: bool = field(
+        default=False, metadata=_shown("X-Ray", "Show wires through the mesh, and pick through it", "Drawing")
+    )
+    unwrap: bool = field(
+        default=False,
+        metadata=_shown(
+            "Unwrap After Each Chain",
+            "When a chain ends, unwrap the islands whose seams it has changed. All other UVs stay in place",
+            "Islands",
+        ),
+    )
+    metric: MetricName = field(
+        default=next(iter(METRICS)), metadata=_shown("Metric", "What wires follow", "Advanced", choices=METRICS)
+    )
+    clamp: float = field(
+        default=CLAMP_PERCENTILE,
+        metadata=_shown(
+            "Feature Percentile",
+            "Clip feature strength at this percentile, so that noise does not dominate",
+            "Advanced",
+            limits=(50.0, 100.0),
+            matters=lambda _, metric: not ignores_shape(metric),
+            slider=True,
+            others={"precision": 1},
+        ),
+    )
+    stroke_radius: float = field(
+        default=0.0,
+        metadata=_shown(
+            "Stroke Radius",
+            "How far strokes reach. 0 means ten rings of vertices",
+            "Advanced",
+            others={"min": 0.0, "soft_max": 1.0, "precision": 3, "subtype": "DISTANCE"},
+        ),
+    )
+    heat: str = field(
+        default="NONE", metadata=_shown("Heat", "Color faces by the stretch of the UV map", "Views", choices=HEATS)
+    )
+    show_crests: bool = field(
+        default=False,
+        metadata=_shown(
+            "Ridges and Valleys",
+            "Show where the surface bends most sharply. Alt-click a line to draw wires along it",
+            "Views",
+        ),
+    )
+    mirror: tuple[int, ...] = ()
+
+    def __post_init__(self) -> None:
+        for name, setting in SETTINGS.items():
+            if setting.limits is not None:
+                low, high = setting.limits
+                object.__setattr__(self, name, min(max(getattr(self, name), low), high))
+        object.__setattr__(self, "mirror", tuple(sorted(set(self.mirror))))
+
+    @property
+    def marking(self) -> bool:
+        """Whether wires mark seams."""
+        return not self.clear
+
+    @property
+    def strengths(self) -> Mapping[Along, float]:
+        """How strongly wires follow the shape, for each way of running."""
+        return {along: getattr(self, strength_name(along)) for along in ALONG}
+
+    @property
+    def strength(self) -> float:
+        """How strongly wires follow the shape, for the way that they run."""
+        return self.strengths[self.along]
+
+    @property
+    def computes(self) -> tuple[object, ...]:
+        """What decides how wires are computed, besides the way that they run."""
+        return self.metric, *self.strengths.values(), self.clamp
+
+    def stepped(self, steps: int) -> Options:
+        """Return options with a strength that is some steps greater, or less; the same at the limit."""
+        return replace(self, **{strength_name(self.along): self.strength * STRENGTH_STEP**steps})
+
+
+SETTINGS: Mapping[str, Setting] = {
+    each.name: each.metadata["setting"] for each in fields(Options) if "setting" in each.metadata
+}
+"""All settings in the order in which panels show them."""
+
+
+def strength_name(along: Along) -> str:
+    """Return the name of the option that holds the strength for one way of running."""
+    return f"strength_{along.lower()}"
