@@ -66,7 +66,7 @@ def test_the_panel_has_the_first_steps_their_switch_and_the_guide(
     monkeypatch.setattr(panel, "guide", lambda: address)
     found = shown()
     assert [text for _, text in words.STEPS if text not in found] == []
-    assert "first_steps" in found
+    assert "text" in found
     links = [(one.name, one.url) for one in found if isinstance(one, SimpleNamespace)]
     assert links == ([("wm.url_open", address)] if address else [])
 
@@ -77,4 +77,4 @@ def test_each_icon_of_the_first_steps_is_one_of_blenders() -> None:
 
 
 def test_the_first_steps_are_shown_until_artists_turn_them_off() -> None:
-    assert preferences().bl_rna.properties["first_steps"].default
+    assert preferences().bl_rna.properties["text"].default == "STEPS"

@@ -29,7 +29,7 @@ class VIEW3D_PT_seamwire_help(bpy.types.Panel):
         for icon, text in STEPS:
             steps.label(text=text, icon=icon)
         more = _box(right, "More")
-        more.prop(preferences(context), "first_steps", text="First Steps in the View")
+        more.prop(preferences(context), "text")
         if guide():
             more.operator("wm.url_open", text="Open the Guide", icon="URL").url = guide()
         for number, (heading, rows) in enumerate(navigation.keys(context).groups().items()):

@@ -187,8 +187,8 @@ class Overlay:
             return
         scale = bpy.context.preferences.system.ui_scale
         with blended("NONE"):
-            first = FIRST_LINES if self._looks.first_steps else ()
-            _draw_corner([*first, *(corner.lines(picture) if self._looks.text else ())], room[:2], scale)
+            lines = () if self._looks.text == "NONE" else corner.lines(picture)
+            _draw_corner([*(FIRST_LINES if self._looks.text == "STEPS" else ()), *lines], room[:2], scale)
             legend.draw(self._legends(), room, scale)
 
     def _legends(self) -> list[legend.Legend]:
@@ -289,7 +289,7 @@ class Overlay:
             if offer is None or undirected(snap.pick) not in offer.edges():
                 sheet.edges(looks.target, [snap.pick])
             return
-        styles = {"WIRE": looks.dot_on_wire, "SEAM": looks.dot_on_seam, "FEATURE": looks.dot_on_feature}
+        styles = {"WIRE": looks.dot_on_seam, "SEAM": looks.dot_on_seam, "FEATURE": looks.dot_on_feature}
         sheet.dot(styles.get(snap.to, looks.dot), snap.pick)
 
 
