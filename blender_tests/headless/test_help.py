@@ -59,6 +59,12 @@ def test_the_panel_shows_each_action_with_its_keys_below_the_heading_of_its_grou
     assert sum(action.value in keys for action in Action) == len(Action)
 
 
+def test_a_fifth_group_of_keys_has_room(monkeypatch: pytest.MonkeyPatch) -> None:
+    groups = {f"Group {number}": [("A", "Act")] for number in range(5)}
+    monkeypatch.setattr(navigation, "keys", lambda _context: SimpleNamespace(groups=lambda: groups))
+    assert [text for text in shown() if text in groups] == list(groups)
+
+
 @pytest.mark.parametrize("address", ["file:///guide/index.md", ""])
 def test_the_panel_has_the_first_steps_their_switch_and_the_guide(
     address: str, monkeypatch: pytest.MonkeyPatch

@@ -33,7 +33,7 @@ class VIEW3D_PT_seamwire_help(bpy.types.Panel):
         if guide():
             more.operator("wm.url_open", text="Open the Guide", icon="URL").url = guide()
         for number, (heading, rows) in enumerate(navigation.keys(context).groups().items()):
-            column = _box((left, left, right, right)[number], heading)
+            column = _box(left if number < 2 else right, heading)
             for keys, action in rows:
                 row = column.split(factor=0.32 if number < 2 else 0.5)
                 row.label(text=keys)
