@@ -158,16 +158,6 @@ def test_modifiers_do_not_count() -> None:
     assert seams(obj) == chain(10, 11, 12, 13, 14)
 
 
-def test_of_several_objects_in_edit_mode_only_the_active_one_is_marked() -> None:
-    other = add_grid(5, name="Other")
-    obj = add_grid(5, name="Active")
-    edit()
-    assert {o.name for o in bpy.context.objects_in_mode} == {"Other", "Active"}
-    mark("10 14")
-    assert seams(obj) == chain(10, 11, 12, 13, 14)
-    assert seams(other) == []
-
-
 def several() -> list[bpy.types.Object]:
     """Two grids in edit mode, and a third object that has the second one's mesh as well."""
     one, two = add_grid(5, name="One"), add_grid(5, name="Two")
@@ -322,31 +312,6 @@ def test_what_is_there_already_is_said_and_nothing_is_done_again() -> None:
     assert bpy.context.object.data.seamwire_wires == stored
 
 
-def test_wires_stay_with_the_mesh() -> None:
-    from seamwire.mesh.object_session import ObjectSession
-
-    obj = add_grid(9)
-    edit()
-    mark("36 40 44")
-    mark_wires(loops="4-13", take="STRIP")
-    assert obj.data.seamwire_wires.startswith("seamwire 1 ")
-    bm = bmesh.from_edit_mesh(obj.data)
-    layer = bm.edges.layers.int[".seamwire"]
-    labelled = sorted(tuple(sorted(v.index for v in e.verts)) for e in bm.edges if e[layer])
-    assert labelled == seams(obj)
-    wires = ObjectSession(obj).session.wires
-    assert {wire.vertices for wire in wires} >= {(36, 37, 38, 39, 40), (40, 41, 42, 43, 44)}
-    assert len(wires) == 3
-
-
-def test_seams_that_were_there_stay() -> None:
-    obj = add_grid(5)
-    edit()
-    mark("0 4")
-    mark("2 22")
-    assert seams(obj) == sorted(chain(0, 1, 2, 3, 4) + chain(2, 7, 12, 17, 22))
-
-
 def test_wires_run_along_edges_without_faces() -> None:
     obj = add_object([(0, 0, 0), (1, 0, 0), (1, 1, 0), (2, 1, 0), (3, 1, 0)], [(0, 1, 2)], [(2, 3), (3, 4)])
     edit()
@@ -464,20 +429,6 @@ def test_mirrored_wires_are_marked_as_the_mesh_or_the_operator_says() -> None:
     assert seams(obj) == sorted([*both, (1, 2), (73, 74)])
     mark_wires(chains="4 5", mirror="")
     assert seams(obj) == sorted([*both, (1, 2), (4, 5), (73, 74)])
-
-
-def test_loops_are_taken_alone_or_beside_chains() -> None:
-    bpy.ops.mesh.primitive_cylinder_add(vertices=12, depth=2.0, end_fill_type="NOTHING")
-    obj = bpy.context.active_object
-    edit()
-    bpy.ops.mesh.subdivide(number_cuts=1)
-    bm = bmesh.from_edit_mesh(obj.data)
-    bm.verts.index_update()
-    ring = [e for e in bm.edges if all(abs(v.co.z) < 1e-6 for v in e.verts)]
-    a, b = (v.index for v in ring[0].verts)
-    middle = sorted(tuple(sorted(v.index for v in e.verts)) for e in ring)
-    assert mark_wires(loops=f"{a}-{b}")
-    assert seams(obj) == middle
 
 
 def test_across_the_surface_closed_cuts_are_taken_through_vertices_and_places() -> None:
