@@ -5,19 +5,16 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from fake_live import grid_edges
+from fake_live import grid_edges, grid_triangles
 from numpy.typing import NDArray
 from paper_mesh import PaperMesh
-from seamwire.core.drawing.drawing import Drawing
+from real_sessions import session_on
 from seamwire.core.drawing.options import Options
 from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Snap
 from seamwire.core.network.picks import Along
-from seamwire.core.solver.defaults import CLAMP_PERCENTILE, STRENGTHS
 from setting import stronger, use
-
-core = pytest.importorskip("seamwire_core")
 
 SIZE = 21
 
@@ -28,12 +25,6 @@ def ridge() -> NDArray[np.float64]:
     return np.stack([x.ravel(), y.ravel(), np.exp(-20.0 * x.ravel() ** 2)], axis=1)
 
 
-def triangles() -> NDArray[np.int32]:
-    numbers = np.arange(SIZE * SIZE).reshape(SIZE, SIZE)
-    a, b, c, d = numbers[:-1, :-1].ravel(), numbers[:-1, 1:].ravel(), numbers[1:, 1:].ravel(), numbers[1:, :-1].ravel()
-    return np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)]).astype(np.int32)
-
-
 def at(x: int, y: int) -> int:
     """Return the vertex `x` and `y` steps from the middle."""
     return (y + SIZE // 2) * SIZE + x + SIZE // 2
@@ -41,15 +32,7 @@ def at(x: int, y: int) -> int:
 
 def draw(along: Along = "EDGES") -> Session:
     """Return a session on the ridge."""
-    points = ridge()
-    surface = core.Surface(points, triangles(), grid_edges(SIZE))
-
-    def make(way: Along) -> object:
-        return core.LiveWire(
-            surface, along=way.lower(), max_anisotropy=STRENGTHS[way], clamp_percentile=CLAMP_PERCENTILE
-        )
-
-    return Session(Drawing(make, points, Options(along=along), edges=grid_edges(SIZE)))
+    return session_on(ridge(), grid_triangles(SIZE), grid_edges(SIZE), options=Options(along=along))
 
 
 def straight(x: int, y0: int, y1: int) -> tuple[int, ...]:
