@@ -211,15 +211,3 @@ def test_mirror_images_slide_too() -> None:
     partner = np.array([np.argmin(np.linalg.norm(before - place * (-1.0, 1.0, 1.0), axis=1)) for place in before])
     assert np.allclose(flipped[partner], after, atol=1e-6)
     assert (np.abs(after - before).max(axis=1) > 1e-6).sum() >= 4
-
-
-def test_without_wires_across_the_surface_there_is_an_error() -> None:
-    add_quads()
-    with pytest.raises(RuntimeError, match="No kept wire runs across the surface"):
-        bpy.ops.mesh.seamwire_finish(finish="SLIDE")
-
-
-def test_a_dragged_wire_is_known_to_slide() -> None:
-    obj = add_quads()
-    mark()
-    assert [wire.finish for wire in session_on(obj).session.wires] == ["SLIDE"]

@@ -37,14 +37,6 @@ def test_a_click_without_a_seed_places_one() -> None:
     assert session.wires == ()
 
 
-def test_hovering_shows_both_wires_and_the_shorter_is_active() -> None:
-    session = Table(shorter=1).session
-    session.click(0)
-    session.hover(7)
-    assert session.picture.active.vertices == (0, 6, 7)
-    assert session.picture.others[0].vertices == (0, 1, 7)
-
-
 def test_a_click_does_not_wait_for_wires_that_do_not_lead() -> None:
     table = Table(ready=(False, False, True))
     session = table.session
@@ -93,15 +85,6 @@ def test_a_kept_wire_says_what_wires_lead_around() -> None:
     table.session.hover(7)
     table.session.click(7)
     assert str(table.session.message).startswith("2 triangles could not be made valid")
-
-
-def test_where_both_wires_agree_there_is_nothing_to_toggle() -> None:
-    session = Table().session
-    session.click(0)
-    session.hover(3)
-    assert not session.picture.others
-    assert not session.next_candidate()
-    assert "same edges" in str(session.message)
 
 
 def test_a_click_keeps_the_active_wire_and_goes_on_along_its_last_edge() -> None:
