@@ -1,9 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Functions for scripts: draw wires, suggest seams, unwrap and cut.
 
-Each works on one object, in Object Mode or Edit Mode, and leaves it in the mode that it had. If it cannot be done, they raise ValueError
-with a sentence that says why, and change nothing. Without the compiled part, `mark` raises ImportError, and the others ValueError. They
-push no step of Blender's undo.
+Each works on one object, in Object Mode or Edit Mode, and leaves it in the mode that it had. They push no step of Blender's undo.
+
+Raises
+------
+ValueError
+    If an argument is wrong, or it cannot be done. Nothing has changed.
+TypeError
+    If there is no option of a name. Nothing has changed.
+ImportError
+    If the compiled part is missing. Nothing has changed.
+RuntimeError
+    If an error comes while the mesh is changed. It may have a part of the change.
 """
 
 from __future__ import annotations
@@ -17,13 +26,14 @@ from typing import TYPE_CHECKING, Union
 
 import bpy
 
+from .core.base import native
 from .core.network.picks import FacePoint, undirected
 from .core.offers.edge_loops import KIND_COSTS
 from .mesh import edit_mesh, finishes, settings
 from .mesh.object_session import ObjectSession
 from .terms.choices import ALONG, FINISHES, METRICS
 from .terms.options import Options, strength_name
-from .words.reports import gaps, left_out
+from .words.reports import HALFWAY, gaps, left_out
 from .words.scripted import draw_chain, draw_loop
 
 if TYPE_CHECKING:
@@ -170,40 +180,61 @@ def unwrap(obj: bpy.types.Object, **options: object) -> bool:
         return _call(bpy.ops.mesh.seamwire_unwrap, options)
 
 
-def cut(obj: bpy.types.Object) -> bool:
-    """Cut all kept wires across the surface into the faces, and return whether the mesh has changed."""
+def cut(obj: bpy.types.Object) -> None:
+    """Cut all kept wires across the surface into the faces. Raise ValueError if there is no such wire."""
     with editing(obj, alone=True):
-        return _call(bpy.ops.mesh.seamwire_finish, {"finish": "CUT"})
+        _call(bpy.ops.mesh.seamwire_finish, {"finish": "CUT"})
 
 
 def _write(mesh: ObjectSession, wires: list[Wire], problems: list[str], finish: Finish) -> Marked:
-    marked, cleared = mesh.write(mesh.plan())
-    if finish in finishes.FINISHERS:
-        finishes.FINISHERS[finish](mesh, wires)
-    if marked or cleared:
-        edit_mesh.live_unwrap(bpy.context)
+    plan = mesh.plan()
+    with _changing():
+        marked, cleared = mesh.write(plan)
+        if finish in finishes.FINISHERS:
+            finishes.FINISHERS[finish](mesh, wires)
+        if marked or cleared:
+            edit_mesh.live_unwrap(bpy.context)
     return Marked(len(wires), marked, cleared, tuple(problems))
 
 
 def _cut(mesh: ObjectSession, wires: list[Wire], problems: list[str]) -> Marked:
-    _, done = finishes.cut(mesh, finishes.plan_cut(mesh, wires), wires)
-    edit_mesh.live_unwrap(bpy.context)
+    plan = finishes.plan_cut(mesh, wires)
+    with _changing():
+        # As if the mesh had the wires already: so it keeps the strokes too.
+        _, done = finishes.cut(mesh, plan, wires, kept=True)
+        edit_mesh.live_unwrap(bpy.context)
     problems += [gaps(done.uncut)] if done.uncut else []
     problems += [left_out(done.left_out)] if done.left_out else []
     return Marked(done.wires, len(done.edges), 0, tuple(problems))
 
 
+@contextmanager
+def _changing() -> Iterator[None]:
+    """Raise RuntimeError instead of any error."""
+    try:
+        yield
+    except Exception as error:
+        raise RuntimeError(f"{HALFWAY}: {error}") from error
+
+
 def _call(work: Callable[..., set[str]], options: dict[str, object]) -> bool:
-    """Call an operator, and return whether it did anything. Raise ValueError with the error that it reports."""
+    """Call an operator, and return whether it did anything. Raise what this module promises."""
+    unknown = options.keys() - work.get_rna_type().properties.keys()
+    if unknown:
+        raise TypeError(f"There is no option {sorted(unknown)[0]!r}")
     try:
         return work(**options) == {"FINISHED"}
+    except TypeError as error:  # an option has a wrong value
+        raise ValueError(str(error)) from error
     except RuntimeError as error:
-        raise ValueError(str(error).strip().removeprefix("Error: ")) from error
+        text = str(error).strip().removeprefix("Error: ")
+        raise (RuntimeError if text.startswith(HALFWAY) else ValueError)(text) from error
 
 
 @contextmanager
 def editing(obj: bpy.types.Object, alone: bool = False) -> Iterator[None]:
     """Have an object in Edit Mode, then restore all modes and selections. With `alone`, no other mesh may be in Edit Mode."""
+    native.load()
     if not isinstance(obj, bpy.types.Object):
         raise ValueError(f"{obj!r} is not an object")
     if obj.type != "MESH":

@@ -14,7 +14,7 @@ import bpy
 from mathutils import Matrix
 
 from . import tool
-from .lab_settings import listeners, settings
+from .lab_settings import is_any_shown, listeners
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -86,6 +86,7 @@ class Follower:
         self._handles: list[object] = []
         self._changed = 0.0
         self._is_stale = False
+        self._told = ""
 
     def start(self) -> None:
         """Show the views, if they are not shown yet."""
@@ -141,14 +142,27 @@ class Follower:
 
     def on_settings(self) -> None:
         """Follow changed settings."""
-        if settings().is_any_shown and not bpy.app.background:
+        if is_any_shown() and not bpy.app.background:
             self.start()
         if self._tool is not None:
             self._tool.tell_listeners()
 
     def tick(self) -> float | None:
-        """Follow what is active. Return the seconds until the next call, or None if no view is switched on."""
-        if not settings().is_any_shown:
+        """Follow what is active. Return the seconds until the next call, or None if no view is switched on.
+
+        Blender ends a timer that raises. An error is told of once, and the next call tries again.
+        """
+        try:
+            return self._advance()
+        except Exception as error:
+            text = f"{type(error).__name__}: {error}"
+            if text != self._told:
+                sys.excepthook(type(error), error, error.__traceback__)
+            self._told = text
+            return _IDLE
+
+    def _advance(self) -> float | None:
+        if not is_any_shown():
             self.stop()
             return None
         self._use(tool.find())

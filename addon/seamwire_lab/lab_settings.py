@@ -26,7 +26,11 @@ def _toggle(name: str, description: str) -> object:
 
 
 class SeamwireLabSettings(bpy.types.PropertyGroup):
-    """The views that are shown."""
+    """The views that are shown.
+
+    Blender 4.2 never frees this class. A method would keep this module alive with it after the add-on is removed, and `bpy` with the
+    module. Then Blender as a Python module crashes as it ends.
+    """
 
     heat: bpy.props.EnumProperty(
         name="Heat",
@@ -60,15 +64,16 @@ class SeamwireLabSettings(bpy.types.PropertyGroup):
         update=_changed,
     )
 
-    @property
-    def is_any_shown(self) -> bool:
-        """Whether a view is switched on."""
-        return self.heat != "NONE" or any(getattr(self, name) for name in LINES)
-
 
 def settings() -> SeamwireLabSettings:
     """Return the settings."""
     return bpy.context.window_manager.seamwire_lab
+
+
+def is_any_shown() -> bool:
+    """Return whether a view is switched on."""
+    chosen = settings()
+    return chosen.heat != "NONE" or any(getattr(chosen, name) for name in LINES)
 
 
 def register() -> None:

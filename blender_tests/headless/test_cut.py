@@ -272,38 +272,6 @@ def islands(obj: bpy.types.Object) -> int:
     return count
 
 
-def test_a_closed_chain_cuts_an_island_out() -> None:
-    obj = add_scan()
-    edit()
-    cut("0 3 70 0")
-    open_ends = {v for v, count in _counts(seams(obj)).items() if count == 1}
-    assert open_ends <= {3}, "two wires may leave a seed along the same edge"
-    assert islands(obj) >= 2
-
-
-def test_mirrored_wires_are_cut_on_both_sides() -> None:
-    obj = add_suzanne(1)
-    bpy.context.view_layer.update()
-    right = [v.index for v in obj.data.vertices if v.co.x > 0.2 and v.co.y < 0.0]
-    edit()
-    seeds = [v for v in head(obj, 40) if v in set(right)][:2]
-    assert cut(f"{seeds[0]} {seeds[1]}", mirror={"X"})
-    bm = bmesh.from_edit_mesh(obj.data)
-    middles = [sum((v.co for v in edge.verts), Vector()) / 2 for edge in bm.edges if edge.seam]
-    missing = [m for m in middles if not any((n - Vector((-m.x, m.y, m.z))).length < 0.02 for n in middles)]
-    assert middles and not missing
-
-
-def test_several_objects_are_cut_at_once() -> None:
-    first, second = add_grid(5, name="First"), add_grid(5, name="Second")
-    first.select_set(True)
-    edit()
-    for obj in (first, second):
-        mark_wires("0 14", obj=obj, along="SURFACE")
-    assert bpy.ops.mesh.seamwire_finish(finish="CUT") == {"FINISHED"}
-    assert seams(first) == seams(second) != []
-
-
 def test_an_object_that_cannot_be_cut_is_named_and_the_others_are_cut(
     monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
@@ -327,17 +295,6 @@ def test_an_object_that_cannot_be_cut_is_named_and_the_others_are_cut(
     assert "Second: " not in said
     assert seams(first) == before
     assert seams(second) != before and agree(second)
-
-
-def test_a_face_that_is_not_folded_is_cut_where_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
-    def refuse_drawing(_count: int) -> object:
-        raise AssertionError("no drawing is needed")
-
-    monkeypatch.setattr(mesh_cut, "_regular_corners", refuse_drawing)
-    obj = add_grid(9)
-    edit()
-    assert cut("0 44")
-    assert 44 in joined(obj, 0)
 
 
 @pytest.mark.every_blender
@@ -594,21 +551,6 @@ def test_slid_wires_can_be_cut(chains: str) -> None:
     assert is_sound(obj)
 
 
-def test_a_wire_that_left_the_mesh_keeps_no_other_from_being_cut() -> None:
-    obj = add_grid(9)
-    edit()
-    mark_wires(chains="0 16; 64 79", along="SURFACE")
-    mesh = session_on(obj)
-    wires = [wire if wire.start == 64 else replace(wire, points=wire.points * 3.0) for wire in mesh.session.wires]
-    plan = finishes.plan_cut(mesh, wires)
-    assert [wires[number].start for number, _ in plan.left_out] == [0]
-    assert finishes.cut(mesh, plan, wires, kept=True)[1].wires == 1
-    kept = session_on(obj).session.wires
-    assert sorted((wire.along, wire.start) for wire in kept) == [("EDGES", 64), ("SURFACE", 0)]
-    assert agree(obj)
-    assert {16, 79} <= joined(obj, 0) | joined(obj, 64)
-
-
 def test_the_tool_tells_of_a_wire_that_is_not_cut() -> None:
     obj = add_grid(9)
     edit()
@@ -730,22 +672,6 @@ def test_a_kept_wire_that_is_crossed_stays_a_wire() -> None:
     assert len(wire.vertices) == 10, "with the vertex where it is crossed"
     assert {across.start, across.end} == {1, 76}
     assert len(set(wire.vertices) & set(across.vertices)) == 1
-
-
-def test_what_was_cut_is_a_wire_along_its_edges_between_its_seeds() -> None:
-    obj = add_scan()
-    edit()
-    cut("0 3 70")
-    assert agree(obj)
-    wires = session_on(obj).session.wires
-    assert {0, 3, 70} <= {end for wire in wires for end in (wire.start, wire.end)}
-    mesh = session_on(obj)
-    mesh.make_live.wait()
-    (toward,) = [wire for wire in mesh.session.wires if 70 in (wire.start, wire.end)]
-    assert mesh.session.drop(toward)
-    write(mesh)
-    assert 70 not in joined(obj, 0)
-    assert 3 in joined(obj, 0)
 
 
 def test_a_closed_chain_that_is_cut_keeps_its_seeds() -> None:
@@ -913,26 +839,6 @@ def test_a_dragged_seed_of_a_cut_wire_takes_the_old_cut_back() -> None:
     assert found[0].keys() == found[1].keys()
     for name in found[0]:
         assert found[0][name] == found[1][name], name
-
-
-@pytest.mark.every_blender
-@pytest.mark.parametrize("shape", SHAPES)
-def test_removing_a_cut_wire_gives_the_mesh_back_as_it_was(shape: str) -> None:
-    make, seeds_of = SHAPES[shape]
-    obj = make()
-    seeds = seeds_of(obj)
-    edit()
-    before = content(obj)
-    assert cut("{} {} {}; {} {}".format(*seeds))
-    mesh = session_on(obj)
-    network = mesh.session.network
-    for wire in network.wires:
-        mesh.session.drop(wire)
-    _finish(mesh, network)
-    assert seams(obj) == []
-    after = content(obj)
-    for name in before:
-        assert after[name] == before[name], name
 
 
 INSIDE, BELOW = (0.1, 0.06, 0.0), (-0.1, -0.55, 0.0)
@@ -1214,27 +1120,6 @@ def test_no_two_layers_have_the_same_name() -> None:
     names = [name for _, _, layers in layer_kinds(bmesh.from_edit_mesh(obj.data)) for name, _ in layers.items()]
     assert len([name for name in names if name.startswith(LABELS)]) == 4
     assert len(set(names)) == len(names)
-
-
-def test_what_another_wire_was_cut_along_stays_where_one_is_taken_back() -> None:
-    obj = add_grid(9)
-    edit()
-    cut("0 44; 8 45")
-    mesh = session_on(obj)
-    network = mesh.session.network
-    ends = {frozenset((wire.start, wire.end)) for wire in network.wires}
-    assert len(ends) == 4, "they cross"
-    for wire in network.wires:
-        if {wire.start, wire.end} & {0, 44}:
-            mesh.session.drop(wire)
-    _finish(mesh, network)
-    assert agree(obj)
-    a, b = Vector((1.0, -1.0, 0.0)), Vector((-1.0, 0.25, 0.0))
-    bm = bmesh.from_edit_mesh(obj.data)
-    lengths = sum(edge.calc_length() for edge in bm.edges if edge.seam)
-    assert lengths == pytest.approx((a - b).length, rel=1e-5)
-    bpy.ops.object.mode_set(mode="OBJECT")
-    assert not obj.data.validate(verbose=True)
 
 
 @pytest.mark.parametrize("moved", [0.0, 2.0], ids=["", "beside it"])

@@ -59,6 +59,12 @@ def test_the_panel_shows_each_action_with_its_keys_below_the_heading_of_its_grou
     assert sum(action.text in keys for action in Action) == len(Action)
 
 
+def test_a_fifth_group_of_keys_has_room(monkeypatch: pytest.MonkeyPatch) -> None:
+    groups = {f"Group {number}": [("A", "Act")] for number in range(5)}
+    monkeypatch.setattr(navigation, "keys", lambda _context: SimpleNamespace(groups=lambda: groups))
+    assert [text for text in shown() if text in groups] == list(groups)
+
+
 @pytest.mark.parametrize("address", ["file:///guide/index.md", ""])
 def test_the_panel_has_the_first_steps_their_switch_and_the_guide(
     address: str, monkeypatch: pytest.MonkeyPatch
@@ -66,7 +72,7 @@ def test_the_panel_has_the_first_steps_their_switch_and_the_guide(
     monkeypatch.setattr(panel, "guide", lambda: address)
     found = shown()
     assert [text for _, text in words.STEPS if text not in found] == []
-    assert "first_steps" in found
+    assert "text" in found
     links = [(one.name, one.url) for one in found if isinstance(one, SimpleNamespace)]
     assert links == ([("wm.url_open", address)] if address else [])
 
@@ -77,4 +83,4 @@ def test_each_icon_of_the_first_steps_is_one_of_blenders() -> None:
 
 
 def test_the_first_steps_are_shown_until_artists_turn_them_off() -> None:
-    assert preferences().bl_rna.properties["first_steps"].default
+    assert preferences().bl_rna.properties["text"].default == "STEPS"

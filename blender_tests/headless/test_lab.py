@@ -131,7 +131,10 @@ def test_disabled_it_leaves_nothing_behind() -> None:
     assert traces.difference(with_lab, traces.traces()) == {}
 
 
+@pytest.mark.every_blender
 def test_importing_it_does_not_import_numpy() -> None:
+    if not bpy.app.binary_path:
+        pytest.skip("Blender as a Python module cannot be started again")
     code = "\n".join(
         (
             "import addon_utils, sys",

@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 import seamwire
 from scene import add_grid, add_layers, add_object, add_suzanne, chain, edit, ends, head, mark_wires, seams, snapshot
+from seamwire.core.base import native
+from seamwire.mesh import edit_mesh
 
 
 def mark(chains: str, along: str = "EDGES") -> object:
@@ -121,8 +123,6 @@ def test_a_turned_moved_and_scaled_object_gets_the_same_seams(along: str) -> Non
 
 
 def test_lengths_are_those_that_are_seen() -> None:
-    from seamwire.mesh import edit_mesh
-
     obj = add_suzanne()
     obj.rotation_euler = (0.3, 1.1, -0.7)
     obj.scale = (1.0, 4.0, 0.5)
@@ -140,8 +140,6 @@ def test_lengths_are_those_that_are_seen() -> None:
 
 
 def test_a_flattened_object_is_read_without_its_matrix() -> None:
-    from seamwire.mesh import edit_mesh
-
     obj = add_grid(3)
     obj.scale = (1.0, 1.0, 0.0)
     bpy.context.view_layer.update()
@@ -158,16 +156,6 @@ def test_modifiers_do_not_count() -> None:
     edit()
     mark("10 14")
     assert seams(obj) == chain(10, 11, 12, 13, 14)
-
-
-def test_of_several_objects_in_edit_mode_only_the_active_one_is_marked() -> None:
-    other = add_grid(5, name="Other")
-    obj = add_grid(5, name="Active")
-    edit()
-    assert {o.name for o in bpy.context.objects_in_mode} == {"Other", "Active"}
-    mark("10 14")
-    assert seams(obj) == chain(10, 11, 12, 13, 14)
-    assert seams(other) == []
 
 
 def several() -> list[bpy.types.Object]:
@@ -217,6 +205,7 @@ def test_functions_on_whole_objects_work_on_one_object_only() -> None:
     seamwire.unwrap(obj, changed_only=False)
     assert obj.data.uv_layers and not other.data.uv_layers
     mark_wires("0 17", obj=other, along="SURFACE", metric="euclidean")
+    assert not seamwire.unwrap(obj), "there is nothing to do"
     seamwire.cut(other)
     assert len(other.data.vertices) > 25 == len(obj.data.vertices)
     with pytest.raises(ValueError, match="No kept wire runs across the surface"):
@@ -229,10 +218,58 @@ def test_functions_on_whole_objects_work_on_one_object_only() -> None:
         seamwire.unwrap(obj)
 
 
+def test_an_option_that_there_is_not_or_that_has_a_wrong_value_changes_nothing() -> None:
+    obj = add_grid(5)
+    edit()
+    before = snapshot(obj)
+    with pytest.raises(TypeError, match="There is no option 'parst'"):
+        seamwire.suggest(obj, parst=50)
+    with pytest.raises(TypeError):
+        seamwire.mark(obj, chians=[[0, 4]])
+    with pytest.raises(ValueError, match="BEHIND"):
+        seamwire.suggest(obj, front="BEHIND")
+    with pytest.raises(ValueError, match="ROUND"):
+        seamwire.unwrap(obj, method="ROUND")
+    assert snapshot(obj) == before
+
+
+def fail(*_: object, **__: object) -> None:
+    raise ValueError("as the test wants it")
+
+
+@pytest.mark.parametrize("finish", ["SNAP", "SLIDE", "CUT"])
+def test_an_error_while_the_mesh_is_changed_is_told_apart_from_a_refusal(
+    finish: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    obj = add_grid(5)
+    edit()
+    monkeypatch.setattr(edit_mesh, "live_unwrap", fail)
+    with pytest.raises(RuntimeError, match="Stopped halfway: as the test wants it"):
+        mark_wires("0 24", along="SURFACE", finish=finish)
+    assert seams(obj) != []
+
+
+def test_an_error_while_an_operator_changes_the_mesh_is_told_apart_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    obj = add_grid(5)
+    mark_wires("0 17", obj=obj, along="SURFACE", metric="euclidean")
+    monkeypatch.setattr(edit_mesh, "live_unwrap", fail)
+    with pytest.raises(RuntimeError, match="Stopped halfway"):
+        seamwire.cut(obj)
+    assert len(obj.data.vertices) > 25
+
+
+def test_without_the_compiled_part_every_function_raises_import_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    obj = add_grid(5)
+    monkeypatch.setattr(native, "load", lambda *_: (_ for _ in ()).throw(native.NativeError("missing")))
+    for work in (lambda obj: seamwire.mark(obj, [[0, 4]]), seamwire.suggest, seamwire.unwrap, seamwire.cut):
+        with pytest.raises(ImportError):
+            work(obj)
+
+
 def test_seams_are_suggested_for_an_object() -> None:
     bpy.ops.mesh.primitive_cube_add(size=2)
     obj = bpy.context.active_object
-    seamwire.suggest(obj, islands=3, unwrap=False)
+    assert seamwire.suggest(obj, islands=3, unwrap=False)
     assert obj.mode == "OBJECT"
     assert sum(edge.use_seam for edge in obj.data.edges) > 3
 
@@ -273,31 +310,6 @@ def test_what_is_there_already_is_said_and_nothing_is_done_again() -> None:
     with pytest.raises(ValueError, match="The loop through edge 0-2 is there already"):
         mark_wires(loops="0-2")
     assert bpy.context.object.data.seamwire_wires == stored
-
-
-def test_wires_stay_with_the_mesh() -> None:
-    from seamwire.mesh.object_session import ObjectSession
-
-    obj = add_grid(9)
-    edit()
-    mark("36 40 44")
-    mark_wires(loops="4-13", take="STRIP")
-    assert obj.data.seamwire_wires.startswith("seamwire 1 ")
-    bm = bmesh.from_edit_mesh(obj.data)
-    layer = bm.edges.layers.int[".seamwire"]
-    labelled = sorted(tuple(sorted(v.index for v in e.verts)) for e in bm.edges if e[layer])
-    assert labelled == seams(obj)
-    wires = ObjectSession(obj).session.wires
-    assert {wire.vertices for wire in wires} >= {(36, 37, 38, 39, 40), (40, 41, 42, 43, 44)}
-    assert len(wires) == 3
-
-
-def test_seams_that_were_there_stay() -> None:
-    obj = add_grid(5)
-    edit()
-    mark("0 4")
-    mark("2 22")
-    assert seams(obj) == sorted(chain(0, 1, 2, 3, 4) + chain(2, 7, 12, 17, 22))
 
 
 def test_wires_run_along_edges_without_faces() -> None:
@@ -417,20 +429,6 @@ def test_mirrored_wires_are_marked_as_the_mesh_or_the_operator_says() -> None:
     assert seams(obj) == sorted([*both, (1, 2), (73, 74)])
     mark_wires(chains="4 5", mirror="")
     assert seams(obj) == sorted([*both, (1, 2), (4, 5), (73, 74)])
-
-
-def test_loops_are_taken_alone_or_beside_chains() -> None:
-    bpy.ops.mesh.primitive_cylinder_add(vertices=12, depth=2.0, end_fill_type="NOTHING")
-    obj = bpy.context.active_object
-    edit()
-    bpy.ops.mesh.subdivide(number_cuts=1)
-    bm = bmesh.from_edit_mesh(obj.data)
-    bm.verts.index_update()
-    ring = [e for e in bm.edges if all(abs(v.co.z) < 1e-6 for v in e.verts)]
-    a, b = (v.index for v in ring[0].verts)
-    middle = sorted(tuple(sorted(v.index for v in e.verts)) for e in ring)
-    assert mark_wires(loops=f"{a}-{b}")
-    assert seams(obj) == middle
 
 
 def test_across_the_surface_closed_cuts_are_taken_through_vertices_and_places() -> None:

@@ -3,6 +3,7 @@
 
 import bpy
 import pytest
+import seamwire
 from scene import (
     GATE_RIDGE,
     GATE_SEEDS,
@@ -16,6 +17,7 @@ from scene import (
     mark_wires,
     seams,
 )
+from seamwire.mesh.object_session import ObjectSession
 
 
 @pytest.fixture
@@ -97,6 +99,16 @@ def test_strokes_lead_wires() -> None:
     edit()
     assert mark(chains=f"{left} {right}")
     assert seams(other) == chain(*range(left, right + 1)), "and leads nothing on another one"
+
+
+def test_strokes_stay_when_the_wires_are_cut() -> None:
+    obj = add_grid(9)
+    edit()
+    seamwire.mark(obj, [[1, 79]], strokes=[[2, 11, 20]], avoid=[[40, 41]], along="SURFACE", finish="CUT")
+    kept = ObjectSession(obj)
+    assert [stroke.attracts for stroke in kept.session.strokes] == [True, False]
+    assert len(kept.arrays.points) > 81
+    assert ends(seams(obj)) == [1, 79]
 
 
 def test_wires_keep_off_strokes_that_repel(grid: bpy.types.Object) -> None:

@@ -21,7 +21,7 @@ from seamwire.mesh.settings import settings
 from seamwire.view import edited_objects
 from seamwire.view.edited_objects import edited
 from seamwire.view.failures import failures
-from stored import agree, chains, forget, session_on, wired, write
+from stored import agree, chains, forget, session_on, write
 
 ROW = tuple(range(36, 45))
 LAYER = edit_mesh.LABELS
@@ -259,69 +259,7 @@ def test_wires_drawn_moved_and_removed_change_seams_and_nothing_else(grid: bpy.t
     assert grid.data.seamwire_wires == ""
 
 
-def test_a_seam_that_was_there_before_a_wire_stays_when_the_wire_goes(grid: bpy.types.Object) -> None:
-    set_seams(grid, (38, 39), (4, 13))
-    mesh = session_on(grid)
-    draw(mesh, 36, 44)
-    assert seams(grid) == sorted([*chain(*ROW), (4, 13)])
-    mesh = session_on(grid)
-    mesh.session.drop(mesh.session.wires[0])
-    write(mesh)
-    assert seams(grid) == [(4, 13), (38, 39)]
-
-
-def test_an_edge_of_two_wires_stays_a_seam_until_both_are_gone(grid: bpy.types.Object) -> None:
-    mesh = session_on(grid)
-    draw(mesh, 36, 40)
-    draw(mesh, 38, 44)
-    assert agree(grid)
-    mesh = session_on(grid)
-    mesh.session.drop(mesh.session.wires[0])
-    write(mesh)
-    assert seams(grid) == chain(*range(38, 45))
-    mesh.session.drop(mesh.session.wires[0])
-    write(mesh)
-    assert seams(grid) == []
-
-
-def test_of_a_wire_that_is_cleared_in_part_the_rest_stays_as_plain_seams(grid: bpy.types.Object) -> None:
-    draw(session_on(grid), 36, 44)
-    mesh = session_on(grid)
-    mesh.session.follow(replace(mesh.session.options, clear=not mesh.session.options.clear))
-    draw(mesh, 38, 42)
-    rest = sorted(chain(36, 37, 38) + chain(42, 43, 44))
-    assert seams(grid) == rest
-    assert mesh.session.wires == ()
-    assert not has_labels(grid)
-    assert [sorted(edge) for edge in mesh.plain_seams.tolist()] == [list(edge) for edge in rest]
-
-
-def test_mirrored_wires_are_kept_with_their_images(grid: bpy.types.Object) -> None:
-    grid.data.use_mirror_x = True
-    draw(session_on(grid), 9, 11)
-    assert seams(grid) == sorted(chain(9, 10, 11) + chain(15, 16, 17))
-    grid.data.use_mirror_x = False
-    mesh = session_on(grid)
-    assert chains(grid) == [(9, 10, 11)]
-    assert wired(grid) == seams(grid)
-    mesh.session.drop(mesh.session.wires[0])
-    write(mesh)
-    assert seams(grid) == []
-
-
 # What is found again
-
-
-def test_wires_are_found_again_with_their_seeds(grid: bpy.types.Object, monkeypatch: pytest.MonkeyPatch) -> None:
-    mesh = session_on(grid)
-    draw(mesh, 36, 40, 44)
-    forget(monkeypatch)
-    again = session_on(grid)
-    assert again.notices.take() == []
-    assert sorted(again.session.seeds()) == [36, 40, 44]
-    assert [(wire.start, wire.end) for wire in again.session.wires] == [(36, 40), (40, 44)]
-    assert len(again.plain_seams) == 0
-    assert not again.session.picture.can_undo, "what was done before is Blender's to undo"
 
 
 def test_reading_a_mesh_writes_nothing(grid: bpy.types.Object, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -215,17 +215,5 @@ def test_mirror_images_slide_too() -> None:
     assert (np.abs(after - before).max(axis=1) > 1e-6).sum() >= 4
 
 
-def test_without_wires_across_the_surface_there_is_an_error() -> None:
-    add_quads()
-    with pytest.raises(RuntimeError, match="No kept wire runs across the surface"):
-        bpy.ops.mesh.seamwire_finish(finish="SLIDE")
-
-
-def test_a_dragged_wire_is_known_to_slide() -> None:
-    obj = add_quads()
-    mark()
-    assert [wire.finish for wire in session_on(obj).session.wires] == ["SLIDE"]
-
-
 def test_each_finish_has_a_function() -> None:
     assert set(FINISHES) == {"SNAP", "CUT", *FINISHERS}

@@ -88,20 +88,6 @@ def test_a_file_saved_and_opened_has_them(
 
 
 @pytest.mark.every_blender
-def test_what_was_read_of_a_file_can_be_removed(
-    drawn: bpy.types.Object, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    forget(monkeypatch)
-    obj = reopened(tmp_path / "drawn.blend", drawn.name)
-    mesh = session_on(obj)
-    for wire in mesh.session.wires:
-        mesh.session.drop(wire)
-    write(mesh)
-    assert seams(obj) == []
-    assert obj.data.seamwire_wires == ""
-
-
-@pytest.mark.every_blender
 @pytest.mark.parametrize("link", [False, True], ids=["appended", "linked and made local"])
 def test_an_object_from_another_file_has_them(
     drawn: bpy.types.Object, link: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -241,18 +227,6 @@ def test_joined_objects_keep_the_wires_of_all() -> None:
     assert agree(one)
 
 
-def test_joined_with_its_own_copy_the_mesh_has_each_wire_twice(drawn: bpy.types.Object) -> None:
-    before = chains(drawn)
-    mode("OBJECT")
-    bpy.ops.object.duplicate()
-    drawn.select_set(True)
-    bpy.context.view_layer.objects.active = drawn
-    bpy.ops.object.join()
-    edit()
-    assert chains(drawn) == sorted([*before, *(tuple(81 + v for v in wire) for wire in before)])
-    assert agree(drawn)
-
-
 # The mesh
 
 
@@ -345,14 +319,6 @@ def test_hidden_wires_stay(drawn: bpy.types.Object, monkeypatch: pytest.MonkeyPa
     bpy.ops.mesh.reveal(select=False)
     assert COLUMN in chains(drawn)
     assert set(before) - set(chains(drawn)) <= {ROW[:5], ROW[4:]}
-    assert agree(drawn)
-
-
-def test_moved_by_a_cell_of_its_own_pattern_they_stay_on_their_vertices(drawn: bpy.types.Object) -> None:
-    before = chains(drawn)
-    bpy.ops.mesh.select_all(action="SELECT")
-    bpy.ops.transform.translate(value=(0.25, 0.25, 0.0))
-    assert chains(drawn) == before
     assert agree(drawn)
 
 

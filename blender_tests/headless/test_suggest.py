@@ -199,14 +199,6 @@ def test_less_stretch_takes_longer_seams() -> None:
     assert found[17.0] > 1.2 * found[40.0]
 
 
-def test_without_unwrap_no_uvs_are_made(suzanne: bpy.types.Object) -> None:
-    clear(suzanne)
-    before = snapshot(suzanne, with_seams=False)
-    assert suggest(parts=0.0, unwrap=False, distortion=40.0) == {"FINISHED"}
-    assert snapshot(suzanne, with_seams=False) == before
-    assert open_islands(suzanne) == 0
-
-
 @pytest.mark.parametrize("finish", ["SNAP", "CUT"])
 @pytest.mark.parametrize("unwrap", [False, True])
 def test_live_unwrap_does_not_come_before_our_unwrap(
@@ -389,16 +381,6 @@ def test_the_report_tells_of_the_islands_that_the_mesh_has(
     assert "3 islands, 1 with holes" in capfd.readouterr().out
 
 
-def test_a_suggested_wire_can_be_dropped(suzanne: bpy.types.Object) -> None:
-    suggest(distortion=40.0)
-    mesh = session_on(suzanne)
-    count = len(mesh.session.wires)
-    mesh.session.drop(mesh.session.wires[0])
-    mesh.write(mesh.plan())
-    assert len(chains(suzanne)) == count - 1
-    assert agree(suzanne)
-
-
 @pytest.mark.parametrize("count", [1, 3])
 def test_only_islands_with_selected_faces_are_cut(count: int) -> None:
     bm = bmesh.new()
@@ -536,7 +518,6 @@ def test_strokes_and_selected_islands_weigh_the_wires(planners: list[dict[str, o
     assert weights[47] == pytest.approx(0.125, rel=1e-6)
 
 
-@pytest.mark.every_blender
 def add_scan() -> bpy.types.Object:
     """Add a rough ball of 5,120 triangles."""
     obj, dice = add_ball(subdivisions=5), random.Random(3)
@@ -736,17 +717,6 @@ def test_edits_of_clicks_are_arguments() -> None:
     assert islands(obj) == 4
     with pytest.raises(RuntimeError):
         suggest(edits="no edits")
-
-
-@pytest.mark.parametrize("count", [4, 7])
-def test_a_ball_has_the_least_number_of_islands(count: int, capfd: pytest.CaptureFixture[str]) -> None:
-    obj = add_ball(subdivisions=3)
-    edit()
-    assert suggest(islands=count) == {"FINISHED"}
-    assert count <= islands(obj) <= count + 1
-    assert open_islands(obj) == 0
-    assert is_good_map(obj)
-    assert "fewer than" not in capfd.readouterr().out
 
 
 @pytest.mark.parametrize("selected", [False, True])

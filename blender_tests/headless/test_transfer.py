@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Seams of other objects and files on meshes of another topology: ``mesh.seamwire_transfer``, ``mesh.seamwire_load_network``."""
 
-from pathlib import Path
-
 import bpy
 import numpy as np
 import pytest
@@ -153,14 +151,3 @@ def test_what_is_wrong_is_said_and_nothing_changes(heads: Pair) -> None:
         with pytest.raises(RuntimeError, match=message):
             bpy.ops.mesh.seamwire_transfer(**options)
     assert snapshot(target) == before
-
-
-def test_a_file_is_loaded_on_another_topology(heads: Pair, tmp_path: Path) -> None:
-    source, target = heads
-    choose(target, source)
-    path = tmp_path / "net.json"
-    bpy.ops.mesh.seamwire_save_network(filepath=str(path))
-    choose(source, target)
-    assert bpy.ops.mesh.seamwire_load_network(filepath=str(path)) == {"FINISHED"}
-    assert agree(target)
-    assert off(target, source) < 0.2

@@ -256,21 +256,6 @@ def test_only_changed_islands_are_flattened_from_the_map_that_is_there(
     assert signed_areas(start).sum() == pytest.approx(areas(points[triangles]).sum(), rel=1e-4)
 
 
-def test_new_islands_are_as_dense_as_what_they_were_part_of() -> None:
-    obj = add_hill()
-    edit()
-    mark(obj, row(4))
-    assert unwrap() == {"FINISHED"}
-    lower, upper = slice(0, 32), slice(32, 64)
-    move(obj, lower, (0.0, 0.0), 0.5)
-    dense, thin = density(obj, upper), density(obj, lower)
-    assert dense == pytest.approx(2.0 * thin, rel=0.1)
-    mark(obj, tuple(range(4, ROWS * 4 + 5, ROWS)))
-    assert unwrap() == {"FINISHED"}
-    assert density(obj, upper) == dense
-    assert density(obj, lower) == pytest.approx(thin, rel=1e-3)
-
-
 def test_without_room_in_the_square_new_islands_lie_beside_it() -> None:
     obj = add_hill()
     edit()
@@ -286,16 +271,6 @@ def test_without_room_in_the_square_new_islands_lie_beside_it() -> None:
     places = uvs(obj)[:16]
     assert apart(places, uvs(obj)[16:])
     assert boxes(places)[0][0] > 1.0
-
-
-def test_nothing_is_done_twice() -> None:
-    obj = add_hill()
-    edit()
-    mark(obj, row(4))
-    assert unwrap() == {"FINISHED"}
-    before = snapshot(obj)
-    assert unwrap() == {"CANCELLED"}
-    assert snapshot(obj) == before
 
 
 def test_a_slit_that_stays_closed_in_the_map_is_not_unwrapped_again() -> None:

@@ -11,6 +11,7 @@ import pytest
 from maps import flipped, folded, in_square, overlapping_pairs, signed_areas, triangles
 from scene import add_grid, add_object, edit, snapshot
 from seamwire.mesh import unwrap as unwrapping
+from seamwire.mesh.versions import IS_OLD
 from seamwire.operators.unwrap_islands import unwrap_after_chain
 
 
@@ -106,6 +107,7 @@ def turned_over(obj: bpy.types.Object) -> int:
     return int((signed_areas(triangles(obj)[0]) <= 0.0).sum())
 
 
+@pytest.mark.every_blender
 def test_faces_that_rounding_turns_over_are_turned_back(
     monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
@@ -115,6 +117,8 @@ def test_faces_that_rounding_turns_over_are_turned_back(
         without.setattr(unwrapping, "turn_back", lambda *_: (np.empty(0, dtype=np.int64), np.empty((0, 2))))
         assert unwrap(straight=False, upright=False) == {"FINISHED"}
     left = turned_over(obj)
+    if not IS_OLD and not left:
+        pytest.skip("this Blender packs them to where rounding turns nothing over")
     assert left > 0
     told = capfd.readouterr().out
     assert re.search(rf"Warning: 1 island unwrapped, 0 kept, 1 island overlaps, {left} faces? turned over\n", told)

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The package of Seamwire Lab, installed, used, disabled and removed as a user does it, with and without the tool."""
 
-import os
 from pathlib import Path
 
 import pytest
@@ -68,8 +67,6 @@ def test_without_the_tool_it_says_what_is_missing_and_works_once_that_is_install
 
 
 def test_removed_it_leaves_nothing(blender: Blender, package: Path, lab_package: Path) -> None:
-    if os.environ["SEAMWIRE_BLENDER_NAME"] == "bpy-4.2":
-        pytest.skip("Blender 4.2 as a Python module crashes as it ends after the removal")
     blender.install(package)
     blender.install(lab_package, "seamwire_lab")
     without_traceback(blender.remove(STORE, "seamwire_lab"))

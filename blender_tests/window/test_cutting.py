@@ -134,18 +134,6 @@ def test_an_error_while_cutting_loses_no_wire_and_undo_leads_back(
     assert len(obj.data.vertices) == 81 and len(obj.data.edges) == 144
 
 
-def test_along_edges_nothing_is_cut(cutting: Desk) -> None:
-    settings().along = "EDGES"
-    session, ui = cutting.start(), cutting.ui
-    ui.click(cutting.at(0), ctrl=True)
-    ui.click(cutting.at(44))
-    ui.wait_until(lambda: len(session.wires) == 1)
-    ui.key("RET")
-    cutting.obj.update_from_editmode()
-    assert len(cutting.obj.data.vertices) == 81
-    assert len(seams(cutting.obj)) == 12
-
-
 def test_a_click_is_where_one_clicks(cutting: Desk) -> None:
     session, ui = cutting.start(), cutting.ui
     corners = ((-0.63, -0.56, 0.0), (0.69, -0.6, 0.0), (0.08, 0.7, 0.0))
@@ -256,18 +244,6 @@ def test_each_wire_is_finished_as_was_said_when_it_was_kept(cutting: Desk) -> No
     assert np.abs(after[:count] - before).max() > 1e-3, "one was slid"
 
 
-def test_auto_snaps_on_quads(cutting: Desk) -> None:
-    settings().finish = "AUTO"
-    session, ui = cutting.start(), cutting.ui
-    ui.click(cutting.at(0), ctrl=True)
-    ui.click(cutting.at(44))
-    ui.wait_until(lambda: len(session.wires) == 1)
-    ui.key("RET")
-    cutting.obj.update_from_editmode()
-    assert len(cutting.obj.data.vertices) == 81
-    assert [wire.along for wire in cutting.session.wires] == ["SURFACE"]
-
-
 def drawn_cut(cutting: Desk, start: int, end: int) -> None:
     """Draw a wire with the tool and let it be cut."""
     cutting.choose()
@@ -311,23 +287,6 @@ def test_a_drag_of_a_cut_wire_that_is_given_up_changes_nothing(cutting: Desk) ->
     assert cutting.left_clean()
     assert snapshot(cutting.obj) == before
     assert agree(cutting.obj)
-
-
-def test_a_removed_cut_wire_takes_its_cut_back(cutting: Desk) -> None:
-    drawn_cut(cutting, 0, 44)
-    ui = cutting.ui
-    vertices = cutting.obj.data.vertices
-    middle = next(v for v in range(81, len(vertices)))
-    ui.move(cutting.at(middle))
-    ui.key("X")
-    ui.wait_until(lambda: not seams(cutting.obj))
-    assert cutting.left_clean()
-    cutting.obj.update_from_editmode()
-    assert len(cutting.obj.data.vertices) == 81
-    assert len(cutting.obj.data.polygons) == 64
-    ui.key("Z", ctrl=True)
-    assert agree(cutting.obj)
-    assert length(cutting) > 0
 
 
 @pytest.mark.every_blender

@@ -60,25 +60,6 @@ def test_wires_are_drawn_kept_and_marked(desk: Desk) -> None:
     assert shows(ui.pixels(), desk.at(36), WHITE), "with the tool the seeds are"
 
 
-def test_a_chain_is_one_step_of_undo_named_for_what_it_did(desk: Desk, capfd: pytest.CaptureFixture[str]) -> None:
-    bpy.ops.ed.undo_push(message="Before")  # calls from Python leave no undo steps
-    session, ui = desk.start(), desk.ui
-    name = desk.obj.name
-    ui.click(desk.at(0), ctrl=True)
-    ui.click(desk.at(4))
-    ui.click(desk.at(40))
-    ui.wait_until(lambda: len(session.wires) == 2)
-    ui.key("RET")
-    assert len(seams(desk.obj)) == 8
-    assert undo_steps(capfd)[-1] == "Draw Seamwires"
-    ui.key("Z", ctrl=True)
-    obj = bpy.data.objects[name]
-    assert obj.mode == "EDIT"
-    assert seams(obj) == []
-    ui.key("Z", ctrl=True, shift=True)
-    assert len(seams(bpy.data.objects[name])) == 8
-
-
 def test_edges_are_lit_before_the_click_and_picked(desk: Desk) -> None:
     session, ui = desk.start(), desk.ui
     middle = desk.at(36, 37)

@@ -2,6 +2,7 @@
 """After an error a part of the drawing is told of once, and tried again after the mode, the tool or the mesh has changed."""
 
 from collections.abc import Callable, Iterator
+from types import SimpleNamespace
 
 import bmesh
 import bpy
@@ -10,6 +11,7 @@ import pytest
 import ui as driver
 from desk import Desk, choose, draw
 from scene import seams
+from seamwire import interface
 from seamwire.core.islands.islands import IslandMaker
 from seamwire.mesh import settings as chosen
 from seamwire.view import plan_preview
@@ -144,3 +146,62 @@ def test_a_preview_that_failed_is_tried_again_with_the_next_plan(
         assert broken.calls > 3
     finally:
         preview.close()
+
+
+def layer(**methods: Callable) -> SimpleNamespace:
+    """Return a layer that draws nothing."""
+    nothing = {name: lambda *_: None for name in ("follow", "poll", "repose", "draw_heat", "draw_lines", "close")}
+    return SimpleNamespace(busy=False, **{**nothing, "legends": list, **methods})
+
+
+@pytest.fixture
+def layers() -> Iterator[list[Callable]]:
+    """Return the list of makers of layers that are added, to be removed after the test."""
+    added: list[Callable] = []
+    yield added
+    for make in added:
+        interface.remove_layer(make)
+
+
+@pytest.mark.smoke
+@pytest.mark.parametrize("method", ["draw_heat", "draw_lines", "legends"])
+def test_a_layer_that_cannot_be_drawn_stops_neither_others_nor_the_chain(
+    desk: Desk, told: Callable[[], int], layers: list[Callable], method: str
+) -> None:
+    def fail(*_: object) -> None:
+        raise RuntimeError("broken")
+
+    desk.choose()
+    calls: list[str] = []
+    other = layer(**{name: lambda *_, name=name: calls.append(name) for name in ("draw_heat", "draw_lines", "legends")})
+    for made in (layer(**{method: fail}), other):
+        layers.append(lambda *_, made=made: made)
+        interface.add_layer(layers[-1])
+    desk.ui.wait(4, redraw=True)
+    assert set(calls) == {"draw_heat", "draw_lines", "legends"}
+    desk.start()
+    desk.ui.click(desk.at(36))
+    desk.ui.click(desk.at(44))
+    desk.ui.wait_until(lambda: len(desk.session.wires) == 1)
+    assert desk.running
+    desk.ui.key("RET")
+    assert seams(desk.obj) != []
+    assert told() == 1, "once, although it was drawn many times"
+
+
+def test_a_layer_that_cannot_be_made_leaves_those_that_are_there(
+    desk: Desk, told: Callable[[], int], layers: list[Callable]
+) -> None:
+    def fail(*_: object) -> None:
+        raise RuntimeError("broken")
+
+    desk.choose()
+    calls: list[str] = []
+    layers.append(lambda *_: layer(draw_lines=lambda *_: calls.append("drawn")))
+    interface.add_layer(layers[0])
+    layers.append(fail)
+    interface.add_layer(fail)
+    assert told() == 1
+    calls.clear()
+    desk.ui.wait(3, redraw=True)
+    assert calls

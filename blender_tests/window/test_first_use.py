@@ -110,11 +110,11 @@ def test_a_grid_of_quads_starts_along_edges(desk: Desk) -> None:
 def newcomer(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> Iterator[Desk]:
     """A grid with the tool chosen for the first time."""
     monkeypatch.setattr(operator, "_kept", count(1))
-    preferences().first_steps = True
+    preferences().text = "STEPS"
     bpy.context.preferences.is_dirty = False
     desk.choose()
     yield desk
-    preferences().first_steps = False
+    preferences().text = "INFORMATION"
 
 
 @pytest.fixture
@@ -143,7 +143,7 @@ def text_pixels(desk: Desk) -> int:
 @pytest.mark.every_blender
 def test_the_first_steps_are_seen_until_they_are_turned_off(newcomer: Desk) -> None:
     assert text_pixels(newcomer) > 500
-    preferences().first_steps = False
+    preferences().text = "INFORMATION"
     assert text_pixels(newcomer) < 50
     choose(newcomer.ui, "builtin.select_box")
     newcomer.choose()
@@ -171,9 +171,9 @@ def test_clicks_go_through_the_first_steps_which_stay_in_a_chain(newcomer: Desk)
 @pytest.mark.every_blender
 def test_after_a_few_chains_the_first_steps_are_gone(newcomer: Desk) -> None:
     for number in range(3):
-        assert preferences().first_steps
+        assert preferences().text == "STEPS"
         draw(newcomer, 9 * number, 9 * number + 8)
-    assert not preferences().first_steps
+    assert preferences().text == "INFORMATION"
     assert bpy.context.preferences.is_dirty, "Blender is to save that"
     assert text_pixels(newcomer) < 50
 

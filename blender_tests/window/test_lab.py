@@ -342,7 +342,7 @@ def test_views_follow_another_file(desk: Desk, tmp_path: Path, load_ui: bool) ->
     bpy.ops.wm.open_mainfile(filepath=path, load_ui=load_ui)
     driver.Ui.__init__(desk.ui)  # the file may have brought another window
     if load_ui:  # the settings came with the window manager of the file
-        desk.ui.wait_until(lambda: settings().is_any_shown or not follower()._handles)
+        desk.ui.wait_until(lambda: part("settings").is_any_shown() or not follower()._handles)
     else:
         desk.ui.wait_until(lambda: follower().views not in {None, before} and shown(follower().views))
     desk.ui.wait(3, redraw=True)
@@ -402,3 +402,22 @@ def test_its_panel_is_drawn_with_and_without_the_tool(desk: Desk, mode: str, has
     assert {"heat", "show_ellipses", "shown_metric", "VIEW3D_MT_seamwire_lab_store"} <= set(drawn)
     assert ("Enable the add-on Seamwire" in drawn) == (not has_tool)
     assert ("metric" in drawn) == (has_tool and mode == "OBJECT")
+
+
+def test_after_an_error_the_views_go_on_and_it_is_told_once(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
+    with desk.ui.override():
+        bpy.ops.object.mode_set(mode="OBJECT")
+    own = part("follower")
+    calls: list[object] = []
+
+    def fail() -> None:
+        calls.append(None)
+        raise RuntimeError("broken")
+
+    with monkeypatch.context() as broken:
+        broken.setattr(own.tool, "find", fail)
+        settings().heat = "STRENGTH"
+        desk.ui.wait_until(lambda: len(calls) > 3)
+    assert sum("broken" in error for error in driver.take_errors()) == 1
+    desk.ui.wait_until(lambda: follower().views is not None and shown(follower().views))
+    settings().property_unset("heat")

@@ -51,18 +51,6 @@ def test_a_drag_over_the_mesh_draws_along_its_edges_in_one_step(desk: Desk, capf
     assert desk.session.wires == ()
 
 
-def test_its_seeds_can_be_dragged_as_others(desk: Desk) -> None:
-    session = desk.choose()
-    drag(desk, desk.at(36), desk.at(44))
-    desk.ui.wait_until(lambda: len(session.wires) == 1)
-    assert not desk.running
-    drag(desk, desk.at(44), desk.at(53))
-    desk.ui.wait_until(lambda: not desk.running)
-    assert 53 in session.seeds()
-    assert 44 not in session.seeds()
-    assert len(session.wires) == 1
-
-
 def test_a_click_is_a_click_still(desk: Desk) -> None:
     session, ui = desk.choose(), desk.ui
     ui.move(desk.at(36))
@@ -97,15 +85,6 @@ def test_escape_and_the_right_button_forget_a_line_and_keep_the_chain(desk: Desk
         assert session.drawing.seed_place == 4, "the live wire goes on"
     ui.key("RET")
     assert seams(desk.obj) == chain(0, 1, 2, 3, 4)
-
-
-def test_a_cancelled_line_leaves_nothing(desk: Desk) -> None:
-    desk.choose()
-    press_and_draw(desk, desk.at(36), desk.at(40))
-    desk.ui.key("ESC")
-    desk.ui.event("LEFTMOUSE", "RELEASE")
-    assert desk.left_clean()
-    assert desk.unchanged()
 
 
 def test_a_line_from_the_live_seed_goes_on_with_the_chain(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:

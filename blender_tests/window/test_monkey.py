@@ -216,7 +216,7 @@ class Monkey:
         self.release()
         self.ui.wait(2)
         traces.enable()
-        preferences().first_steps = False
+        preferences().text = "INFORMATION"
         choose(self.ui)
 
     def suggest(self) -> None:

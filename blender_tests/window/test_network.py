@@ -3,7 +3,6 @@
 
 from itertools import pairwise
 
-import bmesh
 import bpy
 import numpy as np
 import pytest
@@ -29,19 +28,6 @@ def nothing_else_changed(desk: Desk) -> None:
 
 
 # Within a chain
-
-
-def test_a_plain_click_seeds_and_enter_ends(desk: Desk) -> None:
-    session, ui = desk.start(), desk.ui
-    ui.click(desk.at(36))
-    assert session.seed == 36
-    ui.click(desk.at(40))
-    ui.wait_until(lambda: len(session.wires) == 1)
-    ui.move(desk.at(44))
-    ui.key("RET")
-    assert desk.left_clean()
-    assert seams(desk.obj) == chain(36, 37, 38, 39, 40), "the live wire was not kept"
-    nothing_else_changed(desk)
 
 
 @pytest.mark.smoke
@@ -261,21 +247,6 @@ def test_a_dragged_seed_takes_its_wires_along_in_one_step(desk: Desk, capfd: pyt
     nothing_else_changed(desk)
 
 
-def test_escape_lets_a_dragged_seed_go_back(desk: Desk) -> None:
-    session = desk.choose()
-    draw(desk, 36, 40, 44)
-    ui = desk.ui
-    ui.move(desk.at(40))
-    ui.event("LEFTMOUSE", "PRESS", desk.at(40))
-    ui.move(desk.at(49))
-    assert session.dragging
-    ui.key("ESC")
-    assert not session.dragging
-    assert not desk.running
-    ui.event("LEFTMOUSE", "RELEASE", desk.at(49))
-    assert seams(desk.obj) == chain(*range(36, 45))
-
-
 @pytest.mark.smoke
 def test_a_dragged_wire_gets_a_seed(desk: Desk) -> None:
     session = desk.choose()
@@ -322,23 +293,6 @@ def test_x_and_delete_remove_the_wire_under_the_cursor(desk: Desk, key: str, cap
     ui.key("Z", ctrl=True)
     assert seams(desk.obj) == sorted(chain(*range(9)) + chain(*range(36, 45)))
     nothing_else_changed(desk)
-
-
-def test_seams_that_were_there_before_a_wire_stay_when_it_is_removed(desk: Desk) -> None:
-    bm = bmesh.from_edit_mesh(desk.obj.data)
-    bm.verts.ensure_lookup_table()
-    bm.edges.get((bm.verts[38], bm.verts[39])).seam = True
-    bmesh.update_edit_mesh(desk.obj.data)
-    desk.choose()
-    draw(desk, 36, 37, at_vertices=True)
-    desk.ui.click(desk.at(37))
-    desk.ui.click(desk.at(44))
-    desk.ui.wait_until(lambda: len(desk.session.wires) == 2)
-    desk.ui.key("RET")
-    assert seams(desk.obj) == chain(*range(36, 45))
-    desk.ui.move(desk.at(42))
-    desk.ui.key("X")
-    assert seams(desk.obj) == [(36, 37), (38, 39)]
 
 
 @pytest.mark.smoke

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, fields, replace
 from itertools import pairwise
+from types import SimpleNamespace
 
 import bmesh
 import bpy
@@ -50,6 +51,7 @@ class Said:
     def __init__(self) -> None:
         self.picture = Picture()
         self.cuts: tuple[Wire, ...] = ()
+        self.wires: tuple[Wire, ...] = ()
         self._said: dict[str, object] = {}
 
     @property
@@ -272,35 +274,26 @@ def test_a_kept_wire_has_the_seam_color_of_the_theme(sight: Sight) -> None:
         setattr(view, name, before)
 
 
-def test_colors_and_width_come_from_the_preferences(sight: Sight) -> None:
-    class Preferences:
-        line_width = 1.0
-        active_color = (0.1, 0.9, 0.4)
-
-    def width(seen: NDArray[np.float32]) -> int:
-        angle, chroma = hue_and_strength(profile(seen, *crossing(sight, 39, 40)))
-        return int(((angle > 110) & (angle < 170) & (chroma > 0.4)).sum())
-
-    sight.overlay = sight.make(preferences=Preferences())
+def orange_width(sight: Sight) -> int:
+    """Return how many pixels wide the active wire is."""
     seen = sight.pixels(active=sight.wire(*range(36, 45)))
-    assert has(seen, sight.at(38, 39), "green")
-    before = width(seen)
-    Preferences.line_width = 2.5
-    assert width(sight.pixels()) >= 2 * before
+    angle, chroma = hue_and_strength(profile(seen, *crossing(sight, 39, 40)))
+    return int(((angle > 35) & (angle < 60) & (chroma > 0.4)).sum())
+
+
+def test_the_width_of_lines_comes_from_the_preferences(sight: Sight) -> None:
+    before = orange_width(sight)
+    sight.overlay = sight.make(preferences=SimpleNamespace(line_width=2.5))
+    assert orange_width(sight) >= 2 * before
 
 
 def test_lines_grow_with_the_display_scale(sight: Sight) -> None:
     view = bpy.context.preferences.view
-
-    def width(seen: NDArray[np.float32]) -> int:
-        angle, chroma = hue_and_strength(profile(seen, *crossing(sight, 39, 40)))
-        return int(((angle > 35) & (angle < 60) & (chroma > 0.4)).sum())
-
-    before = width(sight.pixels(active=sight.wire(*range(36, 45))))
+    before = orange_width(sight)
     try:
         view.ui_scale = 2.0
         sight.ui.wait(4, redraw=True)
-        assert width(sight.pixels()) >= 1.6 * before
+        assert orange_width(sight) >= 1.6 * before
     finally:
         view.ui_scale = 1.0
         sight.ui.wait(4, redraw=True)

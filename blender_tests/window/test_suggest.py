@@ -546,22 +546,6 @@ def test_ctrl_and_the_wheel_or_keys_change_the_limit_of_the_stretch(
     assert bpy.context.window_manager.operators[-1].distortion == pytest.approx(13.0)
 
 
-def test_less_stretch_takes_more_seams(ui: driver.Ui, suzanne: bpy.types.Object, status: list[str]) -> None:
-    def planned_length() -> float:
-        ui.wait_until(lambda: shown.is_planned and bool(status[-1]), 60.0)
-        ui.wait(5)
-        return sum(each.length_of(each.best) for each in shown._search)
-
-    invoke(ui, distortion=60.0, parts=0.0)
-    shown = live()
-    long_way = planned_length()
-    ui.move((0.5 * ui.region.width, 0.5 * ui.region.height))
-    for _ in range(4):
-        ui.wheel(False, ctrl=True)
-    assert shown.stretch == 17.0
-    assert planned_length() > 1.1 * long_way
-
-
 def squares() -> list[np.ndarray]:
     """Return the maps that are shown as a checker pattern."""
     shown = live()._preview._shown.values()

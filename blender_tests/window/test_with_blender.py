@@ -309,36 +309,6 @@ def test_hidden_wires_stay_and_are_back_when_they_are_shown(desk: Desk) -> None:
     assert [wire.edges() for wire in desk.session.wires] == [chain(*range(9))]
 
 
-def test_a_wire_whose_seams_are_cleared_is_none(desk: Desk) -> None:
-    desk.choose()
-    draw(desk, 36, 44)
-    bm = bmesh.from_edit_mesh(desk.obj.data)
-    bm.verts.ensure_lookup_table()
-    bm.edges.get((bm.verts[40], bm.verts[41])).seam = False
-    bmesh.update_edit_mesh(desk.obj.data)
-    desk.ui.wait()
-    desk.ui.move(desk.at(60))
-    assert desk.session.wires == ()
-    assert len(seams(desk.obj)) == 7, "its other seams stay"
-
-
-def test_the_network_follows_subdividing_and_duplicating(desk: Desk) -> None:
-    desk.choose()
-    draw(desk, 36, 44)
-    with desk.ui.override():
-        bpy.ops.mesh.select_all(action="SELECT")
-        bpy.ops.mesh.subdivide()
-    desk.ui.wait()
-    desk.ui.move(desk.ui.on_screen((0.05, 0.6, 0.0)))
-    assert [len(wire.edges()) for wire in desk.session.wires] == [16]
-    with desk.ui.override():
-        bpy.ops.mesh.select_all(action="SELECT")
-        bpy.ops.mesh.duplicate_move(TRANSFORM_OT_translate={"value": (0.0, 0.0, -1.0)})
-    desk.ui.wait()
-    desk.ui.move(desk.ui.on_screen((0.05, 0.55, 0.0)))
-    assert sorted(len(wire.edges()) for wire in desk.session.wires) == [16, 16]
-
-
 def test_what_is_prepared_is_kept_from_one_chain_to_the_next(desk: Desk) -> None:
     session = desk.choose()
     draw(desk, 36, 44)

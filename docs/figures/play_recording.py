@@ -140,7 +140,7 @@ class Player:
         colors.wire_edit, colors.vertex, colors.vertex_size = (0.55, 0.55, 0.55), (0.55, 0.55, 0.55), 1
         from seamwire.mesh.settings import preferences, settings
 
-        preferences().first_steps = False
+        preferences().text = "INFORMATION"
         settings().along, settings().finish, settings().snap = "SURFACE", "SNAP", True
         return obj
 

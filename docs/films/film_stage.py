@@ -32,7 +32,7 @@ def show_first_steps(shown: bool) -> None:
     """Show the first steps, or not."""
     from seamwire.mesh.settings import preferences
 
-    preferences().first_steps = shown
+    preferences().text = "STEPS" if shown else "INFORMATION"
 
 
 def stage(film: Film) -> None:

@@ -209,7 +209,7 @@ class StoredMesh:
     def __init__(self, mesh: bpy.types.Mesh) -> None:
         self.mesh = mesh
         self.vertex_count = len(mesh.vertices)
-        self._pairs = np.sort(_column(mesh.edges, "vertices", np.int32, 2), axis=1)
+        self._pairs = np.sort(column(mesh.edges, "vertices", np.int32, 2), axis=1)
         self._row_of: dict[tuple[int, int], int] = {}
 
     def intact(self) -> bool:
@@ -231,9 +231,9 @@ class StoredMesh:
         attribute = self.mesh.attributes.get(LABELS)
         if attribute is None:
             return EdgeLabels.none()
-        labels = _column(attribute.data, "value", np.int32)
+        labels = column(attribute.data, "value", np.int32)
         rows = np.flatnonzero(labels)
-        seams, hidden = (_column(self.mesh.edges, name, np.bool_)[rows] for name in ("use_seam", "hide"))
+        seams, hidden = (column(self.mesh.edges, name, np.bool_)[rows] for name in ("use_seam", "hide"))
         return EdgeLabels(self._pairs[rows].astype(np.int64), labels[rows].astype(np.int64), seams, hidden)
 
     def write(
@@ -259,7 +259,7 @@ class StoredMesh:
             attribute = attributes.get(LABELS) or attributes.new(LABELS, "INT", "EDGE")
             for pair, label in labels.items():
                 attribute.data[rows[pair]].value = label
-            if not _column(attribute.data, "value", np.int32).any():
+            if not column(attribute.data, "value", np.int32).any():
                 attributes.remove(attribute)
         self.mesh.update()
         return len(new), len(old)
@@ -337,8 +337,8 @@ def _between_materials(mesh: bpy.types.Mesh, columns: _Items | _Attributes) -> N
     """Return which edges of a mesh, (e,), faces of several materials share."""
     found = np.zeros(len(mesh.edges), dtype=np.bool_)
     if len(mesh.materials) > 1:
-        edges = _column(mesh.loops, "edge_index", np.int32)
-        materials = np.repeat(columns.materials(), _column(mesh.polygons, "loop_total", np.int32))
+        edges = column(mesh.loops, "edge_index", np.int32)
+        materials = np.repeat(columns.materials(), column(mesh.polygons, "loop_total", np.int32))
         order = np.argsort(edges, kind="stable")
         edges, materials = edges[order], materials[order]
         found[edges[1:][(edges[1:] == edges[:-1]) & (materials[1:] != materials[:-1])]] = True
@@ -352,7 +352,7 @@ def _on_basis(obj: bpy.types.Object) -> bool:
 
 def _shape(obj: bpy.types.Object) -> NDArray[np.float32]:
     """Return the vertices as the active shape key has them: they are edited and seen, and the mesh holds the basis."""
-    return _column(obj.active_shape_key.data, "co", np.float32, 3)
+    return column(obj.active_shape_key.data, "co", np.float32, 3)
 
 
 class _Items:
@@ -362,19 +362,19 @@ class _Items:
         self._mesh = mesh
 
     def points(self) -> NDArray[np.float32]:
-        return _column(self._mesh.vertices, "co", np.float32, 3)
+        return column(self._mesh.vertices, "co", np.float32, 3)
 
     def edges(self) -> NDArray[np.int32]:
-        return _column(self._mesh.edges, "vertices", np.int32, 2)
+        return column(self._mesh.edges, "vertices", np.int32, 2)
 
     def corners(self) -> NDArray[np.int32]:
-        return _column(self._mesh.loops, "vertex_index", np.int32)
+        return column(self._mesh.loops, "vertex_index", np.int32)
 
     def materials(self) -> NDArray[np.int32]:
-        return _column(self._mesh.polygons, "material_index", np.int32)
+        return column(self._mesh.polygons, "material_index", np.int32)
 
     def flags(self, items: str, name: str) -> NDArray[np.bool_]:
-        return _column(getattr(self._mesh, items), name, np.bool_)
+        return column(getattr(self._mesh, items), name, np.bool_)
 
 
 class _Attributes:
@@ -392,30 +392,28 @@ class _Attributes:
         self._mesh = mesh
 
     def points(self) -> NDArray[np.float32]:
-        if not len(self._mesh.vertices):  # an empty mesh has no such attribute
-            return np.empty((0, 3), dtype=np.float32)
-        return _column(self._mesh.attributes["position"].data, "vector", np.float32, 3)
+        return self._values(("position",), self._mesh.vertices, "vector", np.float32, 3)
 
     def edges(self) -> NDArray[np.int32]:
-        if not len(self._mesh.edges):  # an empty mesh has no such attribute
-            return np.empty((0, 2), dtype=np.int32)
-        return _column(self._mesh.attributes[".edge_verts"].data, "value", np.int32, 2)
+        return self._values((".edge_verts",), self._mesh.edges, "value", np.int32, 2)
 
     def corners(self) -> NDArray[np.int32]:
-        if not len(self._mesh.loops):
-            return np.empty(0, dtype=np.int32)
-        return _column(self._mesh.attributes[".corner_vert"].data, "value", np.int32)
+        return self._values((".corner_vert",), self._mesh.loops, "value", np.int32)
 
     def materials(self) -> NDArray[np.int32]:
-        if "material_index" not in self._mesh.attributes:
-            return np.zeros(len(self._mesh.polygons), dtype=np.int32)
-        return _column(self._mesh.attributes["material_index"].data, "value", np.int32)
+        return self._values(("material_index",), self._mesh.polygons, "value", np.int32)
 
     def flags(self, items: str, name: str) -> NDArray[np.bool_]:
-        for attribute in self.NAMES[items, name]:
-            if attribute in self._mesh.attributes:
-                return _column(self._mesh.attributes[attribute].data, "value", np.bool_)
-        return np.zeros(len(getattr(self._mesh, items)), dtype=np.bool_)
+        return self._values(self.NAMES[items, name], getattr(self._mesh, items), "value", np.bool_)
+
+    def _values(
+        self, names: Iterable[str], items: bpy.types.bpy_prop_collection, kind: str, dtype: type, width: int = 1
+    ) -> NDArray:
+        """Return the values of the first attribute that there is. Without items, or where all values are 0, there may be no attribute."""
+        found = next((name for name in names if name in self._mesh.attributes), None)
+        if found is None or not len(items):
+            return np.zeros((len(items), width) if width > 1 else len(items), dtype=dtype)
+        return column(self._mesh.attributes[found].data, kind, dtype, width)
 
 
 def _cut(
@@ -427,16 +425,17 @@ def _cut(
     are faces of more than four corners.
     """
     count = len(mesh.polygons)
-    sizes = np.full(count, 3) if len(corners) == 3 * count else _column(mesh.polygons, "loop_total", np.int32)
+    sizes = np.full(count, 3) if len(corners) == 3 * count else column(mesh.polygons, "loop_total", np.int32)
     if sizes.size and sizes.max() > 4:
         mesh.calc_loop_triangles()
-        polygons = _column(mesh.loop_triangles, "polygon_index", np.int32)
-        triangles = _column(mesh.loop_triangles, "vertices", np.int32, 3)
+        polygons = column(mesh.loop_triangles, "polygon_index", np.int32)
+        triangles = column(mesh.loop_triangles, "vertices", np.int32, 3)
         return without_flat_triangles(points, triangles, polygons), polygons
     return native.load().cut_polygons(points, corners, sizes)
 
 
-def _column(items: bpy.types.bpy_prop_collection, name: str, dtype: type, width: int = 1) -> NDArray:
+def column(items: bpy.types.bpy_prop_collection, name: str, dtype: type, width: int = 1) -> NDArray:
+    """Return a property of all items, (n,), or (n, width)."""
     flat = np.empty(len(items) * width, dtype=dtype)
     items.foreach_get(name, flat)
     return flat if width == 1 else flat.reshape(-1, width)

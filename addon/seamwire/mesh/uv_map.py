@@ -43,12 +43,8 @@ class Corners:
     @classmethod
     def of(cls, mesh: bpy.types.Mesh) -> Corners:
         """Read them from a mesh that edit mode does not hold."""
-        vertices = np.empty(len(mesh.loops), dtype=np.int32)
-        edges = np.empty(len(mesh.loops), dtype=np.int32)
-        starts = np.empty(len(mesh.polygons), dtype=np.int32)
-        mesh.loops.foreach_get("vertex_index", vertices)
-        mesh.loops.foreach_get("edge_index", edges)
-        mesh.polygons.foreach_get("loop_start", starts)
+        vertices, edges = (edit_mesh.column(mesh.loops, name, np.int32) for name in ("vertex_index", "edge_index"))
+        starts = edit_mesh.column(mesh.polygons, "loop_start", np.int32)
         sizes = np.diff(starts, append=len(vertices))
         following = np.arange(1, len(vertices) + 1)
         following[starts + sizes - 1] = starts
@@ -92,12 +88,12 @@ def read_with_edges(obj: bpy.types.Object, layer: str) -> EditedMap:
     """Read an edit mesh, and what a layer of whole numbers holds of its edges."""
     with _copied(obj) as mesh:
         corners, uvs = Corners.of(mesh), _uvs(mesh)
-        seams = np.zeros(len(mesh.edges), dtype=bool)
-        mesh.edges.foreach_get("use_seam", seams)
-        numbers = np.zeros(len(mesh.edges), dtype=np.int32)
+        seams = edit_mesh.column(mesh.edges, "use_seam", np.bool_)
         attribute = mesh.attributes.get(layer)
-        if attribute is not None and len(attribute.data) == len(numbers):
-            attribute.data.foreach_get("value", numbers)
+        if attribute is not None and len(attribute.data) == len(seams):
+            numbers = edit_mesh.column(attribute.data, "value", np.int32)
+        else:
+            numbers = np.zeros(len(seams), dtype=np.int32)
         return EditedMap(corners, uvs, _pinned(mesh), seams, numbers)
 
 
@@ -148,23 +144,11 @@ def _uvs(mesh: bpy.types.Mesh) -> NDArray[np.float32] | None:
     layer = mesh.uv_layers.active
     if layer is None:
         return None
-    uvs = np.empty(2 * len(mesh.loops), dtype=np.float32)
-    column, name = _column(layer)
-    column.foreach_get(name, uvs)
-    return uvs.reshape(-1, 2)
-
-
-def _column(layer: bpy.types.MeshUVLoopLayer) -> tuple[bpy.types.bpy_prop_collection, str]:
-    return (layer.data, "uv") if IS_OLD else (layer.uv, "vector")
+    return edit_mesh.column(*((layer.data, "uv") if IS_OLD else (layer.uv, "vector")), np.float32, 2)
 
 
 def _pinned(mesh: bpy.types.Mesh) -> NDArray[np.bool_]:
-    pinned = np.zeros(len(mesh.loops), dtype=bool)
-    layer = mesh.uv_layers.active
-    if layer is None:
-        return pinned
+    layer, count = mesh.uv_layers.active, len(mesh.loops)
     # The attribute of newer versions is empty while nothing is pinned.
-    items, name = (layer.data, "pin_uv") if IS_OLD else (layer.pin, "value")
-    if len(items) == len(pinned):
-        items.foreach_get(name, pinned)
-    return pinned
+    items, name = ((), "") if layer is None else (layer.data, "pin_uv") if IS_OLD else (layer.pin, "value")
+    return edit_mesh.column(items, name, np.bool_) if count and len(items) == count else np.zeros(count, dtype=bool)

@@ -158,8 +158,8 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
             self.report({"WARNING"}, f"{error}: the wires of this chain were not kept")
             return {"CANCELLED"}
         self._chain.state.notices.tell(self.report)
-        if has_kept and next(_kept) >= _ENOUGH and preferences(context).first_steps:
-            preferences(context).first_steps = False
+        if has_kept and next(_kept) >= _ENOUGH and preferences(context).text == "STEPS":
+            preferences(context).text = "INFORMATION"
             context.preferences.is_dirty = True
         return {"FINISHED"} if has_kept else {"CANCELLED"}
 

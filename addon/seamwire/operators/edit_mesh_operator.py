@@ -7,6 +7,8 @@ import traceback
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, TypeVar
 
+from ..words.reports import HALFWAY
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
@@ -75,7 +77,7 @@ class EditMeshOperator(NeedsEditMode):
             return {"CANCELLED"}
         except Halfway as error:
             traceback.print_exception(error.__cause__)
-            self.report({"ERROR"}, f"Stopped halfway, undo leads back: {error}")
+            self.report({"ERROR"}, f"{HALFWAY}, undo leads back: {error}")
             return {"FINISHED"}
 
     def run(self, context: bpy.types.Context) -> set[str]:

@@ -29,11 +29,11 @@ class VIEW3D_PT_seamwire_help(bpy.types.Panel):
         for icon, text in STEPS:
             steps.label(text=text, icon=icon)
         more = _box(right, "More")
-        more.prop(preferences(context), "first_steps", text="First Steps in the View")
+        more.prop(preferences(context), "text")
         if guide():
             more.operator("wm.url_open", text="Open the Guide", icon="URL").url = guide()
         for number, (heading, rows) in enumerate(navigation.keys(context).groups().items()):
-            column = _box((left, left, right, right)[number], heading)
+            column = _box(left if number < 2 else right, heading)
             for keys, action in rows:
                 row = column.split(factor=0.32 if number < 2 else 0.5)
                 row.label(text=keys)

@@ -12,12 +12,6 @@ from ..words.keys import Action
 from . import toolbar
 
 
-def _color(name: str, description: str, default: tuple[float, float, float, float]) -> object:
-    return bpy.props.FloatVectorProperty(
-        name=name, description=description, subtype="COLOR_GAMMA", size=4, min=0.0, max=1.0, default=default
-    )
-
-
 class SeamwirePreferences(bpy.types.AddonPreferences):
     """The preferences that Blender stores."""
 
@@ -38,15 +32,6 @@ class SeamwirePreferences(bpy.types.AddonPreferences):
         max=5.0,
         soft_max=3.0,
     )
-    theme_colors: bpy.props.BoolProperty(
-        name="Use Theme Colors", description="Draw kept wires in the theme's color for seams", default=True
-    )
-    active_color: _color("Live Wire", "The wire that a click keeps", (1.0, 0.72, 0.05, 1.0))
-    other_color: _color("Next Candidate", "The next candidate", (0.45, 0.8, 1.0, 0.9))
-    kept_color: _color("Kept Wires", "Wires whose edges become seams", (1.0, 0.2, 0.1, 1.0))
-    clear_color: _color("Cleared Seams", "Wires that clear seams", (0.82, 0.86, 0.95, 1.0))
-    loop_color: _color("Loop", "The loop that a click adds", (0.3, 1.0, 0.55, 1.0))
-    seed_color: _color("Seeds", "Seeds, and the edge or vertex under the cursor", (1.0, 1.0, 1.0, 1.0))
     tint: bpy.props.FloatProperty(
         name="Island Tint",
         description="Strength of the islands' colors. 0 turns them off",
@@ -55,15 +40,14 @@ class SeamwirePreferences(bpy.types.AddonPreferences):
         max=1.0,
         subtype="FACTOR",
     )
-    show_text: bpy.props.BoolProperty(
-        name="Viewport Text",
-        description="Show the number of islands and other information in the 3D view",
-        default=True,
-    )
-    first_steps: bpy.props.BoolProperty(
-        name="First Steps",
-        description="Show the first steps in the corner of the 3D view until a few chains are drawn",
-        default=True,
+    text: bpy.props.EnumProperty(
+        name="Text in the View",
+        description="What the corner of the 3D view says",
+        items=(
+            ("STEPS", "First Steps", "The first steps until a few chains are drawn, and information"),
+            ("INFORMATION", "Information", "The number of islands and other information"),
+            ("NONE", "Nothing", "No text"),
+        ),
     )
 
     def draw(self, context: bpy.types.Context) -> None:
@@ -74,16 +58,8 @@ class SeamwirePreferences(bpy.types.AddonPreferences):
         column = layout.column(heading="Drawing")
         column.prop(self, "line_width")
         column.prop(self, "tint")
-        column.prop(self, "show_text")
-        column.prop(self, "first_steps")
+        column.prop(self, "text")
         layout.column(heading="Mouse").prop(self, "wheel_switches")
-        column = layout.column(heading="Colors")
-        column.prop(self, "theme_colors")
-        kept = column.row()
-        kept.enabled = not self.theme_colors
-        kept.prop(self, "kept_color")
-        for name in ("active_color", "other_color", "clear_color", "loop_color", "seed_color"):
-            column.prop(self, name)
         layout.use_property_split = False
         draw_keys(layout, context)
 

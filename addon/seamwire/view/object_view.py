@@ -222,9 +222,13 @@ class ObjectView:
 
     def make_layers(self) -> None:
         """Make the layers anew, because others are to be drawn."""
-        self._close_layers()
         arrays, surface = self.mesh.arrays, self.mesh.make_live.wait
-        self._layers[:] = (self.crest_view, *(make(arrays, surface, self.pose) for make in makers))
+        made = [
+            failures.attempt(("layer made", self.name, make), partial(make, arrays, surface, self.pose))
+            for make in makers
+        ]
+        self._close_layers()
+        self._layers[:] = (self.crest_view, *(layer for layer in made if layer is not None))
 
     def _close_layers(self) -> None:
         for layer in self._layers[1:]:

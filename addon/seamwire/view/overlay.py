@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -15,11 +16,12 @@ from ..core.network.picks import place_of, undirected
 from ..words import corner
 from ..words.first_steps import FIRST_LINES
 from . import legend
+from .failures import failures
 from .gpu_draw import ColoredFaces, Eye, Lines, blended, draw_dots, draw_text, set_text, text_size
 from .theme import Looks, Style, hue_colors
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Sequence
 
     from numpy.typing import NDArray
 
@@ -125,8 +127,7 @@ class Overlay:
         self._faces = self._tinted = None
         if self.heat is not None:
             self.heat.repose()
-        for layer in self._layers:
-            layer.repose()
+        list(self._ask_layers("repose"))
 
     def _forget_lines(self) -> None:
         self._kept = self._live = self._bands = self._gaps = (None, self._live[1])
@@ -152,10 +153,9 @@ class Overlay:
         eye = Eye(bpy.context.region_data, self._obj.matrix_world @ self._to_object)
         if self.heat is not None and self.heat.shown:
             self.heat.draw(eye)
-        elif not any(layer.draw_heat(eye) for layer in self._layers):
+        elif not any(self._ask_layers("draw_heat", eye)):
             self._draw_tint(eye, picture.islands)
-        for layer in self._layers:
-            layer.draw_lines(eye)
+        list(self._ask_layers("draw_lines", eye))
         xray = picture.options.xray
         for hidden in (True, False):
             with blended("GREATER" if hidden else "LESS_EQUAL"):
@@ -163,6 +163,12 @@ class Overlay:
                     _draw_lines(sheet, eye, hidden, xray)
                 for sheet in sheets:
                     _draw_dots(sheet, eye, hidden, xray)
+
+    def _ask_layers(self, method: str, *arguments: object) -> Iterator[object]:
+        """Call a method of each layer, and yield what it returns. A layer that fails yields None, and the others are still drawn."""
+        for number, layer in enumerate(self._layers):
+            part = ("layer drawn", self._obj.name_full, number, method)
+            yield failures.attempt(part, partial(getattr(layer, method), *arguments))
 
     def _draw_tint(self, eye: Eye, found: Islands | None) -> None:
         if found is None or self._looks.tint <= 0.0:
@@ -187,13 +193,13 @@ class Overlay:
             return
         scale = bpy.context.preferences.system.ui_scale
         with blended("NONE"):
-            first = FIRST_LINES if self._looks.first_steps else ()
-            _draw_corner([*first, *(corner.lines(picture) if self._looks.text else ())], room[:2], scale)
+            lines = () if self._looks.text == "NONE" else corner.lines(picture)
+            _draw_corner([*(FIRST_LINES if self._looks.text == "STEPS" else ()), *lines], room[:2], scale)
             legend.draw(self._legends(), room, scale)
 
     def _legends(self) -> list[legend.Legend]:
         of_heat = None if self.heat is None else self.heat.legend()
-        others = [box for layer in self._layers for box in layer.legends()]
+        others = [box for boxes in self._ask_layers("legends") for box in boxes or ()]
         return others if of_heat is None else [of_heat, *others]
 
     # What there is to draw
@@ -289,7 +295,7 @@ class Overlay:
             if offer is None or undirected(snap.pick) not in offer.edges():
                 sheet.edges(looks.target, [snap.pick])
             return
-        styles = {"WIRE": looks.dot_on_wire, "SEAM": looks.dot_on_seam, "FEATURE": looks.dot_on_feature}
+        styles = {"WIRE": looks.dot_on_seam, "SEAM": looks.dot_on_seam, "FEATURE": looks.dot_on_feature}
         sheet.dot(styles.get(snap.to, looks.dot), snap.pick)
 
 

@@ -88,8 +88,7 @@ class Looks:
     live_seed: Style
     closing: Style
     dot: Style
-    """The vertex under the cursor; the next three where it lies on a wire, on a seam, on a feature."""
-    dot_on_wire: Style
+    """The vertex under the cursor; the next two where it lies on a wire or a seam, and on a feature."""
     dot_on_seam: Style
     dot_on_feature: Style
     attracting: Style
@@ -102,8 +101,8 @@ class Looks:
     """Where it ends: larger than a seed, which is drawn over it."""
     tint: float
     """Opacity of islands."""
-    text: bool
-    first_steps: bool
+    text: str
+    """Which text the view shows, as in the preferences."""
 
     @classmethod
     def of(cls, theme: bpy.types.ThemeView3D | None = None, preferences: object | None = None) -> Looks:
@@ -114,26 +113,14 @@ class Looks:
         theme
             Of the 3D view; without it the colors are those that fit Blender's default one.
         preferences
-            The add-on's: whatever of ``line_width``, ``active_color``, ``other_color``, ``kept_color``,
-            ``clear_color``, ``loop_color``, ``seed_color``, ``theme_colors``, ``tint``, ``show_text`` and ``first_steps`` it has.
+            The add-on's: whatever of ``line_width``, ``tint`` and ``text`` it has.
         """
-
-        def wish(name: str, default: Sequence[float]) -> Color:
-            found = tuple(getattr(preferences, name, default))
-            return (*found, *tuple(default)[len(found) :])
-
-        seam = (1.0, 0.2, 0.1, 1.0)
-        if theme is not None and getattr(preferences, "theme_colors", True):
+        kept = (1.0, 0.2, 0.1, 1.0)
+        if theme is not None:
             # Blender 5 has shortened the name.
-            seam = vivid(tuple(theme.seam if hasattr(theme, "seam") else theme.edge_seam))
-            kept = seam
-        else:
-            kept = wish("kept_color", seam)
-        active = wish("active_color", (1.0, 0.72, 0.05, 1.0))
-        other = wish("other_color", (0.45, 0.8, 1.0, 0.9))
-        loop = wish("loop_color", (0.3, 1.0, 0.55, 1.0))
-        clear = wish("clear_color", (0.82, 0.86, 0.95, 1.0))
-        white = wish("seed_color", (1.0, 1.0, 1.0, 1.0))
+            kept = vivid(tuple(theme.seam if hasattr(theme, "seam") else theme.edge_seam))
+        active, other, loop = (1.0, 0.72, 0.05, 1.0), (0.45, 0.8, 1.0, 0.9), (0.3, 1.0, 0.55, 1.0)
+        clear, white = (0.82, 0.86, 0.95, 1.0), (1.0, 1.0, 1.0, 1.0)
         attracts, repels = (0.15, 0.95, 0.75, 1.0), (1.0, 0.3, 0.75, 1.0)
         looks = cls(
             active=Style(active, 5.0, halo=2.5, lift=6.0),
@@ -155,16 +142,14 @@ class Looks:
             hovered_seed=Style(white, 12.0, halo=3.5, hidden=0.35, lift=11.0, ring=(4.0, active)),
             closing=Style(white, 9.0, halo=3.5, hidden=0.35, lift=11.0, ring=(5.5, loop)),
             dot=Style(white, 7.0, halo=3.0, lift=11.0),
-            dot_on_wire=Style(white, 7.0, halo=3.0, lift=11.0, ring=(5.0, kept)),
-            dot_on_seam=Style(white, 7.0, halo=3.0, lift=11.0, ring=(5.0, seam)),
+            dot_on_seam=Style(white, 7.0, halo=3.0, lift=11.0, ring=(5.0, kept)),
             dot_on_feature=Style(white, 5.0, halo=3.0, lift=11.0, ring=(6.0, other)),
             attracting=Style(faint(attracts, 0.4), 16.0, hidden=0.2, lift=8.0, soft=True),
             repelling=Style(faint(repels, 0.5), 16.0, hidden=0.2, lift=8.0, dash=5.0, soft=True),
-            gap=Style(faint(seam, 0.9), 2.5, halo=1.5, hidden=0.15, dash=4.0, lift=5.0),
-            open_end=Style(seam, 14.0, halo=2.5, hidden=0.3, lift=9.0),
+            gap=Style(faint(kept, 0.9), 2.5, halo=1.5, hidden=0.15, dash=4.0, lift=5.0),
+            open_end=Style(kept, 14.0, halo=2.5, hidden=0.3, lift=9.0),
             tint=float(getattr(preferences, "tint", 0.22)),
-            text=bool(getattr(preferences, "show_text", True)),
-            first_steps=bool(getattr(preferences, "first_steps", False)),
+            text=getattr(preferences, "text", "INFORMATION"),
         )
         return looks.widened(float(getattr(preferences, "line_width", 1.0)))
 

@@ -10,6 +10,9 @@ ADJUST_DRAWN = ("Point at a wire to change it:", "swap its path, drag its seeds,
 ADJUST_EDITED = ("Undo takes it back. To edit more, point at a wire:", "swap its path, drag its seeds, or remove it")
 """The text after something was moved, swapped, bent or removed."""
 
+HALFWAY = "Stopped halfway"
+"""The first words of an operator's report that an error came while meshes were changed."""
+
 
 def summary(wires: int, marked: int, cleared: int) -> str:
     """Return a report."""

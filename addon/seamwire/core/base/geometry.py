@@ -12,6 +12,11 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
 
+def length_of(curve: ArrayLike) -> float:
+    """Return the length of a curve through (k, d) points."""
+    return float(np.linalg.norm(np.diff(curve, axis=0), axis=1).sum())
+
+
 def nearest_on_segments(
     point: ArrayLike, starts: NDArray[np.float64], ends: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

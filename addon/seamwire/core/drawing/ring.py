@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..base.geometry import nearest_on_segments
+from ..base.geometry import length_of, nearest_on_segments
 from ..network.picks import place_of, undirected, vertices_of
 from ..network.wires import Wire
 from ..offers.edge_loops import corners
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Generator, Sequence
     from typing import TypeVar
 
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import NDArray
 
     from ...terms.choices import Along
     from ..network.network import Network, Snap
@@ -132,7 +132,7 @@ class RingSearch:
             around = tuple(int(vertex) for vertex in loop.vertices)
             if len(around) > _LEAST_BACK and not corners(live, around, self._points):
                 rings.append(around)
-        return min(rings, key=lambda around: _length(self._points[[*around, around[0]]]), default=None)
+        return min(rings, key=lambda around: length_of(self._points[[*around, around[0]]]), default=None)
 
     def _edges_at(self, chain: Wire, middle: int) -> list[Edge]:
         """Return an edge of a chain at one of its vertices, and the edge that crosses it most squarely there."""
@@ -239,10 +239,6 @@ def _wire_between(live: LiveWire, begin: Pick, forward: bool, end: int) -> Gener
     wires, leading = by_number(found)
     vertices = tuple(int(vertex) for vertex in wires[leading].vertices)
     return vertices[1:] if forward else vertices
-
-
-def _length(points: ArrayLike) -> float:
-    return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
 
 
 def _away(part: Sequence[tuple[NDArray[np.float64], object, object]], course: NDArray[np.float64]) -> float:

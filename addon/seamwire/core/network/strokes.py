@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from ..base import native
+from ..base.geometry import length_of
 from ..base.messages import Refused
 
 if TYPE_CHECKING:
@@ -158,7 +159,7 @@ def _thinned(path: NDArray[np.float64], step: float) -> NDArray[np.int64]:
 
 
 def _check_length(path: NDArray[np.float64], size: float) -> None:
-    length = float(np.linalg.norm(np.diff(path, axis=0), axis=1).sum()) if len(path) > 1 else 0.0
+    length = length_of(path) if len(path) > 1 else 0.0
     if not length > _STEP * size:
         raise OffMeshError("stroke-without-direction")
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..base.geometry import nearest_on_segments
+from ..base.geometry import length_of, nearest_on_segments
 from ..network.picks import place_of
 
 if TYPE_CHECKING:
@@ -69,9 +69,9 @@ class TakenCut:
         Where it was cut, they are others: a seed may have gone that lay in the way of a straight cut.
         """
         ran = np.concatenate([wire.points for wire in self.wires])
-        length = sum(_length(wire.points) for wire in self.wires)
+        length = sum(length_of(wire.points) for wire in self.wires)
         wires = tuple(wire for wire in network.wires if _runs_along(wire.points, ran, _ON * length))
-        around = sum(_length(wire.points) for wire in wires)
+        around = sum(length_of(wire.points) for wire in wires)
         if abs(around - length) > _LONGER * length:
             return None
         return replace(self, wires=wires, id=None, metric=())
@@ -79,12 +79,8 @@ class TakenCut:
 
 def is_same(one: NDArray[np.float64], two: NDArray[np.float64]) -> float | None:
     """Return how far two closed courses, (k, 3), are apart, as part of the first one's length; None: too far to be the same cut."""
-    apart = max(_mean_gap(one, two), _mean_gap(two, one)) / _length(one)
+    apart = max(_mean_gap(one, two), _mean_gap(two, one)) / length_of(one)
     return apart if apart < _SAME else None
-
-
-def _length(course: NDArray[np.float64]) -> float:
-    return float(np.linalg.norm(np.diff(course, axis=0), axis=1).sum())
 
 
 def _runs_along(course: NDArray[np.float64], other: NDArray[np.float64], near: float) -> bool:

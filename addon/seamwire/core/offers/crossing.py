@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..base.geometry import nearest_on_segments
+from ..base.geometry import length_of, nearest_on_segments
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -64,7 +64,7 @@ class Directions:
             return self._follows(self._last, own, crossing)
         if own.unlikeliness != crossing.unlikeliness:
             return crossing.unlikeliness < own.unlikeliness
-        own_length, crossing_length = _length(own.wire), _length(crossing.wire)
+        own_length, crossing_length = length_of(own.wire.points), length_of(crossing.wire.points)
         if min(own_length, crossing_length) < _MUCH_SHORTER * max(own_length, crossing_length):
             return crossing_length < own_length
         return self._last is not None and self._follows(self._last, own, crossing)
@@ -98,7 +98,3 @@ def _cosine(one: ArrayLike, two: ArrayLike) -> float:
     along, other = np.diff(one, axis=0)[0], np.diff(two, axis=0)[0]
     size = float(np.linalg.norm(along) * np.linalg.norm(other))
     return abs(float(along @ other)) / size if size > 0.0 else 0.0
-
-
-def _length(wire: Wire) -> float:
-    return float(np.linalg.norm(np.diff(wire.points, axis=0), axis=1).sum())

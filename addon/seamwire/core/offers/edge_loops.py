@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..base.geometry import nearest_on_segments
+from ..base.geometry import length_of, nearest_on_segments
 from ..base.half_edges import among
 from ..base.messages import Message
 from ..network.picks import undirected
@@ -512,11 +512,7 @@ def _slit(
         return None
     beside = filter(None, map(way, parts.beside(edge)))
     # Of ways of the same length, the edge's own counts.
-    return min((own, *beside), key=lambda wire: round(_length(wire) / _length(own), 6))
-
-
-def _length(wire: Wire) -> float:
-    return float(np.linalg.norm(np.diff(wire.points, axis=0), axis=1).sum())
+    return min((own, *beside), key=lambda wire: round(length_of(wire.points) / length_of(own.points), 6))
 
 
 def _sides(chain: Sequence[int]) -> list[Edge]:

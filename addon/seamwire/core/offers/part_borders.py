@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..base.geometry import length_of
 from ..base.half_edges import after
 from .turns import SurfaceEdges
 
@@ -197,8 +198,7 @@ class PartBorders:
         return is_in_face
 
     def _length(self, chain: VertexChain) -> float:
-        around = self._points[[*chain, chain[0]]]
-        return float(np.linalg.norm(np.diff(around, axis=0), axis=1).sum())
+        return length_of(self._points[[*chain, chain[0]]])
 
 
 @dataclass(eq=False)

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..base.geometry import length_of
 from .seam_wires import seam_chains
 
 if TYPE_CHECKING:
@@ -112,7 +113,7 @@ class GapFinder:
         on_border = {*self._border.ravel().tolist(), *self._partly_hidden.ravel().tolist()}
         found: dict[frozenset[int], Gap] = {}
         for chain in seam_chains(seams):
-            length = float(np.linalg.norm(np.diff(points[chain], axis=0), axis=1).sum())
+            length = length_of(points[chain])
             for end in {chain[0], chain[-1]} - on_border.union(meant):
                 if len(cuts.beside(end)) == 1:
                     gap = _gap_at(self._mesh, cuts, end, longest * length, most_looked_at)

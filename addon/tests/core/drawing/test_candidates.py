@@ -3,8 +3,7 @@
 
 from __future__ import annotations
 
-import pytest
-from grid import POINTS, SIZE, Grid
+from grid import POINTS, Grid
 from seamwire.core.base.messages import Message
 from seamwire.core.drawing.candidates import CandidateWires
 from seamwire.core.network.network import Network, Seed, Snap
@@ -36,18 +35,6 @@ def test_the_one_that_is_there_is_shown_while_the_other_is_computed() -> None:
     assert candidates.active.follow == 1
     assert candidates.active_final
     assert not candidates.decided, "the shorter one is not there yet"
-
-
-def test_what_no_wire_reaches_is_said() -> None:
-    candidates, message = aimed(8, islands=(8,))
-    assert candidates.active is None
-    assert str(message) == "No wire reaches vertex 8"
-
-
-def test_a_seed_that_is_not_there_is_refused() -> None:
-    candidates, _ = aimed(8)
-    with pytest.raises(ValueError, match="not part of the surface"):
-        candidates.sow(Seed(SIZE**2), "EDGES")
 
 
 THREE = (True, True, True)

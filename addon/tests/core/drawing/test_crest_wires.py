@@ -9,15 +9,14 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from seamwire.core.drawing.drawing import Drawing
+from real_sessions import session_on
 from seamwire.core.drawing.loop import LoopGesture
 from seamwire.core.drawing.picture import Role
-from seamwire.core.drawing.session import Session
 from seamwire.core.fields.crests import Crests
 from seamwire.core.network.picks import FacePoint, Pick
 from seamwire.core.offers.surface_loops import SurfaceLoops
 from seamwire.terms.choices import Along
-from seamwire.terms.options import CLAMP_PERCENTILE, STRENGTHS, Options
+from seamwire.terms.options import Options
 from setting import use
 
 core = pytest.importorskip("seamwire_core")
@@ -46,17 +45,8 @@ class Sheet:
 
     def __init__(self, along: Along) -> None:
         self.points, self.triangles = mesh()
-        surface = core.Surface(self.points, self.triangles)
-        self.crests = Crests.on(core, surface)
-
-        def make(way: Along) -> object:
-            return core.LiveWire(
-                surface, along=way.lower(), max_anisotropy=STRENGTHS[way], clamp_percentile=CLAMP_PERCENTILE
-            )
-
-        self.session = Session(
-            Drawing(make, self.points, Options(along=along), edges=surface.edges, triangles=self.triangles)
-        )
+        self.crests = Crests.on(core, core.Surface(self.points, self.triangles))
+        self.session = session_on(self.points, self.triangles, options=Options(along=along))
 
     @property
     def ridge(self) -> int:

@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
-from seamwire.core.drawing.drawing import Drawing
+from real_sessions import session_on
 from seamwire.core.drawing.intent import Intent
 from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Snap
 from seamwire.core.network.picks import FacePoint, undirected
 from seamwire.terms.choices import Along
-from seamwire.terms.options import CLAMP_PERCENTILE, STRENGTHS, Options
+from seamwire.terms.options import Options
 from setting import end_line, stronger, use
 from table import Table
 
@@ -36,22 +36,8 @@ def hills() -> NDArray[np.float64]:
 
 
 def session(along: Along = "EDGES", seams: object = (), **options: object) -> Session:
-    points = hills()
-
-    def live(way: Along) -> object:
-        mesh = points, grid_triangles(SIZE), grid_edges(SIZE)
-        return core.LiveWire(*mesh, along=way.lower(), max_anisotropy=STRENGTHS[way], clamp_percentile=CLAMP_PERCENTILE)
-
-    made = Session(
-        Drawing(
-            live,
-            points,
-            Options(along=along),
-            edges=grid_edges(SIZE),
-            triangles=grid_triangles(SIZE),
-            seams=seams,
-            **options,
-        )
+    made = session_on(
+        hills(), grid_triangles(SIZE), grid_edges(SIZE), options=Options(along=along), seams=seams, **options
     )
     made.wait()
     return made

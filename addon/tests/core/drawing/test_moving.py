@@ -181,17 +181,6 @@ def test_a_drag_that_is_not_computed_is_done_when_it_is() -> None:
     assert courses(session) == [(0, 1, 2, 3, 4), (4, 10, 16, 22, 21)]
 
 
-def test_dragging_a_wire_puts_a_seed_there_in_one_step() -> None:
-    session = corner().session
-    session.end_chain()
-    session.drag(Snap(2, "WIRE", session.wires[0]))
-    session.drag_to(8)
-    session.drag_end()
-    assert courses(session) == [(0, 1, 2, 8), (8, 2, 3), (3, 9, 15, 21)]
-    session.undo()
-    assert courses(session) == [(0, 1, 2, 3), (3, 9, 15, 21)]
-
-
 def test_there_must_be_a_seed_to_drag() -> None:
     session = corner().session
     assert not session.drag(20)

@@ -5,18 +5,16 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from fake_live import grid_edges
+from fake_live import grid_edges, grid_triangles
 from numpy.typing import NDArray
 from paper_mesh import PaperMesh
-from seamwire.core.drawing.drawing import Drawing
+from real_sessions import session_on
 from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Snap
 from seamwire.terms.choices import Along
-from seamwire.terms.options import CLAMP_PERCENTILE, STRENGTHS, Options
-from setting import insert, stronger, use
-
-core = pytest.importorskip("seamwire_core")
+from seamwire.terms.options import Options
+from setting import stronger, use
 
 SIZE = 21
 
@@ -27,27 +25,14 @@ def ridge() -> NDArray[np.float64]:
     return np.stack([x.ravel(), y.ravel(), np.exp(-20.0 * x.ravel() ** 2)], axis=1)
 
 
-def triangles() -> NDArray[np.int32]:
-    numbers = np.arange(SIZE * SIZE).reshape(SIZE, SIZE)
-    a, b, c, d = numbers[:-1, :-1].ravel(), numbers[:-1, 1:].ravel(), numbers[1:, 1:].ravel(), numbers[1:, :-1].ravel()
-    return np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)]).astype(np.int32)
-
-
 def at(x: int, y: int) -> int:
     """Return the vertex `x` and `y` steps from the middle."""
     return (y + SIZE // 2) * SIZE + x + SIZE // 2
 
 
-def draw(along: Along = "EDGES", ready: bool = True) -> Session:
-    """Return a session on the ridge; not `ready`: its live wires build their surfaces themselves."""
-    points = ridge()
-
-    def make(way: Along) -> object:
-        mesh = points, triangles(), grid_edges(SIZE)
-        on = (core.Surface(*mesh),) if ready else mesh
-        return core.LiveWire(*on, along=way.lower(), max_anisotropy=STRENGTHS[way], clamp_percentile=CLAMP_PERCENTILE)
-
-    return Session(Drawing(make, points, Options(along=along), edges=grid_edges(SIZE)))
+def draw(along: Along = "EDGES") -> Session:
+    """Return a session on the ridge."""
+    return session_on(ridge(), grid_triangles(SIZE), grid_edges(SIZE), options=Options(along=along))
 
 
 def straight(x: int, y0: int, y1: int) -> tuple[int, ...]:
@@ -58,15 +43,6 @@ def click(session: Session, *picks: object) -> None:
     for pick in picks:
         session.click(pick)
         session.wait()
-
-
-@pytest.mark.parametrize("ready", [False, True])
-def test_a_wire_along_the_ridge_is_kept(ready: bool) -> None:
-    session = draw(ready=ready)
-    session.click(at(0, -8))
-    session.click(at(0, 8))
-    session.wait()
-    assert [wire.vertices for wire in session.wires] == [straight(0, -8, 8)]
 
 
 @pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
@@ -179,33 +155,6 @@ def test_a_wire_runs_on_over_the_ridge_to_the_boundary() -> None:
     assert session.picture.one(Role.EXTENSION).vertices == straight(0, -8, 10)
     assert session.run_to_end()
     assert session.wires[0].vertices == straight(0, -8, 10)
-
-
-def test_loops_are_found_in_the_background() -> None:
-    x = np.arange(24) * 2.0 * np.pi / 24
-    rings = [np.stack([np.cos(x), np.sin(x), np.full(24, z)], axis=1) for z in np.linspace(-2.0, 2.0, 17)]
-    points = np.concatenate(rings)
-    around = np.roll(np.arange(24), -1)
-    quads = np.concatenate(
-        [np.stack([np.arange(24), around, around + 24, np.arange(24) + 24], axis=1) + 24 * ring for ring in range(16)]
-    )
-    edges = np.unique(np.sort(np.concatenate([quads[:, [0, 1]], quads[:, [1, 2]], quads[:, [2, 3]]]), axis=1), axis=0)
-    surface = core.Surface(points, np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]), edges)
-    session = Session(Drawing(lambda _: core.LiveWire(surface, along="edges"), points, edges=edges))
-    session.hover((24 * 8, 24 * 8 + 1), loop=True)
-    session.wait()
-    assert sorted(session.picture.one(Role.OFFER).vertices) == list(range(24 * 8, 24 * 9))
-    session.hover(None)
-    assert not session.computing
-    session.loop((24 * 4, 24 * 4 + 1))
-    session.wait()
-    assert sorted(session.wires[0].vertices) == list(range(24 * 4, 24 * 5))
-    insert(session, session.wires[0], 24 * 4)
-    session.drag(24 * 4)
-    session.drag_to(24 * 6)
-    session.wait()
-    session.drag_end()
-    assert 24 * 6 in session.seeds()
 
 
 def test_mirrored_wires_lie_on_the_other_side_of_the_ridge() -> None:

@@ -75,15 +75,6 @@ def test_where_three_edges_meet_a_loop_has_no_corner() -> None:
     assert [corners(live, quad[::turn].tolist(), points) for quad in quads for turn in (1, -1)] == [0] * 12
 
 
-def test_along_a_tube_the_strip_runs_from_rim_to_rim() -> None:
-    session = tube()
-    edge = (3 * AROUND + 2, 4 * AROUND + 2)
-    offers = dict(hovered(session, edge))
-    assert offers["STRIP"] == meridian(2)
-    session.wait()
-    assert not session.computing
-
-
 @pytest.mark.parametrize("ready", [False, True])
 def test_a_double_click_on_a_ball_takes_the_meridian_between_the_poles(ready: bool) -> None:
     session = ball(ready=ready)

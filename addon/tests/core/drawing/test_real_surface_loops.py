@@ -8,14 +8,13 @@ from collections import Counter
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from seamwire.core.drawing.drawing import Drawing
+from real_sessions import session_on
 from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Snap
 from seamwire.core.network.picks import Edge, FacePoint
 from seamwire.core.offers.surface_loops import NOTHING_TO_BEND, SurfaceLoops
-from seamwire.terms.choices import Along
-from seamwire.terms.options import CLAMP_PERCENTILE, STRENGTHS, Options
+from seamwire.terms.options import Options
 from setting import use
 
 core = pytest.importorskip("seamwire_core")
@@ -49,14 +48,7 @@ def session(triangles: NDArray[np.int32]) -> Session:
     angle = 2.0 * np.pi * np.arange(AROUND) / AROUND
     rows = [np.outer(radius, np.cos(angle)), np.outer(radius, np.sin(angle)), np.repeat(along[:, None], AROUND, axis=1)]
     points = np.concatenate([np.stack(rows, axis=-1).reshape(-1, 3), [[0.0, 0.0, -1.15], [0.0, 0.0, 1.15]]])
-    surface = core.Surface(points, triangles)
-
-    def make(way: Along) -> object:
-        return core.LiveWire(
-            surface, along=way.lower(), max_anisotropy=STRENGTHS[way], clamp_percentile=CLAMP_PERCENTILE
-        )
-
-    return Session(Drawing(make, points, Options(along="SURFACE"), edges=surface.edges, triangles=triangles))
+    return session_on(points, triangles, options=Options(along="SURFACE"))
 
 
 def is_closed(edges: list[Edge]) -> bool:

@@ -37,14 +37,6 @@ def test_a_click_without_a_seed_places_one() -> None:
     assert session.wires == ()
 
 
-def test_hovering_shows_both_wires_and_the_shorter_is_active() -> None:
-    session = Table(shorter=1).session
-    session.click(0)
-    session.hover(7)
-    assert session.picture.active.vertices == (0, 6, 7)
-    assert session.picture.others[0].vertices == (0, 1, 7)
-
-
 def test_a_click_does_not_wait_for_wires_that_do_not_lead() -> None:
     table = Table(ready=(False, False, True))
     session = table.session
@@ -93,15 +85,6 @@ def test_a_kept_wire_says_what_wires_lead_around() -> None:
     table.session.hover(7)
     table.session.click(7)
     assert str(table.session.message).startswith("2 triangles could not be made valid")
-
-
-def test_where_both_wires_agree_there_is_nothing_to_toggle() -> None:
-    session = Table().session
-    session.click(0)
-    session.hover(3)
-    assert not session.picture.others
-    assert not session.next_candidate()
-    assert "same edges" in str(session.message)
 
 
 def test_a_click_keeps_the_active_wire_and_goes_on_along_its_last_edge() -> None:
@@ -233,40 +216,12 @@ def test_a_loop_is_kept_beside_the_chain() -> None:
     assert (session.wires[0].points[0] == session.wires[0].points[-1]).all()
 
 
-def test_a_double_click_takes_back_the_click_it_began_with() -> None:
-    session = Table().session
-    session.click(0)
-    session.click(2)
-    session.click((14, 15))  # the first press of the two
-    assert len(session.wires) == 2
-    session.loop((14, 15))
-    assert [wire.closed for wire in session.wires] == [False, True]
-    assert session.seed == (1, 2), "the chain goes on from where it was"
-    assert session.undo()
-    assert [wire.closed for wire in session.wires] == [False]
-
-
-def test_a_double_click_where_nothing_was_seeded_leaves_no_seed() -> None:
-    session = Table().session
-    session.click((14, 15))
-    session.loop((14, 15))
-    assert session.seed is None
-    assert session.seeds() == []
-
-
 def test_a_double_click_may_find_its_edge_the_other_way_round() -> None:
     session = Table().session
     session.click((15, 14))
     session.loop((14, 15))  # by now a seed is under the cursor
     assert session.seed is None
     assert session.loop((15, 14))
-    assert len(session.wires) == 1
-
-
-def test_the_same_loop_is_not_taken_twice_in_a_row() -> None:
-    session = Table().session
-    session.loop((14, 15))
-    assert session.loop((14, 15))
     assert len(session.wires) == 1
 
 
@@ -399,18 +354,6 @@ def test_undo_takes_back_waiting_clicks_first() -> None:
     session.undo()
     assert session.waiting_clicks == 0
     assert session.seed == 0
-
-
-def test_a_loop_waits_for_the_metric() -> None:
-    table = Table(ready=(False, False))
-    session = table.session
-    session.click((14, 15))
-    session.loop((14, 15))
-    assert session.wires == ()
-    table.lives["EDGES"].ready = (True, True)
-    session.poll()
-    assert [wire.closed for wire in session.wires] == [True]
-    assert session.seed is None
 
 
 def test_what_no_wire_reaches_is_said() -> None:

@@ -5,12 +5,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from seamwire.core.drawing.drawing import Drawing
+from real_sessions import session_on
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Snap
 from seamwire.core.network.picks import FacePoint
-from seamwire.terms.choices import Along
-from seamwire.terms.options import CLAMP_PERCENTILE, STRENGTHS, Options
+from seamwire.terms.options import Options
 from setting import use
 
 core = pytest.importorskip("seamwire_core")
@@ -27,14 +26,7 @@ def session() -> Session:
     rows = np.arange((SIDE - 1) * SIDE).reshape(SIDE - 1, SIDE)[:, :-1].ravel()
     lower, upper = np.stack([rows, rows + 1, rows + SIDE + 1]), np.stack([rows, rows + SIDE + 1, rows + SIDE])
     triangles = np.concatenate([lower.T, upper.T]).astype(np.int32)
-    surface = core.Surface(points, triangles)
-
-    def make(way: Along) -> object:
-        return core.LiveWire(
-            surface, along=way.lower(), max_anisotropy=STRENGTHS[way], clamp_percentile=CLAMP_PERCENTILE
-        )
-
-    session = Session(Drawing(make, points, Options(along="SURFACE"), edges=surface.edges, triangles=triangles))
+    session = session_on(points, triangles, options=Options(along="SURFACE"))
     use(session, straight=True)
     return session
 

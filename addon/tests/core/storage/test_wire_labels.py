@@ -509,18 +509,6 @@ def test_numbers_of_different_times_are_not_taken_for_each_other() -> None:
         where = mesh.renumber(np.random.default_rng(9).permutation(SIZE**2))[where]
 
 
-def test_the_seed_between_two_wires_of_a_renumbered_mesh_moves_both() -> None:
-    mesh, _ = drawn((0, 3, 21))
-    where = mesh.delete_vertices([35])
-    session = Table().session
-    mesh.open(session)
-    assert session.drag(int(where[3]))
-    assert session.drag_to(4)
-    assert session.drag_end()
-    assert {wire.end for wire in session.wires} == {4, 21}
-    assert {wire.start for wire in session.wires} == {0, 4}
-
-
 def test_the_same_number_of_vertices_moved_by_a_cell_is_the_same_mesh() -> None:
     mesh, _ = drawn((0, 3, 21))
     mesh.places[:, 0] += 1.0
