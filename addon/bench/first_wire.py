@@ -57,7 +57,7 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
     from seamwire.core.picking.view import View
     from seamwire.core.solver.live_maker import LiveMaker
     from seamwire.mesh import edit_mesh
-    from seamwire.operators.chain_window import TICK
+    from seamwire.operators.chain import TICK
 
     steps = {}
     watch = Watch()

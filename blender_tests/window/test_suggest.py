@@ -21,7 +21,7 @@ from seamwire.core.base import native
 from seamwire.mesh.seam_islands import island_count
 from seamwire.mesh.suggestion import Suggestion
 from seamwire.operators import suggest_live
-from seamwire.operators.report import running as chains
+from seamwire.operators.chain_state import running as chains
 from seamwire.operators.steps import Stepwise
 from seamwire.operators.steps import running as searches
 from seamwire.view.edited_objects import edited
