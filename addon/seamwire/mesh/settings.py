@@ -135,6 +135,7 @@ class SeamwireSettings(bpy.types.PropertyGroup):
         soft_max=1.0,
         precision=3,
         subtype="DISTANCE",
+        update=_changed,
     )
     snap: bpy.props.BoolProperty(
         name="Snap to Features",

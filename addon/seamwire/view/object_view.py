@@ -7,7 +7,7 @@ import itertools
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
-from weakref import WeakMethod
+from weakref import ref
 
 import bpy
 import numpy as np
@@ -32,7 +32,7 @@ from .stretch_heat import StretchHeat
 from .theme import HUES
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Hashable, Iterator
+    from collections.abc import Hashable, Iterator
 
     from numpy.typing import NDArray
 
@@ -65,12 +65,6 @@ def let_blender_tell() -> None:
     """Make Blender report pending changes of meshes now, instead of after all waiting events."""
     for layer in {window.view_layer for window in bpy.context.window_manager.windows} or {bpy.context.view_layer}:
         layer.update()
-
-
-def weak(look: Callable[[], Picture]) -> Callable[[], Picture]:
-    """Return a method as a function that does not keep its object alive."""
-    held = WeakMethod(look)
-    return lambda: held()()
 
 
 class ObjectView:
@@ -112,8 +106,9 @@ class ObjectView:
         self.islands = ShownIslands(self._islands, self.session, arrays.seams)
         self.stroke: tuple[NDArray[np.float64], bool] | None = None
         self._front = True
+        own = ref(self)  # what was prepared for a view is freed with it, and not when Python looks for cycles
         self.overlay = Overlay(
-            weak(self._look),  # what was prepared for a view is freed with it, and not when Python looks for cycles
+            lambda: own().picture,
             obj,
             self.pose,
             arrays.to_object,
@@ -124,6 +119,7 @@ class ObjectView:
         self._strength: NDArray[np.float64] | None = None
         self.name = obj.name_full
         self.was_read()
+        self.follow_pose()
         self.make_layers()
         self.measure()
         self.mesh.look_for_symmetry()
@@ -154,11 +150,6 @@ class ObjectView:
             front=self._front,
         )
 
-    def _look(self) -> Picture:
-        """Return what is drawn now, and ask for what has changed."""
-        self.islands.poll()
-        return self.picture
-
     def close(self) -> None:
         """Let go of what works on threads."""
         self.session.loops.edges.stop_search()
@@ -184,7 +175,7 @@ class ObjectView:
     def renew(self) -> None:
         """Let picker and overlay follow the mesh that was read, or written."""
         self.has_moved()
-        self._picker.set_seams(self.mesh.plain_seams)
+        self._follow_picker().set_seams(self.mesh.plain_seams)
         self.overlay.renew(self.obj)
         self.islands.set_seams(self.mesh.arrays.seams)
         self.measure(anew=True)
@@ -202,8 +193,8 @@ class ObjectView:
             self._posed_picker = None
             self.overlay.repose()
 
-    @property
-    def _picker(self) -> Picker:
+    def _follow_picker(self) -> Picker:
+        """Return the picker, made anew if the mesh is seen in another pose now."""
         self.follow_pose()
         if self._posed_picker is None:
             posed = replace(self.mesh.arrays, points=self.pose.points)
@@ -299,7 +290,7 @@ class ObjectView:
         if options.snap and self._strength is None:
             self._strength = self.session.drawing.feature_strength()
         has_crests = options.show_crests and across if plain else options.snap
-        snap = self._picker.snap(
+        snap = self._follow_picker().snap(
             view,
             self.obj.matrix_world,
             cursor,
@@ -320,37 +311,33 @@ class ObjectView:
         """Return the direction from the viewer to a pick where wires that are straight in the view are offered, else None."""
         if not self.options.straight or self.options.along == "EDGES" or isinstance(pick, tuple):
             return None
-        return self._picker.seen_along(view, self.obj.matrix_world, pick)
+        return self._follow_picker().seen_along(view, self.obj.matrix_world, pick)
 
     def depth(self, view: View, cursor: tuple[float, float]) -> float | None:
         """Return how far from the viewer the object is under the cursor; None where it is not."""
-        return self._picker.depth(view, self.obj.matrix_world, cursor)
+        return self._follow_picker().depth(view, self.obj.matrix_world, cursor)
 
     def surface_at(self, view: View, cursor: tuple[float, float]) -> tuple[NDArray[np.float64], int] | None:
         """Return the place on the mesh that is seen at a pixel, in the session's coordinates, and its triangle."""
-        found = self._picker.surface_at(view, self.obj.matrix_world, cursor)
+        found = self._follow_picker().surface_at(view, self.obj.matrix_world, cursor)
         return None if found is None else (self.pose.at_rest(*found), found[1])
 
     def is_on_mirrored_half(self, view: View, cursor: tuple[float, float]) -> bool:
         """Return whether the cursor is over faces that only a Mirror modifier shows."""
         flipped = (self.obj.matrix_world @ flip for flip in _flips(self.obj))
-        return any(self._picker.surface_at(view, matrix, cursor) is not None for matrix in flipped)
-
-    @property
-    def stroke_radius(self) -> float | None:
-        """How far strokes reach; None: as many rings as the library takes."""
-        return self.options.stroke_radius or None
+        return any(self._follow_picker().surface_at(view, matrix, cursor) is not None for matrix in flipped)
 
     def stroke_at(self, view: View, cursor: tuple[float, float]) -> Stroke | None:
         """Return the stroke under the cursor."""
         scale = bpy.context.preferences.system.ui_scale
         matrix, strokes = self.obj.matrix_world, self.session.strokes
-        return self._picker.stroke_at(strokes, view, matrix, cursor, xray=self.options.xray, scale=scale)
+        return self._follow_picker().stroke_at(strokes, view, matrix, cursor, xray=self.options.xray, scale=scale)
 
-    def show(self, front: bool) -> None:
-        """Let the overlay follow."""
+    def show(self, front: bool) -> bool:
+        """Let the overlay follow, and ask for the islands. Return whether islands are new."""
         self._follow_layers()
         self._front = front
+        return self.islands.poll()
 
 
 def _flips(obj: bpy.types.Object) -> Iterator[Matrix]:
