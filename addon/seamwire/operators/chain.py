@@ -214,7 +214,7 @@ class Chain:
             self.set_cursor("")
             self._set_timer(False)
 
-    # What is shown
+    # Its window
 
     def say(self, hint: str) -> None:
         """Show the result of a key in the status bar."""

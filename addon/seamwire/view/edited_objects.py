@@ -371,7 +371,7 @@ class EditedObjects:
             raise error
 
     def draw(self, part: str) -> None:
-        """Draw in the view that Blender is drawing now. What is missing is read by a timer, and nothing here.
+        """Draw in the view that Blender is drawing now. A timer reads missing meshes, and nothing is read here.
 
         Parameters
         ----------
