@@ -302,3 +302,15 @@ def test_opening_a_file_ends_the_chain_and_skips_no_handler(desk: Desk, tmp_path
     desk.choose()
     draw(desk, 36, 40)
     assert seams(desk.obj) == chain(*range(36, 41)), "the handlers stay with the add-on"
+
+
+@pytest.mark.smoke
+@pytest.mark.parametrize("first", ["REMOVE", "NEXT", "PEEK", "BEND"])
+def test_a_key_without_a_target_builds_no_chain(desk: Desk, monkeypatch: pytest.MonkeyPatch, first: str) -> None:
+    desk.choose()
+    desk.ui.move(desk.at(EMPTY))
+    built: list[Chain] = []
+    monkeypatch.setattr(Chain, "__init__", lambda own, _context: built.append(own))
+    with desk.ui.override():
+        assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT", first=first) == {"PASS_THROUGH"}
+    assert built == []

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from contextlib import ExitStack, suppress
+from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
 import bpy
@@ -208,8 +208,8 @@ class Chain:
             self._cleanup.close()
 
     def _leave_window(self) -> None:
-        with suppress(ReferenceError):  # the workspace may be gone with its file
-            self.workspace.status_text_set(None)
+        # All workspaces share the status bar, and the one of the chain may have been deleted.
+        bpy.data.workspaces[0].status_text_set(None)
         if self.window in self.manager.windows.values():
             self.set_cursor("")
             self._set_timer(False)

@@ -251,7 +251,7 @@ class EditedObjects:
             return
         self._drop_deleted()
         moved = {update.id.name_full for update in depsgraph.updates if update.is_updated_geometry}
-        self._move([view for view in self._views.values() if view.name in moved])
+        self._move([view for view in self._views.values() if view.name in moved], depsgraph)
         meshes = _changed_meshes(depsgraph)
         # A view whose edit mesh is gone is read anew in any case.
         changed = [view for view in self.views() if view.obj.data in meshes or view.is_stretched_anew]
@@ -268,15 +268,16 @@ class EditedObjects:
             self._changed = now
             self.watch()
 
-    def on_frame(self, *_: object) -> None:
+    def on_frame(self, _scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
         """Take note that another frame may show the objects in another pose. Blender tells of no update then."""
-        self._move(list(self._views.values()))
+        self._move(list(self._views.values()), depsgraph)
 
-    def _move(self, views: list[ObjectView]) -> None:
-        """Take note that objects may be in another pose, and follow it if they are shown."""
+    def _move(self, views: list[ObjectView], depsgraph: bpy.types.Depsgraph) -> None:
+        """Take note that objects may be in another pose, and follow it if they are shown. A render works in another thread."""
         for view in views:
             view.has_moved()
-        if self.chain or any(has_tool for _, has_tool in self._states.values()):
+        is_shown = self.chain or any(has_tool for _, has_tool in self._states.values())
+        if is_shown and depsgraph.mode == "VIEWPORT":
             self._follow_poses()
 
     def _follow_poses(self) -> None:

@@ -136,13 +136,12 @@ class Session:
         target = Snap.of(snap)
         self._calm()
         try:
-            network = self.live.begun(target)
+            done = self._change(self.live.begun(target))
         except Refused as error:
             return self._refuse(error.message)
-        if not self._change(network):
-            return False
-        self._remember_click(target)
-        return True
+        if done:
+            self._remember_click(target)
+        return done
 
     def loop(self, snap: Snap | Pick) -> bool:
         """Keep the offer that is shown for a pick, otherwise the first one.
@@ -271,14 +270,7 @@ class Session:
     def drag(self, snap: Snap | Pick) -> bool:
         """Take hold of a seed, or of a wire (``Snap.to == "WIRE"``), which gets a seed there. `drag_to` moves it."""
         self._calm()
-        try:
-            self.under_way.held = SeedDrag(self.drawing, Snap.of(snap))
-        except ValueError as error:
-            return self._refuse(message_of(error))
-        self.live.seedless = True
-        self._read_progress()
-        self._clear_shown()
-        return True
+        return self._hold(SeedDrag, Snap.of(snap))
 
     def drag_to(self, snap: Snap | Pick | None) -> bool:
         """Move the dragged seed; its wires follow as soon as they are computed. None leaves it in place."""
@@ -309,6 +301,22 @@ class Session:
             return True
         self.let_go(SeedDrag, again=done is None)
         return not isinstance(done, Network) or self._change(done)
+
+    def _hold(self, kind: type[SeedDrag] | type[LineGesture], *given: object) -> bool:
+        """Take hold of a new gesture, in place of candidates and offers."""
+        try:
+            self.under_way.held = kind(self.drawing, *given)
+        except ValueError as error:
+            return self._refuse(message_of(error))
+        self._last_click = None
+        self.live.seedless = kind is SeedDrag
+        self._read_progress()
+        self.live.cancel()
+        self.loops.offers.clear()
+        self.extension.cancel()
+        self.message = NOTHING
+        self.revision += 1
+        return True
 
     def let_go(self, kind: type[Gesture] = Gesture, again: bool = True) -> bool:
         """Cancel the held gesture if it is of a kind: a dragged seed goes back, a line vanishes. Return whether it was held.
@@ -345,13 +353,7 @@ class Session:
         begin = Snap.of(snap)
         self.let_go(SeedDrag)
         self.stop_preview()
-        try:
-            self.under_way.held = LineGesture(self.drawing, begin, self.goes_on_from(begin))
-        except Refused as error:
-            return self._refuse(error.message)
-        self._last_click = None
-        self._clear_shown()
-        return True
+        return self._hold(LineGesture, begin, self.goes_on_from(begin))
 
     def line_to(self, points: NDArray[np.float64], triangles: NDArray[np.int32], snap: Snap | Pick | None) -> bool:
         """Draw the line on: all its points (k, 3), the triangle of each (k,), and the pick under the cursor."""
@@ -661,14 +663,6 @@ class Session:
         if self.extension.wanted:
             self.revision += self.extension.poll()
             self.message = self.extension.message or self.message
-
-    def _clear_shown(self) -> None:
-        """Show neither candidates nor offers, because something else is drawn."""
-        self.live.cancel()
-        self.loops.offers.clear()
-        self.extension.cancel()
-        self.message = NOTHING
-        self.revision += 1
 
     # Computed results
 
