@@ -123,7 +123,7 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
                 mirrored = any(view.is_on_mirrored_half(place.view, place.cursor) for view in views)
                 result = self._finish(context)
                 if mirrored and result == {"CANCELLED"}:
-                    self.report({"INFO"}, "This half comes from the Mirror modifier: click the other half")
+                    tell_mirrored(self)
                 return result
         except Exception as error:
             return self._failed(error)
@@ -202,6 +202,11 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
         except Exception:
             traceback.print_exc()
             chain.close()
+
+
+def tell_mirrored(operator: bpy.types.Operator) -> None:
+    """Say why a click on a half that a modifier mirrors does nothing."""
+    operator.report({"INFO"}, "This half comes from the Mirror modifier: click the other half")
 
 
 @persistent
