@@ -50,6 +50,7 @@ class Said:
     def __init__(self) -> None:
         self.picture = Picture()
         self.cuts: tuple[Wire, ...] = ()
+        self.wires: tuple[Wire, ...] = ()
         self._said: dict[str, object] = {}
 
     @property
