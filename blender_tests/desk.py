@@ -16,8 +16,9 @@ from numpy.typing import NDArray
 from scene import add_grid, add_layers, edit, snapshot
 from seamwire.core.drawing.session import Session
 from seamwire.mesh.settings import TOOL, settings
-from seamwire.operators import modal, steps
-from seamwire.operators.report import running
+from seamwire.operators import steps
+from seamwire.operators.chain import Chain
+from seamwire.operators.chain_state import running
 from seamwire.view.edited_objects import edited
 
 ORANGE, RED, GREEN, WHITE = (1.0, 0.72, 0.05), (1.0, 0.25, 0.15), (0.3, 1.0, 0.55), (1.0, 1.0, 1.0)
@@ -58,7 +59,7 @@ class Desk:
         return self.session
 
     @property
-    def chain(self) -> modal.Chain:
+    def chain(self) -> Chain:
         """The chain that is being drawn."""
         return running[0]
 
@@ -87,11 +88,9 @@ class Desk:
         return None if at is None else (at.x, at.y)
 
     def left_clean(self) -> bool:
-        """Whether no chain is being drawn, and the status bar and the handlers are unchanged."""
+        """Whether no chain is being drawn, and the status bar is unchanged."""
         status = getattr(STATUSBAR_HT_header, "_draw_orig", STATUSBAR_HT_header.draw)
-        handlers = [*bpy.app.handlers.save_pre, *bpy.app.handlers.load_pre]
-        left = [handler for handler in handlers if "modal" in handler.__module__]
-        return not self.running and STATUSBAR_HT_header.draw is status and not left
+        return not self.running and STATUSBAR_HT_header.draw is status
 
     def unchanged(self) -> bool:
         """Whether the mesh is unchanged."""

@@ -56,7 +56,7 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
     from seamwire.core.picking.picker import Picker
     from seamwire.core.solver.live_maker import LiveMaker
     from seamwire.mesh import edit_mesh
-    from seamwire.operators.chain_window import TICK
+    from seamwire.operators.chain import TICK
     from seamwire.terms.options import Options
 
     steps = {}

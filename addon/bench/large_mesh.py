@@ -48,8 +48,8 @@ class Holds:
         self.calls: list[tuple[str, str, float]] = []
         self._depth = 0
 
-    def watch(self, owner: type, name: str, what: str) -> None:
-        """Time every call of a method, from the outermost."""
+    def watch(self, owner: object, name: str, what: str) -> None:
+        """Time every call of a method or function, from the outermost."""
         method = getattr(owner, name)
 
         def timed(*arguments: object, **options: object) -> object:
@@ -66,16 +66,18 @@ class Holds:
 
     def watch_events(self) -> None:
         """Time what Blender calls: the operator's methods count their arguments, so the drawing is watched below them."""
-        from seamwire.operators.modal import Chain
+        from seamwire.operators import chain_acts
+        from seamwire.operators.chain import Chain
         from seamwire.view.edited_objects import EditedObjects
 
-        for name in ("__init__", "begin"):
-            self.watch(Chain, name, "start")
-        for name in ("handle", "trouble", "finish"):
+        self.watch(Chain, "__init__", "start")
+        self.watch(chain_acts, "act_first", "start")
+        self.watch(chain_acts, "handle", "event")
+        for name in ("trouble", "finish"):
             self.watch(Chain, name, "event")
         for name in ("hover", "on_update", "tick"):
             self.watch(EditedObjects, name, "event")
-        self.watch(EditedObjects, "_draw", "draw")
+        self.watch(EditedObjects, "draw", "draw")
 
     @contextmanager
     def during(self, what: str) -> Iterator[None]:
@@ -131,7 +133,7 @@ def leave(ui: driver.Ui) -> None:
 
 def session() -> object | None:
     """Return the session of the chain that is being drawn."""
-    from seamwire.operators.report import running
+    from seamwire.operators.chain_state import running
 
     return running[0].session if running else None
 

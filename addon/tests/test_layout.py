@@ -44,9 +44,9 @@ FLOORS = (
 CORES = ("core.", "networks.core.")
 """The modules that do not know Blender, and hold no sentence for artists."""
 KNOWN_CYCLES = {
-    ("operators.report", "operators.modal"): {
-        "operators.modal",
-        "operators.report",
+    ("operators.chain_state", "operators.chain"): {
+        "operators.chain",
+        "operators.chain_state",
     },
 }
 """Imports of types that lead back to the module itself, and all modules on the way."""
@@ -286,3 +286,19 @@ def test_no_class_takes_a_private_name_of_a_class_that_it_inherits() -> None:
         for name in names_in(node) & names_in(above)
     }
     assert taken == set()
+
+
+READERS = {"read", "refresh", "follow", "follow_pose", "poll", "to_mesh", "from_edit_mesh", "hover", "aim", "show"}
+"""Methods that read a mesh, or ask for work."""
+
+
+def test_no_property_sets_anything_or_reads_a_mesh() -> None:
+    found = []
+    for path in modules():
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.FunctionDef) and "property" in map(ast.unparse, node.decorator_list):
+                for inner in ast.walk(node):
+                    sets = isinstance(inner, ast.Attribute) and not isinstance(inner.ctx, ast.Load)
+                    if sets or (isinstance(inner, ast.Call) and ast.unparse(inner.func).split(".")[-1] in READERS):
+                        found.append(f"{name_of(path)}.{node.name}: {ast.unparse(inner)}")
+    assert found == []

@@ -3,6 +3,7 @@
 
 import random
 
+import bmesh
 import bpy
 import pytest
 from scene import add_grid, add_suzanne, edit, mark_wires, seams, snapshot
@@ -31,7 +32,7 @@ def parts(bolts: bpy.types.Object) -> list[int]:
     return [edge[0] // (len(bolts.data.vertices) // 4) for edge in seams(bolts)]
 
 
-def test_what_was_drawn_last_is_drawn_on_all_that_is_alike(bolts: bpy.types.Object) -> None:
+def test_a_loop_is_drawn_on_all_that_is_alike(bolts: bpy.types.Object) -> None:
     assert mark_wires(loops="0-2", take="CLOSED")
     ring = len(seams(bolts))
     assert bpy.ops.mesh.seamwire_repeat() == {"FINISHED"}
@@ -64,6 +65,26 @@ def test_selected_wires_are_repeated_instead(bolts: bpy.types.Object) -> None:
     bpy.ops.mesh.select_all(action="DESELECT")
     with pytest.raises(RuntimeError, match="No selected wire along edges"):
         bpy.ops.mesh.seamwire_repeat(selected=True)
+
+
+def test_all_wires_are_repeated_or_those_with_selected_edges(bolts: bpy.types.Object) -> None:
+    mark_wires(chains="0 1")
+    mark_wires(chains="2 3; 16 18")
+    bpy.ops.ed.undo_push(message="Drawn")
+    select(bolts, 2, 3)
+    assert bpy.ops.mesh.seamwire_repeat(selected=True) == {"FINISHED"}
+    some = set(seams(bolts))
+    assert bpy.ops.mesh.seamwire_repeat() == {"FINISHED"}
+    assert some < set(seams(bolts)), "the other wires too, in whatever order they were drawn"
+
+
+def select(obj: bpy.types.Object, *vertices: int) -> None:
+    """Select the edge between two vertices alone."""
+    bpy.ops.mesh.select_all(action="DESELECT")
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    bm.edges.get([bm.verts[vertex] for vertex in vertices]).select_set(True)
+    bmesh.update_edit_mesh(obj.data)
 
 
 def test_without_a_wire_it_says_so() -> None:

@@ -11,7 +11,7 @@ from desk import Desk, leave
 from scene import add_object, seams
 from seamwire.core.network.picks import FacePoint
 from seamwire.mesh.settings import settings
-from seamwire.operators.report import running
+from seamwire.operators.chain_state import running
 from seamwire.ui import status_bar
 from seamwire.view.edited_objects import edited
 

@@ -29,7 +29,7 @@ def beside(place: tuple[float, float], x: float = 0.0, y: float = 0.0) -> tuple[
 @pytest.mark.every_blender
 def test_a_drag_over_the_mesh_draws_along_its_edges_in_one_step(desk: Desk, capfd: pytest.CaptureFixture[str]) -> None:
     session, ui = desk.choose(), desk.ui
-    ui.wait_until(lambda: session.work.progress == 1.0)
+    ui.wait_until(lambda: session.drawing.progress == 1.0)
     # Along a row and up a column, some pixels beside the edges, as a hand draws.
     press_and_draw(desk, beside(desk.at(36), 3, 4), beside(desk.at(40), -4, -5), beside(desk.at(67), 5, 3))
     wanted = (*range(36, 41), 49, 58, 67)
@@ -74,11 +74,11 @@ def test_escape_and_the_right_button_forget_a_line_and_keep_the_chain(desk: Desk
     ui.wait_until(lambda: len(session.wires) == 1)
     for cancel in ("ESC", "RIGHTMOUSE"):
         press_and_draw(desk, desk.at(36), desk.at(40))
-        assert session.draws_line
+        assert session.under_way.held
         assert session.picture.all(Role.FOLLOWING)
         ui.event(cancel, "PRESS")
         ui.event(cancel, "RELEASE")
-        assert not session.draws_line
+        assert not session.under_way.held
         assert session.picture.all(Role.FOLLOWING) == ()
         ui.event("LEFTMOUSE", "RELEASE")
         assert len(session.wires) == 1

@@ -8,7 +8,7 @@ import ui as driver
 from desk import GREEN, Desk, shows, undo_steps
 from scene import chain, seams
 from seamwire.core.drawing.picture import Role
-from seamwire.operators.report import running
+from seamwire.operators.chain_state import running
 from seamwire.ui import status_bar
 
 

@@ -20,7 +20,7 @@ from desk import Desk, choose, undo_steps
 from keymaps import as_event, gestures, using
 from scene import animate, seams, snapshot
 from seamwire.mesh.settings import preferences
-from seamwire.operators.report import running
+from seamwire.operators.chain_state import running
 from seamwire.operators.steps import running as searches
 from seamwire.view.edited_objects import edited
 
@@ -189,7 +189,7 @@ class Monkey:
         for _ in range(self.dice.randint(1, 4)):
             self.move()
         self.ui.wait(4)
-        if running and running[0].state.hold is not None:
+        if running and running[0].hold is not None:
             key = self.dice.choice(WHILE_HELD)
             self.send(key, "PRESS", ctrl=key == "Z")
             self.send(key, "RELEASE")

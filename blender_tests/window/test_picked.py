@@ -11,7 +11,7 @@ from desk import ORANGE, Desk, leave, shows
 from scene import add_grid, add_object, chain, seams
 from seamwire.core.drawing.picture import Role
 from seamwire.core.solver.solver import kinds_of
-from seamwire.operators.report import running
+from seamwire.operators.chain_state import running
 from seamwire.ui import status_bar
 from seamwire.view.edited_objects import edited
 

@@ -5,7 +5,7 @@ import bpy
 import ui as driver
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 from scene import add_grid, edit
-from seamwire.operators.report import running
+from seamwire.operators.chain_state import running
 
 
 def test_every_view_of_a_quad_view_can_be_drawn_in(ui: driver.Ui) -> None:

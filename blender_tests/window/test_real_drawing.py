@@ -10,7 +10,7 @@ import ui as driver
 from desk import choose
 from scene import add_grid, chain, edit, seams, snapshot
 from seamwire.operators import chain_events
-from seamwire.operators.report import running
+from seamwire.operators.chain_state import running
 
 
 def test_a_double_click_takes_a_loop_and_single_clicks_draw(
@@ -67,7 +67,7 @@ def test_a_left_button_that_plays_the_middle_one_turns_the_view_between_chains_a
         before, start = ui.view.view_rotation.copy(), ui.on_screen((0.03, 0.4, 0.0))
         ui.move(start)
         ui.event("LEFT_ALT", "PRESS")
-        assert not (running and running[0].state.peek), "a click would not take a loop"
+        assert not (running and running[0].peek), "a click would not take a loop"
         ui.event("LEFTMOUSE", "PRESS", alt=True)
         for step in range(1, 4):
             ui.move((start[0] + 15.0 * step, start[1]))

@@ -8,11 +8,18 @@ from contextlib import contextmanager
 import bpy
 import pytest
 from desk import Desk, draw
+from seamwire.core.drawing.session import Session
 from seamwire.core.islands import islands
 from seamwire.core.islands.islands import IslandMaker
 from seamwire.core.solver.live_maker import LiveMaker
 from seamwire.mesh import edit_mesh
+from seamwire.mesh.object_session import ObjectSession
+from seamwire.mesh.pose import Pose
+from seamwire.mesh.settings import settings
+from seamwire.view.crest_view import CrestView
 from seamwire.view.edited_objects import EditedObjects, edited
+from seamwire.view.object_view import ObjectView
+from seamwire.view.stretch_heat import StretchHeat
 
 
 @pytest.fixture
@@ -98,7 +105,7 @@ def test_progress_is_told_without_a_picture(desk: Desk, calls: Counter[str], mon
     ui.wait(2)
     told: list[float] = []
     monkeypatch.setattr(
-        "seamwire.operators.modal.status_makers", [lambda chain: told.append(chain.session.work.progress)]
+        "seamwire.operators.chain.status_makers", [lambda chain: told.append(chain.session.drawing.progress)]
     )
     redraws = calls["redraw"]
     for percent in (10, 20, 30):
@@ -125,3 +132,63 @@ def test_islands_are_told_of_once_where_nothing_tints_them(desk: Desk) -> None:
         assert not view.poll(), "nothing is new"
     finally:
         own.tint = before
+
+
+@pytest.mark.smoke
+@pytest.mark.parametrize("in_chain", [False, True])
+def test_a_picture_reads_no_mesh_and_computes_nothing(
+    desk: Desk, monkeypatch: pytest.MonkeyPatch, in_chain: bool
+) -> None:
+    """All work that a view may need is due while it is drawn, and is left to the timer."""
+    session, ui = desk.choose(), desk.ui
+    draw(desk, 36, 44)
+    if in_chain:
+        ui.click(desk.at(4))
+    ui.wait_until(settled)
+    drawing: list[str] = []
+    drawn: list[str] = []
+    worked: list[str] = []
+    draw_part = EditedObjects.draw
+
+    def noted(own: EditedObjects, part: str) -> None:
+        drawing.append(part)
+        try:
+            draw_part(own, part)
+        finally:
+            drawn.append(drawing.pop())
+
+    monkeypatch.setattr(EditedObjects, "draw", noted)
+    for owner, name in (
+        (edit_mesh, "read"),
+        (ObjectView, "__init__"),
+        (ObjectView, "refresh"),
+        (ObjectView, "poll"),
+        (ObjectSession, "follow"),
+        (Pose, "follow"),
+        (LiveMaker, "__call__"),
+        (IslandMaker, "want"),
+        (StretchHeat, "follow"),
+        (CrestView, "poll"),
+        *((Session, name) for name in ("follow", "hover", "poll", "use_crests", "adopt")),
+    ):
+        function = getattr(owner, name)
+
+        def working(*given: object, function: Callable = function, name: str = name, **options: object) -> object:
+            if drawing:
+                worked.append(name)
+            return function(*given, **options)
+
+        monkeypatch.setattr(owner, name, working)
+    for make_due in (
+        lambda: session.drop(session.wires[0]),
+        lambda: edited.front.has_moved(),
+        lambda: setattr(edited.front, "stale", True),
+        lambda: setattr(settings(), "show_crests", True),
+        *([] if in_chain else [edited.clear]),
+    ):
+        make_due()
+        drawn.clear()
+        ui.area.tag_redraw()
+        ui.wait_until(lambda: len(drawn) > 1)
+        ui.wait(3, redraw=True)
+    assert worked == []

@@ -12,7 +12,7 @@ from desk import Desk, choose, leave, undo_steps
 from scene import add_grid, chain, seams
 from seamwire.core.drawing.picture import Role
 from seamwire.mesh.settings import settings
-from seamwire.operators.report import running
+from seamwire.operators.chain_state import running
 from seamwire.ui import status_bar
 from seamwire.view.edited_objects import edited
 

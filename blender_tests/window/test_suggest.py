@@ -20,7 +20,7 @@ from scene import add_suzanne, animate, edit, head, mark_wires, seams, snapshot
 from seamwire.core.base import native
 from seamwire.mesh.seam_search import Suggestion
 from seamwire.operators import suggest_live
-from seamwire.operators.report import running as chains
+from seamwire.operators.chain_state import running as chains
 from seamwire.operators.steps import Stepwise
 from seamwire.operators.steps import running as searches
 from seamwire.view.edited_objects import edited

@@ -14,7 +14,7 @@ from seamwire.core.base.geometry import nearest_on_segments
 from seamwire.core.drawing.picture import Role
 from seamwire.core.offers.surface_loops import SurfaceLoops
 from seamwire.mesh.settings import settings
-from seamwire.operators.report import running
+from seamwire.operators.chain_state import running
 from seamwire.ui import status_bar
 
 AROUND, ROWS = 24, 41

@@ -11,7 +11,7 @@ from desk import Desk, choose, leave
 from scene import add_grid, chain, edit, seams
 from seamwire.mesh.settings import TOOL
 from seamwire.operators import draw
-from seamwire.operators.report import running
+from seamwire.operators.chain_state import running
 from seamwire.view.edited_objects import edited
 from seamwire.words import corner
 

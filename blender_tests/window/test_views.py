@@ -11,7 +11,7 @@ import ui as driver
 from desk import ORANGE, WHITE, Desk, choose, draw, leave, shows
 from scene import add_grid, chain, edit, seams
 from seamwire.mesh.settings import settings
-from seamwire.operators.report import running
+from seamwire.operators.chain_state import running
 from seamwire.ui import status_bar
 from seamwire.view.edited_objects import edited
 

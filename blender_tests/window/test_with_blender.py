@@ -20,7 +20,7 @@ from seamwire.core.storage.serialization import Archive
 from seamwire.mesh import edit_mesh, finishes
 from seamwire.mesh.settings import TOOL
 from seamwire.operators import chain_record
-from seamwire.operators.report import running
+from seamwire.operators.chain_state import running
 from seamwire.view.edited_objects import edited
 from seamwire.view.object_view import ObjectView
 from seamwire.words.notices import Notices

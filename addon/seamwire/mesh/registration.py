@@ -48,6 +48,12 @@ def menu_entry(menu: str, draw: Callable[[bpy.types.Menu, bpy.types.Context], No
     return lambda: getattr(bpy.types, menu).append(draw), lambda: getattr(bpy.types, menu).remove(draw)
 
 
+def handler(name: str, function: Callable[..., None]) -> Change:
+    """Return the change that lets Blender call a function, by the name of a list in `bpy.app.handlers`."""
+    handlers = getattr(bpy.app.handlers, name)
+    return lambda: handlers.append(function), lambda: handlers.remove(function)
+
+
 def _add(each: type) -> None:
     bpy.utils.register_class(each)
 

@@ -260,13 +260,15 @@ class MESH_OT_seamwire_save_network(EditMeshOperator, bpy.types.Operator, Export
 
 
 class MESH_OT_seamwire_repeat(EditMeshOperator, bpy.types.Operator):
-    """Repeat the last wires, and those connected to them, wherever edges match"""  # noqa: D400 - a tooltip
+    """Repeat all wires, or those with selected edges, wherever edges match"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_repeat"
     bl_label = "Repeat Seamwires"
 
     selected: bpy.props.BoolProperty(
-        name="Selected", description="Repeat the wires with selected edges instead of the last ones", default=False
+        name="Selected Only",
+        description="Repeat only wires with selected edges, and those connected to them",
+        default=False,
     )
 
     def run(self, context: bpy.types.Context) -> set[str]:
@@ -306,7 +308,7 @@ class MESH_OT_seamwire_repeat(EditMeshOperator, bpy.types.Operator):
         from .core.repeats import connected_groups
 
         wires = [wire for wire in mesh.session.wires if wire.along == "EDGES"]
-        wanted = wires[-1:]
+        wanted = wires
         if self.selected:
             chosen = {
                 tuple(sorted(vertex.index for vertex in edge.verts)) for edge in mesh.cage.bm.edges if edge.select

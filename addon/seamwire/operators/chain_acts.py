@@ -1,128 +1,449 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The table of what a chain does for each meaning of an event."""
+"""What a chain does for each meaning of an event: the table `ACTS`, and the functions that it names."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import bpy
+
+from ..core.drawing.picture import Role
+from ..mesh.settings import settings
+from ..terms.options import strength_name
 from ..view.edited_objects import edited
-from ..words.keys import Action
-from . import chain_gestures as gestures
-from . import chain_keys as keys
+from ..words.keys import Action, drag_threshold
+from . import chain_events, navigation, undo_steps
+from .bindings import HELP_PANEL
 from .chain_events import Given, Sign
+from .chain_state import HELD, Cue, Stage
+from .drag_handlers import LineHold, SeedHold, StrokeHold
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from .chain_state import ChainState
+    from ..core.drawing.session import Session
+    from ..core.network.network import Snap
+    from ..core.network.strokes import Stroke
+    from ..core.network.wires import Wire
+    from ..view.object_view import ObjectView
+    from ..view.viewport import Place
+    from ..words.keys import Bindings
+    from .chain import Chain
+
+_OFFERED = (Action.LOOP, Action.BEND)
+"""The preview while the modifiers of its click are held."""
 
 
-def _tick(_state: ChainState, _given: Given) -> None:
-    edited.poll()
+# Motions
 
 
-def _end(state: ChainState, _given: Given) -> None:
-    state.end()
+def hover(chain: Chain, given: Given) -> None:
+    """Show what a click would take."""
+    assert given.place is not None
+    loop, bend = (chain.keys.previews(action, given.event) for action in _OFFERED)
+    view, snap = edited.find(given.place, plain=loop or bend)
+    edited.point_at(view, given.place)
+    if view is not None and view is not edited.front:
+        chain.session.hover(None)
+        # A live wire stays with its object until there is a click on another.
+        if chain.session.seed is None and not chain.session.waiting_clicks:
+            edited.front = view
+        else:
+            snap = None
+    chain.session.hover(snap, loop=loop, bend=bend)
 
 
-def _cancel(state: ChainState, _given: Given) -> None:
-    state.end(wait=False)
+def rehover(chain: Chain, place: Place) -> None:
+    """Show what a click would take now, after a change."""
+    view, snap = edited.find(place)
+    chain.session.hover(snap if view is edited.front else None)
 
 
-def _remove(state: ChainState, given: Given) -> bool:
+def leave(chain: Chain, _given: Given) -> None:
+    """Show nothing under a mouse that has left the view."""
+    if chain.session.target is not None and chain.hold is None:
+        chain.session.hover(None)
+
+
+def zoom(_chain: Chain, given: Given) -> None:
+    """Zoom, because the wheel alone swaps candidates."""
+    assert given.place is not None
+    navigation.zoom(bpy.context, given.place, given.event)
+
+
+def drag(chain: Chain, given: Given) -> None:
+    """Let the held thing follow the mouse."""
+    assert chain.hold is not None and given.place is not None
+    if not chain.hold.move(given.place, drag_threshold(given.event, bpy.context.preferences)):
+        chain.go(Cue.LET_GO)
+
+
+def trace(chain: Chain, given: Given) -> None:
+    """Let a line go through where the mouse was between two motions."""
+    assert isinstance(chain.hold, LineHold) and given.place is not None
+    chain.hold.follow(given.place)
+
+
+def release(chain: Chain, given: Given) -> None:
+    """Do what was meant by a press and a release."""
+    hold = chain.hold
+    assert hold is not None
+    chain.go(Cue.RELEASE)
+    # The wires that were live before a line become a separate chain, with a separate step in Blender's undo.
+    if not (isinstance(hold, LineHold) and hold.starts_chain()) or _keep_chain(chain):
+        title = hold.release()
+        if title:
+            chain.record.note(title)
+        elif isinstance(hold, StrokeHold):
+            chain.say("Drag over the mesh to draw a stroke")
+    if given.place is not None:
+        rehover(chain, given.place)
+
+
+def _keep_chain(chain: Chain) -> bool:
+    """Keep the live wires as a separate chain, and return whether the object is still the same."""
+    view = edited.front
+    assert view is not None
+    chain.keep()
+    if view not in edited.views():
+        chain.say("The mesh was cut: draw the line once more")
+        return False
+    chain.draw_on(view)
+    return True
+
+
+# Presses
+
+
+def click(chain: Chain, given: Given) -> None:
+    """Take what is under the mouse, or begin to drag it."""
+    action, place, event = given.what, given.place, given.event
+    assert place is not None
+    view, snap = edited.find(place, plain=action in _OFFERED)
+    if view is None or snap is None:
+        return
+    chain.begin()
+    if view is not edited.front:
+        chain.session.hover(None)
+    if action is Action.NEW_CHAIN and not view.session.waiting_clicks:
+        chain.keep()
+        if view not in edited.views():  # it was cut
+            view, snap = edited.find(place)
+            if view is None or snap is None:
+                return
+    chain.draw_on(view)
+    session = view.session
+    if action is Action.NEW_CHAIN:
+        session.start(snap)
+        session.hover(snap)
+        chain.record.note(undo_steps.DRAW)
+    elif action is Action.BEND:
+        session.bend(snap)
+        chain.record.note(undo_steps.EDIT)
+    elif action is Action.LOOP and _is_loop(chain, session, snap, event):
+        session.loop(snap)
+        chain.record.note(undo_steps.DRAW)
+    elif session.seed is None and not session.waiting_clicks and snap.to in {"SEED", "WIRE"}:
+        # Whether it is a click or the beginning of a drag is known when the button or the mouse has moved.
+        session.hover(snap)
+        chain.go(Cue.PRESS, SeedHold(event.type, view, place, snap))
+    elif snap.to in {"MESH", "FEATURE", "SEAM"} or session.goes_on_from(snap):
+        chain.go(Cue.PRESS, LineHold(event.type, view, place, snap))
+    else:
+        session.click(snap)
+        chain.record.note(undo_steps.DRAW)
+
+
+def _is_loop(chain: Chain, session: Session, snap: Snap, event: bpy.types.Event) -> bool:
+    """Return whether a click takes what runs around. Across the surface, a double click ends a wire instead."""
+    if session.options.along == "SURFACE":
+        return chain.keys.previews(Action.LOOP, event)
+    return isinstance(snap.pick, tuple)
+
+
+def begin_stroke(chain: Chain, given: Given) -> None:
+    """Begin a stroke under the mouse."""
+    assert given.place is not None
+    chain.begin()
+    found, _ = edited.find(given.place)
+    is_live = chain.session.seed is not None or chain.session.waiting_clicks
+    view = edited.front if is_live or found is None else found
+    chain.draw_on(view)
+    chain.cancel_drags()
+    hold = StrokeHold(given.event.type, view, given.place)
+    hold.attracts, hold.scale = given.what is Action.GUIDE, bpy.context.preferences.system.ui_scale
+    chain.go(Cue.PRESS, hold)
+
+
+def has_target(given: Given, keys: Bindings) -> bool:
+    """Return whether a press that may begin a chain finds something to act on, without changing anything."""
+    if given.place is None:
+        return False
+    can_bend = edited.front.options.along == "SURFACE"  # along edges there is no closed cut to bend
+    if given.what is Sign.HOVER:
+        return any(keys.previews(action, given.event) for action in (_OFFERED if can_bend else _OFFERED[:1]))
+    if given.what is Action.BEND:
+        return can_bend
+    _, wire, stroke = _drawn_at(given)
+    return wire is not None or (stroke is not None and given.what is Action.REMOVE)
+
+
+def _drawn_at(given: Given) -> tuple[ObjectView | None, Wire | None, Stroke | None]:
+    """Return the object under the mouse, and the kept wire there, or else the stroke."""
+    assert given.place is not None
+    view, snap = edited.find(given.place)
+    if view is None or (snap is not None and snap.to == "WIRE"):
+        return view, None if snap is None else snap.wire, None
+    return view, None, view.stroke_at(given.place.view, given.place.cursor)
+
+
+def remove(chain: Chain, given: Given) -> bool:
+    """Remove the wire or the stroke under the mouse, and return whether there was one."""
+    view, wire, stroke = _drawn_at(given)
+    if view is None or (wire is None and stroke is None):
+        return False
+    assert given.place is not None
+    chain.draw_on(view)
+    if wire is not None:
+        view.session.drop(wire)
+        chain.record.note(undo_steps.EDIT)
+    elif stroke is not None:
+        view.session.erase(stroke)
+        chain.record.note(undo_steps.EDIT)
+    rehover(chain, given.place)
+    return True
+
+
+def retrace(chain: Chain, given: Given) -> bool:
+    """Let the wire under the mouse take its other path, and return whether there was one."""
+    assert given.place is not None
+    view, snap = edited.find(given.place)
+    if view is None or snap is None or snap.to != "WIRE" or snap.wire is None:
+        return False
+    chain.draw_on(view)
+    view.session.hover(snap)
+    view.session.retrace(snap.wire)
+    chain.record.note(undo_steps.EDIT)
+    return True
+
+
+# Keys
+
+
+def swap(chain: Chain, _given: Given) -> None:
+    """Take the next candidate, or the other path of the kept wire under the mouse."""
+    chain.draw_on(edited.front)
+    session = chain.session
+    hovered = session.picture.one(Role.HOVERED)
+    if session.seed is None and hovered is not None:
+        session.retrace(hovered)
+    else:
+        session.next_candidate()
+
+
+def change_strength(chain: Chain, given: Given) -> None:
+    """Let wires follow the shape more or less."""
+    session, chosen = chain.session, settings()
+    is_more = given.what is Action.STRONGER
+    name, strength = strength_name(session.options.along), session.options.stepped(1 if is_more else -1).strength
+    if session.dragging:
+        chain.say("Finish moving the seed first")
+    elif strength == session.options.strength:
+        chain.say(f"The strength is {strength:g} already, the {'most' if is_more else 'least'} there is")
+    else:
+        setattr(chosen, name, strength)
+        chain.say(f"Strength {strength:.3g}")
+
+
+def close(chain: Chain, given: Given) -> None:
+    """Close the chain."""
+    assert given.place is not None
+    chain.draw_on(edited.front)
+    first = chain.session.drawing.network.closing_point
+    chain.session.close(None if first is None else edited.front.seen_along(given.place.view, first))
+
+
+def extend(chain: Chain, _given: Given) -> None:
+    """Show how the wire would run to its end, and at the second press keep it."""
+    chain.draw_on(edited.front)
+    chain.session.run_to_end(preview=chain.session.picture.one(Role.EXTENSION) is None)
+
+
+def toggle(name: str) -> None:
+    """Change a setting that is on or off."""
+    setattr(settings(), name, not getattr(settings(), name))
+
+
+def toggle_snap(chain: Chain, given: Given) -> None:
+    """Snap to features, or no longer."""
+    assert given.place is not None
+    toggle("snap")
+    rehover(chain, given.place)
+
+
+def switch(chain: Chain, given: Given) -> None:
+    """Draw across the surface, or along edges."""
+    assert given.place is not None
+    settings().along = "SURFACE" if chain.session.options.along == "EDGES" else "EDGES"
+    rehover(chain, given.place)
+
+
+def cycle_mirror(chain: Chain, _given: Given) -> None:
+    """Mirror over the next axis, over all of them, or over none."""
+    session, mesh = chain.session, edited.front.mesh
+    try:
+        symmetric = mesh.symmetric_soon()
+    except ValueError as error:
+        chain.say(str(error))
+        return
+    if symmetric is None:
+        chain.say("Still checking the mesh for symmetry")
+        return
+    ways = [(), *((axis,) for axis in symmetric), *([symmetric] if len(symmetric) > 1 else ())]
+    if len(ways) == 1 and not session.options.mirror:
+        chain.say("The mesh is not symmetric on X, Y or Z")
+        return
+    now = ways.index(session.options.mirror) if session.options.mirror in ways else len(ways) - 1
+    axes = ways[(now + 1) % len(ways)]
+    # The mesh's own option, which Blender's tools use as well.
+    for axis, name in enumerate("xyz"):
+        setattr(mesh.obj.data, f"use_mirror_{name}", axis in axes)
+    edited.follow_settings()
+    names = ", ".join("XYZ"[axis] for axis in axes)
+    chain.say(f"Mirrored on {names}" if axes else "Not mirrored")
+
+
+def show_keys(_chain: Chain, _given: Given) -> None:
+    """Open the panel with all keys. The chain goes on when it closes."""
+    bpy.ops.wm.call_panel("INVOKE_DEFAULT", name=HELP_PANEL)
+
+
+def undo(chain: Chain, _given: Given) -> None:
+    """Undo within the chain. End the chain if nothing is left to undo."""
+    chain.draw_on(edited.front)
+    if not chain.session.undo():
+        chain.end()
+
+
+def redo(chain: Chain, _given: Given) -> None:
+    """Redo within the chain."""
+    chain.draw_on(edited.front)
+    chain.session.redo()
+
+
+# The table
+
+
+def _remove(chain: Chain, given: Given) -> bool:
     """Remove what is under the mouse. If there is nothing, Blender's own meaning of the key changes the mesh."""
-    is_removed = gestures.remove(state, given)
+    is_removed = remove(chain, given)
     if not is_removed:
-        state.end()
+        chain.end()
     return not is_removed
 
 
-def _let_go(state: ChainState, _given: Given) -> None:
-    """Cancel what is held, and nothing else."""
-    state.let_go()
-
-
-def _refuse(state: ChainState, _given: Given) -> None:
+def _refuse(chain: Chain, _given: Given) -> None:
     """Do nothing, because the held button comes first."""
-    state.say("Release the button first")
+    chain.say("Release the button first")
 
 
-def _end_held(state: ChainState, given: Given) -> None:
+def _end_held(chain: Chain, given: Given) -> None:
     """Cancel what is held if another button asks for it, as in Blender's own drags. A key waits."""
-    (_let_go if given.event.type.endswith("MOUSE") else _refuse)(state, given)
+    if given.event.type.endswith("MOUSE"):
+        chain.let_go()
+    else:
+        _refuse(chain, given)
 
 
-def _nothing(_state: ChainState, _given: Given) -> None:
-    """Leave everything as it is."""
-
-
-ACTS: dict[Action | Sign, Callable[[ChainState, Given], bool | None]] = {
-    Action.CLICK: gestures.click,
-    Action.NEW_CHAIN: gestures.click,
-    Action.LOOP: gestures.click,
-    Action.BEND: gestures.click,
+ACTS: dict[Action | Sign, Callable[[Chain, Given], bool | None]] = {
+    Action.CLICK: click,
+    Action.NEW_CHAIN: click,
+    Action.LOOP: click,
+    Action.BEND: click,
     Action.REMOVE: _remove,
-    Action.GUIDE: gestures.begin_stroke,
-    Action.AVOID: gestures.begin_stroke,
-    Action.END: _end,
-    Action.CANCEL: _cancel,
-    Action.NEXT: keys.swap,
-    Action.STRONGER: keys.change_strength,
-    Action.WEAKER: keys.change_strength,
-    Action.CLOSE: keys.close,
-    Action.EXTEND: keys.extend,
-    Action.CLEAR: keys.toggle_clear,
-    Action.XRAY: keys.toggle_xray,
-    Action.MIRROR: keys.cycle_mirror,
-    Action.SWITCH: keys.switch,
-    Action.SNAP: keys.toggle_snap,
-    Action.KEYS: keys.show_keys,
-    Action.UNDO: keys.undo,
-    Action.REDO: keys.redo,
-    Sign.TICK: _tick,
-    Sign.RELEASE: gestures.release,
-    Sign.AWAY: gestures.leave,
-    Sign.DRAG: gestures.drag,
-    Sign.TRACE: gestures.trace,
-    Sign.HOVER: gestures.hover,
-    Sign.ZOOM: gestures.zoom,
-    Sign.OTHER_TOOL: _end,
-    Sign.NOTHING: _nothing,
-    Sign.REPEAT: _nothing,
+    Action.GUIDE: begin_stroke,
+    Action.AVOID: begin_stroke,
+    Action.END: lambda chain, _: chain.end(),
+    Action.CANCEL: lambda chain, _: chain.end(wait=False),
+    Action.NEXT: swap,
+    Action.STRONGER: change_strength,
+    Action.WEAKER: change_strength,
+    Action.CLOSE: close,
+    Action.EXTEND: extend,
+    Action.CLEAR: lambda *_: toggle("clear"),
+    Action.XRAY: lambda *_: toggle("xray"),
+    Action.MIRROR: cycle_mirror,
+    Action.SWITCH: switch,
+    Action.SNAP: toggle_snap,
+    Action.KEYS: show_keys,
+    Action.UNDO: undo,
+    Action.REDO: redo,
+    Sign.TICK: lambda *_: edited.poll(),
+    Sign.RELEASE: release,
+    Sign.AWAY: leave,
+    Sign.DRAG: drag,
+    Sign.TRACE: trace,
+    Sign.HOVER: hover,
+    Sign.ZOOM: zoom,
+    Sign.OTHER_TOOL: lambda chain, _: chain.end(),
+    Sign.NOTHING: lambda *_: None,
+    Sign.REPEAT: lambda *_: None,
 }
 """The function for each meaning. If it returns True, Blender has the event too."""
-WHILE_HELD: dict[Action | Sign, Callable[[ChainState, Given], bool | None]] = {
+WHILE_HELD: dict[Action | Sign, Callable[[Chain, Given], bool | None]] = {
     **dict.fromkeys(Action, _refuse),
     **{what: ACTS[what] for what in Sign},
-    Action.XRAY: keys.toggle_xray,
-    Action.UNDO: _let_go,
-    Action.CANCEL: _let_go,
+    Action.XRAY: ACTS[Action.XRAY],
+    Action.UNDO: lambda chain, _: chain.let_go(),
+    Action.CANCEL: lambda chain, _: chain.let_go(),
     Action.END: _end_held,
     Sign.OTHER_TOOL: _refuse,
 }
 """The function for each meaning while a button is held. A key works only on what is held, or on what is shown."""
-_FIRST = {**ACTS, Action.REMOVE: gestures.remove, Action.NEXT: gestures.retrace}
+_FIRST = {**ACTS, Action.REMOVE: remove, Action.NEXT: retrace}
 """The function for a press that begins a chain."""
 _BLENDERS = frozenset({Sign.TICK, Sign.AWAY, Sign.HOVER, Sign.OTHER_TOOL, Sign.NOTHING})
 """Signs that Blender always receives too."""
+_UNSEEN = frozenset({Sign.NOTHING, Sign.TRACE, Sign.REPEAT})
+"""Signs after which there is nothing new to show."""
 
 
-def act(state: ChainState, given: Given) -> bool:
+def act(chain: Chain, given: Given) -> bool:
     """Do what an event asks for, and return whether Blender is to have it too."""
     if isinstance(given.what, Action):
-        state.say("")
-        if given.what is not Action.NEXT:
-            state.peek = ""
-        if state.hold is not None and given.event.type == state.hold.button:
-            state.let_go()  # another window has received the release
-    is_held = state.hold is not None
-    passes = bool((WHILE_HELD if is_held else ACTS)[given.what](state, given))
-    state.end_if_done()
+        chain.say("")
+        if chain.stage is Stage.PEEKING and given.what is not Action.NEXT:
+            chain.go(Cue.UNPEEK)
+        if chain.hold is not None and given.event.type == chain.hold.button:
+            chain.let_go()  # another window has received the release
+    is_held = chain.stage in HELD
+    passes = bool((WHILE_HELD if is_held else ACTS)[given.what](chain, given))
+    chain.settle()
     return passes or (given.what in _BLENDERS and not (is_held and given.what is Sign.OTHER_TOOL))
 
 
-def act_first(state: ChainState, given: Given) -> None:
-    """Do what begins a chain."""
-    state.has_begun = given.place is not None
-    if state.has_begun:
-        _FIRST[given.what](state, given)
+def act_first(chain: Chain, given: Given) -> None:
+    """Do what begins a chain, under the mouse."""
+    if given.what is Sign.HOVER:
+        chain.go(Cue.PEEK, peek=given.event.type)
+        hover(chain, given)
+    elif given.place is not None:
+        chain.begin()
+        _FIRST[given.what](chain, given)
+    chain.settle()
+    chain.show()
+
+
+def handle(chain: Chain, context: bpy.types.Context, event: bpy.types.Event) -> bool:
+    """Do what Blender's event asks for, show it, and return whether Blender is to have the event too."""
+    chain.find_front()
+    is_released = event.type == chain.peek and event.value == "RELEASE"
+    if chain.stage is Stage.PEEKING and (is_released or event.type == "WINDOW_DEACTIVATE"):
+        chain.go(Cue.UNPEEK)
+    given = chain_events.read(chain, context, event)
+    if given.what not in {Sign.TICK, Sign.RELEASE}:
+        chain.set_cursor("CROSSHAIR" if given.place else "")
+    passes = act(chain, given)
+    if given.what not in _UNSEEN:
+        chain.show()
+    return passes

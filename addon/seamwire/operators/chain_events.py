@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from ..mesh import settings as chosen
 from ..view.viewport import place_of
-from ..words.keys import WHEEL, Action, DoubleClicks, Key
+from ..words.keys import WHEEL, Action, Key
 from . import navigation
 from .drag_handlers import LineHold, StrokeHold
 from .navigation import Meaning
@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     import bpy
 
     from ..view.viewport import Place
-    from .chain_state import ChainState
-    from .chain_window import ChainWindow
+    from .chain import Chain
+    from .drag_handlers import Hold
 
 
 class Sign(Enum):
@@ -67,63 +67,45 @@ class Given:
     place: Place | None = None
 
 
-class EventReader:
-    """Reads the events of a chain.
-
-    Parameters
-    ----------
-    window
-        The window that the events come from.
-    """
-
-    def __init__(self, window: ChainWindow) -> None:
-        self._window = window
-        self._clicks = DoubleClicks()
-
-    def read(self, context: bpy.types.Context, event: bpy.types.Event, state: ChainState) -> Given:
-        """Return what an event means in this state of the chain."""
-        if event.type == "TIMER":
-            return Given(Sign.TICK, event)
-        place = place_of(self._window.window, event)
-        double = self._clicks.is_second(event, time.monotonic(), context.preferences)
-        hold = state.hold
-        if hold is not None and event.type == hold.button and event.value == "RELEASE":
-            return Given(Sign.RELEASE, event, place)
-        if place is None:
-            return Given(self._away(context, event, state, double), event)
+def read(chain: Chain, context: bpy.types.Context, event: bpy.types.Event) -> Given:
+    """Return what an event means in the chain's state."""
+    if event.type == "TIMER":
+        return Given(Sign.TICK, event)
+    place = place_of(chain.window, event)
+    double = chain.clicks.is_second(event, time.monotonic(), context.preferences)
+    hold = chain.hold
+    if hold is not None and event.type == hold.button and event.value == "RELEASE":
+        return Given(Sign.RELEASE, event, place)
+    motion = _motion(event, hold)
+    if place is not None:
         if event.type.endswith("MOUSE") and hold is None and navigation.on_gizmo(place, context.preferences):
             return Given(Sign.NOTHING, event)
-        return Given(_motion(event, state) or self._key(context, event, state, double), event, place)
-
-    def _away(
-        self, context: bpy.types.Context, event: bpy.types.Event, state: ChainState, double: bool
-    ) -> Action | Sign:
-        if event.type == "MOUSEMOVE":
-            return Sign.AWAY
-        if state.hold is not None and _motion(event, state) is None:
-            what = self._key(context, event, state, double)
-            return Sign.NOTHING if what is Sign.ZOOM else what
-        is_pressed = event.value == "PRESS" and not self._window.is_over_settings(event)
-        return Sign.OTHER_TOOL if is_pressed and state.hold is None else Sign.NOTHING
-
-    def _key(
-        self, context: bpy.types.Context, event: bpy.types.Event, state: ChainState, double: bool
-    ) -> Action | Sign:
-        if _turns_wheel(context, event, state):
-            return Sign.ZOOM if event.ctrl else Action.NEXT
-        if navigation.takes(Key.of(event), context):
-            return Sign.NOTHING
-        action = state.keys.decode(event, double)
-        if action is None:
-            is_other = navigation.meaning(event, self._window.manager) is Meaning.OTHER
-            return Sign.OTHER_TOOL if is_other else Sign.NOTHING
-        is_repeat = getattr(event, "is_repeat", False) and action not in {Action.UNDO, Action.REDO}
-        return Sign.REPEAT if is_repeat else action
+        return Given(motion or _key(chain, context, event, double), event, place)
+    if event.type == "MOUSEMOVE":
+        return Given(Sign.AWAY, event)
+    if hold is not None and motion is None:
+        what = _key(chain, context, event, double)
+        return Given(Sign.NOTHING if what is Sign.ZOOM else what, event)
+    ends = event.value == "PRESS" and hold is None and not _is_over_settings(chain.window, event)
+    return Given(Sign.OTHER_TOOL if ends else Sign.NOTHING, event)
 
 
-def _motion(event: bpy.types.Event, state: ChainState) -> Sign | None:
+def _key(chain: Chain, context: bpy.types.Context, event: bpy.types.Event, double: bool) -> Action | Sign:
+    """Return what a key, a button or the wheel means."""
+    if _turns_wheel(chain, context, event):
+        return Sign.ZOOM if event.ctrl else Action.NEXT
+    if navigation.takes(Key.of(event), context):
+        return Sign.NOTHING
+    action = chain.keys.decode(event, double)
+    if action is None:
+        is_other = navigation.meaning(event, chain.manager) is Meaning.OTHER
+        return Sign.OTHER_TOOL if is_other else Sign.NOTHING
+    is_repeat = getattr(event, "is_repeat", False) and action not in {Action.UNDO, Action.REDO}
+    return Sign.REPEAT if is_repeat else action
+
+
+def _motion(event: bpy.types.Event, hold: Hold | None) -> Sign | None:
     """Return what a motion means, or None for a key or a button."""
-    hold = state.hold
     if event.type == "INBETWEEN_MOUSEMOVE":
         if isinstance(hold, LineHold):
             return Sign.TRACE
@@ -135,8 +117,19 @@ def _motion(event: bpy.types.Event, state: ChainState) -> Sign | None:
     return Sign.HOVER if event.type.endswith(("_ALT", "_CTRL", "_SHIFT")) else None
 
 
-def _turns_wheel(context: bpy.types.Context, event: bpy.types.Event, state: ChainState) -> bool:
+def _turns_wheel(chain: Chain, context: bpy.types.Context, event: bpy.types.Event) -> bool:
     """Return whether the wheel turns, alone or with Ctrl, and the preferences give it to the candidates."""
     if event.type not in WHEEL or event.shift or event.alt or event.oskey:
         return False
-    return chosen.preferences(context).wheel_switches and state.session.seed is not None
+    return chosen.preferences(context).wheel_switches and chain.session.seed is not None
+
+
+def _is_over_settings(window: bpy.types.Window, event: bpy.types.Event) -> bool:
+    """Return whether the mouse is over the settings of a 3D view's tool, which a chain follows."""
+    x, y = event.mouse_x, event.mouse_y
+    regions = (region for area in window.screen.areas if area.type == "VIEW_3D" for region in area.regions)
+    return any(
+        region.x <= x < region.x + region.width and region.y <= y < region.y + region.height
+        for region in regions
+        if region.type in {"TOOL_HEADER", "UI"}
+    )

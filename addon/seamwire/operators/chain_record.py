@@ -37,7 +37,7 @@ class ChainRecord:
 
     Attributes
     ----------
-    view
+    drawn_on
         The object that is drawn on. None if nothing has been drawn since the last step.
     has_kept
         Whether the chain has changed a mesh.
@@ -48,12 +48,12 @@ class ChainRecord:
         self._before = Network()
         self._titles: set[str] = set()
         self._is_saved = False
-        self.view: ObjectView | None = None
+        self.drawn_on: ObjectView | None = None
         self.has_kept = False
 
     def begin(self, view: ObjectView) -> None:
         """Draw on an object from now on."""
-        self.view, self._before = view, view.session.network
+        self.drawn_on, self._before = view, view.session.network
 
     def note(self, title: str) -> None:
         """Note what was done, by a title of `undo_steps`."""
@@ -72,13 +72,13 @@ class ChainRecord:
         str
             Why the chain cannot go on, or an empty text.
         """
-        view = self.view
+        view = self.drawn_on
         if view is None or not (view.stale or not view.mesh.alive()):
             return reason
         # Blender reports a change of the mesh. Others may mark seams.
         obj = bpy.data.objects.get(view.name)
         if obj is None:
-            self.view = None
+            self.drawn_on = None
             return "The object was removed"
         if not view.mesh.follow_change(obj):
             return reason or "The mesh was changed"
@@ -104,17 +104,17 @@ class ChainRecord:
             If an edge is gone. Then the mesh is unchanged.
         """
         # The object that is drawn on comes first, because outside Edit Mode it is not among the views.
-        if self.view is not None:
+        if self.drawn_on is not None:
             if waits:
-                self.view.session.wait()
-            self.view.session.end_chain()
+                self.drawn_on.session.wait()
+            self.drawn_on.session.end_chain()
         for view in edited.views():
             view.session.end_chain()
-        view, before = self.view, self._before
+        view, before = self.drawn_on, self._before
         title = undo_steps.EDIT if self._titles == {undo_steps.EDIT} else undo_steps.DRAW
         self._titles.clear()
         if view is None or not (self._is_saved or Change(before, view.session.network)):
-            self.view = None
+            self.drawn_on = None
             return
         change = Change(before, view.session.network)
         try:
@@ -124,7 +124,7 @@ class ChainRecord:
         except Exception:
             self._is_saved = True  # the mesh may have a part of the wires: dropping the chain writes the former ones
             raise
-        self.view, self._is_saved = None, False
+        self.drawn_on, self._is_saved = None, False
         # The wires are in the mesh by now. Whatever fails, a step of undo must lead back.
         self._try("drawing them", view, lambda: _renew(view))
         done = self._try("cutting or sliding them", view, lambda: _apply(view, change)) or ""
@@ -149,18 +149,18 @@ class ChainRecord:
 
     def save(self) -> None:
         """Write the wires so far to the mesh, so that Blender saves them. The chain goes on."""
-        if self.view is None:
+        if self.drawn_on is None:
             return
         let_blender_tell()
         self.trouble("")
-        if self.view is not None:
+        if self.drawn_on is not None:
             with suppress(ValueError):  # the mesh has other vertices: the chain ends at its next event
-                _write(self.view, adopt=False)
+                _write(self.drawn_on, adopt=False)
                 self._is_saved = True
 
     def drop(self) -> None:
         """Undo everything since the last step."""
-        view, self.view = self.view, None
+        view, self.drawn_on = self.drawn_on, None
         if view is not None and view.mesh.alive():
             view.mesh.drop_changes(self._before)
             if self._is_saved:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -22,80 +22,90 @@ if TYPE_CHECKING:
 STEP = 3.0
 """Pixels between two looks at the surface under a stroke: a hand moves the mouse farther from one event to the next."""
 CLOSE_REACH = 10.0
-"""Pixels from its beginning in which a stroke that ends there is closed..."""
+"""A stroke is closed if it ends within this many pixels of its beginning..."""
 CLOSE_LENGTH = 6.0
-"""...where it went this many times as far away before."""
+"""...and went this many times as far away in between."""
 
 
-class Hold(Protocol):
-    """The thing that a pressed button drags."""
-
-    button: str
-
-    def move(self, place: Place, threshold: float) -> bool:
-        """Follow the mouse; a drag begins beyond the threshold, in pixels. Returns whether it is still held."""
-
-    def release(self) -> str:
-        """Do what was meant. Return the title of the step of undo, or an empty text if nothing was done."""
-
-    def cancel(self) -> None:
-        """Cancel without a change."""
-
-
-class _ClickHold:
-    """A hold that is a click until the mouse has moved.
+class Hold:
+    """The thing that a pressed button drags.
 
     Parameters
     ----------
     button
         The button.
     view
-        The object under the mouse.
-    snap
-        The pick under the mouse.
+        The object that is drawn on.
     place
         Where the button was pressed.
+    snap
+        The pick there. A stroke has none.
     """
 
-    def __init__(self, button: str, view: ObjectView, snap: Snap, place: Place) -> None:
+    def __init__(self, button: str, view: ObjectView, place: Place, snap: Snap | None = None) -> None:
         self.button = button
         self._view = view
-        self._snap = snap
+        self._session = view.session
         self._place = place
-
-    def _click(self) -> str:
-        self._view.session.click(self._snap)
-        return undo_steps.DRAW
-
-
-class SeedHold(_ClickHold):
-    """A seed or a wire: a click begins or ends a chain there, a drag moves the seed, or one that it puts into the wire."""
-
-    _dragging = False
+        self._snap = snap
+        self._is_drag = False
 
     def move(self, place: Place, threshold: float) -> bool:
-        """Let the seed follow."""
-        session = self._view.session
-        if not self._dragging:
+        """Follow the mouse. A drag begins beyond the threshold, in pixels. Return whether it is still held."""
+        if not self._is_drag:
             if place.away(self._place) <= threshold:
                 return True
-            if not session.drag(self._snap):
+            if not self.begin():
                 return False
-            self._dragging = True
-        session.drag_to(self._view.snap(place.view, place.cursor))
-        return True
+            self._is_drag = True
+        return self.drag(place)
 
     def release(self) -> str:
-        """Leave the seed there, or click."""
-        if self._dragging:
-            self._view.session.drag_end()
-            return undo_steps.EDIT
-        return self._click()
+        """Do what was meant. Return the title of the step of undo, or an empty text if nothing was done."""
+        if self._is_drag:
+            return self.end()
+        if self._snap is None:
+            return ""
+        self._session.click(self._snap)
+        return undo_steps.DRAW
+
+    def cancel(self) -> None:
+        """Cancel without a change."""
+        raise NotImplementedError
+
+    def begin(self) -> bool:
+        """Begin a drag. Return whether that is possible."""
+        raise NotImplementedError
+
+    def drag(self, place: Place) -> bool:
+        """Follow the mouse. Return whether the drag goes on."""
+        raise NotImplementedError
+
+    def end(self) -> str:
+        """End the drag where it is. Return the title of the step of undo, or an empty text."""
+        raise NotImplementedError
+
+
+class SeedHold(Hold):
+    """A seed or a wire: a click begins or ends a chain there, a drag moves the seed, or one that it puts into the wire."""
+
+    def begin(self) -> bool:
+        """Take hold of the seed."""
+        return self._session.drag(self._snap)
+
+    def drag(self, place: Place) -> bool:
+        """Let the seed follow."""
+        self._session.drag_to(self._view.snap(place.view, place.cursor))
+        return True
+
+    def end(self) -> str:
+        """Leave the seed there."""
+        self._session.drag_end()
+        return undo_steps.EDIT
 
     def cancel(self) -> None:
         """Let the seed go back."""
-        if self._dragging:
-            self._view.session.drag_cancel()
+        self._session.let_go()
 
 
 class Trail:
@@ -108,7 +118,7 @@ class Trail:
     place
         Where the button was pressed.
     ends_at_rim
-        Whether all is over where the hand leaves the surface; else it may come back.
+        Whether all is over where the hand leaves the surface. Otherwise it may come back.
 
     Attributes
     ----------
@@ -120,7 +130,7 @@ class Trail:
         Where it is now.
     """
 
-    def __init__(self, view: ObjectView, place: Place, ends_at_rim: bool = True) -> None:
+    def __init__(self, view: ObjectView, place: Place, ends_at_rim: bool) -> None:
         self._view = view
         self._ends_at_rim = ends_at_rim
         self.points: list[NDArray[np.float64]] = []
@@ -144,7 +154,7 @@ class Trail:
     def _add(self, camera: Camera, cursor: tuple[float, float]) -> None:
         found = None if self.left else self._view.surface_at(camera, cursor)
         if found is None:
-            # Over the rim it ends; begun beside the model, it has not begun.
+            # Over the rim it ends. If it began beside the model, it has not begun.
             self.left = self._ends_at_rim and bool(self.points)
             return
         point, triangle = found
@@ -153,114 +163,100 @@ class Trail:
             self.triangles.append(triangle)
 
 
-class LineHold(_ClickHold):
+class LineHold(Hold):
     """The surface: a click adds a seed, or keeps the live wire; a drag draws a line that wires follow."""
 
     _trail: Trail | None = None
     _line: LineGesture | None = None
 
-    def move(self, place: Place, threshold: float) -> bool:
-        """Draw on to where the mouse is now."""
-        if self._trail is None:
-            if place.away(self._place) <= threshold:
-                return True
-            if not self._view.session.line_begin(self._snap):
-                return False
-            self._trail = Trail(self._view, self._place, ends_at_rim=False)
-        self._trail.to(place)
-        # A key may have ended the line in the meantime.
-        return self._view.session.draws_line and self._draw()
+    def begin(self) -> bool:
+        """Begin a line."""
+        if not self._session.line_begin(self._snap):
+            return False
+        self._trail = Trail(self._view, self._place, ends_at_rim=False)
+        return True
 
     def follow(self, place: Place) -> None:
         """Take note of where the mouse was between two moves."""
         if self._trail is not None:
             self._trail.to(place)
 
-    def _draw(self) -> bool:
+    def drag(self, place: Place) -> bool:
+        """Draw on to where the mouse is now."""
         trail = self._trail
         assert trail is not None
-        snap = self._view.snap(trail.last.view, trail.last.cursor)
+        trail.to(place)
+        if self._session.under_way.held is None:
+            return False  # a key has ended the line in the meantime
         points, triangles = np.array(trail.points).reshape(-1, 3), np.array(trail.triangles, dtype=np.int32)
-        return self._view.session.line_to(points, triangles, snap)
+        return self._session.line_to(points, triangles, self._view.snap(place.view, place.cursor))
 
     def starts_chain(self) -> bool:
         """Take the line out of the session. Return whether the live wires are a separate chain, which is kept before the line."""
-        session = self._view.session
+        session = self._session
         self._line = session.line_release()
         live = session.seed is not None and not session.waiting_clicks
         return self._line is not None and live and not session.goes_on_from(self._snap)
 
-    def release(self) -> str:
-        """Keep the wires that follow the line, or click."""
-        if self._trail is None:
-            return self._click()
+    def end(self) -> str:
+        """Keep the wires that follow the line."""
         if self._line is None:
             return ""
-        self._view.session.line_keep(self._line)
+        self._session.line_keep(self._line)
         return undo_steps.DRAW
 
     def cancel(self) -> None:
         """Forget the line."""
-        self._view.session.line_cancel()
+        self._session.let_go()
 
 
-class StrokeHold:
+class StrokeHold(Hold):
     """A stroke that is drawn while a button is held.
 
-    Parameters
+    Attributes
     ----------
-    button
-        Which.
-    view
-        The object that is drawn on.
-    place
-        Where the button was pressed.
     attracts
         Whether wires are to follow the stroke, rather than keep off it.
     scale
-        Of the display.
+        The scale of the display.
     """
 
-    def __init__(
-        self,
-        button: str,
-        view: ObjectView,
-        place: Place,
-        attracts: bool,
-        scale: float = 1.0,
-    ) -> None:
-        self.button = button
-        self._view = view
-        self._attracts = attracts
-        self._reach = CLOSE_REACH * scale
-        self._first = place
-        self._trail: Trail | None = None
-        self._farthest = 0.0
+    attracts = True
+    scale = 1.0
+    _trail: Trail | None = None
+    _farthest = 0.0
 
-    def move(self, place: Place, threshold: float) -> bool:
-        """Draw on to where the mouse is now."""
-        if self._trail is None:
-            if place.away(self._first) <= threshold:
-                return True
-            self._view.session.hover(None)
-            self._trail = Trail(self._view, self._first)
-        self._trail.to(place)
-        self._farthest = max(self._farthest, math.dist(self._first.cursor, place.cursor))
-        self._view.stroke = (np.array(self._trail.points).reshape(-1, 3), self._attracts)
+    def begin(self) -> bool:
+        """Begin a stroke."""
+        self._session.hover(None)
+        self._trail = Trail(self._view, self._place, ends_at_rim=True)
         return True
 
-    def release(self) -> str:
-        """Let the wires follow it, or keep off."""
-        self._view.stroke = None
+    def drag(self, place: Place) -> bool:
+        """Draw on to where the mouse is now."""
         trail = self._trail
-        if trail is None or len(trail.points) < 2:
-            return ""
+        assert trail is not None
+        trail.to(place)
+        self._farthest = max(self._farthest, math.dist(self._place.cursor, place.cursor))
+        self._view.stroke = (np.array(trail.points).reshape(-1, 3), self.attracts)
+        return True
+
+    def end(self) -> str:
+        """Let the wires follow the stroke, or keep off."""
+        self._view.stroke = None
+        trail, reach = self._trail, CLOSE_REACH * self.scale
+        assert trail is not None
         points, triangles = trail.points, trail.triangles
-        near = math.dist(self._first.cursor, trail.last.cursor) <= self._reach
-        if near and not trail.left and self._farthest > CLOSE_LENGTH * self._reach and len(points) > 2:
+        if len(points) < 2:
+            return ""
+        near = math.dist(self._place.cursor, trail.last.cursor) <= reach
+        if near and not trail.left and self._farthest > CLOSE_LENGTH * reach and len(points) > 2:
             points, triangles = [*points, points[0]], [*triangles, triangles[0]]
-        self._view.session.draw_stroke(
-            np.array(points), np.array(triangles), attracts=self._attracts, radius=self._view.stroke_radius
+        self._session.draw_stroke(
+            np.array(points),
+            np.array(triangles),
+            attracts=self.attracts,
+            radius=self._view.options.stroke_radius or None,  # 0: as many rings as the library takes
         )
         return undo_steps.DRAW
 

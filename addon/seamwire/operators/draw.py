@@ -8,19 +8,21 @@ from itertools import count
 from typing import TYPE_CHECKING
 
 import bpy
+from bpy.app.handlers import persistent
 
 from ..core.base.native import NativeError
+from ..mesh.registration import classes, handler, together
 from ..mesh.settings import notices, preferences, settings
 from ..terms.choices import ALONG, items
 from ..words.keys import Action, Key
 from . import undo_steps
+from .chain_state import Stage, running
 from .edit_mesh_operator import NeedsEditMode
-from .navigation import takes
-from .report import running
+from .navigation import keys, takes
 from .steps import running as steps
 
 if TYPE_CHECKING:
-    from .modal import Chain
+    from .chain import Chain
 
 _FIRST = (
     ("NONE", "Nothing", "Wait for the next click", 0),
@@ -76,10 +78,11 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Begin a gesture."""
         from ..mesh.edit_mesh import NothingVisibleError
+        from ..view.edited_objects import edited
         from ..view.viewport import place_of
+        from .chain import Chain
+        from .chain_acts import act_first, has_target
         from .chain_events import Given, Sign
-        from .chain_gestures import has_target
-        from .modal import Chain, prepared
 
         if self.first != "NONE" and takes(Key.of(event), context):
             return {"PASS_THROUGH"}
@@ -94,12 +97,12 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
         try:
             if self.properties.is_property_set("along"):
                 settings(context).along = self.along
-            state = prepared(context)
+            edited.take_stock()
             what = Action[self.first] if self.first in Action.__members__ else Sign.HOVER
             given = Given(what, event, place_of(context.window, event))
-            if self.first in _FOR_BLENDER and not has_target(state, given):
+            if self.first in _FOR_BLENDER and not has_target(given, keys(context)):
                 return {"PASS_THROUGH"}
-            self._chain = Chain(context, state)
+            self._chain = Chain(context)
         except (ValueError, NativeError) as error:
             if self.first in _FOR_BLENDER:
                 return {"PASS_THROUGH"}
@@ -112,31 +115,36 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
             if self.first != "PEEK":
                 self._tell_problems(self._chain)
             if self.first != "NONE":
-                self._chain.begin(given)
-            if self._chain.state.is_idle and self.first != "NONE":
-                mirrored = self._chain.is_on_mirrored_half(event)
+                act_first(self._chain, given)
+            else:
+                self._chain.show()
+            if self._chain.stage is Stage.OVER:
+                place = given.place
+                views = [] if place is None else edited.views()
+                mirrored = any(view.is_on_mirrored_half(place.view, place.cursor) for view in views)
                 result = self._finish(context)
                 if mirrored and result == {"CANCELLED"}:
                     tell_mirrored(self)
                 return result
         except Exception as error:
             return self._failed(error)
-        self._chain.show()
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"} if self.first != "PEEK" else {"RUNNING_MODAL", "PASS_THROUGH"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Pass an event to the chain, and finish when the chain has ended."""
+        from .chain_acts import handle
+
         chain = self._chain
-        if not chain.open:
+        if chain.stage is Stage.CLOSED:
             return {"CANCELLED", "PASS_THROUGH"}
         try:
             trouble = chain.trouble(context)
             if trouble:
                 self.report({"WARNING"}, f"{trouble}: the chain has ended")
                 return self._finish(context) | {"PASS_THROUGH"}
-            passes = chain.handle(context, event)
-            if chain.state.is_idle:
+            passes = handle(chain, context, event)
+            if chain.stage is Stage.OVER:
                 result = self._finish(context)
                 return result | {"PASS_THROUGH"} if passes else result
             return {"PASS_THROUGH"} if passes else {"RUNNING_MODAL"}
@@ -145,19 +153,22 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
 
     def _tell_problems(self, chain: Chain) -> None:
         """Report problems with the settings and with the wires that are stored with the mesh, once."""
+        from ..view.edited_objects import edited
+
+        mesh = edited.front.mesh
         notices.tell(self.report)
-        chain.view.mesh.notices.tell(self.report)
-        if chain.view.mesh.obj.modifiers:
-            chain.state.say("Modifiers are ignored")
+        mesh.notices.tell(self.report)
+        if mesh.obj.modifiers:
+            chain.say("Modifiers are ignored")
 
     def _finish(self, context: bpy.types.Context) -> set[str]:
         try:
-            has_kept = self._chain.finish(context)
+            has_kept = self._chain.finish()
         except ValueError as error:
             self._chain.drop()
             self.report({"WARNING"}, f"{error}: the wires of this chain were not kept")
             return {"CANCELLED"}
-        self._chain.state.notices.tell(self.report)
+        self._chain.notices.tell(self.report)
         if has_kept and next(_kept) >= _ENOUGH and preferences(context).text == "STEPS":
             preferences(context).text = "INFORMATION"
             context.preferences.is_dirty = True
@@ -165,7 +176,7 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
 
     def _failed(self, error: Exception) -> set[str]:
         traceback.print_exc()
-        previews, restored = bool(self._chain.state.peek), True
+        previews, restored = self._chain.stage is Stage.PEEKING, True
         try:
             self._chain.drop()
         except Exception:
@@ -182,13 +193,13 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
         self.report({"ERROR"}, f"Drawing failed, and the mesh was restored: {error}")
         return {"CANCELLED"}
 
-    def cancel(self, context: bpy.types.Context) -> None:
+    def cancel(self, _context: bpy.types.Context) -> None:
         """End the chain when Blender stops the operator. Its wires are kept if the mesh still exists."""
         chain = self._chain
-        if not chain.open:
+        if chain.stage is Stage.CLOSED:
             return
         try:
-            chain.finish(context, undo_step=False)
+            chain.finish(undo_step=False)
         except Exception:
             traceback.print_exc()
             chain.close()
@@ -199,13 +210,29 @@ def tell_mirrored(operator: bpy.types.Operator) -> None:
     operator.report({"INFO"}, "This half comes from the Mirror modifier: click the other half")
 
 
-def register() -> None:
-    """Add the operator."""
-    bpy.utils.register_class(MESH_OT_seamwire_draw)
+@persistent
+def _on_save(*_: object) -> None:
+    """Let files hold what is drawn so far."""
+    for chain in running:
+        chain.record.save()
 
 
-def unregister() -> None:
-    """End the chain that is being drawn, restore the meshes, and remove the operator."""
+@persistent
+def _on_load(*_: object) -> None:
+    """End what is being drawn before another file is loaded."""
+    for chain in tuple(running):
+        chain.close()
+
+
+def _drop_all() -> None:
+    """End the chain that is being drawn, and restore the meshes."""
     for chain in tuple(running):
         chain.drop()
-    bpy.utils.unregister_class(MESH_OT_seamwire_draw)
+
+
+register, unregister = together(
+    *classes(MESH_OT_seamwire_draw),
+    handler("save_pre", _on_save),
+    handler("load_pre", _on_load),
+    (lambda: None, _drop_all),
+)

@@ -11,7 +11,7 @@ import bpy
 
 from ..mesh.registration import classes, together
 from ..mesh.settings import tool_is_active
-from .report import running
+from .chain_state import running
 
 GROUP = "SEAMWIRE_GGT_hover"
 OPERATOR = "mesh.seamwire_hover"

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Protocol
 
 import bpy
 
+from .chain_state import running as chains
 from .edit_mesh_operator import EditMeshOperator
 from .navigation import is_harmless, right_click_cancels
-from .report import running as chains
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator, Sequence

@@ -9,7 +9,7 @@ from bl_ui.space_statusbar import STATUSBAR_HT_header
 
 from ..mesh.settings import tool_is_active
 from ..operators import bindings, steps
-from ..operators.report import running, status_makers
+from ..operators.chain_state import running, status_makers
 from ..words.hints import Hint, Status, hints, idle_hints
 from . import toolbar
 
@@ -18,15 +18,17 @@ if TYPE_CHECKING:
 
     import bpy
 
-    from ..operators.modal import Chain
+    from ..operators.chain import Chain
 
 
 def status_of(chain: Chain) -> Status:
     """Return the state of a chain."""
-    symmetric = chain.view.mesh.symmetric
-    offers = symmetric if symmetric and not chain.session.options.mirror else ()
+    from ..view.edited_objects import edited
+
+    symmetric = edited.front.mesh.symmetric
+    offers = symmetric if symmetric and not edited.front.options.mirror else ()
     axes = "".join("XYZ"[axis] for axis in offers)
-    return Status(chain.session.picture, chain.state.keys, chain.state.notices.hint, axes)
+    return Status(chain.session.picture, chain.keys, chain.notices.hint, axes)
 
 
 def status_drawer(status: Status) -> Callable[[bpy.types.Header, bpy.types.Context], None]:

@@ -84,7 +84,6 @@ class EditedObjects:
             if self.front is None and name == self._was_front:
                 self.front = view
             self._make_room()
-        self._begin()
         return view
 
     def best_along(self, obj: bpy.types.Object | None) -> Along:
@@ -140,13 +139,8 @@ class EditedObjects:
         if self.front is None or not self.front.mesh.alive():
             self.front = self.of(bpy.context.active_object)
 
-    def clear(self) -> None:
-        """Forget all objects, draw nothing any more and follow Blender no more."""
-        for name, handler in _HANDLERS:
-            if handler in getattr(bpy.app.handlers, name):
-                getattr(bpy.app.handlers, name).remove(handler)
-        if self._on_settings in chosen.listeners:
-            chosen.listeners.remove(self._on_settings)
+    def clear(self, *_: object) -> None:
+        """Forget all objects, and draw nothing any more."""
         for name in tuple(self._views):
             self._remove(name)
         self._was_front = ""
@@ -204,7 +198,6 @@ class EditedObjects:
             self.front.session.hover(None)
         if view is not None:
             self.front = view
-            self.follow_settings()
             view.session.hover(snap)
         self.watch()
         self.show()
@@ -229,14 +222,16 @@ class EditedObjects:
         for view in self._views.values():
             view.make_layers()
         if self._views:
-            self._on_settings()
+            self.on_settings()
             self.redraw()
 
-    def _on_settings(self) -> None:
-        self.follow_settings()
-        self.watch()
+    def on_settings(self) -> None:
+        """Take note that a setting was changed."""
+        if self._views:
+            self.follow_settings()
+            self.watch()
 
-    def refresh(self) -> None:
+    def refresh(self, *_: object) -> None:
         """Read changed meshes again, and forget meshes with a new topology.
 
         A chain looks after its objects itself.
@@ -250,21 +245,22 @@ class EditedObjects:
             elif obj.mode == "EDIT" and not self._is_current(view, obj):
                 self.forget(view)
 
-    def on_update(self, depsgraph: bpy.types.Depsgraph) -> None:
+    def on_update(self, _scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
         """Take note of meshes that Blender says were changed."""
+        if not self._views:
+            return
         self._drop_deleted()
         moved = {update.id.name_full for update in depsgraph.updates if update.is_updated_geometry}
-        for view in self._views.values():
-            if view.name in moved:
-                view.has_moved()
+        self._move([view for view in self._views.values() if view.name in moved], depsgraph)
         meshes = _changed_meshes(depsgraph)
         # A view whose edit mesh is gone is read anew in any case.
         changed = [view for view in self.views() if view.obj.data in meshes or view.is_stretched_anew]
         if not meshes and not changed:
             return
         failures.retry()
-        now = time.monotonic()
+        now, settings = time.monotonic(), chosen.settings()
         for view in changed:
+            view.mesh.follow(settings)  # the mesh's own mirror may be another one
             if not view.stale:
                 view.stale = True
                 self._stale_since = now
@@ -272,12 +268,23 @@ class EditedObjects:
             self._changed = now
             self.watch()
 
-    def on_frame(self) -> None:
+    def on_frame(self, _scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
         """Take note that another frame may show the objects in another pose. Blender tells of no update then."""
-        for view in self._views.values():
-            view.has_moved()
+        self._move(list(self._views.values()), depsgraph)
 
-    def on_undo(self) -> None:
+    def _move(self, views: list[ObjectView], depsgraph: bpy.types.Depsgraph) -> None:
+        """Take note that objects may be in another pose, and follow it if they are shown. A render works in another thread."""
+        for view in views:
+            view.has_moved()
+        is_shown = self.chain or any(has_tool for _, has_tool in self._states.values())
+        if is_shown and depsgraph.mode == "VIEWPORT":
+            self._follow_poses()
+
+    def _follow_poses(self) -> None:
+        for view in self.views():
+            failures.attempt(("pose", view.name), view.follow_pose)
+
+    def on_undo(self, *_: object) -> None:
         """Follow Blender's undo or redo: all edit meshes are others now."""
         failures.retry()
         for view in self._views.values():
@@ -306,6 +313,7 @@ class EditedObjects:
             return None
         if time.monotonic() - self._changed > _PAUSE:
             self._read_next()
+        self._follow_poses()
         views = self.views()
         if any([failures.attempt(("poll", view.name), view.poll) for view in views]):
             self.redraw()
@@ -346,11 +354,10 @@ class EditedObjects:
 
     def show(self) -> None:
         """Show the sessions as they are now, where that is something new."""
-        for view in self.views():
-            view.show(front=view is self.front)
+        has_islands = any([view.show(front=view is self.front) for view in self.views()])
         state = [(id(view), view.session.revision, view.islands.pointed_island) for view in self.views()]
         state.append((id(self.front),))
-        if state != self._shown:
+        if has_islands or state != self._shown:
             self._shown = state
             self.redraw()
 
@@ -364,17 +371,8 @@ class EditedObjects:
         if error is not None:
             raise error
 
-    def _begin(self) -> None:
-        """Follow what Blender does, from now on."""
-        for name, handler in _HANDLERS:
-            handlers = getattr(bpy.app.handlers, name)
-            if handler not in handlers:
-                handlers.append(handler)
-        if self._on_settings not in chosen.listeners:
-            chosen.listeners.append(self._on_settings)
-
     def draw(self, part: str) -> None:
-        """Draw in the view that Blender is drawing now, and have what is missing read.
+        """Draw in the view that Blender is drawing now. A timer reads missing meshes, and nothing is read here.
 
         Parameters
         ----------
@@ -385,20 +383,21 @@ class EditedObjects:
         if context.window is None or context.space_data is None:
             return  # another add-on draws the view into a picture
         has_tool = chosen.tool_is_active(context)
-        self._follow_window(context.window, (context.mode, has_tool))
-        if has_tool and not self.chain and self._unread():
+        is_new = self._follow_window(context.window, (context.mode, has_tool))
+        if has_tool and not self.chain and (is_new or self._unread()):
             self.watch()
         if (has_tool or self.chain) and not self.covered and context.space_data.overlay.show_overlays:
             for view in self._drawn(context.space_data):
-                failures.attempt(("pose", view.name), view.follow_pose)
                 failures.attempt(("draw", view.name), getattr(view.overlay, part))
 
-    def _follow_window(self, window: bpy.types.Window, state: tuple[str, bool]) -> None:
-        """Take note of the mode of a window, and of whether it shows the tool."""
+    def _follow_window(self, window: bpy.types.Window, state: tuple[str, bool]) -> bool:
+        """Take note of the mode of a window, and of whether it shows the tool. Return whether that is new."""
         key = window.as_pointer()
-        if self._states.get(key) != state:
+        is_new = self._states.get(key) != state
+        if is_new:
             self._states[key] = state
             failures.retry()
+        return is_new
 
     def _drawn(self, space: bpy.types.SpaceView3D) -> Iterator[ObjectView]:
         """Yield the objects that are drawn in a view."""
@@ -427,33 +426,3 @@ def _in_edit_mode() -> list[bpy.types.Object]:
 
 edited = EditedObjects()
 """The edited objects of this Blender."""
-
-
-def _on_update(_scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
-    edited.on_update(depsgraph)
-
-
-def _on_frame(*_: object) -> None:
-    edited.on_frame()
-
-
-def _on_undo(*_: object) -> None:
-    edited.on_undo()
-
-
-def _on_save(*_: object) -> None:
-    edited.refresh()
-
-
-def _on_load(*_: object) -> None:
-    edited.clear()
-
-
-_HANDLERS = (
-    ("depsgraph_update_post", _on_update),
-    ("frame_change_post", _on_frame),
-    ("undo_post", _on_undo),
-    ("redo_post", _on_undo),
-    ("save_pre", _on_save),
-    ("load_pre", _on_load),
-)

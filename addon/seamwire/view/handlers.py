@@ -4,11 +4,18 @@
 from __future__ import annotations
 
 import sys
+from functools import partial
+from typing import TYPE_CHECKING
 
 import bpy
+from bpy.app.handlers import persistent
 
-from ..mesh.settings import tool_is_active
+from ..mesh.registration import handler, together
+from ..mesh.settings import listeners, tool_is_active
 from .timer import Timer
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 _PARTS = {"POST_VIEW": "draw_in_scene", "POST_PIXEL": "draw_on_screen"}
 """When Blender draws each part of an overlay."""
@@ -33,7 +40,19 @@ def _import() -> None:
 _start = Timer(_import)
 
 
-@bpy.app.handlers.persistent
+def _hand_on(method: str) -> Callable[..., None]:
+    """Return a function that calls a method of the objects that are drawn on, with what Blender gives it."""
+
+    @persistent
+    def call(*given: object) -> None:
+        objects = sys.modules.get(_OBJECTS)
+        if objects is not None:
+            getattr(objects.edited, method)(*given)
+
+    return call
+
+
+@persistent
 def _on_load(*_: object) -> None:
     """Forget what belongs to the file before."""
     session = sys.modules.get(f"{__package__.rpartition('.')[0]}.mesh.object_session")
@@ -41,18 +60,30 @@ def _on_load(*_: object) -> None:
         session.forget_records()
 
 
-def register() -> None:
+def _begin() -> None:
     """Begin to draw in all 3D views."""
-    bpy.app.handlers.load_post.append(_on_load)
     if not bpy.app.background:
         add = bpy.types.SpaceView3D.draw_handler_add
         _handles.extend(add(_draw, (part,), "WINDOW", when) for when, part in _PARTS.items())
 
 
-def unregister() -> None:
+def _end() -> None:
     """Draw nothing any more."""
     _start.stop()
     while _handles:
         bpy.types.SpaceView3D.draw_handler_remove(_handles.pop(), "WINDOW")
-    if _on_load in bpy.app.handlers.load_post:
-        bpy.app.handlers.load_post.remove(_on_load)
+
+
+_follow = _hand_on("on_settings")
+
+register, unregister = together(
+    (_begin, _end),
+    (partial(listeners.append, _follow), partial(listeners.remove, _follow)),
+    handler("depsgraph_update_post", _hand_on("on_update")),
+    handler("frame_change_post", _hand_on("on_frame")),
+    handler("undo_post", _hand_on("on_undo")),
+    handler("redo_post", _hand_on("on_undo")),
+    handler("save_pre", _hand_on("refresh")),
+    handler("load_pre", _hand_on("clear")),
+    handler("load_post", _on_load),
+)

@@ -7,7 +7,7 @@ import itertools
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
-from weakref import WeakMethod
+from weakref import ref
 
 import bpy
 import numpy as np
@@ -32,7 +32,7 @@ from .stretch_heat import StretchHeat
 from .theme import HUES
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Hashable, Iterator
+    from collections.abc import Hashable, Iterator
 
     from numpy.typing import NDArray
 
@@ -41,9 +41,9 @@ if TYPE_CHECKING:
     from ..core.network.network import Snap
     from ..core.network.picks import Pick
     from ..core.network.strokes import Stroke
-    from ..core.picking.camera import Camera as View
+    from ..core.picking.camera import Camera
     from ..core.solver.solver import End
-    from ..terms.options import Options as ToolOptions
+    from ..terms.options import Options
     from .layers import Layer
 
 
@@ -51,7 +51,7 @@ _BYTES_A_TRIANGLE = 1_150
 """As measured on a grid of 180,000 triangles, the library's surface and the picker's trees included."""
 
 
-def in_bounds(obj: bpy.types.Object, view: View, cursor: tuple[float, float]) -> bool:
+def in_bounds(obj: bpy.types.Object, view: Camera, cursor: tuple[float, float]) -> bool:
     """Whether a pixel lies within the bounds of an object, or within reach of them."""
     corners = np.array([(*corner, 1.0) for corner in obj.bound_box]) @ np.array(obj.matrix_world).T
     pixels = view.to_pixels(corners[:, :3])
@@ -65,12 +65,6 @@ def let_blender_tell() -> None:
     """Make Blender report pending changes of meshes now, instead of after all waiting events."""
     for layer in {window.view_layer for window in bpy.context.window_manager.windows} or {bpy.context.view_layer}:
         layer.update()
-
-
-def weak(look: Callable[[], Picture]) -> Callable[[], Picture]:
-    """Return a method as a function that does not keep its object alive."""
-    held = WeakMethod(look)
-    return lambda: held()()
 
 
 class ObjectView:
@@ -112,8 +106,9 @@ class ObjectView:
         self.islands = ShownIslands(self._islands, self.session, arrays.seams)
         self.stroke: tuple[NDArray[np.float64], bool] | None = None
         self._front = True
+        own = ref(self)  # what was prepared for a view is freed with it, and not when Python looks for cycles
         self.overlay = Overlay(
-            weak(self._look),  # what was prepared for a view is freed with it, and not when Python looks for cycles
+            lambda: own().picture,
             obj,
             self.pose,
             arrays.to_object,
@@ -124,6 +119,7 @@ class ObjectView:
         self._strength: NDArray[np.float64] | None = None
         self.name = obj.name_full
         self.was_read()
+        self.follow_pose()
         self.make_layers()
         self.measure()
         self.mesh.look_for_symmetry()
@@ -139,7 +135,7 @@ class ObjectView:
         return self.mesh.session
 
     @property
-    def options(self) -> ToolOptions:
+    def options(self) -> Options:
         """The settings that the session follows."""
         return self.session.options
 
@@ -153,11 +149,6 @@ class ObjectView:
             stroke=self.stroke,
             front=self._front,
         )
-
-    def _look(self) -> Picture:
-        """Return what is drawn now, and ask for what has changed."""
-        self.islands.poll()
-        return self.picture
 
     def close(self) -> None:
         """Let go of what works on threads."""
@@ -184,7 +175,7 @@ class ObjectView:
     def renew(self) -> None:
         """Let picker and overlay follow the mesh that was read, or written."""
         self.has_moved()
-        self._picker.set_seams(self.mesh.plain_seams)
+        self._follow_picker().set_seams(self.mesh.plain_seams)
         self.overlay.renew(self.obj)
         self.islands.set_seams(self.mesh.arrays.seams)
         self.measure(anew=True)
@@ -202,8 +193,8 @@ class ObjectView:
             self._posed_picker = None
             self.overlay.repose()
 
-    @property
-    def _picker(self) -> Picker:
+    def _follow_picker(self) -> Picker:
+        """Return the picker, made anew if the mesh is seen in another pose now."""
         self.follow_pose()
         if self._posed_picker is None:
             posed = replace(self.mesh.arrays, points=self.pose.points)
@@ -292,7 +283,7 @@ class ObjectView:
         """About how many bytes are prepared for it."""
         return _BYTES_A_TRIANGLE * len(self.mesh.arrays.triangles)
 
-    def snap(self, view: View, cursor: tuple[float, float], plain: bool = False) -> Snap | None:
+    def snap(self, view: Camera, cursor: tuple[float, float], plain: bool = False) -> Snap | None:
         """Return what is under the cursor; `plain`: what loops lead through, whatever was drawn on it.
 
         That is the mesh's nearest edge, or across the surface its nearest vertex or the point itself.
@@ -303,7 +294,7 @@ class ObjectView:
         if options.snap and self._strength is None:
             self._strength = self.session.drawing.feature_strength()
         has_crests = options.show_crests and across if plain else options.snap
-        snap = self._picker.snap(
+        snap = self._follow_picker().snap(
             view,
             self.obj.matrix_world,
             cursor,
@@ -320,41 +311,37 @@ class ObjectView:
         )
         return None if snap is None else replace(snap, seen_along=self.seen_along(view, snap.pick))
 
-    def seen_along(self, view: View, pick: Pick) -> tuple[float, float, float] | None:
+    def seen_along(self, view: Camera, pick: Pick) -> tuple[float, float, float] | None:
         """Return the direction from the viewer to a pick where wires that are straight in the view are offered, else None."""
         if not self.options.straight or self.options.along == "EDGES" or isinstance(pick, tuple):
             return None
-        return self._picker.seen_along(view, self.obj.matrix_world, pick)
+        return self._follow_picker().seen_along(view, self.obj.matrix_world, pick)
 
-    def depth(self, view: View, cursor: tuple[float, float]) -> float | None:
+    def depth(self, view: Camera, cursor: tuple[float, float]) -> float | None:
         """Return how far from the viewer the object is under the cursor; None where it is not."""
-        return self._picker.depth(view, self.obj.matrix_world, cursor)
+        return self._follow_picker().depth(view, self.obj.matrix_world, cursor)
 
-    def surface_at(self, view: View, cursor: tuple[float, float]) -> tuple[NDArray[np.float64], int] | None:
+    def surface_at(self, view: Camera, cursor: tuple[float, float]) -> tuple[NDArray[np.float64], int] | None:
         """Return the place on the mesh that is seen at a pixel, in the session's coordinates, and its triangle."""
-        found = self._picker.surface_at(view, self.obj.matrix_world, cursor)
+        found = self._follow_picker().surface_at(view, self.obj.matrix_world, cursor)
         return None if found is None else (self.pose.at_rest(*found), found[1])
 
-    def is_on_mirrored_half(self, view: View, cursor: tuple[float, float]) -> bool:
+    def is_on_mirrored_half(self, view: Camera, cursor: tuple[float, float]) -> bool:
         """Return whether the cursor is over faces that only a Mirror modifier shows."""
         flipped = (self.obj.matrix_world @ flip for flip in _flips(self.obj))
-        return any(self._picker.surface_at(view, matrix, cursor) is not None for matrix in flipped)
+        return any(self._follow_picker().surface_at(view, matrix, cursor) is not None for matrix in flipped)
 
-    @property
-    def stroke_radius(self) -> float | None:
-        """How far strokes reach; None: as many rings as the library takes."""
-        return self.options.stroke_radius or None
-
-    def stroke_at(self, view: View, cursor: tuple[float, float]) -> Stroke | None:
+    def stroke_at(self, view: Camera, cursor: tuple[float, float]) -> Stroke | None:
         """Return the stroke under the cursor."""
         scale = bpy.context.preferences.system.ui_scale
         matrix, strokes = self.obj.matrix_world, self.session.strokes
-        return self._picker.stroke_at(strokes, view, matrix, cursor, xray=self.options.xray, scale=scale)
+        return self._follow_picker().stroke_at(strokes, view, matrix, cursor, xray=self.options.xray, scale=scale)
 
-    def show(self, front: bool) -> None:
-        """Let the overlay follow."""
+    def show(self, front: bool) -> bool:
+        """Let the overlay follow, and ask for the islands. Return whether islands are new."""
         self._follow_layers()
         self._front = front
+        return self.islands.poll()
 
 
 def _flips(obj: bpy.types.Object) -> Iterator[Matrix]:

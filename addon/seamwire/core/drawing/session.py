@@ -120,7 +120,7 @@ class Session:
                 return self.run_to_end()
             if self.loops.takes(target):
                 return self.bend(target) if self.loops.bends else self.loop(target)
-        self.drag_cancel()
+        self.let_go(SeedDrag)
         self._last_click = None
         if self.under_way.queue:
             return self._wait_for(self.live, target)
@@ -136,13 +136,12 @@ class Session:
         target = Snap.of(snap)
         self._calm()
         try:
-            network = self.live.begun(target)
+            done = self._change(self.live.begun(target))
         except Refused as error:
             return self._refuse(error.message)
-        if not self._change(network):
-            return False
-        self._remember_click(target)
-        return True
+        if done:
+            self._remember_click(target)
+        return done
 
     def loop(self, snap: Snap | Pick) -> bool:
         """Keep the offer that is shown for a pick, otherwise the first one.
@@ -153,7 +152,7 @@ class Session:
         why = loops.aim(target)
         if why:
             return self._refuse(why)
-        self.drag_cancel()
+        self.let_go(SeedDrag)
         if self.options.along == "EDGES":
             if loops.is_crest_taken(target.pick):
                 return True  # the first press of a double click took the ridge
@@ -170,7 +169,7 @@ class Session:
         why = gesture.aim(target)
         if why:
             return self._refuse(why)
-        self.drag_cancel()
+        self.let_go(SeedDrag)
         self._last_click = None
         return self._commit(gesture, target)
 
@@ -206,7 +205,7 @@ class Session:
         why = extension.aim(target)
         if why:
             return self._refuse(why)
-        self.drag_cancel()
+        self.let_go(SeedDrag)
         if preview:
             extension.wanted = True
             self._show_extension()
@@ -271,14 +270,7 @@ class Session:
     def drag(self, snap: Snap | Pick) -> bool:
         """Take hold of a seed, or of a wire (``Snap.to == "WIRE"``), which gets a seed there. `drag_to` moves it."""
         self._calm()
-        try:
-            self.under_way.held = SeedDrag(self.drawing, Snap.of(snap))
-        except ValueError as error:
-            return self._refuse(message_of(error))
-        self.live.seedless = True
-        self._read_progress()
-        self._clear_shown()
-        return True
+        return self._hold(SeedDrag, Snap.of(snap))
 
     def drag_to(self, snap: Snap | Pick | None) -> bool:
         """Move the dragged seed; its wires follow as soon as they are computed. None leaves it in place."""
@@ -302,17 +294,51 @@ class Session:
         try:
             done = drag.commit()
         except Refused as error:
-            self.drag_cancel()
+            self.let_go(SeedDrag)
             return self._refuse(error.message)
         if done is drag:
             drag.ending = True
             return True
-        self._let_go(SeedDrag, again=done is None)
+        self.let_go(SeedDrag, again=done is None)
         return not isinstance(done, Network) or self._change(done)
 
-    def drag_cancel(self) -> bool:
-        """Let the dragged seed go back to where it was."""
-        return self._let_go(SeedDrag)
+    def _hold(self, kind: type[SeedDrag] | type[LineGesture], *given: object) -> bool:
+        """Take hold of a new gesture, in place of candidates and offers."""
+        try:
+            self.under_way.held = kind(self.drawing, *given)
+        except ValueError as error:
+            return self._refuse(message_of(error))
+        self._last_click = None
+        self.live.seedless = kind is SeedDrag
+        self._read_progress()
+        self.live.cancel()
+        self.loops.offers.clear()
+        self.extension.cancel()
+        self.message = NOTHING
+        self.revision += 1
+        return True
+
+    def let_go(self, kind: type[Gesture] = Gesture, again: bool = True) -> bool:
+        """Cancel the held gesture if it is of a kind: a dragged seed goes back, a line vanishes. Return whether it was held.
+
+        Parameters
+        ----------
+        kind
+            A class of gestures.
+        again
+            Whether to find the live wire again.
+        """
+        if self.under_way.holds(kind) is None:
+            return False
+        self.under_way.held = None
+        self.live.seedless = False
+        self.revision += 1
+        # While a seed was dragged, its wires kept their metric.
+        if self.drawing.engines.computes != self.options.computes:
+            self._compute_anew()
+        if again:
+            self._aim_again()
+        return True
 
     # Lines and strokes
 
@@ -325,15 +351,9 @@ class Session:
     def line_begin(self, snap: Snap | Pick) -> bool:
         """Begin a line over the surface, which `line_to` draws. At the live wire's seed it continues the chain."""
         begin = Snap.of(snap)
-        self.drag_cancel()
+        self.let_go(SeedDrag)
         self.stop_preview()
-        try:
-            self.under_way.held = LineGesture(self.drawing, begin, self.goes_on_from(begin))
-        except Refused as error:
-            return self._refuse(error.message)
-        self._last_click = None
-        self._clear_shown()
-        return True
+        return self._hold(LineGesture, begin, self.goes_on_from(begin))
 
     def line_to(self, points: NDArray[np.float64], triangles: NDArray[np.int32], snap: Snap | Pick | None) -> bool:
         """Draw the line on: all its points (k, 3), the triangle of each (k,), and the pick under the cursor."""
@@ -363,10 +383,6 @@ class Session:
         target = line.end or line.begin
         return self._wait_for(line, target) if self.under_way.queue else self._commit(line, target)
 
-    def line_cancel(self) -> bool:
-        """Forget the line that is being drawn."""
-        return self._let_go(LineGesture)
-
     def draw_stroke(self, points: ArrayLike | None = None, faces: ArrayLike | None = None, **how: object) -> bool:
         """Draw a stroke that live wires follow or avoid. The parameters are those of `StrokeGesture`."""
         try:
@@ -382,7 +398,7 @@ class Session:
         if len(rest) == len(network.strokes):
             return self._refuse("stroke-is-gone")
         self._last_click = None
-        self.drag_cancel()
+        self.let_go(SeedDrag)
         return self._change(replace(self.drawing.network, strokes=rest), self.live.candidates.chosen)
 
     # Settings
@@ -515,14 +531,14 @@ class Session:
         """Take back what is held, else the last gesture that still waits, else the last step."""
         under_way = self.under_way
         drag = under_way.holds(SeedDrag)
-        if (drag is None or not drag.ending) and self._let_go(Gesture):
+        if (drag is None or not drag.ending) and self.let_go():
             return True
         if under_way.queue:
             under_way.queue.pop()
             self.loops.forget_crest()
             self.revision += 1
             return True
-        if self.drag_cancel():
+        if self.let_go(SeedDrag):
             return True
         if under_way.retraces:
             under_way.retraces.pop()
@@ -533,7 +549,7 @@ class Session:
 
     def redo(self) -> bool:
         """Bring back the step that undo took."""
-        self.drag_cancel()
+        self.let_go(SeedDrag)
         network = self.drawing.history.forth(self.drawing.network)
         return self._refuse("nothing-to-redo") if network is None else self._restore(network)
 
@@ -598,30 +614,8 @@ class Session:
         self.loops.edges.stop_search()
         self.under_way.queue.clear()
         self._last_click = None
-        self._let_go(Gesture)
+        self.let_go()
         self.stop_preview()
-
-    def _let_go(self, kind: type[Gesture], again: bool = True) -> bool:
-        """Forget the held gesture if it is of a kind. Return whether it was.
-
-        Parameters
-        ----------
-        kind
-            A class of gestures.
-        again
-            Whether to find the live wire again.
-        """
-        if self.under_way.holds(kind) is None:
-            return False
-        self.under_way.held = None
-        self.live.seedless = False
-        self.revision += 1
-        # While a seed was dragged, its wires kept their metric.
-        if self.drawing.engines.computes != self.options.computes:
-            self._compute_anew()
-        if again:
-            self._aim_again()
-        return True
 
     # The wires and offers at the cursor
 
@@ -669,14 +663,6 @@ class Session:
         if self.extension.wanted:
             self.revision += self.extension.poll()
             self.message = self.extension.message or self.message
-
-    def _clear_shown(self) -> None:
-        """Show neither candidates nor offers, because something else is drawn."""
-        self.live.cancel()
-        self.loops.offers.clear()
-        self.extension.cancel()
-        self.message = NOTHING
-        self.revision += 1
 
     # Computed results
 
@@ -770,7 +756,7 @@ class Session:
         if self.waiting_clicks:
             queue.clear()
             retraces.clear()
-            self.drag_cancel()
+            self.let_go(SeedDrag)
             self._refuse("no-result")
 
     # State
@@ -821,11 +807,6 @@ class Session:
         return self.under_way.holds(SeedDrag) is not None
 
     @property
-    def draws_line(self) -> bool:
-        """Whether a line is being drawn."""
-        return self.under_way.holds(LineGesture) is not None
-
-    @property
     def moved(self) -> tuple[Wire, ...]:
         """The wires that follow a dragged seed, as they run now."""
         drag = self.under_way.holds(SeedDrag)
@@ -844,14 +825,10 @@ class Session:
         return len(self.under_way.queue) + len(self.under_way.retraces) + (drag is not None and drag.ending)
 
     @property
-    def work(self) -> Work:
-        """The running computation."""
-        return Work(self.computing, self.drawing.progress, self.waiting_clicks)
-
-    @property
     def picture(self) -> Picture:
         """Everything that is to be seen now."""
-        return self._painter.picture(self.revision, self.message, self.work)
+        work = Work(self.computing, self.drawing.progress, self.waiting_clicks)
+        return self._painter.picture(self.revision, self.message, work)
 
     def edges_to_mark(self) -> list[Edge]:
         """Return the edges that the wires make seams, each once, sorted, smaller vertex first."""

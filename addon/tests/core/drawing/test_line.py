@@ -115,7 +115,7 @@ def test_a_line_is_kept_as_wires_along_its_edges_in_one_step() -> None:
     drawing.wait()
     assert chain_of(drawing) == list(HOOK)
     assert drawing.seed is None, "a line is a chain of its own"
-    assert not drawing.draws_line
+    assert not drawing.under_way.held
     assert drawing.picture.all(Role.FOLLOWING) == ()
     assert drawing.undo()
     assert drawing.wires == ()
@@ -137,7 +137,7 @@ def test_its_wires_run_as_those_between_their_seeds_do() -> None:
         drawing.drag_to(Snap(wire.end))
         drawing.wait()
         assert {own.id: own.vertices for own in drawing.wires} == before
-        drawing.drag_cancel()
+        drawing.let_go()
 
 
 def test_a_line_that_is_cancelled_leaves_all_as_it_was() -> None:
@@ -149,10 +149,10 @@ def test_a_line_that_is_cancelled_leaves_all_as_it_was() -> None:
     drawing.line_begin(at(3, 7))
     drawing.line_to(*line((3, 7), (9, 7)), None)
     assert drawing.picture.all(Role.FOLLOWING)
-    assert drawing.line_cancel()
+    assert drawing.let_go()
     assert drawing.network == network
     assert drawing.picture.all(Role.FOLLOWING) == ()
-    assert not drawing.line_cancel()
+    assert not drawing.let_go()
     assert not end_line(drawing)
     assert not drawing.line_to(*line((3, 7), (9, 7)), None)
     assert drawing.network == network
@@ -164,7 +164,7 @@ def test_undo_forgets_a_line_before_it_undoes() -> None:
     drawing.line_begin(at(3, 7))
     assert drawing.picture.can_undo
     assert drawing.undo()
-    assert not drawing.draws_line
+    assert not drawing.under_way.held
     assert len(drawing.wires) == 1
 
 

@@ -47,7 +47,7 @@ def test_wires_arrive_and_leave_as_their_neighbours_do() -> None:
     session.click(23)
     session.drag(21)
     assert [fork.seeded for fork in table.lives["EDGES"].forks] == [((2, 3), True), (23, False)]
-    session.drag_cancel()
+    session.let_go()
     session.drag(3)
     assert [fork.seeded for fork in table.lives["EDGES"].forks[2:]] == [(0, False), ((22, 21), True)]
     session.drag_to(9)
@@ -64,7 +64,7 @@ def test_around_an_edge_seed_wires_keep_their_direction() -> None:
     assert table.lives["EDGES"].forks[0].seeded == ((3, 2), True), "the wire after it leaves over 3"
     session.drag_to(1)
     assert courses(session) == [(1, 2, 3), (3, 9, 15, 21)]
-    session.drag_cancel()
+    session.let_go()
     session.drag((3, 2))
     session.drag_to((8, 9))
     assert courses(session) == [(0, 1, 2, 8, 9), (9, 15, 21)], "the second leaves the edge where the first led over it"
@@ -186,7 +186,7 @@ def test_there_must_be_a_seed_to_drag() -> None:
     assert not session.drag(20)
     assert not session.drag_to(21)
     assert not session.drag_end()
-    assert not session.drag_cancel()
+    assert not session.let_go()
 
 
 def test_surface_wires_follow_to_vertices_only() -> None:

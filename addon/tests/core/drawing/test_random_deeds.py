@@ -74,11 +74,11 @@ class Monkey:
             lambda: session.drag(self.snap()),
             lambda: session.drag_to(self.snap()),
             session.drag_end,
-            session.drag_cancel,
+            session.let_go,
             lambda: session.line_begin(self.snap()),
             *[self.line_on] * 3,
             *[lambda: end_line(session)] * 2,
-            session.line_cancel,
+            session.let_go,
             session.end_chain,
             session.close,
             lambda: session.run_to_end(preview=self.dice.random() < 0.5),
@@ -207,7 +207,7 @@ def test_whatever_is_done_the_network_is_sound_and_undo_leads_back(seed: int) ->
     for _ in range(400):
         monkey.dice.choice(monkey.deeds)()
         monkey.check()
-    session.drag_cancel()
+    session.let_go()
     session.end_chain()
     session.wait()
     left = 1000

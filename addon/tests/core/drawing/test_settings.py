@@ -91,5 +91,5 @@ def test_the_metric_stays_while_a_seed_moves() -> None:
     session.drag(3)
     stronger(session, 1)
     assert session.drawing.strength == 10.0
-    session.drag_cancel()
+    session.let_go()
     assert session.drawing.strength == 12.5, "it is taken over when the seed is let go"

@@ -108,7 +108,7 @@ def test_a_loop_that_was_given_up_leaves_nothing_to_compute() -> None:
     session.hover(21)
     session.poll()
     assert not session.computing
-    assert session.work.progress == 1.0
+    assert session.picture.work.progress == 1.0
 
 
 def test_a_refused_loop_computes_no_closed_cuts_later() -> None:
@@ -202,7 +202,7 @@ def test_undo_takes_back_a_held_line_before_a_click_that_waits() -> None:
     assert session.waiting_clicks == 1
     session.line_begin(30)
     assert session.undo()
-    assert not session.draws_line
+    assert not session.under_way.held
     assert session.waiting_clicks == 1
     table.compute()
     assert len(session.wires) == 1

@@ -1,0 +1,278 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A chain in a window, from the click that begins it until it is closed, joined or ended."""
+
+from __future__ import annotations
+
+from contextlib import ExitStack
+from typing import TYPE_CHECKING
+
+import bpy
+
+from ..mesh import settings as chosen
+from ..view.edited_objects import edited
+from ..words.keys import DoubleClicks
+from ..words.notices import Notices
+from . import navigation
+from .chain_record import ChainRecord
+from .chain_state import HELD, TRANSITIONS, Cue, Stage, running, status_makers
+
+if TYPE_CHECKING:
+    from ..core.drawing.session import Session
+    from ..view.object_view import ObjectView
+    from .drag_handlers import Hold
+
+TICK = 0.008
+"""Seconds between two looks at running work, half of what a screen shows a picture for: a wire is drawn with the next one."""
+
+
+class Chain:
+    """A chain that is being drawn in a window.
+
+    Parameters
+    ----------
+    context
+        With the 3D view to draw in.
+
+    Attributes
+    ----------
+    stage
+        The state. Only `go` changes it.
+    hold
+        The thing that a pressed button drags; None: no button is held.
+    peek
+        The key that shows the loop under the mouse while it is held, or an empty text.
+    record
+        The object that is drawn on, and its wires since the last step of undo.
+    keys
+        What each key does.
+    clicks
+        Finds double clicks.
+    notices
+        What there is to report when the chain ends, and the hint about the last key.
+    window, workspace, manager
+        Blender's.
+    """
+
+    def __init__(self, context: bpy.types.Context) -> None:
+        self.window, self.workspace, self.manager = context.window, context.workspace, context.window_manager
+        self.keys, self.clicks = navigation.keys(context), DoubleClicks()
+        self.notices = Notices()
+        self.record = ChainRecord(self.notices)
+        self.stage = Stage.READY
+        self.hold: Hold | None = None
+        self.peek = ""
+        self._timer: bpy.types.Timer | None = None
+        self._cursor = ""
+        self._shown: tuple[tuple[object, ...], tuple[object, ...]] | None = None
+        self._cleanup = ExitStack()
+        edited.chain = True
+        self._cleanup.callback(_leave_objects)
+        self._cleanup.callback(self._leave_window)
+        chosen.listeners.append(self._on_settings)
+        self._cleanup.callback(chosen.listeners.remove, self._on_settings)
+        running.append(self)
+        self._cleanup.callback(running.remove, self)
+
+    @property
+    def session(self) -> Session:
+        """The session of the object that was pointed at last."""
+        assert edited.front is not None
+        return edited.front.session
+
+    # Its state
+
+    def go(self, cue: Cue, hold: Hold | None = None, peek: str = "") -> None:
+        """Go on to the state after a cue, with what is held there.
+
+        Raises
+        ------
+        AssertionError
+            If `TRANSITIONS` does not allow it.
+        """
+        after = TRANSITIONS.get((self.stage, cue))
+        if after is None:
+            raise AssertionError(f"A chain cannot go on: {self.stage.name}, {cue.name}")
+        self.stage, self.hold, self.peek = after, hold, peek
+
+    def begin(self) -> None:
+        """End as soon as nothing is live, because something is done from now on."""
+        if self.stage is Stage.READY:
+            self.go(Cue.BEGIN)
+        elif self.stage is Stage.PEEKING:
+            self.go(Cue.UNPEEK)
+
+    def let_go(self) -> None:
+        """Cancel what a button holds."""
+        if self.stage in HELD:
+            hold = self.hold
+            self.go(Cue.LET_GO)
+            hold.cancel()
+
+    def cancel_drags(self) -> bool:
+        """Cancel what a button holds, and released drags that still wait. Return whether there was something."""
+        is_held = self.stage in HELD
+        self.let_go()
+        return any([view.session.let_go() for view in edited.views()]) or is_held
+
+    @property
+    def waits(self) -> bool:
+        """Whether a click waits for its wire."""
+        return any(view.session.waiting_clicks for view in edited.views())
+
+    def end(self, wait: bool = True) -> None:
+        """Let go of everything that is live.
+
+        Parameters
+        ----------
+        wait
+            Whether clicks that wait for their wires are done first. Otherwise they are forgotten.
+        """
+        self.begin()
+        if not wait and self.cancel_drags():
+            return
+        if wait and self.waits:
+            if self.stage is not Stage.ENDING:
+                self.go(Cue.WAIT)
+            self.say("Ending as soon as the last wire is computed")
+            return
+        self.go(Cue.END)
+        for view in edited.views():
+            view.session.end_chain()
+
+    def settle(self) -> None:
+        """End if nothing is left to wait for."""
+        if self.stage is Stage.ENDING and not self.waits:
+            self.end()
+        elif self.stage is Stage.DRAWING:
+            sessions = [view.session for view in edited.views()]
+            if not any(one.seed is not None or one.waiting_clicks or one.dragging for one in sessions):
+                self.go(Cue.SETTLE)
+
+    # The objects
+
+    def find_front(self) -> None:
+        """Let the active object be in front if no object is, because a cut mesh is read anew. This may read the whole mesh."""
+        if edited.front is None:
+            edited.front = edited.of(bpy.context.active_object)
+
+    def draw_on(self, view: ObjectView) -> None:
+        """Draw on this object. Wires drawn on another object become a separate chain."""
+        edited.front = view
+        if self.record.drawn_on is not view:
+            if self.record.drawn_on is not None:
+                self.keep()
+            self.record.begin(view)
+
+    def keep(self) -> None:
+        """Keep what was drawn as a separate step of undo, and go on."""
+        self._write()
+        self.find_front()
+
+    def _write(self, undo_step: bool = True) -> None:
+        self.record.keep(bpy.context, undo_step, waits=self.stage in {Stage.ENDING, Stage.HOLDING_LAST})
+
+    def trouble(self, context: bpy.types.Context) -> str:
+        """Return why the chain cannot go on, or an empty text. Raises what an overlay could not draw."""
+        edited.take_error()
+        reason = ""
+        if context.mode != "EDIT_MESH":
+            reason = "Edit mode was left"
+        elif context.workspace != self.workspace:
+            reason = "Another workspace was opened"
+        return self.record.trouble(reason)
+
+    # How it ends
+
+    def finish(self, undo_step: bool = True) -> bool:
+        """Mark and clear what was drawn, as a step of Blender's undo, and return whether the chain has changed a mesh.
+
+        Raises
+        ------
+        ValueError
+            If an edge is gone. Then the mesh is unchanged.
+        """
+        self.cancel_drags()
+        self._write(undo_step)
+        self.close(Cue.KEEP)
+        return self.record.has_kept
+
+    def drop(self) -> None:
+        """Undo everything since the last step."""
+        self.record.drop()
+        self.close()
+
+    def close(self, cue: Cue = Cue.DROP) -> None:
+        """Put everything back. More than once does no harm."""
+        if self.stage is not Stage.CLOSED:
+            self.go(cue)
+            self._cleanup.close()
+
+    def _leave_window(self) -> None:
+        # All workspaces share the status bar, and the one of the chain may have been deleted.
+        bpy.data.workspaces[0].status_text_set(None)
+        if self.window in self.manager.windows.values():
+            self.set_cursor("")
+            self._set_timer(False)
+
+    # Its window
+
+    def say(self, hint: str) -> None:
+        """Show the result of a key in the status bar."""
+        self.notices.hint = hint
+
+    def set_cursor(self, shape: str) -> None:
+        """Show another cursor, or Blender's own if the name is empty."""
+        if shape == self._cursor:
+            return
+        self._cursor = shape
+        if shape:
+            self.window.cursor_modal_set(shape)
+        else:
+            self.window.cursor_modal_restore()
+
+    def _set_timer(self, wanted: bool) -> None:
+        """Let Blender send an event at each tick, or no longer."""
+        if wanted and self._timer is None:
+            self._timer = self.manager.event_timer_add(TICK, window=self.window)
+        elif not wanted and self._timer is not None:
+            timer, self._timer = self._timer, None
+            self.manager.event_timer_remove(timer)
+
+    def show(self) -> None:
+        """Show the sessions as they are now."""
+        session = self.session
+        picture = (
+            id(edited.front),
+            tuple((view.session.revision, view.islands.pointed_island) for view in edited.views()),
+        )
+        words = (
+            round(100.0 * session.drawing.progress),
+            session.computing,
+            session.waiting_clicks,
+            edited.front.mesh.symmetric,
+            self.notices.hint,
+        )
+        before, self._shown = self._shown, (picture, words)
+        if before is None or picture != before[0]:
+            edited.show()
+            edited.redraw()
+        if self._shown != before:
+            for make in status_makers:
+                self.workspace.status_text_set(make(self))
+        # Last: what is shown may ask for more to be computed.
+        self._set_timer(any(view.busy for view in edited.views()))
+
+    def _on_settings(self) -> None:
+        self._shown = None
+        if edited.front is not None:
+            self.show()
+
+
+def _leave_objects() -> None:
+    edited.chain = False
+    edited.watch()
+    edited.redraw()
+    for view in edited.views():
+        view.stroke = None
+        view.session.hover(None)
+    edited.show()

@@ -1,0 +1,316 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Every allowed change of a chain's state happens in Blender's window, and no other change is possible."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from functools import partial
+from pathlib import Path
+
+import bpy
+import pytest
+import ui as driver
+from desk import Desk, dismiss, draw
+from scene import chain, edit, seams
+from seamwire.core.drawing.wire import WireGesture
+from seamwire.mesh.object_session import ObjectSession
+from seamwire.operators import chain_events
+from seamwire.operators.chain import Chain
+from seamwire.operators.chain_state import TRANSITIONS, Cue, Stage
+from seamwire.view.edited_objects import edited
+
+EMPTY = 58
+"""A vertex where nothing is drawn."""
+
+
+class Walk:
+    """A chain with all changes of its state. Wires are computed only while `is_free`."""
+
+    def __init__(self, desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.desk, self.ui = desk, desk.ui
+        self.monkeypatch = monkeypatch
+        self.walked: list[tuple[Stage, Cue]] = []
+        self.is_free = True
+        go, waits = Chain.go, WireGesture.waits.fget
+
+        def noted(chain: Chain, cue: Cue, *held: object, **named: object) -> None:
+            self.walked.append((chain.stage, cue))
+            go(chain, cue, *held, **named)
+            assert chain.stage is TRANSITIONS[self.walked[-1]]
+            self.chain = chain
+
+        monkeypatch.setattr(Chain, "go", noted)
+        monkeypatch.setattr(WireGesture, "waits", property(lambda wire: not self.is_free or waits(wire)))
+
+    # Ways to a state
+
+    def reach(self, stage: Stage) -> None:
+        """Bring a chain to a state."""
+        {
+            Stage.READY: self.desk.start,
+            Stage.PEEKING: self.peek,
+            Stage.DRAWING: self.draw,
+            Stage.HOLDING: self.hold,
+            Stage.ENDING: self.wait_to_end,
+            Stage.HOLDING_LAST: self.hold_at_end,
+            Stage.OVER: self.draw,
+        }[stage]()
+        if stage is not Stage.OVER:  # the same event keeps a chain that is over, so it is reached by the walk itself
+            assert self.stage is stage
+
+    @property
+    def stage(self) -> Stage:
+        return self.desk.chain.stage if self.desk.running else Stage.CLOSED
+
+    def draw(self) -> None:
+        self.desk.start()
+        self.ui.click(self.desk.at(36))
+        self.ui.click(self.desk.at(40))
+        self.ui.wait_until(lambda: len(self.desk.session.wires) == 1 and not self.desk.session.computing)
+
+    def peek(self) -> None:
+        self.desk.choose()
+        self.ui.move(self.desk.at(EMPTY, EMPTY + 1))
+        self.ui.event("LEFT_ALT", "PRESS", alt=True)
+
+    def hold(self) -> None:
+        self.draw()
+        self.press()
+
+    def press(self) -> None:
+        self.ui.move(self.desk.at(EMPTY))
+        self.ui.event("LEFTMOUSE", "PRESS")
+
+    def wait_to_end(self) -> None:
+        self.draw()
+        self.ui.move(self.desk.at(44))
+        self.is_free = False
+        self.ui.click(self.desk.at(44))
+        self.ui.key("RET")
+
+    def hold_at_end(self) -> None:
+        self.wait_to_end()
+        self.press()
+
+    # Events
+
+    def click(self) -> None:
+        self.ui.click(self.desk.at(EMPTY))
+
+    def loop(self) -> None:
+        """Begin another chain with a loop, after which nothing is live."""
+        self.ui.key("RET")
+        self.desk.start()
+        self.ui.click(self.desk.at(EMPTY, EMPTY + 1), alt=True)
+
+    def release_key(self) -> None:
+        self.ui.event("LEFT_ALT", "RELEASE")
+
+    def lose_focus(self) -> None:
+        self.ui.event("WINDOW_DEACTIVATE", "NOTHING")
+
+    def release(self) -> None:
+        self.ui.event("LEFTMOUSE", "RELEASE")
+
+    def compute(self) -> None:
+        self.is_free = True
+
+    def undo_all(self) -> None:
+        for _ in range(2):  # the wire and the seed
+            self.ui.key("BACK_SPACE")
+
+    def leave_mode(self) -> None:
+        with self.ui.override():
+            bpy.ops.object.mode_set(mode="OBJECT")
+        self.is_free = True
+        self.ui.move(self.desk.ui.on_screen((0.3, 0.4, 0.0)))
+
+    def fail(self) -> None:
+        """Let the next event end on an error."""
+        with self.monkeypatch.context() as broken:
+            broken.setattr(chain_events, "read", partial(_raise, RuntimeError("broken")))
+            self.ui.move(self.desk.at(20))
+        dismiss(self.ui)
+
+    def fail_to_write(self) -> None:
+        """Let writing the chain fail, so that it is dropped."""
+        with self.monkeypatch.context() as broken:
+            broken.setattr(ObjectSession, "plan", partial(_raise, ValueError("broken")))
+            self.ui.key("RET")
+
+    def fail_to_write_otherwise(self) -> None:
+        """Let writing the chain end on an error that nobody expects."""
+        with self.monkeypatch.context() as broken:
+            broken.setattr(ObjectSession, "plan", partial(_raise, RuntimeError("broken")))
+            self.ui.key("RET")
+        dismiss(self.ui)
+
+    def key(self, name: str) -> None:
+        self.ui.key(name)
+
+    def click_right(self) -> None:
+        self.ui.event("RIGHTMOUSE", "PRESS")
+        self.ui.event("RIGHTMOUSE", "RELEASE")
+
+
+def _raise(error: Exception, *_: object, **__: object) -> None:
+    raise error
+
+
+Do = Callable[[Walk], None]
+
+
+def key(name: str) -> Do:
+    return partial(Walk.key, name=name)
+
+
+WALKS: list[tuple[Stage, Cue, Do]] = [
+    (Stage.READY, Cue.BEGIN, Walk.click),
+    (Stage.READY, Cue.BEGIN, key("RET")),
+    (Stage.READY, Cue.BEGIN, key("BACK_SPACE")),
+    (Stage.READY, Cue.PEEK, lambda walk: (walk.ui.key("ESC"), walk.peek())),
+    (Stage.PEEKING, Cue.UNPEEK, Walk.release_key),
+    (Stage.PEEKING, Cue.UNPEEK, Walk.lose_focus),
+    (Stage.PEEKING, Cue.UNPEEK, key("ESC")),
+    (Stage.DRAWING, Cue.PRESS, Walk.press),
+    (Stage.DRAWING, Cue.WAIT, Walk.wait_to_end),
+    (Stage.DRAWING, Cue.END, key("RET")),
+    (Stage.DRAWING, Cue.END, key("ESC")),
+    (Stage.DRAWING, Cue.END, Walk.click_right),
+    (Stage.DRAWING, Cue.SETTLE, Walk.loop),
+    (Stage.DRAWING, Cue.SETTLE, Walk.undo_all),
+    (Stage.HOLDING, Cue.RELEASE, Walk.release),
+    (Stage.HOLDING, Cue.LET_GO, key("ESC")),
+    (Stage.HOLDING, Cue.LET_GO, key("BACK_SPACE")),
+    (Stage.HOLDING, Cue.LET_GO, Walk.click_right),
+    (Stage.ENDING, Cue.PRESS, Walk.press),
+    (Stage.ENDING, Cue.END, Walk.compute),
+    (Stage.ENDING, Cue.END, key("ESC")),
+    (Stage.ENDING, Cue.END, key("BACK_SPACE")),
+    (Stage.HOLDING_LAST, Cue.RELEASE, Walk.release),
+    (Stage.HOLDING_LAST, Cue.LET_GO, key("ESC")),
+    *((stage, Cue.KEEP, Walk.leave_mode) for stage in (Stage.READY, Stage.PEEKING, Stage.DRAWING, Stage.ENDING)),
+    (Stage.OVER, Cue.KEEP, key("RET")),
+    (Stage.OVER, Cue.DROP, Walk.fail_to_write),
+    (Stage.OVER, Cue.DROP, Walk.fail_to_write_otherwise),
+    *((stage, Cue.DROP, Walk.fail) for stage in Stage if stage not in {Stage.OVER, Stage.CLOSED}),
+]
+"""How each transition is walked: the state before, the cue, and what brings it."""
+KEPT = {
+    Stage.READY: [],
+    Stage.PEEKING: [],
+    **dict.fromkeys((Stage.DRAWING, Stage.HOLDING, Stage.OVER), chain(*range(36, 41))),
+    **dict.fromkeys((Stage.ENDING, Stage.HOLDING_LAST), chain(*range(36, 45))),
+}
+"""The seams that a chain in each state leaves if it is kept."""
+
+
+def name(walk: tuple[Stage, Cue, Do]) -> str:
+    stage, cue, do = walk
+    return f"{stage.name}-{cue.name}-{getattr(do, '__name__', 'key')}"
+
+
+@pytest.fixture
+def walk(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> Iterator[Walk]:
+    """Return a chain that is to be walked. Errors are expected in some walks only."""
+    monkeypatch.setattr(bpy.context.preferences.inputs, "mouse_double_click_time", 1)
+    yield Walk(desk, monkeypatch)
+    assert all("broken" in error for error in driver.take_errors())
+
+
+@pytest.mark.smoke
+def test_each_transition_is_walked() -> None:
+    assert {(stage, cue) for stage, cue, _ in WALKS} == set(TRANSITIONS)
+
+
+@pytest.mark.parametrize(("stage", "cue", "do"), WALKS, ids=map(name, WALKS))
+def test_the_transition(walk: Walk, stage: Stage, cue: Cue, do: Do) -> None:
+    if cue is not Cue.WAIT:
+        walk.reach(stage)
+    do(walk)
+    walk.ui.wait_until(lambda: (stage, cue) in walk.walked, seconds=5.0)
+    if TRANSITIONS[stage, cue] is Stage.CLOSED:
+        walk.ui.wait_until(lambda: not walk.desk.running)
+        kept = KEPT[stage] if cue is Cue.KEEP else []
+        assert seams(walk.desk.obj) == kept
+        assert walk.chain.stage is Stage.CLOSED
+    walk.is_free = True
+    if walk.desk.running:
+        walk.ui.event("LEFTMOUSE", "RELEASE")
+        walk.ui.event("LEFT_ALT", "RELEASE")
+    if walk.desk.running:
+        walk.ui.key("RET")
+    walk.ui.wait_until(lambda: not walk.desk.running)
+    assert walk.chain.stage is Stage.CLOSED
+    assert walk.desk.left_clean()
+    assert not edited.chain
+
+
+def test_no_other_transition_is_possible() -> None:
+    chain = object.__new__(Chain)
+    for stage in Stage:
+        for cue in Cue:
+            if (stage, cue) not in TRANSITIONS:
+                chain.stage = stage
+                with pytest.raises(AssertionError, match=f"{stage.name}, {cue.name}"):
+                    chain.go(cue)
+                assert chain.stage is stage
+
+
+def test_a_chain_closes_though_its_workspace_is_gone(desk: Desk) -> None:
+    ui, home = desk.ui, desk.ui.window.workspace
+    with ui.override():
+        bpy.ops.workspace.duplicate()
+    ui.wait(4)
+    driver.Ui.__init__(ui)  # the copy has other areas
+    ui.look_from_top(distance=4.0)
+    try:
+        session = desk.start()
+        ui.click(desk.at(36))
+        ui.click(desk.at(40))
+        ui.wait_until(lambda: len(session.wires) == 1)
+        with ui.override():
+            bpy.ops.workspace.delete()
+        ui.wait(4)
+    finally:
+        ui.window.workspace = home
+        ui.wait(4)
+        driver.Ui.__init__(ui)
+    ui.move((300.0, 300.0))
+    assert desk.left_clean()
+    assert not edited.chain
+    assert seams(desk.obj) == chain(*range(36, 41))
+
+
+def test_opening_a_file_ends_the_chain_and_skips_no_handler(desk: Desk, tmp_path: Path) -> None:
+    path, told = str(tmp_path / "a.blend"), []
+    bpy.ops.wm.save_as_mainfile(filepath=path, copy=True)
+    desk.choose()
+    desk.ui.click(desk.at(36))
+    assert desk.running
+    for number in range(4):
+        bpy.app.handlers.load_pre.append(lambda *_, number=number: told.append(number))
+    bpy.ops.wm.open_mainfile(filepath=path, load_ui=False)
+    desk.ui.wait(4)
+    assert told == [0, 1, 2, 3]
+    assert desk.left_clean()
+    desk.ui = ui = driver.Ui()
+    if desk.obj.mode != "EDIT":
+        with ui.override():
+            edit()
+    ui.look_from_top(distance=4.0)
+    desk.choose()
+    draw(desk, 36, 40)
+    assert seams(desk.obj) == chain(*range(36, 41)), "the handlers stay with the add-on"
+
+
+@pytest.mark.smoke
+@pytest.mark.parametrize("first", ["REMOVE", "NEXT", "PEEK", "BEND"])
+def test_a_key_without_a_target_builds_no_chain(desk: Desk, monkeypatch: pytest.MonkeyPatch, first: str) -> None:
+    desk.choose()
+    desk.ui.move(desk.at(EMPTY))
+    built: list[Chain] = []
+    monkeypatch.setattr(Chain, "__init__", lambda own, _context: built.append(own))
+    with desk.ui.override():
+        assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT", first=first) == {"PASS_THROUGH"}
+    assert built == []
