@@ -140,14 +140,18 @@ class Suggestions:
         for suggestion, share in self._shares(progress):
             suggestion.measure(share)
 
-    def count(self, amount: float, edits: Mapping[str, PartEdits]) -> int:
-        """Return the number of parts of all meshes for an amount from 0 to 1. The edits have the names of objects."""
-        return sum(suggestion.count(amount, _own(edits, suggestion)) for suggestion in self)
+    def count(self, amount: float, edits: Mapping[str, PartEdits], progress: Progress) -> int:
+        """Return the number of parts of all meshes for an amount from 0 to 1; any thread may.
 
-    def choose(self, amount: float, edits: Mapping[str, PartEdits]) -> None:
-        """Choose the parts for an amount from 0 to 1. The edits have the names of objects."""
-        for suggestion in self:
-            suggestion.choose(amount, _own(edits, suggestion))
+        The edits have the names of objects. `progress` is that of `measure`.
+        """
+        shares = self._shares(progress)
+        return sum(suggestion.count(amount, _own(edits, suggestion), share) for suggestion, share in shares)
+
+    def choose(self, amount: float, edits: Mapping[str, PartEdits], progress: Progress = lambda _: True) -> None:
+        """Choose the parts for an amount from 0 to 1, as `count` finds them."""
+        for suggestion, share in self._shares(progress):
+            suggestion.choose(amount, _own(edits, suggestion), share)
 
     def limit_stretch(self, percent: float) -> None:
         """Let the next plans have another mean stretch. `choose` drops those for the stretch before."""
