@@ -109,11 +109,10 @@ EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const
   const Polygons polygons = find_polygons(mesh, frames);
   const PieceSizes sizes = measure_pieces(mesh, frames);
   const EdgeBends bends = bends_over_edges(mesh, frames, polygons, sizes);
-  // Openness is in the price of a place, so it must not count twice.
+  // Nothing must count twice: openness is in the price of a place, and paths on the mirror plane pay half.
   const std::vector<double> even(mesh.vertex_count(), 1.0);
   const std::vector<std::uint8_t> none(mesh.edge_count(), 0);
-  const std::vector<double> odds =
-      border_odds(mesh, polygons, sizes, bends, even, none, reflection ? &*reflection : nullptr);
+  const std::vector<double> odds = border_odds(mesh, polygons, sizes, bends, even, none, nullptr);
   const std::vector<double> shapes = shape_prices(mesh, bends, odds);
   // On machine parts sharp edges hide seams on every side, and nothing is a face.
   const double hard = hardness(mesh, bends.own);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -104,6 +105,16 @@ TEST(EdgePrices, AreTheSameOnBothSides) {
     }
     EXPECT_EQ(std::isfinite(one), std::isfinite(other));
   }
+}
+
+TEST(EdgePrices, AreTheSameOnTheMirrorPlaneAsBesideIt) {
+  // Paths there pay half already.
+  std::vector<std::array<double, 2>> profile;
+  for (int i = -8; i <= 8; ++i) profile.push_back({i / 8.0, 0.3 * std::sqrt(1.0 - i * i / 64.0)});
+  const Surface egg = shapes::lathe(24, profile).surface();
+  const auto is_on_plane = [](const Vector& p) { return std::abs(p.x()) < 1e-9; };
+  const double plain = mean_price(problem_on(egg), is_on_plane);
+  EXPECT_NEAR(mean_price(problem_on(egg, {.mirror = 0}), is_on_plane), plain, 0.05 * plain);
 }
 
 TEST(EdgePrices, OfAFlatSheetAreFinite) {
