@@ -32,6 +32,7 @@ namespace {
 constexpr double kEditOdds = 1e6;               // of an edge that somebody has kept or dropped
 constexpr double kBiasToOne = 1.2;              // how fast it falls towards one part, in log odds of the amount
 constexpr double kBiasToSharp = 2.2;            // what is added to it at the other end
+constexpr double kOnPlane = 2.0;                // log odds for edges on the mirror plane
 constexpr double kPartPrice = 0.2;              // of a part, in diagonals of its piece
 constexpr double kLeastArea = 0.003;            // of the area of its piece
 constexpr double kLeastWidth = 0.008;           // in diagonals of its piece
@@ -158,7 +159,7 @@ void PartFinder::Impl::prepare(const Task& task) {
   polygons = find_polygons(mesh, frames, is_border);
   task.check(0.85);
   bends = bends_over_edges(mesh, frames, polygons, sizes);
-  odds = border_odds(mesh, polygons, sizes, bends, visibility.ambient, is_marked, problem.mirror());
+  odds = border_odds(mesh, polygons, sizes, bends, visibility.ambient, is_marked, problem.mirror(), kOnPlane);
   task.check(0.95);
   regions.resize(polygons.count);
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -107,14 +106,14 @@ TEST(EdgePrices, AreTheSameOnBothSides) {
   }
 }
 
-TEST(EdgePrices, AreTheSameOnTheMirrorPlaneAsBesideIt) {
-  // Paths there pay half already.
-  std::vector<std::array<double, 2>> profile;
-  for (int i = -8; i <= 8; ++i) profile.push_back({i / 8.0, 0.3 * std::sqrt(1.0 - i * i / 64.0)});
-  const Surface egg = shapes::lathe(24, profile).surface();
+TEST(EdgePrices, AreSomewhatLowerOnTheMirrorPlane) {
+  // Not by much, because paths there pay half already.
+  const Surface top = shapes::lathe(24, {{-1.0, 0.0}, {-0.5, 0.15}, {0.0, 0.3}, {0.5, 0.15}, {1.0, 0.0}}).surface();
   const auto is_on_plane = [](const Vector& p) { return std::abs(p.x()) < 1e-9; };
-  const double plain = mean_price(problem_on(egg), is_on_plane);
-  EXPECT_NEAR(mean_price(problem_on(egg, {.mirror = 0}), is_on_plane), plain, 0.05 * plain);
+  const double plain = mean_price(problem_on(top), is_on_plane);
+  const double mirrored = mean_price(problem_on(top, {.mirror = 0}), is_on_plane);
+  EXPECT_LT(mirrored, 0.8 * plain);
+  EXPECT_GT(mirrored, 0.45 * plain);
 }
 
 TEST(EdgePrices, OfAFlatSheetAreFinite) {
