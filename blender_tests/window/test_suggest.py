@@ -18,6 +18,7 @@ import ui as driver
 from desk import choose, leave, undo_steps
 from scene import add_suzanne, animate, edit, head, mark_wires, seams, snapshot
 from seamwire.core.base import native
+from seamwire.core.seams.parts import PartEdits
 from seamwire.mesh.seam_search import Suggestion
 from seamwire.operators import suggest_live
 from seamwire.operators.chain_state import running as chains
@@ -430,6 +431,57 @@ def test_a_click_into_an_island_cuts_it_once_more(ui: driver.Ui, prism: bpy.type
     ui.key("RET")
     ui.wait_until(lambda: not searches, 60.0)
     assert island_count(prism) == 5
+
+
+@pytest.fixture
+def slow_cuts(monkeypatch: pytest.MonkeyPatch) -> Iterator[threading.Event]:
+    """Cuts of parts that take until the event is set."""
+    find, may_end = Suggestion.count, threading.Event()
+
+    def count(self: Suggestion, amount: float, edits: PartEdits, progress: Callable[[float], bool]) -> int:
+        while edits.parted and not may_end.wait(0.02):
+            if not progress(0.4):
+                raise native.load().Cancelled
+        return find(self, amount, edits, progress)
+
+    monkeypatch.setattr(Suggestion, "count", count)
+    yield may_end
+    may_end.set()
+
+
+def test_a_long_cut_is_a_step_and_the_wheel_turns_after_it(
+    ui: driver.Ui, prism: bpy.types.Object, slow_cuts: threading.Event, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    said: list[str] = []
+    monkeypatch.setattr(Stepwise, "_tell", lambda _, text: said.append(text or ""))
+    invoke(ui)
+    side = ui.on_screen(FRONT_SIDE)
+    ui.click(side)
+    ui.wait_until(lambda: "Finding parts: 40 %" in said[-1])
+    ui.click(ui.on_screen(FRONT_RIM))
+    ui.wheel(False, side)
+    ui.wait(5)
+    assert count() == 3, "clicks wait for the cut"
+    slow_cuts.set()
+    ui.wait_until(lambda: not live()._searches)
+    assert count() == 2, "all is one part, which is cut"
+    assert not live().edits[prism.name].dropped
+    ui.key("RET")
+    ui.wait_until(lambda: not searches, 60.0)
+    assert island_count(prism) == 2
+
+
+def test_escape_ends_a_long_cut(ui: driver.Ui, prism: bpy.types.Object, slow_cuts: threading.Event) -> None:
+    before = snapshot(prism)
+    invoke(ui)
+    ui.click(ui.on_screen(FRONT_SIDE))
+    ui.wait(5)
+    assert live()._searches
+    ui.key("ESC")
+    ui.wait_until(lambda: not searches)
+    assert not slow_cuts.is_set()
+    assert snapshot(prism) == before
+    assert not edited.covered
 
 
 def test_adjust_last_operation_has_what_was_clicked(ui: driver.Ui, prism: bpy.types.Object) -> None:

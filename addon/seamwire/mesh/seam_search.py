@@ -131,6 +131,7 @@ class Suggestion:
         self._within, self.others = self._islands_with(faces)
         self._finder: seamwire_core.PartFinder | None = None
         self._last: tuple[float, PartEdits, seamwire_core.Parts] | None = None
+        self._chosen: tuple[float, PartEdits, seamwire_core.Parts] | None = None
         self._planner: seamwire_core.SeamPlanner | None = None
         self._blenders_mirrors = mirror_axes(obj.data)
         self.had_seams = len(arrays.seams) > 0
@@ -168,13 +169,17 @@ class Suggestion:
             self._surface, mirror=self._axis, marked=arrays.marked, seams=arrays.seams, progress=progress
         )
 
-    def count(self, amount: float, edits: PartEdits) -> int:
-        """Return the number of parts for an amount from 0 to 1."""
-        return self._counted(self._found(amount, edits))
+    def count(self, amount: float, edits: PartEdits, progress: Callable[[float], bool]) -> int:
+        """Return the number of parts for an amount from 0 to 1; any thread may. `progress` is that of `measure`."""
+        return self._counted(self._found(amount, edits, progress))
 
-    def choose(self, amount: float, edits: PartEdits) -> None:
-        """Find the parts for an amount from 0 to 1, and choose them. A plan for other parts is dropped."""
-        found = self._found(amount, edits)
+    def choose(self, amount: float, edits: PartEdits, progress: Callable[[float], bool]) -> None:
+        """Find the parts for an amount from 0 to 1, and choose them. A plan for other parts is dropped.
+
+        Parts that were counted last, or that are chosen already, are not searched again. `progress` is that of `measure`.
+        """
+        found = self._found(amount, edits, progress)
+        self._chosen = amount, edits, found
         self.part_count = self._counted(found)
         self.borders = [np.asarray(chain) for chain in found.borders]
         if self._within is not None:
@@ -182,14 +187,16 @@ class Suggestion:
         self._planner = self.best = self.layout = None
         self.slits = []
 
-    def _found(self, amount: float, edits: PartEdits) -> seamwire_core.Parts:
+    def _found(self, amount: float, edits: PartEdits, progress: Callable[[float], bool]) -> seamwire_core.Parts:
         """Find parts. The last ones are kept, because parts are counted before they are chosen."""
         assert self._finder is not None
-        if self._last is None or self._last[:2] != (amount, edits):
-            arrays = self.mesh.arrays
-            found = self._finder.find(amount, **edits.on(arrays.edges, arrays.polygons))
-            self._last = amount, edits, found
-        return self._last[2]
+        for known in (self._chosen, self._last):
+            if known is not None and known[:2] == (amount, edits):
+                return known[2]
+        arrays = self.mesh.arrays
+        found = self._finder.find(amount, **edits.on(arrays.edges, arrays.polygons), progress=progress)
+        self._last = amount, edits, found
+        return found
 
     def _counted(self, parts: seamwire_core.Parts) -> int:
         """Return the number of parts. An island that is not to be cut is one part."""
@@ -479,14 +486,18 @@ class SeamSearch:
         for suggestion, share in self._shares(progress):
             suggestion.measure(share)
 
-    def count(self, amount: float, edits: Mapping[str, PartEdits]) -> int:
-        """Return the number of parts of all meshes for an amount from 0 to 1. The edits have the names of objects."""
-        return sum(suggestion.count(amount, _own(edits, suggestion)) for suggestion in self)
+    def count(self, amount: float, edits: Mapping[str, PartEdits], progress: Progress) -> int:
+        """Return the number of parts of all meshes for an amount from 0 to 1; any thread may.
 
-    def choose(self, amount: float, edits: Mapping[str, PartEdits]) -> None:
-        """Choose the parts for an amount from 0 to 1. The edits have the names of objects."""
-        for suggestion in self:
-            suggestion.choose(amount, _own(edits, suggestion))
+        The edits have the names of objects. `progress` is that of `measure`.
+        """
+        shares = self._shares(progress)
+        return sum(suggestion.count(amount, _own(edits, suggestion), share) for suggestion, share in shares)
+
+    def choose(self, amount: float, edits: Mapping[str, PartEdits], progress: Progress = lambda _: True) -> None:
+        """Choose the parts for an amount from 0 to 1, as `count` finds them."""
+        for suggestion, share in self._shares(progress):
+            suggestion.choose(amount, _own(edits, suggestion), share)
 
     def limit_stretch(self, percent: float) -> None:
         """Let the next plans have another mean stretch. `choose` drops those for the stretch before."""

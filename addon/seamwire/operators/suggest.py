@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from contextlib import closing
+from functools import partial
 from typing import TYPE_CHECKING
 
 import bpy
@@ -134,7 +135,8 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         if self.is_beside:
             yield from self._show_parts(context, search)
         else:
-            search.choose(0.01 * self.parts, edits_of_text(self.edits))
+            choose = partial(search.choose, 0.01 * self.parts, edits_of_text(self.edits))
+            yield from _step(search, Step("Finding parts", choose))
             yield from _step(search, Step("Planning seams", search.plan))
         search.refresh()
         if search.has_wires:

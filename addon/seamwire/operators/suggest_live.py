@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 import time
+from collections import deque
 from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -30,8 +31,13 @@ if TYPE_CHECKING:
     from ..view.viewport import Place
     from .steps import Progress
 
+    Search = Callable[[Progress], tuple[float, dict[str, PartEdits]]]
+    """Finds other parts, and returns their amount and the edits. Any thread may call it."""
+
 _REST = 0.4
 """Seconds without a change until slits are planned."""
+_INSTANT = 0.1
+"""Seconds that the interface waits for new parts. Parts that take longer are found in a separate step."""
 _LOOKING = 0.2
 """Seconds that a notch of the wheel may look for another number of parts."""
 _TICK = 0.02
@@ -94,6 +100,8 @@ class LiveParts:
         self.is_kept = False
         self._dropped: dict[str, list[NDArray[np.int32]]] = {}
         self._counts: dict[float, int] = {}
+        self._searches: deque[Search] = deque()
+        self._found: tuple[float, dict[str, PartEdits]] | None = None
         self._version = self._worked_on = 0
         self._planned = -1
         self._rests_at = 0.0
@@ -105,14 +113,20 @@ class LiveParts:
     # The step
 
     def step(self) -> Step:
-        """Return the step that waits for the artist, and plans when the hand rests."""
+        """Return the step that finds the parts that the artist has asked for, or waits and plans when the hand rests."""
+        if self._found is not None:
+            self._searches.popleft()
+            found, self._found = self._found, None
+            self._change_to(*found)
         self._worked_on = self._version
+        if self._searches:
+            return Step("Finding parts", self._find, hand=self)
         return Step("Planning seams", self._plan, self._look, self)
 
     @property
     def is_done(self) -> bool:
         """Whether the parts are confirmed, and seams planned in them."""
-        return self.is_kept and self.is_planned
+        return self.is_kept and self.is_planned and not self._searches
 
     @property
     def is_planned(self) -> bool:
@@ -122,7 +136,8 @@ class LiveParts:
     @property
     def is_over(self) -> bool:
         """Whether the step has nothing to wait for."""
-        return self.is_kept or self._worked_on != self._version or not self._search.are_alive
+        is_outdated = self._worked_on != self._version or bool(self._searches)
+        return self.is_kept or is_outdated or not self._search.are_alive
 
     @property
     def title(self) -> str:
@@ -139,7 +154,7 @@ class LiveParts:
         version = self._version
 
         def goes_on(fraction: float) -> bool:
-            return progress(fraction) and self._version == version
+            return progress(fraction) and self._version == version and not self._searches
 
         while time.monotonic() < self._rests_at and not self.is_kept:
             if not goes_on(0.0):
@@ -210,29 +225,61 @@ class LiveParts:
             self._change()
 
     def _turn(self, notches: int) -> None:
-        until = time.monotonic() + _LOOKING
-        found = turned(self.amount, notches, self._count, lambda: time.monotonic() < until)
-        if found != self.amount:
-            self.amount = found
-            self._change()
+        def search(progress: Progress) -> tuple[float, dict[str, PartEdits]]:
+            until = time.monotonic() + _LOOKING
+            found = turned(
+                self.amount, notches, lambda amount: self._count(amount, progress), lambda: time.monotonic() < until
+            )
+            self._search.count(found, self.edits, progress)  # so that its parts are kept
+            return found, self.edits
 
-    def _count(self, amount: float) -> int:
+        self._begin(search)
+
+    def _count(self, amount: float, progress: Progress) -> int:
         """Return the number of parts for an amount."""
         if amount not in self._counts:
-            self._counts[amount] = self._search.count(amount, self.edits)
+            self._counts[amount] = self._search.count(amount, self.edits, progress)
         return self._counts[amount]
 
     def _click(self, place: Place) -> None:
-        at = self._preview.at(place)
+        at = None if self._searches else self._preview.at(place)
         if at is None:
             return
         edits = {**self.edits, at.name: self._edited(self.edits.get(at.name, PartEdits()), at)}
-        if at.border is None and self._search.count(self.amount, edits) == self._search.part_count:
-            return  # the part cannot be cut
-        self.edits = edits
-        self._counts.clear()
-        self._change()
+
+        def search(progress: Progress) -> tuple[float, dict[str, PartEdits]]:
+            count = self._search.count(self.amount, edits, progress)
+            is_uncut = at.border is None and count == self._search.part_count
+            return self.amount, self.edits if is_uncut else edits
+
+        self._begin(search)
         self._preview.point(self._preview.at(place))
+
+    def _begin(self, search: Search) -> None:
+        """Change the parts as a search says: at once if it is short, otherwise in a step."""
+        until = time.monotonic() + _INSTANT
+        try:
+            found = None if self._searches else search(lambda _: time.monotonic() < until)
+        except self._cancelled:
+            found = None
+        if found is None:
+            self._searches.append(search)
+        else:
+            self._change_to(*found)
+
+    def _find(self, progress: Progress) -> None:
+        """Find the parts that the artist asked for first."""
+        with suppress(self._cancelled):
+            self._found = self._searches[0](progress)
+
+    def _change_to(self, amount: float, edits: dict[str, PartEdits]) -> None:
+        """Show parts that were found."""
+        if edits != self.edits:
+            self._counts.clear()
+        elif amount == self.amount:
+            return
+        self.amount, self.edits = amount, edits
+        self._change()
 
     def _edited(self, edits: PartEdits, at: Pointed) -> PartEdits:
         """Return the edits of an object after a click."""
@@ -248,7 +295,7 @@ class LiveParts:
         return edits.keep(edges_of(self._dim(suggestion)[at.border - len(suggestion.borders)]))
 
     def _change(self) -> None:
-        """Find the parts anew, and show them at once."""
+        """Choose the parts anew, and show them."""
         self._version += 1
         self._rests_at = time.monotonic() + _REST
         self._search.choose(self.amount, self.edits)

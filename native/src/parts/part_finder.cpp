@@ -32,11 +32,12 @@ namespace {
 constexpr double kEditOdds = 1e6;               // of an edge that somebody has kept or dropped
 constexpr double kBiasToOne = 1.2;              // how fast it falls towards one part, in log odds of the amount
 constexpr double kBiasToSharp = 2.2;            // what is added to it at the other end
+constexpr double kOnPlane = 2.0;                // log odds for edges on the mirror plane
 constexpr double kPartPrice = 0.2;              // of a part, in diagonals of its piece
 constexpr double kLeastArea = 0.003;            // of the area of its piece
 constexpr double kLeastWidth = 0.008;           // in diagonals of its piece
 constexpr std::size_t kLooks = 8000;            // vertices at which visibility is measured
-constexpr double kJoined = 0.7, kParted = 0.8;  // of the work of find()
+constexpr double kJoined = 0.3, kParted = 0.9;  // of the work of find()
 
 /// The constant that an amount of parts adds to all log odds.
 double bias_of(double amount) {
@@ -158,7 +159,7 @@ void PartFinder::Impl::prepare(const Task& task) {
   polygons = find_polygons(mesh, frames, is_border);
   task.check(0.85);
   bends = bends_over_edges(mesh, frames, polygons, sizes);
-  odds = border_odds(mesh, polygons, sizes, bends, visibility.ambient, is_marked, problem.mirror());
+  odds = border_odds(mesh, polygons, sizes, bends, visibility.ambient, is_marked, problem.mirror(), kOnPlane);
   task.check(0.95);
   regions.resize(polygons.count);
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
@@ -249,16 +250,20 @@ std::vector<std::uint8_t> PartFinder::Impl::borders(double amount, const PartEdi
   for (std::size_t e = 0; e < is_dropped.size(); ++e) {
     if (is_dropped[e] != 0) parted.prices.of_edge[e] = kNever;
   }
+  const double step = (kParted - kJoined) / static_cast<double>(edits.parted.size());
+  double done = kJoined;
   for (const std::int32_t face : edits.parted) {
+    const Task cutting = part_of(task, done, done + step);
     check_index(face, surface->face_count(), "parted", "triangles");
     const auto own = std::ranges::find(mesh.faces, face);
     if (own == mesh.faces.end()) continue;
     parted.is_seam = is_border;
     find_pieces_of(parted);
-    task.check(kJoined);
+    cutting.check(0.0);
     std::vector<std::uint8_t> is_cut(mesh.edge_count(), 0);
-    mark_half(parted, parted.pieces.of_face[own - mesh.faces.begin()], is_cut);
+    mark_half(parted, parted.pieces.of_face[own - mesh.faces.begin()], is_cut, cutting);
     for (std::size_t e = 0; e < is_cut.size(); ++e) is_border[e] |= is_cut[e];
+    done += step;
   }
   return is_border;
 }

@@ -27,8 +27,7 @@ constexpr double kBesideSharper = 1.5;    // taken off beside a sharper edge of 
 constexpr double kSharperBy = 5.0;        // degrees
 constexpr double kConcave = 1.0;          // added in creases
 constexpr double kConcaveDegrees = 20.0;  // from which bend on
-constexpr double kOnPlane = 2.0;          // added on the mirror plane
-constexpr double kOnPlaneDegrees = 10.0;  // from which bend on
+constexpr double kOnPlaneDegrees = 10.0;  // from which bend on the mirror plane counts
 constexpr double kMarked = 6.0;           // added where an artist expects a border
 constexpr double kLeastPrice = 0.05;      // of a cut along an edge that is a border for sure
 
@@ -214,7 +213,8 @@ EdgeBends bends_over_edges(const PlanMesh& mesh, std::span<const FaceFrame> fram
 
 std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, const PieceSizes& sizes,
                                 const EdgeBends& bends, std::span<const double> ambient,
-                                std::span<const std::uint8_t> is_marked, const Reflection* reflection) {
+                                std::span<const std::uint8_t> is_marked, const Reflection* reflection,
+                                double on_plane) {
   std::vector<double> sharp;
   for (const double bend : bends.own) sharp.push_back(std::abs(bend));
   const std::vector<double> on_line = means_along(mesh, find_lines(mesh, polygons), sharp);
@@ -233,7 +233,7 @@ std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, 
     odds[e] = (bend - kEvenDegrees) / kDegreesOfOdds + kPrior - kOpenness * openness[e];
     if (sharp[e] < beside[e] - kSharperBy) odds[e] -= kBesideSharper;
     if (bends.own[e] < -kConcaveDegrees) odds[e] += kConcave;
-    if (is_on_plane(e) && sharp[e] > kOnPlaneDegrees) odds[e] += kOnPlane;
+    if (is_on_plane(e) && sharp[e] > kOnPlaneDegrees) odds[e] += on_plane;
     if (is_marked[e] != 0) odds[e] += kMarked;
   }
   if (reflection != nullptr && reflection->is_exact) make_symmetric(mesh, polygons, *reflection, odds);

@@ -38,10 +38,10 @@ EdgeBends bends_over_edges(const PlanMesh& mesh, std::span<const FaceFrame> fram
 /// -infinity inside polygons.
 ///
 /// `ambient`: of each vertex, as in Visibility. `is_marked`: of each edge, 1 where an artist expects a border.
-/// `reflection`: null if the mesh is not symmetric.
+/// `reflection`: null if the mesh is not symmetric. `on_plane`: added where the surface bends over the mirror plane.
 std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, const PieceSizes& sizes,
                                 const EdgeBends& bends, std::span<const double> ambient,
-                                std::span<const std::uint8_t> is_marked, const Reflection* reflection);
+                                std::span<const std::uint8_t> is_marked, const Reflection* reflection, double on_plane);
 
 /// Added to all log odds in the middle of the scale of parts.
 constexpr double kMiddleBias = 0.1;

@@ -20,6 +20,7 @@ constexpr double kFaceWidth = 0.35;       // and by how much more it does so ful
 constexpr double kFacePrice = 8.0;        // how many times more it costs then, beside its own price
 constexpr double kRidgeCurvature = 30.0;  // of the mesh of area 1: as the rim of a thin part
 constexpr double kRidgeSaving = 0.75;
+constexpr double kOnPlane = 1.0;                         // log odds for edges on the mirror plane, where paths pay half
 constexpr double kFlatOdds = -2.0;                       // log odds up to which an edge costs as in a flat place
 constexpr double kSharpFrom = 25.0, kSharpWidth = 35.0;  // degrees
 constexpr double kSlitPrice = 0.04, kHardSaving = 0.75;  // of a slit on an organic surface, and saved on machine parts
@@ -113,7 +114,7 @@ EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const
   const std::vector<double> even(mesh.vertex_count(), 1.0);
   const std::vector<std::uint8_t> none(mesh.edge_count(), 0);
   const std::vector<double> odds =
-      border_odds(mesh, polygons, sizes, bends, even, none, reflection ? &*reflection : nullptr);
+      border_odds(mesh, polygons, sizes, bends, even, none, reflection ? &*reflection : nullptr, kOnPlane);
   const std::vector<double> shapes = shape_prices(mesh, bends, odds);
   // On machine parts sharp edges hide seams on every side, and nothing is a face.
   const double hard = hardness(mesh, bends.own);

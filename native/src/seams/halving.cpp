@@ -14,6 +14,7 @@
 #include "detail/csr.hpp"
 #include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
+#include "detail/poll.hpp"
 #include "seams/minimum_cut.hpp"
 #include "seams/piece_body.hpp"
 
@@ -70,21 +71,25 @@ struct Halves {
 /// area of its smaller half, as a normalized cut has (Shi and Malik 2000).
 class Halving {
  public:
-  Halving(const SlitProblem& problem, std::int32_t piece)
-      : problem_(problem), body_(problem, piece), count_(static_cast<std::int32_t>(island().triangles.size())) {
+  Halving(const SlitProblem& problem, std::int32_t piece, const Task& task)
+      : problem_(problem),
+        task_(task),
+        body_(problem, piece),
+        count_(static_cast<std::int32_t>(island().triangles.size())) {
     for (std::int32_t k = 0; k < count_; ++k) all_ += area(k);
   }
 
   /// The edges of the best cut; empty if there is no cut.
   std::vector<std::int32_t> cut() {
+    task_.check(0.0);
     Halves best;
     if (find_images()) {
-      try_cuts(joined_blocks(true), best);
+      try_cuts(joined_blocks(true), 0.0, 0.5, best);
       try_plane(best);
     }
     if (!best.is_balanced()) {
       is_mirrored_ = false;
-      try_cuts(joined_blocks(false), best);
+      try_cuts(joined_blocks(false), 0.5, 1.0, best);
     }
     std::vector<std::int32_t> found;
     if (!(best.share > 0.0)) return found;
@@ -195,22 +200,32 @@ class Halving {
 
   /// Tries cuts between both ends of several functions. If there are many blocks, the cuts run between larger ones, and
   /// the best cut is refined.
-  void try_cuts(const Blocks& blocks, Halves& best) const {
+  void try_cuts(const Blocks& blocks, double begin, double end, Halves& best) const {
+    const Task task = part_of(task_, begin, end);
     Blocks coarse = blocks;
     while (coarse.count() > kMostBlocks) {
+      task.check(0.0);
       Blocks next = joined_in_pairs(coarse);
       if (10 * next.count() > 9 * coarse.count()) break;
       coarse = std::move(next);
     }
     if (coarse.count() < 2) return;
     Halves found;
-    for (const std::vector<double>& function : functions()) {
+    task.check(kJoined);
+    const std::vector<std::vector<double>> all = functions(task);
+    constexpr std::array kShares{0.2, 0.3, 0.4};
+    const double step = (kTried - kCoarse) / static_cast<double>(std::max<std::size_t>(all.size() * kShares.size(), 1));
+    double done = kCoarse;
+    for (const std::vector<double>& function : all) {
       const std::vector<double> places = means(coarse, function);
-      for (const double share : {0.2, 0.3, 0.4}) try_cut(coarse, places, share, found);
+      for (const double share : kShares) {
+        try_cut(coarse, places, share, part_of(task, done, done + step), found);
+        done += step;
+      }
     }
     if (found.share > 0.0 && coarse.count() < blocks.count()) {
       const double blocks_of_coarse = static_cast<double>(blocks.count()) / static_cast<double>(coarse.count());
-      refine(blocks, static_cast<int>(3.0 * std::sqrt(blocks_of_coarse)), found);
+      refine(blocks, static_cast<int>(3.0 * std::sqrt(blocks_of_coarse)), part_of(task, kTried, 1.0), found);
     }
     keep_better(std::move(found), best);
   }
@@ -250,7 +265,7 @@ class Halving {
   }
 
   /// Looks for a cheaper cut near the best one, some blocks to both sides.
-  void refine(const Blocks& blocks, int rings, Halves& best) const {
+  void refine(const Blocks& blocks, int rings, const Task& task, Halves& best) const {
     std::vector<std::int32_t> owner(blocks.count(), kFree), band;
     std::vector<std::uint8_t> is_in_band(blocks.count(), 0);
     const auto add = [&](std::int32_t b) {
@@ -269,11 +284,11 @@ class Halving {
       }
     }
     for (const std::int32_t b : band) owner[b] = kFree;
-    cut_between(blocks, std::move(owner), best);
+    cut_between(blocks, std::move(owner), task, best);
   }
 
   /// Functions at the piece's vertices that rise from one end of it to another.
-  std::vector<std::vector<double>> functions() const {
+  std::vector<std::vector<double>> functions(const Task& task) const {
     std::vector<std::vector<double>> found;
     const auto rise = [&](const std::vector<double>& from, const std::vector<double>& to) {
       std::vector<double>& own = found.emplace_back(from);
@@ -284,7 +299,10 @@ class Halving {
     const auto farthest = [&](const std::vector<double>& away) {
       return *std::ranges::max_element(choice, {}, [&](std::int32_t own) { return away[own]; });
     };
-    const auto from = [&](std::int32_t own) { return body_.graph.distances_from(own); };
+    const auto from = [&](std::int32_t own) {
+      task.check(kJoined);
+      return body_.graph.distances_from(own);
+    };
     const std::vector<double> first = from(farthest(from(choice.front()))), last = from(farthest(first));
     rise(first, last);
     std::vector<double> nearest(first.size());
@@ -353,16 +371,18 @@ class Halving {
   }
 
   /// Tries the cheapest cut between seeds of a share of the area each, where a function is least and greatest.
-  void try_cut(const Blocks& blocks, const std::vector<double>& places, double share, Halves& best) const {
+  void try_cut(const Blocks& blocks, const std::vector<double>& places, double share, const Task& task,
+               Halves& best) const {
+    task.check(0.0);
     std::vector<std::int32_t> owner(blocks.count(), kFree);
     grow(blocks, places, share, 1.0, kSource, owner);
     give_pockets(blocks, kSource, owner);
     grow(blocks, places, share, -1.0, kSink, owner);
-    cut_between(blocks, std::move(owner), best);
+    cut_between(blocks, std::move(owner), task, best);
   }
 
   /// Tries the cheapest cut between the blocks that have an owner.
-  void cut_between(const Blocks& blocks, std::vector<std::int32_t> owner, Halves& best) const {
+  void cut_between(const Blocks& blocks, std::vector<std::int32_t> owner, const Task& task, Halves& best) const {
     std::int32_t nodes = 2;
     for (std::int32_t& own : owner) own = own == kFree ? nodes++ : own;
     for (const std::int32_t seed : {kSource, kSink}) {
@@ -375,7 +395,7 @@ class Halving {
         network.add(owner[b], owner[link.block], std::max(link.price, kLeastLink));
       }
     }
-    const std::vector<std::uint8_t> is_source = network.source_side(kSource, kSink);
+    const std::vector<std::uint8_t> is_source = network.source_side(kSource, kSink, task);
     std::vector<std::uint8_t> side;
     for (const std::int32_t block : blocks.of_triangle) side.push_back(is_source[owner[block]]);
     offer(std::move(side), best);
@@ -464,7 +484,10 @@ class Halving {
     if (is_better) best = std::move(own);
   }
 
+  static constexpr double kJoined = 0.4, kCoarse = 0.6, kTried = 0.9;  // of the work of try_cuts()
+
   const SlitProblem& problem_;
+  const Task& task_;
   PieceBody body_;
   std::int32_t count_;  // triangles
   double all_ = 0.0;    // their area
@@ -474,8 +497,8 @@ class Halving {
 
 }  // namespace
 
-bool mark_half(const SlitProblem& problem, std::int32_t piece, std::vector<std::uint8_t>& is_marked) {
-  const std::vector<std::int32_t> cut = Halving(problem, piece).cut();
+bool mark_half(const SlitProblem& problem, std::int32_t piece, std::vector<std::uint8_t>& is_marked, const Task& task) {
+  const std::vector<std::int32_t> cut = Halving(problem, piece, task).cut();
   for (const std::int32_t edge : cut) is_marked[edge] = 1;
   const std::int32_t image = image_of(problem, piece);
   if (image >= 0) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "detail/poll.hpp"
+
 namespace seamwire::detail {
 namespace {
 
@@ -18,10 +20,11 @@ void MinimumCut::add(std::int32_t a, std::int32_t b, double price) {
   first_[b] = static_cast<std::int32_t>(arcs_.size()) - 1;
 }
 
-std::vector<std::uint8_t> MinimumCut::source_side(std::int32_t source, std::int32_t sink) {
+std::vector<std::uint8_t> MinimumCut::source_side(std::int32_t source, std::int32_t sink, const Task& task) {
+  Poll poll(task, 0.0, 0.0, 1, Poll::kFewSteps);  // nobody knows how many paths there are
   while (find_levels(source, sink)) {
     next_ = first_;
-    while (push(source, sink) > kNothing) continue;
+    while (push(source, sink) > kNothing) poll.next();
   }
   std::vector<std::uint8_t> side(first_.size());
   for (std::size_t v = 0; v < side.size(); ++v) side[v] = level_[v] >= 0 ? 1 : 0;

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "seamwire/task.hpp"
+
 namespace seamwire::detail {
 
 /// A network of nodes joined by links that can be cut for a price.
@@ -15,8 +17,8 @@ class MinimumCut {
   void add(std::int32_t a, std::int32_t b, double price);
 
   /// The cheapest set of links that parts two nodes: 1 for each node on the side of the source. By maximum flow (Dinic
-  /// 1970).
-  std::vector<std::uint8_t> source_side(std::int32_t source, std::int32_t sink);
+  /// 1970). Throws Cancelled.
+  std::vector<std::uint8_t> source_side(std::int32_t source, std::int32_t sink, const Task& task = {});
 
  private:
   struct Arc {

@@ -9,6 +9,7 @@
 
 #include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
+#include "detail/poll.hpp"
 #include "seams/halving.hpp"
 
 namespace seamwire::detail {
@@ -117,12 +118,12 @@ std::size_t count_blocks(const SlitProblem& problem) {
 
 std::vector<Slit> halving_cuts(SlitProblem problem, std::size_t count, const Task& task) {
   std::vector<std::uint8_t> is_marked(problem.mesh.edge_count(), 0);
+  const Task own = part_of(task, 0.0, 0.0);
   while (index(problem.pieces.count) < count) {
-    task.check(0.0);
     std::vector<std::int32_t> order(problem.by_piece.size());
     std::iota(order.begin(), order.end(), 0);
     std::ranges::stable_sort(order, std::ranges::greater(), [&](std::int32_t p) { return problem.by_piece[p].area; });
-    if (std::ranges::none_of(order, [&](std::int32_t p) { return mark_half(problem, p, is_marked); })) break;
+    if (std::ranges::none_of(order, [&](std::int32_t p) { return mark_half(problem, p, is_marked, own); })) break;
     for (std::size_t e = 0; e < is_marked.size(); ++e) problem.is_seam[e] |= is_marked[e];
     find_pieces_of(problem);
   }

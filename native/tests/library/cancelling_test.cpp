@@ -14,6 +14,7 @@
 #include "seamwire/geodesics/corridor_paths.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
 #include "seamwire/metric/scribble.hpp"
+#include "seamwire/parts/part_finder.hpp"
 #include "seamwire/wires/snap.hpp"
 #include "seamwire/wires/wire.hpp"
 #include "shapes.hpp"
@@ -49,12 +50,40 @@ void expect_stops(std::size_t steps, const std::function<void(const Task&)>& wor
   }
 }
 
+/// How many times some work looks at its task.
+std::size_t looks_of(const std::function<void(const Task&)>& work) {
+  std::size_t looks = 0;
+  work({.stop = {}, .progress = [&](double) { return ++looks > 0; }});
+  return looks;
+}
+
 class Cancelling : public testing::Test {
  protected:
   const shapes::Mesh mesh = shapes::torus(160, 120);
   const Surface surface{mesh.points, mesh.triangles};
   const std::size_t vertices = surface.vertex_count(), faces = surface.face_count(), edges = surface.edges().size();
 };
+
+TEST_F(Cancelling, CuttingAPartInTwo) {
+  const PartFinder finder(std::make_shared<const Surface>(surface));
+  const std::size_t finding = looks_of([&](const Task& task) { finder.find(0.5, {}, task); });
+  // Each of the fifteen cuts has some dozens of paths.
+  const auto cut = [&](const Task& task) { finder.find(0.5, {.parted = {0}}, task); };
+  EXPECT_GE(looks_of(cut), finding + 100);
+  double last = 0.0;
+  finder.find(0.5, {.parted = {0, 0}}, {.stop = {}, .progress = [&](double fraction) {
+                                          EXPECT_GE(fraction, last);
+                                          last = fraction;
+                                          return fraction <= 1.0;
+                                        }});
+  EXPECT_GT(last, 0.8);
+  for (const double share : {0.35, 0.5, 0.7, 0.85}) {
+    std::size_t after = 0;
+    const Task task{.stop = {}, .progress = [&](double fraction) { return fraction < share || ++after == 0; }};
+    EXPECT_THROW(cut(task), Cancelled) << share;
+    EXPECT_EQ(after, 1u) << "it went on";
+  }
+}
 
 TEST_F(Cancelling, BuildingASurface) {
   const std::size_t half_edges = 3 * faces;

@@ -106,6 +106,16 @@ TEST(EdgePrices, AreTheSameOnBothSides) {
   }
 }
 
+TEST(EdgePrices, AreSomewhatLowerOnTheMirrorPlane) {
+  // Not by much, because paths there pay half already.
+  const Surface top = shapes::lathe(24, {{-1.0, 0.0}, {-0.5, 0.15}, {0.0, 0.3}, {0.5, 0.15}, {1.0, 0.0}}).surface();
+  const auto is_on_plane = [](const Vector& p) { return std::abs(p.x()) < 1e-9; };
+  const double plain = mean_price(problem_on(top), is_on_plane);
+  const double mirrored = mean_price(problem_on(top, {.mirror = 0}), is_on_plane);
+  EXPECT_LT(mirrored, 0.8 * plain);
+  EXPECT_GT(mirrored, 0.45 * plain);
+}
+
 TEST(EdgePrices, OfAFlatSheetAreFinite) {
   // Everything is as visible as everything else, and triangles without an area have no normals.
   const SlitProblem problem = problem_on(Surface({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 1, 3}}),
