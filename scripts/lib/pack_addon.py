@@ -80,7 +80,7 @@ def pack(output: Path, wheels: list[Path], platforms: list[str]) -> Path:
     others = [wheel.name for wheel in wheels if wheel.name.split("-")[:2] != ["seamwire_core", version]]
     if others:
         sys.exit(f"not wheels of seamwire_core {version}: {', '.join(others)}")
-    # No Blender has Python 3.12.
+    # No supported Blender has Python 3.12.
     wheels = [wheel for wheel in wheels if "-cp312-" not in wheel.name]
     path = output / f"seamwire-{version}-{'-'.join(platforms)}.zip"
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:

@@ -58,7 +58,7 @@ enum class EdgeRule {
 /// Half-edge 3 f + i runs from corner i of triangle f to the next corner. The first vertices are those of the surface's
 /// half-edge mesh (its corner fans), the others midpoints of edges in the order in which they are made. Of the halves
 /// of a bisected triangle one takes its place, the other becomes the last triangle.
-class BisectedMesh : public TriangleConnectivity {
+class BisectedMesh : public TriangleConnectivity {  // until to_embedding(), two siblings may run opposite ways
  public:
   /// The triangles to embed, without those degenerate ones that can be removed. The surface and the metric must outlive
   /// the mesh. The task is told `progress`; throws Cancelled.

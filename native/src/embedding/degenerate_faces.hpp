@@ -24,7 +24,7 @@ struct CleanMesh {
   std::vector<std::int32_t> origins;  ///< the surface's half-edge face of each face left, in the order of the faces
   /// Between vertices at one place that were merged: faces have the second one only.
   std::vector<LooseEdge> merged;
-  std::vector<std::int32_t> vertex_of_fan;  ///< as Surface::vertex_of_fan(), with the second one of merged vertices
+  std::vector<std::int32_t> vertex_of_fan;  ///< as CornerFans::vertices, with the second one of merged vertices
   /// Per edge of the mesh: half-edges with equal numbers and ends are of one edge of the surface, as its siblings are,
   /// or of two that a needle has joined. Empty if the surface has no siblings.
   std::vector<std::int32_t> names;

@@ -58,12 +58,9 @@ class Neighbors {
   void vertices(std::int32_t v, const Visit& visit) const {
     const CornerFans& mesh = corner_fans(surface_);
     fans(v, [&](std::int32_t fan) {
-      std::int32_t last = -1;
-      const bool is_open = mesh.for_each_leaving(fan, [&](std::int32_t h) {
-        visit(mesh.vertices[mesh.tip(h)]);
-        last = h;
-      });
-      if (is_open) visit(mesh.vertices[mesh.apex(last)]);
+      mesh.for_each_leaving_clockwise(
+          fan, [&](std::int32_t h) { visit(mesh.vertices[mesh.tip(h)]); },
+          [&](std::int32_t last) { visit(mesh.vertices[last]); });
     });
     for (auto edge = std::lower_bound(loose_.begin(), loose_.end(), Edge{v, -1});
          edge != loose_.end() && (*edge)[0] == v; ++edge) {
@@ -75,10 +72,11 @@ class Neighbors {
   void triangles(std::int32_t v, const Visit& visit) const {
     const CornerFans& mesh = corner_fans(surface_);
     fans(v, [&](std::int32_t fan) {
-      mesh.for_each_leaving(fan, [&](std::int32_t h) {
+      const auto visit_triangle = [&](std::int32_t h) {
         const auto& [a, b, c] = mesh.triangles[h / 3];
         visit(Triangle{mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
-      });
+      };
+      mesh.for_each_leaving_clockwise(fan, visit_triangle, [](std::int32_t) {});
     });
   }
 

@@ -34,6 +34,29 @@ struct CornerFans : TriangleConnectivity {
     }
   }
 
+  /// Calls visit(h) for the same half-edges clockwise: from the boundary on, or from leaving[fan] on. Before the
+  /// others, calls at_boundary(v) for the vertex at the end of the boundary edge that no half-edge runs along from the
+  /// fan.
+  template <class Visit, class AtBoundary>
+  void for_each_leaving_clockwise(std::int32_t fan, const Visit& visit, const AtBoundary& at_boundary) const {
+    std::int32_t start = leaving[fan];
+    for (std::int32_t h = start;;) {
+      const std::int32_t next = twins[previous_in_face(h)];
+      if (next == start) break;
+      if (next < 0) {
+        start = h;
+        at_boundary(apex(h));
+        break;
+      }
+      h = next;
+    }
+    for (std::int32_t h = start;;) {
+      visit(h);
+      h = twins[h] < 0 ? start : next_in_face(twins[h]);
+      if (h == start) break;
+    }
+  }
+
  private:
   std::int32_t first_leaving(std::int32_t fan) const {
     const std::int32_t start = leaving[fan];
@@ -45,6 +68,7 @@ struct CornerFans : TriangleConnectivity {
   }
 };
 
-const CornerFans& corner_fans(const Surface& surface);
+/// The mesh inside a surface.
+inline const CornerFans& corner_fans(const Surface& surface) { return *surface.fans_; }
 
 }  // namespace seamwire::detail

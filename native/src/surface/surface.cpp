@@ -568,6 +568,4 @@ Surface::Surface(std::vector<Vector> points, std::vector<Triangle> triangles, st
   fans_ = std::move(inside);
 }
 
-const CornerFans& detail::corner_fans(const Surface& surface) { return *surface.fans_; }
-
 }  // namespace seamwire

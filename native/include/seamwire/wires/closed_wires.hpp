@@ -22,7 +22,7 @@ struct ClosedWire {
   double turn = 0.0;
   /// The half-edge of the embedding at whose ends the two wires end.
   std::int32_t half_edge = -1;
-  std::weak_ptr<const void> mesh = {};  ///< DistanceField::mesh() of its field
+  std::weak_ptr<const void> mesh = {};  ///< DistanceField::mesh_id() of its field
 };
 
 /// Find the closed cuts through the seed of a field that the surface suggests.

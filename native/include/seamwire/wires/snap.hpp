@@ -16,6 +16,10 @@ namespace detail {
 struct SnapData;  // snap.cpp
 }
 
+class SnapGraph;
+SEAMWIRE_API std::vector<std::int32_t> snap_to_edges(const Surface& surface, const SnapGraph& graph, const Wire& wire,
+                                                     const Task& task);
+
 /// What snap_to_edges() needs to know of a surface: its polygons, and the real edges around them.
 ///
 /// Polygons are triangles joined across edges that are not real. Immutable. Copies share the data, and any number of
