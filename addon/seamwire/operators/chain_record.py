@@ -127,7 +127,7 @@ class ChainRecord:
         self.drawn_on, self._is_saved = None, False
         # The wires are in the mesh by now. Whatever fails, a step of undo must lead back.
         self._try("drawing them", view, lambda: _renew(view))
-        done = self._try("cutting or sliding them", view, lambda: _apply(view, change)) or ""
+        done = self._try("finishing them", view, lambda: _apply(view, change)) or ""
         problem = ""
         if undo_step:
             if (marked or cleared) and context.mode == "EDIT_MESH":

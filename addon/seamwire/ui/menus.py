@@ -63,7 +63,7 @@ class VIEW3D_MT_seamwire_islands(bpy.types.Menu):
 
 
 class VIEW3D_MT_seamwire_views(bpy.types.Menu):
-    """Show the stretch of the UV map, or ridges and valleys"""  # noqa: D400 - a tooltip
+    """Choose what to show over the mesh"""  # noqa: D400 - a tooltip
 
     bl_idname = "VIEW3D_MT_seamwire_views"
     bl_label = "Views"

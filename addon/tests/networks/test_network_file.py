@@ -13,9 +13,11 @@ from fake_live import grid_edges, grid_points
 from seamwire.core.network.network import Network
 from seamwire.core.network.picks import FacePoint
 from seamwire.core.network.strokes import Stroke
-from seamwire.core.network.wires import Wire
+from seamwire.core.network.wires import FOLLOWS, Wire
+from seamwire.core.offers.edge_loops import KIND_COSTS
 from seamwire.networks.core import network_file
 from seamwire.networks.core.network_file import NetworkFile, NetworkFileError
+from seamwire.terms.choices import ALONG, FINISHES, METRICS
 
 SIZE = 6
 POINTS = grid_points(SIZE)
@@ -119,6 +121,16 @@ def test_the_schema_holds(network: Network) -> None:
     assert list(validator.iter_errors(data)) == []
     del data["wires"][0]["heading"]
     assert len(list(validator.iter_errors(data))) == 1
+
+
+def test_the_schema_has_the_values_of_the_tables() -> None:
+    wires, strokes = (SCHEMA["properties"][name]["items"]["properties"] for name in ("wires", "strokes"))
+    assert SCHEMA["properties"]["metric"]["enum"] == list(METRICS)
+    assert wires["along"]["enum"] == list(ALONG)
+    assert wires["finish"]["enum"] == list(FINISHES)
+    assert sorted(wires["kind"]["enum"]) == sorted(KIND_COSTS)
+    assert wires["follow"]["enum"] == list(range(len(FOLLOWS)))
+    assert strokes["acts_on"]["enum"] == ["both", *FOLLOWS]
 
 
 @pytest.mark.parametrize(
