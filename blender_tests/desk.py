@@ -65,8 +65,11 @@ class Desk:
 
     @property
     def session(self) -> Session:
-        """The session of the object that was pointed at last."""
-        return running[0].session if running else edited.front.session
+        """The session of the object that was pointed at last. A timer may have to read its mesh first."""
+        if running:
+            return running[0].session
+        self.ui.wait_until(lambda: edited.front is not None)
+        return edited.front.session
 
     @property
     def running(self) -> bool:
