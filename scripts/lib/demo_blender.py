@@ -74,7 +74,7 @@ def column(items: bpy.types.bpy_prop_collection, name: str, kind: type, width: i
     return values.reshape(-1, width)
 
 
-def suggest(obj: bpy.types.Object) -> pictures.Network:
+def suggest(obj: bpy.types.Object) -> pictures.Marks:
     """Mark seams and unwrap with the add-on's operator; return the wires that the mesh has then, and see that the seams are theirs."""
     from seamwire.mesh.object_session import ObjectSession
     from seamwire.mesh.seam_islands import labels_of
@@ -85,7 +85,7 @@ def suggest(obj: bpy.types.Object) -> pictures.Network:
         drawn = ObjectSession(obj)
         if not drawn.session.wires:
             raise DemoError("nothing to cut: the mesh unwraps without seams")
-        network = pictures.Network(list(drawn.session.wires), labels_of(drawn.arrays))
+        network = pictures.Marks(list(drawn.session.wires), labels_of(drawn.arrays))
     except RuntimeError as error:
         raise DemoError(str(error).strip()) from error
     finally:
