@@ -148,6 +148,24 @@ def test_a_press_on_a_menu_ends_the_chain_so_that_undo_there_is_blenders(desk: D
     assert seams(desk.obj) == [], "and the wires do not come back"
 
 
+def test_undo_over_the_settings_is_the_chains(desk: Desk) -> None:
+    ui = desk.ui
+    desk.choose()
+    draw(desk, 0, 4)
+    session = desk.start()
+    ui.click(desk.at(36))
+    ui.click(desk.at(40))
+    ui.wait_until(lambda: len(session.wires) == 2)
+    header = next(region for region in ui.area.regions if region.type == "TOOL_HEADER")
+    ui.move((header.x + header.width - 40.0 - ui.region.x, header.y + header.height * 0.5 - ui.region.y))
+    ui.key("Z", ctrl=True)
+    assert desk.running
+    assert len(session.wires) == 1
+    assert seams(desk.obj) == chain(*range(5)), "the chain before is in the mesh still"
+    ui.move(desk.at(60))
+    end(desk)
+
+
 def new_chain(desk: Desk) -> None:
     desk.ui.click(desk.at(0), ctrl=True)
 
