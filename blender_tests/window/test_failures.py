@@ -132,7 +132,7 @@ def test_a_preview_that_failed_is_tried_again_with_the_next_plan(
 ) -> None:
     desk.choose()
     arrays = edited.front.mesh.arrays
-    broken = Broken(plan_preview._Shown, "draw", monkeypatch)  # the only class that draws plans
+    broken = Broken(plan_preview._ObjectPreview, "draw", monkeypatch)  # the only class that draws plans
     preview = PlanPreview()
     try:
         for _ in range(2):

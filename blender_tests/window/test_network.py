@@ -128,7 +128,8 @@ def test_across_the_surface_w_goes_through_three_candidates_live_and_kept(cone: 
     for number in range(3):
         assert f"Next Candidate ({(number + 1) % 3 + 1} of 3)" in said(cone)
         seen.append(session.picture.active.follow)
-        assert f"{corner.FOLLOWS[seen[-1]]} ({number + 1} of 3)" in corner.lines(session.picture)
+        kind = corner.KINDS[corner.METRICS[session.options.metric].follows[seen[-1]]]
+        assert f"{kind} ({number + 1} of 3)" in corner.lines(session.picture)
         ui.key("W")
     assert seen == [2, 0, 1], "that along creases first"
     ui.click(cone.at(61))
