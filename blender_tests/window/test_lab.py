@@ -342,7 +342,7 @@ def test_views_follow_another_file(desk: Desk, tmp_path: Path, load_ui: bool) ->
     bpy.ops.wm.open_mainfile(filepath=path, load_ui=load_ui)
     driver.Ui.__init__(desk.ui)  # the file may have brought another window
     if load_ui:  # the settings came with the window manager of the file
-        desk.ui.wait_until(lambda: part("settings").is_any_shown() or not follower()._handles)
+        desk.ui.wait_until(lambda: part("lab_settings").is_any_shown() or not follower()._handles)
     else:
         desk.ui.wait_until(lambda: follower().views not in {None, before} and shown(follower().views))
     desk.ui.wait(3, redraw=True)

@@ -12,7 +12,6 @@ from scene import chain, seams, snapshot
 from seamwire.core.drawing.picture import Role
 from seamwire.mesh.settings import preferences, settings
 from seamwire.operators import bindings
-from seamwire.terms.choices import KINDS, METRICS
 from seamwire.ui import status_bar
 from seamwire.view.edited_objects import edited
 from seamwire.words import corner
@@ -129,7 +128,8 @@ def test_across_the_surface_w_goes_through_three_candidates_live_and_kept(cone: 
     for number in range(3):
         assert f"Next Candidate ({(number + 1) % 3 + 1} of 3)" in said(cone)
         seen.append(session.picture.active.follow)
-        assert f"{KINDS[METRICS['feature'].follows[seen[-1]]]} ({number + 1} of 3)" in corner.lines(session.picture)
+        kind = corner.KINDS[corner.METRICS[session.options.metric].follows[seen[-1]]]
+        assert f"{kind} ({number + 1} of 3)" in corner.lines(session.picture)
         ui.key("W")
     assert seen == [2, 0, 1], "that along creases first"
     ui.click(cone.at(61))

@@ -119,25 +119,31 @@ class Chain:
         """Whether a click waits for its wire."""
         return any(view.session.waiting_clicks for view in edited.views())
 
-    def end(self, wait: bool = True) -> None:
-        """Let go of everything that is live.
-
-        Parameters
-        ----------
-        wait
-            Whether clicks that wait for their wires are done first. Otherwise they are forgotten.
-        """
+    def cancel(self) -> None:
+        """Cancel what is dragged. If nothing is, forget the clicks that wait, and end."""
         self.begin()
-        if not wait and self.cancel_drags():
-            return
-        if wait and self.waits:
+        if not self.cancel_drags():
+            self._end(wait=False)
+
+    def end_now(self) -> None:
+        """End before Blender has the event, because it may change the mesh. Blender stands still until the last wire is computed."""
+        self.begin()
+        self._end()
+
+    def end(self) -> None:
+        """Let go of everything that is live, as soon as the last wire is computed."""
+        self.begin()
+        if self.waits:
             if self.stage is not Stage.ENDING:
                 self.go(Cue.WAIT)
             self.say("Ending as soon as the last wire is computed")
             return
+        self._end()
+
+    def _end(self, wait: bool = True) -> None:
         self.go(Cue.END)
         for view in edited.views():
-            view.session.end_chain()
+            view.session.end_chain(wait)
 
     def settle(self) -> None:
         """End if nothing is left to wait for."""
@@ -169,7 +175,7 @@ class Chain:
         self.find_front()
 
     def _write(self, undo_step: bool = True) -> None:
-        self.record.keep(bpy.context, undo_step, waits=self.stage in {Stage.ENDING, Stage.HOLDING_LAST})
+        self.record.keep(bpy.context, undo_step)
 
     def trouble(self, context: bpy.types.Context) -> str:
         """Return why the chain cannot go on, or an empty text. Raises what an overlay could not draw."""
@@ -191,7 +197,7 @@ class Chain:
         ValueError
             If an edge is gone. Then the mesh is unchanged.
         """
-        self.cancel_drags()
+        self.let_go()
         self._write(undo_step)
         self.close(Cue.KEEP)
         return self.record.has_kept

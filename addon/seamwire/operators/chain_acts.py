@@ -106,7 +106,7 @@ def _keep_chain(chain: Chain) -> bool:
     assert view is not None
     chain.keep()
     if view not in edited.views():
-        chain.say("The mesh was cut: draw the line once more")
+        chain.notices.add("WARNING", "The mesh was cut: draw the line once more")
         return False
     chain.draw_on(view)
     return True
@@ -125,7 +125,7 @@ def click(chain: Chain, given: Given) -> None:
     chain.begin()
     if view is not edited.front:
         chain.session.hover(None)
-    if action is Action.NEW_CHAIN and not view.session.waiting_clicks:
+    if action is Action.NEW_CHAIN:
         chain.keep()
         if view not in edited.views():  # it was cut
             view, snap = edited.find(place)
@@ -169,7 +169,6 @@ def begin_stroke(chain: Chain, given: Given) -> None:
     is_live = chain.session.seed is not None or chain.session.waiting_clicks
     view = edited.front if is_live or found is None else found
     chain.draw_on(view)
-    chain.cancel_drags()
     hold = StrokeHold(given.event.type, view, given.place)
     hold.attracts, hold.scale = given.what is Action.GUIDE, bpy.context.preferences.system.ui_scale
     chain.go(Cue.PRESS, hold)
@@ -338,7 +337,7 @@ def _remove(chain: Chain, given: Given) -> bool:
     """Remove what is under the mouse. If there is nothing, Blender's own meaning of the key changes the mesh."""
     is_removed = remove(chain, given)
     if not is_removed:
-        chain.end()
+        chain.end_now()
     return not is_removed
 
 
@@ -364,7 +363,7 @@ ACTS: dict[Action | Sign, Callable[[Chain, Given], bool | None]] = {
     Action.GUIDE: begin_stroke,
     Action.AVOID: begin_stroke,
     Action.END: lambda chain, _: chain.end(),
-    Action.CANCEL: lambda chain, _: chain.end(wait=False),
+    Action.CANCEL: lambda chain, _: chain.cancel(),
     Action.NEXT: swap,
     Action.STRONGER: change_strength,
     Action.WEAKER: change_strength,
@@ -385,7 +384,7 @@ ACTS: dict[Action | Sign, Callable[[Chain, Given], bool | None]] = {
     Sign.TRACE: trace,
     Sign.HOVER: hover,
     Sign.ZOOM: zoom,
-    Sign.OTHER_TOOL: lambda chain, _: chain.end(),
+    Sign.OTHER_TOOL: lambda chain, _: chain.end_now(),
     Sign.NOTHING: lambda *_: None,
     Sign.REPEAT: lambda *_: None,
 }
@@ -398,6 +397,7 @@ WHILE_HELD: dict[Action | Sign, Callable[[Chain, Given], bool | None]] = {
     Action.CANCEL: lambda chain, _: chain.let_go(),
     Action.END: _end_held,
     Sign.OTHER_TOOL: _refuse,
+    Sign.HOVER: lambda *_: None,
 }
 """The function for each meaning while a button is held. A key works only on what is held, or on what is shown."""
 _FIRST = {**ACTS, Action.REMOVE: remove, Action.NEXT: retrace}
@@ -414,8 +414,6 @@ def act(chain: Chain, given: Given) -> bool:
         chain.say("")
         if chain.stage is Stage.PEEKING and given.what is not Action.NEXT:
             chain.go(Cue.UNPEEK)
-        if chain.hold is not None and given.event.type == chain.hold.button:
-            chain.let_go()  # another window has received the release
     is_held = chain.stage in HELD
     passes = bool((WHILE_HELD if is_held else ACTS)[given.what](chain, given))
     chain.settle()
@@ -440,6 +438,8 @@ def handle(chain: Chain, context: bpy.types.Context, event: bpy.types.Event) -> 
     is_released = event.type == chain.peek and event.value == "RELEASE"
     if chain.stage is Stage.PEEKING and (is_released or event.type == "WINDOW_DEACTIVATE"):
         chain.go(Cue.UNPEEK)
+    if chain.hold is not None and event.type == chain.hold.button and event.value != "RELEASE":
+        chain.let_go()  # another window has received the release, and this press is not a drag's
     given = chain_events.read(chain, context, event)
     if given.what not in {Sign.TICK, Sign.RELEASE}:
         chain.set_cursor("CROSSHAIR" if given.place else "")

@@ -86,8 +86,14 @@ def read(chain: Chain, context: bpy.types.Context, event: bpy.types.Event) -> Gi
     if hold is not None and motion is None:
         what = _key(chain, context, event, double)
         return Given(Sign.NOTHING if what is Sign.ZOOM else what, event)
-    ends = event.value == "PRESS" and hold is None and not _is_over_settings(chain.window, event)
-    return Given(Sign.OTHER_TOOL if ends else Sign.NOTHING, event)
+    if event.value != "PRESS" or hold is not None:
+        return Given(Sign.NOTHING, event)
+    if not _is_over_settings(chain.window, event):
+        return Given(Sign.OTHER_TOOL, event)
+    # Undo in Blender would take wires out of the mesh that the chain writes again. Backspace alone resets a setting.
+    action = chain.keys.decode(event, double)
+    is_undo = action in {Action.UNDO, Action.REDO} and (event.ctrl or event.oskey)
+    return Given(action if is_undo else Sign.NOTHING, event)
 
 
 def _key(chain: Chain, context: bpy.types.Context, event: bpy.types.Event, double: bool) -> Action | Sign:

@@ -86,8 +86,8 @@ class ChainRecord:
         view.renew()
         return reason
 
-    def keep(self, context: bpy.types.Context, undo_step: bool = True, waits: bool = False) -> None:
-        """End the chains of all objects, and write what was drawn as a step of Blender's undo.
+    def keep(self, context: bpy.types.Context, undo_step: bool = True) -> None:
+        """End the chains of all objects after their last wires are computed, and write what was drawn as a step of Blender's undo.
 
         Parameters
         ----------
@@ -95,8 +95,6 @@ class ChainRecord:
             With the mode of the window.
         undo_step
             Whether to push the step.
-        waits
-            Whether to wait for the last wire first.
 
         Raises
         ------
@@ -105,8 +103,6 @@ class ChainRecord:
         """
         # The object that is drawn on comes first, because outside Edit Mode it is not among the views.
         if self.drawn_on is not None:
-            if waits:
-                self.drawn_on.session.wait()
             self.drawn_on.session.end_chain()
         for view in edited.views():
             view.session.end_chain()

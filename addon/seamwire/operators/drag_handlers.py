@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..core.drawing.line import LineGesture
+from ..core.drawing.seed_drag import SeedDrag
 from . import undo_steps
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..core.drawing.line import LineGesture
     from ..core.network.network import Snap
     from ..core.picking.camera import Camera
     from ..view.object_view import ObjectView
@@ -105,7 +106,7 @@ class SeedHold(Hold):
 
     def cancel(self) -> None:
         """Let the seed go back."""
-        self._session.let_go()
+        self._session.let_go(SeedDrag)
 
 
 class Trail:
@@ -206,8 +207,8 @@ class LineHold(Hold):
         return undo_steps.DRAW
 
     def cancel(self) -> None:
-        """Forget the line."""
-        self._session.let_go()
+        """Forget the line. A seed that was released before stays."""
+        self._session.let_go(LineGesture)
 
 
 class StrokeHold(Hold):

@@ -120,7 +120,7 @@ class Session:
                 return self.run_to_end()
             if self.loops.takes(target):
                 return self.bend(target) if self.loops.bends else self.loop(target)
-        self.let_go(SeedDrag)
+        self._leave_seed()
         self._last_click = None
         if self.under_way.queue:
             return self._wait_for(self.live, target)
@@ -132,8 +132,9 @@ class Session:
         return self._commit(self.live, target)
 
     def start(self, snap: Snap | Pick) -> bool:
-        """Begin a new chain, which ends the one before."""
+        """Begin a new chain, which ends the one before. Gestures that wait are done first."""
         target = Snap.of(snap)
+        self._finish_gestures()
         self._calm()
         try:
             done = self._change(self.live.begun(target))
@@ -152,7 +153,7 @@ class Session:
         why = loops.aim(target)
         if why:
             return self._refuse(why)
-        self.let_go(SeedDrag)
+        self._leave_seed()
         if self.options.along == "EDGES":
             if loops.is_crest_taken(target.pick):
                 return True  # the first press of a double click took the ridge
@@ -169,7 +170,7 @@ class Session:
         why = gesture.aim(target)
         if why:
             return self._refuse(why)
-        self.let_go(SeedDrag)
+        self._leave_seed()
         self._last_click = None
         return self._commit(gesture, target)
 
@@ -205,7 +206,7 @@ class Session:
         why = extension.aim(target)
         if why:
             return self._refuse(why)
-        self.let_go(SeedDrag)
+        self._leave_seed()
         if preview:
             extension.wanted = True
             self._show_extension()
@@ -227,8 +228,16 @@ class Session:
         self.revision += 1
         return True
 
-    def end_chain(self) -> None:
-        """Let go of the live wire, or of a dragged seed. The kept wires stay."""
+    def end_chain(self, wait: bool = True) -> None:
+        """Let go of the live wire, or of a held seed. The kept wires stay.
+
+        Parameters
+        ----------
+        wait
+            Whether gestures that wait are done first. Otherwise they are forgotten.
+        """
+        if wait and self.waiting_clicks:
+            self.wait()
         self._calm()
         if self.drawing.network.seed is None:
             return
@@ -241,6 +250,7 @@ class Session:
 
     def retrace(self, wire: Wire) -> bool:
         """Let a kept wire take its next way: that of another metric, or the next offer of the click that took it."""
+        self._finish_gestures()
         self._calm()
         own = self.drawing.network.find(wire)
         if own is None:
@@ -261,6 +271,7 @@ class Session:
 
     def drop(self, wire: Wire) -> bool:
         """Remove a kept wire."""
+        self._finish_gestures()
         self._calm()
         own = self.drawing.network.find(wire)
         if own is None:
@@ -269,6 +280,7 @@ class Session:
 
     def drag(self, snap: Snap | Pick) -> bool:
         """Take hold of a seed, or of a wire (``Snap.to == "WIRE"``), which gets a seed there. `drag_to` moves it."""
+        self._finish_gestures()
         self._calm()
         return self._hold(SeedDrag, Snap.of(snap))
 
@@ -351,7 +363,7 @@ class Session:
     def line_begin(self, snap: Snap | Pick) -> bool:
         """Begin a line over the surface, which `line_to` draws. At the live wire's seed it continues the chain."""
         begin = Snap.of(snap)
-        self.let_go(SeedDrag)
+        self._leave_seed()
         self.stop_preview()
         return self._hold(LineGesture, begin, self.goes_on_from(begin))
 
@@ -398,16 +410,19 @@ class Session:
         if len(rest) == len(network.strokes):
             return self._refuse("stroke-is-gone")
         self._last_click = None
-        self.let_go(SeedDrag)
+        self._leave_seed()
         return self._change(replace(self.drawing.network, strokes=rest), self.live.candidates.chosen)
 
     # Settings
 
     def follow(self, options: Options) -> bool:
         """Draw wires with other settings from here on. Return False if that ends the chain, because the seed is not on the surface."""
-        before, self.drawing.options = self.drawing.options, options
+        before = self.drawing.options
         if options == before:
             return True
+        if options.along != before.along:
+            self._finish_gestures()
+        self.drawing.options = options
         self.revision += 1
         done = options.along == before.along or self._switch()
         if options.straight != before.straight:
@@ -549,7 +564,7 @@ class Session:
 
     def redo(self) -> bool:
         """Bring back the step that undo took."""
-        self.let_go(SeedDrag)
+        self._leave_seed()
         network = self.drawing.history.forth(self.drawing.network)
         return self._refuse("nothing-to-redo") if network is None else self._restore(network)
 
@@ -608,6 +623,19 @@ class Session:
         self.message = Message.of(why, **values) if isinstance(why, str) else why
         self.revision += 1
         return False
+
+    def _finish_gestures(self) -> None:
+        """Do what waits, because what comes now begins with the wires that it makes. Only `undo` and `end_chain` forget it."""
+        if self.under_way.queue:
+            self.wait()
+        self._leave_seed()
+
+    def _leave_seed(self) -> None:
+        """Wait for the wires of a seed that was released. A seed that is held still goes back."""
+        drag = self.under_way.holds(SeedDrag)
+        if drag is not None and drag.ending:
+            self.wait()
+        self.let_go(SeedDrag)
 
     def _calm(self) -> None:
         """Drop everything under way, except the live wire."""

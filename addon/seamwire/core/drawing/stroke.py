@@ -76,8 +76,10 @@ class StrokeGesture(Gesture):
         network, candidates, acts_on = self._drawing.network, self._live.candidates, self._meant
         # The wire that the stroke is for stays the active one, even if another is shorter now.
         self.chosen = candidates.chosen
-        if acts_on is None and network.seed is not None and not candidates.straight_active:
-            self.chosen = candidates.active_index
-            acts_on = FOLLOWS[self.chosen]
+        index = candidates.active_index
+        # One that is straight in the view, or closes the chain around a limb, follows no stroke.
+        follows = index < len(FOLLOWS) and not candidates.straight_active
+        if acts_on is None and network.seed is not None and follows:
+            self.chosen, acts_on = index, FOLLOWS[index]
         stroke = Stroke(*self._course, acts_on=acts_on or "both", **self._how)
         return replace(network, strokes=(*network.strokes, stroke))

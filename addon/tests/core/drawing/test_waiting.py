@@ -3,11 +3,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 from fake_live import FakeLive, grid_points, grid_triangles
 from seamwire.core.base.messages import Refused
 from seamwire.core.drawing import candidates
+from seamwire.core.drawing.session import Session
 from seamwire.core.fields.crests import Crests
 from seamwire.core.network.network import Snap
 from seamwire.core.network.wires import Wire
@@ -206,3 +209,87 @@ def test_undo_takes_back_a_held_line_before_a_click_that_waits() -> None:
     assert session.waiting_clicks == 1
     table.compute()
     assert len(session.wires) == 1
+
+
+def with_a_waiting_click() -> Table:
+    """Return a chain with one kept wire, and a click that waits for the second one."""
+    table = Table()
+    table.session.click(0)
+    table.session.click(3)
+    table.lives["EDGES"].ready = (False, False)
+    table.session.click(21)
+    assert table.session.waiting_clicks == 1
+    assert len(table.session.wires) == 1
+    return table
+
+
+FIRST, SECOND = (0, 1, 2, 3), (3, 9, 15, 21)
+
+
+@pytest.mark.parametrize(
+    ("go_on", "kept"),
+    [
+        (lambda session: session.start(30), [FIRST, SECOND]),
+        (lambda session: session.drop(session.wires[0]), [SECOND]),
+        (lambda session: session.retrace(session.wires[0]), [FIRST, SECOND]),
+        (lambda session: session.drag(Snap(0, "SEED")), [FIRST, SECOND]),
+        (lambda session: use(session, along="SURFACE"), [FIRST, SECOND]),
+        (lambda session: session.end_chain(), [FIRST, SECOND]),
+        (lambda session: session.end_chain(wait=False), [FIRST]),
+    ],
+    ids=["new chain", "remove", "other path", "seed", "surface", "end", "cancel"],
+)
+def test_only_a_cancelled_chain_forgets_a_click_that_waits(go_on: Callable[[Session], object], kept: list) -> None:
+    session = with_a_waiting_click().session
+    go_on(session)
+    assert session.waiting_clicks == 0
+    assert courses(session) == kept
+
+
+@pytest.mark.parametrize(
+    "go_on",
+    [
+        lambda session: session.click(35),
+        lambda session: session.start(35),
+        lambda session: session.loop((34, 35)),
+        lambda session: session.draw_stroke(vertices=[34, 35]),
+        lambda session: session.line_begin(35),
+        lambda session: session.drag(Snap(0, "SEED")),
+        lambda session: session.redo(),
+        lambda session: session.end_chain(),
+    ],
+    ids=["click", "new chain", "loop", "stroke", "line", "seed", "redo", "end"],
+)
+def test_a_released_seed_stays_where_it_is_whatever_comes_next(go_on: Callable[[Session], object]) -> None:
+    session = Table(fork_ready=(False, False)).session
+    session.click(0)
+    session.click(3)
+    session.end_chain()
+    session.drag(Snap(3, "SEED"))
+    session.drag_to(Snap(4))
+    session.drag_end()
+    assert session.waiting_clicks == 1
+    go_on(session)
+    assert session.drawing.network.wires[0].vertices == (0, 1, 2, 3, 4)
+
+
+def test_a_held_seed_goes_back_when_something_else_begins() -> None:
+    session = Table().session
+    session.click(0)
+    session.click(3)
+    session.end_chain()
+    session.drag(Snap(3, "SEED"))
+    session.drag_to(Snap(4))
+    session.click(35)
+    assert courses(session) == [FIRST]
+
+
+def test_a_stroke_for_a_wire_that_closes_or_is_straight_acts_on_both() -> None:
+    session = Table(ready=(True, True)).session
+    session.click(0)
+    session.hover(14)
+    session.live.candidates.chosen = None
+    session.live.candidates.leading = 3  # the wire under the cursor before was straight in the view
+    session.live.candidates.clear()
+    assert session.draw_stroke(vertices=[27, 28])
+    assert session.strokes[0].acts_on == "both"

@@ -1,0 +1,335 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Clicks and drags whose wires are not computed yet are awaited by what comes next. Only Esc and Undo forget them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import bmesh
+import bpy
+import pytest
+import ui as driver
+from desk import Desk, choose, draw, leave, reset_settings
+from scene import add_grid, chain, edit, seams
+from seamwire.core.drawing.seed_drag import SeedDrag
+from seamwire.core.drawing.session import Session
+from seamwire.core.drawing.wire import WireGesture
+from seamwire.mesh.settings import settings
+from seamwire.operators.chain_state import Stage
+from seamwire.view.edited_objects import edited
+from seamwire.words.notices import Notices
+
+ROW, LONG_ROW = chain(*range(36, 41)), chain(*range(36, 45))
+
+
+class Slow:
+    """Lets wires be computed only when something waits for them.
+
+    Attributes
+    ----------
+    is_slow
+        Whether it does so by now.
+    """
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.is_slow = False
+        waits, aim, wait = WireGesture.waits.fget, SeedDrag.aim, Session.wait
+
+        def slow_aim(drag: SeedDrag, target: object) -> object:
+            message = aim(drag, target)
+            drag.final &= not self.is_slow
+            return message
+
+        def waited(session: Session) -> None:
+            self.is_slow = False
+            wait(session)
+
+        monkeypatch.setattr(WireGesture, "waits", property(lambda wire: self.is_slow or waits(wire)))
+        monkeypatch.setattr(SeedDrag, "aim", slow_aim)
+        monkeypatch.setattr(Session, "wait", waited)
+        monkeypatch.setattr(bpy.context.preferences.inputs, "mouse_double_click_time", 1)
+
+
+@pytest.fixture
+def slow(monkeypatch: pytest.MonkeyPatch) -> Slow:
+    return Slow(monkeypatch)
+
+
+def click_ahead(desk: Desk, slow: Slow) -> Session:
+    """Keep a wire, and click once more before the next wire is computed."""
+    session, ui = desk.start(), desk.ui
+    ui.click(desk.at(36))
+    ui.click(desk.at(40))
+    ui.wait_until(lambda: len(session.wires) == 1 and not session.computing)
+    ui.move(desk.at(44))
+    slow.is_slow = True
+    ui.click(desk.at(44))
+    assert session.waiting_clicks == 1
+    return session
+
+
+def release_ahead(desk: Desk, slow: Slow) -> Session:
+    """Move a seed from 44 to 53, and release it before its wire is computed."""
+    desk.choose()
+    session, ui = draw(desk, 36, 44), desk.ui
+    slow.is_slow = True
+    ui.move(desk.at(44))
+    ui.event("LEFTMOUSE", "PRESS", desk.at(44))
+    for part in (0.4, 0.7, 1.0):
+        start, end = desk.at(44), desk.at(53)
+        ui.move((start[0] + part * (end[0] - start[0]), start[1] + part * (end[1] - start[1])))
+    ui.event("LEFTMOUSE", "RELEASE", desk.at(53))
+    assert session.waiting_clicks == 1
+    return session
+
+
+def end(desk: Desk) -> None:
+    if desk.running:
+        desk.ui.key("RET")
+    desk.ui.wait_until(lambda: not desk.running)
+
+
+def outside(ui: driver.Ui) -> tuple[float, float]:
+    """Return a place in another editor."""
+    return -30.0, 100.0
+
+
+@pytest.mark.smoke
+def test_a_press_outside_after_a_lost_release_ends_the_chain_and_keeps_its_wires(desk: Desk) -> None:
+    session, ui = desk.start(), desk.ui
+    ui.click(desk.at(36))
+    ui.click(desk.at(40))
+    ui.wait_until(lambda: len(session.wires) == 1 and not session.computing)
+    ui.event("LEFTMOUSE", "PRESS", desk.at(58))
+    ui.move(outside(ui))
+    ui.event("LEFTMOUSE", "PRESS", outside(ui))  # another window has received the release
+    ui.event("LEFTMOUSE", "RELEASE", outside(ui))
+    end(desk)
+    assert seams(desk.obj) == ROW
+
+
+@pytest.mark.smoke
+@pytest.mark.parametrize("is_ending", [False, True])
+def test_a_key_that_changes_the_mesh_finds_all_wires_in_it(desk: Desk, slow: Slow, is_ending: bool) -> None:
+    click_ahead(desk, slow)
+    if is_ending:
+        desk.ui.key("RET")
+        assert desk.chain.stage is Stage.ENDING
+    desk.ui.move(desk.at(60))
+    desk.ui.key("I")
+    desk.ui.key("ESC")  # Blender puts its inset faces back
+    assert desk.left_clean()
+    assert seams(desk.obj) == LONG_ROW
+
+
+def test_x_over_nothing_is_blenders_after_all_wires_are_in_the_mesh(desk: Desk, slow: Slow) -> None:
+    click_ahead(desk, slow)
+    desk.ui.move(desk.at(60))
+    desk.ui.key("X")
+    desk.ui.key("ESC")  # the menu
+    assert desk.left_clean()
+    assert seams(desk.obj) == LONG_ROW
+
+
+def test_a_press_on_a_menu_ends_the_chain_so_that_undo_there_is_blenders(desk: Desk, slow: Slow) -> None:
+    ui = desk.ui
+    click_ahead(desk, slow)
+    ui.key("RET")
+    assert desk.chain.stage is Stage.ENDING
+    ui.move(outside(ui))
+    ui.event("LEFTMOUSE", "PRESS", outside(ui))
+    ui.event("LEFTMOUSE", "RELEASE", outside(ui))
+    assert not desk.running
+    assert seams(desk.obj) == LONG_ROW
+    with ui.override():
+        bpy.ops.ed.undo()
+    ui.wait(4)
+    ui.move(desk.at(20))
+    assert seams(desk.obj) == [], "and the wires do not come back"
+
+
+def test_undo_over_the_settings_is_the_chains(desk: Desk) -> None:
+    ui = desk.ui
+    desk.choose()
+    draw(desk, 0, 4)
+    session = desk.start()
+    ui.click(desk.at(36))
+    ui.click(desk.at(40))
+    ui.wait_until(lambda: len(session.wires) == 2)
+    header = next(region for region in ui.area.regions if region.type == "TOOL_HEADER")
+    ui.move((header.x + header.width - 40.0 - ui.region.x, header.y + header.height * 0.5 - ui.region.y))
+    ui.key("Z", ctrl=True)
+    assert desk.running
+    assert len(session.wires) == 1
+    assert seams(desk.obj) == chain(*range(5)), "the chain before is in the mesh still"
+    ui.move(desk.at(60))
+    end(desk)
+
+
+def new_chain(desk: Desk) -> None:
+    desk.ui.click(desk.at(0), ctrl=True)
+
+
+def switch(desk: Desk) -> None:
+    desk.ui.key("E")
+
+
+def remove_another(desk: Desk) -> None:
+    desk.ui.move(desk.at(37, 38))
+    desk.ui.key("X")
+
+
+@pytest.mark.parametrize(
+    ("go_on", "kept"),
+    [(new_chain, LONG_ROW), (switch, LONG_ROW), (remove_another, chain(*range(40, 45)))],
+)
+def test_what_comes_next_awaits_the_click_that_waits(
+    desk: Desk, slow: Slow, go_on: Callable[[Desk], None], kept: list[tuple[int, int]]
+) -> None:
+    session = click_ahead(desk, slow)
+    go_on(desk)
+    assert session.waiting_clicks == 0
+    end(desk)
+    assert seams(desk.obj) == kept
+
+
+def test_escape_forgets_the_click_that_waits(desk: Desk, slow: Slow) -> None:
+    click_ahead(desk, slow)
+    desk.ui.key("ESC")
+    end(desk)
+    assert seams(desk.obj) == ROW
+
+
+@pytest.fixture
+def halves(ui: driver.Ui) -> Iterator[driver.Ui]:
+    """Two grids beside each other, both edited, with the tool."""
+    reset_settings()
+    for name, x in (("Right", 0.8), ("Left", -0.8)):
+        add_grid(5, size=1.0, name=name).location.x = x
+    ui.wait()
+    with ui.override():
+        edit()
+    ui.look_from_top(distance=4.0)
+    choose(ui)
+    ui.wait_until(lambda: len(edited.views()) == 2)
+    yield ui
+    leave(ui)
+
+
+def place(ui: driver.Ui, name: str, vertex: int) -> tuple[float, float]:
+    obj = bpy.data.objects[name]
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    return ui.on_screen(tuple(obj.matrix_world @ bm.verts[vertex].co))
+
+
+def test_a_click_on_another_object_awaits_the_wire_on_the_first(halves: driver.Ui, slow: Slow) -> None:
+    ui = halves
+    ui.click(place(ui, "Left", 10))
+    session = edited.front.session
+    ui.wait_until(lambda: not session.computing)
+    ui.move(place(ui, "Left", 14))
+    slow.is_slow = True
+    ui.click(place(ui, "Left", 14))
+    assert session.waiting_clicks == 1
+    ui.click(place(ui, "Right", 10))
+    assert edited.front.name == "Right"
+    assert seams(bpy.data.objects["Left"]) == chain(*range(10, 15))
+    ui.key("RET")
+
+
+def test_a_key_beside_a_held_button_leaves_the_object_in_front(halves: driver.Ui) -> None:
+    ui = halves
+    ui.click(place(ui, "Left", 10))
+    session = edited.front.session
+    ui.click(place(ui, "Left", 14))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    ui.key("RET")
+    ui.move(place(ui, "Left", 14))
+    ui.event("LEFTMOUSE", "PRESS", place(ui, "Left", 14))
+    for part in (0.3, 0.6, 1.0):
+        start, goal = place(ui, "Left", 14), place(ui, "Right", 12)
+        ui.move((start[0] + part * (goal[0] - start[0]), start[1] + part * (goal[1] - start[1])))
+    for key in ("LEFT_CTRL", "LEFT_SHIFT", "LEFT_ALT"):
+        ui.event(key, "PRESS")
+        ui.event(key, "RELEASE")
+        assert edited.front.name == "Left", key
+    ui.key("ESC")
+    ui.event("LEFTMOUSE", "RELEASE")
+
+
+# Seeds that are released
+
+
+def stroke(desk: Desk) -> None:
+    ui = desk.ui
+    ui.event("LEFTMOUSE", "PRESS", desk.at(10), shift=True)
+    for vertex in (11, 12, 13):
+        ui.move(desk.at(vertex), shift=True)
+    ui.event("LEFTMOUSE", "RELEASE", shift=True)
+
+
+def press_and_escape(desk: Desk) -> None:
+    ui = desk.ui
+    ui.move(desk.at(10))
+    ui.event("LEFTMOUSE", "PRESS", desk.at(10))
+    ui.key("ESC")
+    ui.event("LEFTMOUSE", "RELEASE", desk.at(10))
+
+
+def drag_and_escape(desk: Desk) -> None:
+    ui = desk.ui
+    ui.event("LEFTMOUSE", "PRESS", desk.at(10))
+    for vertex in (11, 12, 13):
+        ui.move(desk.at(vertex))
+    ui.key("ESC")
+    ui.event("LEFTMOUSE", "RELEASE", desk.at(13))
+
+
+def leave_mode(desk: Desk) -> None:
+    with desk.ui.override():
+        bpy.ops.object.mode_set(mode="OBJECT")
+    desk.ui.move(desk.ui.on_screen((0.3, 0.4, 0.0)))
+
+
+@pytest.mark.parametrize(
+    "go_on",
+    [lambda desk: desk.ui.click(desk.at(10)), new_chain, stroke, press_and_escape, drag_and_escape, leave_mode],
+    ids=["click", "new chain", "stroke", "press, Esc", "drag, Esc", "mode"],
+)
+def test_a_released_seed_stays_where_it_is(desk: Desk, slow: Slow, go_on: Callable[[Desk], None]) -> None:
+    session = release_ahead(desk, slow)
+    go_on(desk)
+    slow.is_slow = False
+    end(desk)
+    assert 53 in session.seeds()
+    assert 44 not in session.seeds()
+    assert any(53 in edge for edge in seams(desk.obj))
+
+
+@pytest.mark.parametrize("key", ["ESC", "BACK_SPACE"])
+def test_escape_and_undo_let_a_released_seed_go_back(desk: Desk, slow: Slow, key: str) -> None:
+    session = release_ahead(desk, slow)
+    desk.ui.key(key)
+    slow.is_slow = False
+    end(desk)
+    assert 44 in session.seeds()
+    assert seams(desk.obj) == LONG_ROW
+
+
+def test_a_line_that_the_cut_mesh_does_not_take_is_told_of(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
+    reports = []
+    take = Notices.take
+    monkeypatch.setattr(Notices, "take", lambda own: reports.extend(found := take(own)) or found)
+    settings().along, settings().finish = "SURFACE", "CUT"
+    session, ui = desk.start(), desk.ui
+    ui.click(desk.at(0))
+    ui.click(desk.at(23))
+    ui.wait_until(lambda: len(session.wires) == 1 and not session.computing)
+    ui.event("LEFTMOUSE", "PRESS", desk.at(54))
+    for vertex in (55, 56, 57):
+        ui.move(desk.at(vertex))
+    ui.event("LEFTMOUSE", "RELEASE", desk.at(57))
+    ui.wait_until(lambda: not desk.running)
+    assert seams(desk.obj) != [], "the first chain is kept"
+    assert [notice.level for notice in reports if "draw the line once more" in notice.text] == ["WARNING"]
