@@ -95,7 +95,6 @@ OPERATORS: tuple[tuple[str, dict[str, object]], ...] = (
     ("mesh.seamwire_select_islands", {"which": "TO_CUT"}),
     ("mesh.seamwire_finish", {"finish": "SLIDE"}),
     ("mesh.seamwire_store", {"what": "MATERIALS"}),
-    ("mesh.seamwire_store", {"what": "STRENGTH"}),
     ("mesh.seamwire_suggest", {"islands": 2}),
     ("mesh.seamwire_take_over", {}),
     ("mesh.seamwire_unwrap", {}),
