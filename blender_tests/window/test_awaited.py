@@ -40,9 +40,9 @@ class Slow:
             drag.final &= not self.is_slow
             return message
 
-        def waited(session: Session) -> None:
+        def waited(session: Session, **how: bool) -> None:
             self.is_slow = False
-            wait(session)
+            wait(session, **how)
 
         monkeypatch.setattr(WireGesture, "waits", property(lambda wire: self.is_slow or waits(wire)))
         monkeypatch.setattr(SeedDrag, "aim", slow_aim)
@@ -106,6 +106,18 @@ def test_a_press_outside_after_a_lost_release_ends_the_chain_and_keeps_its_wires
     ui.event("LEFTMOUSE", "RELEASE", outside(ui))
     end(desk)
     assert seams(desk.obj) == ROW
+
+
+@pytest.mark.parametrize("press", ["LEFT_SHIFT", "RIGHT_CTRL", "WHEELDOWNMOUSE"])
+def test_presses_that_change_no_mesh_leave_the_chain_as_it_is(desk: Desk, slow: Slow, press: str) -> None:
+    session, ui = click_ahead(desk, slow), desk.ui
+    ui.move(outside(ui))
+    ui.event(press, "PRESS", outside(ui))
+    assert desk.chain.stage is Stage.DRAWING
+    assert session.waiting_clicks == 1
+    slow.is_slow = False
+    end(desk)
+    assert seams(desk.obj) == LONG_ROW
 
 
 @pytest.mark.smoke

@@ -438,7 +438,8 @@ def handle(chain: Chain, context: bpy.types.Context, event: bpy.types.Event) -> 
     is_released = event.type == chain.peek and event.value == "RELEASE"
     if chain.stage is Stage.PEEKING and (is_released or event.type == "WINDOW_DEACTIVATE"):
         chain.go(Cue.UNPEEK)
-    if chain.hold is not None and event.type == chain.hold.button and event.value != "RELEASE":
+    is_press = event.value != "RELEASE" and not event.is_repeat
+    if chain.hold is not None and event.type == chain.hold.button and is_press:
         chain.let_go()  # another window has received the release, and this press is not a drag's
     given = chain_events.read(chain, context, event)
     if given.what not in {Sign.TICK, Sign.RELEASE}:

@@ -22,6 +22,11 @@ if TYPE_CHECKING:
     from .chain import Chain
     from .drag_handlers import Hold
 
+_HARMLESS = frozenset(
+    {*WHEEL, *(f"{side}_{key}" for side in ("LEFT", "RIGHT") for key in ("SHIFT", "CTRL", "ALT")), "OSKEY"}
+)
+"""Presses that change no mesh, wherever the mouse is."""
+
 
 class Sign(Enum):
     """The meaning of an event that is not the action of a key."""
@@ -86,7 +91,7 @@ def read(chain: Chain, context: bpy.types.Context, event: bpy.types.Event) -> Gi
     if hold is not None and motion is None:
         what = _key(chain, context, event, double)
         return Given(Sign.NOTHING if what is Sign.ZOOM else what, event)
-    if event.value != "PRESS" or hold is not None:
+    if event.value != "PRESS" or hold is not None or event.type in _HARMLESS:
         return Given(Sign.NOTHING, event)
     if not _is_over_settings(chain.window, event):
         return Given(Sign.OTHER_TOOL, event)

@@ -236,8 +236,10 @@ class Session:
         wait
             Whether gestures that wait are done first. Otherwise they are forgotten.
         """
-        if wait and self.waiting_clicks:
-            self.wait()
+        if not wait:
+            self.under_way.retraces.clear()
+        elif self.waiting_clicks:
+            self.wait(clicks_only=True)
         self._calm()
         if self.drawing.network.seed is None:
             return
@@ -627,14 +629,14 @@ class Session:
     def _finish_gestures(self) -> None:
         """Do what waits, because what comes now begins with the wires that it makes. Only `undo` and `end_chain` forget it."""
         if self.under_way.queue:
-            self.wait()
+            self.wait(clicks_only=True)
         self._leave_seed()
 
     def _leave_seed(self) -> None:
         """Wait for the wires of a seed that was released. A seed that is held still goes back."""
         drag = self.under_way.holds(SeedDrag)
         if drag is not None and drag.ending:
-            self.wait()
+            self.wait(clicks_only=True)
         self.let_go(SeedDrag)
 
     def _calm(self) -> None:
@@ -762,10 +764,15 @@ class Session:
             if self._attempt(retrace, None) is not retrace:
                 self.under_way.retraces.remove(retrace)
 
-    def wait(self) -> None:
+    def wait(self, clicks_only: bool = False) -> None:
         """Wait until everything is computed and every waiting gesture is committed.
 
         If the library has done all its work and a gesture still waits, the gesture is dropped, and `message` says so.
+
+        Parameters
+        ----------
+        clicks_only
+            Whether to stop as soon as every waiting gesture is committed.
         """
         queue, retraces = self.under_way.queue, self.under_way.retraces
         rounds, before = 0, None
@@ -777,7 +784,7 @@ class Session:
                     self._refuse(message_of(error))
             self.loops.edges.wait()
             self.poll()
-            if not queue and not retraces and not self.computing:
+            if not self.waiting_clicks and (clicks_only or not self.computing):
                 return
             now = (*map(id, queue), *map(id, retraces), self.drawing.progress)
             rounds, before = (rounds + 1 if now == before else 0), now

@@ -17,7 +17,7 @@ from seamwire.core.network.wires import Wire
 from seamwire.core.seams.seam_wires import waiting, wires_along
 from seamwire.core.solver.solver import final
 from seamwire.terms.choices import Along
-from setting import use
+from setting import insert, use
 from table import SIZE, Table, courses
 
 POINTS = grid_points(SIZE)
@@ -244,6 +244,19 @@ def test_only_a_cancelled_chain_forgets_a_click_that_waits(go_on: Callable[[Sess
     go_on(session)
     assert session.waiting_clicks == 0
     assert courses(session) == kept
+
+
+def test_a_cancelled_chain_forgets_a_wire_that_waits_for_its_other_path() -> None:
+    session = Table(ready=(True, True, True), fork_ready=(False, False, False)).session
+    session.click(0)
+    session.click(21)
+    insert(session, session.wires[0], 14)
+    before = courses(session)
+    assert session.retrace(session.wires[0])
+    assert session.waiting_clicks == 1
+    session.end_chain(wait=False)
+    assert session.waiting_clicks == 0
+    assert courses(session) == before
 
 
 @pytest.mark.parametrize(
