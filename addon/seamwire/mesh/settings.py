@@ -63,7 +63,17 @@ _DEFAULTS = Options()
 class SeamwireSettings(bpy.types.PropertyGroup):
     """How wires are drawn: keys write these properties, and sessions follow snapshots of them."""
 
-    __annotations__ = {name: _property(name, setting) for name, setting in SETTINGS.items()}
+
+def _describe() -> None:
+    SeamwireSettings.__annotations__ = {name: _property(name, setting) for name, setting in SETTINGS.items()}
+
+
+def _forget() -> None:
+    """Let the class hold no functions of this module.
+
+    Blender 4.2 never frees the class. The functions would keep `bpy` alive, and then Blender as a Python module crashes as it ends.
+    """
+    SeamwireSettings.__annotations__ = {}
 
 
 def snapshot(settings: SeamwireSettings, mesh: bpy.types.Mesh | None = None, auto: Auto = PLACED) -> Options:
@@ -128,4 +138,4 @@ def _remove_property() -> None:
     del bpy.types.Mesh.seamwire_wires
 
 
-register, unregister = together(*classes(SeamwireSettings), (_add_property, _remove_property))
+register, unregister = together((_describe, _forget), *classes(SeamwireSettings), (_add_property, _remove_property))
