@@ -247,6 +247,10 @@ class EditedObjects:
 
     def on_update(self, _scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
         """Take note of meshes that Blender says were changed. A mesh that could not be read is tried again then."""
+        if not self._views:
+            if _changed_meshes(depsgraph):
+                failures.retry()
+            return
         self._drop_deleted()
         moved = {update.id.name_full for update in depsgraph.updates if update.is_updated_geometry}
         self._move([view for view in self._views.values() if view.name in moved], depsgraph)
