@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How time and memory of the module's functions grow with the mesh.
 
-    python native/bench/scaling.py [--triangles N] [--page PAGE] [NAME...]
+    python native/bench/scaling.py [--triangles N] [NAME...]
 
 Each function runs on meshes of N, 4 N and 16 N triangles (N is 8,000 without the option), in a process of its own. The program prints a row
 of a Markdown table for each: processor time and the memory that the call adds at its peak. *growth* is the exponent between the last two
@@ -21,7 +21,7 @@ from pathlib import Path
 
 import numpy as np
 import seamwire_core as sw
-from auto_seams_report import markdown, with_tables
+from auto_seams_report import markdown
 
 Work = Callable[[], object]
 MOST_GROWTH = 1.2
@@ -49,15 +49,10 @@ def torus(triangles: int) -> tuple[np.ndarray, np.ndarray]:
 
 def boxes(triangles: int) -> tuple[np.ndarray, np.ndarray]:
     """Return unequal boxes side by side, of twelve triangles each."""
-    count = triangles // 12
-    corners = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)], float)
-    sides = np.array([[0, 2, 3], [0, 3, 1], [4, 5, 7], [4, 7, 6], [0, 1, 5], [0, 5, 4]])
-    sides = np.concatenate([sides, [[2, 6, 7], [2, 7, 3], [0, 4, 6], [0, 6, 2], [1, 3, 7], [1, 7, 5]]])
-    edge = int(np.ceil(count ** (1 / 3)))
-    places = np.stack(np.unravel_index(np.arange(count), (edge, edge, edge)), 1)
-    sizes = np.random.default_rng(0).uniform(0.2, 0.8, (count, 1, 3))
-    points = (corners * sizes + places[:, None]).reshape(-1, 3)
-    return points, (sides + 8 * np.arange(count)[:, None, None]).reshape(-1, 3).astype(np.int32)
+    from many_boxes import boxes as model_of
+
+    model = model_of(triangles // 12)
+    return model.points, sw.cut_polygons(model.points, model.corners, np.diff(model.start))[0]
 
 
 def fan(triangles: int) -> tuple[np.ndarray, np.ndarray]:
@@ -142,7 +137,7 @@ def all_work() -> dict[str, tuple[Callable[[int], Work], float]]:
 
     def cut(n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, list[sw.CutCurve]]:
         points, triangles = torus(n)
-        section = sw.plane_section(sw.Surface(points, triangles), 0, far(n), [0, 0, 1])
+        section = sw.plane_section(sw.Surface(points, triangles), 0, far(n), [0, 1, 0])
         curve = sw.CutCurve(section[0], 0, far(n), section[1])
         return points, triangles, np.arange(len(triangles), dtype=np.int32), [curve]
 
@@ -168,7 +163,7 @@ def all_work() -> dict[str, tuple[Callable[[int], Work], float]]:
         "shortest_cycle": after(lambda n: (*metric(n), (0, 1)), sw.shortest_cycle),
         "fit_chain": after(line, sw.fit_chain),
         "isolines": after(lambda n: (on := surface(n), on.points[:, 2], [-0.1, 0.0, 0.1]), sw.isolines),
-        "plane_section": after(lambda n: (surface(n), 0, far(n), [0, 0, 1]), sw.plane_section),
+        "plane_section": after(lambda n: (surface(n), 0, far(n), [0, 1, 0]), sw.plane_section),
         "face_segments": after(lambda n: (surface(n), ring(n)), sw.face_segments),
         "missing_cuts": after(lambda n: (on := surface(n), ring(n), sw.face_segments(on, ring(n))), sw.missing_cuts),
         "cut_polygons": after(
@@ -191,10 +186,10 @@ def all_work() -> dict[str, tuple[Callable[[int], Work], float]]:
         "LiveWire along edges": lambda n: lambda: live(n),
     }
     return {
-        **{name: proportional(prepare) for name, prepare in work.items()},
+        **{name: (prepare, MOST_GROWTH) for name, prepare in work.items()},
         # Each window crosses as many triangles as the surface is wide, so an exact front has up to n^1.5 windows.
-        "distance_field": proportional(after(embedded, lambda on: sw.distance_field(on, 0)), 1.5),
-        "closed_wires": proportional(after(field, lambda distances, _: distances.closed_wires()), 1.5),
+        "distance_field": (after(embedded, lambda on: sw.distance_field(on, 0)), 1.5),
+        "closed_wires": (after(field, lambda distances, _: distances.closed_wires()), 1.5),
     }
 
 
@@ -222,14 +217,26 @@ def main() -> int:
     """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--triangles", type=int, default=8000)
-    parser.add_argument("--page", type=Path, help="a Markdown page with a table `scaling`, to be replaced")
     parser.add_argument("--one", action="store_true", help=argparse.SUPPRESS)
     parser.add_argument("names", nargs="*", metavar="NAME")
     arguments = parser.parse_args()
     if arguments.one:
         print(json.dumps(measured(arguments.names[0], arguments.triangles)))
         return 0
-    rows, is_fine = [], True
+    titles = [
+        "function",
+        "n: s",
+        "4 n: s",
+        "16 n: s",
+        "n: MB",
+        "4 n: MB",
+        "16 n: MB",
+        "growth, s",
+        "growth, MB",
+        "limit",
+    ]
+    print(markdown(titles, []), flush=True)
+    is_fine = True
     for name, (_, limit) in all_work().items():
         if arguments.names and name not in arguments.names:
             continue
@@ -244,23 +251,7 @@ def main() -> int:
         in_time, in_memory = growth(one, two, LEAST_SECONDS), growth(small, large, LEAST_BYTES)
         is_fine &= in_time <= limit and in_memory <= limit
         cells = [f"{seconds:.2f}" for seconds, _ in results] + [f"{amount / 1e6:.0f}" for _, amount in results]
-        rows.append([name, *cells, f"{in_time:.2f}", f"{in_memory:.2f}", f"{limit:g}"])
-        print("| " + " | ".join(rows[-1]) + " |", flush=True)
-    titles = [
-        "function",
-        "n: s",
-        "4 n: s",
-        "16 n: s",
-        "n: MB",
-        "4 n: MB",
-        "16 n: MB",
-        "growth, s",
-        "growth, MB",
-        "limit",
-    ]
-    if arguments.page:
-        page = arguments.page.read_text("utf-8")
-        arguments.page.write_text(with_tables(page, {"scaling": markdown(titles, rows)}), "utf-8")
+        print("| " + " | ".join([name, *cells, f"{in_time:.2f}", f"{in_memory:.2f}", f"{limit:g}"]) + " |", flush=True)
     return 0 if is_fine else 1
 
 

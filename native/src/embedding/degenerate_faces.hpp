@@ -31,7 +31,7 @@ struct CleanMesh {
   std::vector<std::int32_t> degenerate;  ///< the origins of the degenerate faces left, ascending
 };
 
-/// Removes degenerate faces (SurfaceReport::zero_area_faces) on a copy of the half-edge mesh. They have no area, so no
+/// Removes degenerate faces (SurfaceReport::zero_area_faces) in OpenMesh's half-edge mesh. They have no area, so no
 /// path can cross them.
 ///
 /// Needles are removed by collapsing their shortest edge, which has no length. Caps are removed by flipping their

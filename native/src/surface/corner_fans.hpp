@@ -24,14 +24,13 @@ struct CornerFans : TriangleConnectivity {
   /// from leaving[fan] on. Returns whether the fan has a boundary.
   template <class Visit>
   bool for_each_leaving(std::int32_t fan, const Visit& visit) const {
-    const std::int32_t start = first_leaving(fan);
-    for (std::int32_t h = start;;) {
-      const std::int32_t next = twins[previous_in_face(h)];
+    const std::int32_t start = last(leaving[fan], [&](std::int32_t h) { return clockwise(h); });
+    std::int32_t h = start;
+    do {
       visit(h);
-      if (next < 0) return true;
-      if (next == start) return false;
-      h = next;
-    }
+      h = counter_clockwise(h);
+    } while (h >= 0 && h != start);
+    return h < 0;
   }
 
   /// Calls visit(h) for the same half-edges clockwise: from the boundary on, or from leaving[fan] on. Before the
@@ -39,32 +38,29 @@ struct CornerFans : TriangleConnectivity {
   /// fan.
   template <class Visit, class AtBoundary>
   void for_each_leaving_clockwise(std::int32_t fan, const Visit& visit, const AtBoundary& at_boundary) const {
-    std::int32_t start = leaving[fan];
-    for (std::int32_t h = start;;) {
-      const std::int32_t next = twins[previous_in_face(h)];
-      if (next == start) break;
-      if (next < 0) {
-        start = h;
-        at_boundary(apex(h));
-        break;
-      }
-      h = next;
-    }
-    for (std::int32_t h = start;;) {
+    const std::int32_t start = last(leaving[fan], [&](std::int32_t h) { return counter_clockwise(h); });
+    if (counter_clockwise(start) < 0) at_boundary(apex(start));
+    std::int32_t h = start;
+    do {
       visit(h);
-      h = twins[h] < 0 ? start : next_in_face(twins[h]);
-      if (h == start) break;
-    }
+      h = clockwise(h);
+    } while (h >= 0 && h != start);
   }
 
  private:
-  std::int32_t first_leaving(std::int32_t fan) const {
-    const std::int32_t start = leaving[fan];
-    for (std::int32_t h = start; twins[h] >= 0;) {
-      h = next_in_face(twins[h]);
-      if (h == start || twins[h] < 0) return h;
+  /// The next half-edge that begins at the same fan, -1 beyond the boundary.
+  std::int32_t clockwise(std::int32_t h) const { return twins[h] < 0 ? -1 : next_in_face(twins[h]); }
+  std::int32_t counter_clockwise(std::int32_t h) const { return twins[previous_in_face(h)]; }
+
+  /// The last half-edge before the boundary, or `start` if there is no boundary.
+  template <class Turn>
+  static std::int32_t last(std::int32_t start, const Turn& turn) {
+    for (std::int32_t h = start;;) {
+      const std::int32_t next = turn(h);
+      if (next < 0) return h;
+      if (next == start) return start;
+      h = next;
     }
-    return start;
   }
 };
 
