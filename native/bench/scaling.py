@@ -89,7 +89,8 @@ def all_work() -> dict[str, tuple[Callable[[int], Work], float]]:
         return sw.embed(*metric(n))
 
     def far(n: int) -> int:
-        return len(torus(n)[0]) // 2
+        rows = round((n / 6) ** 0.5)
+        return 3 * rows // 2 * rows  # across the hole from vertex 0, in the plane of both and the y-axis
 
     def after(prepare: Callable[[int], object], call: Callable[..., object]) -> Callable[[int], Work]:
         def prepared(n: int) -> Work:
