@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <limits>
+#include "detail/infinity.hpp"
 
 namespace seamwire::detail {
-
-inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Which vertex or edge a curve's point is on, as part of a triangle's longest side: stored curves are rounded.
 inline constexpr double kOn = 1e-4;

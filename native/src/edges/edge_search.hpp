@@ -9,19 +9,17 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <type_traits>
 #include <vector>
 
 #include "detail/bucket_queue.hpp"
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
 #include "detail/zeroed_array.hpp"
 #include "edges/edge_graph.hpp"
 #include "seamwire/task.hpp"
 
 namespace seamwire::detail {
-
-inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Edges settled between two looks at the task: well under a millisecond.
 inline constexpr std::size_t kStepsBetweenChecks = 1024;

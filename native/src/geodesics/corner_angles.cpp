@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <functional>
-#include <limits>
 #include <queue>
 #include <utility>
 
 #include "detail/csr.hpp"
 #include "detail/half_edge.hpp"
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
 
 namespace seamwire::detail {
 namespace {
@@ -25,7 +25,6 @@ std::int32_t name_of_edge(const GeodesicMesh& mesh, std::int32_t h) {
 
 std::vector<CornerAngles> angles_around(const GeodesicMesh& mesh, std::int32_t vertex, std::int32_t corner,
                                         double angle) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   // The corners join the edges at the vertex; the angles are distances in this graph.
   const auto corners = mesh.out(vertex);
   std::vector<std::int32_t> edges;

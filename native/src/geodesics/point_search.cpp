@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "detail/half_edge.hpp"
+#include "detail/infinity.hpp"
 #include "geodesics/window_kernels.hpp"
 
 namespace seamwire::detail {
@@ -24,7 +25,6 @@ namespace {
 
 using HalfEdge = GeodesicMesh::HalfEdge;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Beams between two looks at the task: a fraction of a millisecond.
 constexpr std::size_t kWorkBetweenChecks = 2048;
 /// Improvements below this fraction of the path's length are ignored.

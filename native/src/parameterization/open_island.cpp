@@ -2,7 +2,6 @@
 #include "parameterization/open_island.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -12,12 +11,11 @@
 #include "detail/half_edge.hpp"
 #include "detail/index.hpp"
 #include "detail/indexed_heap.hpp"
+#include "detail/infinity.hpp"
 #include "seamwire/errors.hpp"
 
 namespace seamwire::detail {
 namespace {
-
-constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// Shortest paths along the real edges of an island.
 class Paths {
@@ -42,7 +40,7 @@ class Paths {
   /// at no length. A path enters each of them once, so a cut along the path and the loops leaves one piece.
   void search(std::span<const std::int32_t> from, const Task& task,
               std::span<const std::vector<std::int32_t>> holes = {}) {
-    distance_.assign(island_.vertices.size(), kFar);
+    distance_.assign(island_.vertices.size(), kInfinity);
     towards_.assign(island_.vertices.size(), -1);
     across_.assign(island_.vertices.size(), -1);
     std::vector<std::int32_t> hole_of(island_.vertices.size(), -1);
@@ -83,7 +81,7 @@ class Paths {
   std::int32_t farthest() const {
     std::int32_t far = -1;
     for (std::int32_t v = 0; index(v) < distance_.size(); ++v) {
-      if (distance_[v] < kFar && (far < 0 || distance_[v] > distance_[far])) far = v;
+      if (distance_[v] < kInfinity && (far < 0 || distance_[v] > distance_[far])) far = v;
     }
     return far;
   }
@@ -240,7 +238,7 @@ OpenedIsland open_to_farthest(const Island& island, std::span<const std::uint8_t
   bool is_pinched = false;
   for (std::int32_t v = 0; index(v) < triangles.size(); ++v) {
     const double distance = paths.distance(v);
-    if (triangles[v] != 2 || !(distance > 0.0 && distance < kFar)) continue;
+    if (triangles[v] != 2 || !(distance > 0.0 && distance < kInfinity)) continue;
     paths.mark(v, is_cut);
     is_pinched = true;
   }

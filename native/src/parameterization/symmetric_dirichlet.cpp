@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <utility>
 
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
 
 namespace seamwire::detail {
 namespace {
@@ -135,7 +135,6 @@ std::vector<std::array<double, 2>> SymmetricDirichlet::parts(std::span<const dou
       const Complex e1(sides.e1x[i], sides.e1y[i]), e2(sides.e2x[i], sides.e2y[i]);
       const double cross = (std::conj(e1) * e2).imag(), determinant = cross * -4.0 * (std::conj(p1) * p2).imag();
       const double squared = 2.0 * (std::norm(p1 * e1 + p2 * e2) + std::norm(std::conj(p1) * e1 + std::conj(p2) * e2));
-      constexpr double kInfinity = std::numeric_limits<double>::infinity();
       parts[begin + i] = {kInfinity, kInfinity};
       if (cross > 0.0) parts[begin + i] = {squared, squared / determinant / determinant};
     }
@@ -189,7 +188,7 @@ void SymmetricDirichlet::add_derivatives(std::span<const double> map, std::span<
 
 double SymmetricDirichlet::first_flip(std::span<const double> map, std::span<const double> direction) const {
   const DirichletKernels& kernels = dirichlet_kernels();
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   std::array<double, kTrianglesAtOnce> steps;
   Sides moves;
   for_each_group(map, [&](std::size_t begin, std::size_t count, const Sides& sides) {

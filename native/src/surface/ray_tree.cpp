@@ -9,13 +9,13 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <stop_token>
 #include <thread>
 #include <utility>
 
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
 #include "surface/box_tree.hpp"
 
 namespace seamwire {
@@ -28,8 +28,6 @@ namespace {
 constexpr double kSlack = 1e-9;
 /// Of a distance along a ray, how much of it may be rounding.
 constexpr double kRounding = 1e-12;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Coordinates beyond 2 to this, and below its inverse, are brought near 1: the volumes that the test compares are
 /// products of three lengths, and would overflow or vanish.

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "detail/csr.hpp"
 #include "detail/half_edge.hpp"
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
 #include "geodesics/placed_point.hpp"
 #include "wires/curve_check.hpp"
 #include "wires/path_position.hpp"
@@ -23,8 +23,6 @@ namespace seamwire {
 using namespace detail;
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Edges that have the two deepest places on different ends of a line over them, or that a closed line crosses.
 struct Crossed {

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -21,6 +20,7 @@
 
 #include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
 #include "detail/poll.hpp"
 #include "surface/exact_unit.hpp"
 #include "wires/loop_parts.hpp"
@@ -33,8 +33,6 @@ namespace seamwire {
 using namespace detail;
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Of the area of a part of the surface: what a loop has on its smaller side at least.
 constexpr double kLeastArea = 0.003;

@@ -3,19 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
 #include "detail/disjoint_sets.hpp"
 #include "detail/half_edge.hpp"
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
 #include "detail/poll.hpp"
 
 namespace seamwire::detail {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// One end of a half-edge.
 struct End {
