@@ -56,7 +56,7 @@ class TriangleCrossing {
   const GeodesicMesh& mesh_;
   const std::uint32_t windows_kept_;
   WindowPruning pruning_;
-  const WindowKernels& kernels_ = window_kernels();
+  const WindowKernels& kernels_ = window_kernels().fastest();
   Scratch<double> projections_, apex_distances_, children_;
   Scratch<std::int64_t> flags_;
 };

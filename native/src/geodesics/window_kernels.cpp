@@ -4,16 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "detail/always_inline.hpp"
-
-#if defined(__clang__)
-#define SEAMWIRE_VECTORIZE _Pragma("clang loop vectorize(assume_safety) interleave_count(1)")
-#elif defined(__GNUC__)
-#define SEAMWIRE_VECTORIZE _Pragma("GCC ivdep")
-#else
-#define SEAMWIRE_VECTORIZE
-#endif
-
 namespace seamwire::detail {
 namespace {
 
@@ -176,7 +166,7 @@ SEAMWIRE_INLINE std::size_t all_to_right(const Windows& w, std::size_t count, co
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): an attribute
-#define SEAMWIRE_KERNELS_FOR(TARGET)                                                                              \
+#define SEAMWIRE_WINDOW_KERNELS(TARGET, WIDTH)                                                                    \
   TARGET bool find_overlaps(const Windows& windows, std::size_t count, std::int64_t* overlaps) {                  \
     return find_overlaps_in(windows, count, overlaps);                                                            \
   }                                                                                                               \
@@ -196,26 +186,10 @@ SEAMWIRE_INLINE std::size_t all_to_right(const Windows& w, std::size_t count, co
   constexpr WindowKernels kKernels{find_overlaps, compare, find_apex_distances, to_left, to_right};
 // NOLINTEND(bugprone-macro-parentheses)
 
-namespace plain {
-SEAMWIRE_KERNELS_FOR()
-}
-// AVX-512 wins nothing on top: lists are short.
-#if defined(__GNUC__) && defined(__x86_64__)
-#define SEAMWIRE_HAS_AVX2
-namespace avx2 {
-SEAMWIRE_KERNELS_FOR(__attribute__((target("avx2"))))
-}
-#endif
+SEAMWIRE_COMPILE_VARIANTS(SEAMWIRE_WINDOW_KERNELS)
 
 }  // namespace
 
-const WindowKernels& plain_window_kernels() { return plain::kKernels; }
-
-const WindowKernels& window_kernels() {
-#if defined(SEAMWIRE_HAS_AVX2)
-  if (__builtin_cpu_supports("avx2")) return avx2::kKernels;
-#endif
-  return plain::kKernels;
-}
+const InstructionSets<WindowKernels>& window_kernels() { return kVariants; }
 
 }  // namespace seamwire::detail

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "detail/instruction_sets.hpp"
 #include "geodesics/window_lists.hpp"
 
 namespace seamwire::detail {
@@ -103,9 +104,6 @@ struct WindowKernels {
                           const BaseTriangle& triangle, const Side& side, const ChildWindows& children);
 };
 
-/// For every processor that the library as a whole is compiled for.
-const WindowKernels& plain_window_kernels();
-/// The fastest that this processor can run.
-const WindowKernels& window_kernels();
+const InstructionSets<WindowKernels>& window_kernels();
 
 }  // namespace seamwire::detail

@@ -29,7 +29,7 @@ class WindowPruning {
   template <class PairAt>
   SEAMWIRE_INLINE void compare_pairs(const Windows& w, std::size_t count, const PairAt& pair_at);
 
-  const WindowKernels& kernels_ = window_kernels();
+  const WindowKernels& kernels_ = window_kernels().fastest();
   Scratch<double> pairs_;
   Scratch<std::int64_t> flags_;
   Scratch<std::size_t> lefts_;

@@ -292,7 +292,7 @@ void BlockCholesky::add_to_parent(const Supernode& child, const double* update, 
 }
 
 bool BlockCholesky::factor_front(const Supernode& node, double* update, std::size_t& work, const Task& task) {
-  const FrontKernels& kernels = cholesky_kernels();
+  const FrontKernels& kernels = cholesky_kernels().fastest();
   double* panel = values_.data() + node.panel;
   const std::size_t stride = node.stride;
   const auto look = [&](std::size_t done) {
@@ -346,7 +346,7 @@ bool BlockCholesky::factor(const Task& task) {
 }
 
 void BlockCholesky::solve(std::span<double> right_side) const {
-  const FrontKernels& kernels = cholesky_kernels();
+  const FrontKernels& kernels = cholesky_kernels().fastest();
   std::uint32_t most = 0;
   for (const Supernode& node : nodes_) most = std::max(most, node.stride);
   std::vector<double> x(2 * order_.size()), front(most);

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "detail/always_inline.hpp"
-
 namespace seamwire::detail {
 namespace {
 
@@ -171,13 +169,13 @@ SEAMWIRE_INLINE void subtract_transposed_times_of(double* x, const double* a, st
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): an attribute
-#define SEAMWIRE_KERNELS_FOR(TARGET, QUADS)                                                                           \
+#define SEAMWIRE_FRONT_KERNELS(TARGET, WIDTH)                                                                         \
   TARGET void subtract_product(double* c, std::size_t c_stride, const double* a, const double* b, std::size_t stride, \
                                std::size_t rows, std::size_t width, std::size_t depth) {                              \
     if (width == 4) {                                                                                                 \
-      subtract_product_of<QUADS, 4>(c, c_stride, a, b, stride, rows, depth);                                          \
+      subtract_product_of<(WIDTH) / 2, 4>(c, c_stride, a, b, stride, rows, depth);                                    \
     } else {                                                                                                          \
-      subtract_product_of<QUADS, 2>(c, c_stride, a, b, stride, rows, depth);                                          \
+      subtract_product_of<(WIDTH) / 2, 2>(c, c_stride, a, b, stride, rows, depth);                                    \
     }                                                                                                                 \
   }                                                                                                                   \
   TARGET bool factor_columns(double* columns, std::size_t stride, std::size_t rows, std::size_t width) {              \
@@ -194,25 +192,10 @@ SEAMWIRE_INLINE void subtract_transposed_times_of(double* x, const double* a, st
   constexpr FrontKernels kKernels{subtract_product, factor_columns, subtract_times, subtract_transposed_times};
 // NOLINTEND(bugprone-macro-parentheses)
 
-namespace plain {
-SEAMWIRE_KERNELS_FOR(, 1)
-}
-#if defined(__GNUC__) && defined(__x86_64__)
-#define SEAMWIRE_HAS_AVX2
-namespace avx2 {
-SEAMWIRE_KERNELS_FOR(__attribute__((target("avx2"))), 2)
-}
-#endif
+SEAMWIRE_COMPILE_VARIANTS(SEAMWIRE_FRONT_KERNELS)
 
 }  // namespace
 
-const FrontKernels& plain_cholesky_kernels() { return plain::kKernels; }
-
-const FrontKernels& cholesky_kernels() {
-#if defined(SEAMWIRE_HAS_AVX2)
-  if (__builtin_cpu_supports("avx2")) return avx2::kKernels;
-#endif
-  return plain::kKernels;
-}
+const InstructionSets<FrontKernels>& cholesky_kernels() { return kVariants; }
 
 }  // namespace seamwire::detail

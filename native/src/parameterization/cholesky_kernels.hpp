@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The arithmetic of the block Cholesky factorization on dense columns. Each kernel is compiled for several instruction
-// sets, and the widest one that the processor has is taken. Sums are formed in the same order in all of them, without
-// contraction, so that all give the same bits.
+// The arithmetic of the block Cholesky factorization on dense columns. Sums are formed in the same order in all of
+// them, without contraction, so that all give the same bits.
 #pragma once
 
 #include <cstddef>
+
+#include "detail/instruction_sets.hpp"
 
 namespace seamwire::detail {
 
@@ -27,9 +28,6 @@ struct FrontKernels {
                                     const double* y);
 };
 
-/// For every processor that the library as a whole is compiled for.
-const FrontKernels& plain_cholesky_kernels();
-/// The fastest that this processor can run.
-const FrontKernels& cholesky_kernels();
+const InstructionSets<FrontKernels>& cholesky_kernels();
 
 }  // namespace seamwire::detail

@@ -1,23 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "parameterization/dirichlet_kernels.hpp"
+#include "detail/infinity.hpp"
 
 #include <cmath>
-#include <limits>
-
-#include "detail/always_inline.hpp"
-
-#if defined(__clang__)
-#define SEAMWIRE_VECTORIZE _Pragma("clang loop vectorize(assume_safety) interleave_count(1)")
-#elif defined(__GNUC__)
-#define SEAMWIRE_VECTORIZE _Pragma("GCC ivdep")
-#else
-#define SEAMWIRE_VECTORIZE
-#endif
 
 namespace seamwire::detail {
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 /// Below this, |q| has no direction that matters.
 constexpr double kNoDirection = 1e-150;
 
@@ -36,7 +25,7 @@ SEAMWIRE_INLINE void energies_of(const RestShapes& rest, const Sides& sides, std
     const double determinant = cross * (4.0 * (r.p1y[i] * r.p2x[i] - r.p1x[i] * r.p2y[i]));
     const double frobenius = 2.0 * (px * px + py * py + (qx * qx + qy * qy));
     const double energy = frobenius + frobenius / (determinant * determinant);
-    energies[i] = cross > 0.0 ? energy : kInfinite;
+    energies[i] = cross > 0.0 ? energy : kInfinity;
   }
 }
 
@@ -107,12 +96,12 @@ SEAMWIRE_INLINE void first_flips_of(const Sides& sides, const Sides& moves, std:
     const double denominator = std::sqrt(most(discriminant, 0.0)) - b;
     const bool flips = (discriminant >= 0.0) & (denominator > 0.0);
     const double step = 2.0 * a / denominator;
-    steps[i] = flips ? step : kInfinite;
+    steps[i] = flips ? step : kInfinity;
   }
 }
 
 // NOLINTBEGIN(bugprone-macro-parentheses): an attribute
-#define SEAMWIRE_KERNELS_FOR(TARGET)                                                                         \
+#define SEAMWIRE_DIRICHLET_KERNELS(TARGET, WIDTH)                                                            \
   TARGET void energies(const RestShapes& rest, const Sides& sides, std::size_t count, double* values) {      \
     energies_of(rest, sides, count, values);                                                                 \
   }                                                                                                          \
@@ -125,25 +114,10 @@ SEAMWIRE_INLINE void first_flips_of(const Sides& sides, const Sides& moves, std:
   constexpr DirichletKernels kKernels{energies, derivatives, first_flips};
 // NOLINTEND(bugprone-macro-parentheses)
 
-namespace plain {
-SEAMWIRE_KERNELS_FOR()
-}
-#if defined(__GNUC__) && defined(__x86_64__)
-#define SEAMWIRE_HAS_AVX2
-namespace avx2 {
-SEAMWIRE_KERNELS_FOR(__attribute__((target("avx2"))))
-}
-#endif
+SEAMWIRE_COMPILE_VARIANTS(SEAMWIRE_DIRICHLET_KERNELS)
 
 }  // namespace
 
-const DirichletKernels& plain_dirichlet_kernels() { return plain::kKernels; }
-
-const DirichletKernels& dirichlet_kernels() {
-#if defined(SEAMWIRE_HAS_AVX2)
-  if (__builtin_cpu_supports("avx2")) return avx2::kKernels;
-#endif
-  return plain::kKernels;
-}
+const InstructionSets<DirichletKernels>& dirichlet_kernels() { return kVariants; }
 
 }  // namespace seamwire::detail

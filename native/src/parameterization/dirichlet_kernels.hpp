@@ -11,6 +11,8 @@
 
 #include <cstddef>
 
+#include "detail/instruction_sets.hpp"
+
 namespace seamwire::detail {
 
 /// How many triangles a kernel is called for, at most.
@@ -45,9 +47,6 @@ struct DirichletKernels {
   void (*first_flips)(const Sides& sides, const Sides& moves, std::size_t count, double* steps);
 };
 
-/// For every processor that the library as a whole is compiled for.
-const DirichletKernels& plain_dirichlet_kernels();
-/// The fastest that this processor can run.
-const DirichletKernels& dirichlet_kernels();
+const InstructionSets<DirichletKernels>& dirichlet_kernels();
 
 }  // namespace seamwire::detail

@@ -107,7 +107,7 @@ void SymmetricDirichlet::for_each_group(std::span<const double> map, const Visit
 }
 
 double SymmetricDirichlet::energy(std::span<const double> map) const {
-  const DirichletKernels& kernels = dirichlet_kernels();
+  const DirichletKernels& kernels = dirichlet_kernels().fastest();
   double sum = 0.0;
   std::array<double, kTrianglesAtOnce> energies;
   for_each_group(map, [&](std::size_t begin, std::size_t count, const Sides& sides) {
@@ -118,7 +118,7 @@ double SymmetricDirichlet::energy(std::span<const double> map) const {
 }
 
 std::vector<double> SymmetricDirichlet::energies(std::span<const double> map) const {
-  const DirichletKernels& kernels = dirichlet_kernels();
+  const DirichletKernels& kernels = dirichlet_kernels().fastest();
   std::vector<double> energies(triangles_.size());
   for_each_group(map, [&](std::size_t begin, std::size_t count, const Sides& sides) {
     kernels.energies(rest_of(current_, begin), sides, count, energies.data() + begin);
@@ -144,7 +144,7 @@ std::vector<std::array<double, 2>> SymmetricDirichlet::parts(std::span<const dou
 
 void SymmetricDirichlet::add_derivatives(std::span<const double> map, std::span<const TriangleBlocks> blocks,
                                          std::span<double> gradient, std::span<double> values) const {
-  const DirichletKernels& kernels = dirichlet_kernels();
+  const DirichletKernels& kernels = dirichlet_kernels().fastest();
   Derivatives d;
   for_each_group(map, [&](std::size_t begin, std::size_t count, const Sides& sides) {
     kernels.derivatives(rest_of(current_, begin), sides, count, d);
@@ -187,7 +187,7 @@ void SymmetricDirichlet::add_derivatives(std::span<const double> map, std::span<
 }
 
 double SymmetricDirichlet::first_flip(std::span<const double> map, std::span<const double> direction) const {
-  const DirichletKernels& kernels = dirichlet_kernels();
+  const DirichletKernels& kernels = dirichlet_kernels().fastest();
   double least = kInfinity;
   std::array<double, kTrianglesAtOnce> steps;
   Sides moves;
