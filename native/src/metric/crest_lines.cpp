@@ -12,7 +12,9 @@
 #include <numeric>
 #include <optional>
 #include <string>
+#include <utility>
 
+#include "detail/edge_chains.hpp"
 #include "detail/poll.hpp"
 #include "detail/text.hpp"
 #include "metric/tangent_frame.hpp"
@@ -51,7 +53,7 @@ void check(const Surface& surface, const Curvature& curvature, const CrestLineOp
   }
 }
 
-// The faces of the half-edge mesh with the caller's vertices, as plane triangles in the unit cube.
+// The faces of the corner fans with the caller's vertices, as plane triangles in the unit cube.
 class Faces {
  public:
   struct Frame {
@@ -260,7 +262,7 @@ class Walk {
 // A piece of a line across a face, from the middle of one side to that of another.
 struct Segment {
   std::array<std::int32_t, 2> sides;  // half-edges, each the lower one of its edge
-  std::int32_t face;                  // of the half-edge mesh
+  std::int32_t face;                  // of the corner fans
   bool stands_out;                    // k is greatest here, and falls on both sides
 };
 
@@ -376,33 +378,18 @@ class Tracer {
 
   // Lines are chains of segments that share an edge: each edge has two faces, each face one segment at most.
   void link(CrestLines& lines) const {
-    std::vector<std::array<std::int32_t, 2>> at_edge(corner_fans(surface_).twins.size(), {-1, -1});
-    for (std::size_t s = 0; s < segments_.size(); ++s) {
-      for (const std::int32_t side : segments_[s].sides) {
-        at_edge[side][at_edge[side][0] == -1 ? 0 : 1] = static_cast<std::int32_t>(s);
+    std::vector<EdgeChains::Edge> sides_of;
+    sides_of.reserve(segments_.size());
+    for (const Segment& segment : segments_) sides_of.push_back(segment.sides);
+    EdgeChains chains(corner_fans(surface_).twins.size(), sides_of);
+    for (const bool is_open : {true, false}) {
+      for (std::int32_t s = 0; index(s) < segments_.size(); ++s) {
+        for (const std::int32_t side : segments_[s].sides) {
+          if (chains.is_taken(s) || (is_open && chains.at(side).size() > 1)) continue;
+          auto [sides, segments] = chains.follow(side, s, [](std::int32_t) { return false; });
+          add_lines({.sides = std::move(sides), .segments = std::move(segments)}, lines);
+        }
       }
-    }
-    std::vector<char> is_used(segments_.size(), 0);
-    const auto follow = [&](std::int32_t segment, std::int32_t from) {
-      Chain chain{.sides = {from}, .segments = {}};
-      while (segment != -1 && is_used[segment] == 0) {
-        is_used[segment] = 1;
-        const auto& sides = segments_[segment].sides;
-        from = sides[0] == from ? sides[1] : sides[0];
-        chain.sides.push_back(from);
-        chain.segments.push_back(segment);
-        segment = at_edge[from][0] == segment ? at_edge[from][1] : at_edge[from][0];
-      }
-      add_lines(std::move(chain), lines);
-    };
-    for (std::size_t s = 0; s < segments_.size(); ++s) {
-      for (const std::int32_t side : segments_[s].sides) {
-        if (is_used[s] == 0 && at_edge[side][1] == -1) follow(static_cast<std::int32_t>(s), side);
-      }
-    }
-    // The remaining lines are closed.
-    for (std::size_t s = 0; s < segments_.size(); ++s) {
-      if (is_used[s] == 0) follow(static_cast<std::int32_t>(s), segments_[s].sides[0]);
     }
   }
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 
+#include "detail/edge_chains.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "parts/joined_regions.hpp"
@@ -85,37 +85,13 @@ std::vector<std::int32_t> images_of(const PlanMesh& mesh, const Polygons& polygo
 
 /// Chains of edges from junction to junction; closed ones end with their first vertex. `others`: edges that make
 /// junctions too.
-std::vector<std::vector<std::int32_t>> chains_of(const std::vector<Edge>& edges, const std::vector<Edge>& others) {
-  std::map<std::int32_t, std::vector<std::size_t>> at;
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    for (const std::int32_t v : edges[e]) at[v].push_back(e);
+std::vector<std::vector<std::int32_t>> chains_of(std::size_t vertex_count, const std::vector<Edge>& edges,
+                                                 const std::vector<Edge>& others) {
+  std::vector<std::uint8_t> is_meeting(vertex_count, 0);
+  for (const Edge& edge : others) {
+    for (const std::int32_t v : edge) is_meeting[v] = 1;
   }
-  std::set<std::int32_t> meeting;  // vertices of the others
-  for (const Edge& edge : others) meeting.insert(edge.begin(), edge.end());
-  const auto goes_on = [&](std::int32_t v) { return at[v].size() == 2 && !meeting.contains(v); };
-  std::vector<std::uint8_t> is_used(edges.size(), 0);
-  std::vector<std::vector<std::int32_t>> chains;
-  const auto follow = [&](std::int32_t v, std::size_t e) {
-    std::vector<std::int32_t>& chain = chains.emplace_back(1, v);
-    for (;;) {
-      is_used[e] = 1;
-      v = edges[e][0] == v ? edges[e][1] : edges[e][0];
-      chain.push_back(v);
-      if (!goes_on(v)) return;
-      const std::vector<std::size_t>& own = at[v];
-      e = own[0] == e ? own[1] : own[0];
-      if (is_used[e] != 0) return;
-    }
-  };
-  for (const bool is_open : {true, false}) {
-    for (const auto& [v, own] : at) {
-      if (is_open == goes_on(v)) continue;
-      for (const std::size_t e : own) {
-        if (is_used[e] == 0) follow(v, e);
-      }
-    }
-  }
-  return chains;
+  return EdgeChains(vertex_count, edges).all([&](std::int32_t v) { return is_meeting[v] != 0; });
 }
 
 }  // namespace
@@ -293,7 +269,7 @@ Parts PartFinder::find(double amount, const PartEdits& edits, const Task& task) 
   }
   std::ranges::sort(borders);
   Parts parts;
-  parts.borders = chains_of(borders, impl.seams());
+  parts.borders = chains_of(impl.surface->vertex_count(), borders, impl.seams());
   borders.insert(borders.end(), impl.options.seams.begin(), impl.options.seams.end());
   parts.of_face = face_segments(*impl.surface, borders);
   for (const std::int32_t part : parts.of_face) parts.count = std::max(parts.count, index(part) + 1);

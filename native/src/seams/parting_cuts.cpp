@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "detail/disjoint_sets.hpp"
+#include "detail/edge_chains.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "seams/halving.hpp"
@@ -21,37 +22,21 @@ constexpr double kFlatBelow = 1.5, kSharpAbove = 30.0;  // degrees
 
 /// Marked edges as slits that have to stay. Chains end where more or fewer than two of the edges meet. Closed chains
 /// are divided into parts that can be carried to another mesh.
-std::vector<Slit> slits_along(const PlanMesh& mesh, std::vector<std::uint8_t> is_marked) {
+std::vector<Slit> slits_along(const PlanMesh& mesh, std::span<const std::uint8_t> is_marked) {
   constexpr std::size_t kParts = 4;
-  const auto degree = [&](std::int32_t v) {
-    return std::ranges::count_if(mesh.neighbors[v],
-                                 [&](const PlanNeighbor& next) { return is_marked[next.edge] != 0; });
-  };
-  std::vector<std::uint8_t> is_node(mesh.vertex_count(), 0);
-  for (std::int32_t v = 0; index(v) < mesh.vertex_count(); ++v) is_node[v] = degree(v) == 2 ? 0 : 1;
+  std::vector<Edge> marked;
+  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    if (is_marked[e] == 0 || mesh.is_real[e] == 0) continue;
+    marked.push_back({mesh.tail(mesh.half_edge_of[e]), mesh.tip(mesh.half_edge_of[e])});
+  }
   std::vector<Slit> slits;
-  const auto follow = [&](std::int32_t from) {
-    std::vector<std::int32_t> chain{from};
-    for (bool goes_on = true; goes_on;) {
-      goes_on = false;
-      for (const PlanNeighbor& next : mesh.neighbors[chain.back()]) {
-        if (is_marked[next.edge] == 0) continue;
-        is_marked[next.edge] = 0;
-        chain.push_back(next.vertex);
-        goes_on = is_node[next.vertex] == 0 && next.vertex != from;
-        break;
-      }
-    }
+  EdgeChains chains(mesh.vertex_count(), marked);
+  for (const std::vector<std::int32_t>& chain : chains.all([](std::int32_t) { return false; })) {
     const std::size_t edges = chain.size() - 1;
     const std::size_t parts = chain.front() == chain.back() ? std::min(kParts, edges) : 1;
     for (std::size_t part = 0; part < parts; ++part) {
       const auto at = [&](std::size_t i) { return chain.begin() + static_cast<std::ptrdiff_t>(i * edges / parts); };
       slits.push_back({.path = {at(part), at(part + 1) + 1}, .image = {}, .is_needed = true});
-    }
-  };
-  for (const bool is_closed : {false, true}) {
-    for (std::int32_t v = 0; index(v) < mesh.vertex_count(); ++v) {
-      while ((is_closed || is_node[v] != 0) && degree(v) > 0) follow(v);
     }
   }
   return slits;
@@ -101,7 +86,7 @@ void mark_rims(const SlitProblem& problem, std::span<const std::int32_t> pieces,
 std::vector<Slit> rim_cuts(const SlitProblem& problem, std::span<const std::int32_t> pieces) {
   std::vector<std::uint8_t> is_marked(problem.mesh.edge_count(), 0);
   for (const double degrees : {kFlatBelow, kSharpAbove}) mark_rims(problem, pieces, degrees, is_marked);
-  return slits_along(problem.mesh, std::move(is_marked));
+  return slits_along(problem.mesh, is_marked);
 }
 
 std::size_t count_blocks(const SlitProblem& problem) {
@@ -127,7 +112,7 @@ std::vector<Slit> halving_cuts(SlitProblem problem, std::size_t count, const Tas
     for (std::size_t e = 0; e < is_marked.size(); ++e) problem.is_seam[e] |= is_marked[e];
     find_pieces_of(problem);
   }
-  return slits_along(problem.mesh, std::move(is_marked));
+  return slits_along(problem.mesh, is_marked);
 }
 
 }  // namespace seamwire::detail
