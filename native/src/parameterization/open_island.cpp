@@ -10,8 +10,8 @@
 #include "detail/disjoint_sets.hpp"
 #include "detail/half_edge.hpp"
 #include "detail/index.hpp"
-#include "detail/indexed_heap.hpp"
 #include "detail/infinity.hpp"
+#include "detail/shortest_paths.hpp"
 #include "seamwire/errors.hpp"
 
 namespace seamwire::detail {
@@ -49,33 +49,23 @@ class Paths {
     }
     for (const std::int32_t v : from) hole_of[index(v)] = -1;
     std::vector<std::uint8_t> is_entered(holes.size(), 0);
-    IndexedHeap heap(distance_.size());
-    for (const std::int32_t v : from) {
-      distance_[v] = 0.0;
-      heap.lower(v, 0.0);
-    }
-    const auto try_edge = [&](std::int32_t to, std::int32_t half_edge, double distance) {
-      if (distance >= distance_[to]) return;
-      distance_[to] = distance;
-      towards_[to] = half_edge;
-      heap.lower(to, distance);
-    };
-    for (std::size_t count = 0; !heap.empty(); ++count) {
-      if (count % 1024 == 0) task.check(0.0);
-      const std::int32_t v = heap.pop();
+    std::size_t count = 0;
+    find_shortest_paths(from, distance_, [&](std::int32_t v, const auto& step) {
+      if (count++ % 1024 == 0) task.check(0.0);
       if (const std::int32_t hole = hole_of[index(v)]; hole >= 0 && std::exchange(is_entered[index(hole)], 1) == 0) {
         for (const std::int32_t other : holes[index(hole)]) {
           if (other == v) continue;
-          distance_[other] = distance_[v];
+          // The path across the hole is taken even if another one is as short.
+          distance_[other] = kInfinity;
+          step(other, 0.0);
           towards_[other] = -1;
           across_[other] = v;
-          heap.lower(other, distance_[v]);
         }
       }
       for (const std::int32_t h : leaving_[v]) {
-        try_edge(tip(h), h, distance_[v] + length(h));
+        if (step(tip(h), length(h))) towards_[tip(h)] = h;
       }
-    }
+    });
   }
   /// The vertex with the greatest distance; of equals, the first one.
   std::int32_t farthest() const {

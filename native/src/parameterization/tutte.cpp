@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -12,7 +13,7 @@
 
 #include "detail/csr.hpp"
 #include "detail/index.hpp"
-#include "detail/indexed_heap.hpp"
+#include "detail/shortest_paths.hpp"
 
 namespace seamwire::detail {
 namespace {
@@ -187,18 +188,9 @@ std::optional<LongEnds> long_ends(const Island& island, std::span<const Vector> 
   const Csr<std::int32_t> neighbors(island.vertices.size(), pairs);
   const auto farthest_from = [&](std::size_t place) {
     std::vector<double> distance(island.vertices.size(), std::numeric_limits<double>::infinity());
-    IndexedHeap open(distance.size());
-    distance[outer[place]] = 0.0;
-    open.lower(outer[place], 0.0);
-    while (!open.empty()) {
-      const std::int32_t v = open.pop();
-      for (const std::int32_t next : neighbors[v]) {
-        const double total = distance[v] + (points[index(v)] - points[index(next)]).norm();
-        if (!(total < distance[next])) continue;
-        distance[next] = total;
-        open.lower(next, total);
-      }
-    }
+    find_shortest_paths(std::array{outer[place]}, distance, [&](std::int32_t v, const auto& step) {
+      for (const std::int32_t next : neighbors[v]) step(next, (points[index(v)] - points[index(next)]).norm());
+    });
     const auto far = std::ranges::max_element(outer, {}, [&](std::int32_t v) { return distance[v]; });
     return std::pair(static_cast<std::size_t>(far - outer.begin()), distance[*far]);
   };

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -10,8 +11,8 @@
 
 #include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
-#include "detail/indexed_heap.hpp"
 #include "detail/run_on_threads.hpp"
+#include "detail/shortest_paths.hpp"
 
 namespace seamwire::detail {
 
@@ -35,18 +36,9 @@ IslandGraph::IslandGraph(const Island& island, std::span<const Vector> points) :
 
 std::vector<double> IslandGraph::distances_from(std::int32_t vertex) const {
   std::vector<double> least(areas.size(), std::numeric_limits<double>::infinity());
-  IndexedHeap open(areas.size());
-  least[vertex] = 0.0;
-  open.lower(vertex, 0.0);
-  while (!open.empty()) {
-    const std::int32_t v = open.pop();
-    for (const auto& [next, length] : neighbors[v]) {
-      const double total = least[v] + length;
-      if (!(total < least[next])) continue;
-      least[next] = total;
-      open.lower(next, total);
-    }
-  }
+  find_shortest_paths(std::array{vertex}, least, [&](std::int32_t v, const auto& step) {
+    for (const auto& [next, length] : neighbors[v]) step(next, length);
+  });
   return least;
 }
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "detail/index.hpp"
-#include "detail/indexed_heap.hpp"
+#include "detail/shortest_paths.hpp"
 
 namespace seamwire::detail {
 namespace {
@@ -101,20 +101,9 @@ std::vector<std::int32_t> chain_along(const PlanMesh& mesh, std::span<const Vect
 
 std::vector<double> edge_distances(const PlanMesh& mesh, std::span<const std::int32_t> from) {
   std::vector<double> least(mesh.vertex_count(), kNever);
-  IndexedHeap open(mesh.vertex_count());
-  for (const std::int32_t v : from) {
-    least[v] = 0.0;
-    open.lower(v, 0.0);
-  }
-  while (!open.empty()) {
-    const std::int32_t v = open.pop();
-    for (const auto& [next, edge] : mesh.all_neighbors[v]) {
-      const double total = least[v] + mesh.lengths[edge];
-      if (!(total < least[next])) continue;
-      least[next] = total;
-      open.lower(next, total);
-    }
-  }
+  find_shortest_paths(from, least, [&](std::int32_t v, const auto& step) {
+    for (const auto& [next, edge] : mesh.all_neighbors[v]) step(next, mesh.lengths[edge]);
+  });
   return least;
 }
 

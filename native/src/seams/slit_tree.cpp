@@ -2,6 +2,7 @@
 #include "seams/slit_tree.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -10,7 +11,7 @@
 
 #include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
-#include "detail/indexed_heap.hpp"
+#include "detail/shortest_paths.hpp"
 #include "seams/piece_body.hpp"
 #include "seams/slit_edits.hpp"
 #include "seams/slit_finder.hpp"
@@ -96,15 +97,15 @@ class HandleLoops {
   }
 
  private:
-  std::int32_t start(std::int32_t h) const { return island_.triangles[h / 3][h % 3]; }
-  std::int32_t end(std::int32_t h) const { return island_.triangles[h / 3][(h + 1) % 3]; }
   double edge_price(std::int32_t h) const {
     if (island_.twins[h] < 0) return 0.0;
     const std::int32_t edge = problem_.mesh.edge_of[3 * island_.faces[h / 3] + h % 3];
     return problem_.prices.of_edge[edge];
   }
-  double loop_price(std::int32_t h) const { return price_[start(h)] + price_[end(h)] + edge_price(h); }
-  bool is_in_tree(std::int32_t h) const { return before_[start(h)] == end(h) || before_[end(h)] == start(h); }
+  double loop_price(std::int32_t h) const { return price_[island_.tail(h)] + price_[island_.tip(h)] + edge_price(h); }
+  bool is_in_tree(std::int32_t h) const {
+    return before_[island_.tail(h)] == island_.tip(h) || before_[island_.tip(h)] == island_.tail(h);
+  }
 
   void find_tree(std::int32_t root);
   std::vector<std::int32_t> loop_through(std::int32_t h) const;
@@ -120,28 +121,21 @@ void HandleLoops::find_tree(std::int32_t root) {
   for (std::int32_t h = 0; index(h) < island_.twins.size(); ++h) {
     const double price = edge_price(h);
     if ((island_.twins[h] >= 0 && island_.twins[h] < h) || !std::isfinite(price)) continue;
-    pairs.push_back({start(h), {end(h), price}});
-    pairs.push_back({end(h), {start(h), price}});
+    pairs.push_back({island_.tail(h), {island_.tip(h), price}});
+    pairs.push_back({island_.tip(h), {island_.tail(h), price}});
   }
   const Csr<std::pair<std::int32_t, double>> neighbors(price_.size(), pairs);
-  IndexedHeap open(price_.size());
-  price_[root] = 0.0;
-  open.lower(root, 0.0);
-  while (!open.empty()) {
-    const std::int32_t v = open.pop();
+  find_shortest_paths(std::array{root}, price_, [&](std::int32_t v, const auto& step) {
     for (const auto& [next, price] : neighbors[v]) {
-      if (!(price_[v] + price < price_[next])) continue;
-      price_[next] = price_[v] + price;
-      before_[next] = v;
-      open.lower(next, price_[next]);
+      if (step(next, price)) before_[next] = v;
     }
-  }
+  });
 }
 
 std::vector<std::int32_t> HandleLoops::loop_through(std::int32_t h) const {
   std::vector<std::int32_t> there, back;
-  for (std::int32_t v = start(h); v >= 0; v = before_[v]) there.push_back(v);
-  for (std::int32_t v = end(h); v >= 0; v = before_[v]) back.push_back(v);
+  for (std::int32_t v = island_.tail(h); v >= 0; v = before_[v]) there.push_back(v);
+  for (std::int32_t v = island_.tip(h); v >= 0; v = before_[v]) back.push_back(v);
   std::ranges::reverse(there);
   there.insert(there.end(), back.begin(), back.end());
   for (std::int32_t& v : there) v = island_.vertices[v];
