@@ -23,7 +23,7 @@ namespace seamwire::detail {
 
 struct CleanMesh;
 
-/// Whether vertices and faces have the same numbers in the half-edge mesh as in the surface.
+/// Whether vertices and faces have the same numbers in the corner fans as in the surface.
 bool keeps_numbers(const Surface& surface);
 
 /// A quadratic form on space: xx, yy, zz, 2 xy, 2 xz, 2 yz.
@@ -39,7 +39,7 @@ struct EmbeddingInput {
   const Surface& surface;
   const Metric& metric;
   const EmbedOptions& options;
-  /// The caller's faces that are embedded, and those of the surface's half-edge mesh, both ascending; nullopt: all.
+  /// The caller's faces that are embedded, and those of the surface's corner fans, both ascending; nullopt: all.
   std::optional<std::vector<std::int32_t>> callers_faces, faces;
 };
 
@@ -55,9 +55,9 @@ enum class EdgeRule {
 /// A surface's triangles, which are bisected in place, with the lengths of their edges in a metric. Other parts decide
 /// which triangles to bisect, and in which order (bisection.hpp, length_repair.hpp).
 ///
-/// Half-edge 3 f + i runs from corner i of triangle f to the next corner. The first vertices are those of the surface's
-/// half-edge mesh (its corner fans), the others midpoints of edges in the order in which they are made. Of the halves
-/// of a bisected triangle one takes its place, the other becomes the last triangle.
+/// Half-edge 3 f + i runs from corner i of triangle f to the next corner. The first vertices are the surface's corner
+/// fans, the others midpoints of edges in the order in which they are made. Of the halves of a bisected triangle one
+/// takes its place, the other becomes the last triangle.
 class BisectedMesh : public TriangleConnectivity {  // until to_embedding(), two siblings may run opposite ways
  public:
   /// The triangles to embed, without those degenerate ones that can be removed. The surface and the metric must outlive
@@ -106,7 +106,7 @@ class BisectedMesh : public TriangleConnectivity {  // until to_embedding(), two
   /// apex to the midpoint.
   void bisect(std::int32_t h);
 
-  /// Takes the metric of a vertex of the surface's half-edge mesh from the metric.
+  /// Takes the metric of a vertex of the surface's corner fans from the metric.
   void set_node(std::int32_t fan);
   /// Makes faces what they were before any bisection, and with them those that they were bisected together with, that
   /// is those with which they have a bisected edge in common. The last triangles and vertices take the numbers that
@@ -120,7 +120,7 @@ class BisectedMesh : public TriangleConnectivity {  // until to_embedding(), two
   const Surface& surface;
   const Metric& metric;
   std::vector<double> lengths;        ///< per half-edge
-  std::vector<std::int32_t> origins;  ///< per triangle: the face of the surface's half-edge mesh that it lies in
+  std::vector<std::int32_t> origins;  ///< per triangle: the face of the surface's corner fans that it lies in
   /// Per triangle: which part of that face it is, as the number of a node of a binary tree of bisections.
   std::vector<std::uint32_t> branches;
   /// Per triangle: bisections since the original face, up to kMostDepth.
@@ -184,7 +184,7 @@ class BisectedMesh : public TriangleConnectivity {  // until to_embedding(), two
   std::vector<LooseEdge> merged_;  // see CleanMesh
   bool is_cleaned_ = false;
   double mean_edge_length_ = 0.0;
-  std::vector<bool> is_degenerate_origin_;  // per face of the surface's half-edge mesh; empty: none is
+  std::vector<bool> is_degenerate_origin_;  // per face of the surface's corner fans; empty: none is
 };
 
 // Used in the innermost loops, and so inline.

@@ -56,7 +56,7 @@ class ActiveFaces {
   };
   void keep_bisected(const BisectedMesh& mesh);
 
-  std::vector<State> states_;  // per face of the surface's half-edge mesh
+  std::vector<State> states_;  // per face of the surface's corner fans
   std::vector<std::int32_t> active_, conflicts_;
   std::size_t activations_ = 0;
 };

@@ -18,7 +18,7 @@ namespace seamwire::detail {
 /// OpenMesh lists them.
 std::vector<HalfEdgeMesh::HalfedgeHandle> half_edges_of_faces(const HalfEdgeMesh& mesh);
 
-/// A surface's half-edge mesh without those degenerate faces that could be removed.
+/// A surface's corner fans without those degenerate faces that could be removed.
 struct CleanMesh {
   HalfEdgeMesh mesh;
   std::vector<std::int32_t> origins;  ///< the surface's half-edge face of each face left, in the order of the faces

@@ -17,7 +17,7 @@ struct LengthRepair {
   bool hit_cap = false;
   std::size_t clamped_edges = 0;    ///< whose length is not what the metric says
   double worst_clamp = 1.0;         ///< the largest factor, up or down, between the two lengths
-  std::vector<std::int32_t> faces;  ///< those of the surface's half-edge mesh that such edges lie in, each once or more
+  std::vector<std::int32_t> faces;  ///< those of the surface's corner fans that such edges lie in, each once or more
 };
 
 /// Whether a triangle is invalid, and is neither left out for sigma nor a part of a degenerate face.

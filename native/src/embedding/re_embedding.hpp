@@ -16,7 +16,7 @@ std::optional<Embedding> re_embed_locally(const Surface& surface, const Metric& 
                                           Embedding&& old, const EmbedOptions& options, const Task& task,
                                           std::size_t most);
 
-/// Whether a face of the surface's half-edge mesh is valid in a metric as it is.
+/// Whether a face of the surface's corner fans is valid in a metric as it is.
 bool is_valid_as_given(const Surface& surface, const Metric& metric, std::int32_t face);
 
 }  // namespace seamwire::detail

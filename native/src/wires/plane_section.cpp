@@ -28,7 +28,7 @@ constexpr double kLeastSine = 1e-9;
 struct End {
   Vector place;
   std::int32_t vertex = -1;         // the caller's
-  std::vector<std::int32_t> faces;  // of the half-edge mesh: those that it lies in, or around the vertex
+  std::vector<std::int32_t> faces;  // of the corner fans: those that it lies in, or around the vertex
 };
 
 class Section {
