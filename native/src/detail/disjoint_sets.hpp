@@ -34,6 +34,20 @@ class DisjointSets {
     return true;
   }
 
+  /// The number of the set that has each number. Sets are numbered in the order of their names.
+  struct Numbering {
+    std::vector<std::int32_t> of;
+    std::int32_t count = 0;
+  };
+  Numbering numbering() {
+    Numbering sets{.of = std::vector<std::int32_t>(parent_.size())};
+    for (std::int32_t i = 0; static_cast<std::size_t>(i) < parent_.size(); ++i) {
+      const std::int32_t name = find(i);
+      sets.of[i] = name == i ? sets.count++ : sets.of[name];
+    }
+    return sets;
+  }
+
  private:
   std::vector<std::int32_t> parent_;
 };

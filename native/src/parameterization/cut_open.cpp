@@ -44,16 +44,10 @@ std::vector<Island> cut_open(const TriangleConnectivity& mesh, std::span<const s
     corners.join(h, next_in_face(twin));
     corners.join(next_in_face(h), twin);
   }
-  std::vector<std::int32_t> island_of(triangles.size()), place(triangles.size()), vertex_of(3 * triangles.size(), -1);
-  std::vector<Island> islands;
+  std::vector<std::int32_t> place(triangles.size()), vertex_of(3 * triangles.size(), -1);
+  const auto [island_of, island_count] = faces.numbering();
+  std::vector<Island> islands(index(island_count));
   for (std::int32_t f = 0; f < count; ++f) {
-    const std::int32_t root = faces.find(f);  // the least of its set, so seen before the others
-    if (root == f) {
-      island_of[f] = static_cast<std::int32_t>(islands.size());
-      islands.emplace_back();
-    } else {
-      island_of[f] = island_of[root];
-    }
     Island& island = islands[index(island_of[f])];
     Triangle own{};
     for (std::int32_t i = 0; i < 3; ++i) {

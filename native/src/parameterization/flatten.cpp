@@ -36,14 +36,14 @@ constexpr int kMostOpenings = 32;
 /// leaves no area of them. Maps that people can use have less than 1e7.
 constexpr double kLostEnergy = 1e12;
 
-/// An island of the half-edge mesh, its map, and which of the caller's corners its own corners are.
+/// An island of the corner fans, its map, and which of the caller's corners its own corners are.
 struct MappedIsland {
-  OpenedIsland opened;  ///< its faces are those of the half-edge mesh
+  OpenedIsland opened;  ///< its faces are those of the corner fans
   IslandMap map;
   bool is_straight = false;
 };
 
-/// The caller's corner of each corner of the half-edge mesh: a triangle that was turned over has two of them swapped.
+/// The caller's corner of each corner of a triangle. A triangle that was turned over has two of them swapped.
 std::size_t caller_corner(const Surface& surface, std::int32_t face, std::size_t i) {
   const Triangle& given = surface.triangles()[index(corner_fans(surface).faces[face])];
   const bool is_turned = corner_fans(surface).vertices[corner_fans(surface).triangles[face][1]] != given[1];
@@ -118,10 +118,8 @@ class Flattener {
   std::vector<std::uint8_t> real_half_edges(const Island& island) const {
     std::vector<std::uint8_t> is_real;
     is_real.reserve(island.twins.size());
-    for (const Triangle& t : island.triangles) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        is_real.push_back(has_edge(surface_, {island.vertices[t[i]], island.vertices[t[(i + 1) % 3]]}) ? 1 : 0);
-      }
+    for (std::int32_t h = 0; index(h) < island.twins.size(); ++h) {
+      is_real.push_back(has_edge(surface_, {island.vertices[island.tail(h)], island.vertices[island.tip(h)]}) ? 1 : 0);
     }
     return is_real;
   }
@@ -155,8 +153,7 @@ class Flattener {
       const bool agrees = start_of(island, h) == start_of(island, next_in_face(twin)) &&
                           start_of(island, next_in_face(h)) == start_of(island, twin);
       if (agrees) continue;
-      if (!has_edge(surface_, {island.vertices[island.triangles[h / 3][h % 3]],
-                               island.vertices[island.triangles[h / 3][(h + 1) % 3]]})) {
+      if (!has_edge(surface_, {island.vertices[island.tail(h)], island.vertices[island.tip(h)]})) {
         return std::nullopt;  // a polygon has two UVs at a corner
       }
       is_cut[h] = is_cut[twin] = 1;
@@ -166,7 +163,7 @@ class Flattener {
     if (own.triangles.empty() || (result.opened.opened > 0 && is_planar(island)) || !is_planar(own))
       return std::nullopt;
     std::vector<Point2> uvs(own.vertices.size());
-    for (std::int32_t h = 0; index(h) < own.twins.size(); ++h) uvs[own.triangles[h / 3][h % 3]] = start_of(own, h);
+    for (std::int32_t h = 0; index(h) < own.twins.size(); ++h) uvs[own.tail(h)] = start_of(own, h);
     for (const auto& [a, b, c] : own.triangles) {
       const Point2 ab = uvs[b] - uvs[a], ac = uvs[c] - uvs[a];
       if (!(ab.x() * ac.y() - ab.y() * ac.x() > 0.0)) return std::nullopt;
@@ -179,17 +176,10 @@ class Flattener {
   const FlattenOptions& options_;
 };
 
-/// The islands of the half-edge mesh, with vertices of the caller's.
+/// The islands of the corner fans, with vertices of the caller's.
 std::vector<Island> islands_of(const Surface& surface, std::span<const Edge> cut_edges) {
   const Cuts cuts(surface, cut_edges, "cuts");
-  std::vector<std::uint8_t> is_cut(corner_fans(surface).twins.size(), 0);
-  for (std::int32_t h = 0; index(h) < is_cut.size(); ++h) {
-    const Triangle& fans = corner_fans(surface).triangles[h / 3];
-    is_cut[h] =
-        cuts.contains(corner_fans(surface).vertices[fans[h % 3]], corner_fans(surface).vertices[fans[(h + 1) % 3]]) ? 1
-                                                                                                                    : 0;
-  }
-  std::vector<Island> islands = cut_open(corner_fans(surface), is_cut);
+  std::vector<Island> islands = cut_open(corner_fans(surface), cut_half_edges(surface, cuts));
   for (Island& island : islands) {
     for (std::int32_t& v : island.vertices) v = corner_fans(surface).vertices[v];
   }

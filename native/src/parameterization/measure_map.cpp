@@ -9,7 +9,6 @@
 #include <string>
 
 #include "detail/csr.hpp"
-#include "detail/disjoint_sets.hpp"
 #include "detail/half_edge.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
@@ -19,6 +18,7 @@
 #include "parameterization/measure_islands.hpp"
 #include "parameterization/symmetric_dirichlet.hpp"
 #include "surface/corner_fans.hpp"
+#include "surface/joined_faces.hpp"
 
 namespace seamwire {
 
@@ -50,7 +50,7 @@ void check_map(const Surface& surface, std::span<const Corners> uvs, std::span<c
   }
 }
 
-/// A map of the triangles of a surface's half-edge mesh.
+/// A map of the triangles of a surface's corner fans.
 class HalfEdgeMap {
  public:
   HalfEdgeMap(const Surface& surface, std::span<const Corners> uvs, std::span<const std::int32_t> islands)
@@ -97,12 +97,7 @@ class HalfEdgeMap {
       for (std::size_t f = 0; f < size(); ++f) island_[f] = islands[index(corner_fans(surface_).faces[f])];
       return;
     }
-    DisjointSets sets(size());
-    for (std::int32_t h = 0; index(h) < corner_fans(surface_).twins.size(); ++h) {
-      if (corner_fans(surface_).twins[h] > h && is_continuous(h)) sets.join(h / 3, corner_fans(surface_).twins[h] / 3);
-    }
-    std::int32_t count = 0;
-    for (std::int32_t f = 0; index(f) < size(); ++f) island_[f] = sets.find(f) == f ? count++ : island_[sets.find(f)];
+    island_ = joined_faces(corner_fans(surface_), [&](std::int32_t h) { return is_continuous(h); }).numbering().of;
   }
   /// Mirrors the islands of which more area is clockwise.
   void turn_islands() {

@@ -4,10 +4,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 #include "surface/corner_fans.hpp"
+#include "surface/joined_faces.hpp"
 
 namespace seamwire::detail {
 
@@ -117,16 +118,9 @@ double median_length(const PlanMesh& mesh) {
 }
 
 Pieces find_pieces(const PlanMesh& mesh, std::span<const std::uint8_t> is_cut) {
-  DisjointSets sets(mesh.face_count());
-  for (std::int32_t h = 0; index(h) < mesh.twins.size(); ++h) {
-    if (mesh.twins[h] > h && is_cut[mesh.edge_of[h]] == 0) sets.join(h / 3, mesh.twins[h] / 3);
-  }
-  Pieces pieces{std::vector<std::int32_t>(mesh.face_count()), 0};
-  for (std::int32_t f = 0; index(f) < mesh.face_count(); ++f) {
-    const std::int32_t root = sets.find(f);
-    pieces.of_face[f] = root == f ? pieces.count++ : pieces.of_face[root];
-  }
-  return pieces;
+  DisjointSets sets = joined_faces(mesh, [&](std::int32_t h) { return is_cut[mesh.edge_of[h]] == 0; });
+  auto [of_face, count] = sets.numbering();
+  return {std::move(of_face), count};
 }
 
 }  // namespace seamwire::detail

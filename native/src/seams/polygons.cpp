@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <tuple>
+#include <utility>
 
 #include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
@@ -30,8 +31,8 @@ double skew_of(const PlanMesh& mesh, std::span<const FaceFrame> frames, std::int
   const std::int32_t twin = mesh.twins[h];
   const double fold = angle_between(frames[h / 3].normal, frames[twin / 3].normal);
   if (!(fold < kMostFold)) return kNever;
-  const auto opposite = [&](std::int32_t side) { return mesh.points[mesh.triangles[side / 3][(side % 3 + 2) % 3]]; };
-  const std::array<Vector, 4> corners{mesh.points[mesh.tail(h)], opposite(twin), mesh.points[mesh.tip(h)], opposite(h)};
+  const std::array<Vector, 4> corners{mesh.points[mesh.tail(h)], mesh.points[mesh.apex(twin)], mesh.points[mesh.tip(h)],
+                                      mesh.points[mesh.apex(h)]};
   double deviation = 0.0;
   for (std::size_t i = 0; i < 4; ++i) {
     const Vector& at = corners[i];
@@ -68,13 +69,8 @@ Polygons find_polygons(const PlanMesh& mesh, std::span<const FaceFrame> frames,
     sets.join(h / 3, twin / 3);
     is_alone[h / 3] = is_alone[twin / 3] = 0;
   }
-  Polygons found{.of_face = std::vector<std::int32_t>(mesh.face_count(), -1), .is_diagonal = {}, .count = 0};
-  std::vector<std::int32_t> number(mesh.face_count(), -1);
-  for (std::int32_t f = 0; index(f) < mesh.face_count(); ++f) {
-    std::int32_t& own = number[sets.find(f)];
-    if (own < 0) own = static_cast<std::int32_t>(found.count++);
-    found.of_face[f] = own;
-  }
+  auto [of_face, count] = sets.numbering();
+  Polygons found{.of_face = std::move(of_face), .is_diagonal = {}, .count = index(count)};
   for (const std::int32_t h : mesh.half_edge_of) {
     const std::int32_t twin = mesh.twins[h];
     found.is_diagonal.push_back(twin >= 0 && found.of_face[h / 3] == found.of_face[twin / 3] ? 1 : 0);

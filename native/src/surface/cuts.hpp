@@ -9,6 +9,7 @@
 
 #include "detail/index.hpp"
 #include "seamwire/surface/surface.hpp"
+#include "surface/corner_fans.hpp"
 #include "surface/real_edges.hpp"
 
 namespace seamwire::detail {
@@ -38,5 +39,16 @@ class Cuts {
   std::vector<std::uint8_t> touched_;
   std::vector<Edge> edges_;
 };
+
+/// For each half-edge of the corner fans, whether its edge is cut.
+inline std::vector<std::uint8_t> cut_half_edges(const Surface& surface, const Cuts& cuts) {
+  const CornerFans& fans = corner_fans(surface);
+  std::vector<std::uint8_t> is_cut;
+  is_cut.reserve(fans.twins.size());
+  for (std::int32_t h = 0; index(h) < fans.twins.size(); ++h) {
+    is_cut.push_back(cuts.contains(fans.vertices[fans.tail(h)], fans.vertices[fans.tip(h)]) ? 1 : 0);
+  }
+  return is_cut;
+}
 
 }  // namespace seamwire::detail

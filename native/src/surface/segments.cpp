@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <map>
 #include <numeric>
+#include <utility>
 
 #include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
@@ -83,35 +84,23 @@ void join_left_out(const Surface& surface, const Cuts& cuts, DisjointSets& sets)
 std::vector<std::int32_t> face_segments(const Surface& surface, std::span<const Edge> cut_edges) {
   const Cuts cuts(surface, cut_edges, "cut_edges");
   DisjointSets sets(surface.face_count());
-  const std::vector<std::int32_t>& source = corner_fans(surface).faces;
-  const std::vector<std::int32_t>& vertex_of_fan = corner_fans(surface).vertices;
-  for (std::int32_t h = 0; index(h) < corner_fans(surface).twins.size(); ++h) {
-    const std::int32_t twin = corner_fans(surface).twins[h];
+  const CornerFans& fans = corner_fans(surface);
+  for (std::int32_t h = 0; index(h) < fans.twins.size(); ++h) {
+    const std::int32_t twin = fans.twins[h];
     if (twin < h) continue;  // on the boundary, or seen from the other side
-    const Triangle& fans = corner_fans(surface).triangles[h / 3];
-    if (cuts.contains(vertex_of_fan[fans[h % 3]], vertex_of_fan[fans[(h + 1) % 3]])) continue;
-    sets.join(source[h / 3], source[twin / 3]);
+    if (cuts.contains(fans.vertices[fans.tail(h)], fans.vertices[fans.tip(h)])) continue;
+    sets.join(fans.faces[h / 3], fans.faces[twin / 3]);
   }
   join_left_out(surface, cuts, sets);
 
-  std::vector<std::int32_t> labels(surface.face_count()), sizes, roots;
-  for (std::int32_t f = 0; index(f) < labels.size(); ++f) {
-    const std::int32_t root = sets.find(f);
-    if (root == f) {  // the least of its set, so seen before the others
-      labels[f] = static_cast<std::int32_t>(roots.size());
-      roots.push_back(f);
-      sizes.push_back(0);
-    } else {
-      labels[f] = labels[root];
-    }
-    ++sizes[labels[f]];
-  }
-  std::vector<std::int32_t> order(roots.size()), rank(roots.size());
+  auto [labels, count] = sets.numbering();
+  std::vector<std::int32_t> sizes(index(count), 0), order(index(count)), rank(index(count));
+  for (const std::int32_t label : labels) ++sizes[label];
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, std::ranges::greater(), [&](std::int32_t i) { return sizes[i]; });
   for (std::size_t i = 0; i < order.size(); ++i) rank[order[i]] = static_cast<std::int32_t>(i);
   for (std::int32_t& label : labels) label = rank[label];
-  return labels;
+  return std::move(labels);
 }
 
 }  // namespace seamwire
