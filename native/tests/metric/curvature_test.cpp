@@ -281,7 +281,7 @@ TEST(Curvature, IsFiniteWhereNormalsCancel) {
 TEST(Curvature, LeavesOutTheFacesThatTheReportCallsLowAndNoOthers) {
   for (const double height : {1e-30, 1e-12, 1e-8, 0.99 * 0x1p-22, 1.01 * 0x1p-22, 1e-6}) {
     for (const Triangle& corners : {Triangle{1, 0, 4}, Triangle{0, 4, 1}, Triangle{4, 1, 0}, Triangle{0, 1, 4}}) {
-      // After a face that is left out of the half-edge mesh, so that numbers there are others.
+      // After a face that is left out of the corner fans, so that numbers there are others.
       const Surface surface({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.3, 0, height}},
                             {{0, 0, 1}, {0, 1, 2}, {0, 2, 3}, corners});
       const bool is_low = !surface.report().low_faces.empty();
