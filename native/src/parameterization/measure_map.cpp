@@ -302,11 +302,10 @@ class OverlapTest {
     std::vector<double> angle(piece.vertices.size(), 0.0);
     std::vector<std::uint8_t> is_border(piece.vertices.size(), 0);
     for (std::int32_t h = 0; index(h) < piece.twins.size(); ++h) {
-      const Triangle& t = piece.triangles[h / 3];
-      const Eigen::Vector2d& at = own[index(t[h % 3])];
-      const Eigen::Vector2d to = own[index(t[(h + 1) % 3])] - at, back = own[index(t[(h + 2) % 3])] - at;
-      angle[t[h % 3]] += std::atan2(to.x() * back.y() - to.y() * back.x(), to.dot(back));
-      if (piece.twins[h] < 0) is_border[t[h % 3]] = 1;
+      const std::int32_t v = piece.tail(h);
+      const Eigen::Vector2d to = own[piece.tip(h)] - own[v], back = own[piece.apex(h)] - own[v];
+      angle[v] += std::atan2(to.x() * back.y() - to.y() * back.x(), to.dot(back));
+      if (piece.twins[h] < 0) is_border[v] = 1;
     }
     for (std::size_t v = 0; v < angle.size(); ++v) {
       if (is_border[v] == 0 && std::abs(angle[v]) > 3.0 * std::numbers::pi) return true;

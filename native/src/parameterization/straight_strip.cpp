@@ -60,7 +60,7 @@ class QuadFinder {
 
  private:
   const Vector& point(std::int32_t half_edge) const {
-    return points_[index(island_.vertices[island_.triangles[half_edge / 3][half_edge % 3]])];
+    return points_[index(island_.vertices[island_.tail(half_edge)])];
   }
   Vector normal(std::int32_t half_edge) const {
     const Vector& a = point(half_edge);
@@ -201,8 +201,7 @@ std::vector<Place> places_in_grid(const Island& island, const std::vector<Quad>&
       const Place to{own[0] + kSteps[direction][0], own[1] + kSteps[direction][1]};
       const bool is_outside = to[0] < 0 || to[1] < 0 || to[0] >= columns || to[1] >= rows;
       if (!is_outside && island.twins[half_edge] < 0) return {};  // a slit in the rectangle
-      vertices[index(island.triangles[half_edge / 3][half_edge % 3])] = {own[0] + kBegins[direction][0],
-                                                                         own[1] + kBegins[direction][1]};
+      vertices[index(island.tail(half_edge))] = {own[0] + kBegins[direction][0], own[1] + kBegins[direction][1]};
     }
   }
   return vertices;

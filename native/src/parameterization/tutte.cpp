@@ -44,20 +44,17 @@ std::vector<Spring> make_springs(const Island& island, std::span<const Vector> p
   std::vector<Spring> springs;
   springs.reserve(2 * island.triangles.size());
   const auto cotangent_opposite = [&](std::int32_t h) {
-    const Triangle& t = island.triangles[h / 3];
-    const auto point = [&](std::int32_t i) -> const Vector& { return points[index(t[i % 3])]; };
-    return cotangent(point(h + 2), point(h), point(h + 1));
+    return cotangent(points[island.apex(h)], points[island.tail(h)], points[island.tip(h)]);
   };
   for (std::int32_t h = 0; index(h) < island.twins.size(); ++h) {
     const std::int32_t twin = island.twins[h];
     if (twin >= 0 && twin < h) continue;
-    const Triangle& t = island.triangles[h / 3];
     double weight = 1.0;
     if (!has_equal_weights) {
       const double sum = cotangent_opposite(h) + (twin >= 0 ? cotangent_opposite(twin) : 0.0);
       weight = std::clamp(0.5 * sum, kLeastWeight, kGreatestWeight);
     }
-    springs.push_back({t[h % 3], t[(h + 1) % 3], weight});
+    springs.push_back({island.tail(h), island.tip(h), weight});
   }
   auto virtual_vertex = static_cast<std::int32_t>(island.vertices.size());
   for (std::size_t loop = 0; loop < boundaries.size(); ++loop) {
@@ -173,8 +170,7 @@ std::vector<Edge> island_edges(const Island& island) {
   edges.reserve(2 * island.triangles.size());
   for (std::int32_t h = 0; index(h) < island.twins.size(); ++h) {
     if (island.twins[h] >= 0 && island.twins[h] < h) continue;
-    const Triangle& t = island.triangles[h / 3];
-    edges.push_back({t[h % 3], t[(h + 1) % 3]});
+    edges.push_back({island.tail(h), island.tip(h)});
   }
   return edges;
 }

@@ -61,7 +61,7 @@ class BendFinder {
     double gone = 0.0;
     for (int i = 0; i < kMostTriangles; ++i) {
       const std::int32_t first = 3 * (h / 3), k = h % 3;
-      const std::int32_t tip = mesh_.triangles[h / 3][(k + 2) % 3];
+      const std::int32_t tip = mesh_.apex(h);
       // Leave through the side whose ends lie on both sides of the plane.
       const double own = height(tip);
       const double end = height(mesh_.tip(h));

@@ -68,7 +68,6 @@ class GroupPlanning {
     bool is_within(double bound) const { return energy <= bound && !overlaps; }
   };
   const Result& result() const { return result_; }
-  bool has_slits() const { return !result_.slits.empty(); }
   double steps() const { return steps_; }
 
  private:

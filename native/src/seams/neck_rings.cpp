@@ -109,8 +109,7 @@ std::vector<std::int32_t> cheapest_ring(const SlitProblem& problem, const PieceB
   for (std::int32_t h = 0; index(h) < island.twins.size(); ++h) {
     const std::int32_t twin = island.twins[h];
     if (twin < 0 || side[h / 3] == 0 || side[twin / 3] != 0) continue;
-    const auto vertex = [&](std::int32_t i) { return island.vertices[island.triangles[h / 3][i % 3]]; };
-    if (!next.emplace(vertex(h % 3), vertex(h % 3 + 1)).second) return {};
+    if (!next.emplace(island.vertices[island.tail(h)], island.vertices[island.tip(h)]).second) return {};
   }
   std::vector<std::int32_t> loop;
   if (next.empty()) return loop;

@@ -40,14 +40,6 @@ PieceBody::PieceBody(const SlitProblem& problem, std::int32_t piece)
 
 std::int64_t PieceBody::genus() const { return (2 - island.euler_characteristic() - std::ssize(loops)) / 2; }
 
-double loop_length(const PlanMesh& mesh, std::span<const std::int32_t> loop) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    sum += (mesh.points[loop[i]] - mesh.points[loop[(i + 1) % loop.size()]]).norm();
-  }
-  return sum;
-}
-
 std::int32_t onto_plane(const SlitProblem& problem, const PieceBody& body, std::int32_t tip) {
   const Reflection& reflection = *problem.reflection;
   if (reflection.sides[tip] == 0) return tip;

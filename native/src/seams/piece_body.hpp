@@ -23,9 +23,6 @@ struct PieceBody {
   std::vector<std::vector<std::int32_t>> loops;  ///< boundary loops, vertices of the mesh
 };
 
-/// The length of a closed chain of vertices, the last of which is joined to the first.
-double loop_length(const PlanMesh& mesh, std::span<const std::int32_t> loop);
-
 /// Moves a vertex that is near the mirror plane onto it. The problem has a reflection.
 std::int32_t onto_plane(const SlitProblem& problem, const PieceBody& body, std::int32_t vertex);
 

@@ -27,7 +27,7 @@ std::int32_t exact_image(const PlanMesh& mesh, const Reflection& reflection, std
     if (next.vertex != two) continue;
     const std::int32_t h = mesh.half_edge_of[next.edge];
     for (const std::int32_t side : {h, mesh.twins[h]}) {
-      if (side >= 0 && mesh.triangles[side / 3][(side + 2) % 3] == three) return side / 3;
+      if (side >= 0 && mesh.apex(side) == three) return side / 3;
     }
   }
   return -1;

@@ -205,8 +205,8 @@ class TreeGrowth {
       join(state, std::vector<std::int32_t>{root});
     } else {
       std::ranges::stable_sort(loops, std::ranges::greater(),
-                               [&](const auto& loop) { return loop_length(problem_.mesh, loop); });
-      for (const std::vector<std::int32_t>& loop : loops) state.cut_length += loop_length(problem_.mesh, loop);
+                               [&](const auto& loop) { return loop_length(loop, problem_.mesh.points); });
+      for (const std::vector<std::int32_t>& loop : loops) state.cut_length += loop_length(loop, problem_.mesh.points);
       root = loops.front().front();
       for (std::size_t i = 1; i < loops.size(); ++i) state.terminals.push_back({loops[i], true});
       join(state, loops.front());

@@ -72,7 +72,7 @@ class Section {
 
  private:
   std::int32_t tail(std::int32_t half_edge) const {
-    return corner_fans(surface_).vertices[corner_fans(surface_).triangles[half_edge / 3][half_edge % 3]];
+    return corner_fans(surface_).vertices[corner_fans(surface_).tail(half_edge)];
   }
   std::int32_t head(std::int32_t half_edge) const { return tail(next_in_face(half_edge)); }
 

@@ -41,7 +41,7 @@ TEST(NeckRings, AreAtTheNecksOfADumbbell) {
     EXPECT_TRUE(ring.image.empty());
     EXPECT_NEAR(std::abs(mean_x(problem.mesh, ring.loop)), 0.5, 0.1);
     EXPECT_GT(ring.narrowness, 2.0);
-    EXPECT_NEAR(loop_length(problem.mesh, ring.loop) / problem.mesh.scale, 2 * std::numbers::pi * 0.08, 0.1);
+    EXPECT_NEAR(loop_length(ring.loop, problem.mesh.points) / problem.mesh.scale, 2 * std::numbers::pi * 0.08, 0.1);
     EXPECT_LT(ring.area, 0.3);
   }
   EXPECT_LT(mean_x(problem.mesh, rings[0].loop) * mean_x(problem.mesh, rings[1].loop), 0.0);
