@@ -13,7 +13,8 @@
 // - A wire: tracing one path. Also tracing both, mapping them to the surface and snapping them to edges.
 //
 // - Embedding, and embedding again after a stroke of 1, 4, 16 and 64 edges. Also all work between the end of a stroke
-//   and the first wire, part by part on one thread, and on the clock in a live wire.
+//   and the first wire, part by part on one thread, and on the clock in a live wire. The same work is measured once
+//   more with the embedding and the geodesics' own mesh made anew.
 //
 // - A live wire made and seeded, and seeded again. It measures the time until a wire is shown, until the wire that a
 //   click keeps is settled, and until all are final, on the clock and in processor time of all threads.
@@ -273,7 +274,7 @@ void measure(const std::string& file, const Options& options) {
   std::uniform_int_distribution<std::int32_t> any(0, static_cast<std::int32_t>(surface->vertex_count()) - 1);
   const ExactGeodesics before(embeddings[0].mesh);
   for (const int edges : {1, 4, 16, 64}) {
-    std::vector<double> again, drawing, embedding_again, solver, path, until_wire;
+    std::vector<double> again, drawing, embedding_again, solver, path, until_wire, anew, until_wire_anew;
     std::size_t touched = 0;
     for (int i = 0; i < 7; ++i) {
       Scribble scribble = stroke(*surface, any(random), edges);
@@ -294,12 +295,18 @@ void measure(const std::string& file, const Options& options) {
           seconds([&] { geodesics = std::make_unique<ExactGeodesics>(before, embeddings[0].mesh, old.mesh); }));
       path.push_back(seconds([&] { CorridorPaths(*geodesics, from, {}).path(to); }));
       until_wire.push_back(drawing.back() + embedding_again.back() + solver.back() + path.back());
+      anew.push_back(seconds([&] { old = embed(*surface, drawn); }));
+      const double own = seconds([&] { geodesics = std::make_unique<ExactGeodesics>(old.mesh); });
+      until_wire_anew.push_back(drawing.back() + anew.back() + own + path.back());
     }
     std::printf(
         "  embedding again after a stroke of %2d edges, about %zu vertices: %.2f ms; from a stroke ten rings wide to "
-        "the first wire: %.1f ms (metric %.1f, embedding again %.1f, geodesics' own mesh %.1f, quick path %.1f)\n",
+        "the first wire: %.1f ms (metric %.1f, embedding again %.1f, geodesics' own mesh %.1f, quick path %.1f), all "
+        "anew "
+        "%.1f (embedding %.1f)\n",
         edges, touched, 1e3 * median(again), 1e3 * median(until_wire), 1e3 * median(drawing),
-        1e3 * median(embedding_again), 1e3 * median(solver), 1e3 * median(path));
+        1e3 * median(embedding_again), 1e3 * median(solver), 1e3 * median(path), 1e3 * median(until_wire_anew),
+        1e3 * median(anew));
   }
   std::fflush(stdout);
 

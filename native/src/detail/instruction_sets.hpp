@@ -44,7 +44,7 @@ namespace seamwire::detail {
 template <class Kernels>
 class InstructionSets {
  public:
-  /// `plain`: for every processor that the library as a whole is compiled for. `avx2`: nullptr if there are none.
+  /// `plain`: for every processor that the library as a whole is compiled for. `avx2`: may be null.
   constexpr explicit InstructionSets(const Kernels& plain, const Kernels* avx2 = nullptr)
       : plain_(&plain), avx2_(avx2) {}
 
