@@ -7,9 +7,9 @@
 // and square grids of triangles with random diagonals: "grid5000" has about 5000 vertices. The values are random,
 // because they do not change the time.
 //
-// Prints a line for each solver: the time to analyze the pattern, to factor and to solve, in milliseconds of processor
-// time, medians; the numbers in the factor; and the largest difference from our solution. Flattening analyzes a pattern
-// once and then factors and solves it in each of Newton's steps.
+// Prints a line for each solver: the time to analyze the pattern, to factor and to solve, and the numbers in the
+// factor. Times are medians in milliseconds of processor time. The line ends with the largest difference from our
+// solution. Flattening analyzes a pattern once and then factors and solves it in each of Newton's steps.
 #include <Eigen/CholmodSupport>
 #include <Eigen/SparseCholesky>
 #include <cmath>
