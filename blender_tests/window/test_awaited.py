@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from types import SimpleNamespace
 
 import bmesh
 import bpy
@@ -16,8 +17,9 @@ from seamwire.core.drawing.session import Session
 from seamwire.core.drawing.wire import WireGesture
 from seamwire.mesh.settings import settings
 from seamwire.operators.chain_state import Stage
+from seamwire.operators.draw import MESH_OT_seamwire_draw
 from seamwire.view.edited_objects import edited
-from seamwire.words.notices import Notices
+from seamwire.words.notices import Notice, Notices
 
 ROW, LONG_ROW = chain(*range(36, 41)), chain(*range(36, 45))
 
@@ -68,6 +70,13 @@ def click_ahead(desk: Desk, slow: Slow) -> Session:
     return session
 
 
+def pull(desk: Desk, begin: int, goal: int) -> None:
+    """Move the mouse from one vertex to another, while a button is held."""
+    start, end = desk.at(begin), desk.at(goal)
+    for part in (0.4, 0.7, 1.0):
+        desk.ui.move((start[0] + part * (end[0] - start[0]), start[1] + part * (end[1] - start[1])))
+
+
 def release_ahead(desk: Desk, slow: Slow) -> Session:
     """Move a seed from 44 to 53, and release it before its wire is computed."""
     desk.choose()
@@ -75,9 +84,7 @@ def release_ahead(desk: Desk, slow: Slow) -> Session:
     slow.is_slow = True
     ui.move(desk.at(44))
     ui.event("LEFTMOUSE", "PRESS", desk.at(44))
-    for part in (0.4, 0.7, 1.0):
-        start, end = desk.at(44), desk.at(53)
-        ui.move((start[0] + part * (end[0] - start[0]), start[1] + part * (end[1] - start[1])))
+    pull(desk, 44, 53)
     ui.event("LEFTMOUSE", "RELEASE", desk.at(53))
     assert session.waiting_clicks == 1
     return session
@@ -212,6 +219,115 @@ def test_escape_forgets_the_click_that_waits(desk: Desk, slow: Slow) -> None:
     assert seams(desk.obj) == ROW
 
 
+@pytest.mark.smoke
+@pytest.mark.parametrize("held", [{}, {"ctrl": True}], ids=["click", "Ctrl-click"])
+def test_a_press_while_a_chain_ends_begins_another_chain(desk: Desk, slow: Slow, held: dict[str, bool]) -> None:
+    ui = desk.ui
+    session = click_ahead(desk, slow)
+    ui.event("RIGHTMOUSE", "PRESS")
+    ui.event("RIGHTMOUSE", "RELEASE")
+    assert desk.chain.stage is Stage.ENDING
+    ui.click(desk.at(0), **held)
+    assert desk.chain.stage is Stage.DRAWING
+    assert seams(desk.obj) == LONG_ROW, "the chain that ends is kept"
+    assert session.seed == 0
+    ui.click(desk.at(4))
+    ui.wait_until(lambda: len(session.wires) == 3)
+    end(desk)
+    assert seams(desk.obj) == sorted([*chain(*range(5)), *LONG_ROW])
+    with ui.override():
+        bpy.ops.ed.undo()
+    assert seams(desk.obj) == LONG_ROW, "each chain is a step of undo"
+
+
+def test_a_seed_that_a_chain_ends_with_is_grabbed_there(desk: Desk, slow: Slow) -> None:
+    ui = desk.ui
+    session = click_ahead(desk, slow)
+    ui.key("RET")
+    ui.move(desk.at(44))
+    ui.event("LEFTMOUSE", "PRESS", desk.at(44))
+    pull(desk, 44, 53)
+    ui.event("LEFTMOUSE", "RELEASE", desk.at(53))
+    ui.wait_until(lambda: not session.computing)
+    end(desk)
+    assert 53 in session.seeds()
+    assert 44 not in session.seeds()
+
+
+def test_blender_stops_a_chain_at_once(desk: Desk, slow: Slow, monkeypatch: pytest.MonkeyPatch) -> None:
+    session = click_ahead(desk, slow)
+    waits = []
+    monkeypatch.setattr(Session, "wait", lambda _own, **_how: waits.append(1))
+    MESH_OT_seamwire_draw.cancel(SimpleNamespace(_chain=desk.chain), bpy.context)
+    desk.ui.wait(4)
+    assert desk.left_clean()
+    assert waits == []
+    assert session.waiting_clicks == 0
+    assert seams(desk.obj) == ROW
+
+
+@pytest.fixture
+def reports(monkeypatch: pytest.MonkeyPatch) -> list[Notice]:
+    """Return what is reported when chains end."""
+    found: list[Notice] = []
+    take = Notices.take
+    monkeypatch.setattr(Notices, "take", lambda own: found.extend(taken := take(own)) or taken)
+    return found
+
+
+def test_a_click_without_a_result_is_reported_when_the_chain_ends(
+    desk: Desk, slow: Slow, reports: list[Notice], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    click_ahead(desk, slow)
+    desk.ui.key("RET")
+    monkeypatch.setattr(WireGesture, "waits", True)
+    desk.ui.move(outside(desk.ui))
+    desk.ui.event("LEFTMOUSE", "PRESS", outside(desk.ui))
+    desk.ui.event("LEFTMOUSE", "RELEASE", outside(desk.ui))
+    assert not desk.running
+    assert seams(desk.obj) == ROW
+    assert [notice.level for notice in reports if "without a result" in notice.text] == ["WARNING"]
+
+
+def test_undo_by_a_script_takes_back_the_chain_before_and_keeps_what_was_drawn_since(
+    desk: Desk, reports: list[Notice]
+) -> None:
+    ui = desk.ui
+    desk.choose()
+    draw(desk, 0, 4)
+    session = desk.start()
+    ui.click(desk.at(36))
+    ui.click(desk.at(40))
+    ui.wait_until(lambda: len(session.wires) == 2)
+    with ui.override():
+        bpy.ops.ed.undo()
+    ui.move(desk.at(60))
+    ui.wait_until(lambda: not desk.running)
+    assert seams(desk.obj) == ROW, "and the wires before do not come back"
+    assert len(desk.session.wires) == 1
+    assert [notice.text for notice in reports if "1 wire" in notice.text] != []
+
+
+def test_a_seam_that_a_script_marks_leaves_the_second_chain_as_it_is(desk: Desk) -> None:
+    ui = desk.ui
+    session = desk.start()
+    ui.click(desk.at(36))
+    ui.click(desk.at(40))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    ui.click(desk.at(0), ctrl=True)
+    bm = bmesh.from_edit_mesh(desk.obj.data)
+    bm.edges.ensure_lookup_table()
+    edge = next(edge for edge in bm.edges if {vertex.index for vertex in edge.verts} == {79, 80})
+    edge.seam = True
+    bmesh.update_edit_mesh(desk.obj.data)
+    ui.wait(4)
+    ui.click(desk.at(4))
+    ui.wait_until(lambda: len(session.wires) == 2)
+    assert desk.running
+    end(desk)
+    assert seams(desk.obj) == sorted([*chain(*range(5)), *ROW, (79, 80)])
+
+
 @pytest.fixture
 def halves(ui: driver.Ui) -> Iterator[driver.Ui]:
     """Two grids beside each other, both edited, with the tool."""
@@ -319,6 +435,22 @@ def test_a_released_seed_stays_where_it_is(desk: Desk, slow: Slow, go_on: Callab
     assert any(53 in edge for edge in seams(desk.obj))
 
 
+@pytest.mark.smoke
+@pytest.mark.parametrize(("begin", "goal"), [(36, 27), (53, 62)], ids=["another", "the same"])
+def test_a_second_seed_is_grabbed_while_the_first_one_waits(desk: Desk, slow: Slow, begin: int, goal: int) -> None:
+    session, ui = release_ahead(desk, slow), desk.ui
+    ui.move(desk.at(begin))
+    ui.event("LEFTMOUSE", "PRESS", desk.at(begin))
+    pull(desk, begin, goal)
+    assert session.dragging
+    ui.event("LEFTMOUSE", "RELEASE", desk.at(goal))
+    slow.is_slow = False
+    ui.wait_until(lambda: not session.waiting_clicks)
+    end(desk)
+    assert len(session.wires) == 1
+    assert set(session.seeds()) == {36, 44, 53} - {44, begin} | {goal}
+
+
 @pytest.mark.parametrize("key", ["ESC", "BACK_SPACE"])
 def test_escape_and_undo_let_a_released_seed_go_back(desk: Desk, slow: Slow, key: str) -> None:
     session = release_ahead(desk, slow)
@@ -329,10 +461,7 @@ def test_escape_and_undo_let_a_released_seed_go_back(desk: Desk, slow: Slow, key
     assert seams(desk.obj) == LONG_ROW
 
 
-def test_a_line_that_the_cut_mesh_does_not_take_is_told_of(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
-    reports = []
-    take = Notices.take
-    monkeypatch.setattr(Notices, "take", lambda own: reports.extend(found := take(own)) or found)
+def test_a_line_that_the_cut_mesh_does_not_take_is_told_of(desk: Desk, reports: list[Notice]) -> None:
     settings().along, settings().finish = "SURFACE", "CUT"
     session, ui = desk.start(), desk.ui
     ui.click(desk.at(0))

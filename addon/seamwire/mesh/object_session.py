@@ -216,30 +216,49 @@ class ObjectSession:
         session.follow(replace(session.options, mirror=mirror_axes(self.cage.mesh)))
         return True
 
-    def follow_change(self, obj: bpy.types.Object) -> bool:
+    def follow_change(self, obj: bpy.types.Object, before: Network) -> Network | None:
         """Read the object's mesh again while wires are drawn, and keep the wires.
+
+        Parameters
+        ----------
+        obj
+            The object.
+        before
+            The network that the mesh has. Wires that it does not have were drawn since.
 
         Returns
         -------
-        bool
-            False where wires would run on it in another way, or it has left edit mode: then they can be written still, as far
-            as vertices have the numbers that they had.
+        Network or None
+            `before`, or the other network that the mesh has now if Blender's undo has changed its wires. None where wires would run on
+            it in another way, or it has left edit mode: then they can be written still, as far as vertices have the numbers that they
+            had.
         """
         self.obj = obj
         editing = obj.mode == "EDIT"
         self.cage = edit_mesh.Cage(obj) if editing else edit_mesh.StoredMesh(obj.data)
         self._renumbered = self.cage.vertex_count != len(self.arrays.points)
-        self._labels = self.cage.labels()
+        known, self._labels = self._labels, self.cage.labels()
         if not editing or self._renumbered:
-            return False
+            return None
         try:
             arrays = edit_mesh.read(obj)
         except ValueError:
-            return False
+            return None
         if not arrays.same_as(self.arrays):
-            return False
-        self._set_seams(arrays.seams, self._labels)
-        return True
+            return None
+        if all(np.array_equal(getattr(self._labels, name), getattr(known, name)) for name in ("pairs", "labels")):
+            self._set_seams(arrays.seams, self._labels)
+            return before
+        self.session.end_chain()
+        drawn = self.session.network
+        self.arrays = replace(self.arrays, seams=arrays.seams)
+        self._adopt(self._labels)
+        found, ids = self.session.network, {wire.id for wire in before.wires}
+        self.add(
+            (wire for wire in drawn.wires if wire.id not in ids),
+            (stroke for stroke in drawn.strokes if stroke not in before.strokes),
+        )
+        return found
 
     def _adopt(self, labels: EdgeLabels) -> None:
         """Go on with the network that labels tell of."""

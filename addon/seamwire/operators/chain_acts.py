@@ -15,7 +15,7 @@ from ..words.keys import Action, drag_threshold
 from . import chain_events, navigation, undo_steps
 from .bindings import HELP_PANEL
 from .chain_events import Given, Sign
-from .chain_state import HELD, Cue, Stage
+from .chain_state import Cue, Stage
 from .drag_handlers import LineHold, SeedHold, StrokeHold
 
 if TYPE_CHECKING:
@@ -125,12 +125,12 @@ def click(chain: Chain, given: Given) -> None:
     chain.begin()
     if view is not edited.front:
         chain.session.hover(None)
-    if action is Action.NEW_CHAIN:
-        chain.keep()
-        if view not in edited.views():  # it was cut
-            view, snap = edited.find(place)
-            if view is None or snap is None:
-                return
+    if action is Action.NEW_CHAIN or chain.stage is Stage.ENDING:
+        chain.begin_anew()
+        # More wires may be under the mouse now, and the mesh may have been cut.
+        view, snap = edited.find(place, plain=action in _OFFERED)
+        if view is None or snap is None:
+            return
     chain.draw_on(view)
     session = view.session
     if action is Action.NEW_CHAIN:
@@ -143,7 +143,7 @@ def click(chain: Chain, given: Given) -> None:
     elif action is Action.LOOP and _is_loop(chain, session, snap, event):
         session.loop(snap)
         chain.record.note(undo_steps.DRAW)
-    elif session.seed is None and not session.waiting_clicks and snap.to in {"SEED", "WIRE"}:
+    elif not session.will_be_live and snap.to in {"SEED", "WIRE"}:
         # Whether it is a click or the beginning of a drag is known when the button or the mouse has moved.
         session.hover(snap)
         chain.go(Cue.PRESS, SeedHold(event.type, view, place, snap))
@@ -165,6 +165,8 @@ def begin_stroke(chain: Chain, given: Given) -> None:
     """Begin a stroke under the mouse."""
     assert given.place is not None
     chain.begin()
+    if chain.stage is Stage.ENDING:
+        chain.begin_anew()
     found, _ = edited.find(given.place)
     is_live = chain.session.seed is not None or chain.session.waiting_clicks
     view = edited.front if is_live or found is None else found
@@ -414,7 +416,7 @@ def act(chain: Chain, given: Given) -> bool:
         chain.say("")
         if chain.stage is Stage.PEEKING and given.what is not Action.NEXT:
             chain.go(Cue.UNPEEK)
-    is_held = chain.stage in HELD
+    is_held = chain.stage is Stage.HOLDING
     passes = bool((WHILE_HELD if is_held else ACTS)[given.what](chain, given))
     chain.settle()
     return passes or (given.what in _BLENDERS and not (is_held and given.what is Sign.OTHER_TOOL))

@@ -49,6 +49,10 @@ class Gesture:
         """
         raise NotImplementedError
 
+    def leaves_live(self, live: bool, target: Snap | None) -> bool:
+        """Return whether a chain is live after the commit at a target, if one is `live` before."""
+        return live
+
     def cancel(self) -> None:
         """Show nothing, and ask for nothing."""
 

@@ -60,6 +60,8 @@ class Session:
         The gestures that are held or wait.
     message
         The reason why something was not done, or a warning.
+    failure
+        The reason why a gesture that waited was not done, until the next gesture.
     revision
         Grows with every change of the picture.
 
@@ -77,6 +79,7 @@ class Session:
         self._bend = BendGesture(drawing, self.loops)
         self.under_way = UnderWay()
         self.message: Message = NOTHING
+        self.failure: Message = NOTHING
         self.revision = 0
         self._last_click: tuple[Pick, int] | None = None
         self._painter = Painter(drawing, self.live, self.loops, self.extension, self.under_way)
@@ -188,6 +191,8 @@ class Session:
 
     def close(self, seen_along: tuple[float, float, float] | None = None) -> bool:
         """Lead the live wire back to the chain's first seed, and keep it. `seen_along` is that of `Snap`."""
+        if self.drawing.network.closing_point is None:
+            self._finish_gestures()
         first = self.drawing.network.closing_point
         if first is None:
             return self._refuse("no-chain-to-close")
@@ -212,13 +217,13 @@ class Session:
             self._show_extension()
             found = extension.wire is not None or self.computing
             return found or self._refuse(self.message or Message.of("no-way-on"))
-        if not self.under_way.queue:
+        if self.under_way.queue:
+            if target is None:
+                return self._refuse("no-way-on")
+            extension.wanted = False
+        else:
             self.live.seen = True
-            return self._commit(extension, target)
-        if target is None:
-            return self._refuse("no-way-on")
-        extension.wanted = False
-        return self._wait_for(extension, target)
+        return self._commit(extension, target)
 
     def stop_preview(self) -> bool:
         """Hide the way to the end. Return whether it was shown."""
@@ -247,6 +252,11 @@ class Session:
         self._set(replace(self.drawing.network, seed=None))
         self.live.candidates.chosen = None
         self._aim_again()
+
+    def take_failure(self) -> Message:
+        """Return why a gesture that waited was not done, once."""
+        failure, self.failure = self.failure, NOTHING
+        return failure
 
     # Gestures on kept wires
 
@@ -395,7 +405,7 @@ class Session:
         self._read_progress()
         self.revision += 1
         target = line.end or line.begin
-        return self._wait_for(line, target) if self.under_way.queue else self._commit(line, target)
+        return self._commit(line, target)
 
     def draw_stroke(self, points: ArrayLike | None = None, faces: ArrayLike | None = None, **how: object) -> bool:
         """Draw a stroke that live wires follow or avoid. The parameters are those of `StrokeGesture`."""
@@ -407,23 +417,26 @@ class Session:
 
     def erase(self, stroke: Stroke) -> bool:
         """Remove a stroke."""
+        self._finish_gestures()
         network = self.drawing.network
         rest = tuple(own for own in network.strokes if own.id != stroke.id)
         if len(rest) == len(network.strokes):
             return self._refuse("stroke-is-gone")
         self._last_click = None
-        self._leave_seed()
-        return self._change(replace(self.drawing.network, strokes=rest), self.live.candidates.chosen)
+        return self._change(replace(network, strokes=rest), self.live.candidates.chosen)
 
     # Settings
 
     def follow(self, options: Options) -> bool:
-        """Draw wires with other settings from here on. Return False if that ends the chain, because the seed is not on the surface."""
+        """Draw wires with other settings from here on. Return False if that ends the chain, because the seed is not on the surface.
+
+        Gestures that wait are done first, because they were meant with the settings before.
+        """
         before = self.drawing.options
         if options == before:
             return True
-        if options.along != before.along:
-            self._finish_gestures()
+        if options.draws != before.draws and self.waiting_clicks:
+            self.wait(clicks_only=True)
         self.drawing.options = options
         self.revision += 1
         done = options.along == before.along or self._switch()
@@ -491,7 +504,7 @@ class Session:
             self._read_progress()
         self.revision += 1
         self._settle()
-        self.message = warning or self.message
+        self.message = warning or self.message or self.failure
         self.live.candidates.chosen = chosen
         return True
 
@@ -565,8 +578,8 @@ class Session:
         return self._refuse("nothing-to-undo") if network is None else self._restore(network)
 
     def redo(self) -> bool:
-        """Bring back the step that undo took."""
-        self._leave_seed()
+        """Bring back the step that undo took. Gestures that wait are done first, and after a new step there is nothing to redo."""
+        self._finish_gestures()
         network = self.drawing.history.forth(self.drawing.network)
         return self._refuse("nothing-to-redo") if network is None else self._restore(network)
 
@@ -581,20 +594,21 @@ class Session:
         clicked = last is not None and last.gesture is self.live
         if clicked and undirected(last.target.pick) == undirected(edge):
             queue.pop()
-        elif self._last_click == (undirected(edge), self.drawing.history.steps):
+        elif not queue and self._last_click == (undirected(edge), self.drawing.history.steps):
             self._restore(self.drawing.history.forget_step(self.drawing.network))
         self._last_click = None
 
     # The way of a gesture to a network
 
     def _commit(self, gesture: Gesture, target: Snap | None) -> bool:
-        """Commit a gesture, or let it wait until it is computed. Return whether it was not refused."""
+        """Commit a gesture, or let it wait: for those that wait already, or until it is computed. Return whether it was not refused."""
+        if self.under_way.queue:
+            return self._wait_for(gesture, target)
+        self.failure = NOTHING
         done = self._attempt(gesture, target)
         if not isinstance(done, Gesture):
             return done
-        if done is not gesture and not self.under_way.queue:
-            return self._commit(done, target)
-        return self._wait_for(done, target)
+        return self._wait_for(done, target) if done is gesture else self._commit(done, target)
 
     def _wait_for(self, gesture: Gesture, target: Snap | None) -> bool:
         """Commit a gesture after those that wait already."""
@@ -628,6 +642,7 @@ class Session:
 
     def _finish_gestures(self) -> None:
         """Do what waits, because what comes now begins with the wires that it makes. Only `undo` and `end_chain` forget it."""
+        self.failure = NOTHING
         if self.under_way.queue:
             self.wait(clicks_only=True)
         self._leave_seed()
@@ -727,8 +742,8 @@ class Session:
         if drag is not None and not drag.final:
             self.revision += drag.poll()
             self.message = drag.message
-            if drag.final and drag.ending:
-                self.drag_end()
+            if drag.final and drag.ending and not self.drag_end():
+                self.failure = self.message
         if line is not None:
             self.revision += line.poll()
             self.message = line.message or self.message
@@ -753,6 +768,7 @@ class Session:
         done = self._attempt(head.gesture, head.target)
         if done is head.gesture:
             return False
+        self.failure = self.failure if done else self.message
         queue.pop(0)
         if isinstance(done, Gesture):
             queue.insert(0, Waiting(done, head.target))
@@ -761,7 +777,9 @@ class Session:
     def _poll_retraces(self) -> None:
         """Let the kept wires whose other ways are computed take them."""
         for retrace in list(self.under_way.retraces):
-            if self._attempt(retrace, None) is not retrace:
+            done = self._attempt(retrace, None)
+            if done is not retrace:
+                self.failure = self.failure if done else self.message
                 self.under_way.retraces.remove(retrace)
 
     def wait(self, clicks_only: bool = False) -> None:
@@ -793,6 +811,7 @@ class Session:
             retraces.clear()
             self.let_go(SeedDrag)
             self._refuse("no-result")
+            self.failure = self.message
 
     # State
 
@@ -843,9 +862,9 @@ class Session:
 
     @property
     def moved(self) -> tuple[Wire, ...]:
-        """The wires that follow a dragged seed, as they run now."""
+        """The wires that follow a seed that is held, as they run now."""
         drag = self.under_way.holds(SeedDrag)
-        return () if drag is None else drag.moved
+        return () if drag is None or drag.ending else drag.moved
 
     @property
     def computing(self) -> bool:
@@ -858,6 +877,14 @@ class Session:
         """The number of committed gestures that wait for their wires."""
         drag = self.under_way.holds(SeedDrag)
         return len(self.under_way.queue) + len(self.under_way.retraces) + (drag is not None and drag.ending)
+
+    @property
+    def will_be_live(self) -> bool:
+        """Whether a chain is live as soon as everything that waits is done."""
+        live = self.drawing.network.seed is not None
+        for one in self.under_way.queue:
+            live = one.gesture.leaves_live(live, one.target)
+        return live
 
     @property
     def picture(self) -> Picture:

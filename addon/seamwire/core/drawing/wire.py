@@ -110,6 +110,10 @@ class WireGesture(Gesture):
         self._kept = True
         return network
 
+    def leaves_live(self, live: bool, target: Snap | None) -> bool:
+        """Return whether the chain goes on, or a new one begins."""
+        return not (live and target is not None and target.ends_chains)
+
     def ending(self, target: Snap) -> Intent | None:
         """Return how a wire to a target ends the chain, or None if the chain goes on."""
         if self._drawing.network.closes(target):

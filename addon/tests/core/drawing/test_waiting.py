@@ -233,17 +233,170 @@ FIRST, SECOND = (0, 1, 2, 3), (3, 9, 15, 21)
         (lambda session: session.drop(session.wires[0]), [SECOND]),
         (lambda session: session.retrace(session.wires[0]), [FIRST, SECOND]),
         (lambda session: session.drag(Snap(0, "SEED")), [FIRST, SECOND]),
+        (lambda session: session.redo(), [FIRST, SECOND]),
         (lambda session: use(session, along="SURFACE"), [FIRST, SECOND]),
+        (lambda session: use(session, clear=True), [FIRST, SECOND]),
+        (lambda session: use(session, mirror=(0,)), [FIRST, SECOND]),
+        (lambda session: use(session, metric="euclidean"), [FIRST, SECOND]),
+        (lambda session: use(session, strength_edges=2.0), [FIRST, SECOND]),
         (lambda session: session.end_chain(), [FIRST, SECOND]),
         (lambda session: session.end_chain(wait=False), [FIRST]),
     ],
-    ids=["new chain", "remove", "other path", "seed", "surface", "end", "cancel"],
+    ids=[
+        "new chain",
+        "remove",
+        "other path",
+        "seed",
+        "redo",
+        "surface",
+        "clear",
+        "mirror",
+        "metric",
+        "strength",
+        "end",
+        "cancel",
+    ],
 )
 def test_only_a_cancelled_chain_forgets_a_click_that_waits(go_on: Callable[[Session], object], kept: list) -> None:
     session = with_a_waiting_click().session
     go_on(session)
     assert session.waiting_clicks == 0
     assert courses(session) == kept
+
+
+def test_settings_of_later_wires_do_not_reach_a_click_that_waits() -> None:
+    table = with_a_waiting_click()
+    session = table.session
+    use(session, clear=True, mirror=(0,))
+    assert session.wires[1].marks
+    assert session.wires[1].mirror == ()
+    session.click(35)
+    session.wait()
+    assert not session.wires[2].marks
+    assert session.wires[2].mirror == (0,)
+
+
+@pytest.mark.parametrize("change", [{"snap": True}, {"xray": True}, {"unwrap": True}])
+def test_settings_that_draw_no_wires_do_not_wait(change: dict[str, object]) -> None:
+    session = with_a_waiting_click().session
+    use(session, **change)
+    assert session.waiting_clicks == 1
+
+
+def test_a_stroke_waits_behind_a_click() -> None:
+    table = with_a_waiting_click()
+    session = table.session
+    assert session.draw_stroke(vertices=[34, 35])
+    assert session.strokes == ()
+    assert session.waiting_clicks == 2
+    table.compute()
+    assert [len(network) for network in (session.wires, session.strokes)] == [2, 1]
+    assert session.undo()
+    assert session.strokes == ()
+    assert courses(session) == [FIRST, SECOND], "the stroke was drawn after the wire"
+
+
+def test_a_loop_waits_behind_a_click() -> None:
+    table = Table("SURFACE")
+    session, live = table.session, table.lives["SURFACE"]
+    session.click(0)
+    live.ready = (False, False)
+    session.click(3)
+    assert session.loop(20)
+    assert session.waiting_clicks == 2
+    assert session.wires == (), "though the closed cut is computed already"
+    live.ready = (True, True)
+    session.poll()
+    assert session.waiting_clicks == 0
+    assert courses(session)[0] == FIRST
+    assert len(session.wires) > 1
+
+
+def test_a_stroke_is_removed_after_the_click_that_it_led() -> None:
+    table = Table()
+    session = table.session
+    session.draw_stroke(vertices=[34, 35])
+    session.click(0)
+    table.lives["EDGES"].ready = (False, False)
+    session.click(3)
+    assert session.erase(session.strokes[0])
+    assert courses(session) == [FIRST]
+    assert session.undo()
+    assert len(session.strokes) == 1
+    assert courses(session) == [FIRST]
+
+
+def test_the_chain_is_closed_by_a_key_after_the_click_that_waits() -> None:
+    table = Table()
+    session = table.session
+    session.click(0)
+    table.lives["EDGES"].ready = (False, False)
+    session.click(15)
+    assert session.close()
+    session.wait()
+    assert courses(session)[0][-1] == 15
+    assert session.wires[-1].end == 0
+    assert session.seed is None
+
+
+def test_what_waits_tells_whether_a_chain_will_be_live() -> None:
+    session = with_a_waiting_click().session
+    assert session.will_be_live
+    session.click(Snap(0, "SEED"))
+    assert not session.will_be_live, "the second click closes the chain"
+    session.loop((33, 34))
+    assert not session.will_be_live
+    session.click(35)
+    assert session.will_be_live
+    session.run_to_end()
+    assert not session.will_be_live
+
+
+def never(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let the library come to no result."""
+    monkeypatch.setattr(FakeLive, "wait", lambda _self, _seconds=None: True)
+
+
+@pytest.mark.parametrize(
+    "go_on",
+    [
+        lambda session: session.start(30),
+        lambda session: session.drop(session.wires[0]),
+        lambda session: session.end_chain(),
+        lambda session: use(session, clear=True),
+    ],
+    ids=["new chain", "remove", "end", "setting"],
+)
+def test_a_click_without_a_result_is_told_of_whatever_comes_next(
+    go_on: Callable[[Session], object], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    session = with_a_waiting_click().session
+    never(monkeypatch)
+    go_on(session)
+    assert session.failure.code == "no-result"
+
+
+def test_a_failure_is_forgotten_when_something_else_is_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    table = with_a_waiting_click()
+    session = table.session
+    never(monkeypatch)
+    session.start(30)
+    assert session.message.code == "no-result"
+    table.compute()
+    session.hover(32)
+    session.click(32)
+    assert not session.failure
+
+
+def test_a_waiting_click_that_is_refused_is_told_of_when_the_chain_ends() -> None:
+    table = Table(islands=(35,), ready=(False, False))
+    session = table.session
+    session.click(0)
+    session.click(35)
+    table.compute()
+    assert session.waiting_clicks == 0
+    session.end_chain()
+    assert session.failure.code == "no-wire-reaches"
 
 
 def test_a_cancelled_chain_forgets_a_wire_that_waits_for_its_other_path() -> None:

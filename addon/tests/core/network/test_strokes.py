@@ -225,7 +225,7 @@ def test_a_waiting_click_goes_on_waiting_while_a_stroke_is_drawn() -> None:
     session.click(3)
     assert session.waiting_clicks == 1
     stroke(session, (0.5, 0.2), (4.5, 0.2))
-    assert session.waiting_clicks == 1
+    assert session.waiting_clicks == 2
     table.compute()
     assert [wire.vertices for wire in session.wires] == [(0, 1, 2, 3)]
     assert len(session.strokes) == 1
