@@ -120,7 +120,7 @@ def count_lives() -> None:
 
 def settle(ui: driver.Ui) -> None:
     """Wait until nothing is computed and Blender has drawn its last picture."""
-    ui.wait_until(lambda: not (session() is not None and session().computing) and not overlay_busy(), SECONDS)
+    ui.wait_until(lambda: not (session() is not None and session().under_way.computing) and not overlay_busy(), SECONDS)
     ui.wait(SAMPLES)
 
 
@@ -251,7 +251,7 @@ def measure_first_chain(
         found["first wire shown"] = time.perf_counter() - start
         ui.wait_until(lambda: session().active is not None and not session().preliminary, SECONDS)
         found["first wire final"] = time.perf_counter() - start
-        ui.wait_until(lambda: not session().computing, SECONDS)
+        ui.wait_until(lambda: not session().under_way.computing, SECONDS)
         found["both wires"] = time.perf_counter() - start
 
 
@@ -320,10 +320,10 @@ def moves(ui: driver.Ui, places: NDArray[np.float64], holds: Holds) -> tuple[NDA
     took, ours = [], []
     for place in places:
         first = len(holds.calls)
-        seen = session().revision
+        seen = session().drawing.revision
         start = time.perf_counter()
         end = drawn(ui, lambda place=place: move_and_redraw(ui, tuple(place)))
-        if session().revision != seen:  # else the cursor is where it was, and nothing was to be done
+        if session().drawing.revision != seen:  # else the cursor is where it was, and nothing was to be done
             took.append(end - start)
             ours.append(sum(spent for _, _, spent in holds.calls[first:]))
     return np.array(took), np.array(ours)

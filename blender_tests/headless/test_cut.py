@@ -784,10 +784,10 @@ def drag(obj: bpy.types.Object, seed: int, to: int) -> None:
     mesh = session_on(obj)
     session, before = mesh.session, mesh.session.network
     assert session.drag(seed)
-    session.drag_to(to)
-    session.wait()
-    session.drag_to(to)
-    assert session.drag_end()
+    session.cursor.drag_to(to)
+    session.queue.wait()
+    session.cursor.drag_to(to)
+    assert session.queue.drag_end()
     _finish(mesh, before)
 
 

@@ -12,6 +12,7 @@ import pytest
 import ui as driver
 from desk import Desk, choose, draw, leave, reset_settings
 from scene import add_grid, chain, edit, seams
+from seamwire.core.drawing.gesture_queue import GestureQueue
 from seamwire.core.drawing.seed_drag import SeedDrag
 from seamwire.core.drawing.session import Session
 from seamwire.core.drawing.wire import WireGesture
@@ -35,20 +36,20 @@ class Slow:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.is_slow = False
-        waits, aim, wait = WireGesture.waits.fget, SeedDrag.aim, Session.wait
+        waits, aim, wait = WireGesture.waits.fget, SeedDrag.aim, GestureQueue.wait
 
         def slow_aim(drag: SeedDrag, target: object) -> object:
             message = aim(drag, target)
             drag.final &= not self.is_slow
             return message
 
-        def waited(session: Session, **how: bool) -> None:
+        def waited(queue: GestureQueue, **how: bool) -> None:
             self.is_slow = False
-            wait(session, **how)
+            wait(queue, **how)
 
         monkeypatch.setattr(WireGesture, "waits", property(lambda wire: self.is_slow or waits(wire)))
         monkeypatch.setattr(SeedDrag, "aim", slow_aim)
-        monkeypatch.setattr(Session, "wait", waited)
+        monkeypatch.setattr(GestureQueue, "wait", waited)
         monkeypatch.setattr(bpy.context.preferences.inputs, "mouse_double_click_time", 1)
 
 
@@ -62,11 +63,11 @@ def click_ahead(desk: Desk, slow: Slow) -> Session:
     session, ui = desk.start(), desk.ui
     ui.click(desk.at(36))
     ui.click(desk.at(40))
-    ui.wait_until(lambda: len(session.wires) == 1 and not session.computing)
+    ui.wait_until(lambda: len(session.wires) == 1 and not session.under_way.computing)
     ui.move(desk.at(44))
     slow.is_slow = True
     ui.click(desk.at(44))
-    assert session.waiting_clicks == 1
+    assert session.under_way.waiting == 1
     return session
 
 
@@ -86,7 +87,7 @@ def release_ahead(desk: Desk, slow: Slow) -> Session:
     ui.event("LEFTMOUSE", "PRESS", desk.at(44))
     pull(desk, 44, 53)
     ui.event("LEFTMOUSE", "RELEASE", desk.at(53))
-    assert session.waiting_clicks == 1
+    assert session.under_way.waiting == 1
     return session
 
 
@@ -106,7 +107,7 @@ def test_a_press_outside_after_a_lost_release_ends_the_chain_and_keeps_its_wires
     session, ui = desk.start(), desk.ui
     ui.click(desk.at(36))
     ui.click(desk.at(40))
-    ui.wait_until(lambda: len(session.wires) == 1 and not session.computing)
+    ui.wait_until(lambda: len(session.wires) == 1 and not session.under_way.computing)
     ui.event("LEFTMOUSE", "PRESS", desk.at(58))
     ui.move(outside(ui))
     ui.event("LEFTMOUSE", "PRESS", outside(ui))  # another window has received the release
@@ -121,7 +122,7 @@ def test_presses_that_change_no_mesh_leave_the_chain_as_it_is(desk: Desk, slow: 
     ui.move(outside(ui))
     ui.event(press, "PRESS", outside(ui))
     assert desk.chain.stage is Stage.DRAWING
-    assert session.waiting_clicks == 1
+    assert session.under_way.waiting == 1
     slow.is_slow = False
     end(desk)
     assert seams(desk.obj) == LONG_ROW
@@ -207,7 +208,7 @@ def test_what_comes_next_awaits_the_click_that_waits(
 ) -> None:
     session = click_ahead(desk, slow)
     go_on(desk)
-    assert session.waiting_clicks == 0
+    assert session.under_way.waiting == 0
     end(desk)
     assert seams(desk.obj) == kept
 
@@ -248,7 +249,7 @@ def test_a_seed_that_a_chain_ends_with_is_grabbed_there(desk: Desk, slow: Slow) 
     ui.event("LEFTMOUSE", "PRESS", desk.at(44))
     pull(desk, 44, 53)
     ui.event("LEFTMOUSE", "RELEASE", desk.at(53))
-    ui.wait_until(lambda: not session.computing)
+    ui.wait_until(lambda: not session.under_way.computing)
     end(desk)
     assert 53 in session.seeds()
     assert 44 not in session.seeds()
@@ -257,12 +258,12 @@ def test_a_seed_that_a_chain_ends_with_is_grabbed_there(desk: Desk, slow: Slow) 
 def test_blender_stops_a_chain_at_once(desk: Desk, slow: Slow, monkeypatch: pytest.MonkeyPatch) -> None:
     session = click_ahead(desk, slow)
     waits = []
-    monkeypatch.setattr(Session, "wait", lambda _own, **_how: waits.append(1))
+    monkeypatch.setattr(GestureQueue, "wait", lambda _own, **_how: waits.append(1))
     MESH_OT_seamwire_draw.cancel(SimpleNamespace(_chain=desk.chain), bpy.context)
     desk.ui.wait(4)
     assert desk.left_clean()
     assert waits == []
-    assert session.waiting_clicks == 0
+    assert session.under_way.waiting == 0
     assert seams(desk.obj) == ROW
 
 
@@ -355,11 +356,11 @@ def test_a_click_on_another_object_awaits_the_wire_on_the_first(halves: driver.U
     ui = halves
     ui.click(place(ui, "Left", 10))
     session = edited.front.session
-    ui.wait_until(lambda: not session.computing)
+    ui.wait_until(lambda: not session.under_way.computing)
     ui.move(place(ui, "Left", 14))
     slow.is_slow = True
     ui.click(place(ui, "Left", 14))
-    assert session.waiting_clicks == 1
+    assert session.under_way.waiting == 1
     ui.click(place(ui, "Right", 10))
     assert edited.front.name == "Right"
     assert seams(bpy.data.objects["Left"]) == chain(*range(10, 15))
@@ -442,10 +443,10 @@ def test_a_second_seed_is_grabbed_while_the_first_one_waits(desk: Desk, slow: Sl
     ui.move(desk.at(begin))
     ui.event("LEFTMOUSE", "PRESS", desk.at(begin))
     pull(desk, begin, goal)
-    assert session.dragging
+    assert session.under_way.drag
     ui.event("LEFTMOUSE", "RELEASE", desk.at(goal))
     slow.is_slow = False
-    ui.wait_until(lambda: not session.waiting_clicks)
+    ui.wait_until(lambda: not session.under_way.waiting)
     end(desk)
     assert len(session.wires) == 1
     assert set(session.seeds()) == {36, 44, 53} - {44, begin} | {goal}
@@ -466,7 +467,7 @@ def test_a_line_that_the_cut_mesh_does_not_take_is_told_of(desk: Desk, reports: 
     session, ui = desk.start(), desk.ui
     ui.click(desk.at(0))
     ui.click(desk.at(23))
-    ui.wait_until(lambda: len(session.wires) == 1 and not session.computing)
+    ui.wait_until(lambda: len(session.wires) == 1 and not session.under_way.computing)
     ui.event("LEFTMOUSE", "PRESS", desk.at(54))
     for vertex in (55, 56, 57):
         ui.move(desk.at(vertex))

@@ -306,7 +306,7 @@ def _draw_again(mesh: ObjectSession, wires: Collection[Wire]) -> None:
         session.follow(replace(options, strength_surface=wire.strength) if wire.strength else options)
         for seed in (wire.start, wire.end):
             session.click(seed)
-            session.wait()
+            session.queue.wait()
         session.end_chain()
     mesh.write(mesh.plan())
 

@@ -160,7 +160,7 @@ class ObjectSession:
     def busy(self) -> bool:
         """Whether something is being computed."""
         looking = self._looking is not None and self._looking.is_alive()
-        return self.session.computing or self.session.waiting_clicks > 0 or looking or self._unstored
+        return self.session.under_way.computing or self.session.under_way.waiting > 0 or looking or self._unstored
 
     # Settings
 
@@ -372,7 +372,10 @@ class ObjectSession:
         """Go on with more wires and strokes, found elsewhere; `write` marks their edges."""
         session = self.session
         drawn = (*session.wires, *wires)
-        strokes = (*session.strokes, *(on_mesh(one, self.arrays.points, self.arrays.triangles) for one in strokes))
+        strokes = (
+            *session.network.strokes,
+            *(on_mesh(one, self.arrays.points, self.arrays.triangles) for one in strokes),
+        )
         session.adopt(replace(session.network, wires=drawn, strokes=strokes, seed=None), self.plain_seams)
 
     def take_over(self, wires: Iterable[Wire]) -> None:

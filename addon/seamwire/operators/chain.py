@@ -118,12 +118,12 @@ class Chain:
         """Cancel what a button holds, and released drags that still wait. Return whether there was something."""
         is_held = self.stage is Stage.HOLDING
         self.let_go()
-        return any([view.session.let_go() for view in edited.views()]) or is_held
+        return any([view.session.cursor.let_go() for view in edited.views()]) or is_held
 
     @property
     def waits(self) -> bool:
         """Whether a click waits for its wire."""
-        return any(view.session.waiting_clicks for view in edited.views())
+        return any(view.session.under_way.waiting for view in edited.views())
 
     def cancel(self) -> None:
         """Cancel what is dragged. If nothing is, forget the clicks that wait, and end."""
@@ -157,7 +157,7 @@ class Chain:
             self.end()
         elif self.stage is Stage.DRAWING:
             sessions = [view.session for view in edited.views()]
-            if not any(one.seed is not None or one.waiting_clicks or one.dragging for one in sessions):
+            if not any(one.seed is not None or one.under_way.waiting or one.under_way.drag for one in sessions):
                 self.go(Cue.SETTLE)
 
     # The objects
@@ -257,12 +257,12 @@ class Chain:
         session = self.session
         picture = (
             id(edited.front),
-            tuple((view.session.revision, view.islands.pointed_island) for view in edited.views()),
+            tuple((view.session.drawing.revision, view.islands.pointed_island) for view in edited.views()),
         )
         words = (
             round(100.0 * session.drawing.progress),
-            session.computing,
-            session.waiting_clicks,
+            session.under_way.computing,
+            session.under_way.waiting,
             edited.front.mesh.symmetric,
             self.notices.hint,
         )

@@ -103,7 +103,7 @@ class DrawnPicker:
 
     def _drawn_now(self, session: Session) -> _Drawn:
         """Return what can be found of a session's network. A held seed and its wires cannot, because they follow the mouse."""
-        moved = {wire.id for wire in session.moved}
+        moved = {wire.id for wire in session.under_way.moved}
         picks = tuple(session.seeds())
         wires = tuple(wire for wire in session.wires if wire.id not in moved)
         key = (id(session), picks, tuple(map(id, wires)))

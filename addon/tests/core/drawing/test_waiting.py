@@ -42,14 +42,14 @@ def ridge() -> Crests:
 
 def with_ridge(*args: object, **options: object) -> Table:
     table = Table(*args, **options)
-    table.session.use_crests(ridge(), True)
+    table.session.cursor.use_crests(ridge(), True)
     return table
 
 
 def make_ready(table: Table, *ready: bool) -> None:
     for live in table.lives.values():
         live.ready = ready
-    table.session.poll()
+    table.session.queue.poll()
 
 
 def test_a_run_that_waits_does_not_take_the_wire_that_merely_finishes_first() -> None:
@@ -59,7 +59,7 @@ def test_a_run_that_waits_does_not_take_the_wire_that_merely_finishes_first() ->
     session.hover(14)
     session.run_to_end()
     make_ready(table, False, True)
-    assert session.waiting_clicks == 1
+    assert session.under_way.waiting == 1
     assert session.wires == ()
     make_ready(table, True, True)
     assert courses(session) == [(0, 1, 2, 8, 14, 20, 26, 32)]
@@ -80,7 +80,7 @@ def test_a_ridge_waits_behind_clicks() -> None:
     session.click(20)
     session.click(22)
     session.loop(7)
-    assert session.waiting_clicks == 2
+    assert session.under_way.waiting == 2
     assert session.wires == ()
 
 
@@ -88,7 +88,7 @@ def test_after_a_ridge_the_triangles_are_told_of_that_its_wires_lead_around() ->
     session = with_ridge("SURFACE", holes=(2, 1)).session
     session.hover(7, loop=True)
     session.click(7)
-    assert session.message.code == "invalid-triangles"
+    assert session.drawing.message.code == "invalid-triangles"
 
 
 def test_a_waiting_click_that_begins_a_chain_does_not_use_up_the_warning() -> None:
@@ -96,11 +96,11 @@ def test_a_waiting_click_that_begins_a_chain_does_not_use_up_the_warning() -> No
     session = table.session
     session.loop(0)
     session.click(35)
-    session.wait()
-    assert session.message.code != "invalid-triangles"
+    session.queue.wait()
+    assert session.drawing.message.code != "invalid-triangles"
     session.click(7)
-    session.wait()
-    assert session.message.code == "invalid-triangles"
+    session.queue.wait()
+    assert session.drawing.message.code == "invalid-triangles"
 
 
 def test_a_loop_that_was_given_up_leaves_nothing_to_compute() -> None:
@@ -109,8 +109,8 @@ def test_a_loop_that_was_given_up_leaves_nothing_to_compute() -> None:
     session.undo()
     session.click(0)
     session.hover(21)
-    session.poll()
-    assert not session.computing
+    session.queue.poll()
+    assert not session.under_way.computing
     assert session.picture.work.progress == 1.0
 
 
@@ -134,11 +134,11 @@ def test_no_run_goes_ahead_of_a_line_that_waits() -> None:
     session.click(17)
     session.click((23, 22))
     session.line_begin(35)
-    session.line_to(POINTS[[35, 34]], np.array([49, 49]), None)
-    session.line_keep(session.line_release())
-    assert session.waiting_clicks == 1
+    session.cursor.line_to(POINTS[[35, 34]], np.array([49, 49]), None)
+    session.line_keep(session.cursor.line_release())
+    assert session.under_way.waiting == 1
     assert not session.run_to_end()
-    assert session.message.code == "no-way-on"
+    assert session.drawing.message.code == "no-way-on"
     assert len(session.wires) == 1
 
 
@@ -153,10 +153,10 @@ def test_a_stroke_is_drawn_while_a_moved_seed_waits(monkeypatch: pytest.MonkeyPa
         session.click(Snap(pick, seen_along=(0.0, 0.0, 1.0)))
     session.hover(Snap(28, seen_along=(0.0, 0.0, 1.0)))
     session.drag(Snap(14, "SEED"))
-    session.drag_to(Snap(21, seen_along=(0.0, 0.0, 1.0)))
-    session.drag_end()
+    session.cursor.drag_to(Snap(21, seen_along=(0.0, 0.0, 1.0)))
+    session.queue.drag_end()
     assert session.draw_stroke(vertices=[27, 28])
-    assert session.strokes[0].acts_on == "both"
+    assert session.network.strokes[0].acts_on == "both"
 
 
 @pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
@@ -167,9 +167,9 @@ def test_waiting_ends_if_the_library_never_comes_to_a_result(along: Along, monke
     session.click(8)
     session.click(20)
     monkeypatch.setattr(FakeLive, "wait", lambda _self, _seconds=None: True)
-    session.wait()
-    assert session.waiting_clicks == 0
-    assert session.message.code == "no-result"
+    session.queue.wait()
+    assert session.under_way.waiting == 0
+    assert session.drawing.message.code == "no-result"
     assert session.wires == ()
     assert session.seed == 0
     session.click(8)
@@ -182,8 +182,8 @@ def test_waiting_ends_without_a_word_if_nothing_waits(monkeypatch: pytest.Monkey
     session.click(0)
     session.hover(8)
     monkeypatch.setattr(FakeLive, "wait", lambda _self, _seconds=None: True)
-    session.wait()
-    assert not session.message
+    session.queue.wait()
+    assert not session.drawing.message
     assert session.seed == 0
 
 
@@ -202,11 +202,11 @@ def test_undo_takes_back_a_held_line_before_a_click_that_waits() -> None:
     session = table.session
     session.click(0)
     session.click(8)
-    assert session.waiting_clicks == 1
+    assert session.under_way.waiting == 1
     session.line_begin(30)
     assert session.undo()
     assert not session.under_way.held
-    assert session.waiting_clicks == 1
+    assert session.under_way.waiting == 1
     table.compute()
     assert len(session.wires) == 1
 
@@ -218,7 +218,7 @@ def with_a_waiting_click() -> Table:
     table.session.click(3)
     table.lives["EDGES"].ready = (False, False)
     table.session.click(21)
-    assert table.session.waiting_clicks == 1
+    assert table.session.under_way.waiting == 1
     assert len(table.session.wires) == 1
     return table
 
@@ -260,7 +260,7 @@ FIRST, SECOND = (0, 1, 2, 3), (3, 9, 15, 21)
 def test_only_a_cancelled_chain_forgets_a_click_that_waits(go_on: Callable[[Session], object], kept: list) -> None:
     session = with_a_waiting_click().session
     go_on(session)
-    assert session.waiting_clicks == 0
+    assert session.under_way.waiting == 0
     assert courses(session) == kept
 
 
@@ -271,7 +271,7 @@ def test_settings_of_later_wires_do_not_reach_a_click_that_waits() -> None:
     assert session.wires[1].marks
     assert session.wires[1].mirror == ()
     session.click(35)
-    session.wait()
+    session.queue.wait()
     assert not session.wires[2].marks
     assert session.wires[2].mirror == (0,)
 
@@ -280,19 +280,19 @@ def test_settings_of_later_wires_do_not_reach_a_click_that_waits() -> None:
 def test_settings_that_draw_no_wires_do_not_wait(change: dict[str, object]) -> None:
     session = with_a_waiting_click().session
     use(session, **change)
-    assert session.waiting_clicks == 1
+    assert session.under_way.waiting == 1
 
 
 def test_a_stroke_waits_behind_a_click() -> None:
     table = with_a_waiting_click()
     session = table.session
     assert session.draw_stroke(vertices=[34, 35])
-    assert session.strokes == ()
-    assert session.waiting_clicks == 2
+    assert session.network.strokes == ()
+    assert session.under_way.waiting == 2
     table.compute()
-    assert [len(network) for network in (session.wires, session.strokes)] == [2, 1]
+    assert [len(network) for network in (session.wires, session.network.strokes)] == [2, 1]
     assert session.undo()
-    assert session.strokes == ()
+    assert session.network.strokes == ()
     assert courses(session) == [FIRST, SECOND], "the stroke was drawn after the wire"
 
 
@@ -303,11 +303,11 @@ def test_a_loop_waits_behind_a_click() -> None:
     live.ready = (False, False)
     session.click(3)
     assert session.loop(20)
-    assert session.waiting_clicks == 2
+    assert session.under_way.waiting == 2
     assert session.wires == (), "though the closed cut is computed already"
     live.ready = (True, True)
-    session.poll()
-    assert session.waiting_clicks == 0
+    session.queue.poll()
+    assert session.under_way.waiting == 0
     assert courses(session)[0] == FIRST
     assert len(session.wires) > 1
 
@@ -319,10 +319,10 @@ def test_a_stroke_is_removed_after_the_click_that_it_led() -> None:
     session.click(0)
     table.lives["EDGES"].ready = (False, False)
     session.click(3)
-    assert session.erase(session.strokes[0])
+    assert session.erase(session.network.strokes[0])
     assert courses(session) == [FIRST]
     assert session.undo()
-    assert len(session.strokes) == 1
+    assert len(session.network.strokes) == 1
     assert courses(session) == [FIRST]
 
 
@@ -333,7 +333,7 @@ def test_the_chain_is_closed_by_a_key_after_the_click_that_waits() -> None:
     table.lives["EDGES"].ready = (False, False)
     session.click(15)
     assert session.close()
-    session.wait()
+    session.queue.wait()
     assert courses(session)[0][-1] == 15
     assert session.wires[-1].end == 0
     assert session.seed is None
@@ -341,15 +341,15 @@ def test_the_chain_is_closed_by_a_key_after_the_click_that_waits() -> None:
 
 def test_what_waits_tells_whether_a_chain_will_be_live() -> None:
     session = with_a_waiting_click().session
-    assert session.will_be_live
+    assert session.under_way.will_be_live
     session.click(Snap(0, "SEED"))
-    assert not session.will_be_live, "the second click closes the chain"
+    assert not session.under_way.will_be_live, "the second click closes the chain"
     session.loop((33, 34))
-    assert not session.will_be_live
+    assert not session.under_way.will_be_live
     session.click(35)
-    assert session.will_be_live
+    assert session.under_way.will_be_live
     session.run_to_end()
-    assert not session.will_be_live
+    assert not session.under_way.will_be_live
 
 
 def never(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -373,7 +373,7 @@ def test_a_click_without_a_result_is_told_of_whatever_comes_next(
     session = with_a_waiting_click().session
     never(monkeypatch)
     go_on(session)
-    assert session.failure.code == "no-result"
+    assert session.drawing.failure.code == "no-result"
 
 
 def test_a_failure_is_forgotten_when_something_else_is_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -381,11 +381,11 @@ def test_a_failure_is_forgotten_when_something_else_is_drawn(monkeypatch: pytest
     session = table.session
     never(monkeypatch)
     session.start(30)
-    assert session.message.code == "no-result"
+    assert session.drawing.message.code == "no-result"
     table.compute()
     session.hover(32)
     session.click(32)
-    assert not session.failure
+    assert not session.drawing.failure
 
 
 def test_a_waiting_click_that_is_refused_is_told_of_when_the_chain_ends() -> None:
@@ -394,9 +394,9 @@ def test_a_waiting_click_that_is_refused_is_told_of_when_the_chain_ends() -> Non
     session.click(0)
     session.click(35)
     table.compute()
-    assert session.waiting_clicks == 0
+    assert session.under_way.waiting == 0
     session.end_chain()
-    assert session.failure.code == "no-wire-reaches"
+    assert session.drawing.failure.code == "no-wire-reaches"
 
 
 def test_a_cancelled_chain_forgets_a_wire_that_waits_for_its_other_path() -> None:
@@ -406,9 +406,9 @@ def test_a_cancelled_chain_forgets_a_wire_that_waits_for_its_other_path() -> Non
     insert(session, session.wires[0], 14)
     before = courses(session)
     assert session.retrace(session.wires[0])
-    assert session.waiting_clicks == 1
+    assert session.under_way.waiting == 1
     session.end_chain(wait=False)
-    assert session.waiting_clicks == 0
+    assert session.under_way.waiting == 0
     assert courses(session) == before
 
 
@@ -432,9 +432,9 @@ def test_a_released_seed_stays_where_it_is_whatever_comes_next(go_on: Callable[[
     session.click(3)
     session.end_chain()
     session.drag(Snap(3, "SEED"))
-    session.drag_to(Snap(4))
-    session.drag_end()
-    assert session.waiting_clicks == 1
+    session.cursor.drag_to(Snap(4))
+    session.queue.drag_end()
+    assert session.under_way.waiting == 1
     go_on(session)
     assert session.drawing.network.wires[0].vertices == (0, 1, 2, 3, 4)
 
@@ -445,7 +445,7 @@ def test_a_held_seed_goes_back_when_something_else_begins() -> None:
     session.click(3)
     session.end_chain()
     session.drag(Snap(3, "SEED"))
-    session.drag_to(Snap(4))
+    session.cursor.drag_to(Snap(4))
     session.click(35)
     assert courses(session) == [FIRST]
 
@@ -458,4 +458,4 @@ def test_a_stroke_for_a_wire_that_closes_or_is_straight_acts_on_both() -> None:
     session.live.candidates.leading = 3  # the wire under the cursor before was straight in the view
     session.live.candidates.clear()
     assert session.draw_stroke(vertices=[27, 28])
-    assert session.strokes[0].acts_on == "both"
+    assert session.network.strokes[0].acts_on == "both"

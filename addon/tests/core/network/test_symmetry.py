@@ -494,7 +494,7 @@ def test_a_wires_images_are_those_of_when_it_was_kept_and_follow_its_course() ->
     assert [one.mirror for one in session.wires] == [(0,), (0,)]
     assert [image.vertices for image in session.mirrored(session.wires[0])] == [(5, 11)]
     session.drag(8)
-    session.drag_to(7)
+    session.cursor.drag_to(7)
     assert [image.vertices for image in session.mirrored(session.wires[1])] == [(11, 10)], "and are shown meanwhile"
 
 
@@ -517,6 +517,6 @@ def test_a_dragged_seeds_images_move_with_it(axes: tuple[int, ...]) -> None:
     session.click(0)
     session.click(1)
     session.drag(1)
-    session.drag_to(6)
+    session.cursor.drag_to(6)
     assert len(session.edges_to_mark()) == 2 ** len(axes)
     assert (0, 6) in session.edges_to_mark()

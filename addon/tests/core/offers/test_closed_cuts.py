@@ -24,7 +24,7 @@ def taken(left: bool = False) -> Session:
     session = Table("SURFACE").session
     session.hover(8, loop=True)
     if left:
-        session.next_candidate()
+        session.cursor.next_candidate()
     session.click(8)
     return session
 
@@ -58,7 +58,7 @@ def test_a_cut_is_bent_in_the_session_after_it_was_cut(left: bool) -> None:
     it = after_cutting(session, as_cut(session))
     assert it.session.picture.can_bend
     it.session.hover(28, bend=True)
-    it.session.poll()
+    it.session.queue.poll()
     assert it.lives["SURFACE"].bent[-1] == (8, 28, (1, 1) if left else (0, 0)), (
         "the one of those through the point that ran there"
     )
@@ -108,7 +108,7 @@ def test_where_none_runs_there_it_says_so() -> None:
     it.lives["SURFACE"] = it.session.drawing.engines.cuts()
     it.lives["SURFACE"].islands = (8,)
     assert not it.session.bend(28)
-    assert it.session.message.code == CUT_IS_GONE
+    assert it.session.drawing.message.code == CUT_IS_GONE
     assert len(it.session.wires) == 2
 
 
@@ -117,7 +117,7 @@ def test_what_is_not_all_there_is_forgotten() -> None:
     for wires in (as_cut(session)[:1], [replace(wire, stored=0) for wire in as_cut(session)]):
         it = after_cutting(session, wires)
         assert not it.session.bend(28)
-        assert it.session.message.code == NOTHING_TO_BEND
+        assert it.session.drawing.message.code == NOTHING_TO_BEND
 
 
 def test_what_was_changed_since_it_was_taken_is_not_handed_on() -> None:
