@@ -70,7 +70,7 @@ class Hand:
         shown = (
             edited.front.stroke is not None
             or isinstance(self.session.under_way.held, LineGesture)
-            or self.session.under_way.drag
+            or self.session.under_way.drag is not None
         )
         assert shown == (self.desk.running and self.desk.chain.hold is not None)
         return shown

@@ -268,10 +268,10 @@ class ObjectSession:
         network = self._found.network
         strokes = tuple(on_mesh(one, self.arrays.points, self.arrays.triangles) for one in network.strokes)
         self._set_seams(self.arrays.seams, labels)
-        self.session.adopt(replace(network, strokes=strokes), self.plain_seams)
+        self.session.queue.adopt(replace(network, strokes=strokes), self.plain_seams)
         if not self._damaged:
             self._store()
-        self.session.loops.cuts.recall(_taken_cuts.recall(self.session.network, self.places))
+        self.session.cursor.loops.cuts.recall(_taken_cuts.recall(self.session.network, self.places))
 
     def _set_seams(self, seams: NDArray[np.int32], labels: EdgeLabels) -> None:
         self.arrays = replace(self.arrays, seams=seams)
@@ -362,9 +362,9 @@ class ObjectSession:
         self._set_seams(seams, self._labels)
         self._store()
         if adopt:
-            self.session.adopt(replace(plan.network, seed=None), self.plain_seams)
+            self.session.queue.adopt(replace(plan.network, seed=None), self.plain_seams)
             _taken_cuts.keep(
-                self.session.loops.cuts.taken(self.session.drawing.network), self.session.network, self.places
+                self.session.cursor.loops.cuts.taken(self.session.drawing.network), self.session.network, self.places
             )
         return written
 
@@ -376,7 +376,7 @@ class ObjectSession:
             *session.network.strokes,
             *(on_mesh(one, self.arrays.points, self.arrays.triangles) for one in strokes),
         )
-        session.adopt(replace(session.network, wires=drawn, strokes=strokes, seed=None), self.plain_seams)
+        session.queue.adopt(replace(session.network, wires=drawn, strokes=strokes, seed=None), self.plain_seams)
 
     def take_over(self, wires: Iterable[Wire]) -> None:
         """Go on with wires along seams of the mesh: `write` makes these edges theirs, so that they go where the wires go."""
@@ -385,7 +385,7 @@ class ObjectSession:
         taken = {edge for wire in network.wires for edge in wire.edges()}
         rest = [pair for pair in self.plain_seams.tolist() if (min(pair), max(pair)) not in taken]
         self.plain_seams = np.array(rest, dtype=np.int32).reshape(-1, 2)
-        session.adopt(network, self.plain_seams)
+        session.queue.adopt(network, self.plain_seams)
         self._found = replace(self._found, network=session.network)
 
     def finder(self, faces: Collection[int] = ()) -> Callable[[Sequence[float]], FacePoint]:
@@ -416,4 +416,4 @@ class ObjectSession:
 
     def drop_changes(self, network: Network) -> None:
         """Go back to a network that the session had, whatever was drawn since."""
-        self.session.adopt(replace(network, seed=None), self.plain_seams)
+        self.session.queue.adopt(replace(network, seed=None), self.plain_seams)

@@ -102,7 +102,7 @@ class Chain:
             self.go(Cue.UNPEEK)
 
     def begin_anew(self) -> None:
-        """Keep what is drawn as a chain of its own, and begin another one."""
+        """Keep the drawn wires as a separate chain, and begin another one."""
         self.keep()
         if self.stage is Stage.ENDING:
             self.go(Cue.BEGIN)

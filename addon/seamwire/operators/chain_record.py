@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 import bpy
 
+from ..core.base.messages import NOTHING
 from ..core.drawing.change import Change
 from ..core.network.network import Network
 from ..mesh import finishes
@@ -109,9 +110,9 @@ class ChainRecord:
         drawn_on = [] if self.drawn_on is None else [self.drawn_on]
         for view in dict.fromkeys((*drawn_on, *edited.views())):
             view.session.end_chain(wait=not at_once)
-            failure = view.session.take_failure()
-            if failure:
-                self._notices.add("WARNING", str(failure))
+            if view.session.drawing.failure:
+                self._notices.add("WARNING", str(view.session.drawing.failure))
+                view.session.drawing.failure = NOTHING
         view, before = self.drawn_on, self._before
         title = undo_steps.EDIT if self._titles == {undo_steps.EDIT} else undo_steps.DRAW
         self._titles.clear()

@@ -152,7 +152,7 @@ class ObjectView:
 
     def close(self) -> None:
         """Let go of what works on threads."""
-        self.session.loops.edges.stop_search()
+        self.session.cursor.loops.edges.stop_search()
         self._islands.close()
         self._close_layers()
         self.crest_view.close()
@@ -227,7 +227,7 @@ class ObjectView:
 
     def _follow_layers(self) -> None:
         session, options = self.session, self.options
-        self.crest_view.is_wanted = options.snap or session.loops.offers.wanted
+        self.crest_view.is_wanted = options.snap or session.cursor.loops.offers.wanted
         source, strokes = self._source(), session.drawing.engines.strokes
         for key, layer in self._working_layers():
             failures.attempt(key, partial(layer.follow, options, source, strokes))

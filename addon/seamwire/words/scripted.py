@@ -79,7 +79,7 @@ def _turn_to(session: Session, edge: Edge, kind: LoopKind) -> bool:
         session.cursor.next_candidate()
     wanted: LoopKind | None = kind
     if kind == "FLAT" and kind not in edges:
-        border = session.loops.edges.part_border(edge)
+        border = session.cursor.loops.edges.part_border(edge)
         wanted = next((other for other, own in edges.items() if own == border), None)
     elif kind not in edges:
         closed, strip = edges.get("CLOSED"), edges.get("STRIP")

@@ -8,9 +8,13 @@ from typing import TYPE_CHECKING
 
 from ..base.messages import NOTHING, message_of
 from ..network.network import Snap
+from .extension import Extension
 from .gesture import Gesture
 from .line import LineGesture
+from .loop import LoopGesture
 from .seed_drag import SeedDrag
+from .under_way import UnderWay
+from .wire import WireGesture
 
 if TYPE_CHECKING:
     import numpy as np
@@ -21,10 +25,6 @@ if TYPE_CHECKING:
     from ..network.network import Seed
     from ..network.picks import Pick
     from .drawing import Drawing
-    from .extension import Extension
-    from .loop import LoopGesture
-    from .under_way import UnderWay
-    from .wire import WireGesture
 
 
 class Cursor:
@@ -34,36 +34,26 @@ class Cursor:
     ----------
     drawing
         The state that gestures share.
+
+    Attributes
+    ----------
     live, loops, extension
-        The live wire, the loops and the way to the end that a click would keep. They become attributes.
+        The live wire, the loops and the way to the end that a click would keep.
     under_way
         The gestures that are held or wait.
     """
 
-    def __init__(
-        self, drawing: Drawing, live: WireGesture, loops: LoopGesture, extension: Extension, under_way: UnderWay
-    ) -> None:
+    def __init__(self, drawing: Drawing) -> None:
         self._drawing = drawing
-        self.live = live
-        self.loops = loops
-        self.extension = extension
-        self._under_way = under_way
+        self.live = WireGesture(drawing)
+        self.loops = LoopGesture(drawing, self.live)
+        self.extension = Extension(drawing, self.live)
+        self.under_way = UnderWay(drawing, self.live, self.loops)
 
     @property
     def target(self) -> Snap | None:
         """The pick under the cursor, or that of the oldest waiting gesture."""
         return self.live.candidates.target
-
-    def hover(self, target: Snap | None, loop: bool, bend: bool) -> None:
-        """Move the free end of the live wire, see `Session.hover`."""
-        drawing, loops = self._drawing, self.loops
-        self.aim(target)
-        bend = bend and drawing.options.along == "SURFACE"
-        if bend != loops.cuts.bends and drawing.message:
-            drawing.message = NOTHING
-            drawing.revision += 1
-        drawing.revision += loops.hover(target, loop, bend)
-        self.show_offers()
 
     def next_candidate(self) -> bool:
         """Show the next candidate, or the next offer if offers are shown. Return whether there is one."""
@@ -100,7 +90,7 @@ class Cursor:
                 self.sow(before)
             return self._drawing.refuse(message_of(error))
         finally:
-            self._under_way.read_progress()
+            self.under_way.read_progress()
         return True
 
     def aim(self, target: Snap | None, again: bool = False) -> None:
@@ -110,7 +100,7 @@ class Cursor:
         if same and not again and self.loops.final:
             return
         before = (candidates.shown, drawing.message)
-        self._under_way.read_progress()
+        self.under_way.read_progress()
         drawing.message = self.live.aim(target)
         # Asking again while nothing is ready shows nothing new, and must not cost a redraw each time.
         drawing.revision += before != (candidates.shown, drawing.message)
@@ -123,9 +113,9 @@ class Cursor:
     def show_offers(self) -> None:
         """Show the offers at the cursor, as soon as they are computed."""
         if self.loops.offers.unfinished:
-            self._under_way.read_progress()
+            self.under_way.read_progress()
         before = self._drawing.message
-        is_awaited = any(one.gesture.needs_offers for one in self._under_way.queue)
+        is_awaited = any(one.gesture.needs_offers for one in self.under_way.queue)
         changed, self._drawing.message = self.loops.show(before, is_awaited)
         self._drawing.revision += changed or self._drawing.message != before
 
@@ -168,7 +158,7 @@ class Cursor:
     def compute_anew(self) -> None:
         """Compute live wires with the current settings. While a seed is dragged, its wires keep their metric."""
         options, engines = self._drawing.options, self._drawing.engines
-        if self._under_way.drag is not None:
+        if self.under_way.drag is not None:
             return
         if options.metric != engines.metric:
             self.live.candidates.reset()
@@ -192,11 +182,11 @@ class Cursor:
         """Take hold of a new gesture. Return whether it was not refused."""
         drawing = self._drawing
         try:
-            self._under_way.held = kind(drawing, *given)
+            self.under_way.held = kind(drawing, *given)
         except ValueError as error:
             return drawing.refuse(message_of(error))
         self.live.seedless = kind is SeedDrag
-        self._under_way.read_progress()
+        self.under_way.read_progress()
         self.live.cancel()
         self.loops.offers.clear()
         self.extension.cancel()
@@ -215,9 +205,9 @@ class Cursor:
             Whether to find the live wire again.
         """
         drawing = self._drawing
-        if self._under_way.holds(kind) is None:
+        if self.under_way.holds(kind) is None:
             return False
-        self._under_way.held = None
+        self.under_way.held = None
         self.live.seedless = False
         drawing.revision += 1
         # While a seed was dragged, its wires kept their metric.
@@ -229,7 +219,7 @@ class Cursor:
 
     def drag_to(self, snap: Snap | Pick | None) -> bool:
         """Move the dragged seed; its wires follow as soon as they are computed. None leaves it in place."""
-        drag, drawing = self._under_way.drag, self._drawing
+        drag, drawing = self.under_way.drag, self._drawing
         if drag is None:
             return drawing.refuse("no-seed-moves")
         if snap is None or drag.ending:
@@ -237,26 +227,26 @@ class Cursor:
         before = (drag.target, drag.network, drawing.message)
         self.live.candidates.target = Snap.of(snap)
         drawing.message = drag.aim(Snap.of(snap))
-        self._under_way.read_progress()
+        self.under_way.read_progress()
         drawing.revision += before != (drag.target, drag.network, drawing.message)
         return drag.solved and not drag.message
 
     def line_to(self, points: NDArray[np.float64], triangles: NDArray[np.int32], snap: Snap | Pick | None) -> bool:
         """Draw the line on: all its points (k, 3), the triangle of each (k,), and the pick under the cursor."""
-        line = self._under_way.holds(LineGesture)
+        line = self.under_way.holds(LineGesture)
         if line is None:
             return self._drawing.refuse("no-line-drawn")
         line.draw(points, triangles, None if snap is None else Snap.of(snap))
         self.live.candidates.target = line.joined
-        self._under_way.read_progress()
+        self.under_way.read_progress()
         self._drawing.message = line.message
         self._drawing.revision += 1
         return True
 
     def line_release(self) -> LineGesture | None:
         """Let go of the line, to keep it with `Session.line_keep`. Return None if no line is drawn."""
-        line = self._under_way.holds(LineGesture)
+        line = self.under_way.holds(LineGesture)
         if line is not None:
-            self._under_way.held = None
+            self.under_way.held = None
             self._drawing.revision += 1
         return line

@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from ..network.picks import Pick
     from .cursor import Cursor
     from .drawing import Drawing
-    from .under_way import UnderWay
 
 
 class GestureQueue:
@@ -33,8 +32,8 @@ class GestureQueue:
     ----------
     drawing
         The network and its history.
-    cursor, under_way
-        The other parts of the session.
+    cursor
+        The wires and offers at the cursor, and the gestures that are under way.
 
     Attributes
     ----------
@@ -42,10 +41,10 @@ class GestureQueue:
         The pick of the last step, if that was a click, and the number of steps then.
     """
 
-    def __init__(self, drawing: Drawing, cursor: Cursor, under_way: UnderWay) -> None:
+    def __init__(self, drawing: Drawing, cursor: Cursor) -> None:
         self._drawing = drawing
         self._cursor = cursor
-        self._under_way = under_way
+        self._under_way = cursor.under_way
         self.last_click: tuple[Pick, int] | None = None
 
     # Gestures
@@ -260,8 +259,18 @@ class GestureQueue:
         return True
 
     def adopt(self, network: Network, seams: ArrayLike) -> None:
-        """Go on with a network that the mesh has now, see `Session.adopt`."""
+        """Go on with a network that the mesh has now. `Session.undo` does not lead back behind it.
+
+        Parameters
+        ----------
+        network
+            The wires and strokes. The mirror stays; the live wire begins at the network's seed.
+        seams
+            (k, 2) the edges that are seams but no wires.
+        """
         drawing = self._drawing
+        self.calm()
+        self._under_way.retraces.clear()
         drawing.stops.set_seams(seams)
         drawing.history.forget()
         # Wires that were just cut do not know their images. Images are the edges that are seams.

@@ -7,9 +7,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ..network.picks import undirected
-from .intent import Intent
 from .line import LineGesture
-from .picture import Choice, Offered, Picture, Role, ShownWire, shown_seeds
+from .picture import Choice, Intent, Offered, Picture, Role, ShownWire, shown_seeds
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -17,13 +16,10 @@ if TYPE_CHECKING:
     from ...terms.choices import Finish
     from ..network.network import Network
     from ..network.wires import Wire
+    from .cursor import Cursor
     from .drawing import Drawing
-    from .extension import Extension
-    from .loop import LoopGesture
     from .picture import Work
     from .seed_drag import SeedDrag
-    from .under_way import UnderWay
-    from .wire import WireGesture
 
 
 class Painter:
@@ -33,20 +29,16 @@ class Painter:
     ----------
     drawing
         The network and the settings.
-    live, loops, extension
-        The gestures at the cursor.
-    under_way
-        The gestures that are held or wait.
+    cursor
+        The gestures at the cursor, and those that are under way.
     """
 
-    def __init__(
-        self, drawing: Drawing, live: WireGesture, loops: LoopGesture, extension: Extension, under_way: UnderWay
-    ) -> None:
+    def __init__(self, drawing: Drawing, cursor: Cursor) -> None:
         self._drawing = drawing
-        self._live = live
-        self._loops = loops
-        self._extension = extension
-        self._under_way = under_way
+        self._live = cursor.live
+        self._loops = cursor.loops
+        self._extension = cursor.extension
+        self._under_way = cursor.under_way
         self._last: tuple[object, Picture] | None = None
         self._kept: tuple[Network, tuple[ShownWire, ...]] | None = None
 

@@ -11,7 +11,6 @@ from ...terms.options import Options
 from ..base.messages import NOTHING, Message
 from ..network.network import Snap
 from ..network.picks import undirected
-from .intent import Intent
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -62,6 +61,34 @@ class SeedRole(Enum):
     """A wire that leads there closes the chain."""
     HOVERED = auto()
     """It is under the cursor, or dragged."""
+
+
+class Intent(Enum):
+    """The effect of a click."""
+
+    NOTHING = auto()
+    SEED = auto()
+    """Begin a chain on the mesh."""
+    CONTINUE = auto()
+    """Begin a chain at a seed of the network."""
+    BRANCH = auto()
+    """Begin a chain on a wire."""
+    KEEP = auto()
+    """Keep the active wire and go on from its end."""
+    JOIN = auto()
+    """Keep the active wire, which ends on another seed or wire or on a seam, and end the chain."""
+    CLOSE = auto()
+    """Keep the active wire, which leads to the chain's first seed, and end the chain."""
+    LOOP = auto()
+    """Keep the loop that is shown."""
+    RUN = auto()
+    """Keep the wire that runs to the end."""
+    WAIT = auto()
+    """Keep a wire as soon as it is computed."""
+    MOVE = auto()
+    """Leave the dragged seed here."""
+    DRAW = auto()
+    """Keep the line that is being drawn."""
 
 
 @dataclass(frozen=True)

@@ -14,17 +14,14 @@ from ..network.network import Network, Snap
 from ..network.strokes import OffMeshError
 from .bend import BendGesture
 from .cursor import Cursor
-from .extension import Extension
 from .gesture_queue import GestureQueue
 from .line import LineGesture
-from .loop import LoopGesture, NextOffer
+from .loop import NextOffer
 from .painter import Painter
 from .picture import Work
 from .retrace import Retrace, retraced
 from .seed_drag import SeedDrag
 from .stroke import StrokeGesture
-from .under_way import UnderWay
-from .wire import WireGesture
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -48,14 +45,10 @@ class Session:
 
     Attributes
     ----------
-    live
-        The live wire, which knows the pick under the cursor.
-    loops, extension
-        The loops and the way to the end that a click would keep.
-    under_way
-        The gestures that are held or wait.
     cursor
         Finds the wires and offers at the cursor, and holds a seed or a line.
+    under_way
+        The gestures that are held or wait.
     queue
         Commits gestures as soon as they are computed, and goes on to their networks.
 
@@ -67,14 +60,11 @@ class Session:
 
     def __init__(self, drawing: Drawing) -> None:
         self.drawing = drawing
-        self.live = WireGesture(drawing)
-        self.loops = LoopGesture(drawing, self.live)
-        self.extension = Extension(drawing, self.live)
-        self._bend = BendGesture(drawing, self.loops)
-        self.under_way = UnderWay(drawing, self.live, self.loops)
-        self.cursor = Cursor(drawing, self.live, self.loops, self.extension, self.under_way)
-        self.queue = GestureQueue(drawing, self.cursor, self.under_way)
-        self._painter = Painter(drawing, self.live, self.loops, self.extension, self.under_way)
+        self.cursor = Cursor(drawing)
+        self.under_way = self.cursor.under_way
+        self.queue = GestureQueue(drawing, self.cursor)
+        self._bend = BendGesture(drawing, self.cursor.loops)
+        self._painter = Painter(drawing, self.cursor)
         # The live wires are made now, because what they compute first takes longest.
         self.under_way.read_progress()
 
@@ -92,8 +82,16 @@ class Session:
         bend
             Whether to show the last closed cut, bent to it; across the surface only.
         """
-        if not self.under_way.queue:
-            self.cursor.hover(None if snap is None else Snap.of(snap), loop, bend)
+        if self.under_way.queue:
+            return
+        drawing, cursor, target = self.drawing, self.cursor, None if snap is None else Snap.of(snap)
+        cursor.aim(target)
+        bend = bend and self.options.along == "SURFACE"
+        if bend != cursor.loops.cuts.bends and drawing.message:
+            drawing.message = NOTHING
+            drawing.revision += 1
+        drawing.revision += cursor.loops.hover(target, loop, bend)
+        cursor.show_offers()
 
     def click(self, snap: Snap | Pick) -> bool:
         """Place a seed; if a wire is live, keep it and go on from there.
@@ -103,26 +101,26 @@ class Session:
         """
         target = Snap.of(snap)
         if not self.under_way.queue:
-            if self.extension.wanted:
+            if self.cursor.extension.wanted:
                 return self.run_to_end()
-            if self.loops.takes(target):
-                return self.bend(target) if self.loops.bends else self.loop(target)
+            if self.cursor.loops.takes(target):
+                return self.bend(target) if self.cursor.loops.bends else self.loop(target)
         self.queue.leave_seed()
         self.queue.last_click = None
         if not self.under_way.queue:
             if self.drawing.network.seed is None:
                 return self.start(target)
-            seen = self.live.candidates.active_final and target == self.cursor.target
+            seen = self.cursor.live.candidates.active_final and target == self.cursor.target
             self.cursor.aim(target)
-            self.live.seen = seen
-        return self.queue.commit(self.live, target)
+            self.cursor.live.seen = seen
+        return self.queue.commit(self.cursor.live, target)
 
     def start(self, snap: Snap | Pick) -> bool:
         """Begin a new chain, which ends the one before. Gestures that wait are done first."""
         target = Snap.of(snap)
         self.queue.finish()
         try:
-            done = self.queue.step(self.live.begun(target))
+            done = self.queue.step(self.cursor.live.begun(target))
         except Refused as error:
             return self.drawing.refuse(error.message)
         if done:
@@ -134,7 +132,7 @@ class Session:
 
         A click on the same edge just before is taken back, because a double click is a click first.
         """
-        target, loops = Snap.of(snap), self.loops
+        target, loops = Snap.of(snap), self.cursor.loops
         why = loops.aim(target)
         if why:
             return self.drawing.refuse(why)
@@ -166,7 +164,7 @@ class Session:
         first = self.drawing.network.closing_point
         if first is None:
             return self.drawing.refuse("no-chain-to-close")
-        self.extension.wanted = False
+        self.cursor.extension.wanted = False
         return self.click(Snap(first, "SEED", seen_along=seen_along))
 
     def run_to_end(self, preview: bool = False) -> bool:
@@ -177,7 +175,7 @@ class Session:
         preview
             Whether to show it first, wherever the cursor goes. A click keeps it, `Cursor.stop_preview` hides it.
         """
-        extension, target = self.extension, self.cursor.target
+        extension, target = self.cursor.extension, self.cursor.target
         why = extension.aim(target)
         if why:
             return self.drawing.refuse(why)
@@ -192,7 +190,7 @@ class Session:
                 return self.drawing.refuse("no-way-on")
             extension.wanted = False
         else:
-            self.live.seen = True
+            self.cursor.live.seen = True
         return self.queue.commit(extension, target)
 
     def end_chain(self, wait: bool = True) -> None:
@@ -212,13 +210,8 @@ class Session:
             return
         # This is not a step for undo. Undoing the last wire afterwards makes the chain live again.
         self.drawing.set(replace(self.drawing.network, seed=None))
-        self.live.candidates.chosen = None
+        self.cursor.live.candidates.chosen = None
         self.cursor.aim_again()
-
-    def take_failure(self) -> Message:
-        """Return why a gesture that waited was not done, once."""
-        failure, self.drawing.failure = self.drawing.failure, NOTHING
-        return failure
 
     # Gestures on kept wires
 
@@ -229,7 +222,7 @@ class Session:
         if own is None:
             return self.drawing.refuse("wire-is-gone")
         if own.through is not None:
-            return self.queue.commit(NextOffer(self.drawing, self.loops, own), Snap(own.through, "WIRE", own))
+            return self.queue.commit(NextOffer(self.drawing, self.cursor.loops, own), Snap(own.through, "WIRE", own))
         if own.closed:
             return self.drawing.refuse("loop-has-one-way")
         try:
@@ -281,7 +274,7 @@ class Session:
     def draw_stroke(self, points: ArrayLike | None = None, faces: ArrayLike | None = None, **how: object) -> bool:
         """Draw a stroke that live wires follow or avoid. The parameters are those of `StrokeGesture`."""
         try:
-            stroke = StrokeGesture(self.drawing, self.live, points, faces, **how)
+            stroke = StrokeGesture(self.drawing, self.cursor.live, points, faces, **how)
         except OffMeshError as error:
             return self.drawing.refuse(message_of(error))
         return self.do(stroke)
@@ -293,7 +286,7 @@ class Session:
         rest = tuple(own for own in network.strokes if own.id != stroke.id)
         if len(rest) == len(network.strokes):
             return self.drawing.refuse("stroke-is-gone")
-        return self.queue.step(replace(network, strokes=rest), self.live.candidates.chosen)
+        return self.queue.step(replace(network, strokes=rest), self.cursor.live.candidates.chosen)
 
     # Settings
 
@@ -311,20 +304,6 @@ class Session:
             self.queue.calm()
         return self.cursor.follow(options)
 
-    def adopt(self, network: Network, seams: ArrayLike) -> None:
-        """Go on with a network that the mesh has now. `undo` does not lead back behind it.
-
-        Parameters
-        ----------
-        network
-            The wires and strokes. The mirror stays; the live wire begins at the network's seed.
-        seams
-            (k, 2) the edges that are seams but no wires.
-        """
-        self.queue.calm()
-        self.under_way.retraces.clear()
-        self.queue.adopt(network, seams)
-
     # Undo and redo
 
     def undo(self) -> bool:
@@ -335,7 +314,7 @@ class Session:
             return True
         if under_way.queue:
             under_way.queue.pop()
-            self.loops.forget_crest()
+            self.cursor.loops.forget_crest()
             self.drawing.revision += 1
             return True
         if self.cursor.let_go(SeedDrag):

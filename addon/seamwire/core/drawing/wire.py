@@ -11,7 +11,7 @@ from ..network.network import Network
 from ..network.picks import FacePoint
 from .candidates import CandidateWires, only_vertices
 from .gesture import Gesture
-from .intent import Intent
+from .picture import Intent
 
 if TYPE_CHECKING:
     from ..network.network import Snap

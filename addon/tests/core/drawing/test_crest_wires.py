@@ -147,7 +147,9 @@ def test_a_loop_that_is_kept_does_not_become_a_ridge() -> None:
     session.queue.wait()
     session.cursor.use_crests(sheet.crests, False)
     # Stored, it has lost what else was offered: that is found anew.
-    session.adopt(replace(session.drawing.network, wires=tuple(replace(wire, offers=()) for wire in session.wires)), [])
+    session.queue.adopt(
+        replace(session.drawing.network, wires=tuple(replace(wire, offers=()) for wire in session.wires)), []
+    )
     for _ in range(4):
         session.retrace(session.wires[0])
         session.queue.wait()
@@ -207,10 +209,10 @@ def test_where_neither_a_ridge_nor_a_cut_is_offered_it_is_said_however_late_ridg
 
 def test_ridges_that_are_known_later_are_offered_then(sheet: Sheet) -> None:
     session = sheet.session
-    assert not session.loops.offers.wanted
+    assert not session.cursor.loops.offers.wanted
     session.hover(sheet.pick(), loop=True)
     session.queue.wait()
-    assert session.loops.offers.wanted
+    assert session.cursor.loops.offers.wanted
     assert "RIDGE" not in session.picture.offered.kinds
     before = session.drawing.revision
     session.cursor.use_crests(sheet.crests, True)
@@ -219,7 +221,7 @@ def test_ridges_that_are_known_later_are_offered_then(sheet: Sheet) -> None:
     session.cursor.use_crests(None, True)
     assert "RIDGE" not in session.picture.offered.kinds
     session.hover(sheet.pick())
-    assert not session.loops.offers.wanted
+    assert not session.cursor.loops.offers.wanted
 
 
 def test_what_was_taken_is_not_offered_again_until_the_cursor_was_elsewhere(sheet: Sheet) -> None:

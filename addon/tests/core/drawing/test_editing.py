@@ -8,8 +8,7 @@ from dataclasses import replace
 import pytest
 from fake_live import FakeLive
 from seamwire.core.drawing.drawing import Drawing
-from seamwire.core.drawing.intent import Intent
-from seamwire.core.drawing.picture import Role, SeedRole, ShownSeed
+from seamwire.core.drawing.picture import Intent, Role, SeedRole, ShownSeed
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Network, Snap
 from setting import insert, use

@@ -11,8 +11,7 @@ import pytest
 from fake_live import grid_edges, grid_points
 from real_sessions import halves, session_on
 from seamwire.core.drawing.drawing import Drawing
-from seamwire.core.drawing.intent import Intent
-from seamwire.core.drawing.picture import Role
+from seamwire.core.drawing.picture import Intent, Role
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Network, Snap
 from seamwire.core.network.stops import Stops

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from seamwire.core.drawing.intent import Intent
+from seamwire.core.drawing.picture import Intent
 from seamwire.core.network.network import Snap
 from setting import use
 from table import Table, corner, courses

@@ -12,7 +12,7 @@ from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
 from paper_mesh import PaperMesh
 from seamwire.core.drawing.drawing import Drawing
-from seamwire.core.drawing.intent import Intent
+from seamwire.core.drawing.picture import Intent
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Network, Snap
 from seamwire.core.network.picks import Edge, Pick
@@ -187,7 +187,7 @@ class Monkey:
                 around = [*wire.vertices, *wire.vertices[:1]] if wire.closed else list(wire.vertices)
                 assert np.array_equal(wire.points, self.points[around])
         assert (session.picture.offered.kind is None) == (session.picture.offered.kinds == ())
-        offers = session.loops.offers.offers
+        offers = session.cursor.loops.offers.offers
         assert len({frozenset(offer.edges()) for offer in offers}) == len(offers)
         assert (session.picture.intent is Intent.MOVE) == (session.under_way.drag is not None)
 

@@ -143,7 +143,7 @@ def test_a_cut_clears_seams_where_wires_do(session: Session) -> None:
     session.queue.wait()
     ring = session.edges_to_mark()
     session.undo()
-    session.adopt(session.drawing.network, ring)
+    session.queue.adopt(session.drawing.network, ring)
     use(session, clear=True)
     session.loop(WAIST)
     session.queue.wait()

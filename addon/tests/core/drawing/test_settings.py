@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import pytest
-from seamwire.core.drawing.intent import Intent
+from seamwire.core.drawing.picture import Intent
 from setting import stronger, use
 from table import Table, chain, corner, courses
 

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 from fake_live import FakeCuts, FakeLive, grid_edges
 from seamwire.core.drawing.drawing import Drawing
-from seamwire.core.drawing.intent import Intent
-from seamwire.core.drawing.picture import Role
+from seamwire.core.drawing.picture import Intent, Role
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.picks import FacePoint
 from seamwire.terms.options import Options

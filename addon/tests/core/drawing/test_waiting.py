@@ -454,8 +454,8 @@ def test_a_stroke_for_a_wire_that_closes_or_is_straight_acts_on_both() -> None:
     session = Table(ready=(True, True)).session
     session.click(0)
     session.hover(14)
-    session.live.candidates.chosen = None
-    session.live.candidates.leading = 3  # the wire under the cursor before was straight in the view
-    session.live.candidates.clear()
+    session.cursor.live.candidates.chosen = None
+    session.cursor.live.candidates.leading = 3  # the wire under the cursor before was straight in the view
+    session.cursor.live.candidates.clear()
     assert session.draw_stroke(vertices=[27, 28])
     assert session.network.strokes[0].acts_on == "both"

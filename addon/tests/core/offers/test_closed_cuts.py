@@ -45,10 +45,10 @@ def after_cutting(session: Session, wires: list[Wire]) -> Table:
     it = Table("SURFACE")
     places = Places(it.points, SCALE)
     memory = CutMemory()
-    cuts = [cut.of(Network(tuple(wires))) for cut in session.loops.cuts.taken(session.drawing.network)]
+    cuts = [cut.of(Network(tuple(wires))) for cut in session.cursor.loops.cuts.taken(session.drawing.network)]
     memory.keep([cut for cut in cuts if cut is not None], Network(tuple(wires)), places)
-    it.session.adopt(Network(tuple(replace(wire.anew(), stored=wire.stored) for wire in wires)), [])
-    it.session.loops.cuts.recall(memory.recall(it.session.network, places))
+    it.session.queue.adopt(Network(tuple(replace(wire.anew(), stored=wire.stored) for wire in wires)), [])
+    it.session.cursor.loops.cuts.recall(memory.recall(it.session.network, places))
     return it
 
 
@@ -122,9 +122,9 @@ def test_what_is_not_all_there_is_forgotten() -> None:
 
 def test_what_was_changed_since_it_was_taken_is_not_handed_on() -> None:
     session = taken()
-    assert len(session.loops.cuts.taken(session.drawing.network)) == 1
+    assert len(session.cursor.loops.cuts.taken(session.drawing.network)) == 1
     session.drop(session.wires[1])
-    assert session.loops.cuts.taken(session.drawing.network) == ()
+    assert session.cursor.loops.cuts.taken(session.drawing.network) == ()
 
 
 def test_the_memory_of_cuts_is_bounded_and_forgets_the_oldest(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -133,7 +133,7 @@ def test_the_memory_of_cuts_is_bounded_and_forgets_the_oldest(monkeypatch: pytes
     places = Places(Table("SURFACE").points, SCALE)
     (cut,) = (
         cut
-        for cut in (cut.of(Network(tuple(wires))) for cut in session.loops.cuts.taken(session.drawing.network))
+        for cut in (cut.of(Network(tuple(wires))) for cut in session.cursor.loops.cuts.taken(session.drawing.network))
         if cut is not None
     )
     monkeypatch.setattr(closed_cuts, "_MOST_BYTES", 2 * cut.course.nbytes)

@@ -292,7 +292,7 @@ class Network:
 
     @property
     def under_way(self) -> object:
-        """What is dragged."""
+        """The wires that are dragged are here."""
         return self
 
     def seeds(self) -> list[Pick]:
