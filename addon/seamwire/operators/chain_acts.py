@@ -210,10 +210,9 @@ def remove(chain: Chain, given: Given) -> bool:
     chain.draw_on(view)
     if wire is not None:
         view.session.drop(wire)
-        chain.record.note(undo_steps.EDIT)
-    elif stroke is not None:
+    else:
         view.session.erase(stroke)
-        chain.record.note(undo_steps.EDIT)
+    chain.record.note(undo_steps.EDIT)
     rehover(chain, given.place)
     return True
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from ..network.picks import undirected
 from .line import LineGesture
 from .picture import Choice, Intent, Offered, Picture, Role, ShownWire, shown_seeds
+from .stroke import StrokeGesture
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -67,7 +68,7 @@ class Painter:
             network_revision=drawing.network_revision,
             wires=self._wires(network, drag, lines),
             seeds=shown_seeds(drawing.seeds(network), drawing.seed_place, closing, hovered, begins),
-            strokes=network.strokes,
+            strokes=(*network.strokes, *(one.stroke for one in under_way.gestures if isinstance(one, StrokeGesture))),
             line=None if line is None else line.points,
             target=target,
             seed=None if seed is None else seed.begins(options.along),

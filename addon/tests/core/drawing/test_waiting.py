@@ -289,7 +289,9 @@ def test_a_stroke_waits_behind_a_click() -> None:
     assert session.draw_stroke(vertices=[34, 35])
     assert session.network.strokes == ()
     assert session.under_way.waiting == 2
+    assert [stroke.vertices.tolist() for stroke in session.picture.strokes] == [[34, 35]], "it is shown while it waits"
     table.compute()
+    assert len(session.picture.strokes) == 1
     assert [len(network) for network in (session.wires, session.network.strokes)] == [2, 1]
     assert session.undo()
     assert session.network.strokes == ()
