@@ -249,12 +249,7 @@ def measure_first_chain(
         ui.event("MOUSEMOVE", "NOTHING", tuple(places[MOVES // 2]), ticks=1)
         ui.wait_until(lambda: session().cursor.live.candidates.active is not None, SECONDS)
         found["first wire shown"] = time.perf_counter() - start
-        ui.wait_until(
-            lambda: (
-                session().cursor.live.candidates.active is not None and session().cursor.live.candidates.active_final
-            ),
-            SECONDS,
-        )
+        ui.wait_until(lambda: session().cursor.live.candidates.active_final, SECONDS)
         found["first wire final"] = time.perf_counter() - start
         ui.wait_until(lambda: not session().under_way.computing, SECONDS)
         found["both wires"] = time.perf_counter() - start
@@ -268,10 +263,7 @@ def measure_second_seed(ui: driver.Ui, places: NDArray[np.float64], found: dict[
     ui.event("MOUSEMOVE", "NOTHING", tuple(places[MOVES // 4]), ticks=1)
     ui.wait_until(lambda: session().cursor.live.candidates.active is not None, SECONDS)
     found["next wire shown"] = time.perf_counter() - clicked
-    ui.wait_until(
-        lambda: session().cursor.live.candidates.active is not None and session().cursor.live.candidates.active_final,
-        SECONDS,
-    )
+    ui.wait_until(lambda: session().cursor.live.candidates.active_final, SECONDS)
     found["next wire final"] = time.perf_counter() - clicked
     settle(ui)
 
