@@ -23,12 +23,12 @@ def stronger(session: Session, steps: int) -> bool:
 
 def insert(session: Session, wire: Wire, pick: Pick) -> bool:
     """Put a seed into a kept wire, as a chain that begins there does; return whether that was done."""
-    session._calm()
+    session.queue.calm()
     network = session.drawing.network.with_seed_in(wire, pick, session.drawing.points)
-    return network is not None and session._change(network)
+    return network is not None and session.queue.step(network)
 
 
 def end_line(session: Session) -> bool:
     """Release the line that is drawn and keep its wires, as releasing the button does; return whether that was done."""
-    line = session.line_release()
+    line = session.cursor.line_release()
     return line is not None and session.line_keep(line)

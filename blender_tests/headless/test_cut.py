@@ -559,7 +559,7 @@ def test_the_tool_tells_of_a_wire_that_is_not_cut() -> None:
     before = mesh.session.network
     wires = [replace(wire, finish="CUT", stored=0) for wire in before.wires]
     wires[0] = replace(wires[0], points=wires[0].points * 3.0)
-    mesh.session.adopt(replace(before, wires=tuple(wires)), mesh.plain_seams)
+    mesh.session.queue.adopt(replace(before, wires=tuple(wires)), mesh.plain_seams)
     _, done = finishes.apply(mesh, Change(before, mesh.session.network))
     assert (done.cut, done.left_out, done.problem) == (1, 1, "")
     assert 79 in joined(obj, 64) and 16 in joined(obj, 0), "the other stays snapped"
@@ -630,7 +630,7 @@ def with_a_cut_to_take_back() -> tuple[ObjectSession, Change]:
             mesh.session.drop(wire)
     drawn = mesh.session.network
     wires = [replace(wire, finish="CUT", stored=0) for wire in drawn.wires]
-    mesh.session.adopt(replace(drawn, wires=tuple(wires)), mesh.plain_seams)
+    mesh.session.queue.adopt(replace(drawn, wires=tuple(wires)), mesh.plain_seams)
     write(mesh)
     return mesh, Change(before, mesh.session.network)
 
@@ -784,10 +784,10 @@ def drag(obj: bpy.types.Object, seed: int, to: int) -> None:
     mesh = session_on(obj)
     session, before = mesh.session, mesh.session.network
     assert session.drag(seed)
-    session.drag_to(to)
-    session.wait()
-    session.drag_to(to)
-    assert session.drag_end()
+    session.cursor.drag_to(to)
+    session.queue.wait()
+    session.cursor.drag_to(to)
+    assert session.queue.drag_end()
     _finish(mesh, before)
 
 

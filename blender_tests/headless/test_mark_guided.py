@@ -106,7 +106,7 @@ def test_strokes_stay_when_the_wires_are_cut() -> None:
     edit()
     seamwire.mark(obj, [[1, 79]], strokes=[[2, 11, 20]], avoid=[[40, 41]], along="SURFACE", finish="CUT")
     kept = ObjectSession(obj)
-    assert [stroke.attracts for stroke in kept.session.strokes] == [True, False]
+    assert [stroke.attracts for stroke in kept.session.network.strokes] == [True, False]
     assert len(kept.arrays.points) > 81
     assert ends(seams(obj)) == [1, 79]
 

@@ -38,8 +38,8 @@ def grid() -> bpy.types.Object:
 
 def draw(mesh: ObjectSession, *picks: int) -> None:
     for pick in picks:
-        assert mesh.session.click(pick), str(mesh.session.message)
-        mesh.session.wait()
+        assert mesh.session.click(pick), str(mesh.session.drawing.message)
+        mesh.session.queue.wait()
     write(mesh)
 
 
@@ -243,10 +243,10 @@ def test_wires_drawn_moved_and_removed_change_seams_and_nothing_else(grid: bpy.t
     assert seams(grid) == chain(*ROW)
     assert snapshot(grid, with_seams=False) == rest, "drawn"
     assert mesh.session.drag(40)
-    mesh.session.drag_to(49)
-    mesh.session.wait()
-    mesh.session.drag_end()
-    mesh.session.wait()
+    mesh.session.cursor.drag_to(49)
+    mesh.session.queue.wait()
+    mesh.session.queue.drag_end()
+    mesh.session.queue.wait()
     write(mesh)
     assert agree(grid)
     assert 49 in {vertex for edge in seams(grid) for vertex in edge}
@@ -302,7 +302,7 @@ def test_it_does_not_go_on_with_another_shape(grid: bpy.types.Object) -> None:
     bm.verts[40].co.z += 0.5
     bmesh.update_edit_mesh(grid.data)
     assert not mesh.refresh(grid)
-    assert not mesh.follow_change(grid)
+    assert mesh.follow_change(grid, mesh.session.network) is None
     assert session_on(grid).refresh(grid)
 
 
@@ -321,10 +321,10 @@ def test_what_is_drawn_is_written_after_edit_mode_was_left_too(grid: bpy.types.O
     mesh = session_on(grid)
     for pick in (36, 44):
         mesh.session.click(pick)
-        mesh.session.wait()
+        mesh.session.queue.wait()
     mesh.session.end_chain()
     bpy.ops.object.mode_set(mode="OBJECT")
-    assert not mesh.follow_change(grid)
+    assert mesh.follow_change(grid, mesh.session.network) is None
     mesh.write(mesh.plan())
     assert seams(grid) == sorted(chain(*ROW) + chain(4, 13, 22))
     edit()
@@ -338,7 +338,7 @@ def test_after_edit_mode_was_left_removed_wires_leave_no_labels(grid: bpy.types.
     mesh = session_on(grid)
     mesh.session.drop(mesh.session.wires[0])
     bpy.ops.object.mode_set(mode="OBJECT")
-    mesh.follow_change(grid)
+    mesh.follow_change(grid, mesh.session.network)
     mesh.write(mesh.plan())
     assert seams(grid) == []
     assert LAYER not in grid.data.attributes
@@ -401,10 +401,12 @@ def test_strokes_stay_with_the_mesh_and_go_when_removed(
     assert seams(grid) == []
     forget(monkeypatch)
     again = session_on(grid)
-    assert len(again.session.strokes) == 1
-    np.testing.assert_allclose(again.session.strokes[0].points, mesh.session.strokes[0].points, atol=1e-6)
-    again.session.erase(again.session.strokes[0])
+    assert len(again.session.network.strokes) == 1
+    np.testing.assert_allclose(
+        again.session.network.strokes[0].points, mesh.session.network.strokes[0].points, atol=1e-6
+    )
+    again.session.erase(again.session.network.strokes[0])
     write(again)
-    assert session_on(grid).session.strokes == ()
+    assert session_on(grid).session.network.strokes == ()
     assert not has_labels(grid)
     assert grid.data.seamwire_wires == ""

@@ -22,7 +22,7 @@ def session() -> Session:
     edit()
     arrays = edit_mesh.read(obj)
     session = Session(Drawing(LiveMaker(arrays), arrays.points))
-    session.wait()
+    session.queue.wait()
     return session
 
 
@@ -30,7 +30,7 @@ def test_every_icon_is_one_of_blenders(session: Session) -> None:
     icons = bpy.types.UILayout.bl_rna.functions["label"].parameters["icon"].enum_items
     session.click(0)
     session.click(4)
-    session.wait()
+    session.queue.wait()
     session.hover(40)
     session.click(4)  # refused, and said
     shown = [icon for icon, _ in hints(Status(session.picture, Bindings(), message="A message"))]

@@ -371,7 +371,7 @@ def test_stored_wires_are_read(monkeypatch: pytest.MonkeyPatch) -> None:
     assert session_on(obj).notices.take() == []
     assert chains(obj) == [column, ROW[:5], ROW[4:]]
     assert sorted(session_on(obj).session.seeds()) == [4, 31, 36, 40, 44]
-    assert len(session_on(obj).session.strokes) == 1
+    assert len(session_on(obj).session.network.strokes) == 1
     assert agree(obj)
 
 

@@ -128,7 +128,7 @@ def test_after_a_gesture_no_operator_from_before_it_is_adjusted(
     gesture(desk)
     desk.ui.wait_until(lambda: not desk.running)
     after, steps = seams(desk.obj), undo_steps(capfd)
-    strokes = desk.session.strokes
+    strokes = desk.session.network.strokes
     assert steps[-1] == title
     assert after != before or strokes
     adjust(desk)
@@ -139,7 +139,7 @@ def test_after_a_gesture_no_operator_from_before_it_is_adjusted(
     desk.ui.key("Z", ctrl=True, shift=True)
     assert seams(desk.obj) == after
     desk.ui.move(desk.at(70))
-    assert len(desk.session.strokes) == len(strokes)
+    assert len(desk.session.network.strokes) == len(strokes)
 
 
 @pytest.mark.parametrize(("name", "options"), OPERATORS, ids=[name for name, _ in OPERATORS])

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from types import SimpleNamespace
 
 import bmesh
 import bpy
@@ -11,13 +12,15 @@ import pytest
 import ui as driver
 from desk import Desk, choose, draw, leave, reset_settings
 from scene import add_grid, chain, edit, seams
+from seamwire.core.drawing.gesture_queue import GestureQueue
 from seamwire.core.drawing.seed_drag import SeedDrag
 from seamwire.core.drawing.session import Session
 from seamwire.core.drawing.wire import WireGesture
 from seamwire.mesh.settings import settings
 from seamwire.operators.chain_state import Stage
+from seamwire.operators.draw import MESH_OT_seamwire_draw
 from seamwire.view.edited_objects import edited
-from seamwire.words.notices import Notices
+from seamwire.words.notices import Notice, Notices
 
 ROW, LONG_ROW = chain(*range(36, 41)), chain(*range(36, 45))
 
@@ -33,20 +36,20 @@ class Slow:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.is_slow = False
-        waits, aim, wait = WireGesture.waits.fget, SeedDrag.aim, Session.wait
+        waits, aim, wait = WireGesture.waits.fget, SeedDrag.aim, GestureQueue.wait
 
         def slow_aim(drag: SeedDrag, target: object) -> object:
             message = aim(drag, target)
             drag.final &= not self.is_slow
             return message
 
-        def waited(session: Session, **how: bool) -> None:
+        def waited(queue: GestureQueue, **how: bool) -> None:
             self.is_slow = False
-            wait(session, **how)
+            wait(queue, **how)
 
         monkeypatch.setattr(WireGesture, "waits", property(lambda wire: self.is_slow or waits(wire)))
         monkeypatch.setattr(SeedDrag, "aim", slow_aim)
-        monkeypatch.setattr(Session, "wait", waited)
+        monkeypatch.setattr(GestureQueue, "wait", waited)
         monkeypatch.setattr(bpy.context.preferences.inputs, "mouse_double_click_time", 1)
 
 
@@ -60,12 +63,19 @@ def click_ahead(desk: Desk, slow: Slow) -> Session:
     session, ui = desk.start(), desk.ui
     ui.click(desk.at(36))
     ui.click(desk.at(40))
-    ui.wait_until(lambda: len(session.wires) == 1 and not session.computing)
+    ui.wait_until(lambda: len(session.wires) == 1 and not session.under_way.computing)
     ui.move(desk.at(44))
     slow.is_slow = True
     ui.click(desk.at(44))
-    assert session.waiting_clicks == 1
+    assert session.under_way.waiting == 1
     return session
+
+
+def pull(desk: Desk, begin: int, goal: int) -> None:
+    """Move the mouse from one vertex to another, while a button is held."""
+    start, end = desk.at(begin), desk.at(goal)
+    for part in (0.4, 0.7, 1.0):
+        desk.ui.move((start[0] + part * (end[0] - start[0]), start[1] + part * (end[1] - start[1])))
 
 
 def release_ahead(desk: Desk, slow: Slow) -> Session:
@@ -75,11 +85,9 @@ def release_ahead(desk: Desk, slow: Slow) -> Session:
     slow.is_slow = True
     ui.move(desk.at(44))
     ui.event("LEFTMOUSE", "PRESS", desk.at(44))
-    for part in (0.4, 0.7, 1.0):
-        start, end = desk.at(44), desk.at(53)
-        ui.move((start[0] + part * (end[0] - start[0]), start[1] + part * (end[1] - start[1])))
+    pull(desk, 44, 53)
     ui.event("LEFTMOUSE", "RELEASE", desk.at(53))
-    assert session.waiting_clicks == 1
+    assert session.under_way.waiting == 1
     return session
 
 
@@ -99,7 +107,7 @@ def test_a_press_outside_after_a_lost_release_ends_the_chain_and_keeps_its_wires
     session, ui = desk.start(), desk.ui
     ui.click(desk.at(36))
     ui.click(desk.at(40))
-    ui.wait_until(lambda: len(session.wires) == 1 and not session.computing)
+    ui.wait_until(lambda: len(session.wires) == 1 and not session.under_way.computing)
     ui.event("LEFTMOUSE", "PRESS", desk.at(58))
     ui.move(outside(ui))
     ui.event("LEFTMOUSE", "PRESS", outside(ui))  # another window has received the release
@@ -114,7 +122,7 @@ def test_presses_that_change_no_mesh_leave_the_chain_as_it_is(desk: Desk, slow: 
     ui.move(outside(ui))
     ui.event(press, "PRESS", outside(ui))
     assert desk.chain.stage is Stage.DRAWING
-    assert session.waiting_clicks == 1
+    assert session.under_way.waiting == 1
     slow.is_slow = False
     end(desk)
     assert seams(desk.obj) == LONG_ROW
@@ -200,7 +208,7 @@ def test_what_comes_next_awaits_the_click_that_waits(
 ) -> None:
     session = click_ahead(desk, slow)
     go_on(desk)
-    assert session.waiting_clicks == 0
+    assert session.under_way.waiting == 0
     end(desk)
     assert seams(desk.obj) == kept
 
@@ -210,6 +218,115 @@ def test_escape_forgets_the_click_that_waits(desk: Desk, slow: Slow) -> None:
     desk.ui.key("ESC")
     end(desk)
     assert seams(desk.obj) == ROW
+
+
+@pytest.mark.smoke
+@pytest.mark.parametrize("held", [{}, {"ctrl": True}], ids=["click", "Ctrl-click"])
+def test_a_press_while_a_chain_ends_begins_another_chain(desk: Desk, slow: Slow, held: dict[str, bool]) -> None:
+    ui = desk.ui
+    session = click_ahead(desk, slow)
+    ui.event("RIGHTMOUSE", "PRESS")
+    ui.event("RIGHTMOUSE", "RELEASE")
+    assert desk.chain.stage is Stage.ENDING
+    ui.click(desk.at(0), **held)
+    assert desk.chain.stage is Stage.DRAWING
+    assert seams(desk.obj) == LONG_ROW, "the chain that ends is kept"
+    assert session.seed == 0
+    ui.click(desk.at(4))
+    ui.wait_until(lambda: len(session.wires) == 3)
+    end(desk)
+    assert seams(desk.obj) == sorted([*chain(*range(5)), *LONG_ROW])
+    with ui.override():
+        bpy.ops.ed.undo()
+    assert seams(desk.obj) == LONG_ROW, "each chain is a step of undo"
+
+
+def test_a_seed_that_a_chain_ends_with_is_grabbed_there(desk: Desk, slow: Slow) -> None:
+    ui = desk.ui
+    session = click_ahead(desk, slow)
+    ui.key("RET")
+    ui.move(desk.at(44))
+    ui.event("LEFTMOUSE", "PRESS", desk.at(44))
+    pull(desk, 44, 53)
+    ui.event("LEFTMOUSE", "RELEASE", desk.at(53))
+    ui.wait_until(lambda: not session.under_way.computing)
+    end(desk)
+    assert 53 in session.seeds()
+    assert 44 not in session.seeds()
+
+
+def test_blender_stops_a_chain_at_once(desk: Desk, slow: Slow, monkeypatch: pytest.MonkeyPatch) -> None:
+    session = click_ahead(desk, slow)
+    waits = []
+    monkeypatch.setattr(GestureQueue, "wait", lambda _own, **_how: waits.append(1))
+    MESH_OT_seamwire_draw.cancel(SimpleNamespace(_chain=desk.chain), bpy.context)
+    desk.ui.wait(4)
+    assert desk.left_clean()
+    assert waits == []
+    assert session.under_way.waiting == 0
+    assert seams(desk.obj) == ROW
+
+
+@pytest.fixture
+def reports(monkeypatch: pytest.MonkeyPatch) -> list[Notice]:
+    """Return what is reported when chains end."""
+    found: list[Notice] = []
+    take = Notices.take
+    monkeypatch.setattr(Notices, "take", lambda own: found.extend(taken := take(own)) or taken)
+    return found
+
+
+def test_a_click_without_a_result_is_reported_when_the_chain_ends(
+    desk: Desk, slow: Slow, reports: list[Notice], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    click_ahead(desk, slow)
+    desk.ui.key("RET")
+    monkeypatch.setattr(WireGesture, "waits", True)
+    desk.ui.move(outside(desk.ui))
+    desk.ui.event("LEFTMOUSE", "PRESS", outside(desk.ui))
+    desk.ui.event("LEFTMOUSE", "RELEASE", outside(desk.ui))
+    assert not desk.running
+    assert seams(desk.obj) == ROW
+    assert [notice.level for notice in reports if "without a result" in notice.text] == ["WARNING"]
+
+
+def test_undo_by_a_script_takes_back_the_chain_before_and_keeps_what_was_drawn_since(
+    desk: Desk, reports: list[Notice]
+) -> None:
+    ui = desk.ui
+    desk.choose()
+    draw(desk, 0, 4)
+    session = desk.start()
+    ui.click(desk.at(36))
+    ui.click(desk.at(40))
+    ui.wait_until(lambda: len(session.wires) == 2)
+    with ui.override():
+        bpy.ops.ed.undo()
+    ui.move(desk.at(60))
+    ui.wait_until(lambda: not desk.running)
+    assert seams(desk.obj) == ROW, "and the wires before do not come back"
+    assert len(desk.session.wires) == 1
+    assert [notice.text for notice in reports if "1 wire" in notice.text] != []
+
+
+def test_a_seam_that_a_script_marks_leaves_the_second_chain_as_it_is(desk: Desk) -> None:
+    ui = desk.ui
+    session = desk.start()
+    ui.click(desk.at(36))
+    ui.click(desk.at(40))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    ui.click(desk.at(0), ctrl=True)
+    bm = bmesh.from_edit_mesh(desk.obj.data)
+    bm.edges.ensure_lookup_table()
+    edge = next(edge for edge in bm.edges if {vertex.index for vertex in edge.verts} == {79, 80})
+    edge.seam = True
+    bmesh.update_edit_mesh(desk.obj.data)
+    ui.wait(4)
+    ui.click(desk.at(4))
+    ui.wait_until(lambda: len(session.wires) == 2)
+    assert desk.running
+    end(desk)
+    assert seams(desk.obj) == sorted([*chain(*range(5)), *ROW, (79, 80)])
 
 
 @pytest.fixture
@@ -239,11 +356,11 @@ def test_a_click_on_another_object_awaits_the_wire_on_the_first(halves: driver.U
     ui = halves
     ui.click(place(ui, "Left", 10))
     session = edited.front.session
-    ui.wait_until(lambda: not session.computing)
+    ui.wait_until(lambda: not session.under_way.computing)
     ui.move(place(ui, "Left", 14))
     slow.is_slow = True
     ui.click(place(ui, "Left", 14))
-    assert session.waiting_clicks == 1
+    assert session.under_way.waiting == 1
     ui.click(place(ui, "Right", 10))
     assert edited.front.name == "Right"
     assert seams(bpy.data.objects["Left"]) == chain(*range(10, 15))
@@ -319,6 +436,22 @@ def test_a_released_seed_stays_where_it_is(desk: Desk, slow: Slow, go_on: Callab
     assert any(53 in edge for edge in seams(desk.obj))
 
 
+@pytest.mark.smoke
+@pytest.mark.parametrize(("begin", "goal"), [(36, 27), (53, 62)], ids=["another", "the same"])
+def test_a_second_seed_is_grabbed_while_the_first_one_waits(desk: Desk, slow: Slow, begin: int, goal: int) -> None:
+    session, ui = release_ahead(desk, slow), desk.ui
+    ui.move(desk.at(begin))
+    ui.event("LEFTMOUSE", "PRESS", desk.at(begin))
+    pull(desk, begin, goal)
+    assert session.under_way.drag
+    ui.event("LEFTMOUSE", "RELEASE", desk.at(goal))
+    slow.is_slow = False
+    ui.wait_until(lambda: not session.under_way.waiting)
+    end(desk)
+    assert len(session.wires) == 1
+    assert set(session.seeds()) == {36, 44, 53} - {44, begin} | {goal}
+
+
 @pytest.mark.parametrize("key", ["ESC", "BACK_SPACE"])
 def test_escape_and_undo_let_a_released_seed_go_back(desk: Desk, slow: Slow, key: str) -> None:
     session = release_ahead(desk, slow)
@@ -329,15 +462,12 @@ def test_escape_and_undo_let_a_released_seed_go_back(desk: Desk, slow: Slow, key
     assert seams(desk.obj) == LONG_ROW
 
 
-def test_a_line_that_the_cut_mesh_does_not_take_is_told_of(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
-    reports = []
-    take = Notices.take
-    monkeypatch.setattr(Notices, "take", lambda own: reports.extend(found := take(own)) or found)
+def test_a_line_that_the_cut_mesh_does_not_take_is_told_of(desk: Desk, reports: list[Notice]) -> None:
     settings().along, settings().finish = "SURFACE", "CUT"
     session, ui = desk.start(), desk.ui
     ui.click(desk.at(0))
     ui.click(desk.at(23))
-    ui.wait_until(lambda: len(session.wires) == 1 and not session.computing)
+    ui.wait_until(lambda: len(session.wires) == 1 and not session.under_way.computing)
     ui.event("LEFTMOUSE", "PRESS", desk.at(54))
     for vertex in (55, 56, 57):
         ui.move(desk.at(vertex))

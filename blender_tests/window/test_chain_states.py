@@ -52,7 +52,6 @@ class Walk:
             Stage.DRAWING: self.draw,
             Stage.HOLDING: self.hold,
             Stage.ENDING: self.wait_to_end,
-            Stage.HOLDING_LAST: self.hold_at_end,
             Stage.OVER: self.draw,
         }[stage]()
         if stage is not Stage.OVER:  # the same event keeps a chain that is over, so it is reached by the walk itself
@@ -66,7 +65,7 @@ class Walk:
         self.desk.start()
         self.ui.click(self.desk.at(36))
         self.ui.click(self.desk.at(40))
-        self.ui.wait_until(lambda: len(self.desk.session.wires) == 1 and not self.desk.session.computing)
+        self.ui.wait_until(lambda: len(self.desk.session.wires) == 1 and not self.desk.session.under_way.computing)
 
     def peek(self) -> None:
         self.desk.choose()
@@ -81,16 +80,20 @@ class Walk:
         self.ui.move(self.desk.at(EMPTY))
         self.ui.event("LEFTMOUSE", "PRESS")
 
+    def press_anew(self) -> None:
+        self.ui.move(self.desk.at(EMPTY))
+        self.ui.event("LEFTMOUSE", "PRESS", ctrl=True)
+
+    def stroke(self) -> None:
+        self.ui.move(self.desk.at(EMPTY), shift=True)
+        self.ui.event("LEFTMOUSE", "PRESS", shift=True)
+
     def wait_to_end(self) -> None:
         self.draw()
         self.ui.move(self.desk.at(44))
         self.is_free = False
         self.ui.click(self.desk.at(44))
         self.ui.key("RET")
-
-    def hold_at_end(self) -> None:
-        self.wait_to_end()
-        self.press()
 
     # Events
 
@@ -183,12 +186,12 @@ WALKS: list[tuple[Stage, Cue, Do]] = [
     (Stage.HOLDING, Cue.LET_GO, key("ESC")),
     (Stage.HOLDING, Cue.LET_GO, key("BACK_SPACE")),
     (Stage.HOLDING, Cue.LET_GO, Walk.click_right),
-    (Stage.ENDING, Cue.PRESS, Walk.press),
+    (Stage.ENDING, Cue.BEGIN, Walk.press),
+    (Stage.ENDING, Cue.BEGIN, Walk.press_anew),
+    (Stage.ENDING, Cue.BEGIN, Walk.stroke),
     (Stage.ENDING, Cue.END, Walk.compute),
     (Stage.ENDING, Cue.END, key("ESC")),
     (Stage.ENDING, Cue.END, key("BACK_SPACE")),
-    (Stage.HOLDING_LAST, Cue.RELEASE, Walk.release),
-    (Stage.HOLDING_LAST, Cue.LET_GO, key("ESC")),
     *((stage, Cue.KEEP, Walk.leave_mode) for stage in (Stage.READY, Stage.PEEKING, Stage.DRAWING, Stage.ENDING)),
     (Stage.OVER, Cue.KEEP, key("RET")),
     (Stage.OVER, Cue.DROP, Walk.fail_to_write),
@@ -200,7 +203,7 @@ KEPT = {
     Stage.READY: [],
     Stage.PEEKING: [],
     **dict.fromkeys((Stage.DRAWING, Stage.HOLDING, Stage.OVER), chain(*range(36, 41))),
-    **dict.fromkeys((Stage.ENDING, Stage.HOLDING_LAST), chain(*range(36, 45))),
+    Stage.ENDING: chain(*range(36, 45)),
 }
 """The seams that a chain in each state leaves if it is kept."""
 

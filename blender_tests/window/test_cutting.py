@@ -90,7 +90,7 @@ def test_drawing_goes_on_after_a_cut_on_the_mesh_as_it_is(cutting: Desk) -> None
     ui.click(cutting.at(72), ctrl=True)  # another chain: the first one is cut
     assert length(cutting) > 0
     ui.click(cutting.at(80))
-    ui.wait_until(lambda: not cutting.session.waiting_clicks and len(cutting.session.wires) == 2)
+    ui.wait_until(lambda: not cutting.session.under_way.waiting and len(cutting.session.wires) == 2)
     ui.key("RET")
     assert cutting.left_clean()
     assert agree(cutting.obj)
@@ -145,7 +145,7 @@ def test_a_click_is_where_one_clicks(cutting: Desk) -> None:
         assert wire.points[-1] == pytest.approx(corner, abs=0.01), "a pixel or so"
     near = ui.on_screen(corners[0])
     ui.move((near[0] + 4.0, near[1]))
-    ui.wait_until(lambda: session.target is not None and session.target.to == "SEED")
+    ui.wait_until(lambda: session.cursor.target is not None and session.cursor.target.to == "SEED")
     ui.click((near[0] + 4.0, near[1]))  # closes the chain, which ends it
     ui.wait_until(lambda: seams(cutting.obj) != [])
     assert cutting.left_clean()
@@ -162,14 +162,14 @@ def test_near_a_vertex_or_with_snap_a_click_takes_the_vertex(cutting: Desk) -> N
     session, ui = cutting.start(), cutting.ui
     at = cutting.at(40)
     ui.move((at[0] + 3.0, at[1] + 3.0))
-    ui.wait_until(lambda: session.target is not None)
-    assert session.target.pick == 40
+    ui.wait_until(lambda: session.cursor.target is not None)
+    assert session.cursor.target.pick == 40
     ui.move(ui.on_screen((0.08, 0.09, 0.0)))
-    ui.wait_until(lambda: session.target.pick != 40)
-    assert not isinstance(session.target.pick, int)
+    ui.wait_until(lambda: session.cursor.target.pick != 40)
+    assert not isinstance(session.cursor.target.pick, int)
     settings().finish = "SNAP"
     ui.move(ui.on_screen((0.09, 0.08, 0.0)))
-    ui.wait_until(lambda: isinstance(session.target.pick, int))
+    ui.wait_until(lambda: isinstance(session.cursor.target.pick, int))
     settings().finish = "CUT"
     ui.key("ESC")
 
@@ -248,7 +248,7 @@ def drawn_cut(cutting: Desk, start: int, end: int) -> None:
     """Draw a wire with the tool and let it be cut."""
     cutting.choose()
     session = draw(cutting, start, end)
-    assert not cutting.running, str(session.message)
+    assert not cutting.running, str(session.drawing.message)
     assert agree(cutting.obj)
 
 
@@ -281,7 +281,7 @@ def test_a_drag_of_a_cut_wire_that_is_given_up_changes_nothing(cutting: Desk) ->
     ui.move(cutting.at(44))
     ui.event("LEFTMOUSE", "PRESS", cutting.at(44))
     ui.move(cutting.at(61))
-    ui.wait_until(lambda: any(wire.along == "SURFACE" for wire in cutting.session.moved))
+    ui.wait_until(lambda: any(wire.along == "SURFACE" for wire in cutting.session.under_way.moved))
     ui.key("ESC")
     ui.event("LEFTMOUSE", "RELEASE", cutting.at(61))
     assert cutting.left_clean()

@@ -65,7 +65,7 @@ def test_edges_are_lit_before_the_click_and_picked(desk: Desk) -> None:
     middle = desk.at(36, 37)
     assert not shows(ui.pixels(), middle, WHITE)
     ui.move(middle)
-    assert set(session.target.pick) == {36, 37}
+    assert set(session.cursor.target.pick) == {36, 37}
     assert shows(ui.pixels(), middle, WHITE)
     ui.click(middle, ctrl=True)
     ui.click(desk.at(42, 43))
@@ -76,7 +76,7 @@ def test_edges_are_lit_before_the_click_and_picked(desk: Desk) -> None:
 def test_alt_shows_the_loop_and_an_alt_click_takes_it(cone: Desk) -> None:
     session, ui = cone.start(), cone.ui
     edge = cone.at(40, 49)
-    ui.wait_until(lambda: not session.computing)
+    ui.wait_until(lambda: not session.under_way.computing)
     ui.move(edge)
     assert session.picture.one(Role.OFFER) is None
     ui.move(edge, alt=True)
@@ -98,7 +98,7 @@ def test_a_double_click_on_an_edge_takes_its_loop(cone: Desk, monkeypatch: pytes
     # A redraw between the clicks may take longer than Blender's longest time for a double click.
     monkeypatch.setattr(chain_events, "time", SimpleNamespace(monotonic=lambda: 0.0))
     edge = cone.at(40, 49)
-    ui.wait_until(lambda: not session.computing)
+    ui.wait_until(lambda: not session.under_way.computing)
     ui.move(edge)
     for _ in range(2):
         ui.event("LEFTMOUSE", "PRESS", ticks=1)
@@ -206,13 +206,13 @@ def test_wires_that_are_being_computed_come_when_they_are_ready(desk: Desk, monk
     session, ui = desk.start(), desk.ui
     ui.click(desk.at(36), ctrl=True)
     ui.click(desk.at(44))
-    assert session.computing
-    assert session.waiting_clicks == 1
+    assert session.under_way.computing
+    assert session.under_way.waiting == 1
     assert session.wires == ()
     ready[0] = True
     ui.wait_until(lambda: len(session.wires) == 1)
     assert session.edges_to_mark() == chain(*range(36, 45))
-    ui.wait_until(lambda: not session.computing)
+    ui.wait_until(lambda: not session.under_way.computing)
 
 
 @pytest.mark.smoke

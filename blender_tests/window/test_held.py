@@ -50,14 +50,14 @@ class Hand:
             self.session = desk.start()
             self.ui.click(desk.at(0))
             self.ui.click(desk.at(4))
-        self.ui.wait_until(lambda: len(self.session.wires) == 1 and not self.session.computing)
+        self.ui.wait_until(lambda: len(self.session.wires) == 1 and not self.session.under_way.computing)
 
     def press(self) -> None:
         """Press the button and move."""
         start = {"line that goes on": 4, "seed": 0}.get(self.what, 36)
         desk, ui = self.desk, self.ui
         shift, ctrl = self.what.endswith("stroke"), self.what == "avoid stroke"
-        ui.wait_until(lambda: not self.session.computing)
+        ui.wait_until(lambda: not self.session.under_way.computing)
         ui.event("LEFTMOUSE", "PRESS", desk.at(start), shift=shift, ctrl=ctrl)
         for step in (1, 2, 3):
             ui.move((desk.at(start)[0] + 12.0 * step, desk.at(start)[1] + 12.0 * step), shift=shift, ctrl=ctrl)
@@ -70,7 +70,7 @@ class Hand:
         shown = (
             edited.front.stroke is not None
             or isinstance(self.session.under_way.held, LineGesture)
-            or self.session.dragging
+            or self.session.under_way.drag is not None
         )
         assert shown == (self.desk.running and self.desk.chain.hold is not None)
         return shown
@@ -83,7 +83,7 @@ class Hand:
             [wire.vertices for wire in kept.wires],
             kept.strokes,
             self.session.seed,
-            self.session.waiting_clicks,
+            self.session.under_way.waiting,
             self.session.options.mirror,
             *(getattr(settings(), name) for name in names),
             seams(self.desk.obj),
@@ -99,7 +99,7 @@ def test_backspace_drops_the_stroke_that_is_drawn_and_keeps_the_wire(desk: Desk)
     assert edited.front.stroke is None
     desk.ui.event("LEFTMOUSE", "RELEASE")
     assert len(hand.session.wires) == 1
-    assert hand.session.strokes == ()
+    assert hand.session.network.strokes == ()
     desk.ui.key("RET")
     assert seams(desk.obj) == KEPT
 
@@ -168,7 +168,7 @@ def test_after_a_lost_release_the_next_press_begins_anew(desk: Desk) -> None:
     ui.click(desk.at(40))  # another window has received the release
     ui.wait_until(lambda: len(hand.session.wires) == 2)
     assert not hand.holds
-    assert hand.session.strokes == ()
+    assert hand.session.network.strokes == ()
 
 
 def test_enter_waits_until_a_released_seed_has_its_wires(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -145,7 +145,7 @@ def test_across_the_surface_wires_keep_near_to_the_line(cone: Desk) -> None:
     ui.move(cone.at(20))
     ui.wait_until(lambda: session.options.along == "SURFACE")
     press_and_draw(cone, cone.at(20), cone.at(24), cone.at(60))
-    ui.wait_until(lambda: not session.computing)
+    ui.wait_until(lambda: not session.under_way.computing)
     ui.wait(4)
     assert session.picture.all(Role.FOLLOWING)
     along = session.picture.all(Role.FOLLOWING)[0].points

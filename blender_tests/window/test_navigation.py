@@ -100,10 +100,10 @@ def test_what_cannot_be_simulated_is_let_through(desk: Desk, kind: str) -> None:
     """Blender simulates no spaceball, and crashes on one that says nothing: the event is handed to the chain itself."""
     begin(desk)
     handed = event(desk, kind)
-    before = desk.session.revision
+    before = desk.session.drawing.revision
     with desk.ui.override():
         assert handle(desk.chain, bpy.context, handed)
-    assert desk.session.revision == before
+    assert desk.session.drawing.revision == before
     assert desk.chain.stage is not Stage.OVER
     finish(desk)
 

@@ -273,7 +273,7 @@ def test_clicks_begin_at_seeds_and_end_on_wires(desk: Desk) -> None:
     ui.click(desk.at(76))
     ui.move(desk.at(40))
     ui.wait_until(lambda: session.picture.active is not None)
-    assert session.target.to == "WIRE"
+    assert session.cursor.target.to == "WIRE"
     ui.click(desk.at(40))
     ui.wait_until(lambda: not desk.running)
     assert 40 in session.seeds(), "joined"

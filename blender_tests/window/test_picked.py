@@ -36,11 +36,18 @@ def layers(ui: driver.Ui) -> Iterator[Desk]:
 def test_v_lets_wires_be_drawn_on_the_far_side(layers: Desk) -> None:
     session, ui = layers.start(), layers.ui
     ui.move(layers.at(81))
-    assert max(session.target.pick if isinstance(session.target.pick, tuple) else [session.target.pick]) < 81
+    assert (
+        max(
+            session.cursor.target.pick
+            if isinstance(session.cursor.target.pick, tuple)
+            else [session.cursor.target.pick]
+        )
+        < 81
+    )
     ui.key("V")
     ui.move(layers.at(82))
     ui.move(layers.at(81))
-    assert session.target.pick == 81
+    assert session.cursor.target.pick == 81
     ui.click(layers.at(81))
     ui.move(layers.at(84))
     ui.wait_until(lambda: session.picture.active is not None)
@@ -70,10 +77,10 @@ def test_snapping_takes_the_feature_near_the_cursor(roof: Desk) -> None:
     x, y = roof.at(40)
     beside, above = (x + 7.0, y + 1.0), (roof.at(67)[0] + 7.0, roof.at(67)[1] + 1.0)
     ui.move(beside)
-    assert session.target.pick != 40
+    assert session.cursor.target.pick != 40
     ui.key("TAB", shift=True)
     ui.move((beside[0] + 1.0, beside[1]))
-    assert (session.target.pick, session.target.to) == (40, "FEATURE")
+    assert (session.cursor.target.pick, session.cursor.target.to) == (40, "FEATURE")
     ui.click(beside)
     ui.click(above)
     ui.wait_until(lambda: len(session.wires) == 1)
@@ -90,7 +97,7 @@ def test_wires_end_on_seams_that_are_there(desk: Desk) -> None:
     session, ui = desk.start(), desk.ui
     ui.click(desk.at(4))
     ui.move(desk.at(40))
-    assert session.target.to == "SEAM"
+    assert session.cursor.target.to == "SEAM"
     ui.wait_until(lambda: session.picture.active is not None and session.picture.one(Role.COMPUTING) is None)
     assert "Join" in said()
     ui.click(desk.at(40))
@@ -125,12 +132,12 @@ def test_with_the_mirror_on_its_plane_is_hit_from_the_side(cone: Desk) -> None:
     x, y = beside = cone.at(41)
     assert 2.0 < cone.at(40)[1] - y < 9.0
     ui.move(beside)
-    assert session.target.pick == 41
+    assert session.cursor.target.pick == 41
     mesh.use_mirror_x = True
     ui.wait_until(lambda: edited.front.mesh.symmetric is not None)
     for there in ((x + 1.0, y), beside):
         ui.move(there)
-    assert session.target.pick == 40
+    assert session.cursor.target.pick == 40
     ui.click(beside)
     assert session.seed == 40
     ui.click(cone.at(59))
@@ -142,7 +149,7 @@ def test_with_the_mirror_on_its_plane_is_hit_from_the_side(cone: Desk) -> None:
 def test_escape_ends_work_that_takes_long(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     session, ui = desk.start(), desk.ui
     ui.click(desk.at(36))
-    ui.wait_until(lambda: not session.computing)
+    ui.wait_until(lambda: not session.under_way.computing)
     engine = session.drawing.engines.get(session.options.along)
     wires = [
         SimpleNamespace(follow=kind, points=[], vertices=[], length=0.0, final=False) for kind in kinds_of("feature")
@@ -164,9 +171,9 @@ def test_escape_ends_work_that_takes_long(desk: Desk, monkeypatch: pytest.Monkey
     endless = Endless()
     monkeypatch.setitem(session.drawing.engines._lives, "EDGES", endless)
     ui.click(desk.at(44))
-    assert session.waiting_clicks == 1
+    assert session.under_way.waiting == 1
     assert "Computing 25 %, 1 click waiting" in said()
     ui.key("ESC")
-    assert session.waiting_clicks == 0, "the click that waited is forgotten"
+    assert session.under_way.waiting == 0, "the click that waited is forgotten"
     assert desk.left_clean()
     assert desk.unchanged()

@@ -97,7 +97,7 @@ def test_what_is_under_the_mouse_is_picked(posed: Posed) -> None:
     ui.wait_until(lambda: edited.front is not None)
     for vertex in (40, 20, 60):
         ui.move(posed.seen_at(vertex))
-        assert edited.front.session.target.pick == vertex
+        assert edited.front.session.cursor.target.pick == vertex
     ui.click(posed.seen_at(36))
     session = posed.session
     ui.click(posed.seen_at(44))
@@ -105,7 +105,7 @@ def test_what_is_under_the_mouse_is_picked(posed: Posed) -> None:
     ui.key("RET")
     assert seams(posed.obj) == chain(*range(36, 45))
     ui.move(posed.seen_at(38))
-    assert session.target.to == "WIRE"
+    assert session.cursor.target.to == "WIRE"
     np.testing.assert_allclose(session.wires[0].points[0], (-1.0, 0.0, 0.0), atol=1e-6)
 
 
@@ -121,7 +121,7 @@ def test_a_stroke_stays_on_the_mesh(posed: Posed) -> None:
     for part in (0.3, 0.7, 1.0):
         ui.move((first[0] + part * (last[0] - first[0]), first[1]), shift=True)
     ui.event("LEFTMOUSE", "RELEASE", last, shift=True)
-    (stroke,) = edited.front.session.strokes
+    (stroke,) = edited.front.session.network.strokes
     assert abs(stroke.points[:, 0].min() + 0.5) < 0.05
     assert abs(stroke.points[:, 0].max() - 0.5) < 0.05
 

@@ -46,7 +46,7 @@ def draw_in_each(ui: driver.Ui) -> None:
             continue
         session.hover(None)
         ui.move((region.x + at.x - ui.region.x, region.y + at.y - ui.region.y))
-        assert session.target.pick == 40
+        assert session.cursor.target.pick == 40
         found += 1
     assert found == 3, "from above twice, for the view that the drawing began in was turned there, and the user's"
     ui.key("ESC")

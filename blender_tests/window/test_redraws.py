@@ -101,7 +101,7 @@ def test_the_second_chain_goes_on_with_what_the_first_one_prepared(desk: Desk, c
 def test_progress_is_told_without_a_picture(desk: Desk, calls: Counter[str], monkeypatch: pytest.MonkeyPatch) -> None:
     session, ui = desk.choose(), desk.ui
     ui.click(desk.at(36))
-    ui.wait_until(lambda: not session.computing and settled())
+    ui.wait_until(lambda: not session.under_way.computing and settled())
     ui.wait(2)
     told: list[float] = []
     monkeypatch.setattr(

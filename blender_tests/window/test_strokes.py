@@ -53,7 +53,7 @@ def draw(desk: Desk, corners: list[tuple[float, float]], **more: bool) -> None:
 
 
 def computed(desk: Desk) -> None:
-    desk.ui.wait_until(lambda: not desk.session.computing)
+    desk.ui.wait_until(lambda: not desk.session.under_way.computing)
     desk.ui.wait(2)
 
 
@@ -74,20 +74,20 @@ def test_a_stroke_leads_the_live_wire_and_undo_takes_it_back(fine: Desk) -> None
     session, ui = fine.start(), fine.ui
     assert wire(fine) == STRAIGHT
     draw(fine, GATE)
-    assert len(session.strokes) == 1
-    assert session.strokes[0].attracts
-    assert session.strokes[0].acts_on != "both", "it is for the active wire"
+    assert len(session.network.strokes) == 1
+    assert session.network.strokes[0].attracts
+    assert session.network.strokes[0].acts_on != "both", "it is for the active wire"
     computed(fine)
     ui.move(fine.at(RIGHT))
     ui.wait_until(
         lambda: session.picture.active is not None and sorted(session.picture.active.edges()) == sorted(ROUND)
     )
     ui.key("Z", ctrl=True)
-    assert session.strokes == ()
+    assert session.network.strokes == ()
     assert session.seed is not None, "the wire is live still"
     ui.wait_until(lambda: session.picture.active is not None and sorted(session.picture.active.edges()) == STRAIGHT)
     ui.key("Z", ctrl=True, shift=True)
-    assert len(session.strokes) == 1
+    assert len(session.network.strokes) == 1
     computed(fine)
     assert sorted(session.picture.active.edges()) == sorted(ROUND), (
         "the wire that it is for, though the other may be shorter"
@@ -113,13 +113,13 @@ def test_between_chains_a_stroke_is_a_step_of_blenders_undo_and_kept_with_the_me
     assert seams(fine.obj) == []
     edited.clear()
     fine.ui.move(fine.at(LEFT))
-    assert len(fine.session.strokes) == 1, "as the mesh has it"
+    assert len(fine.session.network.strokes) == 1, "as the mesh has it"
     fine.ui.key("Z", ctrl=True)
     fine.ui.move(fine.at(LEFT))
-    assert fine.session.strokes == ()
+    assert fine.session.network.strokes == ()
     fine.ui.key("Z", ctrl=True, shift=True)
     fine.ui.move(fine.at(LEFT))
-    assert len(fine.session.strokes) == 1
+    assert len(fine.session.network.strokes) == 1
     computed(fine)
     assert wire(fine) == sorted(ROUND)
 
@@ -133,7 +133,7 @@ def test_x_removes_the_stroke_under_the_cursor(fine: Desk, capfd: pytest.Capture
     ui.wait_until(lambda: not fine.running)
     ui.move(at(fine, (15.0, 23.2)))
     ui.key("X")
-    assert fine.session.strokes == ()
+    assert fine.session.network.strokes == ()
     assert undo_steps(capfd)[-1] == "Edit Seamwires"
     computed(fine)
     assert wire(fine) == STRAIGHT
@@ -146,7 +146,7 @@ def test_wires_keep_off_a_stroke_that_repels(fine: Desk) -> None:
     ui = fine.ui
     draw(fine, [(6.0, 15.0), (24.0, 15.0)], ctrl=True)
     session = fine.session
-    assert not session.strokes[0].attracts
+    assert not session.network.strokes[0].attracts
     computed(fine)
     off = wire(fine)
     assert len(set(off) & set(STRAIGHT)) < 8
@@ -159,7 +159,7 @@ def test_wires_keep_off_a_stroke_that_repels(fine: Desk) -> None:
 def test_a_stroke_ends_where_it_leaves_the_model(fine: Desk) -> None:
     choose(fine.ui)
     draw(fine, [(20.0, 15.0), (40.0, 15.0), (40.0, 25.0), (20.0, 25.0)])
-    points = fine.session.strokes[0].points
+    points = fine.session.network.strokes[0].points
     assert points[:, 0].max() <= 1.0 + 1e-6
     assert abs(points[:, 1]).max() < 0.1, "what came after it left is not part of it"
     assert fine.unchanged()
@@ -172,17 +172,17 @@ def test_hidden_parts_of_the_mesh_are_not_drawn_on(fine: Desk) -> None:
     bmesh.update_edit_mesh(fine.obj.data)
     choose(fine.ui)
     draw(fine, [(5.0, 15.0), (25.0, 15.0), (25.0, 20.0), (5.0, 20.0)])
-    points = fine.session.strokes[0].points
+    points = fine.session.network.strokes[0].points
     assert points[:, 0].max() <= 1e-6
     assert abs(points[:, 1]).max() < 0.1, "there it ended"
     draw(fine, [(20.0, 15.0), (25.0, 20.0)])
-    assert len(fine.session.strokes) == 1
+    assert len(fine.session.network.strokes) == 1
 
 
 def test_a_stroke_that_comes_back_to_its_beginning_is_closed(fine: Desk) -> None:
     choose(fine.ui)
     draw(fine, [(8.0, 8.0), (22.0, 8.0), (22.0, 22.0), (8.0, 22.0), (8.0, 8.3)])
-    points = fine.session.strokes[0].points
+    points = fine.session.network.strokes[0].points
     assert (points[0] == points[-1]).all()
 
 
@@ -200,14 +200,14 @@ def test_while_it_is_drawn_a_stroke_is_shown_and_escape_drops_it(fine: Desk) -> 
     ui.key("ESC")
     assert view.stroke is None
     ui.event("LEFTMOUSE", "RELEASE", shift=True)
-    assert session.strokes == ()
+    assert session.network.strokes == ()
 
 
 def test_the_tools_reach_of_strokes_is_taken(fine: Desk) -> None:
     choose(fine.ui)
     settings().stroke_radius = 0.2
     draw(fine, GATE)
-    assert fine.session.strokes[0].radius == pytest.approx(0.2)
+    assert fine.session.network.strokes[0].radius == pytest.approx(0.2)
 
 
 @pytest.fixture(params=[1.0, 2.0])
@@ -234,8 +234,8 @@ def stroke_by(desk: Desk, *ways: tuple[float, float]) -> None:
 def test_a_hand_may_be_as_unsteady_on_a_display_of_twice_the_scale(fine: Desk, display_scale: float) -> None:
     choose(fine.ui)
     stroke_by(fine, (5.0, 0.0))
-    assert len(fine.session.strokes) == (1 if display_scale == 1.0 else 0), "five pixels are a drag, or a click"
+    assert len(fine.session.network.strokes) == (1 if display_scale == 1.0 else 0), "five pixels are a drag, or a click"
     stroke_by(fine, (200.0, 0.0), (200.0, 100.0), (0.0, 100.0), (0.0, 15.0))
-    points = fine.session.strokes[-1].points
+    points = fine.session.network.strokes[-1].points
     closed = bool((points[0] == points[-1]).all())
     assert closed is (display_scale == 2.0), "fifteen pixels from its beginning"

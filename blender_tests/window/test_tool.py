@@ -201,10 +201,10 @@ def test_one_of_several_objects_may_leave_edit_mode(two: Two) -> None:
 def test_over_toolbars_the_tool_lets_go_of_the_mouse(desk: Desk) -> None:
     session, ui = desk.start(), desk.ui
     ui.move(desk.at(40))
-    assert session.target is not None
+    assert session.cursor.target is not None
     bar = next(region for region in ui.area.regions if region.type == "TOOLS")
     ui.move((bar.x + bar.width * 0.5 - ui.region.x, bar.y + bar.height * 0.5 - ui.region.y))
-    assert session.target is None
+    assert session.cursor.target is None
     assert desk.running
     ui.move(desk.at(40))
     ui.key("ESC")

@@ -44,10 +44,10 @@ def choose(desk: Desk) -> Session:
 def test_edges_and_vertices_are_hovered_and_drawn_along(desk: Desk) -> None:
     session = choose(desk)
     desk.ui.move(desk.at(40))
-    assert session.target.pick == 40
+    assert session.cursor.target.pick == 40
     view_selected(desk)
     desk.ui.move(desk.at(40, 41))
-    assert set(session.target.pick) == {40, 41}
+    assert set(session.cursor.target.pick) == {40, 41}
     view_selected(desk)
     draw(desk, 36, 44)
     assert seams(desk.obj) == ROW

@@ -14,6 +14,7 @@ import stored
 import ui as driver
 from desk import ORANGE, Desk, choose, dismiss, draw, shows, undo_steps
 from scene import chain, edit, mark_wires, seams
+from seamwire.core.drawing.gesture_queue import GestureQueue
 from seamwire.core.drawing.picture import Role, SeedRole, ShownSeed
 from seamwire.core.drawing.session import Session
 from seamwire.core.storage.serialization import Archive
@@ -54,7 +55,7 @@ def test_between_chains_no_operator_of_ours_runs_and_what_a_click_takes_is_lit(d
     session = desk.choose()
     assert modal_operators(desk.ui) == []
     desk.ui.move(desk.at(40))
-    assert session.target.pick == 40
+    assert session.cursor.target.pick == 40
     draw(desk, 36, 44)
     desk.ui.move(desk.at(40))
     assert session.picture.one(Role.HOVERED) is not None
@@ -120,7 +121,7 @@ def test_alt_h_shows_again_what_is_hidden_altogether(desk: Desk) -> None:
     ui.event("LEFT_ALT", "RELEASE", place)
     assert not any(hidden(desk.obj))
     ui.move(desk.at(41))
-    assert desk.session.target.pick == 41
+    assert desk.session.cursor.target.pick == 41
 
 
 def test_where_nothing_is_visible_keys_of_the_tool_are_blenders_and_a_click_opens_no_popup(desk: Desk) -> None:
@@ -188,12 +189,12 @@ def test_what_was_hidden_just_now_is_not_picked_and_alt_h_shows_it(desk: Desk) -
     ui, place = desk.ui, desk.at(40)
     ui.move(place)
     ui.wait(20)
-    assert desk.session.target.pick == 40
+    assert desk.session.cursor.target.pick == 40
     ui.event("H", "PRESS", shift=True, ticks=0)
     ui.event("H", "RELEASE", shift=True, ticks=0)
     ui.event("LEFT_ALT", "PRESS", alt=True)
     assert sum(hidden(desk.obj)) == 63
-    assert desk.session.target is None, "nothing is seen there"
+    assert desk.session.cursor.target is None, "nothing is seen there"
     assert len(edited.front.mesh.arrays.edges) == 4
     ui.key("H", alt=True)
     ui.event("LEFT_ALT", "RELEASE")
@@ -240,7 +241,7 @@ def test_a_line_is_kept_though_edit_mode_is_left_before_its_wires_are_computed(d
 
 def test_escape_while_a_chain_waits_for_its_end_waits_for_nothing(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     waited = []
-    monkeypatch.setattr(Session, "wait", lambda _: waited.append(1))
+    monkeypatch.setattr(GestureQueue, "wait", lambda _: waited.append(1))
     desk.choose()
     ui = desk.ui
     ui.move(desk.at(37))

@@ -148,8 +148,8 @@ def slide(mesh: ObjectSession, wires: Collection[Wire]) -> tuple[ObjectSession, 
         wire.changed(points=curve_of[wire.vertices], faces=None) if wire.vertices in curve_of else wire
         for wire in network.wires
     ]
-    after.session.adopt(replace(network, wires=tuple(kept)), after.plain_seams)
-    _go_on_with(after, mesh.session.loops.cuts.taken(mesh.session.drawing.network))
+    after.session.queue.adopt(replace(network, wires=tuple(kept)), after.plain_seams)
+    _go_on_with(after, mesh.session.cursor.loops.cuts.taken(mesh.session.drawing.network))
     after.write(after.plan())
     return after, len(moves)
 
@@ -223,7 +223,7 @@ def cut(
     CutError
         If no wire can be cut once former cuts were taken back. These cuts are gone then, and the wires are snapped to edges.
     """
-    taken = mesh.session.loops.cuts.taken(mesh.session.drawing.network) if taken is None else taken
+    taken = mesh.session.cursor.loops.cuts.taken(mesh.session.drawing.network) if taken is None else taken
     skipped = [number for number, _ in plan.left_out if number < len(wires)]
     wires = [wire for number, wire in enumerate(wires) if number not in skipped]
     images = [replace(image, mirror=()) for wire in wires for image in mesh.session.mirrored(wire, curves=True)]
@@ -262,7 +262,7 @@ def cut(
 def _go_on_with(mesh: ObjectSession, taken: Iterable[TakenCut]) -> None:
     """Let closed cuts that were taken before the mesh was changed be bent on it."""
     own = (each.of(mesh.session.network) for each in taken)
-    mesh.session.loops.cuts.recall(each for each in own if each is not None)
+    mesh.session.cursor.loops.cuts.recall(each for each in own if each is not None)
 
 
 def _take_back(mesh: ObjectSession, before: Network) -> int:
@@ -306,7 +306,7 @@ def _draw_again(mesh: ObjectSession, wires: Collection[Wire]) -> None:
         session.follow(replace(options, strength_surface=wire.strength) if wire.strength else options)
         for seed in (wire.start, wire.end):
             session.click(seed)
-            session.wait()
+            session.queue.wait()
         session.end_chain()
     mesh.write(mesh.plan())
 

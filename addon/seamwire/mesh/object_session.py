@@ -160,7 +160,7 @@ class ObjectSession:
     def busy(self) -> bool:
         """Whether something is being computed."""
         looking = self._looking is not None and self._looking.is_alive()
-        return self.session.computing or self.session.waiting_clicks > 0 or looking or self._unstored
+        return self.session.under_way.computing or self.session.under_way.waiting > 0 or looking or self._unstored
 
     # Settings
 
@@ -216,30 +216,49 @@ class ObjectSession:
         session.follow(replace(session.options, mirror=mirror_axes(self.cage.mesh)))
         return True
 
-    def follow_change(self, obj: bpy.types.Object) -> bool:
+    def follow_change(self, obj: bpy.types.Object, before: Network) -> Network | None:
         """Read the object's mesh again while wires are drawn, and keep the wires.
+
+        Parameters
+        ----------
+        obj
+            The object.
+        before
+            The network that the mesh has. Wires that it does not have were drawn since.
 
         Returns
         -------
-        bool
-            False where wires would run on it in another way, or it has left edit mode: then they can be written still, as far
-            as vertices have the numbers that they had.
+        Network or None
+            `before`, or the other network that the mesh has now if Blender's undo has changed its wires. None where wires would run on
+            it in another way, or it has left edit mode: then they can be written still, as far as vertices have the numbers that they
+            had.
         """
         self.obj = obj
         editing = obj.mode == "EDIT"
         self.cage = edit_mesh.Cage(obj) if editing else edit_mesh.StoredMesh(obj.data)
         self._renumbered = self.cage.vertex_count != len(self.arrays.points)
-        self._labels = self.cage.labels()
+        known, self._labels = self._labels, self.cage.labels()
         if not editing or self._renumbered:
-            return False
+            return None
         try:
             arrays = edit_mesh.read(obj)
         except ValueError:
-            return False
+            return None
         if not arrays.same_as(self.arrays):
-            return False
-        self._set_seams(arrays.seams, self._labels)
-        return True
+            return None
+        if all(np.array_equal(getattr(self._labels, name), getattr(known, name)) for name in ("pairs", "labels")):
+            self._set_seams(arrays.seams, self._labels)
+            return before
+        self.session.end_chain()
+        drawn = self.session.network
+        self.arrays = replace(self.arrays, seams=arrays.seams)
+        self._adopt(self._labels)
+        found, ids = self.session.network, {wire.id for wire in before.wires}
+        self.add(
+            (wire for wire in drawn.wires if wire.id not in ids),
+            (stroke for stroke in drawn.strokes if stroke not in before.strokes),
+        )
+        return found
 
     def _adopt(self, labels: EdgeLabels) -> None:
         """Go on with the network that labels tell of."""
@@ -249,10 +268,10 @@ class ObjectSession:
         network = self._found.network
         strokes = tuple(on_mesh(one, self.arrays.points, self.arrays.triangles) for one in network.strokes)
         self._set_seams(self.arrays.seams, labels)
-        self.session.adopt(replace(network, strokes=strokes), self.plain_seams)
+        self.session.queue.adopt(replace(network, strokes=strokes), self.plain_seams)
         if not self._damaged:
             self._store()
-        self.session.loops.cuts.recall(_taken_cuts.recall(self.session.network, self.places))
+        self.session.cursor.loops.cuts.recall(_taken_cuts.recall(self.session.network, self.places))
 
     def _set_seams(self, seams: NDArray[np.int32], labels: EdgeLabels) -> None:
         self.arrays = replace(self.arrays, seams=seams)
@@ -343,9 +362,9 @@ class ObjectSession:
         self._set_seams(seams, self._labels)
         self._store()
         if adopt:
-            self.session.adopt(replace(plan.network, seed=None), self.plain_seams)
+            self.session.queue.adopt(replace(plan.network, seed=None), self.plain_seams)
             _taken_cuts.keep(
-                self.session.loops.cuts.taken(self.session.drawing.network), self.session.network, self.places
+                self.session.cursor.loops.cuts.taken(self.session.drawing.network), self.session.network, self.places
             )
         return written
 
@@ -353,8 +372,11 @@ class ObjectSession:
         """Go on with more wires and strokes, found elsewhere; `write` marks their edges."""
         session = self.session
         drawn = (*session.wires, *wires)
-        strokes = (*session.strokes, *(on_mesh(one, self.arrays.points, self.arrays.triangles) for one in strokes))
-        session.adopt(replace(session.network, wires=drawn, strokes=strokes, seed=None), self.plain_seams)
+        strokes = (
+            *session.network.strokes,
+            *(on_mesh(one, self.arrays.points, self.arrays.triangles) for one in strokes),
+        )
+        session.queue.adopt(replace(session.network, wires=drawn, strokes=strokes, seed=None), self.plain_seams)
 
     def take_over(self, wires: Iterable[Wire]) -> None:
         """Go on with wires along seams of the mesh: `write` makes these edges theirs, so that they go where the wires go."""
@@ -363,7 +385,7 @@ class ObjectSession:
         taken = {edge for wire in network.wires for edge in wire.edges()}
         rest = [pair for pair in self.plain_seams.tolist() if (min(pair), max(pair)) not in taken]
         self.plain_seams = np.array(rest, dtype=np.int32).reshape(-1, 2)
-        session.adopt(network, self.plain_seams)
+        session.queue.adopt(network, self.plain_seams)
         self._found = replace(self._found, network=session.network)
 
     def finder(self, faces: Collection[int] = ()) -> Callable[[Sequence[float]], FacePoint]:
@@ -394,4 +416,4 @@ class ObjectSession:
 
     def drop_changes(self, network: Network) -> None:
         """Go back to a network that the session had, whatever was drawn since."""
-        self.session.adopt(replace(network, seed=None), self.plain_seams)
+        self.session.queue.adopt(replace(network, seed=None), self.plain_seams)

@@ -248,7 +248,7 @@ class Suggestion:
 
     def _weights(self) -> NDArray[np.float64] | None:
         """Return what the cost of wires is multiplied with at each vertex; None: by nothing."""
-        arrays, strokes = self.mesh.arrays, self.mesh.session.strokes
+        arrays, strokes = self.mesh.arrays, self.mesh.session.network.strokes
         weights = None
         if self._within is not None:
             weights = keep_out(arrays.triangles, self._within, len(arrays.points))

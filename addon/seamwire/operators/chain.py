@@ -14,7 +14,7 @@ from ..words.keys import DoubleClicks
 from ..words.notices import Notices
 from . import navigation
 from .chain_record import ChainRecord
-from .chain_state import HELD, TRANSITIONS, Cue, Stage, running, status_makers
+from .chain_state import TRANSITIONS, Cue, Stage, running, status_makers
 
 if TYPE_CHECKING:
     from ..core.drawing.session import Session
@@ -101,23 +101,29 @@ class Chain:
         elif self.stage is Stage.PEEKING:
             self.go(Cue.UNPEEK)
 
+    def begin_anew(self) -> None:
+        """Keep the drawn wires as a separate chain, and begin another one."""
+        self.keep()
+        if self.stage is Stage.ENDING:
+            self.go(Cue.BEGIN)
+
     def let_go(self) -> None:
         """Cancel what a button holds."""
-        if self.stage in HELD:
+        if self.stage is Stage.HOLDING:
             hold = self.hold
             self.go(Cue.LET_GO)
             hold.cancel()
 
     def cancel_drags(self) -> bool:
         """Cancel what a button holds, and released drags that still wait. Return whether there was something."""
-        is_held = self.stage in HELD
+        is_held = self.stage is Stage.HOLDING
         self.let_go()
-        return any([view.session.let_go() for view in edited.views()]) or is_held
+        return any([view.session.cursor.let_go() for view in edited.views()]) or is_held
 
     @property
     def waits(self) -> bool:
         """Whether a click waits for its wire."""
-        return any(view.session.waiting_clicks for view in edited.views())
+        return any(view.session.under_way.waiting for view in edited.views())
 
     def cancel(self) -> None:
         """Cancel what is dragged. If nothing is, forget the clicks that wait, and end."""
@@ -151,7 +157,7 @@ class Chain:
             self.end()
         elif self.stage is Stage.DRAWING:
             sessions = [view.session for view in edited.views()]
-            if not any(one.seed is not None or one.waiting_clicks or one.dragging for one in sessions):
+            if not any(one.seed is not None or one.under_way.waiting or one.under_way.drag for one in sessions):
                 self.go(Cue.SETTLE)
 
     # The objects
@@ -171,11 +177,8 @@ class Chain:
 
     def keep(self) -> None:
         """Keep what was drawn as a separate step of undo, and go on."""
-        self._write()
+        self.record.keep(bpy.context)
         self.find_front()
-
-    def _write(self, undo_step: bool = True) -> None:
-        self.record.keep(bpy.context, undo_step)
 
     def trouble(self, context: bpy.types.Context) -> str:
         """Return why the chain cannot go on, or an empty text. Raises what an overlay could not draw."""
@@ -189,8 +192,13 @@ class Chain:
 
     # How it ends
 
-    def finish(self, undo_step: bool = True) -> bool:
+    def finish(self, at_once: bool = False) -> bool:
         """Mark and clear what was drawn, as a step of Blender's undo, and return whether the chain has changed a mesh.
+
+        Parameters
+        ----------
+        at_once
+            Whether Blender stops the operator. Then there is no time to wait for wires, and no step of undo.
 
         Raises
         ------
@@ -198,7 +206,7 @@ class Chain:
             If an edge is gone. Then the mesh is unchanged.
         """
         self.let_go()
-        self._write(undo_step)
+        self.record.keep(bpy.context, at_once)
         self.close(Cue.KEEP)
         return self.record.has_kept
 
@@ -249,12 +257,12 @@ class Chain:
         session = self.session
         picture = (
             id(edited.front),
-            tuple((view.session.revision, view.islands.pointed_island) for view in edited.views()),
+            tuple((view.session.drawing.revision, view.islands.pointed_island) for view in edited.views()),
         )
         words = (
             round(100.0 * session.drawing.progress),
-            session.computing,
-            session.waiting_clicks,
+            session.under_way.computing,
+            session.under_way.waiting,
             edited.front.mesh.symmetric,
             self.notices.hint,
         )

@@ -15,7 +15,7 @@ from ..words.keys import Action, drag_threshold
 from . import chain_events, navigation, undo_steps
 from .bindings import HELP_PANEL
 from .chain_events import Given, Sign
-from .chain_state import HELD, Cue, Stage
+from .chain_state import Cue, Stage
 from .drag_handlers import LineHold, SeedHold, StrokeHold
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ def hover(chain: Chain, given: Given) -> None:
     if view is not None and view is not edited.front:
         chain.session.hover(None)
         # A live wire stays with its object until there is a click on another.
-        if chain.session.seed is None and not chain.session.waiting_clicks:
+        if chain.session.seed is None and not chain.session.under_way.waiting:
             edited.front = view
         else:
             snap = None
@@ -61,7 +61,7 @@ def rehover(chain: Chain, place: Place) -> None:
 
 def leave(chain: Chain, _given: Given) -> None:
     """Show nothing under a mouse that has left the view."""
-    if chain.session.target is not None and chain.hold is None:
+    if chain.session.cursor.target is not None and chain.hold is None:
         chain.session.hover(None)
 
 
@@ -85,17 +85,20 @@ def trace(chain: Chain, given: Given) -> None:
 
 
 def release(chain: Chain, given: Given) -> None:
-    """Do what was meant by a press and a release."""
-    hold = chain.hold
+    """Do what was meant by a press and a release: a click, or a drag."""
+    hold, title = chain.hold, ""
     assert hold is not None
     chain.go(Cue.RELEASE)
+    if not hold.is_drag and hold.snap is not None:
+        chain.session.click(hold.snap)
+        title = undo_steps.DRAW
     # The wires that were live before a line become a separate chain, with a separate step in Blender's undo.
-    if not (isinstance(hold, LineHold) and hold.starts_chain()) or _keep_chain(chain):
-        title = hold.release()
-        if title:
-            chain.record.note(title)
-        elif isinstance(hold, StrokeHold):
-            chain.say("Drag over the mesh to draw a stroke")
+    elif hold.is_drag and (not (isinstance(hold, LineHold) and hold.starts_chain()) or _keep_chain(chain)):
+        title = hold.end()
+    if title:
+        chain.record.note(title)
+    elif isinstance(hold, StrokeHold):
+        chain.say("Drag over the mesh to draw a stroke")
     if given.place is not None:
         rehover(chain, given.place)
 
@@ -125,12 +128,12 @@ def click(chain: Chain, given: Given) -> None:
     chain.begin()
     if view is not edited.front:
         chain.session.hover(None)
-    if action is Action.NEW_CHAIN:
-        chain.keep()
-        if view not in edited.views():  # it was cut
-            view, snap = edited.find(place)
-            if view is None or snap is None:
-                return
+    if action is Action.NEW_CHAIN or chain.stage is Stage.ENDING:
+        chain.begin_anew()
+        # More wires may be under the mouse now, and the mesh may have been cut.
+        view, snap = edited.find(place, plain=action in _OFFERED)
+        if view is None or snap is None:
+            return
     chain.draw_on(view)
     session = view.session
     if action is Action.NEW_CHAIN:
@@ -143,7 +146,7 @@ def click(chain: Chain, given: Given) -> None:
     elif action is Action.LOOP and _is_loop(chain, session, snap, event):
         session.loop(snap)
         chain.record.note(undo_steps.DRAW)
-    elif session.seed is None and not session.waiting_clicks and snap.to in {"SEED", "WIRE"}:
+    elif not session.under_way.will_be_live and snap.to in {"SEED", "WIRE"}:
         # Whether it is a click or the beginning of a drag is known when the button or the mouse has moved.
         session.hover(snap)
         chain.go(Cue.PRESS, SeedHold(event.type, view, place, snap))
@@ -165,8 +168,10 @@ def begin_stroke(chain: Chain, given: Given) -> None:
     """Begin a stroke under the mouse."""
     assert given.place is not None
     chain.begin()
+    if chain.stage is Stage.ENDING:
+        chain.begin_anew()
     found, _ = edited.find(given.place)
-    is_live = chain.session.seed is not None or chain.session.waiting_clicks
+    is_live = chain.session.seed is not None or chain.session.under_way.waiting
     view = edited.front if is_live or found is None else found
     chain.draw_on(view)
     hold = StrokeHold(given.event.type, view, given.place)
@@ -205,10 +210,9 @@ def remove(chain: Chain, given: Given) -> bool:
     chain.draw_on(view)
     if wire is not None:
         view.session.drop(wire)
-        chain.record.note(undo_steps.EDIT)
-    elif stroke is not None:
+    else:
         view.session.erase(stroke)
-        chain.record.note(undo_steps.EDIT)
+    chain.record.note(undo_steps.EDIT)
     rehover(chain, given.place)
     return True
 
@@ -237,7 +241,7 @@ def swap(chain: Chain, _given: Given) -> None:
     if session.seed is None and hovered is not None:
         session.retrace(hovered)
     else:
-        session.next_candidate()
+        session.cursor.next_candidate()
 
 
 def change_strength(chain: Chain, given: Given) -> None:
@@ -245,7 +249,7 @@ def change_strength(chain: Chain, given: Given) -> None:
     session, chosen = chain.session, settings()
     is_more = given.what is Action.STRONGER
     name, strength = strength_name(session.options.along), session.options.stepped(1 if is_more else -1).strength
-    if session.dragging:
+    if session.under_way.drag:
         chain.say("Finish moving the seed first")
     elif strength == session.options.strength:
         chain.say(f"The strength is {strength:g} already, the {'most' if is_more else 'least'} there is")
@@ -414,7 +418,7 @@ def act(chain: Chain, given: Given) -> bool:
         chain.say("")
         if chain.stage is Stage.PEEKING and given.what is not Action.NEXT:
             chain.go(Cue.UNPEEK)
-    is_held = chain.stage in HELD
+    is_held = chain.stage is Stage.HOLDING
     passes = bool((WHILE_HELD if is_held else ACTS)[given.what](chain, given))
     chain.settle()
     return passes or (given.what in _BLENDERS and not (is_held and given.what is Sign.OTHER_TOOL))

@@ -13,7 +13,6 @@ from ..view.viewport import place_of
 from ..words.keys import WHEEL, Action, Key
 from . import navigation
 from .drag_handlers import LineHold, StrokeHold
-from .navigation import Meaning
 
 if TYPE_CHECKING:
     import bpy
@@ -109,8 +108,7 @@ def _key(chain: Chain, context: bpy.types.Context, event: bpy.types.Event, doubl
         return Sign.NOTHING
     action = chain.keys.decode(event, double)
     if action is None:
-        is_other = navigation.meaning(event, chain.manager) is Meaning.OTHER
-        return Sign.OTHER_TOOL if is_other else Sign.NOTHING
+        return Sign.OTHER_TOOL if navigation.is_other(event, chain.manager) else Sign.NOTHING
     is_repeat = getattr(event, "is_repeat", False) and action not in {Action.UNDO, Action.REDO}
     return Sign.REPEAT if is_repeat else action
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 import bpy
 
+from ..core.base.messages import NOTHING
 from ..core.drawing.change import Change
 from ..core.network.network import Network
 from ..mesh import finishes
@@ -80,21 +81,25 @@ class ChainRecord:
         if obj is None:
             self.drawn_on = None
             return "The object was removed"
-        if not view.mesh.follow_change(obj):
+        known, found = self._before, view.mesh.follow_change(obj, self._before)
+        if found is None:
             return reason or "The mesh was changed"
+        self._before = found
         view.was_read()
         view.renew()
-        return reason
+        return reason or ("" if found is known else "Undo has changed the wires of the mesh")
 
-    def keep(self, context: bpy.types.Context, undo_step: bool = True) -> None:
+    def keep(self, context: bpy.types.Context, at_once: bool = False) -> None:
         """End the chains of all objects after their last wires are computed, and write what was drawn as a step of Blender's undo.
+
+        It reports clicks that waited and could not be done.
 
         Parameters
         ----------
         context
             With the mode of the window.
-        undo_step
-            Whether to push the step.
+        at_once
+            Whether to forget clicks that wait, and to push no step.
 
         Raises
         ------
@@ -102,10 +107,12 @@ class ChainRecord:
             If an edge is gone. Then the mesh is unchanged.
         """
         # The object that is drawn on comes first, because outside Edit Mode it is not among the views.
-        if self.drawn_on is not None:
-            self.drawn_on.session.end_chain()
-        for view in edited.views():
-            view.session.end_chain()
+        drawn_on = [] if self.drawn_on is None else [self.drawn_on]
+        for view in dict.fromkeys((*drawn_on, *edited.views())):
+            view.session.end_chain(wait=not at_once)
+            if view.session.drawing.failure:
+                self._notices.add("WARNING", str(view.session.drawing.failure))
+                view.session.drawing.failure = NOTHING
         view, before = self.drawn_on, self._before
         title = undo_steps.EDIT if self._titles == {undo_steps.EDIT} else undo_steps.DRAW
         self._titles.clear()
@@ -125,7 +132,7 @@ class ChainRecord:
         self._try("drawing them", view, lambda: _renew(view))
         done = self._try("finishing them", view, lambda: _apply(view, change)) or ""
         problem = ""
-        if undo_step:
+        if not at_once:
             if (marked or cleared) and context.mode == "EDIT_MESH":
                 problem = self._try("unwrapping", view, lambda: unwrap_after_chain(context)) or ""
             undo_steps.push(title)

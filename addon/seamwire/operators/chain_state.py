@@ -20,7 +20,6 @@ class Stage(Enum):
     DRAWING = "is drawn, and no button is held"
     HOLDING = "is drawn, and a button is held"
     ENDING = "ends as soon as its last wire is computed"
-    HOLDING_LAST = "ends as soon as its last wire is computed, and a button is held"
     OVER = "has nothing live any more"
     CLOSED = "is in the mesh, or dropped"
 
@@ -41,9 +40,6 @@ class Cue(Enum):
     DROP = "an error occurs, a file is loaded, or the add-on is disabled"
 
 
-HELD = frozenset({Stage.HOLDING, Stage.HOLDING_LAST})
-"""The states with a held button."""
-
 TRANSITIONS: dict[tuple[Stage, Cue], Stage] = {
     (Stage.READY, Cue.BEGIN): Stage.DRAWING,
     (Stage.READY, Cue.PEEK): Stage.PEEKING,
@@ -54,11 +50,9 @@ TRANSITIONS: dict[tuple[Stage, Cue], Stage] = {
     (Stage.DRAWING, Cue.SETTLE): Stage.OVER,
     (Stage.HOLDING, Cue.RELEASE): Stage.DRAWING,
     (Stage.HOLDING, Cue.LET_GO): Stage.DRAWING,
-    (Stage.ENDING, Cue.PRESS): Stage.HOLDING_LAST,
+    (Stage.ENDING, Cue.BEGIN): Stage.DRAWING,
     (Stage.ENDING, Cue.END): Stage.OVER,
-    (Stage.HOLDING_LAST, Cue.RELEASE): Stage.ENDING,
-    (Stage.HOLDING_LAST, Cue.LET_GO): Stage.ENDING,
-    **{(stage, Cue.KEEP): Stage.CLOSED for stage in Stage if stage not in {*HELD, Stage.CLOSED}},
+    **{(stage, Cue.KEEP): Stage.CLOSED for stage in Stage if stage not in {Stage.HOLDING, Stage.CLOSED}},
     **{(stage, Cue.DROP): Stage.CLOSED for stage in Stage if stage is not Stage.CLOSED},
 }
 """Every allowed change of the state. `docs/development/structure.md` has the same table with what happens."""

@@ -41,6 +41,11 @@ class Hold:
         Where the button was pressed.
     snap
         The pick there. A stroke has none.
+
+    Attributes
+    ----------
+    is_drag
+        Whether the mouse has moved beyond the threshold. Otherwise it is a click at `snap`.
     """
 
     def __init__(self, button: str, view: ObjectView, place: Place, snap: Snap | None = None) -> None:
@@ -48,27 +53,18 @@ class Hold:
         self._view = view
         self._session = view.session
         self._place = place
-        self._snap = snap
-        self._is_drag = False
+        self.snap = snap
+        self.is_drag = False
 
     def move(self, place: Place, threshold: float) -> bool:
         """Follow the mouse. A drag begins beyond the threshold, in pixels. Return whether it is still held."""
-        if not self._is_drag:
+        if not self.is_drag:
             if place.away(self._place) <= threshold:
                 return True
             if not self.begin():
                 return False
-            self._is_drag = True
+            self.is_drag = True
         return self.drag(place)
-
-    def release(self) -> str:
-        """Do what was meant. Return the title of the step of undo, or an empty text if nothing was done."""
-        if self._is_drag:
-            return self.end()
-        if self._snap is None:
-            return ""
-        self._session.click(self._snap)
-        return undo_steps.DRAW
 
     def cancel(self) -> None:
         """Cancel without a change."""
@@ -92,21 +88,21 @@ class SeedHold(Hold):
 
     def begin(self) -> bool:
         """Take hold of the seed."""
-        return self._session.drag(self._snap)
+        return self._session.drag(self.snap)
 
     def drag(self, place: Place) -> bool:
         """Let the seed follow."""
-        self._session.drag_to(self._view.snap(place.view, place.cursor))
+        self._session.cursor.drag_to(self._view.snap(place.view, place.cursor))
         return True
 
     def end(self) -> str:
         """Leave the seed there."""
-        self._session.drag_end()
+        self._session.queue.drag_end()
         return undo_steps.EDIT
 
     def cancel(self) -> None:
         """Let the seed go back."""
-        self._session.let_go(SeedDrag)
+        self._session.cursor.let_go(SeedDrag)
 
 
 class Trail:
@@ -172,7 +168,7 @@ class LineHold(Hold):
 
     def begin(self) -> bool:
         """Begin a line."""
-        if not self._session.line_begin(self._snap):
+        if not self._session.line_begin(self.snap):
             return False
         self._trail = Trail(self._view, self._place, ends_at_rim=False)
         return True
@@ -190,14 +186,14 @@ class LineHold(Hold):
         if self._session.under_way.held is None:
             return False  # a key has ended the line in the meantime
         points, triangles = np.array(trail.points).reshape(-1, 3), np.array(trail.triangles, dtype=np.int32)
-        return self._session.line_to(points, triangles, self._view.snap(place.view, place.cursor))
+        return self._session.cursor.line_to(points, triangles, self._view.snap(place.view, place.cursor))
 
     def starts_chain(self) -> bool:
         """Take the line out of the session. Return whether the live wires are a separate chain, which is kept before the line."""
         session = self._session
-        self._line = session.line_release()
-        live = session.seed is not None and not session.waiting_clicks
-        return self._line is not None and live and not session.goes_on_from(self._snap)
+        self._line = session.cursor.line_release()
+        live = session.seed is not None and not session.under_way.waiting
+        return self._line is not None and live and not session.goes_on_from(self.snap)
 
     def end(self) -> str:
         """Keep the wires that follow the line."""
@@ -208,7 +204,7 @@ class LineHold(Hold):
 
     def cancel(self) -> None:
         """Forget the line. A seed that was released before stays."""
-        self._session.let_go(LineGesture)
+        self._session.cursor.let_go(LineGesture)
 
 
 class StrokeHold(Hold):

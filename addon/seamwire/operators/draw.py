@@ -194,12 +194,12 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
         return {"CANCELLED"}
 
     def cancel(self, _context: bpy.types.Context) -> None:
-        """End the chain when Blender stops the operator. Its wires are kept if the mesh still exists."""
+        """End the chain when Blender stops the operator. Its wires are kept if the mesh still exists, without those that wait."""
         chain = self._chain
         if chain.stage is Stage.CLOSED:
             return
         try:
-            chain.finish(undo_step=False)
+            chain.finish(at_once=True)
         except Exception:
             traceback.print_exc()
             chain.close()

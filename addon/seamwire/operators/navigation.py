@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from enum import Enum, auto
 from typing import TYPE_CHECKING
 
 import bpy
@@ -54,27 +53,16 @@ _GIZMO_BUTTON = 28.0
 _GIZMO_BUTTONS = 5
 
 
-class Meaning(Enum):
-    """The effect of an event in Blender."""
-
-    NOTHING = auto()
-    """The event is unbound, or changes neither the mesh nor the mode."""
-    OTHER = auto()
-    """The event does something that a chain must end for."""
-
-
-def meaning(event: bpy.types.Event, manager: bpy.types.WindowManager) -> Meaning:
-    """Return the effect of an event over a 3D view in Edit Mode."""
+def is_other(event: bpy.types.Event, manager: bpy.types.WindowManager) -> bool:
+    """Return whether an event over a 3D view in Edit Mode does something that a chain must end for."""
     item = _item_for(event, manager)
-    return Meaning.NOTHING if item is None else _meaning_of(item)
+    return item is not None and not _is_harmless(item)
 
 
 def is_harmless(event: bpy.types.Event, manager: bpy.types.WindowManager) -> bool:
     """Return whether an event moves the mouse or the view, saves the file, plays an animation, or does something alike."""
     item = _item_for(event, manager)
-    return event.type in {"MOUSEMOVE", "INBETWEEN_MOUSEMOVE"} or (
-        item is not None and _meaning_of(item) is Meaning.NOTHING
-    )
+    return event.type in {"MOUSEMOVE", "INBETWEEN_MOUSEMOVE"} or (item is not None and _is_harmless(item))
 
 
 def right_click_cancels(manager: bpy.types.WindowManager) -> bool:
@@ -101,10 +89,10 @@ def _item_for(event: bpy.types.Event, manager: bpy.types.WindowManager) -> bpy.t
     return None
 
 
-def _meaning_of(item: bpy.types.KeyMapItem) -> Meaning:
-    if item.idname == "wm.call_menu_pie" and item.properties.name in _HARMLESS_PIES:
-        return Meaning.NOTHING
-    return Meaning.NOTHING if item.idname.startswith(_HARMLESS) else Meaning.OTHER
+def _is_harmless(item: bpy.types.KeyMapItem) -> bool:
+    """Return whether a keymap item changes neither the mesh nor the mode."""
+    is_pie = item.idname == "wm.call_menu_pie" and item.properties.name in _HARMLESS_PIES
+    return is_pie or item.idname.startswith(_HARMLESS)
 
 
 def takes(key: Key, context: bpy.types.Context) -> bool:

@@ -217,6 +217,11 @@ class Options:
         """What decides how wires are computed, besides the way that they run."""
         return self.metric, *self.strengths.values(), self.clamp
 
+    @property
+    def draws(self) -> tuple[object, ...]:
+        """What decides which wires clicks draw, and what the wires do to the mesh."""
+        return self.along, *self.computes, self.finish, self.straight, self.clear, self.mirror
+
     def stepped(self, steps: int) -> Options:
         """Return options with a strength that is some steps greater, or less; the same at the limit."""
         return replace(self, **{strength_name(self.along): self.strength * STRENGTH_STEP**steps})

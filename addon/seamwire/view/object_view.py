@@ -152,7 +152,7 @@ class ObjectView:
 
     def close(self) -> None:
         """Let go of what works on threads."""
-        self.session.loops.edges.stop_search()
+        self.session.cursor.loops.edges.stop_search()
         self._islands.close()
         self._close_layers()
         self.crest_view.close()
@@ -227,11 +227,11 @@ class ObjectView:
 
     def _follow_layers(self) -> None:
         session, options = self.session, self.options
-        self.crest_view.is_wanted = options.snap or session.loops.offers.wanted
+        self.crest_view.is_wanted = options.snap or session.cursor.loops.offers.wanted
         source, strokes = self._source(), session.drawing.engines.strokes
         for key, layer in self._working_layers():
             failures.attempt(key, partial(layer.follow, options, source, strokes))
-        session.use_crests(self.crest_view.crests, options.show_crests)
+        session.cursor.use_crests(self.crest_view.crests, options.show_crests)
 
     def _source(self) -> End | None:
         """Return where distances are shown from: the seed of the chain, else the active vertex, else the last seed."""
@@ -251,11 +251,11 @@ class ObjectView:
         """Take in what was computed; return whether there is something new to be seen."""
         self.mesh.poll()
         told = any([failures.attempt(key, layer.poll) for key, layer in self._working_layers()])
-        self.session.use_crests(self.crest_view.crests, self.options.show_crests)
+        self.session.cursor.use_crests(self.crest_view.crests, self.options.show_crests)
         # Progress is told by the status bar: the picture stays.
-        seen = self.session.revision
-        self.session.poll()
-        return any((self.session.revision != seen, self.islands.poll(), told))
+        seen = self.session.drawing.revision
+        self.session.queue.poll()
+        return any((self.session.drawing.revision != seen, self.islands.poll(), told))
 
     def _working_layers(self) -> Iterator[tuple[tuple[Hashable, ...], Layer]]:
         """Iterate over the layers that have not failed, each after what `failures` calls it."""
@@ -334,7 +334,7 @@ class ObjectView:
     def stroke_at(self, view: Camera, cursor: tuple[float, float]) -> Stroke | None:
         """Return the stroke under the cursor."""
         scale = bpy.context.preferences.system.ui_scale
-        matrix, strokes = self.obj.matrix_world, self.session.strokes
+        matrix, strokes = self.obj.matrix_world, self.session.network.strokes
         return self._follow_picker().stroke_at(strokes, view, matrix, cursor, xray=self.options.xray, scale=scale)
 
     def show(self, front: bool) -> bool:

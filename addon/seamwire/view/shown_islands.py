@@ -59,7 +59,7 @@ class ShownIslands:
 
     @property
     def _stale(self) -> bool:
-        return self._asked != (self._session.network_revision, self._seams_read)
+        return self._asked != (self._session.drawing.network_revision, self._seams_read)
 
     @property
     def pointed_island(self) -> int | None:
@@ -98,7 +98,7 @@ class ShownIslands:
 
     def _want(self) -> None:
         if self._stale:
-            self._asked = (self._session.network_revision, self._seams_read)
+            self._asked = (self._session.drawing.network_revision, self._seams_read)
             session = self._session
             wanted = edges_after(self._seams, session.edges_to_mark(), session.edges_to_clear())
             planned = (wire for wire in session.wires if wire.planned)

@@ -29,9 +29,9 @@ def draw_chain(session: Session, seeds: Iterable[Pick]) -> list[str]:
     session.end_chain()
     for pick in seeds:
         done = session.click(pick)
-        session.wait()
-        if not done or session.message:
-            problems.append(str(session.message))
+        session.queue.wait()
+        if not done or session.drawing.message:
+            problems.append(str(session.drawing.message))
     session.end_chain()
     return problems
 
@@ -57,11 +57,11 @@ def draw_loop(session: Session, pick: Pick, kind: LoopKind | None = None) -> str
     if kind is not None and isinstance(pick, tuple) and not _turn_to(session, pick, kind):
         return f"No {LOOPS[kind]} runs through {pick_name(pick)}"
     done = session.loop(pick)
-    session.wait()
+    session.queue.wait()
     if done and session.wires != before:
         return ""
     # The shape may suggest no cut at a place.
-    return str(session.message) or f"The loop through {pick_name(pick)} is there already"
+    return str(session.drawing.message) or f"The loop through {pick_name(pick)} is there already"
 
 
 def _turn_to(session: Session, edge: Edge, kind: LoopKind) -> bool:
@@ -70,16 +70,16 @@ def _turn_to(session: Session, edge: Edge, kind: LoopKind) -> bool:
     No two offers are alike: what runs as one before it does is not offered by its own name.
     """
     session.hover(edge, loop=True)
-    session.wait()
+    session.queue.wait()
     edges: dict[LoopKind, set[Edge]] = {}
     for _ in session.picture.offered.kinds:
         offer, shown = session.picture.one(Role.OFFER), session.picture.offered.kind
         if offer is not None and shown is not None:
             edges[shown] = set(offer.edges())
-        session.next_candidate()
+        session.cursor.next_candidate()
     wanted: LoopKind | None = kind
     if kind == "FLAT" and kind not in edges:
-        border = session.loops.edges.part_border(edge)
+        border = session.cursor.loops.edges.part_border(edge)
         wanted = next((other for other, own in edges.items() if own == border), None)
     elif kind not in edges:
         closed, strip = edges.get("CLOSED"), edges.get("STRIP")
@@ -88,5 +88,5 @@ def _turn_to(session: Session, edge: Edge, kind: LoopKind) -> bool:
         else:
             wanted = "CLOSED" if strip is None or strip <= closed else "STRIP"
     while wanted in edges and session.picture.offered.kind != wanted:
-        session.next_candidate()
+        session.cursor.next_candidate()
     return wanted in edges

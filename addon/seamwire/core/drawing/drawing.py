@@ -71,6 +71,12 @@ class Drawing:
         The settings.
     history
         The steps for undo.
+    message
+        The reason why something was not done, or a warning.
+    failure
+        The reason why a gesture that waited was not done, until the next gesture.
+    revision
+        Grows with every change of the picture.
     progress
         The finished fraction of the running work. The session reads it before wires are asked for.
     """
@@ -103,6 +109,9 @@ class Drawing:
         self.network = Network(mirror=options.mirror)
         self.history = History()
         self.progress = 0.0
+        self.message: Message = NOTHING
+        self.failure: Message = NOTHING
+        self.revision = 0
         self.network_revision = 0
         """Grows with every change of the kept wires."""
 
@@ -203,17 +212,16 @@ class Drawing:
             for amount in AMOUNTS:
                 yield self._finder[1].find(amount, progress=progress).of_face
 
+    def refuse(self, why: str | Message, **values: object) -> bool:
+        """Tell why something is not done: a message, or its code and values."""
+        self.message = Message.of(why, **values) if isinstance(why, str) else why
+        self.revision += 1
+        return False
+
     def set(self, network: Network) -> None:
         """Go on to a network, without a step for undo."""
         before, self.network = self.network, network
         if before.strokes != network.strokes:
             self.engines.follow(network.strokes)
+        self.revision += 1
         self.network_revision += before.wires != network.wires or before.mirror != network.mirror
-
-    def step(self, network: Network) -> Message:
-        """Go on to a network, with a step for undo. Return a warning, or an empty message."""
-        self.history.step(self.network)
-        lasting = network.lasting()
-        self.set(self.images.complete(lasting))
-        gone = Message.of("wire-went") if lasting is not network else NOTHING
-        return self.images.warning(self.network) or gone

@@ -69,6 +69,10 @@ class Extension(Gesture):
             raise Refused(self.message or Message.of("no-way-on"))
         return replace(self._drawing.with_wires(wire), seed=None)
 
+    def leaves_live(self, live: bool, target: Snap | None) -> bool:
+        """Return False, because the chain ends there."""
+        return False
+
     def cancel(self) -> None:
         """Show nothing, and ask for nothing."""
         self.wanted, self.wire = False, None

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The base of all gestures, and the gestures that are under way."""
+"""The base of all gestures."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, TypeAlias
 
 from ..base.messages import NOTHING, Message
 from ..network.network import Network
@@ -49,6 +48,10 @@ class Gesture:
         """
         raise NotImplementedError
 
+    def leaves_live(self, live: bool, target: Snap | None) -> bool:
+        """Return whether a chain is live after the commit at a target, if one is `live` before."""
+        return live
+
     def cancel(self) -> None:
         """Show nothing, and ask for nothing."""
 
@@ -59,43 +62,3 @@ class Gesture:
 
 Committed: TypeAlias = Network | Gesture | None
 """The next network. While it is computed, the gesture that waits for it. None if nothing is left to do."""
-
-
-@dataclass(frozen=True)
-class Waiting:
-    """A committed gesture that waits for the library, and the pick that it was committed at."""
-
-    gesture: Gesture
-    target: Snap | None
-
-
-Kind = TypeVar("Kind", bound=Gesture)
-
-
-class UnderWay:
-    """The gestures of a session that are neither done nor cancelled.
-
-    Attributes
-    ----------
-    held
-        The gesture while a button is held. A released seed stays here until its wires are computed.
-    queue
-        Committed gestures that wait, the oldest first. They are committed in this order.
-    retraces
-        Kept wires that take another course once it is computed. Nothing waits for them.
-    """
-
-    def __init__(self) -> None:
-        self.held: Gesture | None = None
-        self.queue: list[Waiting] = []
-        self.retraces: list[Gesture] = []
-
-    @property
-    def gestures(self) -> list[Gesture]:
-        """All of them."""
-        held = [] if self.held is None else [self.held]
-        return [*(one.gesture for one in self.queue), *self.retraces, *held]
-
-    def holds(self, kind: type[Kind]) -> Kind | None:
-        """Return the held gesture if it is of a kind, otherwise None."""
-        return self.held if isinstance(self.held, kind) else None

@@ -129,6 +129,10 @@ class LineGesture(Gesture):
             raise Refused(self._line.message or none)
         return self._kept(wires)
 
+    def leaves_live(self, live: bool, target: Snap | None) -> bool:
+        """Return whether a chain goes on from the line's end, or was left unchanged."""
+        return live and (self._apart or (self._goes_on and self.joined is None))
+
     def lives(self) -> list[LiveWire]:
         """Return the live wires that compute for it."""
         return self._line.lives()

@@ -3,23 +3,24 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from ..network.picks import undirected
-from .intent import Intent
 from .line import LineGesture
-from .picture import Choice, Offered, Picture, kept_wires, shown_seeds, shown_wires
-from .seed_drag import SeedDrag
+from .picture import Choice, Intent, Offered, Picture, Role, ShownWire, shown_seeds
+from .stroke import StrokeGesture
 
 if TYPE_CHECKING:
-    from ..base.messages import Message
+    from collections.abc import Iterable
+
+    from ...terms.choices import Finish
     from ..network.network import Network
+    from ..network.wires import Wire
+    from .cursor import Cursor
     from .drawing import Drawing
-    from .extension import Extension
-    from .gesture import UnderWay
-    from .loop import LoopGesture
-    from .picture import ShownWire, Work
-    from .wire import WireGesture
+    from .picture import Work
+    from .seed_drag import SeedDrag
 
 
 class Painter:
@@ -29,33 +30,29 @@ class Painter:
     ----------
     drawing
         The network and the settings.
-    live, loops, extension
-        The gestures at the cursor.
-    under_way
-        The gestures that are held or wait.
+    cursor
+        The gestures at the cursor, and those that are under way.
     """
 
-    def __init__(
-        self, drawing: Drawing, live: WireGesture, loops: LoopGesture, extension: Extension, under_way: UnderWay
-    ) -> None:
+    def __init__(self, drawing: Drawing, cursor: Cursor) -> None:
         self._drawing = drawing
-        self._live = live
-        self._loops = loops
-        self._extension = extension
-        self._under_way = under_way
+        self._live = cursor.live
+        self._loops = cursor.loops
+        self._extension = cursor.extension
+        self._under_way = cursor.under_way
         self._last: tuple[object, Picture] | None = None
         self._kept: tuple[Network, tuple[ShownWire, ...]] | None = None
 
-    def picture(self, revision: int, message: Message, work: Work) -> Picture:
-        """Return a picture with a revision, a message, and the running computation."""
-        key = (revision, self._drawing.network_revision, message, work)
+    def picture(self, work: Work) -> Picture:
+        """Return a picture with the running computation."""
+        key = (self._drawing.revision, self._drawing.network_revision, self._drawing.message, work)
         if self._last is None or self._last[0] != key:
-            self._last = (key, self._painted(revision, message, work))
+            self._last = (key, self._painted(work))
         return self._last[1]
 
-    def _painted(self, revision: int, message: Message, work: Work) -> Picture:
+    def _painted(self, work: Work) -> Picture:
         drawing, loops, under_way = self._drawing, self._loops, self._under_way
-        options, live, drag = drawing.options, self._live.candidates, under_way.holds(SeedDrag)
+        options, live, drag = drawing.options, self._live.candidates, under_way.drag
         line = under_way.holds(LineGesture)
         network = drawing.network if drag is None else drag.network
         lines = [gesture for gesture in under_way.gestures if isinstance(gesture, LineGesture)]
@@ -64,25 +61,14 @@ class Painter:
         closing = drawing.network.closing_point
         hovered = target.pick if target is not None and target.to == "SEED" else None
         begins = [wire.start for each in lines for wire in each.wires]
-        shown = shown_wires(
-            self._kept_wires(network),
-            network,
-            options,
-            live,
-            drag,
-            lines,
-            offers.wire,
-            self._extension.wire,
-            lambda wire: drawing.images.of(wire, network, False),
-        )
         hovered = hovered if drag is None else undirected(drag.place)
         return Picture(
             options=options,
-            revision=revision,
+            revision=drawing.revision,
             network_revision=drawing.network_revision,
-            wires=shown,
+            wires=self._wires(network, drag, lines),
             seeds=shown_seeds(drawing.seeds(network), drawing.seed_place, closing, hovered, begins),
-            strokes=network.strokes,
+            strokes=(*network.strokes, *(one.stroke for one in under_way.gestures if isinstance(one, StrokeGesture))),
             line=None if line is None else line.points,
             target=target,
             seed=None if seed is None else seed.begins(options.along),
@@ -95,19 +81,44 @@ class Painter:
             can_redo=drawing.history.can_redo,
             strength=drawing.strength,
             work=work,
-            message=message,
+            message=drawing.message,
         )
 
-    def _kept_wires(self, network: Network) -> tuple[ShownWire, ...]:
+    def _wires(self, network: Network, drag: SeedDrag | None, lines: Iterable[LineGesture]) -> tuple[ShownWire, ...]:
+        """Return the wires from bottom to top: those of a network, and everything live."""
+        options, candidates = self._drawing.options, self._live.candidates
+        moved = () if drag is None else drag.moved
         if self._kept is None or self._kept[0] is not network:
-            drag = self._under_way.holds(SeedDrag)
-            self._kept = (network, kept_wires(network, () if drag is None else drag.moved))
-        return self._kept[1]
+            ids = {wire.id for wire in moved}
+            own = (wire for wire in network.wires if wire.id not in ids)
+            self._kept = network, tuple(ShownWire(wire, Role.KEPT, tuple(wire.images or ())) for wire in own)
+        target, active = candidates.target, candidates.active
+        hovered = None if target is None or target.to != "WIRE" else network.find(target.wire)
+        following = [
+            replace(wire, marks=options.marking, mirror=network.mirror) for line in lines for wire in line.wires
+        ]
+        role = Role.ACTIVE if candidates.active_final else Role.COMPUTING
+        offer, extension = self._loops.offers.wire, self._extension.wire
+
+        def live(wire: Wire, role: Role, finish: Finish) -> ShownWire:
+            images = self._drawing.images.of(wire, network, False)
+            return ShownWire(wire, role, tuple(edge for image in images for edge in image.edges()), finish)
+
+        return (
+            *self._kept[1],
+            *([] if hovered is None else [ShownWire(hovered, Role.HOVERED)]),
+            *(ShownWire(wire, Role.OTHER) for wire in reversed(candidates.others)),
+            *(live(wire, Role.MOVED, wire.finish) for wire in moved),
+            *(live(wire, Role.FOLLOWING, options.finish) for wire in following),
+            *([] if active is None else [live(active, role, options.finish)]),
+            *([] if offer is None else [live(each, Role.OFFER, options.finish) for each in (offer, *offer.beside)]),
+            *([] if extension is None else [live(extension, Role.EXTENSION, "SNAP")]),
+        )
 
     def _intent(self, computing: bool) -> Intent:
         """Return the effect of a click."""
         along, live, seed = self._drawing.options.along, self._live.candidates, self._drawing.network.seed
-        if self._under_way.holds(SeedDrag) is not None:
+        if self._under_way.drag is not None:
             return Intent.MOVE
         if self._under_way.holds(LineGesture) is not None:
             return Intent.DRAW

@@ -3,18 +3,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from enum import Enum, auto
 from typing import TYPE_CHECKING
 
 from ...terms.options import Options
 from ..base.messages import NOTHING, Message
-from ..network.network import Network, Snap
+from ..network.network import Snap
 from ..network.picks import undirected
-from .intent import Intent
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Iterable
 
     import numpy as np
     from numpy.typing import NDArray
@@ -24,9 +23,6 @@ if TYPE_CHECKING:
     from ..network.picks import Edge, Pick
     from ..network.strokes import Stroke
     from ..network.wires import Wire
-    from .candidates import CandidateWires
-    from .line import LineGesture
-    from .seed_drag import SeedDrag
 
 
 class Role(Enum):
@@ -65,6 +61,34 @@ class SeedRole(Enum):
     """A wire that leads there closes the chain."""
     HOVERED = auto()
     """It is under the cursor, or dragged."""
+
+
+class Intent(Enum):
+    """The effect of a click."""
+
+    NOTHING = auto()
+    SEED = auto()
+    """Begin a chain on the mesh."""
+    CONTINUE = auto()
+    """Begin a chain at a seed of the network."""
+    BRANCH = auto()
+    """Begin a chain on a wire."""
+    KEEP = auto()
+    """Keep the active wire and go on from its end."""
+    JOIN = auto()
+    """Keep the active wire, which ends on another seed or wire or on a seam, and end the chain."""
+    CLOSE = auto()
+    """Keep the active wire, which leads to the chain's first seed, and end the chain."""
+    LOOP = auto()
+    """Keep the loop that is shown."""
+    RUN = auto()
+    """Keep the wire that runs to the end."""
+    WAIT = auto()
+    """Keep a wire as soon as it is computed."""
+    MOVE = auto()
+    """Leave the dragged seed here."""
+    DRAW = auto()
+    """Keep the line that is being drawn."""
 
 
 @dataclass(frozen=True)
@@ -211,61 +235,6 @@ class Picture:
     def others(self) -> tuple[Wire, ...]:
         """The other candidates, in the order in which they come forward."""
         return self.all(Role.OTHER)[::-1]
-
-
-def kept_wires(network: Network, moved: Iterable[Wire]) -> tuple[ShownWire, ...]:
-    """Return the kept wires of a picture, without those that follow a dragged seed."""
-    ids = {wire.id for wire in moved}
-    return tuple(ShownWire(wire, Role.KEPT, tuple(wire.images or ())) for wire in network.wires if wire.id not in ids)
-
-
-def shown_wires(
-    kept: tuple[ShownWire, ...],
-    network: Network,
-    options: Options,
-    candidates: CandidateWires,
-    drag: SeedDrag | None,
-    lines: Iterable[LineGesture],
-    offer: Wire | None,
-    extension: Wire | None,
-    images: Callable[[Wire], Iterable[Wire]],
-) -> tuple[ShownWire, ...]:
-    """Return the wires of a picture, from bottom to top.
-
-    Parameters
-    ----------
-    kept
-        The kept wires, see `kept_wires`.
-    network
-        The same as a network.
-    options
-        The settings.
-    candidates, drag, lines, offer, extension
-        Everything live: the live wire, a dragged seed, drawn lines, the offered loop, and the way to the end.
-    images
-        Returns the mirror images of a wire.
-    """
-    moved = () if drag is None else drag.moved
-    target = candidates.target
-    hovered = None if target is None or target.to != "WIRE" else network.find(target.wire)
-    following = [replace(wire, marks=options.marking, mirror=network.mirror) for line in lines for wire in line.wires]
-    active = candidates.active
-    role = Role.ACTIVE if candidates.active_final else Role.COMPUTING
-
-    def live(wire: Wire, role: Role, finish: Finish) -> ShownWire:
-        edges = tuple(edge for image in images(wire) for edge in image.edges())
-        return ShownWire(wire, role, edges, finish)
-
-    return (
-        *kept,
-        *([] if hovered is None else [ShownWire(hovered, Role.HOVERED)]),
-        *(ShownWire(wire, Role.OTHER) for wire in reversed(candidates.others)),
-        *(live(wire, Role.MOVED, wire.finish) for wire in moved),
-        *(live(wire, Role.FOLLOWING, options.finish) for wire in following),
-        *([] if active is None else [live(active, role, options.finish)]),
-        *([] if offer is None else [live(each, Role.OFFER, options.finish) for each in (offer, *offer.beside)]),
-        *([] if extension is None else [live(extension, Role.EXTENSION, "SNAP")]),
-    )
 
 
 def shown_seeds(

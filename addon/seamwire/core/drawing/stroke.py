@@ -67,9 +67,9 @@ class StrokeGesture(Gesture):
         else:
             course = drawn(points, faces, drawing.points, drawing.triangles)
         self._live = live
-        self._course = course
         self._meant = acts_on
-        self._how = {"attracts": attracts, "radius": radius}
+        self.stroke = Stroke(*course, acts_on=acts_on or "both", attracts=attracts, radius=radius)
+        """The stroke, which is shown while it waits."""
 
     def commit(self) -> Committed:
         """Return the network with the stroke."""
@@ -81,5 +81,5 @@ class StrokeGesture(Gesture):
         follows = index < len(FOLLOWS) and not candidates.straight_active
         if acts_on is None and network.seed is not None and follows:
             self.chosen, acts_on = index, FOLLOWS[index]
-        stroke = Stroke(*self._course, acts_on=acts_on or "both", **self._how)
+        stroke = replace(self.stroke, acts_on=acts_on or "both")
         return replace(network, strokes=(*network.strokes, stroke))

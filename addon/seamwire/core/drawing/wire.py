@@ -11,7 +11,7 @@ from ..network.network import Network
 from ..network.picks import FacePoint
 from .candidates import CandidateWires, only_vertices
 from .gesture import Gesture
-from .intent import Intent
+from .picture import Intent
 
 if TYPE_CHECKING:
     from ..network.network import Snap
@@ -109,6 +109,10 @@ class WireGesture(Gesture):
             network = network.with_seed_in(wire, joint, self._drawing.points) or network
         self._kept = True
         return network
+
+    def leaves_live(self, live: bool, target: Snap | None) -> bool:
+        """Return whether the chain goes on, or a new one begins."""
+        return not (live and target is not None and target.ends_chains)
 
     def ending(self, target: Snap) -> Intent | None:
         """Return how a wire to a target ends the chain, or None if the chain goes on."""

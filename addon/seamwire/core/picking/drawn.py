@@ -102,10 +102,11 @@ class DrawnPicker:
         return int(vertices[np.argmin(away)])
 
     def _drawn_now(self, session: Session) -> _Drawn:
-        """Return what can be found of a session's network. A dragged seed and its wires cannot, because they follow the mouse."""
-        moved = {wire.id for wire in session.moved}
+        """Return what can be found of a session's network. A held seed and its wires cannot, because they follow the mouse."""
+        moved = {wire.id for wire in session.under_way.moved}
         picks = tuple(session.seeds())
-        key = (id(session), session.network_revision, picks, tuple(sorted(moved)))
+        wires = tuple(wire for wire in session.wires if wire.id not in moved)
+        key = (id(session), picks, tuple(map(id, wires)))
         if self._drawn is not None and self._drawn.key == key:
             return self._drawn
         followed = {end for wire in session.wires if wire.id in moved for end in (wire.start, wire.end)}
@@ -113,7 +114,6 @@ class DrawnPicker:
         picks = tuple(pick for pick in picks if pick not in followed)
         surface = self._surface
         places = [place_of(pick, surface.points) for pick in picks]
-        wires = tuple(wire for wire in session.wires if wire.id not in moved)
         self._drawn = _Drawn(
             key,
             picks,

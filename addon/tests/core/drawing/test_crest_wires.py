@@ -77,13 +77,13 @@ def sheet(request: pytest.FixtureRequest) -> Sheet:
 def test_one_click_takes_a_ridge_as_far_as_it_is_one(sheet: Sheet, finish: str) -> None:
     session, pick = sheet.session, sheet.pick()
     use(session, finish=finish)
-    session.use_crests(sheet.crests, True)
+    session.cursor.use_crests(sheet.crests, True)
     session.hover(pick, loop=True)
     assert session.picture.offered.kinds[0] == "RIDGE"
     np.testing.assert_array_equal(session.picture.one(Role.OFFER).points, sheet.crests.line(sheet.ridge)[0])
     assert session.picture.one(Role.OFFER).edges() == []
     assert session.click(pick)
-    session.wait()
+    session.queue.wait()
     wires = session.wires
     assert wires
     curve = np.concatenate([wire.points for wire in wires])
@@ -111,30 +111,30 @@ def test_one_click_takes_a_ridge_as_far_as_it_is_one(sheet: Sheet, finish: str) 
 
 def test_its_seeds_can_be_dragged(sheet: Sheet) -> None:
     session = sheet.session
-    session.use_crests(sheet.crests, True)
+    session.cursor.use_crests(sheet.crests, True)
     session.hover(sheet.pick(), loop=True)
     session.click(sheet.pick())
-    session.wait()
+    session.queue.wait()
     end = session.wires[-1].end
     assert session.drag(end)
-    session.drag_to(20 * (N + 1) + 5)
-    session.wait()
-    assert session.drag_end()
+    session.cursor.drag_to(20 * (N + 1) + 5)
+    session.queue.wait()
+    assert session.queue.drag_end()
     assert session.wires[-1].end == 20 * (N + 1) + 5
 
 
 def test_where_ridges_are_not_seen_they_come_last(sheet: Sheet) -> None:
     session = sheet.session
-    session.use_crests(sheet.crests, False)
+    session.cursor.use_crests(sheet.crests, False)
     session.hover(sheet.pick(), loop=True)
-    session.wait()
+    session.queue.wait()
     assert session.picture.offered.kinds[-1] == "RIDGE"
     assert session.picture.offered.kinds.count("RIDGE") == 1
     if sheet.session.options.along == "EDGES":
         assert len(session.picture.offered.kinds) > 1
         # Wires before it do not depend on it.
         session.click(sheet.pick())
-        session.wait()
+        session.queue.wait()
         (wire,) = session.wires
         assert wire.kind not in {"RIDGE", "VALLEY"}
         assert not {offer.kind for offer in wire.offers} & {"RIDGE", "VALLEY"}
@@ -144,13 +144,15 @@ def test_a_loop_that_is_kept_does_not_become_a_ridge() -> None:
     sheet = Sheet("EDGES")
     session, edge = sheet.session, sheet.pick()
     assert session.loop(edge)
-    session.wait()
-    session.use_crests(sheet.crests, False)
+    session.queue.wait()
+    session.cursor.use_crests(sheet.crests, False)
     # Stored, it has lost what else was offered: that is found anew.
-    session.adopt(replace(session.drawing.network, wires=tuple(replace(wire, offers=()) for wire in session.wires)), [])
+    session.queue.adopt(
+        replace(session.drawing.network, wires=tuple(replace(wire, offers=()) for wire in session.wires)), []
+    )
     for _ in range(4):
         session.retrace(session.wires[0])
-        session.wait()
+        session.queue.wait()
         (wire,) = session.wires
         assert not {offer.kind for offer in wire.all_offers()} & {"RIDGE", "VALLEY"}
 
@@ -162,31 +164,31 @@ def test_toggling_goes_through_what_is_offered_beside_a_ridge(steps: int, kept: 
     session = sheet.session
     if kept:
         assert session.loop(sheet.pick())
-        session.wait()
-    session.use_crests(sheet.crests, True)
+        session.queue.wait()
+    session.cursor.use_crests(sheet.crests, True)
     session.hover(sheet.pick(), loop=True)
-    session.wait()
+    session.queue.wait()
     kinds = session.picture.offered.kinds
     assert len(kinds) > 2
     assert kinds[0] == "RIDGE"
     for _ in range(steps):
-        session.next_candidate()
+        session.cursor.next_candidate()
     shown = session.picture.one(Role.OFFER)
     assert session.picture.offered.kind == kinds[steps]
     assert session.click(sheet.pick())
-    session.wait()
+    session.queue.wait()
     assert session.edges_to_mark() == sorted(shown.edges())
 
 
 def test_a_ridge_that_is_seen_does_not_wait_for_what_else_is_offered() -> None:
     sheet = Sheet("SURFACE")
     session, pick = sheet.session, sheet.pick()
-    session.use_crests(sheet.crests, True)
+    session.cursor.use_crests(sheet.crests, True)
     session.hover(pick, loop=True)
     assert session.picture.offered.kind == "RIDGE"
     assert session.click(pick)
     assert not any(isinstance(waiting.gesture, LoopGesture) for waiting in session.under_way.queue)
-    session.wait()
+    session.queue.wait()
     assert session.wires
     assert {wire.closed for wire in session.wires} == {False}
 
@@ -195,39 +197,39 @@ def test_where_neither_a_ridge_nor_a_cut_is_offered_it_is_said_however_late_ridg
     sheet = Sheet("SURFACE")
     session = sheet.session
     session.hover(20 * (N + 1) + 26, loop=True)
-    while session.computing:
-        for live in session.lives():
+    while session.under_way.computing:
+        for live in session.under_way.lives():
             live.wait()
         # Its result is final before the session has looked.
-        session.use_crests(sheet.crests, False)
-        session.poll()
+        session.cursor.use_crests(sheet.crests, False)
+        session.queue.poll()
     assert session.picture.one(Role.OFFER) is None
-    assert session.message == SurfaceLoops.NONE
+    assert session.drawing.message == SurfaceLoops.NONE
 
 
 def test_ridges_that_are_known_later_are_offered_then(sheet: Sheet) -> None:
     session = sheet.session
-    assert not session.loops.offers.wanted
+    assert not session.cursor.loops.offers.wanted
     session.hover(sheet.pick(), loop=True)
-    session.wait()
-    assert session.loops.offers.wanted
+    session.queue.wait()
+    assert session.cursor.loops.offers.wanted
     assert "RIDGE" not in session.picture.offered.kinds
-    before = session.revision
-    session.use_crests(sheet.crests, True)
+    before = session.drawing.revision
+    session.cursor.use_crests(sheet.crests, True)
     assert session.picture.offered.kinds[0] == "RIDGE"
-    assert session.revision > before
-    session.use_crests(None, True)
+    assert session.drawing.revision > before
+    session.cursor.use_crests(None, True)
     assert "RIDGE" not in session.picture.offered.kinds
     session.hover(sheet.pick())
-    assert not session.loops.offers.wanted
+    assert not session.cursor.loops.offers.wanted
 
 
 def test_what_was_taken_is_not_offered_again_until_the_cursor_was_elsewhere(sheet: Sheet) -> None:
     session, pick = sheet.session, sheet.pick()
-    session.use_crests(sheet.crests, True)
+    session.cursor.use_crests(sheet.crests, True)
     session.hover(pick, loop=True)
     session.click(pick)
-    session.wait()
+    session.queue.wait()
     session.hover(pick, loop=True)
     assert "RIDGE" not in session.picture.offered.kinds
     session.hover(3 * (N + 1) + 3, loop=True)
@@ -239,13 +241,13 @@ def test_what_was_taken_is_not_offered_again_until_the_cursor_was_elsewhere(shee
 def test_the_second_press_of_a_double_click_on_a_ridge_takes_nothing_more(computed: bool) -> None:
     sheet = Sheet("EDGES")
     session, edge = sheet.session, sheet.pick()
-    session.use_crests(sheet.crests, True)
+    session.cursor.use_crests(sheet.crests, True)
     session.hover(edge, loop=True)
     session.click(edge)
     if computed:
-        session.wait()
+        session.queue.wait()
     assert session.loop(edge)
-    session.wait()
+    session.queue.wait()
     assert session.wires
     assert {wire.kind for wire in session.wires} == {None}
     assert session.undo()
@@ -253,25 +255,25 @@ def test_the_second_press_of_a_double_click_on_a_ridge_takes_nothing_more(comput
     assert session.loop(edge)
     assert session.undo(), "it waits still"
     assert session.loop(edge)
-    session.wait()
+    session.queue.wait()
     assert session.wires
 
 
 def test_a_ridge_leaves_the_chain_that_is_drawn_as_it_is(sheet: Sheet) -> None:
     session, pick = sheet.session, sheet.pick()
-    session.use_crests(sheet.crests, True)
+    session.cursor.use_crests(sheet.crests, True)
     session.click(2 * (N + 1) + 3)
     session.hover(pick, loop=True)
     session.click(pick)
-    session.wait()
+    session.queue.wait()
     assert session.wires
     assert session.seed == 2 * (N + 1) + 3
 
 
 def test_away_from_ridges_nothing_is_said_of_them(sheet: Sheet) -> None:
     session = sheet.session
-    session.use_crests(sheet.crests, True)
+    session.cursor.use_crests(sheet.crests, True)
     place: Pick = 20 * (N + 1) + 26 if session.options.along == "SURFACE" else (20 * (N + 1) + 26, 20 * (N + 1) + 27)
     session.hover(place, loop=True)
-    session.wait()
+    session.queue.wait()
     assert "RIDGE" not in session.picture.offered.kinds

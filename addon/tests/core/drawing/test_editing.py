@@ -8,8 +8,7 @@ from dataclasses import replace
 import pytest
 from fake_live import FakeLive
 from seamwire.core.drawing.drawing import Drawing
-from seamwire.core.drawing.intent import Intent
-from seamwire.core.drawing.picture import Role, SeedRole, ShownSeed
+from seamwire.core.drawing.picture import Intent, Role, SeedRole, ShownSeed
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Network, Snap
 from setting import insert, use
@@ -116,11 +115,11 @@ def test_a_chain_of_one_wire_is_not_closed_by_going_back_along_it() -> None:
     session.click(0)
     session.click(3)
     assert not session.close()
-    assert "back" in str(session.message)
+    assert "back" in str(session.drawing.message)
     assert len(session.wires) == 1
     session.undo()
     session.click(9)
-    assert session.next_candidate() is False
+    assert session.cursor.next_candidate() is False
     assert session.close(), "where it comes back another way it is"
     assert courses(session) == [(0, 1, 2, 3, 9), (9, 8, 7, 6, 0)]
 
@@ -130,7 +129,7 @@ def test_without_a_chain_there_is_nothing_to_close() -> None:
     assert not session.close()
     session.click(0)
     assert not session.close()
-    assert "draw a wire first" in str(session.message)
+    assert "draw a wire first" in str(session.drawing.message)
 
 
 def test_a_chain_that_began_on_an_edge_is_closed_over_its_other_end() -> None:
@@ -148,10 +147,10 @@ def test_a_chain_that_began_on_an_edge_is_closed_over_its_other_end() -> None:
 
 def test_a_dropped_wire_is_gone_and_undo_brings_it_back() -> None:
     session = corner().session
-    before = session.network_revision
+    before = session.drawing.network_revision
     assert session.drop(session.wires[0])
     assert courses(session) == [(3, 9, 15, 21)]
-    assert session.network_revision > before
+    assert session.drawing.network_revision > before
     assert session.undo()
     assert courses(session) == [(0, 1, 2, 3), (3, 9, 15, 21)]
     assert not session.drop(corner().session.wires[0]), "the wire of another drawing"
@@ -263,7 +262,7 @@ def test_after_the_second_way_of_half_a_wire_the_third_is_computed() -> None:
     session.click(0)
     session.hover(21)
     while session.picture.active.follow != 1:
-        session.next_candidate()
+        session.cursor.next_candidate()
     session.click(21)
     assert courses(session) == [(0, 6, 12, 18, 19, 20, 21)]
     insert(session, session.wires[0], 20)
@@ -275,7 +274,7 @@ def test_after_the_second_way_of_half_a_wire_the_third_is_computed() -> None:
 def test_a_straight_wire_has_no_other_way() -> None:
     session = corner().session
     assert not session.retrace(session.wires[0])
-    assert "same edges" in str(session.message)
+    assert "same edges" in str(session.drawing.message)
 
 
 def test_the_other_way_of_half_a_wire_is_computed() -> None:
@@ -286,7 +285,7 @@ def test_the_other_way_of_half_a_wire_is_computed() -> None:
     assert courses(session) == [(0, 1, 2, 8, 14, 20)]
     insert(session, session.wires[0], 8)
     assert session.retrace(session.wires[0])
-    assert session.computing
+    assert session.under_way.computing
     assert courses(session) == [(0, 1, 2, 8), (8, 14, 20)]
     table.compute()
     assert courses(session) == [(0, 6, 7, 8), (8, 14, 20)]
@@ -302,11 +301,11 @@ def test_dropping_waits_for_nothing_that_was_asked_of_the_wire() -> None:
     session.click(21)
     insert(session, session.wires[0], 9)
     session.retrace(session.wires[0])
-    assert session.waiting_clicks == 1
+    assert session.under_way.waiting == 1
     session.drop(session.wires[0])
     table.compute()
     assert courses(session) == [(9, 15, 21)]
-    assert str(session.message) == ""
+    assert str(session.drawing.message) == ""
 
 
 def test_undo_takes_back_what_waits_for_a_wires_other_way() -> None:
@@ -317,7 +316,7 @@ def test_undo_takes_back_what_waits_for_a_wires_other_way() -> None:
     insert(session, session.wires[0], 9)
     session.retrace(session.wires[0])
     assert session.undo()
-    assert session.waiting_clicks == 0
+    assert session.under_way.waiting == 0
     table.compute()
     assert len(session.wires) == 2
     assert session.wires[0].vertices == (0, 1, 2, 3, 9)
@@ -332,7 +331,7 @@ def test_a_stored_loop_that_no_click_took_has_no_other_way() -> None:
     session = Table().session
     mesh.open(session)
     assert not session.retrace(session.wires[0])
-    assert "loop" in str(session.message)
+    assert "loop" in str(session.drawing.message)
 
 
 # Running to the end
@@ -386,21 +385,21 @@ def test_without_a_cursor_it_goes_on_from_the_last_edge() -> None:
 def test_without_a_direction_it_says_what_it_needs() -> None:
     session = Table().session
     assert not session.run_to_end()
-    assert "seed first" in str(session.message)
+    assert "seed first" in str(session.drawing.message)
     session.click(0)
     session.hover(None)
     assert not session.run_to_end()
-    assert "Point" in str(session.message)
+    assert "Point" in str(session.drawing.message)
     use(session, along="SURFACE")
     assert not session.run_to_end(preview=True)
-    assert "along edges" in str(session.message)
+    assert "along edges" in str(session.drawing.message)
 
 
 def test_the_preview_of_the_end_can_be_let_go() -> None:
     session = corner().session
     session.hover(22)
     session.run_to_end(preview=True)
-    assert session.stop_preview()
+    assert session.cursor.stop_preview()
     assert session.picture.one(Role.EXTENSION) is None
     assert session.click(22)
     assert courses(session)[-1] == (21, 22)
@@ -412,7 +411,7 @@ def test_running_on_waits_for_the_wire() -> None:
     session.click(6)
     session.hover(8)
     assert session.run_to_end()
-    assert session.waiting_clicks == 1
+    assert session.under_way.waiting == 1
     table.compute()
     assert courses(session) == [(6, 7, 8, 9, 10, 11)]
 
@@ -459,5 +458,5 @@ def test_a_preview_is_seen_and_not_kept() -> None:
     session.click(7)
     assert session.wires == ()
     live.ready = (True, True)
-    session.poll()
+    session.queue.poll()
     assert courses(session) == [(0, 1, 7)]

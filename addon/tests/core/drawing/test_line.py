@@ -10,8 +10,7 @@ import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
 from real_sessions import session_on
-from seamwire.core.drawing.intent import Intent
-from seamwire.core.drawing.picture import Role
+from seamwire.core.drawing.picture import Intent, Role
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Snap
 from seamwire.core.network.picks import FacePoint, undirected
@@ -39,7 +38,7 @@ def session(along: Along = "EDGES", seams: object = (), **options: object) -> Se
     made = session_on(
         hills(), grid_triangles(SIZE), grid_edges(SIZE), options=Options(along=along), seams=seams, **options
     )
-    made.wait()
+    made.queue.wait()
     return made
 
 
@@ -79,9 +78,9 @@ def draw(
     points, faces = drawn
     for move in range(1, moves + 1):
         count = max(2, len(points) * move // moves)
-        drawing.line_to(points[:count], faces[:count], end if move == moves else None)
+        drawing.cursor.line_to(points[:count], faces[:count], end if move == moves else None)
     end_line(drawing)
-    drawing.wait()
+    drawing.queue.wait()
 
 
 ROW = tuple(at(x, 5) for x in range(2, 10))
@@ -103,16 +102,16 @@ def test_a_line_is_kept_as_wires_along_its_edges_in_one_step() -> None:
     assert drawing.picture.intent is Intent.DRAW
     points, faces = line((2, 5), (9, 5), (9, 10), wobble=0.2)
     half = len(points) // 2
-    drawing.line_to(points[:half], faces[:half], None)
+    drawing.cursor.line_to(points[:half], faces[:half], None)
     shown = [wire.vertices for wire in drawing.picture.all(Role.FOLLOWING)]
     assert shown == [HOOK[: len(shown[0])]]
     assert 4 <= len(shown[0]) <= 8
     assert drawing.wires == ()
     np.testing.assert_array_equal(drawing.picture.line, points[:half])
-    drawing.line_to(points, faces, None)
+    drawing.cursor.line_to(points, faces, None)
     assert [wire.vertices for wire in drawing.picture.all(Role.FOLLOWING)] == [HOOK]
     assert end_line(drawing)
-    drawing.wait()
+    drawing.queue.wait()
     assert chain_of(drawing) == list(HOOK)
     assert drawing.seed is None, "a line is a chain of its own"
     assert not drawing.under_way.held
@@ -132,29 +131,29 @@ def test_its_wires_run_as_those_between_their_seeds_do() -> None:
     for wire in drawing.wires:
         # A seed that is moved away and back brings the same wires.
         assert drawing.drag(Snap(wire.end, "SEED"))
-        drawing.drag_to(Snap(at(12, 12)))
-        drawing.wait()
-        drawing.drag_to(Snap(wire.end))
-        drawing.wait()
+        drawing.cursor.drag_to(Snap(at(12, 12)))
+        drawing.queue.wait()
+        drawing.cursor.drag_to(Snap(wire.end))
+        drawing.queue.wait()
         assert {own.id: own.vertices for own in drawing.wires} == before
-        drawing.let_go()
+        drawing.cursor.let_go()
 
 
 def test_a_line_that_is_cancelled_leaves_all_as_it_was() -> None:
     drawing = session()
     drawing.click(at(1, 1))
     drawing.click(at(4, 1))
-    drawing.wait()
+    drawing.queue.wait()
     network = drawing.network
     drawing.line_begin(at(3, 7))
-    drawing.line_to(*line((3, 7), (9, 7)), None)
+    drawing.cursor.line_to(*line((3, 7), (9, 7)), None)
     assert drawing.picture.all(Role.FOLLOWING)
-    assert drawing.let_go()
+    assert drawing.cursor.let_go()
     assert drawing.network == network
     assert drawing.picture.all(Role.FOLLOWING) == ()
-    assert not drawing.let_go()
+    assert not drawing.cursor.let_go()
     assert not end_line(drawing)
-    assert not drawing.line_to(*line((3, 7), (9, 7)), None)
+    assert not drawing.cursor.line_to(*line((3, 7), (9, 7)), None)
     assert drawing.network == network
 
 
@@ -172,7 +171,7 @@ def test_a_line_begun_elsewhere_ends_the_chain_and_one_begun_at_its_seed_goes_on
     drawing = session()
     for pick in (at(1, 1), at(4, 1)):
         drawing.click(pick)
-        drawing.wait()
+        drawing.queue.wait()
     assert drawing.goes_on_from(Snap(at(4, 1), "SEED"))
     assert not drawing.goes_on_from(Snap(at(1, 1), "SEED"))
     draw(drawing, Snap(at(4, 1), "SEED"), line((4, 1), (9, 1)))
@@ -181,7 +180,7 @@ def test_a_line_begun_elsewhere_ends_the_chain_and_one_begun_at_its_seed_goes_on
     assert drawing.drawing.seed_place == at(9, 1)
     assert drawing.wires[1].heading == (at(3, 1), at(4, 1)), "its first wire goes on from the one before"
     drawing.click(at(9, 4))
-    drawing.wait()
+    drawing.queue.wait()
     assert chain_of(drawing)[-1] == at(9, 4)
     draw(drawing, at(2, 8), line((2, 8), (6, 8)))
     assert drawing.seed is None
@@ -241,7 +240,7 @@ def test_a_line_too_short_says_so_and_is_no_step() -> None:
     drawing = session()
     draw(drawing, ROW[0], line((2, 5), (2.2, 5)))
     assert drawing.wires == ()
-    assert "farther" in str(drawing.message)
+    assert "farther" in str(drawing.drawing.message)
     assert not drawing.picture.can_undo
 
 
@@ -255,8 +254,8 @@ def test_a_long_line_stays_as_it_was_but_for_its_end() -> None:
     drawing.line_begin(at(0, 0))
     points, faces = drawn
     for count in range(2, len(points) + 1, 40):
-        drawing.line_to(points[:count], faces[:count], None)
-    drawing.line_to(points, faces, None)
+        drawing.cursor.line_to(points[:count], faces[:count], None)
+    drawing.cursor.line_to(points, faces, None)
     vertices = drawing.picture.all(Role.FOLLOWING)[0].vertices
     assert len(vertices) > 205
     assert vertices[:16] == tuple(range(16))
@@ -270,12 +269,12 @@ def test_a_line_drawn_before_the_mesh_is_known_is_fitted_when_it_is() -> None:
     drawing = table.session
     drawing.line_begin(0)
     points = np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0]])
-    drawing.line_to(points, np.zeros(3, dtype=np.int32), None)
+    drawing.cursor.line_to(points, np.zeros(3, dtype=np.int32), None)
     assert drawing.picture.all(Role.FOLLOWING) == ()
     end_line(drawing)
-    assert drawing.waiting_clicks == 1
+    assert drawing.under_way.waiting == 1
     assert drawing.wires == ()
-    drawing.wait()
+    drawing.queue.wait()
     assert [wire.vertices for wire in drawing.wires] == [(0, 1, 2)]
 
 
@@ -284,16 +283,16 @@ def test_clicks_and_lines_wait_for_a_line_that_is_not_computed_yet() -> None:
     drawing = table.session
     three = np.zeros(3, dtype=np.int32)
     drawing.line_begin(0)
-    drawing.line_to(np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0]]), three, None)
+    drawing.cursor.line_to(np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0]]), three, None)
     end_line(drawing)
     table.lives["EDGES"].fork_ready = (True, True)  # the second is computed, and comes second all the same
     drawing.line_begin(12)
-    drawing.line_to(np.array([[0.0, 2, 0], [1, 2, 0], [2, 2, 0]]), three, None)
+    drawing.cursor.line_to(np.array([[0.0, 2, 0], [1, 2, 0], [2, 2, 0]]), three, None)
     end_line(drawing)
     drawing.click(20)
-    assert drawing.waiting_clicks == 3
+    assert drawing.under_way.waiting == 3
     assert [wire.vertices for wire in drawing.picture.all(Role.FOLLOWING)] == [(0, 1, 2), (12, 13, 14)]
-    drawing.wait()
+    drawing.queue.wait()
     assert [wire.vertices for wire in drawing.wires] == [(0, 1, 2), (12, 13, 14)]
     assert drawing.seed == 20
 
@@ -317,10 +316,10 @@ def test_across_the_surface_wires_keep_near_to_the_line(finish: str) -> None:
     begin = at(2, 5)
     drawing.line_begin(begin)
     for count in range(8, len(points) + 8, 8):
-        drawing.line_to(points[:count], faces[:count], None)
-        drawing.poll()
+        drawing.cursor.line_to(points[:count], faces[:count], None)
+        drawing.queue.poll()
     end_line(drawing)
-    drawing.wait()
+    drawing.queue.wait()
     wires = drawing.wires
     assert 2 <= len(wires) <= 12
     assert all(one.end == other.start for one, other in itertools.pairwise(wires))
@@ -339,7 +338,7 @@ def test_across_the_surface_a_line_where_the_live_wire_runs_is_one_wire() -> Non
     drawing = session("SURFACE")
     drawing.click(at(2, 5))
     drawing.hover(at(12, 9))
-    drawing.wait()
+    drawing.queue.wait()
     drawing.hover(at(12, 9))
     live = drawing.picture.active
     drawing.end_chain()
@@ -356,14 +355,14 @@ def test_across_the_surface_lines_end_where_they_are_led_to() -> None:
     draw(drawing, at(2, 2), line((2, 2), (8.8, 2.4)), Snap(at(9, 3), "SEAM"))
     assert drawing.wires[-1].end == at(9, 3)
     assert drawing.line_begin(Snap((at(2, 2), at(3, 2)))) is False
-    assert "not edge" in str(drawing.message)
+    assert "not edge" in str(drawing.drawing.message)
 
 
 def test_across_the_surface_a_line_goes_on_from_the_live_wire() -> None:
     drawing = session("SURFACE")
     drawing.click(at(2, 2))
     drawing.click(at(5, 2))
-    drawing.wait()
+    drawing.queue.wait()
     draw(drawing, Snap(at(5, 2), "SEED"), line((5, 2), (9, 2), (9, 6)))
     assert drawing.wires[1].start == at(5, 2)
     assert drawing.seed == at(9, 6)

@@ -11,8 +11,7 @@ import pytest
 from fake_live import grid_edges, grid_points
 from real_sessions import halves, session_on
 from seamwire.core.drawing.drawing import Drawing
-from seamwire.core.drawing.intent import Intent
-from seamwire.core.drawing.picture import Role
+from seamwire.core.drawing.picture import Intent, Role
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Network, Snap
 from seamwire.core.network.stops import Stops
@@ -39,9 +38,9 @@ def grid(shift: float = 0.0, **options: object) -> Session:
 def show(session: Session, edge: tuple[int, int], kind: str | None = None) -> tuple[int, ...]:
     """Show what a click on an edge offers, of a kind or the first; return its vertices."""
     session.hover(edge, loop=True)
-    session.wait()
+    session.queue.wait()
     while kind is not None and session.picture.offered.kind != kind:
-        assert session.next_candidate()
+        assert session.cursor.next_candidate()
     return shown(session)
 
 
@@ -50,7 +49,7 @@ def take(session: Session, edge: tuple[int, int], kind: str | None = None) -> bo
     if kind is not None:
         show(session, edge, kind)
     is_done = session.loop(edge)
-    session.wait()
+    session.queue.wait()
     session.hover(None)
     return is_done
 
@@ -94,7 +93,7 @@ def test_a_strip_is_kept_with_its_ends_as_seeds() -> None:
     assert (wire.start, wire.end) == (2, 32)
     assert session.edges_to_mark() == chain(*COLUMN)
     assert session.seeds() == [2, 32]
-    assert str(session.message) == ""
+    assert str(session.drawing.message) == ""
 
 
 def test_a_strip_ends_where_its_own_edge_meets_a_seam() -> None:
@@ -107,7 +106,7 @@ def test_a_strip_ends_at_images_of_kept_wires() -> None:
     use(session, mirror=[0])  # what is drawn on column 1 is on column 4 as well
     session.click(7)
     session.hover(25)
-    session.wait()
+    session.queue.wait()
     session.click(25)
     session.end_chain()
     assert show(session, (14, 15), "STRIP") == (13, 14, 15, 16)
@@ -132,13 +131,13 @@ def test_toggling_goes_around_and_stays_while_the_edge_is_the_same() -> None:
     kinds = []
     for _ in range(4):
         kinds.append(session.picture.offered.kind)
-        before = session.revision
-        assert session.next_candidate()
-        assert session.revision > before
+        before = session.drawing.revision
+        assert session.cursor.next_candidate()
+        assert session.drawing.revision > before
         show(session, (15, 14))
     assert kinds == ["CLOSED", "STRIP", "CLOSED", "STRIP"]
     assert session.picture.offered.kind == "CLOSED"
-    session.next_candidate()
+    session.cursor.next_candidate()
     show(session, (15, 16))
     assert session.picture.offered.kind == "CLOSED", "another edge begins with its default"
 
@@ -148,7 +147,7 @@ def test_what_is_chosen_is_kept(keep: str) -> None:
     session = grid()
     show(session, (14, 15), "STRIP")
     assert getattr(session, keep)((14, 15))
-    session.wait()
+    session.queue.wait()
     assert session.wires[0].vertices == ROW
     assert session.wires[0].kind == "STRIP"
 
@@ -160,7 +159,7 @@ def test_a_kept_loop_takes_its_next_offer_in_place() -> None:
     courses = []
     for _ in range(3):
         assert session.retrace(session.wires[0])
-        session.wait()
+        session.queue.wait()
         courses.append(session.wires[0].vertices)
         assert session.wires[0].id == number
     assert courses == [ROW, AROUND, ROW]
@@ -171,7 +170,7 @@ def test_a_kept_loop_takes_its_next_offer_in_place() -> None:
     assert session.wires == ()
     assert session.redo()
     assert session.retrace(session.wires[0])
-    session.wait()
+    session.queue.wait()
     assert session.wires[0].vertices == ROW
 
 
@@ -198,7 +197,7 @@ def test_a_double_click_takes_its_first_click_back() -> None:
     session = grid()
     session.click(0)
     session.hover((14, 20))
-    session.wait()
+    session.queue.wait()
     session.click((14, 20))
     assert len(session.wires) == 1
     assert take(session, (14, 20))
@@ -213,9 +212,9 @@ def test_a_strips_ends_are_seeds_that_can_be_moved_and_gone_on_from() -> None:
     session = grid()
     take(session, (14, 20), "STRIP")
     session.drag(32)
-    session.drag_to(33)
-    session.wait()
-    assert session.drag_end()
+    session.cursor.drag_to(33)
+    session.queue.wait()
+    assert session.queue.drag_end()
     (wire,) = session.wires
     assert (wire.vertices[0], wire.vertices[-1]) == (2, 33)
     assert wire.kind is None
@@ -230,14 +229,14 @@ def test_what_goes_on_from_a_strip_stays_when_that_takes_its_next_offer() -> Non
     take(session, (14, 20), "STRIP")
     session.click(Snap(26, "SEED"))
     session.hover(28)
-    session.wait()
+    session.queue.wait()
     session.click(28)
     session.end_chain()
     before = session.wires[1].vertices
     assert session.wires[1].heading == (20, 26)
     while session.wires[0].vertices != COLUMN:
         assert session.retrace(session.wires[0])
-        session.wait()
+        session.queue.wait()
     assert session.wires[1].vertices == before
     assert session.wires[1].heading is None
 
@@ -310,8 +309,8 @@ def test_a_single_offer_has_no_next() -> None:
     session = Table().session
     session.hover((14, 20), loop=True)
     assert session.picture.offered.kinds == ("STRIP",)
-    assert not session.next_candidate()
-    assert session.message.code == "nothing-else-through-edge"
+    assert not session.cursor.next_candidate()
+    assert session.drawing.message.code == "nothing-else-through-edge"
     session.hover(None)
     assert session.picture.offered.kinds == ()
     assert session.picture.offered.kind is None
@@ -329,7 +328,7 @@ def test_an_edge_that_is_none_is_refused_in_words() -> None:
     live = table.lives["EDGES"]
     session = Session(Drawing(lambda _: NoEdge(), table.points))
     assert not session.loop((0, 20))
-    assert "no edge" in str(session.message)
+    assert "no edge" in str(session.drawing.message)
     session.hover((0, 20), loop=True)
     assert session.picture.one(Role.OFFER) is None
 
@@ -344,11 +343,11 @@ def test_a_double_click_waits_for_the_loop() -> None:
     session.click((14, 20))
     session.loop((14, 20))
     assert session.seed is None
-    assert session.waiting_clicks == 1
-    assert session.computing
+    assert session.under_way.waiting == 1
+    assert session.under_way.computing
     table.compute()
     assert [wire.vertices for wire in session.wires] == [COLUMN]
-    assert not session.computing
+    assert not session.under_way.computing
 
 
 def test_while_the_loop_is_computed_nothing_is_offered_yet() -> None:
@@ -356,9 +355,9 @@ def test_while_the_loop_is_computed_nothing_is_offered_yet() -> None:
     session = table.session
     session.hover((14, 15), loop=True)
     assert session.picture.one(Role.OFFER) is None
-    assert session.computing
-    assert not session.next_candidate()
-    assert session.message.code == "no-loop-yet"
+    assert session.under_way.computing
+    assert not session.cursor.next_candidate()
+    assert session.drawing.message.code == "no-loop-yet"
     table.compute()
     assert shown(session) == COMPUTED
 
@@ -370,10 +369,10 @@ def test_a_loop_that_waits_does_not_keep_a_click_before_it_waiting() -> None:
     session.click(21)
     session.loop((14, 15))
     session.click(3)
-    assert session.waiting_clicks == 3
+    assert session.under_way.waiting == 3
     table.compute()
-    assert session.waiting_clicks == 0
-    assert not session.computing
+    assert session.under_way.waiting == 0
+    assert not session.under_way.computing
     assert [wire.vertices for wire in session.wires] == [COMPUTED, (0, 1, 2, 3)], "no wire reaches 21"
 
 
@@ -413,11 +412,11 @@ def test_a_stored_loops_offers_wait_until_they_are_computed() -> None:
     session = again.session
     mesh.open(session)
     assert session.retrace(session.wires[0])
-    assert session.waiting_clicks == 1
-    assert session.computing
+    assert session.under_way.waiting == 1
+    assert session.under_way.computing
     again.compute()
-    assert session.waiting_clicks == 0
-    assert not session.computing
+    assert session.under_way.waiting == 0
+    assert not session.under_way.computing
     assert session.wires[0].vertices == ROW
     assert session.undo()
     assert session.wires[0].vertices == COMPUTED
@@ -431,7 +430,7 @@ def test_a_stored_loops_offers_are_waited_for_across_the_surface_too() -> None:
     session = Table("SURFACE", ready=(False, False)).session
     mesh.open(session)
     session.retrace(session.wires[0])
-    session.wait()
+    session.queue.wait()
     assert session.wires[0].vertices == ROW
 
 
@@ -440,8 +439,8 @@ def test_loops_that_were_asked_for_on_an_edge_are_given_up_once_a_vertex_is_unde
     session.click(0)
     session.hover((14, 15), loop=True)
     session.click(7)
-    session.use_crests(None, True)
-    session.poll()
-    assert not session.computing, "waiting would never end"
+    session.cursor.use_crests(None, True)
+    session.queue.poll()
+    assert not session.under_way.computing, "waiting would never end"
     session.hover((14, 15), loop=True)
     assert session.picture.offered.kinds

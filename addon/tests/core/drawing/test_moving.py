@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from seamwire.core.drawing.intent import Intent
+from seamwire.core.drawing.picture import Intent
 from seamwire.core.network.network import Snap
 from setting import use
 from table import Table, corner, courses
@@ -13,19 +13,19 @@ def test_a_dragged_seeds_wires_follow_on_both_sides() -> None:
     table = corner()
     session = table.session
     assert session.drag(3)
-    assert session.dragging
+    assert session.under_way.drag
     assert session.picture.intent is Intent.MOVE
-    assert session.drag_to(4)
+    assert session.cursor.drag_to(4)
     assert courses(session) == [(0, 1, 2, 3, 4), (4, 10, 16, 22, 21)]
-    assert set(session.moved) == set(session.wires)
-    assert session.network_revision == 2
-    assert session.drag_to(2)
-    assert session.drag_end()
-    assert not session.dragging
+    assert set(session.under_way.moved) == set(session.wires)
+    assert session.drawing.network_revision == 2
+    assert session.cursor.drag_to(2)
+    assert session.queue.drag_end()
+    assert not session.under_way.drag
     assert session.seeds() == [0, 2, 21]
     assert session.wires[1].heading == session.wires[0].last_edge
     assert len(table.lives["EDGES"].forks) == 2, "a live wire for each"
-    assert session.network_revision == 3
+    assert session.drawing.network_revision == 3
     assert session.undo()
     assert courses(session) == [(0, 1, 2, 3), (3, 9, 15, 21)]
     assert session.redo()
@@ -35,9 +35,9 @@ def test_a_dragged_seeds_wires_follow_on_both_sides() -> None:
 def test_a_mirror_that_is_set_while_a_seed_is_dragged_stays() -> None:
     session = corner().session
     session.drag(3)
-    session.drag_to(4)
+    session.cursor.drag_to(4)
     assert use(session, mirror=(0,))
-    assert session.drag_end()
+    assert session.queue.drag_end()
     assert session.network.mirror == session.options.mirror == (0,)
 
 
@@ -47,10 +47,10 @@ def test_wires_arrive_and_leave_as_their_neighbours_do() -> None:
     session.click(23)
     session.drag(21)
     assert [fork.seeded for fork in table.lives["EDGES"].forks] == [((2, 3), True), (23, False)]
-    session.let_go()
+    session.cursor.let_go()
     session.drag(3)
     assert [fork.seeded for fork in table.lives["EDGES"].forks[2:]] == [(0, False), ((22, 21), True)]
-    session.drag_to(9)
+    session.cursor.drag_to(9)
     assert courses(session) == [(0, 1, 2, 3, 9), (9, 15, 21), (21, 22, 23)]
 
 
@@ -62,13 +62,13 @@ def test_around_an_edge_seed_wires_keep_their_direction() -> None:
     assert courses(session) == [(0, 1, 2, 3), (3, 9, 15, 21)]
     session.drag(0)
     assert table.lives["EDGES"].forks[0].seeded == ((3, 2), True), "the wire after it leaves over 3"
-    session.drag_to(1)
+    session.cursor.drag_to(1)
     assert courses(session) == [(1, 2, 3), (3, 9, 15, 21)]
-    session.let_go()
+    session.cursor.let_go()
     session.drag((3, 2))
-    session.drag_to((8, 9))
+    session.cursor.drag_to((8, 9))
     assert courses(session) == [(0, 1, 2, 8, 9), (9, 15, 21)], "the second leaves the edge where the first led over it"
-    assert session.drag_end()
+    assert session.queue.drag_end()
     assert session.wires[1].heading == (8, 9)
     assert session.seeds() == [0, (8, 9), 21]
 
@@ -77,8 +77,8 @@ def test_the_seed_of_the_live_wire_moves_with_its_wire() -> None:
     table = corner()
     session = table.session
     session.drag(21)
-    session.drag_to(22)
-    session.drag_end()
+    session.cursor.drag_to(22)
+    session.queue.drag_end()
     assert courses(session)[-1] == (3, 4, 10, 16, 22)
     assert session.seed == (16, 22)
     assert table.lives["EDGES"].seeded == ((16, 22), True)
@@ -90,8 +90,8 @@ def test_a_seed_without_wires_can_be_moved() -> None:
     session = Table().session
     session.click(0)
     session.drag(0)
-    session.drag_to(7)
-    session.drag_end()
+    session.cursor.drag_to(7)
+    session.queue.drag_end()
     assert session.seed == 7
     assert session.seeds() == [7]
     session.undo()
@@ -101,8 +101,8 @@ def test_a_seed_without_wires_can_be_moved() -> None:
 def test_the_first_seed_of_a_chain_can_be_moved_and_still_closes_it() -> None:
     session = corner().session
     session.drag(0)
-    session.drag_to(1)
-    session.drag_end()
+    session.cursor.drag_to(1)
+    session.queue.drag_end()
     assert session.drawing.network.closing_point == 1
     session.close()
     assert session.wires[-1].end == 1
@@ -114,20 +114,20 @@ def test_a_seed_dragged_onto_another_one_becomes_one_with_it() -> None:
     session.click(33)
     session.end_chain()
     session.drag(33)
-    session.drag_to(Snap(21, "SEED"))
-    session.drag_end()
+    session.cursor.drag_to(Snap(21, "SEED"))
+    session.queue.drag_end()
     assert session.seeds() == [0, 3, 21, 30]
     assert session.wires[-1].vertices[-1] == 21
     session.drag(21)
-    session.drag_to(22)
-    assert len(session.moved) == 2, "from then on they move together"
+    session.cursor.drag_to(22)
+    assert len(session.under_way.moved) == 2, "from then on they move together"
 
 
 def test_a_seed_dragged_onto_its_neighbour_takes_the_wire_between_away() -> None:
     session = corner().session
     session.drag(3)
-    session.drag_to(Snap(0, "SEED"))
-    session.drag_end()
+    session.cursor.drag_to(Snap(0, "SEED"))
+    session.queue.drag_end()
     assert courses(session) == [(0, 6, 12, 18, 19, 20, 21)]
     assert session.seeds() == [0, 21]
 
@@ -138,31 +138,31 @@ def test_an_only_wire_is_not_dragged_to_nothing() -> None:
     session.click(3)
     session.end_chain()
     session.drag(3)
-    assert not session.drag_to(Snap(0, "SEED"))
-    assert "remove it instead" in str(session.message)
+    assert not session.cursor.drag_to(Snap(0, "SEED"))
+    assert "remove it instead" in str(session.drawing.message)
     assert courses(session) == [(0, 1, 2, 3)]
-    assert not session.drag_end()
+    assert not session.queue.drag_end()
     assert courses(session) == [(0, 1, 2, 3)]
-    assert not session.dragging
+    assert not session.under_way.drag
 
 
 def test_a_seed_dragged_to_where_no_wire_leads_stays() -> None:
     session = corner(islands=(35,)).session
     session.drag(3)
-    session.drag_to(4)
-    assert not session.drag_to(35)
-    assert str(session.message) == "No wire from vertex 0 reaches vertex 35"
-    session.drag_end()
+    session.cursor.drag_to(4)
+    assert not session.cursor.drag_to(35)
+    assert str(session.drawing.message) == "No wire from vertex 0 reaches vertex 35"
+    session.queue.drag_end()
     assert courses(session) == [(0, 1, 2, 3), (3, 9, 15, 21)]
 
 
 def test_undo_during_a_drag_takes_back_the_drag_alone() -> None:
     session = corner().session
     session.drag(3)
-    session.drag_to(4)
+    session.cursor.drag_to(4)
     assert session.picture.can_undo
     assert session.undo()
-    assert not session.dragging
+    assert not session.under_way.drag
     assert courses(session) == [(0, 1, 2, 3), (3, 9, 15, 21)]
     assert not session.picture.can_redo
 
@@ -171,22 +171,22 @@ def test_a_drag_that_is_not_computed_is_done_when_it_is() -> None:
     table = corner(fork_ready=(False, False))
     session = table.session
     session.drag(3)
-    assert not session.drag_to(4)
-    assert session.computing
+    assert not session.cursor.drag_to(4)
+    assert session.under_way.computing
     assert courses(session) == [(0, 1, 2, 3), (3, 9, 15, 21)]
-    assert session.drag_end()
-    assert session.dragging, "it waits"
+    assert session.queue.drag_end()
+    assert session.under_way.drag, "it waits"
     table.compute()
-    assert not session.dragging
+    assert not session.under_way.drag
     assert courses(session) == [(0, 1, 2, 3, 4), (4, 10, 16, 22, 21)]
 
 
 def test_there_must_be_a_seed_to_drag() -> None:
     session = corner().session
     assert not session.drag(20)
-    assert not session.drag_to(21)
-    assert not session.drag_end()
-    assert not session.let_go()
+    assert not session.cursor.drag_to(21)
+    assert not session.queue.drag_end()
+    assert not session.cursor.let_go()
 
 
 def test_surface_wires_follow_to_vertices_only() -> None:
@@ -194,11 +194,11 @@ def test_surface_wires_follow_to_vertices_only() -> None:
     for pick in (0, 3, 21):
         session.click(pick)
     session.drag(3)
-    assert not session.drag_to((3, 4))
-    assert "vertices" in str(session.message)
-    assert session.drag_to(4)
+    assert not session.cursor.drag_to((3, 4))
+    assert "vertices" in str(session.drawing.message)
+    assert session.cursor.drag_to(4)
     assert session.wires[1].points[0].tolist() == [4.0, 0.0, 0.0], "the curve runs from its start"
-    session.drag_end()
+    session.queue.drag_end()
     assert session.seeds() == [0, 4, 21]
 
 
@@ -208,6 +208,6 @@ def test_while_a_seed_is_dragged_a_toggled_wire_stays_with_its_metric() -> None:
     session.click(7)
     session.retrace(session.wires[0])
     session.drag(7)
-    session.drag_to(8)
+    session.cursor.drag_to(8)
     assert courses(session) == [(0, 6, 7, 8)]
     assert session.wires[0].alternatives[0].vertices == (0, 1, 2, 8)

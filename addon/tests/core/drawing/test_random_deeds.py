@@ -12,7 +12,7 @@ from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
 from paper_mesh import PaperMesh
 from seamwire.core.drawing.drawing import Drawing
-from seamwire.core.drawing.intent import Intent
+from seamwire.core.drawing.picture import Intent
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Network, Snap
 from seamwire.core.network.picks import Edge, Pick
@@ -68,17 +68,17 @@ class Monkey:
             *[lambda: session.hover(self.snap(), loop=self.dice.random() < 0.3)] * 6,
             *[lambda: session.loop(self.snap())] * 3,
             *[self.stroke] * 3,
-            *[session.next_candidate, session.poll, session.undo] * 3,
-            *[session.redo, session.wait] * 2,
+            *[session.cursor.next_candidate, session.queue.poll, session.undo] * 3,
+            *[session.redo, session.queue.wait] * 2,
             lambda: session.start(self.snap()),
             lambda: session.drag(self.snap()),
-            lambda: session.drag_to(self.snap()),
-            session.drag_end,
-            session.let_go,
+            lambda: session.cursor.drag_to(self.snap()),
+            session.queue.drag_end,
+            session.cursor.let_go,
             lambda: session.line_begin(self.snap()),
             *[self.line_on] * 3,
             *[lambda: end_line(session)] * 2,
-            session.let_go,
+            session.cursor.let_go,
             session.end_chain,
             session.close,
             lambda: session.run_to_end(preview=self.dice.random() < 0.5),
@@ -123,15 +123,15 @@ class Monkey:
         start, step = self.dice.randrange(2 * (SIZE - 1) ** 2), self.dice.choice([1, 2, 2 * (SIZE - 1)])
         faces = np.arange(start, 2 * (SIZE - 1) ** 2, step, dtype=np.int32)[: self.dice.randrange(1, 20)]
         middles = self.points[grid_triangles(SIZE)[faces]].mean(axis=1)
-        self.session.line_to(middles, faces, self.snap() if self.dice.random() < 0.5 else None)
+        self.session.cursor.line_to(middles, faces, self.snap() if self.dice.random() < 0.5 else None)
 
     def erase(self) -> None:
-        if self.session.strokes:
-            self.session.erase(self.dice.choice(self.session.strokes))
+        if self.session.network.strokes:
+            self.session.erase(self.dice.choice(self.session.network.strokes))
 
     def store(self) -> None:
         session, mesh = self.session, self.mesh
-        if session.dragging:
+        if session.under_way.drag:
             return
         cleared = set(session.edges_to_clear())
         self.plain -= cleared
@@ -187,9 +187,9 @@ class Monkey:
                 around = [*wire.vertices, *wire.vertices[:1]] if wire.closed else list(wire.vertices)
                 assert np.array_equal(wire.points, self.points[around])
         assert (session.picture.offered.kind is None) == (session.picture.offered.kinds == ())
-        offers = session.loops.offers.offers
+        offers = session.cursor.loops.offers.offers
         assert len({frozenset(offer.edges()) for offer in offers}) == len(offers)
-        assert (session.picture.intent is Intent.MOVE) == session.dragging
+        assert (session.picture.intent is Intent.MOVE) == (session.under_way.drag is not None)
 
 
 def looks(network: Network) -> set[tuple[object, ...]]:
@@ -207,26 +207,26 @@ def test_whatever_is_done_the_network_is_sound_and_undo_leads_back(seed: int) ->
     for _ in range(400):
         monkey.dice.choice(monkey.deeds)()
         monkey.check()
-    session.let_go()
+    session.cursor.let_go()
     session.end_chain()
-    session.wait()
+    session.queue.wait()
     left = 1000
     while session.picture.can_undo and left:
         session.undo()
         left -= 1
     assert left
     assert looks(session.network) == looks(monkey.begun)
-    assert [one.id for one in session.strokes] == [one.id for one in monkey.begun.strokes]
-    for stroke in session.strokes:
+    assert [one.id for one in session.network.strokes] == [one.id for one in monkey.begun.strokes]
+    for stroke in session.network.strokes:
         session.erase(stroke)
     use(session, along="EDGES")
     use(session, metric="feature")
     use(session, strength_edges=STRENGTHS["EDGES"])
     session.start(0)
     session.hover(SIZE**2 - 1)
-    session.wait()
+    session.queue.wait()
     fresh = Monkey(seed).session
     fresh.start(0)
     fresh.hover(SIZE**2 - 1)
-    fresh.wait()
+    fresh.queue.wait()
     assert session.picture.active.vertices == fresh.picture.active.vertices, "the strokes left no trace"

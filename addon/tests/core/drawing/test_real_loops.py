@@ -22,11 +22,11 @@ core = pytest.importorskip("seamwire_core")
 
 def hovered(session: Session, edge: tuple[int, int]) -> list[tuple[str, list[int]]]:
     session.hover(edge, loop=True)
-    session.wait()
+    session.queue.wait()
     found = []
     for _ in session.picture.offered.kinds:
         found.append((session.picture.offered.kind, sorted(session.picture.one(Role.OFFER).vertices)))
-        session.next_candidate()
+        session.cursor.next_candidate()
     return found
 
 
@@ -81,7 +81,7 @@ def test_a_double_click_on_a_ball_takes_the_meridian_between_the_poles(ready: bo
     edge = (3 * AROUND + 2, 4 * AROUND + 2)
     session.click(edge)
     session.loop(edge)
-    session.wait()
+    session.queue.wait()
     (wire,) = session.wires
     while wire.kind == "CLOSED":  # a great circle through both poles is a loop, where the metric says so
         session.retrace(wire)
@@ -109,19 +109,19 @@ def test_a_way_past_poles_goes_straight_on_there_up_to_seams() -> None:
 def test_a_way_past_poles_that_meets_no_seam_closes_around_the_ball() -> None:
     session = ball()
     session.hover((2 * AROUND, 3 * AROUND), loop=True)
-    session.wait()
+    session.queue.wait()
     great_circle = {*meridian(0), *meridian(AROUND // 2), AROUND * RINGS, AROUND * RINGS + 1}
     shown = []
     for _ in session.picture.offered.kinds:
         shown.append((session.picture.one(Role.OFFER).closed, set(session.picture.one(Role.OFFER).vertices)))
-        session.next_candidate()
+        session.cursor.next_candidate()
     assert (True, great_circle) in shown
 
 
 def test_a_kept_ring_ends_the_next_strip() -> None:
     session = ball()
     session.loop((4 * AROUND, 4 * AROUND + 1))
-    session.wait()
+    session.queue.wait()
     assert session.wires[0].closed
     offers = dict(hovered(session, (2 * AROUND, 3 * AROUND)))
     assert offers["STRIP"] == sorted([*meridian(0)[:5], AROUND * RINGS])
@@ -163,7 +163,7 @@ def test_the_strip_of_a_stored_network_can_be_moved() -> None:
     edge = (3 * AROUND + 2, 4 * AROUND + 2)
     hovered(session, edge)
     while session.picture.offered.kind != "STRIP":
-        session.next_candidate()
+        session.cursor.next_candidate()
     session.loop(edge)
     points = session.drawing.points
     mesh = PaperMesh(points, session.drawing.symmetry._edges)
@@ -171,9 +171,9 @@ def test_the_strip_of_a_stored_network_can_be_moved() -> None:
     again = tube()
     mesh.open(again)
     assert again.drag(again.seeds()[0])
-    again.drag_to(4)
-    again.wait()
-    assert again.drag_end()
+    again.cursor.drag_to(4)
+    again.queue.wait()
+    assert again.queue.drag_end()
     assert 4 in again.seeds()
 
 
@@ -214,7 +214,7 @@ def wire_between(session: Session, along: Along) -> NDArray[np.float64]:
     use(session, along=along)
     session.start(LEFT)
     session.hover(RIGHT)
-    session.wait()
+    session.queue.wait()
     points = session.picture.active.points.copy()
     session.end_chain()
     return points
@@ -263,12 +263,12 @@ def test_the_live_wire_follows_a_stroke_while_it_is_live() -> None:
     session = grid()
     session.click(LEFT)
     session.hover(RIGHT)
-    session.wait()
+    session.queue.wait()
     session.draw_stroke(gate(), faces_under(gate()))
-    session.wait()
+    session.queue.wait()
     assert set(map(tuple, session.picture.active.points[:, :2])) == GATE
     session.undo()
-    session.wait()
+    session.queue.wait()
     assert session.picture.active.points[:, 1].max() == 15.0
 
 
@@ -276,15 +276,15 @@ def test_strokes_reach_wires_whose_seeds_are_moved() -> None:
     session = grid()
     session.click(LEFT)
     session.click(RIGHT - 4)
-    session.wait()
+    session.queue.wait()
     session.end_chain()
     session.draw_stroke(gate(), faces_under(gate()))
     assert session.wires[0].points[:, 1].max() == 15.0, "a kept wire stays"
     session.drag(RIGHT - 4)
-    session.drag_to(RIGHT)
-    session.wait()
-    session.drag_end()
-    session.wait()
+    session.cursor.drag_to(RIGHT)
+    session.queue.wait()
+    session.queue.drag_end()
+    session.queue.wait()
     assert set(map(tuple, session.wires[0].points[:, :2])) == GATE
 
 
@@ -321,7 +321,7 @@ def test_any_stroke_on_the_mesh_leaves_wires_that_can_be_drawn(points: NDArray[n
     assert session.draw_stroke(points, faces_under(points))
     for along in ("EDGES", "SURFACE"):
         assert len(wire_between(session, along)) > 2
-    assert str(session.message) == ""
+    assert str(session.drawing.message) == ""
 
 
 @pytest.mark.parametrize("ready", [False, True])
@@ -332,16 +332,16 @@ def test_what_the_library_refuses_is_said_and_undone_without_a_loss(ready: bool)
     session = grid(ready=ready, make_stroke=off_mesh)
     session.click(LEFT)
     session.click(RIGHT)
-    session.wait()
+    session.queue.wait()
     session.hover(LEFT + 3 * SIZE)
     session.draw_stroke(gate(), faces_under(gate()))
-    session.wait()
-    assert "off the mesh" in str(session.message)
-    assert not session.computing
+    session.queue.wait()
+    assert "off the mesh" in str(session.drawing.message)
+    assert not session.under_way.computing
     assert not session.click(LEFT + 3 * SIZE)
     assert len(session.wires) == 1
     assert session.undo()
-    session.wait()
-    assert str(session.message) == ""
+    session.queue.wait()
+    assert str(session.drawing.message) == ""
     assert session.picture.active is not None
     assert session.click(LEFT + 3 * SIZE)

@@ -63,7 +63,7 @@ def islands(session: Session, triangles: NDArray[np.int32]) -> int:
 
 def test_one_click_cuts_the_limb_in_two(session: Session, triangles: NDArray[np.int32]) -> None:
     session.hover(WAIST, loop=True)
-    session.wait()
+    session.queue.wait()
     assert session.picture.offered.kinds[0] == "ACROSS"
     preview = session.picture.one(Role.OFFER)
     assert np.abs(preview.points[:, 2]).max() < 0.06
@@ -81,7 +81,7 @@ def test_wherever_the_limb_is_clicked_it_falls_in_two(
     session: Session, triangles: NDArray[np.int32], vertex: int
 ) -> None:
     assert session.loop(vertex)
-    session.wait()
+    session.queue.wait()
     assert islands(session, triangles) == 2
 
 
@@ -89,19 +89,19 @@ def test_a_click_within_a_face_does_so_too(session: Session, triangles: NDArray[
     triangle = 2 * AROUND * 10 + 3
     place = FacePoint(triangle, tuple(triangles[triangle].tolist()), (0.2, 0.3, 0.5))
     assert session.loop(place)
-    session.wait()
+    session.queue.wait()
     assert session.wires[0].start == session.wires[-1].end == place
     assert islands(session, triangles) == 2
 
 
 def test_its_seeds_can_be_dragged(session: Session, triangles: NDArray[np.int32]) -> None:
     session.loop(WAIST)
-    session.wait()
+    session.queue.wait()
     assert session.drag(Snap(WAIST, "SEED"))
     to = WAIST + 3 * AROUND
-    session.drag_to(to)
-    session.drag_end()
-    session.wait()
+    session.cursor.drag_to(to)
+    session.queue.drag_end()
+    session.queue.wait()
     assert to in session.seeds()
     assert WAIST not in session.seeds()
     assert islands(session, triangles) == 2
@@ -110,24 +110,24 @@ def test_its_seeds_can_be_dragged(session: Session, triangles: NDArray[np.int32]
 def shows(session: Session, vertex: int, **how: bool) -> bool:
     """Return whether a cut is shown at a vertex once it is computed."""
     session.hover(vertex, **how)
-    session.wait()
+    session.queue.wait()
     return session.picture.one(Role.OFFER) is not None
 
 
 def test_from_a_tip_nothing_is_suggested_and_it_says_so_until_it_is_not_asked_for_any_more(session: Session) -> None:
     tip = AROUND * ROWS
     assert not shows(session, tip, loop=True)
-    assert session.message == SurfaceLoops.NONE
-    revision = session.revision
+    assert session.drawing.message == SurfaceLoops.NONE
+    revision = session.drawing.revision
     assert not shows(session, tip, loop=True)
-    assert session.revision == revision, "nothing new to be seen"
+    assert session.drawing.revision == revision, "nothing new to be seen"
     assert shows(session, WAIST, loop=True)
-    assert str(session.message) == ""
+    assert str(session.drawing.message) == ""
     shows(session, tip, loop=True)
     session.hover(tip)
-    assert str(session.message) == ""
+    assert str(session.drawing.message) == ""
     assert not session.loop(tip)
-    assert session.message == SurfaceLoops.NONE
+    assert session.drawing.message == SurfaceLoops.NONE
 
 
 def test_after_it_was_taken_it_is_not_offered_again_until_another_point(session: Session) -> None:
@@ -140,31 +140,31 @@ def test_after_it_was_taken_it_is_not_offered_again_until_another_point(session:
 
 def test_a_cut_clears_seams_where_wires_do(session: Session) -> None:
     session.loop(WAIST)
-    session.wait()
+    session.queue.wait()
     ring = session.edges_to_mark()
     session.undo()
-    session.adopt(session.drawing.network, ring)
+    session.queue.adopt(session.drawing.network, ring)
     use(session, clear=True)
     session.loop(WAIST)
-    session.wait()
+    session.queue.wait()
     assert session.edges_to_clear() == ring
 
 
 def test_edges_have_none_across_the_surface_and_points_none_along_edges(session: Session) -> None:
     assert not session.loop((WAIST, WAIST + 1))
-    assert f"not edge {WAIST}-{WAIST + 1}" in str(session.message)
+    assert f"not edge {WAIST}-{WAIST + 1}" in str(session.drawing.message)
     use(session, along="EDGES")
     assert not session.loop(WAIST)
-    assert f"not vertex {WAIST}" in str(session.message)
+    assert f"not vertex {WAIST}" in str(session.drawing.message)
 
 
 def test_bent_to_a_second_point_it_parts_the_limb_all_the_same(session: Session, triangles: NDArray[np.int32]) -> None:
     session.loop(WAIST)
-    session.wait()
+    session.queue.wait()
     cut = session.edges_to_mark()
     for second in (WAIST + 5 * AROUND + 12, WAIST - 4 * AROUND + 7):
         assert session.bend(second)
-        session.wait()
+        session.queue.wait()
         assert session.wires[0].start == session.wires[-1].end == WAIST
         assert second in session.seeds()
         assert len(session.wires) == 4
@@ -175,7 +175,7 @@ def test_bent_to_a_second_point_it_parts_the_limb_all_the_same(session: Session,
     assert session.redo()
     assert session.undo()
     assert session.bend(WAIST - 3 * AROUND + 12), "it can be bent elsewhere"
-    session.wait()
+    session.queue.wait()
     assert islands(session, triangles) == 2
     assert session.edges_to_mark() != cut
     assert session.undo()
@@ -189,28 +189,28 @@ def test_a_bent_cut_does_to_the_mesh_what_the_cut_did(session: Session, drawn: s
     before = session.options
     use(session, **changes.get(drawn, {}))
     session.loop(WAIST)
-    session.wait()
+    session.queue.wait()
     cut = session.wires[0]
     session.follow(before)
     if drawn == "marking":
         use(session, clear=True)
     assert session.bend(WAIST + 5 * AROUND + 12)
-    session.wait()
+    session.queue.wait()
     assert {(wire.marks, wire.finish, wire.mirror) for wire in session.wires} == {(cut.marks, cut.finish, cut.mirror)}
 
 
 def test_what_is_not_there_as_it_was_taken_is_not_bent(session: Session) -> None:
     second = WAIST + 5 * AROUND + 12
     assert not session.bend(second)
-    session.wait()
-    assert session.message.code == NOTHING_TO_BEND
+    session.queue.wait()
+    assert session.drawing.message.code == NOTHING_TO_BEND
     session.loop(WAIST)
-    session.wait()
+    session.queue.wait()
     assert session.picture.can_bend
     session.drop(session.wires[1])
     assert not session.picture.can_bend
     assert not shows(session, second, bend=True)
-    assert session.message.code == NOTHING_TO_BEND
+    assert session.drawing.message.code == NOTHING_TO_BEND
     session.undo()
     assert session.picture.can_bend, "it is there again"
     use(session, strength_surface=40.0)
@@ -221,17 +221,17 @@ def test_what_is_said_of_bending_goes_with_it_where_a_wire_is_live(session: Sess
     second = WAIST + 5 * AROUND + 12
     session.click(WAIST)
     assert not shows(session, second, bend=True)
-    assert session.message.code == NOTHING_TO_BEND
-    revision = session.revision
+    assert session.drawing.message.code == NOTHING_TO_BEND
+    revision = session.drawing.revision
     session.hover(second)
-    assert str(session.message) == ""
-    assert session.revision > revision
+    assert str(session.drawing.message) == ""
+    assert session.drawing.revision > revision
 
 
 def test_edges_are_not_bent_to_and_along_edges_nothing_is(session: Session) -> None:
     second = WAIST + 5 * AROUND + 12
     session.loop(WAIST)
-    session.wait()
+    session.queue.wait()
     cut = session.edges_to_mark()
     assert not session.bend((second, second + 1))
     use(session, along="EDGES")
@@ -243,13 +243,13 @@ def test_edges_are_not_bent_to_and_along_edges_nothing_is(session: Session) -> N
 def test_a_bent_cut_is_dragged_by_its_second_point(session: Session, triangles: NDArray[np.int32]) -> None:
     second, to = WAIST + 3 * AROUND + 12, WAIST + 5 * AROUND + 12
     session.loop(WAIST)
-    session.wait()
+    session.queue.wait()
     session.bend(second)
-    session.wait()
+    session.queue.wait()
     assert session.drag(Snap(second, "SEED"))
-    session.drag_to(to)
-    session.drag_end()
-    session.wait()
+    session.cursor.drag_to(to)
+    session.queue.drag_end()
+    session.queue.wait()
     assert to in session.seeds()
     assert islands(session, triangles) == 2
 
@@ -258,14 +258,14 @@ def test_w_on_a_piece_of_a_cut_takes_its_other_paths_between_the_same_seeds(
     session: Session, triangles: NDArray[np.int32]
 ) -> None:
     session.loop(WAIST)
-    session.wait()
+    session.queue.wait()
     session.bend(WAIST + 4 * AROUND + 12)
-    session.wait()
+    session.queue.wait()
     before = session.wires
     paths = set()
     for _ in range(4):
         session.retrace(session.wires[1])
-        session.wait()
+        session.queue.wait()
         paths.add(session.wires[1].vertices)
         ends = [(wire.start, wire.end) for wire in session.wires]
         assert ends == [(wire.start, wire.end) for wire in before], "seeds stay"
@@ -277,9 +277,9 @@ def test_w_on_a_piece_of_a_cut_takes_its_other_paths_between_the_same_seeds(
 
 def test_x_on_a_piece_of_a_cut_removes_that_piece(session: Session) -> None:
     session.loop(WAIST)
-    session.wait()
+    session.queue.wait()
     session.bend(WAIST + 4 * AROUND + 12)
-    session.wait()
+    session.queue.wait()
     session.drop(session.wires[1])
     assert len(session.wires) == 3
     assert not is_closed(session.edges_to_mark())

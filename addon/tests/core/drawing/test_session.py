@@ -42,7 +42,7 @@ def test_a_click_does_not_wait_for_wires_that_do_not_lead() -> None:
     session = table.session
     session.click(0)
     session.click(14)
-    assert session.waiting_clicks == 0
+    assert session.under_way.waiting == 0
     assert session.wires[0].follow == 2
     assert session.wires[0].alternatives == (), "they are found when they are asked for"
 
@@ -53,26 +53,26 @@ def test_a_stroke_is_for_the_wire_that_leads_and_another_metrics_wires_are_other
     session.click(0)
     session.hover(14)
     session.draw_stroke(vertices=(1, 2, 3))
-    assert session.strokes[-1].acts_on == "concave"
+    assert session.network.strokes[-1].acts_on == "concave"
     assert session.picture.active.follow == 2
     table.lives["EDGES"].metric_ready = (True, True)
     session.hover(None)
     use(session, metric="concave")
     session.draw_stroke(vertices=(1, 2, 3))
-    assert session.strokes[-1].acts_on == "min"
+    assert session.network.strokes[-1].acts_on == "min"
 
 
 def test_toggling_makes_the_other_active_until_a_wire_is_kept() -> None:
     session = Table().session
     session.click(0)
     session.hover(7)
-    assert session.next_candidate()
+    assert session.cursor.next_candidate()
     assert session.picture.active.vertices == (0, 6, 7)
     session.hover(8)
     assert session.picture.active.vertices == (0, 6, 7, 8), "the choice holds while the cursor moves"
-    assert session.next_candidate()
+    assert session.cursor.next_candidate()
     assert session.picture.active.vertices == (0, 1, 2, 8)
-    session.next_candidate()
+    session.cursor.next_candidate()
     session.click(8)
     assert session.wires[0].vertices == (0, 6, 7, 8)
     session.hover(15)
@@ -84,7 +84,7 @@ def test_a_kept_wire_says_what_wires_lead_around() -> None:
     table.session.click(0)
     table.session.hover(7)
     table.session.click(7)
-    assert str(table.session.message).startswith("2 triangles could not be made valid")
+    assert str(table.session.drawing.message).startswith("2 triangles could not be made valid")
 
 
 def test_a_click_keeps_the_active_wire_and_goes_on_along_its_last_edge() -> None:
@@ -116,7 +116,7 @@ def test_clicking_the_seed_again_keeps_nothing() -> None:
     session.click(3)
     assert not session.click(3)
     assert len(session.wires) == 1
-    assert "somewhere else" in str(session.message)
+    assert "somewhere else" in str(session.drawing.message)
 
 
 def test_clicking_the_seeds_own_edge_again_keeps_nothing() -> None:
@@ -241,7 +241,7 @@ def test_across_the_surface_picks_are_vertices() -> None:
     table = Table("SURFACE")
     session = table.session
     assert not session.click((0, 1))
-    assert "vertices" in str(session.message)
+    assert "vertices" in str(session.drawing.message)
     session.click(0)
     session.click(8)
     assert table.lives["SURFACE"].seeded == (8, False)
@@ -279,15 +279,15 @@ def test_a_wire_that_is_not_computed_is_not_shown_and_then_is() -> None:
     session.click(0)
     session.hover(7)
     assert session.picture.active is None
-    assert session.computing
+    assert session.under_way.computing
     table.lives["EDGES"].ready = (False, True)
-    assert session.poll()
+    assert session.queue.poll()
     assert session.picture.active.vertices == (0, 6, 7), "the one there is, though it may be the longer"
     table.lives["EDGES"].ready = (True, True)
-    session.poll()
+    session.queue.poll()
     assert session.picture.active.vertices == (0, 1, 7)
-    assert not session.computing
-    assert not session.poll(), "nothing is new"
+    assert not session.under_way.computing
+    assert not session.queue.poll(), "nothing is new"
 
 
 def test_waiting_shows_nothing_new_until_there_is_a_wire() -> None:
@@ -295,18 +295,18 @@ def test_waiting_shows_nothing_new_until_there_is_a_wire() -> None:
     session = table.session
     session.click(0)
     session.hover(7)
-    before = session.revision
+    before = session.drawing.revision
     for _ in range(5):
-        session.poll()
-    assert session.revision == before
+        session.queue.poll()
+    assert session.drawing.revision == before
     session.click(7)
-    before = session.revision
+    before = session.drawing.revision
     for _ in range(5):
-        session.poll()
-    assert session.revision == before
+        session.queue.poll()
+    assert session.drawing.revision == before
     table.lives["EDGES"].ready = (True, True)
-    session.poll()
-    assert session.revision > before
+    session.queue.poll()
+    assert session.drawing.revision > before
 
 
 def test_clicks_wait_for_their_wires_in_order() -> None:
@@ -315,13 +315,13 @@ def test_clicks_wait_for_their_wires_in_order() -> None:
     for pick in (0, 2, 14):
         session.click(pick)
     assert session.wires == ()
-    assert session.waiting_clicks == 2
+    assert session.under_way.waiting == 2
     session.hover(30)
-    assert session.target.pick == 2, "what is shown is what the first of them asks for"
+    assert session.cursor.target.pick == 2, "what is shown is what the first of them asks for"
     table.lives["EDGES"].ready = (True, True)
-    session.poll()
+    session.queue.poll()
     assert [wire.vertices for wire in session.wires] == [(0, 1, 2), (2, 8, 14)]
-    assert session.waiting_clicks == 0
+    assert session.under_way.waiting == 0
 
 
 def test_a_click_before_anything_is_seen_waits_until_it_is_known_which_wire_is_shorter() -> None:
@@ -330,10 +330,10 @@ def test_a_click_before_anything_is_seen_waits_until_it_is_known_which_wire_is_s
     session.click(0)
     session.click(7)
     table.lives["EDGES"].ready = (False, True)
-    session.poll()
+    session.queue.poll()
     assert session.wires == ()
     table.lives["EDGES"].ready = (True, True)
-    session.poll()
+    session.queue.poll()
     assert [wire.vertices for wire in session.wires] == [(0, 1, 7)]
 
 
@@ -352,7 +352,7 @@ def test_undo_takes_back_waiting_clicks_first() -> None:
     session.click(0)
     session.click(2)
     session.undo()
-    assert session.waiting_clicks == 0
+    assert session.under_way.waiting == 0
     assert session.seed == 0
 
 
@@ -360,10 +360,10 @@ def test_what_no_wire_reaches_is_said() -> None:
     session = Table(islands=(35,)).session
     session.click(0)
     assert not session.click(35)
-    assert str(session.message) == "No wire reaches vertex 35"
+    assert str(session.drawing.message) == "No wire reaches vertex 35"
     assert session.seed == 0
     session.hover(3)
-    assert str(session.message) == ""
+    assert str(session.drawing.message) == ""
 
 
 def test_a_refused_seed_leaves_the_one_before() -> None:
@@ -371,7 +371,7 @@ def test_a_refused_seed_leaves_the_one_before() -> None:
     session = table.session
     session.click(0)
     assert not session.start(99)
-    assert "99" in str(session.message)
+    assert "99" in str(session.drawing.message)
     assert table.lives["EDGES"].seeded == (0, False)
     session.click(2)
     assert session.wires[0].vertices == (0, 1, 2)
@@ -382,7 +382,7 @@ def test_every_change_of_what_is_seen_counts_the_revision_up() -> None:
     actions = [
         lambda: session.click(0),
         lambda: session.hover(7),
-        session.next_candidate,
+        session.cursor.next_candidate,
         lambda: session.click(7),
         lambda: session.loop((14, 15)),
         lambda: session.hover((14, 15), loop=True),
@@ -392,10 +392,10 @@ def test_every_change_of_what_is_seen_counts_the_revision_up() -> None:
         session.end_chain,
     ]
     for action in actions:
-        before = session.revision
+        before = session.drawing.revision
         action()
-        assert session.revision > before
-    before = session.revision
+        assert session.drawing.revision > before
+    before = session.drawing.revision
     session.hover(None)
     session.hover(None)
-    assert session.revision <= before + 1
+    assert session.drawing.revision <= before + 1

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import pytest
-from seamwire.core.drawing.intent import Intent
+from seamwire.core.drawing.picture import Intent
 from setting import stronger, use
 from table import Table, chain, corner, courses
 
@@ -69,7 +69,7 @@ def test_while_another_strength_is_computed_the_wires_stay_to_be_seen() -> None:
     session.click(0)
     session.hover(7)
     stronger(session, 1)
-    assert session.computing
+    assert session.under_way.computing
     assert session.picture.active.vertices == (0, 1, 7)
     assert session.picture.intent is Intent.WAIT
     session.click(7)
@@ -77,7 +77,7 @@ def test_while_another_strength_is_computed_the_wires_stay_to_be_seen() -> None:
     table.compute()
     assert courses(session) == [(0, 1, 7)]
     assert session.wires[0].strength == 12.5
-    assert not session.computing
+    assert not session.under_way.computing
 
 
 def test_a_kept_wire_remembers_the_strength_it_was_drawn_with() -> None:
@@ -91,5 +91,5 @@ def test_the_metric_stays_while_a_seed_moves() -> None:
     session.drag(3)
     stronger(session, 1)
     assert session.drawing.strength == 10.0
-    session.let_go()
+    session.cursor.let_go()
     assert session.drawing.strength == 12.5, "it is taken over when the seed is let go"

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 from fake_live import FakeCuts, FakeLive, grid_edges
 from seamwire.core.drawing.drawing import Drawing
-from seamwire.core.drawing.intent import Intent
-from seamwire.core.drawing.picture import Role
+from seamwire.core.drawing.picture import Intent, Role
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.picks import FacePoint
 from seamwire.terms.options import Options
@@ -39,9 +38,9 @@ def test_the_best_cut_is_shown_and_toggling_goes_through_the_others() -> None:
     assert preview.closed
     np.testing.assert_array_equal(preview.points[0], preview.points[-1])
     assert session.picture.intent is Intent.LOOP
-    assert session.next_candidate()
+    assert session.cursor.next_candidate()
     assert (session.picture.one(Role.OFFER).vertices, session.picture.offered.kind) == (LEFT, "HANDLE")
-    assert session.next_candidate()
+    assert session.cursor.next_candidate()
     assert session.picture.one(Role.OFFER).vertices == RIGHT
     session.hover(8)
     assert session.picture.one(Role.OFFER) is None
@@ -52,7 +51,7 @@ def test_the_cut_that_is_shown_is_kept_as_a_closed_chain_of_wires(keep: str) -> 
     session = table().session
     use(session, finish="CUT")
     session.hover(8, loop=True)
-    session.next_candidate()
+    session.cursor.next_candidate()
     assert getattr(session, keep)(8)
     assert session.edges_to_mark() == edges(*LEFT)
     wires = session.wires
@@ -77,7 +76,7 @@ def test_of_cuts_along_the_same_edges_one_is_offered(monkeypatch: pytest.MonkeyP
     session = table().session
     session.hover(8, loop=True)
     assert session.picture.offered.kinds == ("ACROSS", "HANDLE")
-    session.next_candidate()
+    session.cursor.next_candidate()
     session.click(8)
     assert session.edges_to_mark() == edges(*LEFT)
 
@@ -99,7 +98,7 @@ def test_cuts_that_run_apart_along_the_same_edges_are_two_where_they_are_to_be_c
     use(session, finish=finish)
     session.hover(8, loop=True)
     assert len(session.picture.offered.kinds) == count
-    session.next_candidate()
+    session.cursor.next_candidate()
     shown = session.picture.one(Role.OFFER)
     session.click(8)
     np.testing.assert_array_equal(session.wires[0].points[0], shown.points[0])
@@ -110,12 +109,12 @@ def test_until_it_is_computed_nothing_is_shown_and_a_click_waits() -> None:
     session = it.session
     session.hover(8, loop=True)
     assert session.picture.one(Role.OFFER) is None
-    assert str(session.message) == ""
-    assert session.computing
+    assert str(session.drawing.message) == ""
+    assert session.under_way.computing
     assert session.loop(8)
-    assert session.waiting_clicks == 1
+    assert session.under_way.waiting == 1
     it.compute()
-    assert session.waiting_clicks == 0
+    assert session.under_way.waiting == 0
     assert session.edges_to_mark() == edges(*RIGHT)
 
 
@@ -124,13 +123,13 @@ def test_what_is_there_early_is_shown_and_refined_while_the_cursor_rests() -> No
     session = it.session
     session.hover(8, loop=True)
     assert session.picture.one(Role.OFFER).vertices == LEFT
-    assert session.computing
-    revision = session.revision
-    session.poll()
-    assert session.revision == revision, "the same is not drawn anew"
+    assert session.under_way.computing
+    revision = session.drawing.revision
+    session.queue.poll()
+    assert session.drawing.revision == revision, "the same is not drawn anew"
     it.compute()
     assert session.picture.one(Role.OFFER).vertices == RIGHT
-    assert not session.computing
+    assert not session.under_way.computing
 
 
 def test_a_click_on_what_is_not_final_waits() -> None:
@@ -141,7 +140,7 @@ def test_a_click_on_what_is_not_final_waits() -> None:
     assert session.wires == (), "what is not final is not kept"
     it.compute()
     assert session.edges_to_mark() == edges(*RIGHT)
-    assert not session.computing
+    assert not session.under_way.computing
 
 
 @pytest.mark.parametrize("clicks_early", [False, True])
@@ -158,7 +157,7 @@ def test_the_cut_that_was_chosen_stays_the_one_though_another_comes_before_it(
     it = table(metric_ready=(False, False))
     session = it.session
     session.hover(8, loop=True)
-    session.next_candidate()
+    session.cursor.next_candidate()
     assert session.picture.one(Role.OFFER).vertices == LEFT
     if clicks_early:
         session.click(8)
@@ -182,7 +181,7 @@ def test_a_cut_that_meets_no_edge_is_kept_only_where_it_is_to_be_cut(monkeypatch
     monkeypatch.setattr(FakeLive, "closed_wires", within_faces)
     session = table().session
     assert not session.loop(8)
-    assert str(session.message) == "No edge is left for the seam of this cut"
+    assert str(session.drawing.message) == "No edge is left for the seam of this cut"
     assert session.wires == ()
     assert not session.picture.can_undo
     assert not session.picture.can_bend
@@ -240,7 +239,7 @@ def test_the_one_of_several_cuts_that_was_taken_is_the_one_that_is_bent() -> Non
     it = table()
     session = it.session
     session.hover(8, loop=True)
-    session.next_candidate()
+    session.cursor.next_candidate()
     session.click(8)
     session.bend(22)
     assert it.lives["SURFACE"].bent[-1] == (8, 22, (1, 1)), "by what the library calls it"
@@ -249,14 +248,14 @@ def test_the_one_of_several_cuts_that_was_taken_is_the_one_that_is_bent() -> Non
 def test_where_none_leads_it_says_so_and_the_cut_stays() -> None:
     session = taken_at_8().session
     session.hover(11, bend=True)
-    assert str(session.message) == "No closed cut leads through both points"
-    revision = session.revision
-    session.poll()
-    assert session.revision == revision, "nothing new to be seen"
+    assert str(session.drawing.message) == "No closed cut leads through both points"
+    revision = session.drawing.revision
+    session.queue.poll()
+    assert session.drawing.revision == revision, "nothing new to be seen"
     assert not session.bend(11)
     assert session.edges_to_mark() == edges(*RIGHT)
     session.hover(16)
-    assert str(session.message) == ""
+    assert str(session.drawing.message) == ""
 
 
 def test_bending_waits_until_it_is_computed() -> None:
@@ -266,8 +265,8 @@ def test_bending_waits_until_it_is_computed() -> None:
     session.hover(28, bend=True)
     assert session.picture.one(Role.OFFER) is None
     assert session.bend(28)
-    assert session.waiting_clicks == 1
+    assert session.under_way.waiting == 1
     assert session.edges_to_mark() == edges(*RIGHT)
     it.compute()
-    assert session.waiting_clicks == 0
+    assert session.under_way.waiting == 0
     assert session.seeds() == [8, 28]

@@ -42,14 +42,14 @@ def ridge() -> Crests:
 
 def with_ridge(*args: object, **options: object) -> Table:
     table = Table(*args, **options)
-    table.session.use_crests(ridge(), True)
+    table.session.cursor.use_crests(ridge(), True)
     return table
 
 
 def make_ready(table: Table, *ready: bool) -> None:
     for live in table.lives.values():
         live.ready = ready
-    table.session.poll()
+    table.session.queue.poll()
 
 
 def test_a_run_that_waits_does_not_take_the_wire_that_merely_finishes_first() -> None:
@@ -59,7 +59,7 @@ def test_a_run_that_waits_does_not_take_the_wire_that_merely_finishes_first() ->
     session.hover(14)
     session.run_to_end()
     make_ready(table, False, True)
-    assert session.waiting_clicks == 1
+    assert session.under_way.waiting == 1
     assert session.wires == ()
     make_ready(table, True, True)
     assert courses(session) == [(0, 1, 2, 8, 14, 20, 26, 32)]
@@ -80,7 +80,7 @@ def test_a_ridge_waits_behind_clicks() -> None:
     session.click(20)
     session.click(22)
     session.loop(7)
-    assert session.waiting_clicks == 2
+    assert session.under_way.waiting == 2
     assert session.wires == ()
 
 
@@ -88,7 +88,7 @@ def test_after_a_ridge_the_triangles_are_told_of_that_its_wires_lead_around() ->
     session = with_ridge("SURFACE", holes=(2, 1)).session
     session.hover(7, loop=True)
     session.click(7)
-    assert session.message.code == "invalid-triangles"
+    assert session.drawing.message.code == "invalid-triangles"
 
 
 def test_a_waiting_click_that_begins_a_chain_does_not_use_up_the_warning() -> None:
@@ -96,11 +96,11 @@ def test_a_waiting_click_that_begins_a_chain_does_not_use_up_the_warning() -> No
     session = table.session
     session.loop(0)
     session.click(35)
-    session.wait()
-    assert session.message.code != "invalid-triangles"
+    session.queue.wait()
+    assert session.drawing.message.code != "invalid-triangles"
     session.click(7)
-    session.wait()
-    assert session.message.code == "invalid-triangles"
+    session.queue.wait()
+    assert session.drawing.message.code == "invalid-triangles"
 
 
 def test_a_loop_that_was_given_up_leaves_nothing_to_compute() -> None:
@@ -109,8 +109,8 @@ def test_a_loop_that_was_given_up_leaves_nothing_to_compute() -> None:
     session.undo()
     session.click(0)
     session.hover(21)
-    session.poll()
-    assert not session.computing
+    session.queue.poll()
+    assert not session.under_way.computing
     assert session.picture.work.progress == 1.0
 
 
@@ -134,11 +134,11 @@ def test_no_run_goes_ahead_of_a_line_that_waits() -> None:
     session.click(17)
     session.click((23, 22))
     session.line_begin(35)
-    session.line_to(POINTS[[35, 34]], np.array([49, 49]), None)
-    session.line_keep(session.line_release())
-    assert session.waiting_clicks == 1
+    session.cursor.line_to(POINTS[[35, 34]], np.array([49, 49]), None)
+    session.line_keep(session.cursor.line_release())
+    assert session.under_way.waiting == 1
     assert not session.run_to_end()
-    assert session.message.code == "no-way-on"
+    assert session.drawing.message.code == "no-way-on"
     assert len(session.wires) == 1
 
 
@@ -153,10 +153,10 @@ def test_a_stroke_is_drawn_while_a_moved_seed_waits(monkeypatch: pytest.MonkeyPa
         session.click(Snap(pick, seen_along=(0.0, 0.0, 1.0)))
     session.hover(Snap(28, seen_along=(0.0, 0.0, 1.0)))
     session.drag(Snap(14, "SEED"))
-    session.drag_to(Snap(21, seen_along=(0.0, 0.0, 1.0)))
-    session.drag_end()
+    session.cursor.drag_to(Snap(21, seen_along=(0.0, 0.0, 1.0)))
+    session.queue.drag_end()
     assert session.draw_stroke(vertices=[27, 28])
-    assert session.strokes[0].acts_on == "both"
+    assert session.network.strokes[0].acts_on == "both"
 
 
 @pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
@@ -167,9 +167,9 @@ def test_waiting_ends_if_the_library_never_comes_to_a_result(along: Along, monke
     session.click(8)
     session.click(20)
     monkeypatch.setattr(FakeLive, "wait", lambda _self, _seconds=None: True)
-    session.wait()
-    assert session.waiting_clicks == 0
-    assert session.message.code == "no-result"
+    session.queue.wait()
+    assert session.under_way.waiting == 0
+    assert session.drawing.message.code == "no-result"
     assert session.wires == ()
     assert session.seed == 0
     session.click(8)
@@ -182,8 +182,8 @@ def test_waiting_ends_without_a_word_if_nothing_waits(monkeypatch: pytest.Monkey
     session.click(0)
     session.hover(8)
     monkeypatch.setattr(FakeLive, "wait", lambda _self, _seconds=None: True)
-    session.wait()
-    assert not session.message
+    session.queue.wait()
+    assert not session.drawing.message
     assert session.seed == 0
 
 
@@ -202,11 +202,11 @@ def test_undo_takes_back_a_held_line_before_a_click_that_waits() -> None:
     session = table.session
     session.click(0)
     session.click(8)
-    assert session.waiting_clicks == 1
+    assert session.under_way.waiting == 1
     session.line_begin(30)
     assert session.undo()
     assert not session.under_way.held
-    assert session.waiting_clicks == 1
+    assert session.under_way.waiting == 1
     table.compute()
     assert len(session.wires) == 1
 
@@ -218,7 +218,7 @@ def with_a_waiting_click() -> Table:
     table.session.click(3)
     table.lives["EDGES"].ready = (False, False)
     table.session.click(21)
-    assert table.session.waiting_clicks == 1
+    assert table.session.under_way.waiting == 1
     assert len(table.session.wires) == 1
     return table
 
@@ -233,17 +233,172 @@ FIRST, SECOND = (0, 1, 2, 3), (3, 9, 15, 21)
         (lambda session: session.drop(session.wires[0]), [SECOND]),
         (lambda session: session.retrace(session.wires[0]), [FIRST, SECOND]),
         (lambda session: session.drag(Snap(0, "SEED")), [FIRST, SECOND]),
+        (lambda session: session.redo(), [FIRST, SECOND]),
         (lambda session: use(session, along="SURFACE"), [FIRST, SECOND]),
+        (lambda session: use(session, clear=True), [FIRST, SECOND]),
+        (lambda session: use(session, mirror=(0,)), [FIRST, SECOND]),
+        (lambda session: use(session, metric="euclidean"), [FIRST, SECOND]),
+        (lambda session: use(session, strength_edges=2.0), [FIRST, SECOND]),
         (lambda session: session.end_chain(), [FIRST, SECOND]),
         (lambda session: session.end_chain(wait=False), [FIRST]),
     ],
-    ids=["new chain", "remove", "other path", "seed", "surface", "end", "cancel"],
+    ids=[
+        "new chain",
+        "remove",
+        "other path",
+        "seed",
+        "redo",
+        "surface",
+        "clear",
+        "mirror",
+        "metric",
+        "strength",
+        "end",
+        "cancel",
+    ],
 )
 def test_only_a_cancelled_chain_forgets_a_click_that_waits(go_on: Callable[[Session], object], kept: list) -> None:
     session = with_a_waiting_click().session
     go_on(session)
-    assert session.waiting_clicks == 0
+    assert session.under_way.waiting == 0
     assert courses(session) == kept
+
+
+def test_settings_of_later_wires_do_not_reach_a_click_that_waits() -> None:
+    table = with_a_waiting_click()
+    session = table.session
+    use(session, clear=True, mirror=(0,))
+    assert session.wires[1].marks
+    assert session.wires[1].mirror == ()
+    session.click(35)
+    session.queue.wait()
+    assert not session.wires[2].marks
+    assert session.wires[2].mirror == (0,)
+
+
+@pytest.mark.parametrize("change", [{"snap": True}, {"xray": True}, {"unwrap": True}])
+def test_settings_that_draw_no_wires_do_not_wait(change: dict[str, object]) -> None:
+    session = with_a_waiting_click().session
+    use(session, **change)
+    assert session.under_way.waiting == 1
+
+
+def test_a_stroke_waits_behind_a_click() -> None:
+    table = with_a_waiting_click()
+    session = table.session
+    assert session.draw_stroke(vertices=[34, 35])
+    assert session.network.strokes == ()
+    assert session.under_way.waiting == 2
+    assert [stroke.vertices.tolist() for stroke in session.picture.strokes] == [[34, 35]], "it is shown while it waits"
+    table.compute()
+    assert len(session.picture.strokes) == 1
+    assert [len(network) for network in (session.wires, session.network.strokes)] == [2, 1]
+    assert session.undo()
+    assert session.network.strokes == ()
+    assert courses(session) == [FIRST, SECOND], "the stroke was drawn after the wire"
+
+
+def test_a_loop_waits_behind_a_click() -> None:
+    table = Table("SURFACE")
+    session, live = table.session, table.lives["SURFACE"]
+    session.click(0)
+    live.ready = (False, False)
+    session.click(3)
+    assert session.loop(20)
+    assert session.under_way.waiting == 2
+    assert session.wires == (), "though the closed cut is computed already"
+    live.ready = (True, True)
+    session.queue.poll()
+    assert session.under_way.waiting == 0
+    assert courses(session)[0] == FIRST
+    assert len(session.wires) > 1
+
+
+def test_a_stroke_is_removed_after_the_click_that_it_led() -> None:
+    table = Table()
+    session = table.session
+    session.draw_stroke(vertices=[34, 35])
+    session.click(0)
+    table.lives["EDGES"].ready = (False, False)
+    session.click(3)
+    assert session.erase(session.network.strokes[0])
+    assert courses(session) == [FIRST]
+    assert session.undo()
+    assert len(session.network.strokes) == 1
+    assert courses(session) == [FIRST]
+
+
+def test_the_chain_is_closed_by_a_key_after_the_click_that_waits() -> None:
+    table = Table()
+    session = table.session
+    session.click(0)
+    table.lives["EDGES"].ready = (False, False)
+    session.click(15)
+    assert session.close()
+    session.queue.wait()
+    assert courses(session)[0][-1] == 15
+    assert session.wires[-1].end == 0
+    assert session.seed is None
+
+
+def test_what_waits_tells_whether_a_chain_will_be_live() -> None:
+    session = with_a_waiting_click().session
+    assert session.under_way.will_be_live
+    session.click(Snap(0, "SEED"))
+    assert not session.under_way.will_be_live, "the second click closes the chain"
+    session.loop((33, 34))
+    assert not session.under_way.will_be_live
+    session.click(35)
+    assert session.under_way.will_be_live
+    session.run_to_end()
+    assert not session.under_way.will_be_live
+
+
+def never(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let the library come to no result."""
+    monkeypatch.setattr(FakeLive, "wait", lambda _self, _seconds=None: True)
+
+
+@pytest.mark.parametrize(
+    "go_on",
+    [
+        lambda session: session.start(30),
+        lambda session: session.drop(session.wires[0]),
+        lambda session: session.end_chain(),
+        lambda session: use(session, clear=True),
+    ],
+    ids=["new chain", "remove", "end", "setting"],
+)
+def test_a_click_without_a_result_is_told_of_whatever_comes_next(
+    go_on: Callable[[Session], object], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    session = with_a_waiting_click().session
+    never(monkeypatch)
+    go_on(session)
+    assert session.drawing.failure.code == "no-result"
+
+
+def test_a_failure_is_forgotten_when_something_else_is_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    table = with_a_waiting_click()
+    session = table.session
+    never(monkeypatch)
+    session.start(30)
+    assert session.drawing.message.code == "no-result"
+    table.compute()
+    session.hover(32)
+    session.click(32)
+    assert not session.drawing.failure
+
+
+def test_a_waiting_click_that_is_refused_is_told_of_when_the_chain_ends() -> None:
+    table = Table(islands=(35,), ready=(False, False))
+    session = table.session
+    session.click(0)
+    session.click(35)
+    table.compute()
+    assert session.under_way.waiting == 0
+    session.end_chain()
+    assert session.drawing.failure.code == "no-wire-reaches"
 
 
 def test_a_cancelled_chain_forgets_a_wire_that_waits_for_its_other_path() -> None:
@@ -253,9 +408,9 @@ def test_a_cancelled_chain_forgets_a_wire_that_waits_for_its_other_path() -> Non
     insert(session, session.wires[0], 14)
     before = courses(session)
     assert session.retrace(session.wires[0])
-    assert session.waiting_clicks == 1
+    assert session.under_way.waiting == 1
     session.end_chain(wait=False)
-    assert session.waiting_clicks == 0
+    assert session.under_way.waiting == 0
     assert courses(session) == before
 
 
@@ -279,9 +434,9 @@ def test_a_released_seed_stays_where_it_is_whatever_comes_next(go_on: Callable[[
     session.click(3)
     session.end_chain()
     session.drag(Snap(3, "SEED"))
-    session.drag_to(Snap(4))
-    session.drag_end()
-    assert session.waiting_clicks == 1
+    session.cursor.drag_to(Snap(4))
+    session.queue.drag_end()
+    assert session.under_way.waiting == 1
     go_on(session)
     assert session.drawing.network.wires[0].vertices == (0, 1, 2, 3, 4)
 
@@ -292,7 +447,7 @@ def test_a_held_seed_goes_back_when_something_else_begins() -> None:
     session.click(3)
     session.end_chain()
     session.drag(Snap(3, "SEED"))
-    session.drag_to(Snap(4))
+    session.cursor.drag_to(Snap(4))
     session.click(35)
     assert courses(session) == [FIRST]
 
@@ -301,8 +456,8 @@ def test_a_stroke_for_a_wire_that_closes_or_is_straight_acts_on_both() -> None:
     session = Table(ready=(True, True)).session
     session.click(0)
     session.hover(14)
-    session.live.candidates.chosen = None
-    session.live.candidates.leading = 3  # the wire under the cursor before was straight in the view
-    session.live.candidates.clear()
+    session.cursor.live.candidates.chosen = None
+    session.cursor.live.candidates.leading = 3  # the wire under the cursor before was straight in the view
+    session.cursor.live.candidates.clear()
     assert session.draw_stroke(vertices=[27, 28])
-    assert session.strokes[0].acts_on == "both"
+    assert session.network.strokes[0].acts_on == "both"

@@ -99,12 +99,12 @@ def test_what_is_no_stroke_is_refused_in_words(points: list, faces: list, why: s
     with pytest.raises(OffMeshError, match=why):
         drawn(points, faces, MESH, TRIANGLES)
     session = Table().session
-    revision = session.revision
+    revision = session.drawing.revision
     assert not session.draw_stroke(points, faces)
-    assert why in str(session.message)
-    assert session.strokes == ()
+    assert why in str(session.drawing.message)
+    assert session.network.strokes == ()
     assert not session.picture.can_undo
-    assert session.revision > revision
+    assert session.drawing.revision > revision
 
 
 def test_triangles_without_an_area_take_a_point_to_their_corner() -> None:
@@ -119,16 +119,16 @@ def test_a_stroke_is_a_step() -> None:
     table = Table()
     session = table.session
     live = table.lives["EDGES"]
-    before = session.revision, session.network_revision
+    before = session.drawing.revision, session.drawing.network_revision
     assert stroke(session, (0.5, 0.2), (4.5, 0.2))
-    (one,) = session.strokes
+    (one,) = session.network.strokes
     assert live.strokes == [(one,)]
     assert one.attracts
     assert one.acts_on == "both"
-    assert session.revision > before[0]
-    assert session.network_revision == before[1], "no kept wire changed"
+    assert session.drawing.revision > before[0]
+    assert session.drawing.network_revision == before[1], "no kept wire changed"
     assert stroke(session, (0.5, 1.2), (4.5, 1.2), attracts=False)
-    two = session.strokes[1]
+    two = session.network.strokes[1]
     assert not two.attracts
     assert live.strokes[-1] == (one, two)
     assert session.undo()
@@ -149,11 +149,11 @@ def test_other_steps_leave_the_strokes_alone() -> None:
     session.click(3)
     session.loop((14, 15))
     session.drag(3)
-    session.drag_to(4)
-    session.drag_end()
+    session.cursor.drag_to(4)
+    session.queue.drag_end()
     session.undo()
     assert len(table.lives["EDGES"].strokes) == 1
-    assert len(session.strokes) == 1
+    assert len(session.network.strokes) == 1
 
 
 def test_an_erased_stroke_is_gone_until_undo() -> None:
@@ -161,14 +161,14 @@ def test_an_erased_stroke_is_gone_until_undo() -> None:
     session = table.session
     stroke(session, (0.5, 0.2), (4.5, 0.2))
     stroke(session, (0.5, 1.2), (4.5, 1.2))
-    one, two = session.strokes
+    one, two = session.network.strokes
     assert session.erase(one)
-    assert session.strokes == (two,)
+    assert session.network.strokes == (two,)
     assert table.lives["EDGES"].strokes[-1] == (two,)
     assert not session.erase(one)
-    assert "no longer exists" in str(session.message)
+    assert "no longer exists" in str(session.drawing.message)
     assert session.undo()
-    assert session.strokes == (one, two)
+    assert session.network.strokes == (one, two)
 
 
 def test_a_stroke_is_for_the_active_wire_while_one_is_live() -> None:
@@ -176,26 +176,26 @@ def test_a_stroke_is_for_the_active_wire_while_one_is_live() -> None:
     session.click(0)
     session.hover(7)
     stroke(session, (0.5, 0.2), (4.5, 0.2))
-    session.next_candidate()
+    session.cursor.next_candidate()
     stroke(session, (0.5, 0.2), (4.5, 0.2))
-    assert [one.acts_on for one in session.strokes] == ["min", "max"]
+    assert [one.acts_on for one in session.network.strokes] == ["min", "max"]
     assert session.picture.active.vertices == (0, 6, 7), "the wire that it is for stays the active one"
     session.end_chain()
     stroke(session, (0.5, 0.2), (4.5, 0.2))
-    assert session.strokes[-1].acts_on == "both"
+    assert session.network.strokes[-1].acts_on == "both"
 
 
 def test_a_stroke_that_comes_back_brings_its_wire_forward() -> None:
     session = Table().session
     session.click(0)
     session.hover(7)
-    session.next_candidate()
+    session.cursor.next_candidate()
     stroke(session, (0.5, 0.2), (4.5, 0.2))
     session.undo()
     session.redo()
     assert session.picture.active.vertices == (0, 6, 7), "as when it was drawn"
-    session.erase(session.strokes[0])
-    session.next_candidate()
+    session.erase(session.network.strokes[0])
+    session.cursor.next_candidate()
     assert session.picture.active.vertices == (0, 1, 7)
     session.undo()
     assert session.picture.active.vertices == (0, 6, 7)
@@ -209,7 +209,7 @@ def test_the_live_wire_follows_and_kept_ones_stay() -> None:
     session.hover(9)
     kept = session.wires
     stroke(session, (0.5, 0.2), (4.5, 0.2))
-    assert session.computing
+    assert session.under_way.computing
     assert session.picture.active is not None, "the former wire is seen until there is another"
     assert session.picture.one(Role.COMPUTING) is not None
     table.compute()
@@ -223,12 +223,12 @@ def test_a_waiting_click_goes_on_waiting_while_a_stroke_is_drawn() -> None:
     session = table.session
     session.click(0)
     session.click(3)
-    assert session.waiting_clicks == 1
+    assert session.under_way.waiting == 1
     stroke(session, (0.5, 0.2), (4.5, 0.2))
-    assert session.waiting_clicks == 1
+    assert session.under_way.waiting == 2
     table.compute()
     assert [wire.vertices for wire in session.wires] == [(0, 1, 2, 3)]
-    assert len(session.strokes) == 1
+    assert len(session.network.strokes) == 1
 
 
 def test_live_wires_made_later_know_the_strokes() -> None:
@@ -236,7 +236,7 @@ def test_live_wires_made_later_know_the_strokes() -> None:
     session = table.session
     stroke(session, (0.5, 0.2), (4.5, 0.2))
     use(session, along="SURFACE")
-    assert table.lives["SURFACE"].strokes == [session.strokes]
+    assert table.lives["SURFACE"].strokes == [session.network.strokes]
 
 
 # As they are stored
@@ -250,13 +250,13 @@ def test_strokes_are_stored_and_found_again() -> None:
     mesh.write(session)
     again = Table().session
     mesh.open(again)
-    for before, after in zip(session.strokes, again.strokes, strict=True):
+    for before, after in zip(session.network.strokes, again.network.strokes, strict=True):
         assert np.allclose(before.points, after.points, atol=1e-6)
         assert (before.faces == after.faces).all()
         assert (before.vertices == after.vertices).all()
         assert (before.attracts, before.acts_on, before.radius) == (after.attracts, after.acts_on, after.radius)
     assert not again.picture.can_undo
-    assert again.erase(again.strokes[0])
+    assert again.erase(again.network.strokes[0])
     mesh.write(again)
     assert len(mesh.read().network.strokes) == 1
 
@@ -268,8 +268,8 @@ def test_strokes_on_renumbered_vertices_are_found_by_their_places() -> None:
     mesh.write(session)
     mesh.renumber(np.random.default_rng(2).permutation(len(MESH)))
     found = on_mesh(mesh.read().network.strokes[0], mesh.points, mesh.triangles)
-    assert np.allclose(found.points, session.strokes[0].points, atol=1e-6)
-    assert (found.faces == session.strokes[0].faces).all()
+    assert np.allclose(found.points, session.network.strokes[0].points, atol=1e-6)
+    assert (found.faces == session.network.strokes[0].faces).all()
 
 
 def test_of_a_stroke_over_what_is_gone_the_longest_part_stays() -> None:
@@ -304,7 +304,7 @@ def test_a_stroke_on_a_mesh_that_moved_by_a_cell_goes_with_its_vertices() -> Non
     mesh.write(session)
     mesh.places[:, 0] -= 1.0
     (found,) = mesh.read().network.strokes
-    assert (found.corners == session.strokes[0].corners).all()
+    assert (found.corners == session.network.strokes[0].corners).all()
 
 
 @pytest.mark.parametrize(
@@ -347,8 +347,8 @@ def test_strokes_are_drawn_without_a_hand() -> None:
     assert session.draw_stroke(vertices=[0, 3], attracts=True, acts_on="both")
     assert not session.draw_stroke(vertices=[4, 4], attracts=False, acts_on="both")
     assert not session.draw_stroke(vertices=[0, 99], attracts=True, acts_on="both")
-    assert "no vertex 99" in str(session.message)
-    assert [one.vertices.tolist() for one in session.strokes] == [[0, 3]]
+    assert "no vertex 99" in str(session.drawing.message)
+    assert [one.vertices.tolist() for one in session.network.strokes] == [[0, 3]]
 
 
 def test_strokes_run_through_vertices_in_their_order() -> None:

@@ -469,7 +469,7 @@ def test_mirroring_is_for_wires_kept_from_then_on_and_no_step() -> None:
 def test_after_the_mirror_was_set_undo_does_not_stop_at_steps_that_changed_nothing() -> None:
     session = Table(centred=True).session
     session.click(0)
-    session.adopt(session.network, [])
+    session.queue.adopt(session.network, [])
     session.start(0)
     assert not session.picture.can_undo
     use(session, mirror=(0,))
@@ -494,7 +494,7 @@ def test_a_wires_images_are_those_of_when_it_was_kept_and_follow_its_course() ->
     assert [one.mirror for one in session.wires] == [(0,), (0,)]
     assert [image.vertices for image in session.mirrored(session.wires[0])] == [(5, 11)]
     session.drag(8)
-    session.drag_to(7)
+    session.cursor.drag_to(7)
     assert [image.vertices for image in session.mirrored(session.wires[1])] == [(11, 10)], "and are shown meanwhile"
 
 
@@ -517,6 +517,6 @@ def test_a_dragged_seeds_images_move_with_it(axes: tuple[int, ...]) -> None:
     session.click(0)
     session.click(1)
     session.drag(1)
-    session.drag_to(6)
+    session.cursor.drag_to(6)
     assert len(session.edges_to_mark()) == 2 ** len(axes)
     assert (0, 6) in session.edges_to_mark()

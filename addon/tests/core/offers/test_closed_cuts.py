@@ -24,7 +24,7 @@ def taken(left: bool = False) -> Session:
     session = Table("SURFACE").session
     session.hover(8, loop=True)
     if left:
-        session.next_candidate()
+        session.cursor.next_candidate()
     session.click(8)
     return session
 
@@ -45,10 +45,10 @@ def after_cutting(session: Session, wires: list[Wire]) -> Table:
     it = Table("SURFACE")
     places = Places(it.points, SCALE)
     memory = CutMemory()
-    cuts = [cut.of(Network(tuple(wires))) for cut in session.loops.cuts.taken(session.drawing.network)]
+    cuts = [cut.of(Network(tuple(wires))) for cut in session.cursor.loops.cuts.taken(session.drawing.network)]
     memory.keep([cut for cut in cuts if cut is not None], Network(tuple(wires)), places)
-    it.session.adopt(Network(tuple(replace(wire.anew(), stored=wire.stored) for wire in wires)), [])
-    it.session.loops.cuts.recall(memory.recall(it.session.network, places))
+    it.session.queue.adopt(Network(tuple(replace(wire.anew(), stored=wire.stored) for wire in wires)), [])
+    it.session.cursor.loops.cuts.recall(memory.recall(it.session.network, places))
     return it
 
 
@@ -58,7 +58,7 @@ def test_a_cut_is_bent_in_the_session_after_it_was_cut(left: bool) -> None:
     it = after_cutting(session, as_cut(session))
     assert it.session.picture.can_bend
     it.session.hover(28, bend=True)
-    it.session.poll()
+    it.session.queue.poll()
     assert it.lives["SURFACE"].bent[-1] == (8, 28, (1, 1) if left else (0, 0)), (
         "the one of those through the point that ran there"
     )
@@ -108,7 +108,7 @@ def test_where_none_runs_there_it_says_so() -> None:
     it.lives["SURFACE"] = it.session.drawing.engines.cuts()
     it.lives["SURFACE"].islands = (8,)
     assert not it.session.bend(28)
-    assert it.session.message.code == CUT_IS_GONE
+    assert it.session.drawing.message.code == CUT_IS_GONE
     assert len(it.session.wires) == 2
 
 
@@ -117,14 +117,14 @@ def test_what_is_not_all_there_is_forgotten() -> None:
     for wires in (as_cut(session)[:1], [replace(wire, stored=0) for wire in as_cut(session)]):
         it = after_cutting(session, wires)
         assert not it.session.bend(28)
-        assert it.session.message.code == NOTHING_TO_BEND
+        assert it.session.drawing.message.code == NOTHING_TO_BEND
 
 
 def test_what_was_changed_since_it_was_taken_is_not_handed_on() -> None:
     session = taken()
-    assert len(session.loops.cuts.taken(session.drawing.network)) == 1
+    assert len(session.cursor.loops.cuts.taken(session.drawing.network)) == 1
     session.drop(session.wires[1])
-    assert session.loops.cuts.taken(session.drawing.network) == ()
+    assert session.cursor.loops.cuts.taken(session.drawing.network) == ()
 
 
 def test_the_memory_of_cuts_is_bounded_and_forgets_the_oldest(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -133,7 +133,7 @@ def test_the_memory_of_cuts_is_bounded_and_forgets_the_oldest(monkeypatch: pytes
     places = Places(Table("SURFACE").points, SCALE)
     (cut,) = (
         cut
-        for cut in (cut.of(Network(tuple(wires))) for cut in session.loops.cuts.taken(session.drawing.network))
+        for cut in (cut.of(Network(tuple(wires))) for cut in session.cursor.loops.cuts.taken(session.drawing.network))
         if cut is not None
     )
     monkeypatch.setattr(closed_cuts, "_MOST_BYTES", 2 * cut.course.nbytes)

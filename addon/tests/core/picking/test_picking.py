@@ -289,7 +289,11 @@ class Network:
     placed: tuple[Pick, ...] = ()
     wires: tuple[Wire, ...] = ()
     moved: tuple[Wire, ...] = ()
-    network_revision: int = 0
+
+    @property
+    def under_way(self) -> object:
+        """The wires that are dragged are here."""
+        return self
 
     def seeds(self) -> list[Pick]:
         return list(self.placed)
@@ -351,7 +355,7 @@ def test_the_network_is_read_again_when_it_changes() -> None:
     find, view = Picker(grid()), from_above()
     session, at = Network(placed=(12,)), pixel(from_above(), (0.0, 0.0, 0.0))
     assert find.snap(view, HERE, at, vertices_only=True, session=session).to == "SEED"
-    session.placed, session.network_revision = (13,), 1
+    session.placed = (13,)
     assert find.snap(view, HERE, at, vertices_only=True, session=session).to == "MESH"
 
 

@@ -221,7 +221,7 @@ def test_which_of_the_wires_one_is_and_what_a_stroke_is_for_are_kept(follow: int
     session.click(0)
     session.hover(14)
     while session.picture.active.follow != follow:
-        session.next_candidate()
+        session.cursor.next_candidate()
     session.draw_stroke(vertices=[1, 2, 3])
     session.click(14)
     mesh = paper()

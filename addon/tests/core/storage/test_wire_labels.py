@@ -161,9 +161,9 @@ def test_a_dragged_wires_images_follow_in_the_mesh() -> None:
     mesh = mirrored()
     session = opened(mesh, centred=True)
     session.drag(8)
-    session.drag_to(7)
+    session.cursor.drag_to(7)
     assert set(session.edges_to_mark()) == lines((0, 1, 7), (5, 4, 10)), "while it is dragged too"
-    session.drag_end()
+    session.queue.drag_end()
     mesh.write(session)
     assert mesh.seams == lines((0, 1, 7), (5, 4, 10))
 
@@ -395,8 +395,8 @@ def test_undone_labels_bring_back_the_wire_of_that_time() -> None:
     mesh, session = drawn((0, 3))
     before = mesh.snapshot()
     session.drag(3)
-    session.drag_to(9)
-    session.drag_end()
+    session.cursor.drag_to(9)
+    session.queue.drag_end()
     mesh.write(session, adopt=True)
     after = mesh.snapshot()
     text = mesh.text
@@ -421,8 +421,8 @@ def test_copies_of_a_wire_can_be_dragged_apart() -> None:
     session = opened(mesh)
     assert sorted(courses(session)) == [(0, 1, 2, 3), (36, 37, 38, 39)]
     session.drag(3)
-    session.drag_to(2)
-    session.drag_end()
+    session.cursor.drag_to(2)
+    session.queue.drag_end()
     mesh.write(session, adopt=True)
     assert found(mesh) == [(0, 1, 2), (36, 37, 38, 39)]
     assert mesh.seams == lines((0, 1, 2), (36, 37, 38, 39))
@@ -662,7 +662,7 @@ def test_an_objects_scale_does_not_matter(stretch: np.ndarray) -> None:
     wire = next(wire for wire in found_now.network.wires if wire.along == "SURFACE")
     assert wire.vertices == tuple(where[list(session.wires[0].vertices)].tolist())
     assert np.allclose(wire.points, curve @ stretch, atol=1e-5)
-    assert np.allclose(found_now.network.strokes[0].points, session.strokes[0].points @ stretch, atol=1e-5)
+    assert np.allclose(found_now.network.strokes[0].points, session.network.strokes[0].points @ stretch, atol=1e-5)
     mesh.found, mesh.archive = found_now, Archive.parse(mesh.text)
     plan = mesh.write(found_now.network)
     assert (plan.mark, plan.clear) == ([], [])
@@ -693,7 +693,7 @@ def test_strokes_come_back_in_their_order() -> None:
         session.draw_stroke(vertices=vertices)
     mesh = paper()
     mesh.write(session)
-    assert [one.vertices.tolist() for one in opened(mesh).strokes] == strokes
+    assert [one.vertices.tolist() for one in opened(mesh).network.strokes] == strokes
     assert mesh.seams == set()
 
 
@@ -704,7 +704,7 @@ def test_a_stroke_whose_ground_is_gone_is_none() -> None:
     mesh.write(session)
     mesh.delete_vertices([7])
     session = opened(mesh)
-    assert session.strokes == ()
+    assert session.network.strokes == ()
     mesh.write(session)
     assert mesh.labels == {}
 
