@@ -22,12 +22,12 @@ double length_of(std::span<const Vector> line) {
 
 class Carrying {
  public:
-  Carrying(const SlitProblem& simple, const DecimatedMesh& mesh, const SlitProblem& original,
+  Carrying(const SlitProblem& simple, std::span<const std::int32_t> vertices, const SlitProblem& original,
            std::span<const Slit> slits)
       : simple_(simple),
-        mesh_(mesh),
+        vertices_(vertices),
         original_(original),
-        spread_(0.4 * median_length(simple.mesh)),
+        spread_(1.0 * median_length(simple.mesh)),
         is_on_cut_(cut_of(original, {}, {}).is_on_cut) {
     for (const Slit& slit : slits) {
       for (const auto* chain : {&slit.path, &slit.image}) {
@@ -84,7 +84,7 @@ class Carrying {
   std::vector<std::int32_t> section(std::span<const std::int32_t> path, std::span<const std::uint8_t> barred) const {
     std::vector<Vector> line;
     for (const std::int32_t v : path) line.push_back(simple_.mesh.points[v]);
-    const std::int32_t from = mesh_.vertices[path.front()], to = mesh_.vertices[path.back()];
+    const std::int32_t from = vertices_[path.front()], to = vertices_[path.back()];
     std::vector<std::int32_t> chain = chain_along(original_.mesh, line, spread_, from, to, barred, original_.prices);
     if (!chain.empty() && chain_length(original_.mesh, chain) < kDetour * length_of(line)) return chain;
     const std::vector<std::uint8_t> none(barred.size(), 0);
@@ -98,7 +98,7 @@ class Carrying {
   }
 
   const SlitProblem& simple_;
-  const DecimatedMesh& mesh_;
+  std::span<const std::int32_t> vertices_;
   const SlitProblem& original_;
   double spread_;
   std::vector<std::uint8_t> is_on_cut_;
@@ -107,9 +107,9 @@ class Carrying {
 
 }  // namespace
 
-std::vector<Slit> carried_slits(const SlitProblem& simple, const DecimatedMesh& mesh, const SlitProblem& original,
-                                std::span<const Slit> slits) {
-  Carrying carrying(simple, mesh, original, slits);
+std::vector<Slit> carried_slits(const SlitProblem& simple, std::span<const std::int32_t> vertices,
+                                const SlitProblem& original, std::span<const Slit> slits) {
+  Carrying carrying(simple, vertices, original, slits);
   std::vector<Slit> carried;
   for (const Slit& slit : slits) {
     std::optional<Slit> one = carrying.carried(slit);

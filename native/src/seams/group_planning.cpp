@@ -29,13 +29,13 @@ constexpr double kLaterBudget = 0.5;  // of a repetition, as a share of the one 
 struct RoundWork {
   double search, map;
 };
-std::array<RoundWork, kRounds + 1> work_of_rounds(const GroupProblem& group, double budget) {
-  const auto faces = static_cast<double>(group.searched().mesh.face_count());
+std::array<RoundWork, kRounds + 1> work_of_rounds(const GroupProblem& group, std::size_t level, double budget) {
+  const auto faces = static_cast<double>(group.searched(level).mesh.face_count());
   const double map = kStepsOfMap * static_cast<double>(group.original.mesh.face_count());
   std::array<RoundWork, kRounds + 1> rounds{};
   for (RoundWork& round : rounds) {
     round = {budget * faces, map};
-    if (!group.decimated) break;
+    if (group.simplified_at(level) == nullptr) break;
     budget *= kLaterBudget;
   }
   return rounds;
@@ -66,9 +66,15 @@ std::int64_t missing_cuts_of(const SlitProblem& problem) {
 
 }  // namespace
 
+double GroupProblem::work_on(std::size_t level, double budget) const {
+  double sum = 0.0;
+  for (const RoundWork& round : work_of_rounds(*this, level, budget)) sum += round.search + round.map;
+  return sum;
+}
+
 double GroupProblem::work(double budget) const {
   double sum = 0.0;
-  for (const RoundWork& round : work_of_rounds(*this, budget)) sum += round.search + round.map;
+  for (std::size_t level = 0; level < level_count(); ++level) sum += work_on(level, budget);
   return sum;
 }
 
@@ -100,7 +106,7 @@ std::size_t GroupPlanning::most_pieces() const { return count_blocks(problem());
 void GroupPlanning::add_rings(std::vector<Slit> rings) {
   if (rings.empty()) return;
   std::ranges::move(rings, std::back_inserter(rings_));
-  parted_ = with_seams(group_->searched(), rings_);
+  parted_ = with_seams(group_->searched(level_), rings_);
 }
 
 void GroupPlanning::grow(bool has_tips, const Task& task) {
@@ -120,7 +126,7 @@ void GroupPlanning::show(const SlitPlan& plan) {
 
 void GroupPlanning::search(const SlitGoal& goal, const std::function<void()>& found, const Task& task) {
   double end = kFirstEnd;
-  search_once(goal, found, part_of(task, 0.0, end));
+  search_levels(goal, found, part_of(task, 0.0, end));
   // Without a good plan the group is parted further: along the rims of the pieces that miss the bound. Without any map,
   // it is also parted into halves.
   for (int round = 0; round <= kHalvings && !result_.is_within(goal.energy); ++round) {
@@ -138,11 +144,37 @@ void GroupPlanning::search(const SlitGoal& goal, const std::function<void()>& fo
   }
 }
 
+/// Searches on each level, and keeps the best plan. Rings belong to the finest mesh, so with rings only that is
+/// searched.
+void GroupPlanning::search_levels(const SlitGoal& goal, const std::function<void()>& found, const Task& task) {
+  const std::size_t levels = rings_.empty() && std::isfinite(goal.energy) ? group_->level_count() : 1;
+  SlitGoal aim = goal;
+  aim.budget /= static_cast<double>(levels);
+  std::vector<double> ends;
+  for (std::size_t level = 0; level < levels; ++level) {
+    ends.push_back((ends.empty() ? 0.0 : ends.back()) + group_->work_on(level, aim.budget));
+  }
+  search_once(aim, found, part_of(task, 0.0, ends.front() / ends.back()));
+  for (std::size_t level = 1; level < levels && (result_.price > 0.0 || !result_.is_within(goal.energy)); ++level) {
+    const double begin = ends[level - 1] / ends.back(), end = ends[level] / ends.back();
+    const double grown = begin + kGrowing * (end - begin);
+    Result before = std::move(result_);
+    std::vector<std::int32_t> missed = std::move(missed_);
+    const std::size_t best = std::exchange(level_, level);
+    grow(true, part_of(task, begin, grown));
+    search_once(aim, {}, part_of(task, grown, end));
+    if (rank(result_, goal.energy) < rank(before, goal.energy)) continue;
+    result_ = std::move(before);
+    missed_ = std::move(missed);
+    level_ = best;
+  }
+}
+
 void GroupPlanning::search_once(const SlitGoal& goal, const std::function<void()>& found, const Task& task) {
   SlitGoal aim = goal;
   Result best;
-  const std::array<RoundWork, kRounds + 1> work = work_of_rounds(*group_, goal.budget);
-  const double all = group_->work(goal.budget);
+  const std::array<RoundWork, kRounds + 1> work = work_of_rounds(*group_, level_, goal.budget);
+  const double all = group_->work_on(level_, goal.budget);
   double done = 0.0;
   const auto next = [&](double amount) {
     const double begin = done / all;
@@ -150,7 +182,7 @@ void GroupPlanning::search_once(const SlitGoal& goal, const std::function<void()
     return part_of(task, begin, done / all);
   };
   for (int round = 0;; ++round) {
-    const bool is_simplified = group_->decimated.has_value();
+    const bool is_simplified = group_->simplified_at(level_) != nullptr;
     bool is_start = true;  // which grow() has shown
     const auto tell = [&](const SlitPlan& plan) {
       if (std::exchange(is_start, false) || round > 0 || !found) return;
@@ -182,8 +214,9 @@ void GroupPlanning::search_once(const SlitGoal& goal, const std::function<void()
 std::vector<Slit> GroupPlanning::on_original(const std::vector<Slit>& slits) const {
   std::vector<Slit> all = rings_;
   all.insert(all.end(), slits.begin(), slits.end());
-  if (!group_->decimated) return all;
-  all = carried_slits(problem(), *group_->decimated, group_->original, all);
+  const GroupProblem::Simplified* simple = group_->simplified_at(level_);
+  if (simple == nullptr) return all;
+  all = carried_slits(problem(), simple->vertices, group_->original, all);
   // A closed cut may not have been carried whole.
   if (least_pieces_ > 0) {
     std::ranges::move(halving_cuts(with_seams(group_->original, all), least_pieces_, {}), std::back_inserter(all));
@@ -194,7 +227,7 @@ std::vector<Slit> GroupPlanning::on_original(const std::vector<Slit>& slits) con
 /// Adds the cuts that pieces of the original mesh need where slits were not carried whole. `simple`: the slits that
 /// were carried, beside the rings.
 std::vector<Slit> GroupPlanning::completed(std::vector<Slit> slits, const std::vector<Slit>& simple) const {
-  if (!group_->decimated) return slits;
+  if (group_->simplified_at(level_) == nullptr) return slits;
   const SlitProblem original = with_seams(group_->original, slits);
   if (missing_cuts_of(original) > missing_cuts_of(with_seams(problem(), simple))) {
     std::ranges::move(grow_tree(original, false, {}).slits, std::back_inserter(slits));

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "seams/decimation.hpp"
 #include "seams/neck_rings.hpp"
 #include "seams/piece_groups.hpp"
 #include "seams/slit_plan.hpp"
@@ -21,14 +20,33 @@ namespace seamwire::detail {
 
 /// A group of pieces that is planned by itself, and the places on the surface where copies of it lie.
 struct GroupProblem {
+  /// The problem on a mesh with fewer triangles.
+  struct Simplified {
+    SlitProblem problem;
+    std::vector<std::int32_t> vertices;  ///< of the original mesh, for each vertex
+  };
+
   SlitProblem original;
-  std::optional<DecimatedMesh> decimated;  ///< of the original, if that is large
-  SlitProblem simple;                      ///< on that
-  double size = 1.0;                       ///< the root of each copy's share of the surface's area
+  bool is_large = false;  ///< whether the original has too many triangles for a search
+  /// From fine to coarse. A large original has one at least.
+  std::vector<Simplified> simplified;
+  double size = 1.0;  ///< the root of each copy's share of the surface's area
   std::vector<Place> places;
 
-  const SlitProblem& searched() const { return decimated ? simple : original; }
-  /// About how many times a Newton step moves a triangle, if the search takes all of its budget and every round.
+  /// On how many meshes seams are searched, one after another. Each search ends at another local optimum.
+  std::size_t level_count() const { return simplified.size() + (is_large ? 0 : 1); }
+  /// The problem of a level, 0 for the finest; null instead of a simplified mesh for the original.
+  const Simplified* simplified_at(std::size_t level) const {
+    return is_large ? &simplified[level] : (level == 0 ? nullptr : &simplified[level - 1]);
+  }
+  const SlitProblem& searched(std::size_t level = 0) const {
+    const Simplified* simple = simplified_at(level);
+    return simple != nullptr ? simple->problem : original;
+  }
+  /// About how many times a Newton step moves a triangle, if the search on a level takes all of its budget and every
+  /// round.
+  double work_on(std::size_t level, double budget) const;
+  /// The same, of all levels.
   double work(double budget) const;
   /// The share of the whole surface's area that all copies have, without pieces that may not be cut.
   double counted_area() const;
@@ -72,15 +90,17 @@ class GroupPlanning {
 
  private:
   void add_rings(std::vector<Slit> rings);
+  void search_levels(const SlitGoal& goal, const std::function<void()>& found, const Task& task);
   void search_once(const SlitGoal& goal, const std::function<void()>& found, const Task& task);
   std::vector<std::int32_t> missed_pieces(const SlitPlan& plan, double bound) const;
-  const SlitProblem& problem() const { return parted_ ? *parted_ : group_->searched(); }
+  const SlitProblem& problem() const { return parted_ ? *parted_ : group_->searched(level_); }
   std::vector<Slit> on_original(const std::vector<Slit>& slits) const;
   std::vector<Slit> completed(std::vector<Slit> slits, const std::vector<Slit>& simple) const;
   Result solved_on_original(std::vector<Slit> slits, const Task& task) const;
   void show(const SlitPlan& plan);
 
   const GroupProblem* group_;
+  std::size_t level_ = 0;  // of the mesh that is searched
   std::vector<Slit> rings_;
   std::optional<SlitProblem> parted_;  // with rings
   std::size_t least_pieces_ = 0;

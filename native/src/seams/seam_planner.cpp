@@ -16,6 +16,7 @@
 #include "detail/poll.hpp"
 #include "detail/run_on_threads.hpp"
 #include "parameterization/measure_islands.hpp"
+#include "seams/decimation.hpp"
 #include "seams/group_planning.hpp"
 #include "seams/piece_groups.hpp"
 #include "seams/planned_wires.hpp"
@@ -75,6 +76,16 @@ std::vector<std::uint8_t> marked_edges(const PlanMesh& mesh, const std::vector<E
   return is_seam;
 }
 
+/// The values at some vertices; 0 in the place of -1.
+Visibility at_places(const Visibility& from, std::span<const std::int32_t> vertices) {
+  Visibility found;
+  for (const std::int32_t v : vertices) {
+    found.ambient.push_back(v < 0 ? 0.0 : from.ambient[v]);
+    if (!from.front.empty()) found.front.push_back(v < 0 ? 0.0 : from.front[v]);
+  }
+  return found;
+}
+
 }  // namespace
 
 struct SeamPlanner::Impl {
@@ -95,6 +106,7 @@ struct SeamPlanner::Impl {
 
   void prepare(const Task& task);
   void find_meshes(const Task& task);
+  void add_simplified(GroupProblem& group, std::size_t triangles, const Task& task) const;
   Visibility visibility_of_all(const Task& task) const;
   void find_prices_of_all(const Visibility& visibility);
   void join_copies();
@@ -150,17 +162,30 @@ void SeamPlanner::Impl::find_meshes(const Task& task) {
     const Task own = part_of(task, 0.3 + 0.7 * static_cast<double>(done) / static_cast<double>(all),
                              0.3 + 0.7 * static_cast<double>(done + count) / static_cast<double>(all));
     done += count;
-    const std::size_t wanted = std::max(kSimplified * count / all, kLeastSimplified);
-    if (all <= kMostTriangles || count * kSimplified <= wanted * kMostTriangles) continue;
-    SlitProblem& original = group.original;
-    group.decimated = decimate(original.mesh, original.is_seam, original.mirror(), wanted, own);
-    group.simple.mesh = group.decimated->mesh;
-    group.simple.is_seam = group.decimated->is_seam;
-    if (original.reflection) {
-      group.simple.reflection = reflection_in(group.simple.mesh, options.mirror, original.reflection->offset,
-                                              diagonal_of(group.simple.mesh), own);
-    }
+    const std::size_t share = std::max(kSimplified * count / all, kLeastSimplified);
+    group.is_large = all > kMostTriangles && count * kSimplified > share * kMostTriangles;
+    if (group.is_large) add_simplified(group, share, part_of(own, 0.0, 0.7));
+    const std::size_t half = group.searched().mesh.face_count() / 2;
+    if (half >= kLeastSimplified) add_simplified(group, half, part_of(own, 0.7, 1.0));
   }
+}
+
+/// Adds a level with about so many triangles to a group, without prices.
+void SeamPlanner::Impl::add_simplified(GroupProblem& group, std::size_t triangles, const Task& task) const {
+  const SlitProblem& original = group.original;
+  const SlitProblem& finer = group.level_count() > 0 ? group.searched(group.level_count() - 1) : original;
+  DecimatedMesh decimated = decimate(finer.mesh, finer.is_seam, finer.mirror(), triangles, task);
+  GroupProblem::Simplified simple{.problem = {}, .vertices = std::move(decimated.vertices)};
+  simple.problem.mesh = std::move(decimated.mesh);
+  simple.problem.is_seam = std::move(decimated.is_seam);
+  if (original.reflection) {
+    simple.problem.reflection = reflection_in(simple.problem.mesh, options.mirror, original.reflection->offset,
+                                              diagonal_of(simple.problem.mesh), task);
+  }
+  if (!group.simplified.empty()) {
+    for (std::int32_t& v : simple.vertices) v = group.simplified.back().vertices[v];
+  }
+  group.simplified.push_back(std::move(simple));
 }
 
 /// The visibility of the vertices of the meshes of all groups on which seams are searched, one after another, then of
@@ -185,7 +210,8 @@ Visibility SeamPlanner::Impl::visibility_of_all(const Task& task) const {
   for (const GroupProblem& group : groups) {
     const PlanMesh& own = group.searched().mesh;
     for (std::size_t k = 1; k < group.places.size(); ++k) {
-      const auto vertex = [&](std::int32_t v) { return group.decimated ? group.decimated->vertices[v] : v; };
+      const GroupProblem::Simplified* simple = group.simplified_at(0);
+      const auto vertex = [&](std::int32_t v) { return simple != nullptr ? simple->vertices[v] : v; };
       add(own, group.size, [&](std::int32_t v) { return whole.points[group.places[k].vertices[vertex(v)]]; });
     }
   }
@@ -204,14 +230,11 @@ void SeamPlanner::Impl::find_prices_of_all(const Visibility& visibility) {
                    .ambient = part(visibility.ambient, mesh.vertex_count())};
     begin += mesh.vertex_count();
     SlitProblem& original = group.original;
-    if (group.decimated) {
-      group.simple.prices = find_prices(mesh, own, group.simple.reflection, weights_of(mesh));
-      Visibility all;
-      for (const std::int32_t v : nearest_of(original.mesh, group.decimated->vertices)) {
-        all.ambient.push_back(v < 0 ? 0.0 : own.ambient[v]);
-        if (options.front) all.front.push_back(v < 0 ? 0.0 : own.front[v]);
-      }
-      own = std::move(all);
+    if (group.is_large) own = at_places(own, nearest_of(original.mesh, group.simplified.front().vertices));
+    for (GroupProblem::Simplified& simple : group.simplified) {
+      SlitProblem& problem = simple.problem;
+      problem.prices =
+          find_prices(problem.mesh, at_places(own, simple.vertices), problem.reflection, weights_of(problem.mesh));
     }
     original.prices = find_prices(original.mesh, own, original.reflection, weights_of(original.mesh));
   }
@@ -238,7 +261,7 @@ void SeamPlanner::Impl::join_copies() {
   groups = std::move(joined);
   for (GroupProblem& group : groups) {
     find_pieces_of(group.original);
-    if (group.decimated) find_pieces_of(group.simple);
+    for (GroupProblem::Simplified& simple : group.simplified) find_pieces_of(simple.problem);
   }
 }
 

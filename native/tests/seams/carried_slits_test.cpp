@@ -30,7 +30,7 @@ struct Simplified {
     simple.prices = find_prices(simple.mesh, find_visibility(simple.mesh, options.front, {}), simple.reflection, {});
   }
   std::vector<Slit> carried(const std::vector<Slit>& slits) const {
-    return carried_slits(simple, mesh, original, slits);
+    return carried_slits(simple, mesh.vertices, original, slits);
   }
 
   SlitProblem original;
