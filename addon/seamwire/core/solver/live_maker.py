@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from ...terms.options import CLAMP_PERCENTILE, STRENGTHS
 from ..base import native
@@ -16,19 +16,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...terms.choices import Along
+    from ..base.mesh_arrays import Arrays
     from .solver import LiveWire
-
-
-class Triangulated(Protocol):
-    """A mesh as the library takes it: (n, 3) points, (m, 3) triangles, and (e, 2) edges that wires may run along.
-
-    Artists expect seams along those of the edges that are `marked`, (k, 2).
-    """
-
-    points: NDArray[np.float64]
-    triangles: NDArray[np.int32]
-    edges: NDArray[np.int32]
-    marked: NDArray[np.int32]
 
 
 class LiveMaker:
@@ -37,10 +26,10 @@ class LiveMaker:
     Parameters
     ----------
     mesh
-        The mesh that wires run on.
+        The mesh that wires run on: (n, 3) points, (m, 3) triangles, and (e, 2) edges. Finding parts also needs the edges that are `marked`.
     """
 
-    def __init__(self, mesh: Triangulated) -> None:
+    def __init__(self, mesh: Arrays) -> None:
         self._core = native.load()
         self._mesh = mesh
         self._first: seamwire_core.LiveWire | None = None

@@ -3,9 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Protocol, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from ...terms.choices import KINDS, METRICS, Kind, MetricName
 from ...terms.options import CLAMP_PERCENTILE, STRENGTHS
@@ -14,13 +13,18 @@ from ..network.picks import FacePoint
 from ..network.wires import FOLLOWS
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import ArrayLike, NDArray
-    from seamwire_core import Surface
+    from collections.abc import Callable, Mapping, Sequence
+
+    import seamwire_core
 
     from ...terms.choices import Along
-    from ..network.picks import Edge, Pick
+    from ..network.picks import Pick
     from ..network.strokes import Stroke
+
+    LiveWire = seamwire_core.LiveWire
+    Candidate = seamwire_core.LiveCandidate
+    Candidates = seamwire_core.LiveWires
+    ClosedCut = seamwire_core.LiveClosedWire
 
 _KINDS: tuple[Kind, ...] = tuple(KINDS)
 
@@ -28,29 +32,6 @@ _KINDS: tuple[Kind, ...] = tuple(KINDS)
 def kinds_of(metric: MetricName) -> tuple[Kind, ...]:
     """Return what the wires of a metric follow, by `Wire.follow`."""
     return METRICS[metric].follows
-
-
-class Candidate(Protocol):
-    """One of the wires from the seed to a target, as the library gives it."""
-
-    follow: Kind
-    points: NDArray[np.float64]
-    faces: NDArray[np.int32]
-    """The triangle of each segment, across the surface only."""
-    vertices: NDArray[np.int32]
-    length: float
-    final: bool
-
-
-class Candidates(Protocol):
-    """The wires, one for each metric; which of them leads, and whether that will stay so."""
-
-    wires: Sequence[Candidate]
-    active: int
-    settled: bool
-    solved: bool
-    """Whether each is the shortest: across the surface they may become more exact until they are `final`."""
-    final: bool
 
 
 def by_number(found: Candidates) -> tuple[tuple[Candidate, ...], int]:
@@ -67,60 +48,6 @@ def _meant_for(stroke: Stroke, kinds: tuple[Kind, ...]) -> Stroke | None:
     return replace(stroke, acts_on=kinds[number]) if number < len(kinds) else None
 
 
-class EdgeChain(Protocol):
-    """A chain of edges."""
-
-    vertices: NDArray[np.int32]
-
-
-class Loop(EdgeChain, Protocol):
-    """A closed chain of edges. It has no vertices if there is no chain, or if it is not `final` yet."""
-
-    final: bool
-
-
-class EdgeLoop(EdgeChain, Protocol):
-    """A straight chain of edges; no vertices where it cannot be told yet."""
-
-    closed: bool
-
-
-class Piece(EdgeChain, Protocol):
-    """A piece of a closed cut, and the chain of edges that it snaps to."""
-
-    points: NDArray[np.float64]
-    faces: NDArray[np.int32]
-
-
-class ClosedCut(Protocol):
-    """A closed cut across the surface: pieces from a point around to it, and where each but the last ends."""
-
-    pieces: Sequence[Piece]
-    joints: Sequence[int | tuple[int, Sequence[float]]]
-    separates: bool
-    id: tuple[int, int]
-    """The number of its metric and its number in that, for `LiveWire.bent_wire`."""
-
-
-class ClosedCuts(Protocol):
-    """The closed cuts through a point, best first; none where nothing suggests one, or where they are not `final` yet."""
-
-    cuts: Sequence[ClosedCut]
-    final: bool
-
-
-class FittedChain(EdgeChain, Protocol):
-    """The chain of edges that fits a line; no vertices where none does, or where it cannot be told yet."""
-
-    places: NDArray[np.float64]
-
-
-class EmbeddingReport(Protocol):
-    """The library's report about a mesh that wires run across."""
-
-    invalid_left: int
-
-
 End = int | tuple[int, int] | tuple[int, tuple[float, float, float]]
 """A vertex, an edge by its two vertices, or a triangle and barycentric coordinates in it."""
 
@@ -132,80 +59,13 @@ def for_live(pick: Pick, along: Along) -> End:
     return pick.vertex if along == "EDGES" else (pick.triangle, pick.weights)
 
 
-class LiveWire(Protocol):
-    """The part of ``seamwire_core.LiveWire`` that a session uses.
-
-    Only `wait` waits. Until the library has built its surface, the others answer that nothing is there yet and nothing
-    final; where it cannot be built, all raise ValueError.
-    """
-
-    def seed(self, pick: End, forward: bool = False) -> None:
-        """Start the wires from a pick."""
-
-    def wires(self, target: End) -> Candidates:
-        """Return the wires to a target, as far as they are computed."""
-
-    def loop(self, edge: Edge) -> Loop:
-        """Return the closed chain through an edge, as far as it is computed."""
-
-    def closed_wires(self, through: End) -> ClosedCuts:
-        """Return the closed cuts across the surface through a point, as far as they are computed."""
-
-    def bent_wire(self, through: End, second: End, cut: tuple[int, int]) -> ClosedCuts:
-        """Return one of these cuts, by its id, bent to a second point, as far as it is computed."""
-
-    def extend_straight(self, edge: Edge, stops: Iterable[int]) -> EdgeChain:
-        """Return the straight way on from the end of a directed edge until a stop, a boundary or itself."""
-
-    def edge_loop(self, edge: Edge, stops: Iterable[int]) -> EdgeLoop:
-        """Return the straight chain through an edge, both ways, until a stop, a pole, a boundary or itself."""
-
-    def fit_chain(
-        self, points: ArrayLike, faces: ArrayLike, begin: int | None = None, end: int | None = None
-    ) -> FittedChain:
-        """Return the chain of edges that fits a line; along edges only."""
-
-    def fork(self) -> LiveWire:
-        """Return live wires with a separate seed and the same metric."""
-
-    def set_metric(
-        self, metric: MetricName, *, max_anisotropy: float | None = None, clamp_percentile: float | None = None
-    ) -> None:
-        """Compute with another metric from here on; the seed stays, and so do the wires until there are new ones."""
-
-    def set_scribbles(self, strokes: Sequence[object]) -> None:
-        """Compute with these strokes instead of those before; the rest as `set_metric`."""
-
-    def feature_strength(self) -> NDArray[np.float64] | None:
-        """Return how strong the features are at the vertices; None as long as that is computed."""
-
-    def embeddings(self) -> Sequence[EmbeddingReport | None]:
-        """Return reports about the embeddings of the metrics. None if there is no embedding yet."""
-
-    @property
-    def surface(self) -> Surface | None:
-        """The library's surface; None: it is not built yet."""
-
-    def progress(self) -> float:
-        """Fraction of the running work that is done."""
-
-    def wait(self, seconds: float | None = None) -> bool:
-        """Wait for the running work."""
-
-
 MOST_WAITS = 50
 """So often in a row the library may say that all its work is done although an answer is not final."""
 _SLICE = 0.005
 """Seconds of one wait."""
 
 
-class Final(Protocol):
-    """An answer of live wires that may become better until it is `final`."""
-
-    final: bool
-
-
-Answer = TypeVar("Answer", bound=Final)
+Answer = TypeVar("Answer")
 
 
 def final(live: LiveWire, ask: Callable[[], Answer]) -> Answer:
