@@ -13,8 +13,8 @@ from seamwire.core.network.network import Network
 from seamwire.core.network.picks import Edge
 from seamwire.core.network.strokes import on_mesh
 from seamwire.core.storage import label_reader, wire_labels
-from seamwire.core.storage.serialization import Archive
-from seamwire.core.storage.wire_labels import EdgeLabels, Found, Places, Plan
+from seamwire.core.storage.serialization import Archive, Places
+from seamwire.core.storage.wire_labels import EdgeLabels, Found, Plan
 
 
 def undirected(pairs: Iterable[Sequence[int]]) -> list[Edge]:

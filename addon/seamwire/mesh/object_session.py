@@ -21,8 +21,8 @@ from ..core.network.strokes import on_mesh
 from ..core.offers.closed_cuts import CutMemory
 from ..core.solver.live_maker import LiveMaker
 from ..core.storage import label_reader, serialization, wire_labels
-from ..core.storage.serialization import Archive, UnreadableError
-from ..core.storage.wire_labels import EdgeLabels, Found, Places
+from ..core.storage.serialization import Archive, Places, UnreadableError
+from ..core.storage.wire_labels import EdgeLabels, Found
 from ..terms.options import Options
 from ..words.notices import Notices
 from . import edit_mesh

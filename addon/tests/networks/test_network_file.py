@@ -15,6 +15,7 @@ from seamwire.core.network.picks import FacePoint
 from seamwire.core.network.strokes import Stroke
 from seamwire.core.network.wires import FOLLOWS, Wire
 from seamwire.core.offers.edge_loops import KIND_COSTS
+from seamwire.core.storage.serialization import Places
 from seamwire.networks.core import network_file
 from seamwire.networks.core.network_file import NetworkFile, NetworkFileError
 from seamwire.terms.choices import ALONG, FINISHES, METRICS
@@ -72,7 +73,7 @@ def written(network: Network) -> NetworkFile:
 def test_what_is_read_is_what_was_written(network: Network) -> None:
     file = NetworkFile.parse(written(network).text())
     assert (file.origin.name, file.origin.vertices, file.metric, file.clamp) == ("Hémd", 36, "concave", 95.0)
-    wires = file.wires(POINTS, STRETCH)
+    wires = file.wires(Places(POINTS, STRETCH))
     kept = [one for one in network.wires if one.marks]
     names = ("along", "vertices", "start", "closed", "heading", "follow", "strength", "mirror", "kind", "through")
     for name in (*names, "finish", "planned"):
@@ -81,7 +82,7 @@ def test_what_is_read_is_what_was_written(network: Network) -> None:
     for one, before in zip(wires, kept, strict=True):
         assert np.allclose(one.points, before.points, atol=1e-6)
     assert [one.faces for one in wires] == [None] * 4, "another mesh has other triangles"
-    (stroke,) = file.strokes_on(POINTS, STRETCH)
+    (stroke,) = file.strokes_on(Places(POINTS, STRETCH))
     assert np.allclose(stroke.points, POINTS[[0, 6]]) and stroke.radius == pytest.approx(0.3)
     assert not file.problem_with(36, EDGES)
 

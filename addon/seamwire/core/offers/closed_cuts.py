@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from ..network.network import Network
     from ..network.picks import Pick
     from ..network.wires import Wire
-    from ..storage.wire_labels import Places
+    from ..storage.serialization import Places
 
 _SAME = 0.125
 """Two closed cuts count as the same if their mean distance is below this fraction of their length. Cutting or sliding changes the

@@ -6,6 +6,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,15 +14,16 @@ import numpy as np
 from ..base.components import groups
 from ..network.network import Network
 from ..network.picks import undirected
-from ..network.wires import LOOP_KINDS, Wire
+from ..network.wires import LOOP_KINDS
 from . import serialization
-from .serialization import Archive, Record
-from .wire_labels import Claim, EdgeLabels, Found, Places, edge_of
+from .serialization import Archive, Places, Record
+from .wire_labels import Claim, EdgeLabels, Found
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..network.picks import Edge, End, Pick
+    from ..network.wires import Wire
 
 
 def read(marks: EdgeLabels, archive: Archive, places: Places) -> Found:
@@ -34,10 +36,9 @@ def read(marks: EdgeLabels, archive: Archive, places: Places) -> Found:
     for row, label in enumerate(marks.labels.tolist()):
         for member in expanded[label]:
             rows_of.setdefault(member, []).append(row)
-    edges = [edge_of(pair) for pair in marks.pairs.tolist()]
+    edges = marks.edges
     seams = {edge for edge, seam in zip(edges, marks.seams.tolist(), strict=True) if seam}
     hidden = {edge for edge, hides in zip(edges, marks.hidden.tolist(), strict=True) if hides}
-    in_object = places.in_object
     pieces: list[_Piece] = []
     known: set[Claim] = set()
     broken: set[Claim] = set()
@@ -48,23 +49,27 @@ def read(marks: EdgeLabels, archive: Archive, places: Places) -> Found:
         for part, share in zip(parts or [[]], _shares(images, len(parts)), strict=True):
             if not hidden.isdisjoint(part):
                 continue  # nothing is known of it until it is shown again
-            chain = _chain(part, archive.wires[number], in_object) if seams.issuperset(part) else None
+            chain = _chain(part, archive.wires[number], places) if seams.issuperset(part) else None
             claims = [*((edge, number) for edge in part), *((edge, -number) for edge in share)]
             (broken if chain is None else known).update(claims)
             if chain is not None:
                 there = tuple(edge for edge in share if edge in seams)
                 pieces.append(_Piece(number, archive.wires[number], chain, there))
     strokes = []
-    for number in sorted(
-        archive.strokes.keys() & rows_of.keys(), key=lambda one: (serialization.order_of(archive.strokes[one]), one)
-    ):
+    # Where strokes cross, the later one counts.
+    for number in sorted(archive.strokes.keys() & rows_of.keys(), key=lambda one: (_order(archive.strokes[one]), one)):
         begins = [edges[row] for row in rows_of[number]]
-        stroke = serialization.stored_stroke(archive.strokes[number], in_object, places.to_object, begins)
+        stroke = serialization.stored_stroke(archive.strokes[number], places, begins)
         known.update((edge, number) for edge in begins)
         if stroke is not None:
             strokes.append(stroke)
-    wires = _Wires(pieces, set(edges), places, in_object).all()
+    wires = _Wires(pieces, set(edges), places).all()
     return Found(Network(wires, strokes=tuple(strokes)), frozenset(known), frozenset(broken), unknown)
+
+
+def _order(record: Record) -> int:
+    order = record.get("order")
+    return order if type(order) is int else 0
 
 
 def _shares(images: list[Edge], count: int) -> list[list[Edge]]:
@@ -92,12 +97,20 @@ class _Piece:
         """Whether it has as many edges as the wire had: else it was subdivided."""
         return len(self.vertices) == len(self.record["vertices"])
 
+    @cached_property
+    def numbers(self) -> dict[int, int]:
+        """The numbers that its stored vertices have now."""
+        stored = self.record["vertices"]
+        if self.unchanged:
+            return dict(zip(stored, self.vertices, strict=True))
+        return {} if self.record["closed"] else {stored[0]: self.vertices[0], stored[-1]: self.vertices[-1]}
 
-def _chain(part: list[Edge], record: Record, places: NDArray[np.float64]) -> tuple[int, ...] | None:
+
+def _chain(part: list[Edge], record: Record, places: Places) -> tuple[int, ...] | None:
     """Return the chain that a wire runs along now, by connected edges that its number stands on; None: it is broken."""
     stored = [int(vertex) for vertex in record["vertices"]]
     around = stored + stored[:1] if record["closed"] else stored
-    before = {edge_of(pair) for pair in itertools.pairwise(around)}
+    before = {undirected(pair) for pair in itertools.pairwise(around)}
     if before == set(part):
         return tuple(stored)
     if len(part) < len(before):
@@ -137,16 +150,17 @@ def _trail(edges: list[Edge], closed: bool) -> list[int] | None:
     return trail
 
 
-def _directed(trail: list[int], record: Record, places: NDArray[np.float64]) -> tuple[int, ...]:
+def _directed(trail: list[int], record: Record, where: Places) -> tuple[int, ...]:
     """Return a trail in the direction of the stored wire, and a loop from where that begins.
 
     If its ends have not moved, they decide. Otherwise the order of the vertex numbers decides, because deleting, copying and joining keep
     it. Otherwise positions decide.
     """
+    places = where.in_object
     first, second = np.array(record["ends"], dtype=np.float64)
     by_place = _as_placed(trail, bool(record["closed"]), first, second, places)
     ends = places[[by_place[0], by_place[1] if record["closed"] else by_place[-1]]]
-    if np.abs(ends - (first, second)).max() <= serialization.tolerance(places):
+    if np.abs(ends - (first, second)).max() <= where.tolerance:
         return tuple(by_place)
     ranks = _ranks(record["vertices"])
     for way in (trail, trail[::-1]) if len(ranks) == len(trail) else ():
@@ -182,12 +196,8 @@ def _as_placed(
 class _Wires:
     """Wires made of pieces; their seeds are found among all of them, for a wire may begin on the last edge of another."""
 
-    def __init__(self, pieces: list[_Piece], edges: set[Edge], places: Places, in_object: NDArray[np.float64]) -> None:
-        self._pieces = pieces
-        self._edges = edges
-        self._places = places
-        self._in_object = in_object
-        self._numbers = [self._numbers_of(piece) for piece in pieces]
+    def __init__(self, pieces: list[_Piece], edges: set[Edge], places: Places) -> None:
+        self._pieces, self._edges, self._places = pieces, edges, places
         self._beside: dict[int, list[int]] = {}
         """The pieces with each vertex, by their places in the list."""
         for row, piece in enumerate(pieces):
@@ -195,77 +205,55 @@ class _Wires:
                 self._beside.setdefault(vertex, []).append(row)
 
     def all(self) -> tuple[Wire, ...]:
-        wires = [self._wire(row) for row in range(len(self._pieces))]
+        wires = [self._wire(piece) for piece in self._pieces]
         wires = [self._with_shared_seeds(row, wires) for row in range(len(wires))]
         return tuple(
             replace(wire, heading=self._heading(row, wires)) if self._pieces[row].record["heading"] else wire
             for row, wire in enumerate(wires)
         )
 
-    @staticmethod
-    def _numbers_of(piece: _Piece) -> dict[int, int]:
-        """Return the numbers that the stored vertices of a piece have now."""
-        stored = piece.record["vertices"]
-        if piece.unchanged:
-            return dict(zip(stored, piece.vertices, strict=True))
-        return {} if piece.record["closed"] else {stored[0]: piece.vertices[0], stored[-1]: piece.vertices[-1]}
-
-    def _wire(self, row: int) -> Wire:
-        piece = self._pieces[row]
-        record, vertices = piece.record, piece.vertices
-        closed = bool(record["closed"])
-        around = list(vertices + vertices[:1] if closed else vertices)
-        curve = serialization.stored_curve(record, vertices, self._in_object, self._places.to_object)
-        through = self._through(row)
-        return Wire(
-            record["along"],
-            vertices,
-            self._places.points[around] if curve is None else curve,
-            through if closed and through else self._pick(row, "start", vertices[0]),
-            through if closed and through else self._pick(row, "end", vertices[0] if closed else vertices[-1]),
-            None if curve is None else serialization.stored_faces(record),
-            closed=closed,
-            mirror=tuple(record["mirror"]),
+    def _wire(self, piece: _Piece) -> Wire:
+        wire = serialization.wire_of(piece.record, self._places, piece.vertices)
+        through = self._through(piece)
+        start, end = self._pick(piece, "start", wire.vertices[0]), self._pick(piece, "end", wire.vertices[-1])
+        if wire.closed:
+            start, end = (through, through) if through else (start, self._pick(piece, "end", wire.vertices[0]))
+        return replace(
+            wire,
+            start=start,
+            end=end,
+            heading=None,
             images=piece.images,
-            follow=int(record["follow"]),
-            strength=float(record["strength"]),
-            finish=record.get("finish", "SNAP"),
-            kind=None if through is None else record["kind"],
+            kind=None if through is None else wire.kind,
             through=through,
-            planned=record.get("planned", False),
             # A copy of a wire, or one whose vertices have other numbers now, is still that of its record.
             stored=piece.number if piece.unchanged else 0,
         )
 
-    def _through(self, row: int) -> Edge | None:
-        piece = self._pieces[row]
+    def _through(self, piece: _Piece) -> Edge | None:
         if piece.record.get("kind") not in LOOP_KINDS or not piece.unchanged:
             return None
-        found = self._edge_now(row, serialization.pick_of(piece.record["through"]))
-        return None if found is None else edge_of(found)
+        return undirected(self._edge_now(piece, serialization.pick_of(piece.record["through"])))
 
-    def _edge_now(self, row: int, stored: Edge) -> Edge | None:
+    def _edge_now(self, piece: _Piece, stored: Edge) -> Edge | None:
         """Return a stored edge by the numbers of one piece, or None if it has no label."""
-        one, two = (self._numbers[row].get(vertex) for vertex in stored)
-        if one is None or two is None or edge_of((one, two)) not in self._edges:
-            return None
-        return one, two
+        one, two = map(piece.numbers.get, stored)
+        return None if one is None or two is None or undirected((one, two)) not in self._edges else (one, two)
 
-    def _pick(self, row: int, name: End, end: int) -> Pick:
+    def _pick(self, piece: _Piece, name: End, end: int) -> Pick:
         """Return the seed at one end of a piece; the vertex where it ends, if the seed cannot be found."""
-        piece = self._pieces[row]
         stored = serialization.pick_of(piece.record[name])
         if not isinstance(stored, tuple):
-            return self._numbers[row].get(stored, end)
-        if tuple(piece.record["vertices"]) == piece.vertices and end in stored and edge_of(stored) in self._edges:
+            return piece.numbers.get(stored, end)
+        if tuple(piece.record["vertices"]) == piece.vertices and end in stored and undirected(stored) in self._edges:
             return stored
-        found = self._edge_now(row, stored)
+        found = self._edge_now(piece, stored)
         if found is not None and end in found:
             return found
         if not piece.unchanged and not piece.record["closed"]:
-            chain, now = piece.record["vertices"], piece.vertices
-            if undirected(stored) == edge_of(chain[:2] if name == "start" else chain[-2:]):
-                return now[:2] if name == "start" else now[-2:]
+            at = slice(2) if name == "start" else slice(-2, None)
+            if undirected(stored) == undirected(tuple(piece.record["vertices"][at])):
+                return piece.vertices[at]
         return end
 
     def _with_shared_seeds(self, row: int, wires: list[Wire]) -> Wire:

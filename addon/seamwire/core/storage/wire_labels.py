@@ -7,21 +7,26 @@ where its number stands on a whole chain of edges that are all seams.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections import defaultdict
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..network.network import Network
+from ..network.picks import undirected
 from . import serialization
-from .serialization import WAS_SEAM, Archive
+from .serialization import WAS_SEAM, Archive, Places
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
     from numpy.typing import NDArray
 
     from ..network.picks import Edge
     from ..network.strokes import Stroke
+    from ..network.wires import Wire
 
 Claim = tuple["Edge", int]
 """An edge and a member of its label."""
@@ -46,6 +51,11 @@ class EdgeLabels:
     seams: NDArray[np.bool_]
     hidden: NDArray[np.bool_]
 
+    @cached_property
+    def edges(self) -> list[Edge]:
+        """The edges, smaller vertex first."""
+        return list(map(tuple, np.sort(self.pairs, axis=1).tolist()))
+
     @classmethod
     def none(cls) -> EdgeLabels:
         """Return those of a mesh that has none."""
@@ -53,28 +63,9 @@ class EdgeLabels:
 
     def same_as(self, other: EdgeLabels) -> bool:
         """Whether another mesh has the same labels on the same edges, with the same seams and hidden edges."""
-        return all(np.array_equal(getattr(self, name), getattr(other, name)) for name in vars(self))
-
-
-@dataclass(frozen=True)
-class Places:
-    """Where a mesh's vertices are.
-
-    Parameters
-    ----------
-    points
-        (n, 3) as sessions have them.
-    to_object
-        (3, 3) takes them to object coordinates: ``points @ to_object.T``.
-    """
-
-    points: NDArray[np.float64]
-    to_object: NDArray[np.float64]
-
-    @property
-    def in_object(self) -> NDArray[np.float64]:
-        """(n, 3) in object coordinates."""
-        return self.points @ self.to_object.T
+        return all(
+            np.array_equal(getattr(self, name), getattr(other, name)) for name in ("pairs", "labels", "seams", "hidden")
+        )
 
 
 @dataclass(frozen=True)
@@ -126,12 +117,6 @@ class Plan:
     known: frozenset[Claim]
 
 
-def edge_of(pair: Iterable[int]) -> Edge:
-    """Return an edge by its two vertices, the smaller one first."""
-    one, two = pair
-    return (one, two) if one < two else (two, one)
-
-
 def plan(
     network: Network,
     marks: EdgeLabels,
@@ -160,14 +145,50 @@ def plan(
     edges
         (e, 2) the visible edges.
     """
+    wires, after, cleared, rest = _asked_for(network, archive, places, edges)
+    known = frozenset((edge, member) for edge, members in after.items() for member in members)
+    result = Plan(replace(network, wires=wires), {}, [], [], known)
+    before = {edge: set(archive.members(label)) for edge, label in zip(marks.edges, marks.labels.tolist(), strict=True)}
+    own = {edge for wire in found.network.wires for edge in wire.claims()}
+
+    def of_wires(members: Iterable[int]) -> set[int]:
+        return {member for member in members if abs(member) in archive.wires}
+
+    for edge in sorted({*before, *after, *cleared, *rest}):
+        seam, old, new = is_seam(edge), before.get(edge, set()), after.get(edge, set())
+        broken = {member for member in old if (edge, member) in found.broken}
+        understood = {member for member in old if (edge, member) in found.known}
+        others = old - broken - understood - {WAS_SEAM}
+        ours = edge in own or bool(of_wires(understood))
+        plain = not ours and not of_wires(others)
+        was_seam = edge in rest or (seam and (plain or WAS_SEAM in old or bool(of_wires(broken))))
+        if edge in cleared:
+            wanted, others = False, others - of_wires(others)
+        elif of_wires(new):
+            wanted = True
+        elif ours or edge in rest:
+            wanted = was_seam or (seam and bool(of_wires(others)))
+        else:
+            wanted = seam  # it belongs to no wire of the session
+        members = new | others
+        unknown = others and WAS_SEAM in old and not ours  # a member of a label that is not ours to change
+        if unknown or (was_seam and of_wires(members)):
+            members = members | {WAS_SEAM}
+        label = archive.label_of(members)
+        if label != archive.label_of(old):
+            result.labels[edge] = label
+        if wanted != seam:
+            (result.mark if wanted else result.clear).append(edge)
+    return result
+
+
+def _asked_for(
+    network: Network, archive: Archive, places: Places, edges: NDArray[np.int32]
+) -> tuple[tuple[Wire, ...], dict[Edge, set[int]], set[Edge], set[Edge]]:
+    """Return the wires that stay, the members of labels that edges get, the edges to clear, and those left of wires cleared in part."""
     effect = {edge: wire.marks for wire in network.wires for edge in wire.claims()}
     cleared = {edge for edge, marks_it in effect.items() if not marks_it}
-    in_object = places.in_object
-    before = {
-        edge_of(pair): set(archive.members(label))
-        for pair, label in zip(marks.pairs.tolist(), marks.labels.tolist(), strict=True)
-    }
-    after: dict[Edge, set[int]] = {}
+    after: defaultdict[Edge, set[int]] = defaultdict(set)
     rest: set[Edge] = set()
     wires = []
     for wire in network.wires:
@@ -176,131 +197,36 @@ def plan(
         if not cleared.isdisjoint(wire.edges()):
             rest.update(wire.claims())
             continue
-        number = wire.stored
-        if not number:
-            number = archive.add_wire(serialization.wire_record(wire, in_object, places.to_object))
+        number = wire.stored or archive.add(archive.wires, serialization.wire_record(wire, places))
         images = tuple(edge for edge in wire.images or () if edge not in cleared)
         for edge in wire.edges():
-            after.setdefault(edge, set()).add(number)
+            after[edge].add(number)
         for edge in images:
-            after.setdefault(edge, set()).add(-number)
+            after[edge].add(-number)
         wires.append(replace(wire, stored=number, images=images))
     for order, stroke in enumerate(network.strokes):
-        number = archive.add_stroke(serialization.stroke_record(stroke, in_object, places.to_object, order))
+        number = archive.add(archive.strokes, serialization.stroke_record(stroke, places, order))
         for edge in _beginning(stroke, edges):
-            after.setdefault(edge, set()).add(number)
-    known = frozenset((edge, member) for edge, members in after.items() for member in members)
-    result = Plan(replace(network, wires=tuple(wires)), {}, [], [], known)
-    own = {edge for wire in found.network.wires for edge in wire.claims()}
-    for edge in sorted({*before, *after, *cleared, *rest}):
-        change = _Change(
-            edge,
-            is_seam(edge),
-            before.get(edge, set()),
-            after.get(edge, set()),
-            own=edge in own,
-            cleared=edge in cleared,
-            rest=edge in rest,
-        )
-        change.decide(result, found, archive)
-    return result
+            after[edge].add(number)
+    return tuple(wires), after, cleared, rest
 
 
-@dataclass(frozen=True)
-class _Change:
-    """What becomes of one edge.
-
-    Parameters
-    ----------
-    edge, seam
-        The edge, and whether it is a seam now.
-    before, after
-        The members of its label, and those that the network asks for.
-    own
-        Whether it was a wire's of the network that the session began with.
-    cleared
-        Whether it ceases to be a seam.
-    rest
-        Whether it is left of a wire that others clear in part: a plain seam from here on.
-    """
-
-    edge: Edge
-    seam: bool
-    before: set[int]
-    after: set[int]
-    own: bool
-    cleared: bool
-    rest: bool
-
-    def decide(self, result: Plan, found: Found, archive: Archive) -> None:
-        """Add it to a plan."""
-
-        def wires(members: Iterable[int]) -> set[int]:
-            return {member for member in members if abs(member) in archive.wires}
-
-        broken = {member for member in self.before if (self.edge, member) in found.broken}
-        known = {member for member in self.before if (self.edge, member) in found.known}
-        others = self.before - broken - known - {WAS_SEAM}
-        ours = self.own or bool(wires(known))
-        plain = not ours and not wires(others)
-        was_seam = self.rest or (self.seam and (plain or WAS_SEAM in self.before or bool(wires(broken))))
-        if self.cleared:
-            wanted, others = False, others - wires(others)
-        elif wires(self.after):
-            wanted = True
-        elif ours or self.rest:
-            wanted = was_seam or (self.seam and bool(wires(others)))
-        else:
-            wanted = self.seam  # it belongs to no wire of the session
-        members = self.after | others
-        unknown = others and WAS_SEAM in self.before and not ours  # a member of a label that is not ours to change
-        if unknown or (was_seam and wires(members)):
-            members = members | {WAS_SEAM}
-        label = archive.label_of(members)
-        if label != archive.label_of(self.before):
-            result.labels[self.edge] = label
-        if wanted != self.seam:
-            (result.mark if wanted else result.clear).append(self.edge)
-
-
-def _beginning(stroke: Stroke, edges: NDArray[np.int32]) -> Iterator[Edge]:
-    """Yield an edge or several where a stroke begins."""
+def _beginning(stroke: Stroke, edges: NDArray[np.int32]) -> list[Edge]:
+    """Return an edge or several where a stroke begins."""
     corners = set(stroke.corners[0].tolist())
     near = edges[np.isin(edges, list(corners)).any(axis=1)]
     inside = [pair for pair in near.tolist() if corners.issuperset(pair)] if len(corners) > 1 else []
-    for pair in inside or near[:1].tolist():
-        yield edge_of(pair)
+    return [undirected(tuple(pair)) for pair in inside or near[:1].tolist()]
 
 
 def seams_beside(
-    seams: NDArray[np.int32],
-    labels: Mapping[Edge, int] | EdgeLabels,
-    archive: Archive,
-    known: frozenset[Claim] | None = None,
+    seams: NDArray[np.int32], labels: EdgeLabels, archive: Archive, known: frozenset[Claim]
 ) -> NDArray[np.int32]:
-    """Return those seams, (k, 2), that no wire runs along.
-
-    Parameters
-    ----------
-    seams
-        (k, 2) of the mesh.
-    labels
-        Its labels.
-    archive
-        The meaning of the labels.
-    known
-        The claims of the wires that are there, see `Found`; None: of all that have a record, broken ones too.
-    """
-    if isinstance(labels, EdgeLabels):
-        rows = zip(labels.pairs.tolist(), labels.labels.tolist(), strict=True)
-        labels = {edge_of(pair): label for pair, label in rows}
+    """Return those seams of a mesh, (k, 2), that no wire runs along. `known` has the claims of the wires that are there, see `Found`."""
     wired = [
         edge
-        for edge, label in labels.items()
-        if any(
-            abs(member) in archive.wires and (known is None or (edge, member) in known)
-            for member in archive.members(label)
-        )
+        for edge, label in zip(labels.edges, labels.labels.tolist(), strict=True)
+        if any(abs(member) in archive.wires and (edge, member) in known for member in archive.members(label))
     ]
     if not wired or not len(seams):
         return seams

@@ -20,7 +20,7 @@ from ...core.base.geometry import Moments, creases, vertex_normals
 from ...core.base.messages import NOTHING, Message, Refused
 from ...core.network.picks import FacePoint, place_of, undirected
 from ...core.storage import serialization
-from ...core.storage.serialization import Record
+from ...core.storage.serialization import Places, Record
 from ...terms.choices import METRICS, MetricName
 from ...terms.options import CLAMP_PERCENTILE
 
@@ -169,8 +169,8 @@ class NetworkFile:
         to_object
             (3, 3) takes `points` to object coordinates, ``points @ to_object.T``; None: they are such.
         """
-        matrix = np.eye(3) if to_object is None else to_object
-        places = points @ matrix.T
+        where = Places(points, np.eye(3) if to_object is None else to_object)
+        places = where.in_object
         normals, angles = vertex_normals(places, triangles), creases(places, triangles)
 
         def facing(pick: Pick) -> NDArray[np.float64]:
@@ -182,7 +182,7 @@ class NetworkFile:
         kept = replace(network, wires=tuple(wires))
         courses = []
         for wire in kept.wires:
-            record = serialization.wire_record(wire, places, matrix)
+            record = serialization.wire_record(wire, where)
             chain = list(wire.vertices)
             courses.append(Course(record, places[chain], normals[chain], angles[chain]))
         return cls(
@@ -191,10 +191,7 @@ class NetworkFile:
             clamp,
             tuple(SeedPlace(pick, place_of(pick, places), facing(pick)) for pick in kept.seeds()),
             tuple(courses),
-            tuple(
-                serialization.stroke_record(stroke, places, matrix, order)
-                for order, stroke in enumerate(network.strokes)
-            ),
+            tuple(serialization.stroke_record(stroke, where, order) for order, stroke in enumerate(network.strokes)),
         )
 
     # As text
@@ -297,24 +294,14 @@ class NetworkFile:
                     return Message.of("other-edges", pick=edge)
         return NOTHING
 
-    def wires(self, points: NDArray[np.float64], to_object: NDArray[np.float64]) -> list[Wire]:
-        """Return its wires on the mesh that it was drawn on, by their numbers; see `problem_with`.
+    def wires(self, where: Places) -> list[Wire]:
+        """Return its wires on the mesh that it was drawn on, by their numbers; see `problem_with`."""
+        return [serialization.wire_of(course.record, where) for course in self.courses]
 
-        Parameters
-        ----------
-        points
-            (n, 3) vertices as the session has them.
-        to_object
-            (3, 3) takes them to object coordinates.
-        """
-        return [serialization.wire_of(course.record, points, to_object) for course in self.courses]
-
-    def strokes_on(self, points: NDArray[np.float64], to_object: NDArray[np.float64]) -> list[Stroke]:
-        """Return its strokes on the mesh that it was drawn on, by numbers; parameters as those of `wires`."""
-        places = points @ to_object.T
+    def strokes_on(self, where: Places) -> list[Stroke]:
+        """Return its strokes on the mesh that it was drawn on, by numbers."""
         found = (
-            serialization.stored_stroke(record, places, to_object, [tuple(record["corners"][0][:2])])
-            for record in self.strokes
+            serialization.stored_stroke(record, where, [tuple(record["corners"][0][:2])]) for record in self.strokes
         )
         return [stroke for stroke in found if stroke is not None]
 

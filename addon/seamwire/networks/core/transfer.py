@@ -14,6 +14,7 @@ from ...core.network.mirror_images import MirrorImages
 from ...core.network.network import Network
 from ...core.network.symmetry import Symmetry
 from ...core.solver.live_maker import LiveMaker
+from ...core.storage.serialization import Places
 from .network_file import Course, NetworkFile, NetworkFileError
 from .placing import Landmarks, NearestSurface, Placed, Shape, Similarity
 from .tracing import STRAY, PlacedSeed, Tracing, Transfer
@@ -99,14 +100,15 @@ def _by_numbers(file: NetworkFile, target: Shape, topology: bool) -> Transfer:
     """Return a network on a mesh of the same topology, vertex by vertex."""
     _check(file, target)
     to_object = np.eye(3) if target.to_object is None else target.to_object
+    where = Places(target.points, to_object)
     symmetry = Symmetry(target.points, target.edges, to_object, topology, target.triangles)
-    network = MirrorImages(symmetry).complete(Network(tuple(file.wires(target.points, to_object))))
+    network = MirrorImages(symmetry).complete(Network(tuple(file.wires(where))))
     wires = list(network.wires)
     ends = dict.fromkeys(
         vertex for wire in wires if not wire.closed for vertex in (wire.vertices[0], wire.vertices[-1])
     )
     seeds = [PlacedSeed(vertex, (), vertex, 1.0) for vertex in ends]
-    return Transfer(wires, file.strokes_on(target.points, to_object), seeds)
+    return Transfer(wires, file.strokes_on(where), seeds)
 
 
 def _by_surface(file: NetworkFile, target: Shape, mirror: int | None, align: bool, live: LiveMaker) -> Work[Transfer]:

@@ -14,7 +14,7 @@ from seamwire.core.network.wires import Wire
 from seamwire.core.offers import closed_cuts
 from seamwire.core.offers.closed_cuts import CutMemory, is_same
 from seamwire.core.offers.surface_loops import CUT_IS_GONE, NOTHING_TO_BEND
-from seamwire.core.storage.wire_labels import Places
+from seamwire.core.storage.serialization import Places
 from table import Table
 
 SCALE = np.diag([2.0, 1.0, 1.0])
