@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,7 +13,6 @@ from ..base.geometry import length_of, nearest_on_segments
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from ..network.picks import Edge
     from ..network.wires import Wire
 
 _MUCH_SHORTER = 0.8
@@ -76,21 +75,6 @@ class Directions:
         _, gaps = nearest_on_segments(own.edge.mean(axis=0), starts, ends)
         at = int(np.nanargmin(gaps))
         return _cosine(crossing.edge, (starts[at], ends[at])) > _cosine(own.edge, (starts[at], ends[at]))
-
-
-def as_crossing(wire: Wire) -> Wire:
-    """Return a loop or strip as it is offered for an edge that it crosses."""
-    return replace(wire, kind="CROSSING")
-
-
-def as_kept(wire: Wire) -> Wire:
-    """Return an offer as it is kept: a loop that crosses the picked edge is kept as a closed loop or a strip."""
-    return replace(wire, kind="CLOSED" if wire.closed else "STRIP") if wire.kind == "CROSSING" else wire
-
-
-def is_loop_of(wire: Wire, edge: Edge) -> bool:
-    """Whether a loop runs along an edge."""
-    return (min(edge), max(edge)) in wire.edges()
 
 
 def _cosine(one: ArrayLike, two: ArrayLike) -> float:
