@@ -167,12 +167,13 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
 
     def _read(self, context: bpy.types.Context) -> SeamSearch:
         """Read the meshes in Edit Mode."""
-        from ..mesh.seam_search import SeamSearch, SearchOptions, Wanted, objects_to_cut
+        from ..mesh.seam_search import SeamSearch, SearchOptions
 
         along, finish = (None if chosen == "AUTO" else chosen for chosen in (self.along, self.finish))
-        options = SearchOptions(along, finish, self.symmetric, self._front(context))
-        objects = objects_to_cut(context.objects_in_mode_unique_data, self.selected)
-        return SeamSearch(objects, options, Wanted(self.distortion, self.islands, self.unwrap))
+        options = SearchOptions(
+            along, finish, self.symmetric, self._front(context), self.distortion, self.islands, self.unwrap
+        )
+        return SeamSearch(context.objects_in_mode_unique_data, options, self.selected)
 
     def _change(self, context: bpy.types.Context, search: SeamSearch) -> set[str]:
         """Write or cut the wires, unwrap, and report."""
