@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.half_edges import HalfEdges, after, among
-from ..base.spatial_hash import SpatialHash
+from ..base.nearest_vertices import NearestVertices
 from .wires import Wire
 
 if TYPE_CHECKING:
@@ -103,8 +103,8 @@ class Symmetry:
         return np.maximum(REACH * lengths, np.where(np.isfinite(least), least, 0.0))
 
     @cached_property
-    def _hash(self) -> SpatialHash:
-        return SpatialHash(self._places, TOLERANCE)
+    def _vertices(self) -> NearestVertices:
+        return NearestVertices(self._places)
 
     @cached_property
     def _edge_keys(self) -> NDArray[np.int64] | None:
@@ -153,11 +153,11 @@ class Symmetry:
         return np.where(rest >= 0, first[rest], -1)
 
     def _by_place(self, axes: tuple[int, ...]) -> NDArray[np.int64]:
-        near = self._hash.nearest(self._flipped(self._places, axes), self._reach)
+        near = self._vertices.find(self._flipped(self._places, axes), self._reach)
         numbers = np.arange(len(near))
         back = np.where(near >= 0, near[near], -1)
         partners = np.where(back == numbers, near, -1)
-        # Of several vertices in one place the hash knows the first. The second's partner is the second of those where the
+        # Of several vertices in one place the search finds the first. The second's partner is the second of those where the
         # partner of the first is, and so on: halves that mirror each other have most often the same order.
         rows = np.flatnonzero((back >= 0) & (back != numbers))
         rows = rows[(self._places[back[rows]] == self._places[rows]).all(axis=1)]
@@ -179,10 +179,10 @@ class Symmetry:
         """Return what a few vertices are mirrored to; of a large mesh not all are looked for because of them."""
         if axes in self._partners or len(self._points) <= _SAMPLE or self._triangles is not None:
             return self.partners(axes)[vertices]
-        near = self._hash.nearest(self._flipped(self._places[vertices], axes), self._reach[vertices])
+        near = self._vertices.find(self._flipped(self._places[vertices], axes), self._reach[vertices])
         found = near[near >= 0]
         back = np.full(len(vertices), -1)
-        back[near >= 0] = self._hash.nearest(self._flipped(self._places[found], axes), self._reach[found])
+        back[near >= 0] = self._vertices.find(self._flipped(self._places[found], axes), self._reach[found])
         other = (back >= 0) & (back != vertices)
         if (self._places[back[other]] == self._places[vertices[other]]).all(axis=1).any():
             # Which of the vertices in one place, only all of them can tell.

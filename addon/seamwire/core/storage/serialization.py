@@ -22,7 +22,7 @@ import numpy as np
 
 from ...terms.choices import ALONG, FINISHES
 from ..base.messages import Refused
-from ..base.spatial_hash import SpatialHash
+from ..base.nearest_vertices import NearestVertices
 from ..network.picks import FacePoint, undirected
 from ..network.strokes import Stroke
 from ..network.wires import FOLLOWS, LOOP_KINDS, Wire
@@ -455,5 +455,5 @@ def _matched(
         return numbers
     mapped = np.where(stayed, numbers, -1)
     if not stayed.all():
-        mapped[~stayed] = SpatialHash(points, near).nearest(places[~stayed])
+        mapped[~stayed] = NearestVertices(points).find(places[~stayed], near)
     return mapped
