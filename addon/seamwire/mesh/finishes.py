@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from ..core.network.network import Network
     from ..core.network.picks import Edge, Pick
     from ..core.network.wires import Wire
-    from ..core.offers.closed_cuts import TakenCut
+    from ..core.offers.surface_loops import TakenCut
     from ..terms.choices import Finish
     from .cut import Cut
 

@@ -11,15 +11,15 @@ from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
-from mathutils.bvhtree import BVHTree
 
+from ..core.base import native
 from ..core.drawing.drawing import Drawing
 from ..core.drawing.session import Session
 from ..core.network.network import edges_after
 from ..core.network.picks import FacePoint
 from ..core.network.strokes import on_mesh
-from ..core.offers.closed_cuts import CutMemory
-from ..core.solver.live_maker import LiveMaker
+from ..core.offers.surface_loops import CutMemory
+from ..core.solver.solver import LiveMaker
 from ..core.storage import label_reader, serialization, wire_labels
 from ..core.storage.serialization import Archive, Places, UnreadableError
 from ..core.storage.wire_labels import EdgeLabels, Found
@@ -32,6 +32,7 @@ from .settings import mirror_axes, snapshot
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Sequence
 
+    import seamwire_core
     from numpy.typing import NDArray
 
     from ..core.network.network import Network
@@ -377,18 +378,17 @@ class ObjectSession:
             rows = rows[np.isin(self.arrays.polygons, list(faces))]
 
         @functools.cache
-        def tree() -> BVHTree:
-            used, corners = np.unique(triangles[rows], return_inverse=True)
-            polygons = corners.reshape(-1, 3).tolist()
-            return BVHTree.FromPolygons(in_object[used].tolist(), polygons, all_triangles=True)
+        def tree() -> seamwire_core.NearestPoints:
+            return native.load().NearestPoints(in_object, triangles[rows])
 
         def find(place: Sequence[float]) -> FacePoint:
             if not len(rows):
                 raise ValueError("No face is visible: give vertices or edges instead of places")
-            found, _, row, _ = tree().find_nearest(place)
-            if found is None:
+            # In single precision, as Blender has places, larger ones have no distance.
+            if not np.abs(np.array(place)).max() < 1e18:
                 raise ValueError(f"The place ({' '.join(f'{x:g}' for x in place)}) is too far from the mesh")
-            return FacePoint.at(np.array(found), rows[row], triangles, in_object)
+            (row,), (found,), _ = tree().find([place])
+            return FacePoint.at(found, rows[row], triangles, in_object)
 
         return find
 

@@ -29,7 +29,7 @@ from ..core.islands.straight_corners import CornerRing, find_straight
 from ..core.islands.uv_islands import NewIsland, boxes_of, in_rows, place, split_edges, uv_areas
 from . import edit_mesh, uv_map
 from .seam_islands import labels_of
-from .uv_stacks import Stack, stacked
+from .uv_map import Stack, stacked
 from .versions import IS_OLD
 
 if TYPE_CHECKING:

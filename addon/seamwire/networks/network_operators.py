@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operators that save, load, transfer and repeat wires."""
+"""The operators that save networks, load them and draw them on other meshes, and their menus."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, ClassVar
 import bpy
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
-from ..mesh.registration import classes, together
+from ..mesh.registration import classes, menu_entry, together
 from ..mesh.settings import settings
 from ..operators.edit_mesh_operator import EditMeshOperator, changing
 from ..operators.steps import Step, Stepwise, end_all
@@ -317,11 +317,41 @@ class MESH_OT_seamwire_repeat(EditMeshOperator, bpy.types.Operator):
         return connected_groups(wanted, wires)
 
 
-_CLASSES = (
-    MESH_OT_seamwire_transfer,
-    MESH_OT_seamwire_load_network,
-    MESH_OT_seamwire_save_network,
-    MESH_OT_seamwire_repeat,
-)
+class VIEW3D_MT_seamwire_network(bpy.types.Menu):
+    """Save wires, load them, or draw them on other meshes"""  # noqa: D400 - a tooltip
 
-register, unregister = together(*classes(*_CLASSES), (lambda: None, end_all))
+    bl_idname = "VIEW3D_MT_seamwire_network"
+    bl_label = "Network"
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Show what is done with all wires of a mesh."""
+        layout = self.layout
+        layout.operator_context = "INVOKE_DEFAULT"
+        layout.operator("mesh.seamwire_load_network", text="Load...")
+        layout.operator("mesh.seamwire_save_network", text="Save...")
+        layout.separator()
+        layout.operator("mesh.seamwire_transfer", text="Transfer")
+        layout.operator("mesh.seamwire_repeat", text="Repeat")
+        layout.operator("mesh.seamwire_take_over", text="From Seams")
+
+
+def _draw_import(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
+    menu.layout.operator("mesh.seamwire_load_network", text="Seamwire Network (.json)")
+
+
+def _draw_export(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
+    menu.layout.operator("mesh.seamwire_save_network", text="Seamwire Network (.json)")
+
+
+register, unregister = together(
+    *classes(
+        MESH_OT_seamwire_transfer,
+        MESH_OT_seamwire_load_network,
+        MESH_OT_seamwire_save_network,
+        MESH_OT_seamwire_repeat,
+        VIEW3D_MT_seamwire_network,
+    ),
+    (lambda: None, end_all),
+    menu_entry("TOPBAR_MT_file_import", _draw_import),
+    menu_entry("TOPBAR_MT_file_export", _draw_export),
+)

@@ -14,8 +14,7 @@ import numpy as np
 
 from ..core.base import native
 from ..core.islands.islands import IslandMaker
-from ..core.picking.segments import Segments
-from ..core.picking.sight import Sight
+from ..core.picking.camera import Segments, Sight
 from ..core.picking.surface import VisibleSurface
 from ..mesh import settings as chosen
 from ..mesh.pose import Pose

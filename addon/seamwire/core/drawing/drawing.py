@@ -12,9 +12,8 @@ import numpy as np
 from ...terms.options import Options
 from ..base import native
 from ..base.messages import NOTHING, Message
-from ..network.history import History
 from ..network.mirror_images import MirrorImages
-from ..network.network import Network
+from ..network.network import History, Network
 from ..network.picks import undirected
 from ..network.stops import Stops
 from ..network.strokes import for_library

@@ -12,8 +12,7 @@ import numpy as np
 from ..base.geometry import nearest_on_segments
 from ..network.network import Snap
 from ..network.picks import place_of
-from .camera import Projected
-from .segments import Segments
+from .camera import Projected, Segments
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -24,7 +23,7 @@ if TYPE_CHECKING:
     from ..network.picks import Pick
     from ..network.strokes import Stroke
     from ..network.wires import Wire
-    from .sight import Sight
+    from .camera import Sight
     from .surface import VisibleSurface
 
 SEED_REACH = 9.0

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..base.geometry import triangle_normals
 from ..network.picks import FacePoint
-from .segments import Segments
+from .camera import Segments
 
 if TYPE_CHECKING:
     from collections.abc import Collection
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from ..fields.crests import Crests
     from ..network.picks import Pick
-    from .sight import Sight
+    from .camera import Sight
     from .surface import VisibleSurface
 
 FEATURE_REACH = 10.0

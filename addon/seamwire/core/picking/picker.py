@@ -9,10 +9,10 @@ import numpy as np
 
 from ..network.network import Snap
 from ..network.picks import place_of
+from .camera import Sight
 from .drawn import DrawnPicker, stroke_at
 from .features import FeaturePicker
 from .plain import PlainPicker
-from .sight import Sight
 from .surface import VisibleSurface
 
 if TYPE_CHECKING:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from ..base.mesh_arrays import Arrays
     from ..network.picks import Pick
-    from .sight import Sight
+    from .camera import Sight
 
 Bend = Callable[["NDArray[np.float64]"], "NDArray[np.float64]"]
 MAX_NEAR = 400

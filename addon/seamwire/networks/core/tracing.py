@@ -20,8 +20,7 @@ from ...core.base.geometry import nearest_on_segments
 from ...core.base.messages import Message
 from ...core.network.strokes import Stroke, for_library, on_mesh
 from ...core.network.wires import LOOP_KINDS, Wire
-from ...core.solver.live_maker import LiveMaker
-from ...core.solver.solver import by_number, final
+from ...core.solver.solver import LiveMaker, by_number, final
 from ...core.storage.serialization import unpacked
 from ...terms.options import CLAMP_PERCENTILE, STRENGTHS
 from .network_file import Course, NetworkFile

@@ -13,7 +13,7 @@ from ...core.base.messages import NOTHING, Refused
 from ...core.network.mirror_images import MirrorImages
 from ...core.network.network import Network
 from ...core.network.symmetry import Symmetry
-from ...core.solver.live_maker import LiveMaker
+from ...core.solver.solver import LiveMaker
 from ...core.storage.serialization import Places
 from .network_file import Course, NetworkFile, NetworkFileError
 from .placing import Landmarks, NearestSurface, Placed, Shape, Similarity
