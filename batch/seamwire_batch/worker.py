@@ -260,14 +260,13 @@ class Run:
             return
         from seamwire.mesh.object_session import ObjectSession
         from seamwire.networks.carry import carry_over, write
-        from seamwire.networks.core.work import result_of
 
         from seamwire_batch.assets import AssetError
 
         mesh = ObjectSession(obj)
         self.warnings.extend(f"{obj.name}: {notice.text}" for notice in mesh.notices.take())
         options = {name: self._job[name] for name in ("place", "mirror", "align")}
-        found = result_of(carry_over(mesh, self._source(obj), pairs=self._job["pairs"], **options))
+        found = carry_over(mesh, self._source(obj), pairs=self._job["pairs"], **options)()
         self.warnings += [f"{obj.name}: {problem}" for problem in found.problems]
         if not found.wires:
             raise AssetError(f"{obj.name}: no wire has a place on this mesh")
@@ -412,9 +411,8 @@ def _network_of(mesh: ObjectSession) -> NetworkFile:
     """Return the wires of an object, and wires along its other seams."""
     from seamwire.mesh.settings import settings
     from seamwire.networks.carry import network_of, seam_wires
-    from seamwire.networks.core.work import result_of
 
-    return network_of(mesh, settings(), result_of(seam_wires(mesh)))
+    return network_of(mesh, settings(), seam_wires(mesh))
 
 
 def _plain(name: str) -> str:

@@ -4,17 +4,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..words.names import count
 from .core.network_file import NetworkFile
-from .core.placing import Shape
+from .core.placing import Shape, tell
 from .core.transfer import transfer
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
     import bpy
 
@@ -22,9 +23,9 @@ if TYPE_CHECKING:
     from ..core.network.wires import Wire
     from ..mesh.object_session import ObjectSession
     from ..mesh.settings import SeamwireSettings
+    from .core.placing import Progress
     from .core.tracing import Transfer
     from .core.transfer import Place
-    from .core.work import Work
 
 
 @dataclass(frozen=True)
@@ -52,11 +53,11 @@ def shape_of(mesh: ObjectSession) -> Shape:
     return Shape(arrays.points, arrays.triangles, arrays.edges, arrays.to_object)
 
 
-def seam_wires(mesh: ObjectSession) -> Work[list[Wire]]:
+def seam_wires(mesh: ObjectSession, progress: Progress = lambda _: True) -> list[Wire]:
     """Find wires along the seams of an object that have none. The object is not changed. Any thread may do this."""
     found, done = [], 0
     for wire in mesh.session.drawing.wires_along(mesh.plain_seams):
-        yield done / len(mesh.plain_seams)
+        tell(progress, done / len(mesh.plain_seams))
         found.append(wire)
         done += len(wire.edges())
     return found
@@ -103,8 +104,8 @@ def carry_over(
     mirror: int | None = None,
     align: bool = True,
     pairs: Sequence[Edge] = (),
-) -> Work[Transfer]:
-    """Find what a network is on a mesh. Nothing is written, and any thread may do the work.
+) -> Callable[..., Transfer]:
+    """Return what finds what a network is on a mesh, see `transfer`. It writes nothing, takes `progress`, and any thread may call it.
 
     Parameters
     ----------
@@ -120,7 +121,7 @@ def carry_over(
     Raises
     ------
     ValueError
-        If too few vertex groups have the same names. The work raises it if something else does not fit.
+        If too few vertex groups have the same names. The function raises it if something else does not fit.
     """
     if place == "PAIRS" and not pairs:
         there = group_middles(target.obj)
@@ -129,7 +130,8 @@ def carry_over(
             raise ValueError(
                 f"Give at least three pairs of vertices: the objects share {count(len(pairs), 'vertex group')}"
             )
-    return transfer(
+    return partial(
+        transfer,
         source.network,
         shape_of(target),
         place=place,

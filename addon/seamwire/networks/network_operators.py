@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
@@ -23,7 +24,6 @@ if TYPE_CHECKING:
     from ..mesh.object_session import ObjectSession
     from .carry import Source
     from .core.tracing import Transfer
-    from .core.work import Work
 
 SUFFIX = ".json"
 _PLACE_ITEMS = (
@@ -103,16 +103,10 @@ class _Placing(Stepwise):
         return {"FINISHED"}
 
 
-def _done(text: str, work: Work[object]) -> Generator[Step, None, object]:
+def _done(text: str, work: Callable[..., object]) -> Generator[Step, None, object]:
     """Yield the step that does some work, and return its result."""
-    from .core.work import result_of
-
     found = []
-
-    def run(progress: Callable[[float], bool]) -> None:
-        found.append(result_of(work, progress))
-
-    yield Step(text, run)
+    yield Step(text, lambda progress: found.append(work(progress=progress)))
     return found[0]
 
 
@@ -171,7 +165,7 @@ class MESH_OT_seamwire_transfer(_Placing, bpy.types.Operator):
 
         obj = self._object(context)
         mesh = self.open_mesh(obj)
-        wires = yield from _done("Reading seams", seam_wires(mesh))
+        wires = yield from _done("Reading seams", partial(seam_wires, mesh))
         network = network_of(mesh, settings(context), wires)
         if not network.courses:
             raise ValueError(f"{obj.name} has no seams")

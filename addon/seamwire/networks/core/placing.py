@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -12,12 +13,15 @@ import numpy as np
 from ...core.base import native
 from ...core.base.geometry import Moments, creases, triangle_normals, vertex_normals
 from ...core.base.messages import NOTHING, Message, Refused
-from .work import PLACED, Work
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
     from seamwire_core import NearestPoints
 
+PLACED = 0.3
+"""The fraction that is finished when the first wire is drawn: before that, seeds are placed."""
+Progress = Callable[[float], bool]
+"""Takes the finished fraction, and returns whether to continue."""
 _STEPS = 30
 """Of the alignment: it has come to rest long before on shapes that are alike."""
 _ELSEWHERE = 0.1
@@ -39,6 +43,12 @@ DOUBTFUL = 0.25
 """The confidence from which on a point has a place."""
 _APART = 0.5
 """By how much more another place's distances have to be off for the best one to be sure."""
+
+
+def tell(progress: Progress, fraction: float) -> None:
+    """Tell the finished fraction. Raise `seamwire_core.Cancelled` if the work is to stop."""
+    if not progress(fraction):
+        raise native.load().Cancelled
 
 
 @dataclass(frozen=True)
@@ -124,6 +134,13 @@ def _onto(source: Moments, target: Moments, scale: float, signs: tuple[int, int]
     return Similarity(scale, rotation, target.middle - scale * rotation @ source.middle)
 
 
+def doubt_between(way: Similarity, rival: Similarity) -> Message:
+    """Return the message that a rival lays a network elsewhere."""
+    cosine = 0.5 * (np.trace(rival.rotation @ way.rotation.T) - 1.0)
+    turn = np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0)))
+    return Message.of("fits-turned", degrees=round(float(turn))) if turn >= _TURNED else Message.of("fits-moved")
+
+
 @dataclass(frozen=True)
 class Placed:
     """Points on a mesh.
@@ -193,33 +210,6 @@ class Similarity:
         )
 
 
-@dataclass(frozen=True)
-class Aligned:
-    """What brings a network onto a mesh.
-
-    Parameters
-    ----------
-    way
-        That.
-    rival
-        What lays it elsewhere about as well; None: nothing does.
-    """
-
-    way: Similarity
-    rival: Similarity | None = None
-
-    @property
-    def doubt(self) -> Message:
-        """The report if there is a rival."""
-        if self.rival is None:
-            return NOTHING
-        cosine = 0.5 * (np.trace(self.rival.rotation @ self.way.rotation.T) - 1.0)
-        turn = np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0)))
-        if turn >= _TURNED:
-            return Message.of("fits-turned", degrees=round(float(turn)))
-        return Message.of("fits-moved")
-
-
 class NearestSurface:
     """Finds the points of a mesh that are nearest to places.
 
@@ -270,8 +260,10 @@ class NearestSurface:
         triangles, points, gaps = tree.find(places, normals)
         return rows[triangles], points, gaps
 
-    def align(self, points: NDArray[np.float64], moments: Moments) -> Work[Aligned]:
-        """Find what brings points of a mesh onto this one.
+    def align(
+        self, points: NDArray[np.float64], moments: Moments, progress: Progress = lambda _: True
+    ) -> tuple[Similarity, Message]:
+        """Find what brings points of a mesh onto this one, and return a message if something else lays them elsewhere about as well.
 
         They stay where they are if they lie on it. Otherwise ICP starts there and from the four alignments of the principal axes without
         a reflection (Besl, McKay, A method for registration of 3-D shapes, 1992). The best result is taken.
@@ -282,19 +274,21 @@ class NearestSurface:
             (k, 3) in object coordinates.
         moments
             Of their mesh.
+        progress
+            See `transfer`.
         """
         size = self._shape.size
         some = points[np.linspace(0, len(points) - 1, min(len(points), _SAMPLE)).astype(np.int64)]
         best, least = Similarity.mirroring(), self._gap(some)
         if least <= _ALIGNED * size or len(points) < 3:
-            return Aligned(best)
+            return best, NOTHING
         own = self._shape.moments
         scale = own.size / moments.size if moments.size > 0.0 else 1.0
         starts = [best, *(_onto(moments, own, scale, signs) for signs in ((1, 1), (1, -1), (-1, 1), (-1, -1)))]
         starts.append(Similarity(scale, np.eye(3), own.middle - scale * moments.middle))
         found_ways = [(least, best)]
         for number, current in enumerate(starts):
-            yield PLACED * number / len(starts)
+            tell(progress, PLACED * number / len(starts))
             for _ in range(_STEPS):
                 moved = current.of(some)
                 _, found, gaps = self.nearest(moved)
@@ -312,7 +306,7 @@ class NearestSurface:
             if gap <= max(_RIVAL * least, 1e-6 * size)
             and np.linalg.norm(way.of(some) - best.of(some), axis=1).max() > _ELSEWHERE * size
         ]
-        return Aligned(best, min(rivals, key=lambda way: way[0])[1] if rivals else None)
+        return best, doubt_between(best, min(rivals, key=lambda way: way[0])[1]) if rivals else NOTHING
 
     def _gap(self, points: NDArray[np.float64]) -> float:
         gaps = self.nearest(points)[2]

@@ -24,8 +24,7 @@ from ...core.solver.solver import LiveMaker, by_number, final
 from ...core.storage.serialization import unpacked
 from ...terms.options import CLAMP_PERCENTILE, STRENGTHS
 from .network_file import Course, NetworkFile
-from .placing import DOUBTFUL, NearestSurface, Placed, Shape
-from .work import PLACED, Work
+from .placing import DOUBTFUL, PLACED, NearestSurface, Placed, Progress, Shape, tell
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -166,15 +165,23 @@ class Tracing:
 
     Parameters
     ----------
+    progress
+        See `transfer`.
     stray
         How many edges wires may run beside their courses.
     """
 
     def __init__(
-        self, file: NetworkFile, target: Shape, surface: NearestSurface, live: LiveMaker, stray: float = STRAY
+        self,
+        file: NetworkFile,
+        target: Shape,
+        surface: NearestSurface,
+        live: LiveMaker,
+        progress: Progress,
+        stray: float = STRAY,
     ) -> None:
         self._file, self._target, self._surface, self._make = file, target, surface, live
-        self._stray, self._done = stray, PLACED
+        self._stray, self._done, self._progress = stray, PLACED, progress
         self._lives: dict[tuple[Along, float], LiveWire] = {}
         self._result = Transfer()
         self._library_strokes: list[object] = []
@@ -185,7 +192,7 @@ class Tracing:
         place: Callable[[Course, tuple[int, ...]], Placed],
         place_stroke: Callable[[NDArray[np.float64]], Placed],
         place_on: Callable[[Course, tuple[int, ...], int], Placed] | None = None,
-    ) -> Work[Transfer]:
+    ) -> Transfer:
         """Draw all wires.
 
         Parameters
@@ -206,7 +213,7 @@ class Tracing:
         runs = [(course, axes) for course in self._file.courses for axes in _images(course.record["mirror"])]
         placed = []
         for run in runs:
-            yield self._done
+            tell(self._progress, self._done)
             placed.append(place(*run))
         if place_on is not None:
             # Courses that share a vertex hang together on the mesh that they come from.
@@ -217,7 +224,7 @@ class Tracing:
         pieces = list(self._cut(pieces))
         for number, piece in enumerate(pieces):
             self._done = PLACED + (1.0 - PLACED) * number / len(pieces)
-            result.wires += yield from self._wires(piece)
+            result.wires += self._wires(piece)
         return result
 
     def _keep_together(
@@ -287,12 +294,12 @@ class Tracing:
 
     # Wires
 
-    def _wires(self, piece: _CoursePart) -> Work[list[Wire]]:
+    def _wires(self, piece: _CoursePart) -> list[Wire]:
         lost = float((piece.confidence < DOUBTFUL).mean())
         if lost > _MOST_LOST:
             return self._lose(piece, "course-lost", part=lost)
         if piece.vertices[0] == piece.vertices[-1]:
-            return (yield from self._loop(piece))
+            return self._loop(piece)
         ends = [self._seed(piece, row) for row in (0, -1)]
         if None in ends:
             return self._lose(piece, "end-lost")
@@ -300,7 +307,7 @@ class Tracing:
         if start == end:
             return self._lose(piece, "ends-meet", vertex=start)
         live = self._live(piece)
-        found = yield from self._between(live, piece, start, end)
+        found = self._between(live, piece, start, end)
         if found is None:
             return self._lose(piece, "no-way", start=start, end=end)
         self._result.added += len(found) - 1
@@ -310,9 +317,9 @@ class Tracing:
         self._result.lost.append(Message.of(why, wire=piece.name, **values))
         return []
 
-    def _between(self, live: LiveWire, piece: _CoursePart, start: int, end: int) -> Work[list[Wire] | None]:
+    def _between(self, live: LiveWire, piece: _CoursePart, start: int, end: int) -> list[Wire] | None:
         """Return wires between two vertices that run where a piece does, in order, or None if there is no way."""
-        yield self._done
+        tell(self._progress, self._done)
         live.seed(start)
         best = self._best(live, end, piece.places)
         if best is None:
@@ -321,8 +328,8 @@ class Tracing:
         middle = self._vertex(piece, worst) if 0 < worst < len(piece.vertices) - 1 else start
         near = self._stray * max(float(self._target.spacing[candidate.vertices].mean()), piece.course.spacing / 2.0)
         if off > near and middle not in (start, end) and middle not in candidate.vertices:
-            first = yield from self._between(live, piece.part(0, worst), start, middle)
-            second = yield from self._between(live, piece.part(worst, len(piece.vertices) - 1), middle, end)
+            first = self._between(live, piece.part(0, worst), start, middle)
+            second = self._between(live, piece.part(worst, len(piece.vertices) - 1), middle, end)
             if first is not None and second is not None:
                 return [*first, *second]
         return [self._wire(piece, candidate, follow)]
@@ -349,7 +356,7 @@ class Tracing:
             planned=record.get("planned", False),
         )  # fmt: skip
 
-    def _loop(self, piece: _CoursePart) -> Work[list[Wire]]:
+    def _loop(self, piece: _CoursePart) -> list[Wire]:
         """Return a closed wire: the loop of its kind where that runs there, else wires around it."""
         live = self._live(piece)
         whole = self._closed(live, piece)
@@ -362,7 +369,7 @@ class Tracing:
             return self._lose(piece, "loop-too-small")
         wires: list[Wire] = []
         for (begin, one), (end, other) in itertools.pairwise(zip([*rows, count], [*corners, corners[0]], strict=True)):
-            found = yield from self._between(live, piece.part(begin, end), one, other)
+            found = self._between(live, piece.part(begin, end), one, other)
             if found is None:
                 return self._lose(piece, "no-way", start=one, end=other)
             wires += found

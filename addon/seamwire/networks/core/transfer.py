@@ -16,9 +16,8 @@ from ...core.network.symmetry import Symmetry
 from ...core.solver.solver import LiveMaker
 from ...core.storage.serialization import Places
 from .network_file import Course, NetworkFile, NetworkFileError
-from .placing import Landmarks, NearestSurface, Placed, Shape, Similarity
+from .placing import PLACED, Landmarks, NearestSurface, Placed, Progress, Shape, Similarity, tell
 from .tracing import STRAY, PlacedSeed, Tracing, Transfer
-from .work import PLACED, Work
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -42,7 +41,8 @@ def transfer(
     pairs: ArrayLike = (),
     topology: bool = False,
     live: LiveMaker | None = None,
-) -> Work[Transfer]:
+    progress: Progress = lambda _: True,
+) -> Transfer:
     """Find what a network is on a mesh.
 
     Parameters
@@ -65,6 +65,8 @@ def transfer(
         By numbers: whether mirror images are found by how the mesh is connected, see `Symmetry`.
     live
         Makes live wires on the target. None to make them here.
+    progress
+        Is told the fraction done; where it returns False, `seamwire_core.Cancelled` is raised.
 
     Raises
     ------
@@ -78,15 +80,15 @@ def transfer(
         same = mirror is None and not file.problem_with(len(target.points), target.edges)
         by_pairs = len(pairs) and source is not None and mirror is None
         place = "NUMBERS" if same else "PAIRS" if by_pairs else "SURFACE"
-    yield 0.0
+    tell(progress, 0.0)
     if place == "NUMBERS":
         return _by_numbers(file, target, topology)
     live = live or LiveMaker(target)
     if place == "SURFACE":
-        return (yield from _by_surface(file, target, mirror, align, live))
+        return _by_surface(file, target, mirror, align, live, progress)
     if source is None:
         raise Refused("pairs-without-source")
-    return (yield from _by_pairs(file, source, target, pairs, live))
+    return _by_pairs(file, source, target, pairs, live, progress)
 
 
 def _check(file: NetworkFile, mesh: Shape) -> None:
@@ -111,7 +113,9 @@ def _by_numbers(file: NetworkFile, target: Shape, topology: bool) -> Transfer:
     return Transfer(wires, file.strokes_on(where), seeds)
 
 
-def _by_surface(file: NetworkFile, target: Shape, mirror: int | None, align: bool, live: LiveMaker) -> Work[Transfer]:
+def _by_surface(
+    file: NetworkFile, target: Shape, mirror: int | None, align: bool, live: LiveMaker, progress: Progress
+) -> Transfer:
     """Return a network on a mesh with about the same shape and any topology."""
     surface, doubt = NearestSurface(target), NOTHING
     way = Similarity.mirroring(*(() if mirror is None else (mirror,)))
@@ -119,8 +123,8 @@ def _by_surface(file: NetworkFile, target: Shape, mirror: int | None, align: boo
         points = way.of(np.concatenate([course.places for course in file.courses]))
         moments = file.origin.moments
         moved = Moments(way.of(moments.middle[None])[0], way.of_normals(moments.axes))
-        aligned = yield from surface.align(points, moved)
-        way, doubt = aligned.way.after(way), aligned.doubt
+        aligned, doubt = surface.align(points, moved, progress)
+        way = aligned.after(way)
 
     def place(course: Course, axes: tuple[int, ...], part: int | None = None) -> Placed:
         own = way.after(Similarity.mirroring(*axes))
@@ -132,19 +136,19 @@ def _by_surface(file: NetworkFile, target: Shape, mirror: int | None, align: boo
         moved = way.of(points)
         return surface.place(moved, np.zeros_like(moved), float(target.spacing.mean()))
 
-    found = yield from Tracing(file, target, surface, live).run(place, stroke, place)
+    found = Tracing(file, target, surface, live, progress).run(place, stroke, place)
     found.doubts += [doubt] if doubt else []
     return found
 
 
 def _by_pairs(
-    file: NetworkFile, source: Shape, target: Shape, pairs: NDArray[np.int64], live: LiveMaker
-) -> Work[Transfer]:
+    file: NetworkFile, source: Shape, target: Shape, pairs: NDArray[np.int64], live: LiveMaker, progress: Progress
+) -> Transfer:
     """Return a network on a mesh with another pose or proportion and any topology."""
     _check(file, source)
     surface = NearestSurface(target)
     landmarks = Landmarks(source, target, pairs)
-    yield PLACED
+    tell(progress, PLACED)
 
     def nearest(points: NDArray[np.float64]) -> NDArray[np.int64]:
         return ((source.places[None] - points[:, None]) ** 2).sum(axis=2).argmin(axis=1)
@@ -157,4 +161,4 @@ def _by_pairs(
     def stroke(points: NDArray[np.float64]) -> Placed:
         return landmarks.place(nearest(points))
 
-    return (yield from Tracing(file, target, surface, live, stray=2.0 * STRAY).run(place, stroke))
+    return Tracing(file, target, surface, live, progress, stray=2.0 * STRAY).run(place, stroke)
