@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..core.seams import placed_edges
+from .edit_mesh import column
 
 if TYPE_CHECKING:
     import bpy
@@ -26,15 +27,8 @@ def auto_for(obj: bpy.types.Object, arrays: Arrays) -> Auto:
     arrays
         Its mesh.
     """
-    others = _other_signs(obj)
-    return placed_edges.auto_for(arrays.points, arrays.triangles, arrays.polygons, others)
-
-
-def _other_signs(obj: bpy.types.Object) -> placed_edges.OtherSigns:
     mesh = obj.data
-    sharp = np.empty(len(mesh.edges), dtype=bool)
-    mesh.edges.foreach_get("use_edge_sharp", sharp)
-    return placed_edges.OtherSigns(
-        rigged=len(obj.vertex_groups) > 0 or mesh.shape_keys is not None,
-        marks=sum((len(mesh.uv_layers) > 0, sharp.any(), mesh.has_custom_normals, len(mesh.materials) > 1)),
-    )
+    rigged = len(obj.vertex_groups) > 0 or mesh.shape_keys is not None
+    sharp = column(mesh.edges, "use_edge_sharp", np.bool_)
+    marks = (len(mesh.uv_layers) > 0, sharp.any(), mesh.has_custom_normals, len(mesh.materials) > 1)
+    return placed_edges.auto_for(arrays.points, arrays.triangles, arrays.polygons, rigged, sum(marks))

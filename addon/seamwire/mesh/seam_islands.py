@@ -15,7 +15,7 @@ from ..core.base import native
 from ..core.base.geometry import area_normals
 from ..core.islands.islands import choose_hues, neighbours, places_of
 from ..core.islands.map_faults import MappedSurface
-from ..core.islands.stretch import IslandStretch, Stretch
+from ..core.islands.stretch import Stretch
 from . import edit_mesh, uv_map
 
 if TYPE_CHECKING:
@@ -182,10 +182,13 @@ def worst_island(obj: bpy.types.Object, kind: str) -> Worst | None:
     """
     arrays = read(obj)
     labels = labels_of(arrays)
-    islands = stretch_of(obj, arrays, labels)
-    if islands is None:
+    corners, uvs = uv_map.read(obj)
+    if uvs is None:
         return None
-    values = islands.angle if kind == "ANGLE" else islands.area
+    # As Blender unwraps it: without the object's scale.
+    stretch = Stretch(arrays.in_object, arrays.triangles, arrays.polygons, corners.of_triangles(arrays))
+    stretch.update(uvs)
+    values, _ = stretch.islands(labels, kind)
     number = int(values.argmax())
     rows = labels == number
     normals = area_normals(arrays.in_object, arrays.triangles[rows])
@@ -201,23 +204,3 @@ def mapped(obj: bpy.types.Object) -> MappedSurface | None:
         return None
     own = uvs[corners.of_triangles(arrays)]
     return MappedSurface(arrays.in_object, arrays.triangles, arrays.polygons, labels_of(arrays), own, arrays.edges)
-
-
-def stretch_of(obj: bpy.types.Object, arrays: Arrays, labels: NDArray[np.int32]) -> IslandStretch | None:
-    """Return how much the active UV map of an edit mesh stretches islands; None: there is no UV map, or no visible face.
-
-    As Blender unwraps it: without the object's scale.
-
-    Parameters
-    ----------
-    obj, arrays
-        In edit mode, and what was read of it.
-    labels
-        (m,) the island of each triangle.
-    """
-    corners, uvs = uv_map.read(obj)
-    if uvs is None or not len(arrays.triangles):
-        return None
-    stretch = Stretch(arrays.in_object, arrays.triangles, arrays.polygons, corners.of_triangles(arrays))
-    stretch.update(uvs)
-    return stretch.islands(labels)
