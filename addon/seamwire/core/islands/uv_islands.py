@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,11 +14,48 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from ..base.mesh_arrays import Arrays
+
 _SAME = 1e-5
 """UVs nearer than this are one place: unwrapping gives corners that belong together the same numbers, packing rounds them."""
 _CELLS = 512
 """Cells along a side of the square in which room is looked for."""
 _GAP = 1.0 / _CELLS
+
+
+@dataclass(frozen=True)
+class Corners:
+    """The corners of a mesh's faces, face by face, hidden ones included.
+
+    Parameters
+    ----------
+    vertices, edges
+        (c,) the vertex of each, and the edge to the next corner of its face.
+    faces
+        (c,) the face that each belongs to, ascending.
+    following
+        (c,) the next corner of its face.
+    """
+
+    vertices: NDArray[np.int32]
+    edges: NDArray[np.int32]
+    faces: NDArray[np.int64]
+    following: NDArray[np.int64]
+
+    @cached_property
+    def preceding(self) -> NDArray[np.int64]:
+        """(c,) the corner before each."""
+        preceding = np.empty_like(self.following)
+        preceding[self.following] = np.arange(len(self.following))
+        return preceding
+
+    def of_triangles(self, arrays: Arrays) -> NDArray[np.int64]:
+        """Return the corner that lies at each corner of the triangles, (m, 3)."""
+        count = len(arrays.points)
+        keys = self.faces * count + self.vertices
+        order = np.argsort(keys, kind="stable")
+        wanted = arrays.polygons[:, None].astype(np.int64) * count + arrays.triangles
+        return order[np.searchsorted(keys, wanted.reshape(-1), sorter=order)].reshape(-1, 3)
 
 
 def split_edges(
