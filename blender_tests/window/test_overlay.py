@@ -558,11 +558,11 @@ def test_the_text_tells_of_strength_clearing_and_mirror(sight: Sight) -> None:
 
 
 def test_styles_are_told_apart_by_more_than_their_hue() -> None:
-    looks = Looks.of()
+    looks = Looks()
     styles: list[Style] = [looks.active, looks.other, looks.kept, looks.clear, looks.mirrored, looks.loop]
     told = {(round(sum(style.color[:3]), 1), style.width, style.dash) for style in styles}
     assert len(told) == len(styles)
-    assert looks.widened(2.0).active.width == 2.0 * looks.active.width
+    assert Looks(preferences=SimpleNamespace(line_width=2.0)).active.width == 2.0 * looks.active.width
 
 
 def test_the_overlay_follows_the_object(sight: Sight) -> None:

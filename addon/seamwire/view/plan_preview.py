@@ -300,7 +300,7 @@ class PlanPreview:
         context = bpy.context
         if not self._shown or not context.space_data.overlay.show_overlays:
             return
-        looks = Looks.of(context.preferences.themes[0].view_3d, chosen.preferences())
+        looks = Looks(context.preferences.themes[0].view_3d, chosen.preferences())
         for name, shown in self._shown.items():
             with suppress(ReferenceError):  # the object may be gone
                 if shown.obj.visible_in_viewport_get(context.space_data):
