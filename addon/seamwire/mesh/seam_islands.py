@@ -13,7 +13,7 @@ import numpy as np
 
 from ..core.base import native
 from ..core.base.geometry import area_normals
-from ..core.islands.islands import choose_hues, neighbours, places_of
+from ..core.islands.islands import HUES, PLACES, choose_hues, neighbours
 from ..core.islands.map_faults import MappedSurface
 from ..core.islands.stretch import Stretch
 from . import edit_mesh, uv_map
@@ -26,8 +26,6 @@ if TYPE_CHECKING:
 
 ATTRIBUTE = "island"
 """The face attribute that islands are stored as."""
-_HUES = [place / 12 for place in places_of(12)]
-"""Of the materials, around the circle of hues."""
 
 
 def read(obj: bpy.types.Object) -> Arrays:
@@ -95,7 +93,7 @@ def store(obj: bpy.types.Object, kind: str) -> int:
     count = int(labels.max(initial=-1)) + 1
     polygons, first = np.unique(arrays.polygons, return_index=True)
     if kind == "MATERIALS":
-        hues = choose_hues(np.full(count, -1), neighbours(arrays.triangles, labels, arrays.seams), len(_HUES))
+        hues = choose_hues(np.full(count, -1), neighbours(arrays.triangles, labels, arrays.seams))
         if not obj.data.materials and len(polygons) < len(edit_mesh.edit_bmesh(obj.data).faces):
             obj.data.materials.append(None)
         numbers = np.array(_material_slots(obj, sorted(set(hues.tolist()))))[hues[labels]]
@@ -129,13 +127,13 @@ def _face_layer(obj: bpy.types.Object, bm: bmesh.types.BMesh) -> bmesh.types.BML
 
 def _material_slots(obj: bpy.types.Object, hues: list[int]) -> list[int]:
     """Return the slot of the material of each hue; -1 for hues that are not used."""
-    slots = [-1] * len(_HUES)
+    slots = [-1] * HUES
     for hue in hues:
         name = f"Seamwire Island {hue + 1}"
         material = bpy.data.materials.get(name)
         if material is None:
             material = bpy.data.materials.new(name)
-            material.diffuse_color = (*colorsys.hsv_to_rgb(_HUES[hue], 0.6, 0.8), 1.0)
+            material.diffuse_color = (*colorsys.hsv_to_rgb(PLACES[hue] / HUES, 0.6, 0.8), 1.0)
         slots[hue] = obj.data.materials.find(name)
         if slots[hue] < 0:
             obj.data.materials.append(material)

@@ -29,7 +29,6 @@ from .layers import makers
 from .overlay import Overlay
 from .shown_islands import ShownIslands
 from .stretch_heat import StretchHeat
-from .theme import HUES
 
 if TYPE_CHECKING:
     from collections.abc import Hashable, Iterator
@@ -97,7 +96,7 @@ class ObjectView:
         arrays = self.mesh.arrays
         gaps = GapFinder(arrays.points, arrays.triangles, arrays.edges, arrays.partly_hidden)
         make = self.mesh.make_live
-        self._islands = islands.IslandMaker(arrays.triangles, make.face_segments, HUES, gaps, make.missing_cuts)
+        self._islands = islands.IslandMaker(arrays.triangles, make.face_segments, gaps, make.missing_cuts)
         self.pose = Pose(arrays)
         self.crest_view = CrestView(native.load(), self.mesh.make_live.wait, self.pose)
         self._layers: list[Layer] = []

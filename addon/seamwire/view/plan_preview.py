@@ -22,7 +22,7 @@ from .checked_faces import CheckedFaces
 from .edited_objects import edited
 from .failures import failures
 from .gpu_draw import ColoredFaces, Eye, Lines, blended, sees_through
-from .theme import HUES, Looks, hue_colors
+from .theme import Looks, hue_colors
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -97,7 +97,7 @@ class _ObjectPreview:
         self._pose.follow(obj)
         self._surface = self._posed_surface()  # threads prepare it
         surface = core.Surface(arrays.in_object, arrays.triangles, arrays.edges)
-        self._islands = IslandMaker(arrays.triangles, lambda cuts: np.asarray(core.face_segments(surface, cuts)), HUES)
+        self._islands = IslandMaker(arrays.triangles, lambda cuts: np.asarray(core.face_segments(surface, cuts)))
         self._rest, self._curves = Curves(), Curves()  # on the mesh without modifiers, and as they are seen
         self._lines: list[Lines] | None = None
         self._faces: ColoredFaces | None = None

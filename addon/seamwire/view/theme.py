@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..core.islands.islands import HUES, PLACES
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -20,8 +22,6 @@ HALO: Color = (0.02, 0.02, 0.03, 0.75)
 """The dark rim around lines and dots: what keeps them apart from bright meshes and from each other."""
 _BRIGHTNESS = 0.5
 """Of the islands' colors."""
-HUES = 12
-"""How many colors islands are told apart by."""
 
 
 @dataclass(frozen=True)
@@ -158,8 +158,7 @@ def hue_colors(opacity: float) -> list[Color]:
     From yellow-green to pink: red and orange are left to wires and seams.
     """
     hues = np.linspace(0.24, 0.88, HUES)
-    # 5 of 12 steps on: coprime, so each hue comes once.
-    return [(*_light(float(hues[(4 + 5 * i) % HUES])), opacity) for i in range(HUES)]
+    return [(*_light(float(hues[place])), opacity) for place in PLACES]
 
 
 def _light(hue: float) -> tuple[float, float, float]:
