@@ -87,21 +87,12 @@ def test_what_is_read_is_what_was_written(network: Network) -> None:
     assert not file.problem_with(36, EDGES)
 
 
-def test_seeds_have_their_places_in_object_coordinates(network: Network) -> None:
-    file = NetworkFile.parse(written(network).text())
-    assert [seed.pick for seed in file.seeds][:4] == [0, (1, 2), 4, 30]
-    inside = file.seeds[-1]
-    assert isinstance(inside.pick, FacePoint) and inside.pick.corners == (26, 27, 33)
-    assert np.allclose(file.seeds[1].place, [3.0, 0.0, 0.0])
-    assert np.allclose(np.abs(file.seeds[0].normal), [0.0, 0.0, 1.0])
-
-
 def test_one_more_wire_is_lines_more_and_no_line_changed(network: Network) -> None:
     before = written(replace(network, wires=network.wires[:3])).text().splitlines()
     after = written(network).text().splitlines()
     strip = {line.rstrip(",") for line in before}, {line.rstrip(",") for line in after}
     assert not strip[0] - strip[1]
-    assert len(strip[1] - strip[0]) == 3, "a wire and its two seeds"
+    assert len(strip[1] - strip[0]) == 1, "a wire"
 
 
 def test_it_is_written_the_same_in_whatever_order_a_mesh_has_its_wires(network: Network) -> None:
@@ -141,8 +132,6 @@ def test_the_schema_has_the_values_of_the_tables() -> None:
         (lambda d: d.update(version=2), "it has version 2, and this one reads up to 1"),
         (lambda d: d.update(version="one"), "its version is not a number"),
         (lambda d: d.pop("mesh"), "damaged: mesh"),
-        (lambda d: d["seeds"][1].update(pick=[1, "a"]), "damaged: seed 2"),
-        (lambda d: d["seeds"][0].update(place=[0.0, float("nan"), 0.0]), "damaged: seed 1"),
         (lambda d: d["wires"][1].update(vertices=[0, 1, 2, 99]), "damaged: wire 2"),
         (lambda d: d["wires"][2]["vertices"].__setitem__(0, 36), "damaged: wire 3"),
         (lambda d: d["wires"][3].update(curve=[[0, 0]]), "damaged: wire 4"),

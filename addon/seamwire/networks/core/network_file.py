@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Networks as files: JSON, one seed, wire or stroke a line; docs/network-format.md and network.schema.json say what is in them.
+"""Networks as files: JSON, one wire or stroke a line; docs/network-format.md and network.schema.json say what is in them.
 
 Wires and strokes are stored as in the mesh, see `serialization`, but with plain numbers. The file also has the positions, normals and
 sharpness at their vertices, which locate them on another mesh.
@@ -11,14 +11,14 @@ import itertools
 import json
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...core.base.geometry import Moments, creases, vertex_normals
 from ...core.base.messages import NOTHING, Message, Refused
-from ...core.network.picks import FacePoint, place_of, undirected
+from ...core.network.picks import undirected
 from ...core.storage import serialization
 from ...core.storage.serialization import Places, Record
 from ...terms.choices import METRICS, MetricName
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...core.network.network import Network
-    from ...core.network.picks import Edge, Pick
+    from ...core.network.picks import Edge
     from ...core.network.strokes import Stroke
     from ...core.network.wires import Wire
 
@@ -59,23 +59,6 @@ class Origin:
     edges: int
     triangles: int
     moments: Moments
-
-
-@dataclass(frozen=True)
-class SeedPlace:
-    """A seed and where it is.
-
-    Parameters
-    ----------
-    pick
-        A vertex, an edge, or a point in a triangle, of which `FacePoint.triangle` is -1: the file has its corners.
-    place, normal
-        (3,) in object coordinates.
-    """
-
-    pick: Pick
-    place: NDArray[np.float64]
-    normal: NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -122,8 +105,6 @@ class NetworkFile:
         The mesh it was drawn on.
     metric, clamp
         What wires are drawn by, and the percentile of feature strengths that counts as the strongest.
-    seeds
-        In the order of the wires that begin or end there.
     courses
         The wires, by their vertices.
     strokes
@@ -133,7 +114,6 @@ class NetworkFile:
     origin: Origin
     metric: MetricName
     clamp: float
-    seeds: tuple[SeedPlace, ...]
     courses: tuple[Course, ...]
     strokes: tuple[Record, ...]
 
@@ -172,16 +152,9 @@ class NetworkFile:
         where = Places(points, np.eye(3) if to_object is None else to_object)
         places = where.in_object
         normals, angles = vertex_normals(places, triangles), creases(places, triangles)
-
-        def facing(pick: Pick) -> NDArray[np.float64]:
-            normal = place_of(pick, normals)
-            return normal / max(float(np.linalg.norm(normal)), 1e-300)
-
         # A mesh does not keep the order of its wires.
-        wires = sorted((wire for wire in network.wires if wire.marks), key=lambda wire: wire.vertices)
-        kept = replace(network, wires=tuple(wires))
         courses = []
-        for wire in kept.wires:
+        for wire in sorted((wire for wire in network.wires if wire.marks), key=lambda wire: wire.vertices):
             record = serialization.wire_record(wire, where)
             chain = list(wire.vertices)
             courses.append(Course(record, places[chain], normals[chain], angles[chain]))
@@ -189,7 +162,6 @@ class NetworkFile:
             Origin(name, len(points), len(edges), len(triangles), Moments.of(places, triangles)),
             metric,
             clamp,
-            tuple(SeedPlace(pick, place_of(pick, places), facing(pick)) for pick in kept.seeds()),
             tuple(courses),
             tuple(serialization.stroke_record(stroke, where, order) for order, stroke in enumerate(network.strokes)),
         )
@@ -214,10 +186,6 @@ class NetworkFile:
             "clamp": round(float(self.clamp), 4),
         }
         lists = {
-            "seeds": [
-                {"pick": _written(seed.pick), "place": _rounded(seed.place), "normal": _rounded(seed.normal, 3)}
-                for seed in self.seeds
-            ],
             "wires": [_wire_row(course) for course in self.courses],
             "strokes": [_stroke_row(record) for record in self.strokes],
         }
@@ -259,10 +227,7 @@ class NetworkFile:
             metric, clamp = data["metric"], float(data["clamp"])
             if metric not in METRICS or not 0.0 < clamp <= 100.0:
                 raise ValueError
-            seeds, courses, strokes = [], [], []
-            for number, row in enumerate(data["seeds"], start=1):
-                where = f"seed {number}"
-                seeds.append(SeedPlace(_read_pick(row["pick"]), _point(row["place"]), _point(row["normal"])))
+            courses, strokes = [], []
             for number, row in enumerate(data["wires"], start=1):
                 where = f"wire {number}"
                 courses.append(_course(row, origin.vertices))
@@ -271,7 +236,7 @@ class NetworkFile:
                 strokes.append(_stroke_record(row, origin.vertices))
         except serialization.DAMAGED as error:
             raise NetworkFileError("file-damaged", where=where) from error
-        return cls(origin, metric, clamp, tuple(seeds), tuple(courses), tuple(strokes))
+        return cls(origin, metric, clamp, tuple(courses), tuple(strokes))
 
     # On the same mesh
 
@@ -325,22 +290,6 @@ def _rounded(values: NDArray[np.float64], digits: int | None = None) -> list:
         return int(number) if number.is_integer() and abs(number) < 1e9 else number
 
     return short(np.asarray(values, dtype=np.float64).tolist())
-
-
-def _written(pick: Pick) -> object:
-    if isinstance(pick, FacePoint):
-        return {"corners": list(pick.corners), "weights": _rounded(np.array(pick.weights))}
-    return list(pick) if isinstance(pick, tuple) else pick
-
-
-def _read_pick(stored: object) -> Pick:
-    if not isinstance(stored, dict):
-        return serialization.pick_of(_numbers(stored))
-    corners, weights = _numbers(stored["corners"]), np.array(stored["weights"], dtype=np.float64)
-    if len(corners) != 3 or weights.shape != (3,) or not (weights >= 0.0).all() or not 0.9 < weights.sum() < 1.1:
-        raise ValueError
-    a, b, c = (weights / weights.sum()).tolist()
-    return FacePoint(-1, tuple(corners), (a, b, c))
 
 
 def _text_of(stored: int | list[int]) -> str:
