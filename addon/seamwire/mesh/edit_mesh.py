@@ -55,13 +55,7 @@ def _numbered(bm: bmesh.types.BMesh) -> bmesh.types.BMesh:
 
 
 class Cage:
-    """The edit mesh of one object, as long as its topology stays what it is.
-
-    Parameters
-    ----------
-    obj
-        A mesh object in edit mode.
-    """
+    """The edit mesh of an object in edit mode, as long as its topology stays what it is."""
 
     def __init__(self, obj: bpy.types.Object) -> None:
         self.mesh = obj.data
@@ -117,10 +111,7 @@ class Cage:
     def labels(self, among: Iterable[tuple[int, int]] | None = None) -> EdgeLabels:
         """Return the edges that have a label, in the order of their numbers.
 
-        Parameters
-        ----------
-        among
-            Edges that include all with a label. None: every edge of the mesh is looked at.
+        If edges are given that include all with a label, only these are looked at.
         """
         bm = self.bm
         layer = bm.edges.layers.int.get(LABELS)
@@ -192,13 +183,7 @@ def _edge(bm: bmesh.types.BMesh, pair: tuple[int, int]) -> bmesh.types.BMEdge | 
 
 
 class StoredMesh:
-    """A mesh outside edit mode, to be marked like a `Cage` where edit mode was left before a chain had ended.
-
-    Parameters
-    ----------
-    mesh
-        Of an object in another mode.
-    """
+    """A mesh outside edit mode, to be marked like a `Cage` where edit mode was left before a chain had ended."""
 
     def __init__(self, mesh: bpy.types.Mesh) -> None:
         self.mesh = mesh
@@ -444,13 +429,7 @@ def selected_faces(obj: bpy.types.Object) -> NDArray[np.int64]:
 
 
 class Selection:
-    """The selection of an edit mesh.
-
-    Parameters
-    ----------
-    obj
-        A mesh object in edit mode.
-    """
+    """The selection of the edit mesh of an object in edit mode."""
 
     def __init__(self, obj: bpy.types.Object) -> None:
         self._mesh = obj.data

@@ -172,13 +172,7 @@ class Suggestion:
         return tuple(found.normalized()) if found.length > 0.0 else None
 
     def measure(self, progress: Progress) -> None:
-        """Measure the mesh for parts; any thread may.
-
-        Parameters
-        ----------
-        progress
-            Is told the fraction done; where it returns False, `seamwire_core.Cancelled` is raised.
-        """
+        """Measure the mesh for parts; any thread may. `seamwire_core.Cancelled` is raised where `progress` returns False."""
         arrays = self.mesh.arrays
         self._surface = self._core.Surface(arrays.in_object, arrays.triangles, arrays.edges)
         self._axis = self._mirror()
@@ -431,13 +425,7 @@ class SeamSearch:
         return all(suggestion.mesh.alive() for suggestion in self)
 
     def measure(self, progress: Progress) -> None:
-        """Measure all meshes for parts; any thread may.
-
-        Parameters
-        ----------
-        progress
-            Is told the fraction done; where it returns False, `seamwire_core.Cancelled` is raised.
-        """
+        """Measure all meshes for parts; any thread may. `seamwire_core.Cancelled` is raised where `progress` returns False."""
         for suggestion, share in self._shares(progress):
             suggestion.measure(share)
 

@@ -374,13 +374,7 @@ class EditedObjects:
             raise error
 
     def draw(self, part: str) -> None:
-        """Draw in the view that Blender is drawing now. A timer reads missing meshes, and nothing is read here.
-
-        Parameters
-        ----------
-        part
-            The method of overlays to call.
-        """
+        """Draw in the view that Blender is drawing now, by a method of overlays. A timer reads missing meshes, and nothing is read here."""
         context = bpy.context
         if context.window is None or context.space_data is None:
             return  # another add-on draws the view into a picture

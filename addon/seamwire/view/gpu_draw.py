@@ -303,13 +303,7 @@ def discs(centres: NDArray[np.float64], radii: NDArray[np.float64]) -> NDArray[n
 
 
 class Within:
-    """Keeps the part of a drawing within a view's clipping border, for the last few borders.
-
-    Parameters
-    ----------
-    make
-        Makes it for an eye.
-    """
+    """Keeps the part of a drawing within a view's clipping border, for the last few borders. `make` makes it for an eye."""
 
     def __init__(self, make: Callable[[Eye], object]) -> None:
         self._make = make
@@ -334,13 +328,7 @@ def whole(triangles: NDArray[np.integer], inside: NDArray[np.bool_] | None) -> N
 
 
 class ColoredFaces:
-    """Triangles of one mesh, drawn in a few colors; the vertices are handed to the GPU once.
-
-    Parameters
-    ----------
-    points
-        (n, 3).
-    """
+    """Triangles of one mesh, drawn in a few colors; the vertices, (n, 3), are handed to the GPU once."""
 
     def __init__(self, points: NDArray[np.float64]) -> None:
         self._shader = gpu.shader.from_builtin("UNIFORM_COLOR")

@@ -81,13 +81,7 @@ class Pointed:
 
 
 class _ObjectPreview:
-    """The drawing over one object.
-
-    Parameters
-    ----------
-    obj, arrays
-        The object and its mesh.
-    """
+    """The drawing over one object."""
 
     def __init__(self, obj: bpy.types.Object, arrays: Arrays) -> None:
         core = native.load()

@@ -12,15 +12,10 @@ if TYPE_CHECKING:
 
 
 class Timer:
-    """Lets Blender call a function, at most one call at a time.
+    """Lets Blender call a function, at most one call at a time. It returns the seconds until the next call, or None to stop.
 
     Blender finds a timer by the address of its function. A bound method is another object at each access, so this object keeps one. While
     it is kept, no other object can have its address.
-
-    Parameters
-    ----------
-    call
-        Returns the seconds until the next call, or None to stop.
     """
 
     def __init__(self, call: Callable[[], float | None]) -> None:

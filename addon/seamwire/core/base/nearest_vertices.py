@@ -19,13 +19,7 @@ _WEIGHTS = (0.41421356237309503, 0.7320508075688772, 0.23606797749978969)
 
 
 class NearestVertices:
-    """Finds the nearest of some vertices.
-
-    Parameters
-    ----------
-    points
-        (n, 3) vertices. Those that are not finite are never found.
-    """
+    """Finds the nearest of some vertices, (n, 3). Vertices that are not finite are never found."""
 
     def __init__(self, points: NDArray[np.float64]) -> None:
         rows = np.flatnonzero(_is_place(points))

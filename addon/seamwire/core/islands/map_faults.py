@@ -113,12 +113,9 @@ class MappedSurface:
 def _with_doubles(
     points: NDArray[np.float64], triangles: NDArray[np.int32], edges: NDArray[np.int32]
 ) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int32]]:
-    """Return a mesh in which each triangle that repeats another one has separate vertices. Otherwise the library leaves it out.
+    """Return a mesh, (n, 3), (m, 3), (e, 2), in which each triangle that repeats another one has separate vertices.
 
-    Parameters
-    ----------
-    points, triangles, edges
-        (n, 3), (m, 3), (e, 2) the mesh.
+    Otherwise the library leaves it out.
     """
     vertices = np.sort(triangles, axis=1)
     order = np.lexsort(vertices.T)

@@ -22,13 +22,7 @@ if TYPE_CHECKING:
 
 
 class MirrorImages:
-    """Finds the images of wires, each when it is first needed.
-
-    Parameters
-    ----------
-    symmetry
-        Of the mesh.
-    """
+    """Finds the images of wires by the symmetry of their mesh, each when it is first needed."""
 
     def __init__(self, symmetry: Symmetry) -> None:
         self._symmetry = symmetry

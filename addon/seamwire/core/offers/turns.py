@@ -64,15 +64,10 @@ class SurfaceEdges(HalfEdges):
         return tuple(self.tails[half_edges].tolist())
 
     def turns(self, chain: Sequence[int]) -> NDArray[np.float64]:
-        """Return how far a closed chain turns to its left at each vertex, (k,), in radians.
+        """Return how far a closed chain turns to its left at each vertex, (k,), in radians. The first vertex is not repeated.
 
         This is the discrete geodesic curvature of Polthier and Schmies (1998), from the face angles on both sides. On a boundary it is
         zero along the boundary, and otherwise pi minus the angle between the edges. It is zero where the faces are no single fan.
-
-        Parameters
-        ----------
-        chain
-            The vertices of the chain, the first one not repeated.
         """
         here = np.asarray(chain, dtype=np.int64)
         after, before = np.roll(here, -1), np.roll(here, 1)
@@ -89,14 +84,9 @@ class SurfaceEdges(HalfEdges):
         return turns
 
     def is_hairpin(self, chain: Sequence[int]) -> bool:
-        """Return whether a closed chain doubles back within a short way, or is a tiny circle of a few edges.
+        """Return whether a closed chain doubles back within a short way, or is a tiny circle of a few edges. See `turns`.
 
         How far it turns is measured within the surface: a ring that leads over the rims of a thin plate goes straight on.
-
-        Parameters
-        ----------
-        chain
-            The vertices of the chain, the first one not repeated.
         """
         turns = self.turns(chain)
         lengths = np.linalg.norm(np.diff(self._points[[*chain, chain[0]]], axis=0), axis=1)

@@ -72,13 +72,7 @@ class Camera:
 
 
 class Projected:
-    """Points and where they are seen, computed anew only when the camera or the object has moved.
-
-    Parameters
-    ----------
-    points
-        (n, 3) in object coordinates.
-    """
+    """Points in object coordinates, (n, 3), and where they are seen, computed anew only when the camera or the object has moved."""
 
     def __init__(self, points: NDArray[np.float64]) -> None:
         self.points = points
@@ -175,13 +169,7 @@ _MAX_PIECES = 24
 
 
 class Segments:
-    """Straight pieces of curves, each with the number of its owner.
-
-    Parameters
-    ----------
-    curves
-        Each (k, 3), in object coordinates.
-    """
+    """Straight pieces of curves in object coordinates, (k, 3) each. A piece has the number of its curve, its owner."""
 
     def __init__(self, curves: list[NDArray[np.float64]]) -> None:
         none = np.empty((0, 3))

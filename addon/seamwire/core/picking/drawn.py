@@ -48,15 +48,7 @@ class _Drawn:
 
 
 class DrawnPicker:
-    """Finds what was drawn on a mesh.
-
-    Parameters
-    ----------
-    surface
-        The mesh.
-    seams
-        (s, 2) the edges that are seams and that no wire runs along.
-    """
+    """Finds what was drawn on a mesh. `seams` are those edges, (s, 2), that are seams and that no wire runs along."""
 
     def __init__(self, surface: VisibleSurface, seams: ArrayLike) -> None:
         self._surface = surface

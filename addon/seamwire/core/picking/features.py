@@ -34,13 +34,7 @@ _MOST_TRIED = 4
 
 
 class FeaturePicker:
-    """Finds features near the cursor.
-
-    Parameters
-    ----------
-    surface
-        The mesh.
-    """
+    """Finds features of a mesh near the cursor."""
 
     def __init__(self, surface: VisibleSurface) -> None:
         self._surface = surface

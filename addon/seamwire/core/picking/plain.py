@@ -39,13 +39,7 @@ _FEW_EDGES = 50_000
 
 
 class PlainPicker:
-    """Finds the edges, vertices and points of a mesh.
-
-    Parameters
-    ----------
-    surface
-        The mesh.
-    """
+    """Finds the edges, vertices and points of a mesh."""
 
     def __init__(self, surface: VisibleSurface) -> None:
         self._surface = surface

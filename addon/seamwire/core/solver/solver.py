@@ -191,10 +191,7 @@ class Engines:
 class LiveMaker:
     """Makes the library's live wires on a mesh. They share one surface, which they build in their own threads.
 
-    Parameters
-    ----------
-    mesh
-        The mesh that wires run on: (n, 3) points, (m, 3) triangles, and (e, 2) edges. Finding parts also needs the edges that are `marked`.
+    The mesh has `points`, `triangles` and `edges`. Finding parts also needs the edges that are `marked`.
     """
 
     def __init__(self, mesh: Arrays) -> None:
