@@ -167,7 +167,7 @@ def test_a_picture_reads_no_mesh_and_computes_nothing(
         (Pose, "follow"),
         (LiveMaker, "__call__"),
         (IslandMaker, "want"),
-        (StretchHeat, "follow"),
+        (StretchHeat, "read"),
         (CrestView, "poll"),
         *((Session, name) for name in ("follow", "hover", "poll", "use_crests", "adopt")),
     ):

@@ -65,17 +65,9 @@ def seam_wires(mesh: ObjectSession, progress: Progress = lambda _: True) -> list
 
 def network_of(mesh: ObjectSession, settings: SeamwireSettings, more: Iterable[Wire] = ()) -> NetworkFile:
     """Return the network of an object, and more wires, as they are saved to a file."""
-    arrays, session = mesh.arrays, mesh.session
-    return NetworkFile.of(
-        replace(session.drawing.network, wires=(*session.wires, *more)),
-        arrays.points,
-        arrays.triangles,
-        arrays.edges,
-        name=mesh.cage.mesh.name,
-        metric=settings.metric,
-        clamp=settings.clamp,
-        to_object=arrays.to_object,
-    )
+    network = replace(mesh.session.drawing.network, wires=(*mesh.session.wires, *more))
+    name = mesh.cage.mesh.name
+    return NetworkFile.of(network, shape_of(mesh), name=name, metric=settings.metric, clamp=settings.clamp)
 
 
 def group_middles(obj: bpy.types.Object) -> dict[str, int]:

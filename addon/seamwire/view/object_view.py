@@ -99,6 +99,7 @@ class ObjectView:
         self._islands = islands.IslandMaker(arrays.triangles, make.face_segments, gaps, make.missing_cuts)
         self.pose = Pose(arrays)
         self.crest_view = CrestView(native.load(), self.mesh.make_live.wait, self.pose)
+        self.heat = StretchHeat(arrays, self._islands, self.pose)
         self._layers: list[Layer] = []
         self._has_moved = True
         self._posed_picker: Picker | None = None
@@ -112,7 +113,6 @@ class ObjectView:
             self.pose,
             arrays.to_object,
             preferences=chosen.preferences(),
-            heat=StretchHeat(arrays, self._islands, self.pose),
             layers=self._layers,
         )
         self._strength: NDArray[np.float64] | None = None
@@ -206,7 +206,7 @@ class ObjectView:
         if self.stale and not anew:
             return  # of a mesh that is read anew soon
         stale = self.stale
-        if self.overlay.heat.follow(self.obj, self.options.heat, anew):
+        if self.heat.read(self.obj, self.options.heat, anew):
             self.was_read()
             self.stale = stale
 
@@ -218,10 +218,10 @@ class ObjectView:
             for make in makers
         ]
         self._close_layers()
-        self._layers[:] = (self.crest_view, *(layer for layer in made if layer is not None))
+        self._layers[:] = (self.heat, self.crest_view, *(layer for layer in made if layer is not None))
 
     def _close_layers(self) -> None:
-        for layer in self._layers[1:]:
+        for layer in self._layers[2:]:
             layer.close()
 
     def _follow_layers(self) -> None:

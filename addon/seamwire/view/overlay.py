@@ -32,7 +32,6 @@ if TYPE_CHECKING:
     from ..core.network.wires import Wire
     from ..mesh.pose import Pose
     from .layers import Layer
-    from .stretch_heat import StretchHeat
 
 _NO_ROOM = (0.0, 0.0, 0.0, 0.0)
 
@@ -85,8 +84,6 @@ class Overlay:
         (3, 3) takes those to object coordinates.
     preferences
         The add-on's, see `Looks`.
-    heat
-        The stretch of the UV map, drawn in place of the islands' tint where there is something to be seen of it.
     layers
         What lies below the wires. The list may change.
     """
@@ -99,14 +96,12 @@ class Overlay:
         to_object: NDArray[np.float64],
         *,
         preferences: object | None = None,
-        heat: StretchHeat | None = None,
         layers: Sequence[Layer] = (),
     ) -> None:
         self._picture = picture
         self._obj = obj
         self._pose = pose
         self._preferences = preferences
-        self.heat = heat
         self._layers = layers
         self._to_object = Matrix(to_object.tolist()).to_4x4()
         self._looks = self._current_looks()
@@ -122,8 +117,6 @@ class Overlay:
         """Draw everything where it is seen now."""
         self._sheets.clear()
         self._faces = self._tinted = None
-        if self.heat is not None:
-            self.heat.repose()
         list(self._ask_layers("repose"))
 
     # Drawing
@@ -140,9 +133,7 @@ class Overlay:
             self._sheets.clear()
         sheets = self._current_sheets(picture)
         eye = Eye(bpy.context.region_data, self._obj.matrix_world @ self._to_object)
-        if self.heat is not None and self.heat.shown:
-            self.heat.draw(eye)
-        elif not any(self._ask_layers("draw_heat", eye)):
+        if not any(self._ask_layers("draw_heat", eye)):
             self._draw_tint(eye, picture.islands)
         list(self._ask_layers("draw_lines", eye))
         xray = picture.options.xray
@@ -184,12 +175,7 @@ class Overlay:
         with blended("NONE"):
             lines = () if self._looks.text == "NONE" else corner.lines(picture)
             _draw_corner([*(FIRST_LINES if self._looks.text == "STEPS" else ()), *lines], room[:2], scale)
-            legend.draw(self._legends(), room, scale)
-
-    def _legends(self) -> list[legend.Legend]:
-        of_heat = None if self.heat is None else self.heat.legend()
-        others = [box for boxes in self._ask_layers("legends") for box in boxes or ()]
-        return others if of_heat is None else [of_heat, *others]
+            legend.draw([box for boxes in self._ask_layers("legends") for box in boxes or ()], room, scale)
 
     # What there is to draw
 

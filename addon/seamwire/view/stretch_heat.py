@@ -12,6 +12,7 @@ from ..core.fields import color_maps
 from ..core.islands.stretch import Stretch
 from ..mesh import uv_map
 from . import gpu_draw
+from .layers import Layer
 from .legend import Legend
 from .theme import Style
 
@@ -47,7 +48,7 @@ class _Summary(NamedTuple):
     triangles: NDArray[np.bool_]
 
 
-class StretchHeat:
+class StretchHeat(Layer):
     """The stretch of one object's UV map.
 
     Parameters
@@ -79,7 +80,7 @@ class StretchHeat:
         """Whether there is heat to be seen."""
         return self._kind != "NONE" and self._stretch is not None and not self._missing
 
-    def follow(self, obj: bpy.types.Object, kind: str, anew: bool = False) -> bool:
+    def read(self, obj: bpy.types.Object, kind: str, anew: bool = False) -> bool:
         """Show a kind of stretch, or none, of the active UV map of an object in edit mode.
 
         Parameters
@@ -149,8 +150,10 @@ class StretchHeat:
         """Draw everything where it is seen now."""
         self._faces, self._drawn, self._outline = None, -1, (None, None)
 
-    def draw(self, eye: Eye) -> None:
+    def draw_heat(self, eye: Eye) -> bool:
         """Draw the heat over the faces, and the outline of the worst island."""
+        if not self.shown:
+            return False
         if self._faces is None:
             self._faces = gpu_draw.ColoredFaces(self._pose.points)
         if self._drawn != self._revision:
@@ -161,6 +164,7 @@ class StretchHeat:
         if lines is not None:
             with gpu_draw.blended("LESS_EQUAL"):
                 lines.draw(eye)
+        return True
 
     def _fill(self, faces: gpu_draw.ColoredFaces) -> None:
         steps = np.minimum(self.values * (_STEPS / HOT), _STEPS - 1).astype(np.uint8)
@@ -183,19 +187,19 @@ class StretchHeat:
             self._outline = summary, gpu_draw.Lines(_OUTLINE, ends) if len(ends) else None
         return self._outline[1]
 
-    def legend(self) -> Legend | None:
-        """Return what the colors mean; None where no stretch is to be seen."""
+    def legends(self) -> list[Legend]:
+        """Return what the colors mean, if stretch is to be seen."""
         if self._kind == "NONE":
-            return None
+            return []
         if self._missing:
-            return Legend(("No UV map: unwrap to see its stretch",))
+            return [Legend(("No UV map: unwrap to see its stretch",))]
         lines, summary = [_NAMES[self._kind]], self.summary()
         if summary is not None:
             lines.append(f"Mean {times(summary.mean)}")
             if summary.triangles.any():
                 lines.append(f"Worst of {summary.count} islands {times(summary.value)}, outlined")
         marks = tuple((part, times(part * HOT) + ("+" if part == 1.0 else "")) for part in (0.0, 0.5, 1.0))
-        return Legend(tuple(lines), heat_colors(), marks)
+        return [Legend(tuple(lines), heat_colors(), marks)]
 
 
 def times(octaves: float) -> str:

@@ -15,9 +15,9 @@ from seamwire.core.network.picks import FacePoint
 from seamwire.core.network.strokes import Stroke
 from seamwire.core.network.wires import FOLLOWS, Wire
 from seamwire.core.offers.edge_loops import KIND_COSTS
-from seamwire.core.storage.serialization import Places
 from seamwire.networks.core import network_file
 from seamwire.networks.core.network_file import NetworkFile, NetworkFileError
+from seamwire.networks.core.placing import Shape
 from seamwire.terms.choices import ALONG, FINISHES, METRICS
 
 SIZE = 6
@@ -32,6 +32,9 @@ def triangles() -> np.ndarray:
     return np.concatenate([np.stack([a, a + 1, a + SIZE + 1], 1), np.stack([a, a + SIZE + 1, a + SIZE], 1)]).astype(
         np.int32
     )
+
+
+SHAPE = Shape(POINTS, triangles(), EDGES, STRETCH)
 
 
 def wire(*vertices: int, **options: object) -> Wire:
@@ -65,15 +68,13 @@ def network() -> Network:
 
 
 def written(network: Network) -> NetworkFile:
-    return NetworkFile.of(
-        network, POINTS, triangles(), EDGES, name="Hémd", metric="concave", clamp=95.0, to_object=STRETCH
-    )
+    return NetworkFile.of(network, SHAPE, name="Hémd", metric="concave", clamp=95.0)
 
 
 def test_what_is_read_is_what_was_written(network: Network) -> None:
     file = NetworkFile.parse(written(network).text())
     assert (file.origin.name, file.origin.vertices, file.metric, file.clamp) == ("Hémd", 36, "concave", 95.0)
-    wires = file.wires(Places(POINTS, STRETCH))
+    wires = file.wires(SHAPE)
     kept = [one for one in network.wires if one.marks]
     names = ("along", "vertices", "start", "closed", "heading", "follow", "strength", "mirror", "kind", "through")
     for name in (*names, "finish", "planned"):
@@ -82,9 +83,9 @@ def test_what_is_read_is_what_was_written(network: Network) -> None:
     for one, before in zip(wires, kept, strict=True):
         assert np.allclose(one.points, before.points, atol=1e-6)
     assert [one.faces for one in wires] == [None] * 4, "another mesh has other triangles"
-    (stroke,) = file.strokes_on(Places(POINTS, STRETCH))
+    (stroke,) = file.strokes_on(SHAPE)
     assert np.allclose(stroke.points, POINTS[[0, 6]]) and stroke.radius == pytest.approx(0.3)
-    assert not file.problem_with(36, EDGES)
+    assert not file.problem_with(SHAPE)
 
 
 def test_one_more_wire_is_lines_more_and_no_line_changed(network: Network) -> None:
@@ -161,8 +162,12 @@ def test_every_cut_of_a_file_is_refused_and_nothing_else_is_raised(network: Netw
 
 def test_another_mesh_is_told_by_its_vertices_and_edges(network: Network) -> None:
     file = written(network)
-    assert str(file.problem_with(35, EDGES)) == "The network belongs to a mesh with 36 vertices, but this one has 35"
+    assert (
+        str(file.problem_with(replace(SHAPE, points=POINTS[:35])))
+        == "The network belongs to a mesh with 36 vertices, but this one has 35"
+    )
     fewer = EDGES[~(np.sort(EDGES, axis=1) == [2, 3]).all(axis=1)]
     assert (
-        str(file.problem_with(36, fewer)) == "The network belongs to a mesh with other edges: edge 2-3 is missing here"
+        str(file.problem_with(replace(SHAPE, edges=fewer)))
+        == "The network belongs to a mesh with other edges: edge 2-3 is missing here"
     )

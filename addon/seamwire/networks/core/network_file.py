@@ -16,13 +16,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...core.base.geometry import Moments, creases, vertex_normals
+from ...core.base.geometry import Moments
 from ...core.base.messages import NOTHING, Message, Refused
 from ...core.network.picks import undirected
 from ...core.storage import serialization
-from ...core.storage.serialization import Places, Record
+from ...core.storage.serialization import Record
 from ...terms.choices import METRICS, MetricName
 from ...terms.options import CLAMP_PERCENTILE
+from .placing import Shape
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -121,49 +122,27 @@ class NetworkFile:
     def of(
         cls,
         network: Network,
-        points: NDArray[np.float64],
-        triangles: NDArray[np.int32],
-        edges: NDArray[np.int32],
+        shape: Shape,
         *,
         name: str = "",
         metric: MetricName = "feature",
         clamp: float = CLAMP_PERCENTILE,
-        to_object: NDArray[np.float64] | None = None,
     ) -> NetworkFile:
-        """Return what there is to keep of a network; wires that clear seams are not.
-
-        Parameters
-        ----------
-        network
-            Drawn on the mesh.
-        points
-            (n, 3) vertices as the session had them.
-        triangles
-            (m, 3)
-        edges
-            (e, 2)
-        name
-            Of the mesh.
-        metric, clamp
-            See the class.
-        to_object
-            (3, 3) takes `points` to object coordinates, ``points @ to_object.T``; None: they are such.
-        """
-        where = Places(points, np.eye(3) if to_object is None else to_object)
-        places = where.in_object
-        normals, angles = vertex_normals(places, triangles), creases(places, triangles)
+        """Return what there is to keep of a network on a mesh with a name; wires that clear seams are not. See the class."""
         # A mesh does not keep the order of its wires.
         courses = []
         for wire in sorted((wire for wire in network.wires if wire.marks), key=lambda wire: wire.vertices):
-            record = serialization.wire_record(wire, where)
+            record = serialization.wire_record(wire, shape.where)
             chain = list(wire.vertices)
-            courses.append(Course(record, places[chain], normals[chain], angles[chain]))
+            courses.append(Course(record, shape.places[chain], shape.normals[chain], shape.creases[chain]))
         return cls(
-            Origin(name, len(points), len(edges), len(triangles), Moments.of(places, triangles)),
+            Origin(name, len(shape.points), len(shape.edges), len(shape.triangles), shape.moments),
             metric,
             clamp,
             tuple(courses),
-            tuple(serialization.stroke_record(stroke, where, order) for order, stroke in enumerate(network.strokes)),
+            tuple(
+                serialization.stroke_record(stroke, shape.where, order) for order, stroke in enumerate(network.strokes)
+            ),
         )
 
     # As text
@@ -240,33 +219,26 @@ class NetworkFile:
 
     # On the same mesh
 
-    def problem_with(self, count: int, edges: NDArray[np.int32]) -> Message:
-        """Return why a mesh is not the one that it was drawn on, by its numbers; nothing if it is.
-
-        Parameters
-        ----------
-        count
-            How many vertices the mesh has.
-        edges
-            (e, 2) its edges.
-        """
-        if count != self.origin.vertices:
-            return Message.of("other-vertices", count=self.origin.vertices, here=count)
-        there = {undirected((one, two)) for one, two in edges.tolist()}
+    def problem_with(self, shape: Shape) -> Message:
+        """Return why a mesh is not the one that it was drawn on, by its numbers; nothing if it is."""
+        if len(shape.points) != self.origin.vertices:
+            return Message.of("other-vertices", count=self.origin.vertices, here=len(shape.points))
+        there = {undirected((one, two)) for one, two in shape.edges.tolist()}
         for course in self.courses:
             for edge in _edges_of(course.record):
                 if edge not in there:
                     return Message.of("other-edges", pick=edge)
         return NOTHING
 
-    def wires(self, where: Places) -> list[Wire]:
+    def wires(self, shape: Shape) -> list[Wire]:
         """Return its wires on the mesh that it was drawn on, by their numbers; see `problem_with`."""
-        return [serialization.wire_of(course.record, where) for course in self.courses]
+        return [serialization.wire_of(course.record, shape.where) for course in self.courses]
 
-    def strokes_on(self, where: Places) -> list[Stroke]:
+    def strokes_on(self, shape: Shape) -> list[Stroke]:
         """Return its strokes on the mesh that it was drawn on, by numbers."""
         found = (
-            serialization.stored_stroke(record, where, [tuple(record["corners"][0][:2])]) for record in self.strokes
+            serialization.stored_stroke(record, shape.where, [tuple(record["corners"][0][:2])])
+            for record in self.strokes
         )
         return [stroke for stroke in found if stroke is not None]
 

@@ -13,6 +13,7 @@ import numpy as np
 from ...core.base import native
 from ...core.base.geometry import Moments, creases, triangle_normals, vertex_normals
 from ...core.base.messages import NOTHING, Message, Refused
+from ...core.storage.serialization import Places
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -73,13 +74,18 @@ class Shape:
     to_object: NDArray[np.float64] | None = None
 
     @cached_property
+    def where(self) -> Places:
+        """Where its vertices are."""
+        return Places(self.points, np.eye(3) if self.to_object is None else self.to_object)
+
+    @property
     def places(self) -> NDArray[np.float64]:
         """(n, 3) the vertices in object coordinates."""
-        return self.in_object(self.points)
+        return self.where.in_object
 
     def in_object(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return (k, 3) points in object coordinates."""
-        return points if self.to_object is None else points @ self.to_object.T
+        return points @ self.where.to_object.T
 
     @cached_property
     def normals(self) -> NDArray[np.float64]:

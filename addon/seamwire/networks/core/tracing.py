@@ -440,9 +440,7 @@ class Tracing:
         if len(rows) < 2:
             return None
         shape = self._target
-        points = placed.places[rows]
-        if shape.to_object is not None:
-            points = points @ np.linalg.inv(shape.to_object).T
+        points = shape.where.from_object(placed.places[rows])
         triangles = placed.triangles[rows]
         stroke = Stroke(
             points, shape.triangles[triangles], triangles.astype(np.int32), bool(record["attracts"]), record["acts_on"],

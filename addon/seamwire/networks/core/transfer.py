@@ -14,7 +14,6 @@ from ...core.network.mirror_images import MirrorImages
 from ...core.network.network import Network
 from ...core.network.symmetry import Symmetry
 from ...core.solver.solver import LiveMaker
-from ...core.storage.serialization import Places
 from .network_file import Course, NetworkFile, NetworkFileError
 from .placing import PLACED, Landmarks, NearestSurface, Placed, Progress, Shape, Similarity, tell
 from .tracing import STRAY, PlacedSeed, Tracing, Transfer
@@ -77,7 +76,7 @@ def transfer(
     if mirror is not None and place in {"NUMBERS", "PAIRS"}:
         raise Refused("mirror-by-surface")
     if place == "AUTO":
-        same = mirror is None and not file.problem_with(len(target.points), target.edges)
+        same = mirror is None and not file.problem_with(target)
         by_pairs = len(pairs) and source is not None and mirror is None
         place = "NUMBERS" if same else "PAIRS" if by_pairs else "SURFACE"
     tell(progress, 0.0)
@@ -93,7 +92,7 @@ def transfer(
 
 def _check(file: NetworkFile, mesh: Shape) -> None:
     """Raise NetworkFileError if a network was drawn on another mesh."""
-    problem = file.problem_with(len(mesh.points), mesh.edges)
+    problem = file.problem_with(mesh)
     if problem:
         raise NetworkFileError(problem)
 
@@ -101,16 +100,14 @@ def _check(file: NetworkFile, mesh: Shape) -> None:
 def _by_numbers(file: NetworkFile, target: Shape, topology: bool) -> Transfer:
     """Return a network on a mesh of the same topology, vertex by vertex."""
     _check(file, target)
-    to_object = np.eye(3) if target.to_object is None else target.to_object
-    where = Places(target.points, to_object)
-    symmetry = Symmetry(target.points, target.edges, to_object, topology, target.triangles)
-    network = MirrorImages(symmetry).complete(Network(tuple(file.wires(where))))
+    symmetry = Symmetry(target.points, target.edges, target.where.to_object, topology, target.triangles)
+    network = MirrorImages(symmetry).complete(Network(tuple(file.wires(target))))
     wires = list(network.wires)
     ends = dict.fromkeys(
         vertex for wire in wires if not wire.closed for vertex in (wire.vertices[0], wire.vertices[-1])
     )
     seeds = [PlacedSeed(vertex, (), vertex, 1.0) for vertex in ends]
-    return Transfer(wires, file.strokes_on(where), seeds)
+    return Transfer(wires, file.strokes_on(target), seeds)
 
 
 def _by_surface(
