@@ -51,7 +51,6 @@ class Said:
     def __init__(self) -> None:
         self.picture = Picture()
         self.cuts: tuple[Wire, ...] = ()
-        self.wires: tuple[Wire, ...] = ()
         self._said: dict[str, object] = {}
 
     @property
