@@ -27,8 +27,8 @@ from seamwire.core.network.wires import Wire
 from seamwire.mesh import edit_mesh
 from seamwire.mesh.pose import Pose
 from seamwire.terms.options import Options
+from seamwire.view.object_view import ShownIslands
 from seamwire.view.overlay import Overlay
-from seamwire.view.shown_islands import ShownIslands
 from seamwire.view.theme import Looks, Style
 
 pytestmark = pytest.mark.oldest_and_newest

@@ -18,12 +18,14 @@ from ..core.base import native
 from ..core.base.geometry import triangle_areas
 from ..core.islands.map_faults import NO_FAULTS
 from ..core.network.picks import undirected
-from ..core.seams.parts import PartEdits, border_wires, edges_of
 from ..core.seams.seam_plan import (
     CRUMB,
+    PartEdits,
     PlanRequest,
+    border_wires,
     curves_length,
     cut_edges,
+    edges_of,
     energy_of,
     keep_out,
     mean_stretch,

@@ -10,13 +10,21 @@ import bpy
 from ..terms.choices import items
 from ..terms.options import PLACED, SETTINGS, Options
 from ..words.notices import Notices
-from .redraw import redraw_views
 from .registration import classes, together
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from ..terms.options import Auto, Setting
+
+
+def redraw_views() -> None:
+    """Let all 3D views be drawn anew."""
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                area.tag_redraw()
+
 
 ADDON = __package__.rpartition(".")[0]
 """The add-on's name in this Blender."""

@@ -125,7 +125,7 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
 
     def steps(self, context: bpy.types.Context) -> Generator[Step, None, set[str]]:
         """Yield the steps of the search, then mark or cut."""
-        from ..core.seams.parts import edits_of_text
+        from ..core.seams.seam_plan import edits_of_text
 
         search = self._read(context)
         search.notices.tell(self.report)
@@ -145,7 +145,7 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
 
     def _show_parts(self, context: bpy.types.Context, search: SeamSearch) -> Generator[Step, None, None]:
         """Yield steps until the artist has confirmed the parts that the views show, and seams are planned in them."""
-        from ..core.seams.parts import edits_text
+        from ..core.seams.seam_plan import edits_text
         from ..view.plan_preview import PlanPreview
         from .suggest_live import LiveParts
 

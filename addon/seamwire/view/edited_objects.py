@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..mesh import settings as chosen
-from ..mesh.redraw import redraw_views
+from ..mesh.settings import redraw_views
 from .failures import failures
 from .object_view import ObjectView, in_bounds, let_blender_tell
 from .timer import Timer
