@@ -18,15 +18,7 @@ if TYPE_CHECKING:
 
 
 def auto_for(obj: bpy.types.Object, arrays: Arrays) -> Auto:
-    """Return the values that Auto stands for on a mesh object.
-
-    Parameters
-    ----------
-    obj
-        As it was when its mesh was read.
-    arrays
-        Its mesh.
-    """
+    """Return the values that Auto stands for on a mesh object, as it was when its mesh, `arrays`, was read."""
     mesh = obj.data
     rigged = len(obj.vertex_groups) > 0 or mesh.shape_keys is not None
     sharp = column(mesh.edges, "use_edge_sharp", np.bool_)

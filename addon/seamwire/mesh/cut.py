@@ -140,16 +140,10 @@ def rehearse(cage: Cage, what: CutPlan) -> None:
 
 
 def carry_out(cage: Cage, what: CutPlan, seeds: Iterable[int | FacePoint] = (), crumb: float = 0.0) -> Cut:
-    """Cut an edit mesh, and make seams of the cuts. Vertices, edges and faces have other numbers then.
+    """Cut an edit mesh as planned, and make seams of the cuts. Vertices, edges and faces have other numbers then.
 
-    Parameters
-    ----------
-    cage, what
-        The mesh, and the plan of what is cut.
-    seeds
-        Vertices and points whose numbers then are asked for; of points, only those that the cuts go through have any.
-    crumb
-        The part of the mesh's area below which an island beside the cuts becomes part of a larger one.
+    The numbers of `seeds`, vertices and points, are returned; of points, only those that the cuts go through have any. An island beside the
+    cuts with less than the part `crumb` of the mesh's area becomes part of a larger one.
     """
     bm = cage.bm
     before = len(bm.verts)

@@ -381,13 +381,9 @@ def column(items: bpy.types.bpy_prop_collection, name: str, dtype: type, width: 
 
 
 def visible_stretch(matrix: Matrix) -> NDArray[np.float64]:
-    """Return what an object's matrix does to lengths, without its rotation.
+    """Return what an object's matrix does to lengths, without its rotation: the symmetric S, (3, 3), of the polar decomposition R S.
 
-    Returns
-    -------
-    (3, 3) array
-        The symmetric S of the polar decomposition R S; the identity where scaling is uniform, for the library does not
-        mind the size, and where the matrix flattens the object.
+    It is the identity where scaling is uniform, for the library does not mind the size, and where the matrix flattens the object.
     """
     linear = np.array(matrix.to_3x3(), dtype=np.float64)
     values, vectors = np.linalg.eigh(linear.T @ linear)

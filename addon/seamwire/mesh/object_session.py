@@ -143,10 +143,7 @@ class ObjectSession:
     def symmetric_soon(self) -> tuple[int, ...] | None:
         """Return the axes over which the mesh is symmetric, or None if it takes longer than a moment to find out.
 
-        Raises
-        ------
-        ValueError
-            If it cannot be found out.
+        Raises ValueError if it cannot be found out.
         """
         self.look_for_symmetry()
         if self._looking is not None:
@@ -220,11 +217,8 @@ class ObjectSession:
     def follow_change(self, obj: bpy.types.Object) -> bool:
         """Read the object's mesh again while wires are drawn, and keep the wires.
 
-        Returns
-        -------
-        bool
-            False where wires would run on it in another way, or it has left edit mode: then they can be written still, as far
-            as vertices have the numbers that they had.
+        Returns False where wires would run on it in another way, or it has left edit mode: then they can be written still, as far as
+        vertices have the numbers that they had.
         """
         self.obj = obj
         editing = obj.mode == "EDIT"

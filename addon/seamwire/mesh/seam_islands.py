@@ -62,10 +62,7 @@ def missing_cuts(obj: bpy.types.Object) -> NDArray[np.int32]:
 def faces_to_cut(obj: bpy.types.Object) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Return the faces of the islands that are not discs, and how many cuts each of these islands needs.
 
-    Raises
-    ------
-    ValueError, native.NativeError
-        Where no face is visible, a coordinate is no number, or the compiled part is missing.
+    Raises as `worst_island`.
     """
     arrays = read(obj)
     labels, missing = _missing_cuts(arrays)
@@ -75,18 +72,11 @@ def faces_to_cut(obj: bpy.types.Object) -> tuple[NDArray[np.int32], NDArray[np.i
 def store(obj: bpy.types.Object, kind: str) -> int:
     """Store the island of each visible face with an edit mesh; return how many there are.
 
-    Parameters
-    ----------
-    obj
-        In edit mode.
-    kind
-        ``ATTRIBUTE``: as the face attribute `ATTRIBUTE`, from 0, largest first. ``MATERIALS``: as materials in new slots, with
-        different hues for neighbors. Hidden faces keep their values. Without a value they get -1, or an empty slot.
+    The kind ``ATTRIBUTE`` is the face attribute `ATTRIBUTE`, from 0, largest first. ``MATERIALS`` are materials in new slots, with
+    different hues for neighbors. Hidden faces keep their values. Without a value they get -1, or an empty slot.
 
-    Raises
-    ------
-    ValueError, native.NativeError
-        Where no face is visible, a coordinate is no number, the attribute's name is taken, or the compiled part is missing.
+    Raises ValueError or NativeError where no face is visible, a coordinate is no number, the attribute's name is taken, or the compiled
+    part is missing.
     """
     arrays = read(obj)
     labels = labels_of(arrays)
@@ -164,19 +154,9 @@ class Worst:
 
 
 def worst_island(obj: bpy.types.Object, kind: str) -> Worst | None:
-    """Find the island of an edit mesh that is stretched most; None: it has no UV map.
+    """Find the island of an edit mesh that is stretched most by ``ANGLE`` or ``AREA``; None: it has no UV map.
 
-    Parameters
-    ----------
-    obj
-        In edit mode.
-    kind
-        By ``ANGLE`` or ``AREA``.
-
-    Raises
-    ------
-    ValueError, native.NativeError
-        Where no face is visible, a coordinate is no number, or the compiled part is missing.
+    Raises ValueError or NativeError where no face is visible, a coordinate is no number, or the compiled part is missing.
     """
     arrays = read(obj)
     labels = labels_of(arrays)

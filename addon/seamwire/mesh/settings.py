@@ -85,16 +85,9 @@ def _forget() -> None:
 
 
 def snapshot(settings: SeamwireSettings, mesh: bpy.types.Mesh | None = None, auto: Auto = PLACED) -> Options:
-    """Return the settings as they are now.
+    """Return the settings as they are now, from Blender's properties.
 
-    Parameters
-    ----------
-    settings
-        Blender's properties.
-    mesh
-        Its own options tell over which axes wires are mirrored; None: over none.
-    auto
-        The values that Auto stands for on that mesh.
+    Wires are mirrored over the axes that a mesh says, or over none without a mesh. `auto` has the values that Auto stands for there.
     """
     values = {name: _exact(getattr(settings, name)) for name in SETTINGS}
     for name, best in auto._asdict().items():

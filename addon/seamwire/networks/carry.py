@@ -97,23 +97,10 @@ def carry_over(
     align: bool = True,
     pairs: Sequence[Edge] = (),
 ) -> Callable[..., Transfer]:
-    """Return what finds what a network is on a mesh, see `transfer`. It writes nothing, takes `progress`, and any thread may call it.
+    """Return what finds what a network is on a mesh. It writes nothing, takes `progress`, and any thread may call it.
 
-    Parameters
-    ----------
-    target
-        The mesh.
-    source
-        The network.
-    place, mirror, align
-        See `transfer`.
-    pairs
-        Vertices of both meshes. Without any, PAIRS takes the vertex groups with the same names.
-
-    Raises
-    ------
-    ValueError
-        If too few vertex groups have the same names. The function raises it if something else does not fit.
+    Other parameters are those of `transfer`. Without pairs of vertices, PAIRS takes the vertex groups with the same names. Raises
+    ValueError if these are too few; the function raises it if something else does not fit.
     """
     if place == "PAIRS" and not pairs:
         there = group_middles(target.obj)

@@ -243,22 +243,10 @@ def layers(style: Style, opacity: float, rim: bool) -> list[tuple[Color, float]]
 
 
 def dashes(ends: NDArray[np.float64], on_screen: object, length: float, limit: int = 200_000) -> NDArray[np.float64]:
-    """Cut segments into dashes as long as the gaps between them, measured on the screen.
+    """Cut segments, (k, 2, 3), into dashes, (d, 2, 3), as long as the gaps between them, measured on the screen.
 
-    Parameters
-    ----------
-    ends
-        (k, 2, 3).
-    on_screen
-        Takes (n, 3) points to (n, 2) pixels.
-    length
-        Pixels of a dash.
-    limit
-        More dashes than this are not made: the segments come back as they are.
-
-    Returns
-    -------
-    (d, 2, 3) array
+    `on_screen` takes (n, 3) points to (n, 2) pixels. If there were more than `limit` dashes of a length in pixels, the segments come back
+    as they are.
     """
     pixels = on_screen(ends.reshape(-1, 3)).reshape(-1, 2, 2)
     sizes = np.nan_to_num(np.linalg.norm(pixels[:, 1] - pixels[:, 0], axis=1))

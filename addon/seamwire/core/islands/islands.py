@@ -230,20 +230,10 @@ def neighbours(triangles: NDArray[np.int32], labels: NDArray[np.int32], cuts: ND
 
 
 def choose_hues(inherited: NDArray[np.int64], pairs: NDArray[np.int32]) -> NDArray[np.uint8]:
-    """Choose a hue for each island, far from those of its neighbors, and one that few others have.
+    """Choose a hue for each island, (count,), far from those of its neighbors, and one that few others have.
 
-    Parameters
-    ----------
-    inherited
-        (count,) the hue that each keeps, unless a larger neighbor has one too much like it; -1: any. The largest islands
-        come first.
-    pairs
-        (k, 2) neighbors.
-
-    Returns
-    -------
-    (count,) array
-        A hue for each island.
+    `inherited`, (count,), has the hue that each keeps, unless a larger neighbor has one too much like it, or -1. The largest islands come
+    first. Pairs of neighbors are (k, 2).
     """
     count = len(inherited)
     if count > _TOLD_APART:

@@ -159,18 +159,10 @@ def find_faults(
     *,
     may_stack: bool = False,
 ) -> MapFaults:
-    """Measure what is wrong with some islands of a map.
+    """Measure what is wrong with some islands of a map. The surface is all that lies in the map.
 
-    Parameters
-    ----------
-    surface
-        All that lies in the map.
-    chosen
-        (count,) which islands are looked at. The others count only as what these may overlap. None: all islands.
-    homes
-        (count, 2) the low corner of the tile that each island had before. Islands may lie there or in the UV square. None: no other tile.
-    may_stack
-        Whether islands may lie exactly on each other, corner by corner.
+    Only islands that are `chosen`, (count,), are looked at; the others count as what these may overlap. An island may lie in the UV square,
+    or in the tile with the low corner that it has in `homes`, (count, 2). If islands `may_stack`, they may lie exactly on each other.
     """
     chosen = np.ones(surface.count, dtype=bool) if chosen is None else chosen
     homes = np.zeros((surface.count, 2)) if homes is None else homes

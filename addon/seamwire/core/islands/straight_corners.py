@@ -116,16 +116,8 @@ def find_straight(
 ) -> StraightCorners:
     """Find the corners whose vertex has two edges and two faces, and lies between its neighbors.
 
-    Parameters
-    ----------
-    points
-        (n, 3) vertices.
-    ring
-        The corners of the faces.
-    is_seam
-        (c,) whether the edge to the next corner is a seam.
-    triangles
-        (t, 3) the corners of the triangles that the visible faces are drawn as.
+    Points are (n, 3). `is_seam`, (c,), tells whether the edge to the next corner is a seam. The visible faces are drawn as triangles, (t,
+    3) corners.
     """
     vertices, faces, following, preceding = ring.vertices, ring.faces, ring.following, ring.preceding
     uses = np.bincount(triangles.reshape(-1), minlength=len(vertices))

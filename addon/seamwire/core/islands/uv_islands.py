@@ -66,19 +66,9 @@ def split_edges(
 ) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
     """Find the edges between two faces over which a UV map is torn.
 
-    Parameters
-    ----------
-    vertices, edges, following
-        (c,) of each corner its vertex, the edge to the next corner of its face, and that corner; -1 as the edge: left out.
-    uvs
-        (c, 2).
-
-    Returns
-    -------
-    (k, 2) array
-        The two corners at which the faces at an edge hold it, for each edge with two.
-    (k,) array
-        Whether the map is torn there.
+    `vertices`, `edges` and `following` have of each corner its vertex, the edge to the next corner of its face, and that corner. An edge
+    of -1 is left out. UVs are (c, 2). Returns for each edge with two faces the corners at which they hold it, (k, 2), and whether the map
+    is torn.
     """
     order = np.argsort(edges, kind="stable")
     order = order[edges[order] >= 0]
@@ -125,17 +115,7 @@ class NewIsland:
 def in_rows(uvs: NDArray[np.float64], labels: NDArray[np.int64]) -> NDArray[np.float64]:
     """Lay islands out in rows in the UV square, the tallest first, none of them touching another, all at one scale.
 
-    Parameters
-    ----------
-    uvs
-        (c, 2) corners of the islands.
-    labels
-        (c,) the island of each, numbered from 0.
-
-    Returns
-    -------
-    (c, 2) array
-        The corners, between 0 and 1.
+    The corners, (c, 2), belong to islands with the numbers `labels`, (c,), from 0. Returns the corners between 0 and 1.
     """
     count = int(labels.max(initial=-1)) + 1
     low, high = np.full((count, 2), np.inf), np.full((count, 2), -np.inf)

@@ -358,19 +358,8 @@ def grown_partners(
     The image of a half-edge from a to b leads from the partner of b to that of a, since mirroring turns faces over. So the
     image of what comes after it in its polygon comes before its image, and that of its twin is its image's twin.
 
-    Parameters
-    ----------
-    triangles
-        (m, 3), alike oriented.
-    edges
-        (e, 2) edges of the polygons.
-    by_place
-        (n,) the partners where they can be told otherwise, each its partner's partner; -1: none.
-
-    Returns
-    -------
-    (n,) array
-        Partners; those by place where growing does not come; -1: none.
+    Triangles, (m, 3), are alike oriented, and edges, (e, 2), are those of the polygons. `by_place`, (n,), has the partners where they
+    can be told otherwise, each its partner's partner, or -1. They stay where growing does not come.
     """
     half = _PolygonEdges(triangles, edges, len(by_place))
     known = np.flatnonzero((by_place[half.tails] >= 0) & (by_place[half.tips] >= 0) & (half.sides > 0))

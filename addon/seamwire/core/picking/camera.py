@@ -194,23 +194,9 @@ class Segments:
 def nearest_edge(
     cursor: tuple[float, float], starts: NDArray[np.float64], ends: NDArray[np.float64], scale: float = 1.0
 ) -> tuple[int, int | None]:
-    """Find the segment nearest to a point, and whether one of its ends is meant.
+    """Return the segment nearest to a cursor, or -1, and which of its ends, 0 or 1, is meant because the cursor is so near to it, or None.
 
-    Parameters
-    ----------
-    cursor
-        Pixels.
-    starts, ends
-        (k, 2) pixels. NaN for an end that is not in front of the viewer.
-    scale
-        Of the display.
-
-    Returns
-    -------
-    index
-        The row of the segment, or -1 if there is no segment.
-    end
-        0 or 1 if the cursor is so near to that end that it is meant, otherwise None.
+    Starts and ends, (k, 2), are pixels. An end that is not in front of the viewer is NaN.
     """
     _, gaps = nearest_on_segments(cursor, starts, ends)
     if not len(gaps) or np.isnan(gaps).all():

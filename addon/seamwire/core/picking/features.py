@@ -93,14 +93,7 @@ class FeaturePicker:
     def crest_at(self, sight: Sight, crests: Crests, anywhere: bool) -> Pick | None:
         """Return the nearest point of a ridge or valley within reach of the cursor.
 
-        Parameters
-        ----------
-        sight
-            The cursor, and the object under it.
-        crests
-            The ridges and valleys.
-        anywhere
-            Whether the point may lie within a triangle. Otherwise it is a vertex beside it that is as near.
+        The point may lie within a triangle if it may lie `anywhere`. Otherwise it is a vertex beside it that is as near.
         """
         surface = self._surface
         if self._crests[0] is not crests:

@@ -63,15 +63,7 @@ def stretch_of(energy: float) -> float:
 
 
 def turned_limit(percent: float, notches: int) -> float:
-    """Return the limit of the stretch after a turn of the wheel by one notch: the next one of `LIMITS`, if there is one.
-
-    Parameters
-    ----------
-    percent
-        The limit before.
-    notches
-        1 for more stretch, -1 for less.
-    """
+    """Return the next of `LIMITS` in percent, if there is one, after a turn of the wheel: by 1 for more stretch, by -1 for less."""
     beyond = [limit for limit in LIMITS if notches * (limit - percent) > _SAME_LIMIT * percent]
     return min(beyond, key=lambda limit: abs(limit - percent), default=percent)
 
@@ -95,16 +87,10 @@ class PlanRequest:
 def planned_wires(
     plan: seamwire_core.SeamPlan, along: Along, strength: float, from_object: NDArray[np.float64]
 ) -> list[Wire]:
-    """Return the wires of a plan.
+    """Return the wires of a plan that was made in object coordinates.
 
-    Parameters
-    ----------
-    plan
-        Of a mesh in object coordinates.
-    along, strength
-        How the wires run, and how strongly they follow the shape when they are drawn again.
-    from_object
-        (3, 3) takes object coordinates to those of the session.
+    `along` and `strength` say how the wires run, and how strongly they follow the shape when they are drawn again. `from_object`, (3, 3),
+    takes object coordinates to those of the session.
     """
     return [
         Wire(
@@ -117,15 +103,7 @@ def planned_wires(
 
 
 def curves_length(curves: Iterable[NDArray[np.float64]], to_scene: NDArray[np.float64]) -> float:
-    """Return the length of curves, each (k, 3).
-
-    Parameters
-    ----------
-    curves
-        In object coordinates.
-    to_scene
-        (3, 3) takes these to the coordinates in which lengths are measured.
-    """
+    """Return the length of curves, (k, 3) each, in the coordinates that `to_scene`, (3, 3), takes them to."""
     return float(sum(np.linalg.norm(np.diff(curve, axis=0) @ to_scene.T, axis=1).sum() for curve in curves))
 
 
@@ -136,22 +114,7 @@ def cut_edges(plan: seamwire_core.SeamPlan, seams: NDArray[np.int32]) -> NDArray
 
 
 def keep_out(triangles: NDArray[np.int32], is_planned: NDArray[np.bool_], count: int) -> NDArray[np.float64]:
-    """Return weights that keep wires out of some triangles.
-
-    Parameters
-    ----------
-    triangles
-        (m, 3) vertices.
-    is_planned
-        (m,) whether wires may come to a triangle.
-    count
-        The number of vertices, n.
-
-    Returns
-    -------
-    (n,) array
-        1, and infinity at vertices that no such triangle has.
-    """
+    """Return weights of n vertices, (count,): infinite at those that no planned triangle has, so that wires keep out of the others."""
     weights = np.full(count, np.inf)
     weights[triangles[is_planned]] = 1.0
     return weights
@@ -160,23 +123,10 @@ def keep_out(triangles: NDArray[np.int32], is_planned: NDArray[np.bool_], count:
 def stroke_weights(
     points: NDArray[np.float64], edges: NDArray[np.int32], strokes: Collection[Stroke]
 ) -> NDArray[np.float64]:
-    """Return how strokes weigh the cost of wires: guide strokes make it smaller, avoid strokes larger.
+    """Return how strokes weigh the cost of wires at vertices, (n,): guide strokes make it smaller, avoid strokes larger.
 
-    The weight fades, in equal factors, from the stroke to the end of its reach. Where strokes overlap, weights are multiplied.
-
-    Parameters
-    ----------
-    points
-        (n, 3) vertices, in the coordinates of the strokes.
-    edges
-        (e, 2) the mesh's edges; a stroke without a radius reaches along these.
-    strokes
-        The network's strokes.
-
-    Returns
-    -------
-    (n,) array
-        Positive factors, 1 away from the strokes.
+    The weight fades, in equal factors, from the stroke to the end of its reach, and is 1 elsewhere. Where strokes overlap, weights are
+    multiplied. Points, (n, 3), are in the coordinates of the strokes. A stroke without a radius reaches along the edges, (e, 2).
     """
     logarithms = np.zeros(len(points))
     for stroke in strokes:
@@ -267,12 +217,7 @@ class PartEdits:
     def on(self, edges: NDArray[np.int32], polygons: NDArray[np.int32]) -> dict[str, NDArray[np.int32]]:
         """Return the edits as arguments of the library's finder, as far as a mesh has their edges and polygons.
 
-        Parameters
-        ----------
-        edges
-            (e, 2) the mesh's edges.
-        polygons
-            (m,) the polygon of each triangle, ascending.
+        Edges are (e, 2), and the polygons of triangles, (m,), ascend.
         """
         rows = np.searchsorted(polygons, self.parted)
         parted = [row for row, at in zip(rows, self.parted, strict=True) if row < len(polygons) and polygons[row] == at]
@@ -295,13 +240,7 @@ def edits_text(edits: Mapping[str, PartEdits]) -> str:
 
 
 def edits_of_text(text: str) -> dict[str, PartEdits]:
-    """Return the edits of each mesh.
-
-    Raises
-    ------
-    ValueError
-        If the text is not from `edits_text`.
-    """
+    """Return the edits of each mesh. Raise ValueError if the text is not from `edits_text`."""
     try:
         return {
             name: PartEdits(

@@ -58,15 +58,7 @@ def seam_chains(seams: NDArray[np.int32], seeds: Collection[int] = ()) -> list[l
 
 
 def wires_between(seams: NDArray[np.int32], seeds: Collection[int], points: NDArray[np.float64]) -> Iterator[Wire]:
-    """Yield one wire for each chain of seams between seeds, junctions and ends; a circle is halved.
-
-    Parameters
-    ----------
-    seams, seeds
-        As those of `seam_chains`.
-    points
-        (n, 3) vertices of the mesh.
-    """
+    """Yield one wire for each chain of seams between seeds, junctions and ends, see `seam_chains`; a circle is halved."""
     for chain in seam_chains(seams, seeds):
         middle = len(chain) // 2
         for part in (chain[: middle + 1], chain[middle:]) if chain[0] == chain[-1] else (chain,):

@@ -224,14 +224,8 @@ class LiveMaker:
     ) -> seamwire_core.PartFinder:
         """Return what finds the parts of the mesh; it waits for the surface.
 
-        Parameters
-        ----------
-        mirror
-            The axis over which parts come in pairs, or None.
-        seams
-            (k, 2) edges that part the mesh already.
-        progress
-            Is told the fraction done; where it returns False, `seamwire_core.Cancelled` is raised.
+        Parts come in pairs over the axis `mirror`, if there is one. The seams, (k, 2), part the mesh already. `seamwire_core.Cancelled` is
+        raised where `progress` returns False.
         """
         return self._core.PartFinder(
             self.wait(), mirror=mirror, marked=self._mesh.marked, seams=seams, progress=progress

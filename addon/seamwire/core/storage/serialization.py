@@ -164,10 +164,7 @@ class Archive:
     def merge(self, other: Archive) -> bool:
         """Take in the records of another archive.
 
-        Returns
-        -------
-        bool
-            False if a number stands for something else there: then nothing is taken in, because labels would change what they mean.
+        Returns False if a number stands for something else there: then nothing is taken in, because labels would change what they mean.
         """
         pairs = [(own, other._kinds[name]) for name, own in self._kinds.items()]
         if any(self._is_taken(number, own, what) for own, more in pairs for number, what in more.items()):
