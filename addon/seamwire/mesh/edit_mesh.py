@@ -245,13 +245,7 @@ class StoredMesh:
 
 
 def read(obj: bpy.types.Object) -> Arrays:
-    """Read the edit mesh of an object.
-
-    Raises
-    ------
-    NothingVisibleError
-        Where no edge is visible.
-    """
+    """Read the edit mesh of an object. Raises NothingVisibleError where no edge is visible."""
     obj.update_from_editmode()  # the mesh then has the edit mesh's data, by the same numbers
     # In edit mode the mesh does not show its attributes, but a copy does. It shares the data and costs nothing.
     shared = None if IS_OLD else obj.data.copy()

@@ -148,12 +148,8 @@ They return the session that goes on, and the number of moved vertices. "SNAP" n
 def plan_cut(mesh: ObjectSession, wires: Iterable[Wire]) -> CutPlan:
     """Find what wires across the surface and their mirror images cut, and try it on a copy of the edit mesh.
 
-    The plan leaves out wires that do not run over the mesh, by their numbers here, and mirror images, by higher numbers.
-
-    Raises
-    ------
-    CutError
-        If no wire runs over the mesh, or nothing is cut.
+    The plan leaves out wires that do not run over the mesh, by their numbers here, and mirror images, by higher numbers. Raises CutError
+    if no wire runs over the mesh, or nothing is cut.
     """
     wires = list(wires)
     images = [

@@ -192,10 +192,7 @@ class ObjectSession:
     def refresh(self, obj: bpy.types.Object) -> bool:
         """Take over what the object's mesh holds now; return False where wires would run on it in another way.
 
-        Raises
-        ------
-        ValueError
-            Where there is nothing to draw on.
+        Raises ValueError where there is nothing to draw on.
         """
         arrays = edit_mesh.read(obj)
         if obj.mode != "EDIT" or not arrays.same_as(self.arrays):

@@ -484,10 +484,7 @@ class SeamSearch:
     def refresh(self) -> None:
         """Read the meshes again. Wires and seams that were added during the search stay.
 
-        Raises
-        ------
-        ValueError
-            If a mesh has another shape than the planned one.
+        Raises ValueError if a mesh has another shape than the planned one.
         """
         if not all(suggestion.mesh.refresh(suggestion.mesh.obj) for suggestion in self):
             raise ValueError("The mesh changed during the search")
@@ -526,12 +523,8 @@ class SeamSearch:
     def unwrap(self, context: bpy.types.Context) -> int:
         """Unwrap if wanted, otherwise follow Blender's Live Unwrap. Return the number of unwrapped islands.
 
-        If the meshes had no seams, all UVs are replaced, so that the new islands fill the UV square.
-
-        Raises
-        ------
-        ValueError, native.NativeError
-            If a map cannot be made.
+        If the meshes had no seams, all UVs are replaced, so that the new islands fill the UV square. Raises ValueError or NativeError if a
+        map cannot be made.
         """
         if not self._options.unwraps:
             edit_mesh.live_unwrap(context)

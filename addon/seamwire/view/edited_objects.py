@@ -68,10 +68,7 @@ class EditedObjects:
     def of(self, obj: bpy.types.Object) -> ObjectView:
         """Return an object in edit mode, read anew where it has changed.
 
-        Raises
-        ------
-        ValueError, native.NativeError
-            Where there is nothing to draw on, or nothing to draw with.
+        Raises ValueError or NativeError where there is nothing to draw on, or nothing to draw with.
         """
         name = obj.name_full
         view = self._views.get(name)

@@ -129,10 +129,7 @@ def through_vertices(
 ) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int32]]:
     """Return a stroke through vertices: its points, three times the vertex of each, and -1 for each.
 
-    Raises
-    ------
-    OffMeshError
-        Where it has no length, or a vertex is not there.
+    Raises OffMeshError where it has no length, or a vertex is not there.
     """
     numbers = np.array(vertices, dtype=np.int64).reshape(-1)
     missing = numbers[(numbers < 0) | (numbers >= len(mesh))]

@@ -193,10 +193,7 @@ class SurfaceLoops(Offers):
     def find(self, pick: Pick, network: Network, kept: Wire | None = None) -> tuple[Wire, ...]:
         """Return the closed cuts through a pick, each as one wire to be shown; nothing, too, while they are computed.
 
-        Raises
-        ------
-        ValueError
-            Where the pick is not part of the surface, or there is no cut that can be bent to it.
+        Raises ValueError where the pick is not part of the surface, or there is no cut that can be bent to it.
         """
         self.final = True
         if not self.takes(pick):

@@ -105,13 +105,7 @@ def wires_along(
 
 
 def waiting(live: LiveWire, wires: Iterable[Wire | None]) -> Iterator[Wire]:
-    """Yield the wires of `wires_along`, waiting for each.
-
-    Raises
-    ------
-    Refused
-        If all work is done and a wire is still missing.
-    """
+    """Yield the wires of `wires_along`, waiting for each. Raises Refused if all work is done and a wire is still missing."""
     done = 0
     for wire in wires:
         if wire is not None:

@@ -75,10 +75,7 @@ Answer = TypeVar("Answer")
 def final(live: LiveWire, ask: Callable[[], Answer]) -> Answer:
     """Ask live wires again and again, and return the answer that is final.
 
-    Raises
-    ------
-    Refused
-        If all work is done and the answer is still not final.
+    Raises Refused if all work is done and the answer is still not final.
     """
     done = 0
     while not (found := ask()).final:
@@ -210,10 +207,7 @@ class LiveMaker:
     def wait(self) -> seamwire_core.Surface:
         """Wait for the surface, once there are live wires, and return it; any thread may.
 
-        Raises
-        ------
-        ValueError
-            If wires cannot run on the mesh.
+        Raises ValueError if wires cannot run on the mesh.
         """
         assert self._first is not None
         self._first.wait_for_surface()

@@ -120,13 +120,7 @@ class Archive:
 
     @classmethod
     def parse(cls, text: str) -> Archive:
-        """Read what `text` wrote.
-
-        Raises
-        ------
-        NewerError, UnreadableError
-            If a later version wrote it, or if it is not a network.
-        """
+        """Read what `text` wrote. Raises NewerError or UnreadableError if a later version wrote it, or if it is not a network."""
         archive = cls()
         if not text:
             return archive

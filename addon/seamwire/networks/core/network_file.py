@@ -178,10 +178,7 @@ class NetworkFile:
     def parse(cls, text: str) -> NetworkFile:
         """Read what `text` wrote.
 
-        Raises
-        ------
-        NetworkFileError
-            If it is not such a file, is damaged, or a later version wrote it. The message says where.
+        Raises NetworkFileError if it is not such a file, is damaged, or a later version wrote it. The message says where.
         """
         try:
             data = json.loads(text)
