@@ -19,6 +19,7 @@ from ..core.network.network import edges_after
 from ..core.network.picks import FacePoint
 from ..core.network.strokes import on_mesh
 from ..core.offers.surface_loops import CutMemory
+from ..core.seams import placed_edges
 from ..core.solver.solver import LiveMaker
 from ..core.storage import label_reader, serialization, wire_labels
 from ..core.storage.serialization import Archive, Places, UnreadableError
@@ -26,7 +27,6 @@ from ..core.storage.wire_labels import EdgeLabels, Found
 from ..terms.options import Options
 from ..words.notices import Notices
 from . import edit_mesh
-from .auto import auto_for
 from .settings import mirror_axes, snapshot
 
 if TYPE_CHECKING:
@@ -35,11 +35,22 @@ if TYPE_CHECKING:
     import seamwire_core
     from numpy.typing import NDArray
 
+    from ..core.base.mesh_arrays import Arrays
     from ..core.network.network import Network
     from ..core.network.strokes import Stroke
     from ..core.network.wires import Wire
     from ..terms.options import Auto
     from .settings import SeamwireSettings
+
+
+def auto_for(obj: bpy.types.Object, arrays: Arrays) -> Auto:
+    """Return the values that Auto stands for on a mesh object, as it was when its mesh, `arrays`, was read."""
+    mesh = obj.data
+    rigged = len(obj.vertex_groups) > 0 or mesh.shape_keys is not None
+    sharp = edit_mesh.column(mesh.edges, "use_edge_sharp", np.bool_)
+    marks = (len(mesh.uv_layers) > 0, sharp.any(), mesh.has_custom_normals, len(mesh.materials) > 1)
+    return placed_edges.auto_for(arrays.points, arrays.triangles, arrays.polygons, rigged, sum(marks))
+
 
 _MOMENT = 0.1
 """Seconds for which the interface may wait."""

@@ -23,8 +23,7 @@ from ..core.base import native
 from ..core.base.components import components
 from ..core.base.geometry import triangle_areas
 from ..core.islands.copies import ShapedIsland, shaped_islands
-from ..core.islands.map_faults import NO_FAULTS, MapFaults, MappedSurface, find_faults, joined
-from ..core.islands.rounded_flips import turn_back
+from ..core.islands.map_faults import NO_FAULTS, MapFaults, MappedSurface, find_faults, joined, turn_back
 from ..core.islands.straight_corners import find_straight
 from ..core.islands.uv_islands import NewIsland, boxes_of, in_rows, place, split_edges, uv_areas
 from . import edit_mesh, uv_map

@@ -15,9 +15,9 @@ from ..core.drawing.picture import LIVE, Role, SeedRole
 from ..core.network.picks import place_of, undirected
 from ..words import corner
 from ..words.first_steps import FIRST_LINES
-from . import legend
 from .failures import failures
 from .gpu_draw import ColoredFaces, Eye, Lines, blended, draw_dots, draw_text, set_text, text_size
+from .layers import draw_legends
 from .theme import Looks, Style, hue_colors
 
 if TYPE_CHECKING:
@@ -175,7 +175,7 @@ class Overlay:
         with blended("NONE"):
             lines = () if self._looks.text == "NONE" else corner.lines(picture)
             _draw_corner([*(FIRST_LINES if self._looks.text == "STEPS" else ()), *lines], room[:2], scale)
-            legend.draw([box for boxes in self._ask_layers("legends") for box in boxes or ()], room, scale)
+            draw_legends([box for boxes in self._ask_layers("legends") for box in boxes or ()], room, scale)
 
     # What there is to draw
 

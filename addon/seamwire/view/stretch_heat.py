@@ -12,8 +12,7 @@ from ..core.fields import color_maps
 from ..core.islands.stretch import Stretch
 from ..mesh import uv_map
 from . import gpu_draw
-from .layers import Layer
-from .legend import Legend
+from .layers import Layer, Legend
 from .theme import Style
 
 if TYPE_CHECKING:

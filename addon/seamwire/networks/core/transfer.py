@@ -10,9 +10,8 @@ import numpy as np
 
 from ...core.base.geometry import Moments
 from ...core.base.messages import NOTHING, Refused
-from ...core.network.mirror_images import MirrorImages
 from ...core.network.network import Network
-from ...core.network.symmetry import Symmetry
+from ...core.network.symmetry import MirrorImages, Symmetry
 from ...core.solver.solver import LiveMaker
 from .network_file import Course, NetworkFile, NetworkFileError
 from .placing import PLACED, Landmarks, NearestSurface, Placed, Progress, Shape, Similarity, tell
