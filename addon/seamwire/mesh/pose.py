@@ -84,8 +84,7 @@ class Pose:
                 self._found.clear()
             rest, corners = self._arrays.points, self._arrays.triangles
             rows, _, _ = self._tree.find(curve)
-            # The triangles are moved, so that all points are the same one.
-            weights, off = barycentric(rest[corners[rows]] - curve[:, None], np.zeros(3))
+            weights, off = barycentric(rest[corners[rows]], curve)
             weights[~np.isfinite(off)] = 1.0 / 3.0
             self._found[id(curve)] = curve, rows, weights
         return self._found[id(curve)]
