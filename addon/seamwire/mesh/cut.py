@@ -404,16 +404,7 @@ def _drawn(
 ) -> Iterator[None]:
     """Move a face's vertices to a regular polygon in the meantime, because Blender splits no face that is folded or has no area.
 
-    Parameters
-    ----------
-    face
-        The face.
-    rim
-        Its corners before its edges were split; they become the corners of the polygon.
-    between
-        The nodes of the other vertices, between some of these corners.
-    corners
-        The vertices that nodes name.
+    The corners before its edges were split, `rim`, become the corners of the polygon. The other vertices lie between some of them.
     """
     before = {vert: vert.co.copy() for vert in (*rim, *between)}
     for vert, (x, y) in zip(rim, _regular_corners(len(rim)), strict=True):

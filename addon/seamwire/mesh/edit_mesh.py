@@ -137,15 +137,8 @@ class Cage:
     ) -> tuple[int, int]:
         """Make edges seams, and others no seams, give edges other labels, and change nothing else.
 
-        Returns
-        -------
-        tuple of int
-            How many were not seams before, and how many of the others were.
-
-        Raises
-        ------
-        ValueError
-            Where two vertices have no edge between them; then nothing is changed.
+        Returns how many were not seams before, and how many of the others were. Raises ValueError where two vertices have no edge between
+        them; then nothing is changed.
         """
         # Looked up twice: a new layer makes what was found before invalid.
         for pairs in (mark := list(mark), clear := list(clear), labels):
@@ -263,17 +256,7 @@ def read(obj: bpy.types.Object) -> Arrays:
 def read_evaluated(obj: bpy.types.Object) -> tuple[Arrays, NDArray[np.bool_]]:
     """Read the mesh of an object in object mode as it is seen, with its modifiers and shape keys.
 
-    Returns
-    -------
-    Arrays
-        As `read` returns them.
-    (n,) array
-        Which vertices were selected in edit mode.
-
-    Raises
-    ------
-    NothingVisibleError
-        Where no edge is visible.
+    Also returns which vertices were selected in edit mode, (n,). Raises NothingVisibleError where no edge is visible.
     """
     evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
     mesh = evaluated.to_mesh()

@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 
 
 def auto_for(obj: bpy.types.Object, arrays: Arrays) -> Auto:
-    """Return the values that Auto stands for on a mesh object, as it was when its mesh, `arrays`, was read."""
+    """Return the values that Auto stands for on a mesh object whose mesh was read as arrays."""
     mesh = obj.data
     rigged = len(obj.vertex_groups) > 0 or mesh.shape_keys is not None
     sharp = edit_mesh.column(mesh.edges, "use_edge_sharp", np.bool_)
@@ -225,8 +225,8 @@ class ObjectSession:
     def follow_change(self, obj: bpy.types.Object) -> bool:
         """Read the object's mesh again while wires are drawn, and keep the wires.
 
-        Returns False where wires would run on it in another way, or it has left edit mode: then they can be written still, as far as
-        vertices have the numbers that they had.
+        Returns False where wires would run on it in another way, or it has left edit mode. Wires can be written still, as far as vertices
+        have the numbers that they had.
         """
         self.obj = obj
         editing = obj.mode == "EDIT"
@@ -316,24 +316,10 @@ class ObjectSession:
         )
 
     def write(self, plan: wire_labels.Plan, adopt: bool = True) -> tuple[int, int]:
-        """Mark and clear seams, and let the mesh keep the network.
+        """Mark and clear seams as planned, and let the mesh keep the network. Return how many edges were marked, and how many cleared.
 
-        Parameters
-        ----------
-        plan
-            From `plan`.
-        adopt
-            Whether the drawing ends with that: what was done before is Blender's to undo then.
-
-        Returns
-        -------
-        tuple of int
-            How many edges became seams, and how many ceased to be.
-
-        Raises
-        ------
-        ValueError
-            Where an edge is not there any more; then nothing is changed.
+        If the session is to `adopt` the network, the drawing ends with that: what was done before is Blender's to undo then. Raises
+        ValueError where an edge is not there any more; then nothing is changed.
         """
         if self._renumbered:
             raise ValueError("The mesh has other vertices now")

@@ -252,14 +252,7 @@ class Suggestion:
     def plan(self, request: PlanRequest, progress: Progress, is_enough: Callable[[], bool] = lambda: False) -> None:
         """Find wires in the chosen parts, better and better ones; any thread may.
 
-        Parameters
-        ----------
-        request
-            Requirements for the plan.
-        progress
-            As that of `measure`.
-        is_enough
-            Whether to stop, and go on with the best plan so far; the first one is waited for.
+        `progress` is that of `measure`. Once it `is_enough`, go on with the best plan so far; the first one is waited for.
         """
         # Other parts may be chosen meanwhile, which drops the planner.
         self._planner = planner = self._core.SeamPlanner(
@@ -460,12 +453,7 @@ class SeamSearch:
     def plan(self, progress: Progress, is_enough: Callable[[], bool] = lambda: False) -> None:
         """Plan wires in the chosen parts of all meshes; any thread may.
 
-        Parameters
-        ----------
-        progress
-            As that of `measure`.
-        is_enough
-            Whether to go on with the best plans so far; the first plan of each mesh is waited for.
+        `progress` is that of `measure`. Once it `is_enough`, go on with the best plans so far; the first plan of each mesh is waited for.
         """
         request = PlanRequest(energy_of(0.01 * self._options.stretch), self._options.islands)
         for suggestion, share in self._shares(progress):

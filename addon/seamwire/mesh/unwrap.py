@@ -178,8 +178,8 @@ class _Map:
         """Flatten islands: without flips, and without overlaps where possible. Raises ValueError if a coordinate is not a number.
 
         `start`, (m, 3, 2), is a map to start from, in lengths on the model, where it is continuous; None: the present one. Returns the
-        corners of the islands, ascending, their UVs in lengths on the model, and the island of each, numbered from 0; a new one where
-        the seams do not part what is no surface.
+        corners of the islands, ascending, their UVs in lengths on the model, and the number of the island of each. An island has several
+        numbers where the seams do not part what is no surface.
         """
         drawn = self._triangles[np.isin(self._labels, islands)]
         corners = self._straight.to_map(self._arrays.in_object, self.corners, drawn)

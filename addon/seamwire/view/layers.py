@@ -99,16 +99,9 @@ class Layer:
         return False
 
     def follow(self, options: Options, source: End | None, strokes: tuple[object, ...]) -> None:
-        """Show what the settings ask for.
+        """Show what the settings ask for. `strokes` are the library's scribbles.
 
-        Parameters
-        ----------
-        options
-            The tool's settings.
-        source
-            Where distances are from: the seed of the chain, otherwise the active vertex, otherwise the last seed.
-        strokes
-            The library's scribbles.
+        Distances are from the source: the seed of the chain, otherwise the active vertex, otherwise the last seed.
         """
 
     def poll(self) -> bool:

@@ -106,13 +106,7 @@ class ShownIslands:
             self._seams_read += 1
 
     def poll(self) -> bool:
-        """Ask for the islands of a network whose cuts have changed.
-
-        Returns
-        -------
-        bool
-            Whether there are islands to be seen that no call before told of.
-        """
+        """Ask for the islands of a network whose cuts have changed. Return whether there are islands that no call before told of."""
         failures.attempt(self._part, self._ask)
         newest = self.newest
         before, self._told = self._told, None if newest is None else newest.key

@@ -315,16 +315,8 @@ class PlanPreview:
     ) -> None:
         """Draw wires over an object, and tint the islands that they make, in place of what was drawn over it.
 
-        Parameters
-        ----------
-        obj, arrays
-            The object and its mesh.
-        curves
-            The wires.
-        cuts
-            (c, 2) the edges that are seams with them.
-        squares
-            (m, 3, 2) the map of the corners of its triangles, in squares of a checker pattern. None: it is not drawn.
+        With the wires, the edges `cuts`, (c, 2), are seams. `squares`, (m, 3, 2), is the map of the corners of its triangles, in squares
+        of a checker pattern, if it is drawn.
         """
         if self._handle is None and not bpy.app.background:
             self._handle = bpy.types.SpaceView3D.draw_handler_add(self._draw, (), "WINDOW", "POST_VIEW")

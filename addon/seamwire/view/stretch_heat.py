@@ -80,21 +80,9 @@ class StretchHeat(Layer):
         return self._kind != "NONE" and self._stretch is not None and not self._missing
 
     def read(self, obj: bpy.types.Object, kind: str, anew: bool = False) -> bool:
-        """Show a kind of stretch, or none, of the active UV map of an object in edit mode.
+        """Show the stretch of the active UV map of an object in edit mode by ``ANGLE`` or ``AREA``, or none. Return whether UVs were read.
 
-        Parameters
-        ----------
-        obj
-            Whose mesh it is.
-        kind
-            ``ANGLE`` or ``AREA``; of anything else nothing is shown.
-        anew
-            Whether its UVs may be others than they were; else they are read where that was not yet done.
-
-        Returns
-        -------
-        bool
-            Whether they were read.
+        They are read `anew`, or where that was not yet done.
         """
         if kind not in _NAMES:
             kind = "NONE"

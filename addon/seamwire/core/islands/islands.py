@@ -131,17 +131,7 @@ class IslandMaker:
     def want(
         self, key: object, cuts: Iterable[tuple[int, int]] | NDArray[np.int32], meant: frozenset[int] = frozenset()
     ) -> None:
-        """Ask for the islands that cut edges make.
-
-        Parameters
-        ----------
-        key
-            How the answer is known.
-        cuts
-            The edges.
-        meant
-            Vertices where cuts end on purpose: these are no gaps.
-        """
+        """Ask for the islands that cut edges make, with a key. Where cuts end at vertices that are `meant`, there are no gaps."""
         edges = np.array(cuts if isinstance(cuts, np.ndarray) else list(cuts), dtype=np.int32).reshape(-1, 2)
         if len(self._triangles) <= AT_ONCE:
             self._maker.answer_now((key, edges, meant))

@@ -239,25 +239,10 @@ def turn_back(
     vertices: NDArray[np.int32],
     labels: NDArray[np.int32],
 ) -> tuple[NDArray[np.int64], NDArray[np.float32]]:
-    """Turn back the triangles that rounding has turned over.
+    """Turn back the triangles that rounding has turned over. Return the corners that move, (k,), and their new UVs, (k, 2).
 
-    Parameters
-    ----------
-    uvs
-        (c, 2) the UVs of the faces' corners.
-    corners
-        (t, 3) the corners of triangles.
-    vertices
-        (c,) the vertex of each corner. Corners of an island with one vertex and the same UVs move together.
-    labels
-        (t,) the island of each triangle.
-
-    Returns
-    -------
-    (k,) array
-        The corners that move.
-    (k, 2) array
-        Their new UVs.
+    The faces' corners have UVs, (c, 2), and vertices, (c,). Corners of an island with one vertex and the same UVs move together. Triangles,
+    (t, 3) corners, have the islands `labels`, (t,).
     """
     if not len(corners):
         return np.empty(0, dtype=np.int64), np.empty((0, 2), dtype=np.float32)

@@ -152,22 +152,11 @@ def boxes_of(corners: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def place(islands: Sequence[NewIsland], taken: NDArray[np.float64]) -> list[NDArray[np.float64]]:
-    """Find a place for islands among those that stay.
+    """Find a place for unwrapped islands among the triangles that stay, with the bounds `taken`, (b, 4), see `boxes_of`.
 
     Each island keeps its texel density and rotation. A straight one is turned along the axes, as near to its rotation as possible. Each is
-    placed in the nearest free space of its square, or to the right of all islands if the square is full.
-
-    Parameters
-    ----------
-    islands
-        The unwrapped islands.
-    taken
-        (b, 4) bounds of the triangles that stay, see `boxes_of`.
-
-    Returns
-    -------
-    list of (c, 2) array
-        The corners of each.
+    placed in the nearest free space of its square, or to the right of all islands if the square is full. Returns the corners of each, (c,
+    2).
     """
     ready = [_fitted(island) for island in islands]
     sizes = [float(np.prod(np.ptp(corners, axis=0))) for corners in ready]

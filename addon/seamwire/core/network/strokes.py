@@ -79,21 +79,8 @@ def drawn(
 ) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int32]]:
     """Return a stroke as a hand drew it, smoothed a little: its points, their triangles' corners and numbers.
 
-    Parameters
-    ----------
-    points
-        (n, 3), in drawing order.
-    faces
-        (n,) the triangle that each lies in.
-    mesh
-        (k, 3) vertices.
-    triangles
-        (m, 3) the mesh's triangles.
-
-    Raises
-    ------
-    OffMeshError
-        Where it has no length, or a point is not in its triangle, nor near.
+    The points, (n, 3), lie in faces of a mesh with vertices, (k, 3), and triangles, (m, 3). Raises OffMeshError where the stroke has no
+    length, or a point is not in its triangle, nor near.
     """
     path = np.array(points, dtype=np.float64).reshape(-1, 3)
     numbers = np.array(faces, dtype=np.int32).reshape(-1)
@@ -171,14 +158,7 @@ def into_triangles(places: NDArray[np.float64], triangles: NDArray[np.float64]) 
 def on_mesh(stroke: Stroke, mesh: NDArray[np.float64], triangles: NDArray[np.int32] | None) -> Stroke:
     """Return a stroke with its points in the triangles between its corners, or else at the nearest of those.
 
-    Parameters
-    ----------
-    stroke
-        Of vertices below k.
-    mesh
-        (k, 3) vertices.
-    triangles
-        (m, 3) the mesh's triangles; None: not known.
+    The mesh has vertices, (k, 3), and triangles, (m, 3), unless these are not known.
     """
     corners = np.sort(stroke.corners, axis=1)
     at_vertex = corners[:, 0] == corners[:, 2]

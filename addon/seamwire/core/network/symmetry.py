@@ -445,15 +445,7 @@ class MirrorImages:
         return self._symmetry.images(wire, wire.mirror if kept else network.mirror, curves)
 
     def complete(self, network: Network, seams: ArrayLike | None = None) -> Network:
-        """Return a network whose wires all know the edges of their images.
-
-        Parameters
-        ----------
-        network
-            Some of its wires may not know them.
-        seams
-            (k, 2) the only edges that images found now may have; None: any of the mesh.
-        """
+        """Return a network whose wires all know the edges of their images. If seams are given, (k, 2), images found now have only these."""
         if all(wire.images is not None for wire in network.wires):
             return network
         among = None

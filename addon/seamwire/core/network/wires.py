@@ -189,21 +189,10 @@ def distinct(ways: Iterable[Wire | None]) -> tuple[Wire, ...]:
 
 
 def split(wire: Wire, pick: Pick, points: NDArray[np.float64]) -> tuple[Wire, Wire] | None:
-    """Cut a wire in two where a seed is put into it.
+    """Cut a wire in two where a seed is put into it. A loop is cut open twice, at the pick and opposite to it.
 
-    Parameters
-    ----------
-    wire
-        Any wire. A loop is cut open twice, at the pick and opposite to it.
-    pick
-        One of its vertices or edges; across the surface a vertex of the edges that it marks.
-    points
-        (n, 3) vertices of the mesh.
-
-    Returns
-    -------
-    tuple of Wire or None
-        Both parts in order, the first with the wire's number; None where the pick is not on the wire, or at its end.
+    The pick is one of its vertices or edges; across the surface a vertex of the edges that it marks. Points are the mesh's vertices, (n,
+    3). Returns both parts in order, the first with the wire's number; None where the pick is not on the wire, or at its end.
     """
     if wire.closed:
         return _split_loop(wire, pick, points)

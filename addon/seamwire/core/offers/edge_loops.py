@@ -207,19 +207,8 @@ class LoopOffers(Offers):
     def find(self, pick: Pick, network: Network, kept: Wire | None = None) -> tuple[Wire, ...]:
         """Return what a click on an edge may take; nothing, too, while it is computed, see `final`.
 
-        Parameters
-        ----------
-        pick
-            The edge; a vertex has no offers.
-        network
-            The wires that there are.
-        kept
-            The one of them that such a click took, which comes first then; None: the newest one that did.
-
-        Raises
-        ------
-        ValueError
-            Where the edge is not part of the surface.
+        A vertex has no offers. The wire of the network that such a click took, `kept` or else the newest one, comes first. Raises
+        ValueError where the edge is not part of the surface.
         """
         self.final = True
         if not isinstance(pick, tuple):
@@ -459,17 +448,8 @@ def others(kept: Wire, offers: tuple[Wire, ...]) -> tuple[Wire, ...]:
 def corners(live: LiveWire, loop: Sequence[int], points: NDArray[np.float64]) -> int:
     """Count the vertices where a closed chain turns off by 60 degrees or more, though straight ways go on there.
 
-    From neither side does the straight way follow the chain at such a vertex. Where both lead into the same third edge,
-    three edges meet, and no way is straight.
-
-    Parameters
-    ----------
-    live
-        Of the way along edges.
-    loop
-        The vertices of the chain, the first one not repeated.
-    points
-        (n, 3) vertices of the mesh.
+    From neither side does the straight way follow the chain at such a vertex. Where both lead into the same third edge, three edges meet,
+    and no way is straight. `live` runs along edges. The first vertex of the loop is not repeated. Points are the mesh's vertices, (n, 3).
     """
     forth = _straight_on(live, loop)
     ahead = np.roll(loop, -1)

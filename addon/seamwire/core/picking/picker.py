@@ -121,17 +121,7 @@ class DrawnPicker:
 
 
 def stroke_at(strokes: Sequence[Stroke], sight: Sight, surface: VisibleSurface) -> Stroke | None:
-    """Return the stroke nearest to the cursor. Of equally near strokes, it is the newest.
-
-    Parameters
-    ----------
-    strokes
-        Oldest first.
-    sight
-        The cursor, and the object under it.
-    surface
-        The mesh that hides strokes.
-    """
+    """Return the stroke nearest to the cursor that the surface does not hide; of equally near strokes, given oldest first, the newest."""
     best: tuple[float, Stroke | None] = (STROKE_REACH * sight.scale, None)
     for stroke in strokes:
         places = surface.curve_in_object(stroke.points)

@@ -256,18 +256,10 @@ def edits_of_text(text: str) -> dict[str, PartEdits]:
 def turned(
     amount: float, notches: int, count: Callable[[float], int], may_go_on: Callable[[], bool] = lambda: True
 ) -> float:
-    """Return the amount of parts after a turn of the wheel by one notch. It stays if the number of parts cannot change that way.
+    """Return the amount of parts, 0 to 1, after a turn of the wheel by one notch: 1 for more parts, -1 for fewer.
 
-    Parameters
-    ----------
-    amount
-        From 0 to 1.
-    notches
-        1 for more parts, -1 for fewer.
-    count
-        Returns the number of parts for an amount.
-    may_go_on
-        Whether to look further for another number of parts. Otherwise the wheel stops at the amount that was looked at last.
+    It stays if the number of parts, which `count` tells for an amount, cannot change that way. If it `may_go_on` no longer, the wheel
+    stops at the amount that was looked at last.
     """
     before = count(amount)
     place = round(amount / STEP, 6)
@@ -282,15 +274,7 @@ def turned(
 
 
 def border_wires(borders: list[NDArray[np.int32]], points: NDArray[np.float64]) -> list[Wire]:
-    """Return the borders of parts as wires.
-
-    Parameters
-    ----------
-    borders
-        Chains of vertices. A closed chain ends with its first vertex.
-    points
-        (n, 3) vertices of the mesh.
-    """
+    """Return the borders of parts, chains of vertices, as wires. A closed chain ends with its first vertex. Points are (n, 3)."""
     wires = []
     for chain in borders:
         vertices = chain.tolist()

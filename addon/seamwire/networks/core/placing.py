@@ -247,16 +247,10 @@ class NearestSurface:
     def nearest(
         self, places: NDArray[np.float64], normals: NDArray[np.float64] | None = None, part: int | None = None
     ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
-        """Return the triangle that is nearest to each place, its point there, and how far away that is; (k,), (k, 3), (k,).
+        """Return the triangle that is nearest to each place, (k, 3), its point there, and how far away that is; (k,), (k, 3), (k,).
 
-        Parameters
-        ----------
-        places
-            (k, 3) in object coordinates.
-        normals
-            (k, 3) triangles that face away from these do not count, unless all do: thin cloth has two sides.
-        part
-            The only one of the parts that counts; None: all.
+        Triangles that face away from normals, (k, 3), do not count, unless all do: thin cloth has two sides. If a part is given, only that
+        counts.
         """
         if part not in self._trees:
             rows = np.arange(len(self._shape.triangles)) if part is None else np.flatnonzero(self.parts == part)
@@ -325,21 +319,9 @@ class NearestSurface:
         spacing: NDArray[np.float64] | float = 0.0,
         part: int | None = None,
     ) -> Placed:
-        """Place points that lie near.
+        """Place points, (k, 3) in object coordinates, that lie near. `spacing`, (k,), tells how long the edges were that they came from.
 
-        Parameters
-        ----------
-        points, normals
-            (k, 3) in object coordinates.
-        spacing
-            (k,) how long the edges are there that they came from.
-        part
-            As `nearest` takes it.
-
-        Returns
-        -------
-        Placed
-            How far the surface is, in edges, and whether it faces the same way, say how sure each is.
+        How far the surface is, in edges, and whether it faces the same way, say how sure each is. `part` is that of `nearest`.
         """
         triangles, found, gaps = self.nearest(points, normals, part)
         edges = np.maximum(self._shape.spacing[self._shape.triangles[triangles]].mean(axis=1), spacing)
@@ -349,16 +331,9 @@ class NearestSurface:
         return Placed(triangles, found, near * np.where(known, np.clip(0.3 + 1.4 * agree, 0.0, 1.0), 1.0))
 
     def vertex(self, triangle: int, place: NDArray[np.float64], crease: float) -> int:
-        """Return the vertex that stands for a place in a triangle: the nearest one, or a crease beside it for what was on one.
+        """Return the vertex that stands for a place, (3,), in a triangle: the nearest one, or a crease beside it for what was on one.
 
-        Parameters
-        ----------
-        triangle
-            Its number.
-        place
-            (3,) in object coordinates.
-        crease
-            How sharp the surface was there that it came from, in degrees.
+        `crease` tells how sharp the surface was there that it came from, in degrees.
         """
         shape = self._shape
         corners = shape.triangles[triangle].tolist()

@@ -59,15 +59,7 @@ class Repeats:
         self._look_around(len(points), triangles)
 
     def of(self, wires: Iterable[Wire], points: NDArray[np.float64]) -> list[list[Wire]]:
-        """Return for each repeat of some wires its wires.
-
-        Parameters
-        ----------
-        wires
-            Connected wires along edges. Edges that the walk does not reach are ignored.
-        points
-            (n, 3) vertices of the mesh, for the curves.
-        """
+        """Return for each repeat of connected wires along edges its wires. Edges that the walk does not reach are ignored."""
         wires = list(wires)
         return [
             [_moved(wire, to, points) for wire in wires if set(wire.vertices) <= to.keys()]
