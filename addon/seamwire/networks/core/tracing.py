@@ -195,8 +195,8 @@ class Tracing:
     ) -> Transfer:
         """Draw all wires.
 
-        `place` and `place_stroke` return where the vertices of a course and the points of a stroke are on the target. `place_on` returns where
-        a course is on one part of it, unless all of it counts.
+        `place` and `place_stroke` return where the vertices of a course and the points of a stroke are on the target. `place_on` returns
+        where a course is on one part of it, unless all of it counts.
         """
         result = self._result
         for number, record in enumerate(self._file.strokes, start=1):
