@@ -40,7 +40,6 @@ _PARTS = (
     "view.handlers",
     "operators.hover",
     "ui.keymap",
-    "ui.properties",
     "ui.toolbar",
     "ui.status_bar",
     "ui.menus",

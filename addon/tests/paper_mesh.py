@@ -12,7 +12,7 @@ from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Network
 from seamwire.core.network.picks import Edge
 from seamwire.core.network.strokes import on_mesh
-from seamwire.core.storage import label_reader, wire_labels
+from seamwire.core.storage import wire_labels
 from seamwire.core.storage.serialization import Archive, Places
 from seamwire.core.storage.wire_labels import EdgeLabels, Found, Plan
 
@@ -91,7 +91,7 @@ class PaperMesh:
         """Return what the labels tell of; without an archive, what a Blender that was just started finds."""
         archive = Archive() if archive is None else archive
         archive.merge(Archive.parse(self.text))
-        return label_reader.read(self.marks(), archive, self.where)
+        return wire_labels.read(self.marks(), archive, self.where)
 
     def plain_seams(self) -> set[Edge]:
         """Return the visible seams without a wire."""

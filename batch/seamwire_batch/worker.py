@@ -341,15 +341,16 @@ class Run:
             with _editing(obj):
                 arrays = edit_mesh.read(obj)
                 labels = labels_of(arrays)
-                stretch = stretch_of(obj, arrays, labels)
+                stretch = stretch_of(obj, arrays)
             seams += len(arrays.seams)
             faces += len(obj.data.polygons)
             islands += int(labels.max(initial=-1)) + 1
             if stretch is not None:
-                angles.append(stretch.angle)
-                areas.append(stretch.area)
-                weights.append(stretch.areas)
-                worst = max(worst, float(np.maximum(stretch.angle, stretch.area).max()))
+                (angle, weight), (area, _) = (stretch.islands(labels, kind) for kind in ("ANGLE", "AREA"))
+                angles.append(angle)
+                areas.append(area)
+                weights.append(weight)
+                worst = max(worst, float(np.maximum(angle, area).max()))
         mean = [0.0, 0.0]
         if weights and np.concatenate(weights).sum() > 0.0:
             mean = [float(np.average(np.concatenate(one), weights=np.concatenate(weights))) for one in (angles, areas)]

@@ -14,7 +14,7 @@ from scene import add_grid, chain, edit, seams
 from seamwire.mesh.settings import preferences, settings
 from seamwire.operators import draw as operator
 from seamwire.ui import menus
-from seamwire.ui.properties import along_of
+from seamwire.ui.toolbar import along_of
 from seamwire.view import overlay
 from seamwire.view.edited_objects import edited
 

@@ -21,7 +21,7 @@ from ..core.network.strokes import on_mesh
 from ..core.offers.surface_loops import CutMemory
 from ..core.seams import placed_edges
 from ..core.solver.solver import LiveMaker
-from ..core.storage import label_reader, serialization, wire_labels
+from ..core.storage import serialization, wire_labels
 from ..core.storage.serialization import Archive, Places, UnreadableError
 from ..core.storage.wire_labels import EdgeLabels, Found
 from ..terms.options import Options
@@ -248,7 +248,7 @@ class ObjectSession:
         """Go on with the network that labels tell of."""
         self._learn(labels)
         self._labels = labels
-        self._found = Found() if self._newer else label_reader.read(labels, self._archive, self.places)
+        self._found = Found() if self._newer else wire_labels.read(labels, self._archive, self.places)
         network = self._found.network
         strokes = tuple(on_mesh(one, self.arrays.points, self.arrays.triangles) for one in network.strokes)
         self._set_seams(self.arrays.seams, labels)

@@ -160,12 +160,9 @@ def worst_island(obj: bpy.types.Object, kind: str) -> Worst | None:
     """
     arrays = read(obj)
     labels = labels_of(arrays)
-    corners, uvs = uv_map.read(obj)
-    if uvs is None:
+    stretch = stretch_of(obj, arrays)
+    if stretch is None:
         return None
-    # As Blender unwraps it: without the object's scale.
-    stretch = Stretch(arrays.in_object, arrays.triangles, arrays.polygons, corners.of_triangles(arrays))
-    stretch.update(uvs)
     values, _ = stretch.islands(labels, kind)
     number = int(values.argmax())
     rows = labels == number
@@ -182,3 +179,16 @@ def mapped(obj: bpy.types.Object) -> MappedSurface | None:
         return None
     own = uvs[corners.of_triangles(arrays)]
     return MappedSurface(arrays.in_object, arrays.triangles, arrays.polygons, labels_of(arrays), own, arrays.edges)
+
+
+def stretch_of(obj: bpy.types.Object, arrays: Arrays) -> Stretch | None:
+    """Return how much the active UV map of an edit mesh stretches faces; None: there is no UV map, or no visible face.
+
+    As Blender unwraps it: without the object's scale.
+    """
+    corners, uvs = uv_map.read(obj)
+    if uvs is None or not len(arrays.triangles):
+        return None
+    stretch = Stretch(arrays.in_object, arrays.triangles, arrays.polygons, corners.of_triangles(arrays))
+    stretch.update(uvs)
+    return stretch

@@ -12,7 +12,7 @@ from ..operators.bindings import HELP_PANEL
 from ..operators.store_islands import ISLAND_ITEMS
 from ..terms.options import SETTINGS
 from ..words.first_steps import STEPS, guide
-from .properties import VIEWS
+from .toolbar import VIEWS
 
 MENUS = ("VIEW3D_MT_edit_mesh_edges", "VIEW3D_MT_uv_map", "IMAGE_MT_uvs")
 """Blender's menus that have the submenu."""

@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..mesh import settings as chosen
+from ..mesh.registration import Timer
 from ..mesh.settings import redraw_views
 from .failures import failures
 from .object_view import ObjectView, in_bounds, let_blender_tell
-from .timer import Timer
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

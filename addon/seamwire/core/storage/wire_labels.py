@@ -7,24 +7,28 @@ where its number stands on a whole chain of edges that are all seams.
 
 from __future__ import annotations
 
+import itertools
 from collections import defaultdict
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..base.components import groups
 from ..network.network import Network
 from ..network.picks import undirected
+from ..network.wires import LOOP_KINDS
 from . import serialization
-from .serialization import WAS_SEAM, Archive, Places
+from .serialization import WAS_SEAM, Archive, Places, Record
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from numpy.typing import NDArray
 
-    from ..network.picks import Edge
+    from ..network.picks import Edge, End, Pick
     from ..network.strokes import Stroke
     from ..network.wires import Wire
 
@@ -233,3 +237,271 @@ def seams_beside(
     count = int(max(np.max(seams), np.max(wired))) + 1
     keys = np.sort(seams.astype(np.int64), axis=1) @ (count, 1)
     return seams[~np.isin(keys, np.array(wired, dtype=np.int64) @ (count, 1))]
+
+
+def read(marks: EdgeLabels, archive: Archive, places: Places) -> Found:
+    """Return what labels tell of."""
+    if not len(marks.labels):
+        return Found()
+    rows_of: dict[int, list[int]] = {}
+    expanded = {label: archive.members(label) for label in np.unique(marks.labels).tolist()}
+    unknown = sum(not archive.knows(label) for label in expanded)
+    for row, label in enumerate(marks.labels.tolist()):
+        for member in expanded[label]:
+            rows_of.setdefault(member, []).append(row)
+    edges = marks.edges
+    seams = {edge for edge, seam in zip(edges, marks.seams.tolist(), strict=True) if seam}
+    hidden = {edge for edge, hides in zip(edges, marks.hidden.tolist(), strict=True) if hides}
+    pieces: list[_Piece] = []
+    known: set[Claim] = set()
+    broken: set[Claim] = set()
+    for number in sorted({abs(number) for number in rows_of} & archive.wires.keys()):
+        own = sorted(edges[row] for row in rows_of.get(number, []))
+        parts = [[own[row] for row in group] for group in groups(own)]
+        images = sorted(edges[row] for row in rows_of.get(-number, []))
+        for part, share in zip(parts or [[]], _shares(images, len(parts)), strict=True):
+            if not hidden.isdisjoint(part):
+                continue  # nothing is known of it until it is shown again
+            chain = _chain(part, archive.wires[number], places) if seams.issuperset(part) else None
+            claims = [*((edge, number) for edge in part), *((edge, -number) for edge in share)]
+            (broken if chain is None else known).update(claims)
+            if chain is not None:
+                there = tuple(edge for edge in share if edge in seams)
+                pieces.append(_Piece(number, archive.wires[number], chain, there))
+    strokes = []
+    # Where strokes cross, the later one counts.
+    for number in sorted(archive.strokes.keys() & rows_of.keys(), key=lambda one: (_order(archive.strokes[one]), one)):
+        begins = [edges[row] for row in rows_of[number]]
+        stroke = serialization.stored_stroke(archive.strokes[number], places, begins)
+        known.update((edge, number) for edge in begins)
+        if stroke is not None:
+            strokes.append(stroke)
+    wires = _Wires(pieces, set(edges), places).all()
+    return Found(Network(wires, strokes=tuple(strokes)), frozenset(known), frozenset(broken), unknown)
+
+
+def _order(record: Record) -> int:
+    order = record.get("order")
+    return order if type(order) is int else 0
+
+
+def _shares(images: list[Edge], count: int) -> list[list[Edge]]:
+    """Return which edges of images belong to each of a wire's copies.
+
+    Copies have larger vertices than what they were made of, hence come in its order.
+    """
+    if count < 2 or len(images) % count:
+        return [images, *([] for _ in range(count - 1))]
+    size = len(images) // count
+    return [images[one * size : (one + 1) * size] for one in range(count)]
+
+
+@dataclass(frozen=True)
+class _Piece:
+    """A chain of edges that a wire's number stands on."""
+
+    number: int
+    record: Record
+    vertices: tuple[int, ...]
+    images: tuple[Edge, ...]
+
+    @property
+    def unchanged(self) -> bool:
+        """Whether it has as many edges as the wire had: else it was subdivided."""
+        return len(self.vertices) == len(self.record["vertices"])
+
+    @cached_property
+    def numbers(self) -> dict[int, int]:
+        """The numbers that its stored vertices have now."""
+        stored = self.record["vertices"]
+        if self.unchanged:
+            return dict(zip(stored, self.vertices, strict=True))
+        return {} if self.record["closed"] else {stored[0]: self.vertices[0], stored[-1]: self.vertices[-1]}
+
+
+def _chain(part: list[Edge], record: Record, places: Places) -> tuple[int, ...] | None:
+    """Return the chain that a wire runs along now, by connected edges that its number stands on; None: it is broken."""
+    stored = [int(vertex) for vertex in record["vertices"]]
+    around = stored + stored[:1] if record["closed"] else stored
+    before = {undirected(pair) for pair in itertools.pairwise(around)}
+    if before == set(part):
+        return tuple(stored)
+    if len(part) < len(before):
+        return None
+    trail = _trail(part, around[0] == around[-1])
+    if trail is None:
+        return None
+    return _directed(trail[:-1] if record["closed"] else trail, record, places)
+
+
+def _trail(edges: list[Edge], closed: bool) -> list[int] | None:
+    """Return the vertices along all of some edges, each run along once; None: they are no such trail.
+
+    Where it touches itself there are several: any of them marks the same edges.
+    """
+    around: dict[int, list[Edge]] = {}
+    for edge in edges:
+        for vertex in edge:
+            around.setdefault(vertex, []).append(edge)
+    odd = [vertex for vertex, meeting in around.items() if len(meeting) % 2]
+    if len(odd) != (0 if closed else 2):
+        return None
+    # Hierholzer's way, with the side trips put in where they leave.
+    stack, trail = [min(odd) if odd else min(around)], []
+    left = {vertex: sorted(meeting, reverse=True) for vertex, meeting in around.items()}
+    used: set[Edge] = set()
+    while stack:
+        vertex = stack[-1]
+        while left[vertex] and left[vertex][-1] in used:
+            left[vertex].pop()
+        if left[vertex]:
+            edge = left[vertex].pop()
+            used.add(edge)
+            stack.append(edge[0] if edge[1] == vertex else edge[1])
+        else:
+            trail.append(stack.pop())
+    return trail
+
+
+def _directed(trail: list[int], record: Record, where: Places) -> tuple[int, ...]:
+    """Return a trail in the direction of the stored wire, and a loop from where that begins.
+
+    If its ends have not moved, they decide. Otherwise the order of the vertex numbers decides, because deleting, copying and joining keep
+    it. Otherwise positions decide.
+    """
+    places = where.in_object
+    first, second = np.array(record["ends"], dtype=np.float64)
+    by_place = _as_placed(trail, bool(record["closed"]), first, second, places)
+    ends = places[[by_place[0], by_place[1] if record["closed"] else by_place[-1]]]
+    if np.abs(ends - (first, second)).max() <= where.tolerance:
+        return tuple(by_place)
+    ranks = _ranks(record["vertices"])
+    for way in (trail, trail[::-1]) if len(ranks) == len(trail) else ():
+        begin = way.index(min(way)) - int(np.argmin(ranks)) if record["closed"] else 0
+        around = way[begin:] + way[:begin]
+        if np.array_equal(_ranks(around), ranks):
+            return tuple(around)
+    return tuple(by_place)
+
+
+def _ranks(vertices: Iterable[int]) -> NDArray[np.int64]:
+    """Return which of the vertices each is when they are sorted."""
+    return np.unique(np.array(list(vertices)), return_inverse=True)[1]
+
+
+def _as_placed(
+    trail: list[int], closed: bool, first: NDArray[np.float64], second: NDArray[np.float64], places: NDArray[np.float64]
+) -> list[int]:
+    """Return a trail in the direction that the places of its ends, or of the first two vertices of a loop, speak for."""
+    if closed:
+        begin = int(np.argmin(np.linalg.norm(places[trail] - first, axis=1)))
+        trail = trail[begin:] + trail[:begin]
+        back = np.linalg.norm(places[[trail[1], trail[-1]]] - second, axis=1)
+        return trail if back[0] <= back[1] else [trail[0], *trail[:0:-1]]
+    # A part that moved as a whole is rotated back, and its center does not count.
+    ends = places[[trail[0], trail[-1]]]
+    shift = ends.mean(axis=0) - 0.5 * (first + second)
+    forth = np.linalg.norm(ends[0] - shift - first) + np.linalg.norm(ends[1] - shift - second)
+    back = np.linalg.norm(ends[1] - shift - first) + np.linalg.norm(ends[0] - shift - second)
+    return trail if forth <= back else trail[::-1]
+
+
+class _Wires:
+    """Wires made of pieces; their seeds are found among all of them, for a wire may begin on the last edge of another."""
+
+    def __init__(self, pieces: list[_Piece], edges: set[Edge], places: Places) -> None:
+        self._pieces, self._edges, self._places = pieces, edges, places
+        self._beside: dict[int, list[int]] = {}
+        """The pieces with each vertex, by their places in the list."""
+        for row, piece in enumerate(pieces):
+            for vertex in set(piece.vertices):
+                self._beside.setdefault(vertex, []).append(row)
+
+    def all(self) -> tuple[Wire, ...]:
+        wires = [self._wire(piece) for piece in self._pieces]
+        wires = [self._with_shared_seeds(row, wires) for row in range(len(wires))]
+        return tuple(
+            replace(wire, heading=self._heading(row, wires)) if self._pieces[row].record["heading"] else wire
+            for row, wire in enumerate(wires)
+        )
+
+    def _wire(self, piece: _Piece) -> Wire:
+        wire = serialization.wire_of(piece.record, self._places, piece.vertices)
+        through = self._through(piece)
+        start, end = self._pick(piece, "start", wire.vertices[0]), self._pick(piece, "end", wire.vertices[-1])
+        if wire.closed:
+            start, end = (through, through) if through else (start, self._pick(piece, "end", wire.vertices[0]))
+        return replace(
+            wire,
+            start=start,
+            end=end,
+            heading=None,
+            images=piece.images,
+            kind=None if through is None else wire.kind,
+            through=through,
+            # A copy of a wire, or one whose vertices have other numbers now, is still that of its record.
+            stored=piece.number if piece.unchanged else 0,
+        )
+
+    def _through(self, piece: _Piece) -> Edge | None:
+        if piece.record.get("kind") not in LOOP_KINDS or not piece.unchanged:
+            return None
+        return undirected(self._edge_now(piece, serialization.pick_of(piece.record["through"])))
+
+    def _edge_now(self, piece: _Piece, stored: Edge) -> Edge | None:
+        """Return a stored edge by the numbers of one piece, or None if it has no label."""
+        one, two = map(piece.numbers.get, stored)
+        return None if one is None or two is None or undirected((one, two)) not in self._edges else (one, two)
+
+    def _pick(self, piece: _Piece, name: End, end: int) -> Pick:
+        """Return the seed at one end of a piece; the vertex where it ends, if the seed cannot be found."""
+        stored = serialization.pick_of(piece.record[name])
+        if not isinstance(stored, tuple):
+            return piece.numbers.get(stored, end)
+        if tuple(piece.record["vertices"]) == piece.vertices and end in stored and undirected(stored) in self._edges:
+            return stored
+        found = self._edge_now(piece, stored)
+        if found is not None and end in found:
+            return found
+        if not piece.unchanged and not piece.record["closed"]:
+            at = slice(2) if name == "start" else slice(-2, None)
+            if undirected(stored) == undirected(tuple(piece.record["vertices"][at])):
+                return piece.vertices[at]
+        return end
+
+    def _with_shared_seeds(self, row: int, wires: list[Wire]) -> Wire:
+        """Return a wire with the seeds that others have at its ends, where it had the same and did not find them.
+
+        An edge where two wires meet lies on one of them, and the records of both may be of different times.
+        """
+        wire, record = wires[row], self._pieces[row].record
+        names: tuple[End, End] = ("start", "end")
+        for name in names:
+            vertex, stored = getattr(wire, name), serialization.pick_of(record[name])
+            if isinstance(vertex, tuple) or not isinstance(stored, tuple):
+                continue
+            for other in self._beside.get(vertex, []):
+                for end in names:
+                    seed = getattr(wires[other], end)
+                    before = serialization.pick_of(self._pieces[other].record[end])
+                    goes_on = (name, end) == ("start", "end") and record["heading"]
+                    if (
+                        isinstance(seed, tuple)
+                        and vertex in seed
+                        and (undirected(before) == undirected(stored) or goes_on)
+                    ):
+                        wire = replace(wire, **{name: seed})
+        return wire
+
+    def _heading(self, row: int, wires: list[Wire]) -> Edge | None:
+        """Return the last edge of the wire that one goes on from: of several, that which its record tells of."""
+        wire, stored = wires[row], serialization.pick_of(self._pieces[row].record["heading"])
+        found = [
+            (tuple(self._pieces[other].record["vertices"][-2:]) != stored, wires[other].last_edge)
+            for other in self._beside.get(wire.vertices[0], [])
+            if other != row
+            and not wires[other].closed
+            and undirected(wires[other].end) == undirected(wire.start)
+            and wires[other].vertices[-1] == wire.vertices[0]
+        ]
+        return min(found)[1] if found else None

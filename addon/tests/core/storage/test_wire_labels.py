@@ -13,7 +13,7 @@ from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Network, Snap
 from seamwire.core.network.picks import Edge
 from seamwire.core.network.wires import Wire
-from seamwire.core.storage import label_reader, wire_labels
+from seamwire.core.storage import wire_labels
 from seamwire.core.storage.serialization import WAS_SEAM, Archive, NewerError
 from setting import use
 from table import SIZE, Table, chain, courses, paper
@@ -376,7 +376,7 @@ def test_a_newer_text_leaves_everything_as_it_is() -> None:
     mesh.text = "seamwire 2 something else"
     with pytest.raises(NewerError):
         mesh.read()
-    nothing = label_reader.read(mesh.marks(), Archive(), mesh.where)
+    nothing = wire_labels.read(mesh.marks(), Archive(), mesh.where)
     assert (nothing.network.wires, nothing.unknown) == ((), 1)
     mesh.archive, mesh.found = Archive(), nothing
     before = mesh.snapshot()
@@ -716,6 +716,6 @@ def test_a_thousand_wires_are_read_and_planned() -> None:
     network = Network(tuple(edge_wire(mesh, *row) for row in rows))
     mesh.write(network)
     marks, archive, where = mesh.marks(), Archive.parse(mesh.text), mesh.where
-    now = label_reader.read(marks, archive, where)
+    now = wire_labels.read(marks, archive, where)
     wire_labels.plan(now.network, marks, now, archive, where, mesh.seams.__contains__, mesh.visible)
     assert len(now.network.wires) == 1000
