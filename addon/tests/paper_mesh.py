@@ -93,6 +93,12 @@ class PaperMesh:
         archive.merge(Archive.parse(self.text))
         return wire_labels.read(self.marks(), archive, self.where)
 
+    def unknown(self, archive: Archive | None = None) -> int:
+        """Return how many labels stand for what no record tells, of the mesh or of an archive."""
+        archive = Archive() if archive is None else archive
+        archive.merge(Archive.parse(self.text))
+        return sum(not archive.knows(label) for label in set(self.labels.values()))
+
     def plain_seams(self) -> set[Edge]:
         """Return the visible seams without a wire."""
         seams = np.array(sorted(self.seams - self.hidden), dtype=np.int32).reshape(-1, 2)

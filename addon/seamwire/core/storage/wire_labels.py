@@ -84,8 +84,6 @@ class Found:
         The claims to edges that stand for those.
     broken
         The claims of former wires, whose edges have changed.
-    unknown
-        How many labels stand for what no record tells.
 
     Notes
     -----
@@ -95,7 +93,6 @@ class Found:
     network: Network = field(default_factory=Network)
     known: frozenset[Claim] = frozenset()
     broken: frozenset[Claim] = frozenset()
-    unknown: int = 0
 
 
 @dataclass(frozen=True)
@@ -245,7 +242,6 @@ def read(marks: EdgeLabels, archive: Archive, places: Places) -> Found:
         return Found()
     rows_of: dict[int, list[int]] = {}
     expanded = {label: archive.members(label) for label in np.unique(marks.labels).tolist()}
-    unknown = sum(not archive.knows(label) for label in expanded)
     for row, label in enumerate(marks.labels.tolist()):
         for member in expanded[label]:
             rows_of.setdefault(member, []).append(row)
@@ -277,7 +273,7 @@ def read(marks: EdgeLabels, archive: Archive, places: Places) -> Found:
         if stroke is not None:
             strokes.append(stroke)
     wires = _Wires(pieces, set(edges), places).all()
-    return Found(Network(wires, strokes=tuple(strokes)), frozenset(known), frozenset(broken), unknown)
+    return Found(Network(wires, strokes=tuple(strokes)), frozenset(known), frozenset(broken))
 
 
 def _order(record: Record) -> int:

@@ -247,7 +247,7 @@ def stored() -> PaperMesh:
 def test_a_stored_text_is_read() -> None:
     mesh = stored()
     found = mesh.read()
-    assert (found.unknown, found.broken) == (0, frozenset())
+    assert (mesh.unknown(), found.broken) == (0, frozenset())
     wires = {wire.vertices: wire for wire in found.network.wires}
     assert sorted(wires) == [
         (0, 6, 7, 13, 14),

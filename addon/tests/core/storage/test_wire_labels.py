@@ -360,7 +360,7 @@ def test_unknown_labels_stay_untouched() -> None:
     mesh.labels[30, 31] = 4712
     mesh.seams.add((30, 31))
     session = opened(mesh)
-    assert mesh.found.unknown == 2
+    assert mesh.unknown() == 2
     assert session.wires == (), "its edge has lost its label"
     session.click(30)
     session.click(32)
@@ -377,7 +377,7 @@ def test_a_newer_text_leaves_everything_as_it_is() -> None:
     with pytest.raises(NewerError):
         mesh.read()
     nothing = wire_labels.read(mesh.marks(), Archive(), mesh.where)
-    assert (nothing.network.wires, nothing.unknown) == ((), 1)
+    assert nothing.network.wires == ()
     mesh.archive, mesh.found = Archive(), nothing
     before = mesh.snapshot()
     session = Table().session
@@ -452,7 +452,7 @@ def test_a_joined_meshs_wires_are_known_from_another_text() -> None:
     other, _ = drawn((12, 15))
     one.join(other)
     assert found(one) == [(0, 1, 2, 3)]
-    assert one.read().unknown == 1
+    assert one.unknown() == 1
     archive = Archive.parse(other.text)
     session = Table().session
     one.open(session, archive)
