@@ -12,7 +12,7 @@ import json
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -41,19 +41,8 @@ class NetworkFileError(Refused):
     """A file cannot be used."""
 
 
-@dataclass(frozen=True)
-class Origin:
-    """The mesh that a network was drawn on.
-
-    Parameters
-    ----------
-    name
-        How it was called.
-    vertices, edges, triangles
-        How many it had; edges and triangles that were hidden are not counted.
-    moments
-        Where its surface lies, in object coordinates.
-    """
+class Origin(NamedTuple):
+    """The mesh that a network was drawn on: its name, how many visible parts it had, and where its surface lies in object coordinates."""
 
     name: str
     vertices: int
