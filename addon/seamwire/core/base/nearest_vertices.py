@@ -24,10 +24,14 @@ class NearestVertices:
     def __init__(self, points: NDArray[np.float64]) -> None:
         rows = np.flatnonzero(_is_place(points))
         places = points[rows]
-        # Of many vertices in one place, a search would look at all.
-        _, first, number = np.unique(places @ _WEIGHTS, return_index=True, return_inverse=True)
-        others = np.flatnonzero((places != places[first[number]]).any(axis=1))
-        self._rows = rows[np.union1d(first, others)]
+        # Of many vertices in one place, a search would look at all. So only the first is kept.
+        keys = places @ _WEIGHTS
+        order = np.argsort(keys, kind="stable")
+        starts = np.diff(keys[order], prepend=np.nan) != 0.0
+        later, first = order[~starts], order[starts][np.cumsum(starts) - 1][~starts]
+        kept = np.ones(len(places), dtype=bool)
+        kept[later] = (places[later] != places[first]).any(axis=1)
+        self._rows = rows[kept]
         corners = np.repeat(np.arange(len(self._rows), dtype=np.int32)[:, None], 3, axis=1)
         self._tree = native.load().NearestPoints(points[self._rows], corners) if len(rows) else None
 
