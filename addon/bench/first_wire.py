@@ -54,7 +54,7 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
     from seamwire.core.drawing import drawing, session
     from seamwire.core.picking.camera import Camera
     from seamwire.core.picking.picker import Picker
-    from seamwire.core.solver.live_maker import LiveMaker
+    from seamwire.core.solver.solver import LiveMaker
     from seamwire.mesh import edit_mesh
     from seamwire.operators.chain import TICK
     from seamwire.terms.options import Options

@@ -107,7 +107,7 @@ _made = [0]
 
 def count_lives() -> None:
     """Count the calls that make live wires."""
-    from seamwire.core.solver.live_maker import LiveMaker
+    from seamwire.core.solver.solver import LiveMaker
 
     make = LiveMaker.__call__
 

@@ -55,7 +55,7 @@ def main() -> None:
     show("what of the mesh stays: corners and lengths", fixed)
     show("Blender's UV map read in edit mode", lambda: uv_map.read_uvs(obj))
     show("the stretch of all faces", all_anew)
-    show("its means by islands", lambda: stretch.islands(labels))
+    show("its means by islands", lambda: stretch.islands(labels, "ANGLE"))
     show("one island of fifty anew", one_island_anew)
     show("the islands that have changed are found", lambda: unwrap._Map(obj))
 

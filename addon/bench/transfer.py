@@ -103,11 +103,10 @@ def measure(path: Path) -> None:
     from seamwire.networks.carry import network_of, seam_wires, shape_of
     from seamwire.networks.core.placing import Shape
     from seamwire.networks.core.transfer import transfer
-    from seamwire.networks.core.work import result_of
 
     source, wanted = add(path)
     drawn = ObjectSession(source)
-    file = network_of(drawn, settings(), result_of(seam_wires(drawn)))
+    file = network_of(drawn, settings(), seam_wires(drawn))
     own = shape_of(drawn)
     artist = drawn.arrays.points[np.array(wanted)]
     for change in CHANGES:
@@ -122,7 +121,7 @@ def measure(path: Path) -> None:
             shape = Shape(bent(straight), shape.triangles, shape.edges)
         began = time.perf_counter()
         place = "PAIRS" if len(pairs) else "SURFACE"
-        found = result_of(transfer(file, shape, place=place, source=own, pairs=pairs))
+        found = transfer(file, shape, place=place, source=own, pairs=pairs)
         seconds = time.perf_counter() - began
         marked = found.seams
         places = shape.places

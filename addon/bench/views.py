@@ -85,10 +85,10 @@ def main(levels: int) -> None:
     chosen = part("settings").settings()
 
     def views() -> object:
-        return edited.front.overlay._layers[1]
+        return edited.front.overlay._layers[2]
 
     def is_complete() -> bool:
-        return len(edited.front.overlay._layers) > 1 and views().is_complete  # a timer adds the layer
+        return len(edited.front.overlay._layers) > 2 and views().is_complete  # a timer adds the layer
 
     for name, value in VIEWS:
         begin = time.perf_counter()

@@ -40,11 +40,8 @@ _PARTS = (
     "view.handlers",
     "operators.hover",
     "ui.keymap",
-    "ui.help",
-    "ui.properties",
     "ui.toolbar",
     "ui.status_bar",
-    "networks.network_menus",
     "ui.menus",
 )
 

@@ -20,16 +20,14 @@ from .core.base.native import load
 from .core.base.newest import Newest
 from .core.fields.color_maps import ColorMap, colors, steps
 from .core.solver.solver import kinds_of
-from .mesh.auto import auto_for
 from .mesh.edit_mesh import edit_bmesh, read, read_evaluated
+from .mesh.object_session import auto_for
 from .mesh.pose import Pose
 from .mesh.settings import settings, snapshot, tell_listeners
 from .terms.options import Options, strength_name
 from .view.edited_objects import edited
 from .view.gpu_draw import ColoredFaces, Eye, Lines, Within, blended, draw_over, whole
-from .view.layers import Layer, makers
-from .view.legend import Legend
-from .view.legend import draw as draw_legends
+from .view.layers import Layer, Legend, draw_legends, makers
 from .view.overlay import free_room
 from .view.theme import Color, Style
 

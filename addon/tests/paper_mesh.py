@@ -12,9 +12,9 @@ from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Network
 from seamwire.core.network.picks import Edge
 from seamwire.core.network.strokes import on_mesh
-from seamwire.core.storage import label_reader, wire_labels
-from seamwire.core.storage.serialization import Archive
-from seamwire.core.storage.wire_labels import EdgeLabels, Found, Places, Plan
+from seamwire.core.storage import wire_labels
+from seamwire.core.storage.serialization import Archive, Places
+from seamwire.core.storage.wire_labels import EdgeLabels, Found, Plan
 
 
 def undirected(pairs: Iterable[Sequence[int]]) -> list[Edge]:
@@ -91,7 +91,13 @@ class PaperMesh:
         """Return what the labels tell of; without an archive, what a Blender that was just started finds."""
         archive = Archive() if archive is None else archive
         archive.merge(Archive.parse(self.text))
-        return label_reader.read(self.marks(), archive, self.where)
+        return wire_labels.read(self.marks(), archive, self.where)
+
+    def unknown(self, archive: Archive | None = None) -> int:
+        """Return how many labels stand for what no record tells, of the mesh or of an archive."""
+        archive = Archive() if archive is None else archive
+        archive.merge(Archive.parse(self.text))
+        return sum(not archive.knows(label) for label in set(self.labels.values()))
 
     def plain_seams(self) -> set[Edge]:
         """Return the visible seams without a wire."""

@@ -145,7 +145,7 @@ def test_nothing_of_the_drawing_tool_imports_networks() -> None:
         for node in strings(ast.parse(path.read_text(encoding="utf-8")))
         if re.fullmatch(r"\.?networks(\.\w+)*", node.value)
     ]
-    assert named == ["networks.network_operators", "networks.network_menus"], "the parts that the add-on registers"
+    assert named == ["networks.network_operators"], "the part that the add-on registers"
 
 
 def test_the_core_has_rooms_only() -> None:

@@ -260,14 +260,13 @@ class Run:
             return
         from seamwire.mesh.object_session import ObjectSession
         from seamwire.networks.carry import carry_over, write
-        from seamwire.networks.core.work import result_of
 
         from seamwire_batch.assets import AssetError
 
         mesh = ObjectSession(obj)
         self.warnings.extend(f"{obj.name}: {notice.text}" for notice in mesh.notices.take())
         options = {name: self._job[name] for name in ("place", "mirror", "align")}
-        found = result_of(carry_over(mesh, self._source(obj), pairs=self._job["pairs"], **options))
+        found = carry_over(mesh, self._source(obj), pairs=self._job["pairs"], **options)()
         self.warnings += [f"{obj.name}: {problem}" for problem in found.problems]
         if not found.wires:
             raise AssetError(f"{obj.name}: no wire has a place on this mesh")
@@ -342,15 +341,16 @@ class Run:
             with _editing(obj):
                 arrays = edit_mesh.read(obj)
                 labels = labels_of(arrays)
-                stretch = stretch_of(obj, arrays, labels)
+                stretch = stretch_of(obj, arrays)
             seams += len(arrays.seams)
             faces += len(obj.data.polygons)
             islands += int(labels.max(initial=-1)) + 1
             if stretch is not None:
-                angles.append(stretch.angle)
-                areas.append(stretch.area)
-                weights.append(stretch.areas)
-                worst = max(worst, float(np.maximum(stretch.angle, stretch.area).max()))
+                (angle, weight), (area, _) = (stretch.islands(labels, kind) for kind in ("ANGLE", "AREA"))
+                angles.append(angle)
+                areas.append(area)
+                weights.append(weight)
+                worst = max(worst, float(np.maximum(angle, area).max()))
         mean = [0.0, 0.0]
         if weights and np.concatenate(weights).sum() > 0.0:
             mean = [float(np.average(np.concatenate(one), weights=np.concatenate(weights))) for one in (angles, areas)]
@@ -412,9 +412,8 @@ def _network_of(mesh: ObjectSession) -> NetworkFile:
     """Return the wires of an object, and wires along its other seams."""
     from seamwire.mesh.settings import settings
     from seamwire.networks.carry import network_of, seam_wires
-    from seamwire.networks.core.work import result_of
 
-    return network_of(mesh, settings(), result_of(seam_wires(mesh)))
+    return network_of(mesh, settings(), seam_wires(mesh))
 
 
 def _plain(name: str) -> str:

@@ -74,6 +74,6 @@ def test_marks_are_counted(
     for mark in marks:
         mark(scan)
     found = []
-    monkeypatch.setattr(placed_edges, "auto_for", lambda *arguments: found.append(arguments[-1]))
+    monkeypatch.setattr(placed_edges, "auto_for", lambda *arguments: found.append(arguments[-2:]))
     auto(scan)
-    assert found == [placed_edges.OtherSigns(rigged=False, marks=len(marks))]
+    assert found == [(False, len(marks))]

@@ -7,7 +7,7 @@ import bpy
 import pytest
 from seamwire.mesh.settings import preferences
 from seamwire.operators import navigation
-from seamwire.ui import help as panel
+from seamwire.ui import menus as panel
 from seamwire.words import first_steps as words
 from seamwire.words.keys import Action, Bindings
 

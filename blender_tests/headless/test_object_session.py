@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from mathutils import Matrix
 from scene import add_grid, add_layers, chain, edit, mark_wires, seams, snapshot
-from seamwire.core.solver.live_maker import LiveMaker
+from seamwire.core.solver.solver import LiveMaker
 from seamwire.mesh import edit_mesh
 from seamwire.mesh.object_session import ObjectSession
 from seamwire.mesh.settings import settings

@@ -8,7 +8,7 @@ import pytest
 from scene import add_grid, edit
 from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.session import Session
-from seamwire.core.solver.live_maker import LiveMaker
+from seamwire.core.solver.solver import LiveMaker
 from seamwire.mesh import edit_mesh
 from seamwire.words.hints import Status, hints
 from seamwire.words.keys import Bindings

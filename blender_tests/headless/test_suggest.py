@@ -17,11 +17,10 @@ from scene import add_grid, add_object, add_suzanne, edit, mark_wires, seams, sn
 from seamwire.core.base import native
 from seamwire.core.islands.islands import IslandMaker
 from seamwire.core.seams.gaps import Gap, GapFinder
-from seamwire.core.seams.parts import PartEdits, edits_text
-from seamwire.core.seams.seam_plan import PlanRequest, energy_of, stretch_of
+from seamwire.core.seams.seam_plan import PartEdits, PlanRequest, edits_text, energy_of, stretch_of
 from seamwire.mesh import edit_mesh, seam_islands, seam_search, uv_map
 from seamwire.mesh.object_session import ObjectSession
-from seamwire.view.shown_islands import ShownIslands
+from seamwire.view.object_view import ShownIslands
 from stored import agree, chains, session_on
 from stored import island_count as islands
 

@@ -10,7 +10,7 @@ from scene import add_grid, edit
 from seamwire.mesh import settings as chosen
 from seamwire.operators import chain_acts
 from seamwire.operators.bindings import HELP_PANEL
-from seamwire.ui import properties
+from seamwire.ui import toolbar
 from seamwire.words.keys import Action
 
 pytestmark = pytest.mark.every_blender
@@ -63,7 +63,7 @@ def shown_in(region: str) -> list[str]:
     context = SimpleNamespace(
         region=SimpleNamespace(type=region), preferences=bpy.context.preferences, edit_object=bpy.context.edit_object
     )
-    properties.draw_settings(context, Layout(shown))
+    toolbar.draw_settings(context, Layout(shown))
     return shown
 
 
@@ -80,7 +80,7 @@ def test_the_header_has_at_most_six_controls_and_the_help(tool: chosen.SeamwireS
 def test_every_setting_is_shown_once_outside_the_header(tool: chosen.SeamwireSettings, along: str) -> None:
     tool.along = along
     shown = shown_in("WINDOW")
-    properties.VIEW3D_PT_seamwire_overlays.draw(
+    toolbar.VIEW3D_PT_seamwire_overlays.draw(
         SimpleNamespace(layout=Layout(shown)), SimpleNamespace(preferences=bpy.context.preferences)
     )
     of_mesh = {"use_mirror_x", "use_mirror_y", "use_mirror_z"}
@@ -91,7 +91,7 @@ def test_every_setting_is_shown_once_outside_the_header(tool: chosen.SeamwireSet
 
 def test_the_sidebar_has_a_panel_for_each_group(tool: chosen.SeamwireSettings) -> None:
     assert shown_in("UI") == []
-    for name in properties.GROUPS:
+    for name in toolbar.GROUPS:
         panel = getattr(bpy.types, f"VIEW3D_PT_seamwire_{name.lower()}")
         assert (panel.bl_region_type, panel.bl_parent_id) == ("UI", "VIEW3D_PT_active_tool")
 

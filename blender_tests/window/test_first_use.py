@@ -13,8 +13,8 @@ from desk import Desk, choose, draw, leave, reset_settings
 from scene import add_grid, chain, edit, seams
 from seamwire.mesh.settings import preferences, settings
 from seamwire.operators import draw as operator
-from seamwire.ui import help
-from seamwire.ui.properties import along_of
+from seamwire.ui import menus
+from seamwire.ui.toolbar import along_of
 from seamwire.view import overlay
 from seamwire.view.edited_objects import edited
 
@@ -121,13 +121,13 @@ def newcomer(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> Iterator[Desk]:
 def drawn(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """Names of the panel with all keys, one for each time that Blender draws it."""
     names: list[str] = []
-    draw_panel = help.VIEW3D_PT_seamwire_help.draw
+    draw_panel = menus.VIEW3D_PT_seamwire_help.draw
 
     def note(panel: bpy.types.Panel, context: bpy.types.Context) -> None:
         draw_panel(panel, context)
         names.append(panel.bl_idname)
 
-    monkeypatch.setattr(help.VIEW3D_PT_seamwire_help, "draw", note)
+    monkeypatch.setattr(menus.VIEW3D_PT_seamwire_help, "draw", note)
     return names
 
 

@@ -61,16 +61,16 @@ def desk(ui: driver.Ui) -> Iterator[Desk]:
 
 def views() -> object:
     """Return the lab's layer over the edited object. It lies above the tool's own layer."""
-    return edited.front.overlay._layers[1]
+    return edited.front.overlay._layers[2]
 
 
 def shown(found: object | None = None) -> bool:
     """Return whether everything is computed that the layer over the edited object, or other views, should show."""
     if found is None:
         layers = edited.front.overlay._layers if edited.front is not None else []
-        if len(layers) < 2:
+        if len(layers) < 3:
             return False  # it is added by a timer, soon after the first view is switched on
-        found = layers[1]
+        found = layers[2]
     return found.is_complete and not found.busy
 
 
@@ -234,7 +234,7 @@ def test_distances_are_from_the_seed_of_the_chain_and_from_a_selected_vertex_bef
     try:
         desk.choose()
         settings().show_bands = settings().show_paths = True
-        desk.ui.wait_until(lambda: len(edited.front.overlay._layers) == 2)
+        desk.ui.wait_until(lambda: len(edited.front.overlay._layers) == 3)
         assert "select a vertex" in " ".join(views().legends()[-1].lines)
         assert views().fields is None or views().fields.isolines is None
         desk.ui.click(desk.at(40))
@@ -370,7 +370,7 @@ def test_disabled_while_it_shows_views_it_leaves_nothing_behind(desk: Desk) -> N
     desk.ui.wait_until(shown)
     disable_lab()
     try:
-        assert len(edited.front.overlay._layers) == 1
+        assert len(edited.front.overlay._layers) == 2
         assert of_lab() == []
         desk.ui.wait(5, redraw=True)
     finally:

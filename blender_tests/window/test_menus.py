@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import bpy
 import pytest
 from desk import Desk
-from seamwire.networks import network_menus as networks
+from seamwire.networks import network_operators as networks
 from seamwire.ui import menus
 
 TOP = [

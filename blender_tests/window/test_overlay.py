@@ -27,8 +27,8 @@ from seamwire.core.network.wires import Wire
 from seamwire.mesh import edit_mesh
 from seamwire.mesh.pose import Pose
 from seamwire.terms.options import Options
+from seamwire.view.object_view import ShownIslands
 from seamwire.view.overlay import Overlay
-from seamwire.view.shown_islands import ShownIslands
 from seamwire.view.theme import Looks, Style
 
 pytestmark = pytest.mark.oldest_and_newest
@@ -51,7 +51,6 @@ class Said:
     def __init__(self) -> None:
         self.picture = Picture()
         self.cuts: tuple[Wire, ...] = ()
-        self.wires: tuple[Wire, ...] = ()
         self._said: dict[str, object] = {}
 
     @property
@@ -558,11 +557,11 @@ def test_the_text_tells_of_strength_clearing_and_mirror(sight: Sight) -> None:
 
 
 def test_styles_are_told_apart_by_more_than_their_hue() -> None:
-    looks = Looks.of()
+    looks = Looks()
     styles: list[Style] = [looks.active, looks.other, looks.kept, looks.clear, looks.mirrored, looks.loop]
     told = {(round(sum(style.color[:3]), 1), style.width, style.dash) for style in styles}
     assert len(told) == len(styles)
-    assert looks.widened(2.0).active.width == 2.0 * looks.active.width
+    assert Looks(preferences=SimpleNamespace(line_width=2.0)).active.width == 2.0 * looks.active.width
 
 
 def test_the_overlay_follows_the_object(sight: Sight) -> None:

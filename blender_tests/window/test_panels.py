@@ -9,7 +9,7 @@ import ui as driver
 from desk import Desk
 from scene import ADDON
 from seamwire.mesh.versions import IS_OLD
-from seamwire.ui import preferences, properties
+from seamwire.ui import preferences, toolbar
 
 
 def recorded(function: Callable, calls: list[str]) -> Callable:
@@ -74,7 +74,7 @@ def test_the_tools_settings_are_shown_in_its_header_and_in_the_properties(
     desk: Desk, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     calls: list[str] = []
-    monkeypatch.setattr(properties, "draw_settings", recorded(properties.draw_settings, calls))
+    monkeypatch.setattr(toolbar, "draw_settings", recorded(toolbar.draw_settings, calls))
     ui = desk.ui
     with ui.override():
         bpy.ops.wm.tool_set_by_id(name="seamwire.draw")
@@ -109,7 +109,7 @@ def test_the_views_are_shown_in_a_popover_and_the_groups_in_the_sidebar(
     if IS_OLD:
         return  # a script cannot choose the sidebar's tab
     groups: list[str] = []
-    for name in properties.GROUPS:
+    for name in toolbar.GROUPS:
         group = getattr(bpy.types, f"VIEW3D_PT_seamwire_{name.lower()}")
         monkeypatch.setattr(group, "draw", noted(group.draw, groups))
     ui.space.show_region_ui = True
@@ -118,7 +118,7 @@ def test_the_views_are_shown_in_a_popover_and_the_groups_in_the_sidebar(
         area = next(area for area in ui.window.screen.areas if area.type == "VIEW_3D")
         next(region for region in area.regions if region.type == "UI").active_panel_category = "Tool"
         ui.wait(2, redraw=True)
-        ui.wait_until(lambda: len(groups) >= len(properties.GROUPS) - 1)  # one is closed
+        ui.wait_until(lambda: len(groups) >= len(toolbar.GROUPS) - 1)  # one is closed
     finally:
         ui.space.show_region_ui = False
         ui.wait(2)

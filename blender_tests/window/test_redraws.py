@@ -11,7 +11,7 @@ from desk import Desk, draw
 from seamwire.core.drawing.session import Session
 from seamwire.core.islands import islands
 from seamwire.core.islands.islands import IslandMaker
-from seamwire.core.solver.live_maker import LiveMaker
+from seamwire.core.solver.solver import LiveMaker
 from seamwire.mesh import edit_mesh
 from seamwire.mesh.object_session import ObjectSession
 from seamwire.mesh.pose import Pose
@@ -167,7 +167,7 @@ def test_a_picture_reads_no_mesh_and_computes_nothing(
         (Pose, "follow"),
         (LiveMaker, "__call__"),
         (IslandMaker, "want"),
-        (StretchHeat, "follow"),
+        (StretchHeat, "read"),
         (CrestView, "poll"),
         *((Session, name) for name in ("follow", "hover", "poll", "use_crests", "adopt")),
     ):

@@ -62,7 +62,7 @@ def _nearest(color: tuple[float, ...], others: list[tuple[float, ...]]) -> list[
 
 
 def heat() -> StretchHeat:
-    return edited.front.overlay.heat
+    return edited.front.heat
 
 
 def screen(desk: Desk) -> np.ndarray:
@@ -128,7 +128,7 @@ def test_a_map_that_changes_is_measured_once_and_only_where_it_changed(
     assert summary.count == 2
     assert summary.value == pytest.approx(1.0, abs=1e-4)
     assert summary.triangles.sum() == 64
-    assert heat().legend().lines == ("Stretch of angles", "Mean 1.41×", "Worst of 2 islands 2.00×, outlined")  # noqa: RUF001
+    assert heat().legends()[0].lines == ("Stretch of angles", "Mean 1.41×", "Worst of 2 islands 2.00×, outlined")  # noqa: RUF001
 
 
 def test_areas_are_compared_with_the_mean_and_a_missing_map_is_told_of(desk: Desk) -> None:
@@ -143,7 +143,7 @@ def test_areas_are_compared_with_the_mean_and_a_missing_map_is_told_of(desk: Des
         while mesh.uv_layers:
             bpy.ops.mesh.uv_texture_remove()  # Blender 5.2 tells nobody of what Python removes
     desk.ui.move(desk.at(40))
-    desk.ui.wait_until(lambda: heat().legend().lines == ("No UV map: unwrap to see its stretch",))
+    desk.ui.wait_until(lambda: heat().legends()[0].lines == ("No UV map: unwrap to see its stretch",))
     screen(desk)
 
 

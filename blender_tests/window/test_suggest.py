@@ -18,7 +18,7 @@ import ui as driver
 from desk import choose, leave, undo_steps
 from scene import add_suzanne, animate, edit, head, mark_wires, seams, snapshot
 from seamwire.core.base import native
-from seamwire.core.seams.parts import PartEdits
+from seamwire.core.seams.seam_plan import PartEdits
 from seamwire.mesh.seam_search import Suggestion
 from seamwire.operators import suggest_live
 from seamwire.operators.chain_state import running as chains

@@ -140,16 +140,10 @@ def rehearse(cage: Cage, what: CutPlan) -> None:
 
 
 def carry_out(cage: Cage, what: CutPlan, seeds: Iterable[int | FacePoint] = (), crumb: float = 0.0) -> Cut:
-    """Cut an edit mesh, and make seams of the cuts. Vertices, edges and faces have other numbers then.
+    """Cut an edit mesh as planned, and make seams of the cuts. Vertices, edges and faces have other numbers then.
 
-    Parameters
-    ----------
-    cage, what
-        The mesh, and the plan of what is cut.
-    seeds
-        Vertices and points whose numbers then are asked for; of points, only those that the cuts go through have any.
-    crumb
-        The part of the mesh's area below which an island beside the cuts becomes part of a larger one.
+    The numbers of `seeds`, vertices and points, are returned; of points, only those that the cuts go through have any. An island beside the
+    cuts with less than the part `crumb` of the mesh's area becomes part of a larger one.
     """
     bm = cage.bm
     before = len(bm.verts)
@@ -410,16 +404,7 @@ def _drawn(
 ) -> Iterator[None]:
     """Move a face's vertices to a regular polygon in the meantime, because Blender splits no face that is folded or has no area.
 
-    Parameters
-    ----------
-    face
-        The face.
-    rim
-        Its corners before its edges were split; they become the corners of the polygon.
-    between
-        The nodes of the other vertices, between some of these corners.
-    corners
-        The vertices that nodes name.
+    The corners before its edges were split, `rim`, become the corners of the polygon. The other vertices lie between some of them.
     """
     before = {vert: vert.co.copy() for vert in (*rim, *between)}
     for vert, (x, y) in zip(rim, _regular_corners(len(rim)), strict=True):

@@ -140,12 +140,9 @@ def _is_one_chain(edge: bmesh.types.BMEdge, common: Collection[bmesh.types.BMEdg
 def _end_held_from(
     bm: bmesh.types.BMesh, rim: bmesh.types.BMVert
 ) -> tuple[bmesh.types.BMVert, bmesh.types.BMEdge, bmesh.types.BMEdge] | None:
-    """Return the end of a seam inside a face that is held from a vertex on the face's rim, which could go if nothing was held from there.
+    """Return the end of a seam inside a face that is held from a vertex on the rim, the edge that holds it, and the last edge of the seam.
 
-    Returns
-    -------
-    tuple or None
-        The end, the edge that holds it, and the last edge of the seam. None if nothing is held from the vertex, or the vertex must stay.
+    The result is None if nothing is held from the vertex, or the vertex must stay.
     """
     of_verts, of_edges = bm.verts.layers.int[CUT_VERTS], bm.edges.layers.int[CUT_EDGES]
     holds = [edge for edge in rim.link_edges if edge[of_edges] == _HOLDS]

@@ -55,13 +55,7 @@ def _numbered(bm: bmesh.types.BMesh) -> bmesh.types.BMesh:
 
 
 class Cage:
-    """The edit mesh of one object, as long as its topology stays what it is.
-
-    Parameters
-    ----------
-    obj
-        A mesh object in edit mode.
-    """
+    """The edit mesh of an object in edit mode, as long as its topology stays what it is."""
 
     def __init__(self, obj: bpy.types.Object) -> None:
         self.mesh = obj.data
@@ -117,16 +111,16 @@ class Cage:
     def labels(self, among: Iterable[tuple[int, int]] | None = None) -> EdgeLabels:
         """Return the edges that have a label, in the order of their numbers.
 
-        Parameters
-        ----------
-        among
-            Edges that include all with a label. None: every edge of the mesh is looked at.
+        If edges are given that include all with a label, only these are looked at.
         """
         bm = self.bm
         layer = bm.edges.layers.int.get(LABELS)
         if layer is None:
             return EdgeLabels.none()
-        edges = bm.edges if among is None else self._in_order(among)
+        edges = bm.edges
+        if among is not None:
+            there = {edge.index: edge for pair in among if (edge := _edge(bm, pair)) is not None}
+            edges = [there[number] for number in sorted(there)]
         found = [(label, edge) for edge in edges if (label := edge[layer])]
         return EdgeLabels(
             np.array([[v.index for v in edge.verts] for _, edge in found], dtype=np.int64).reshape(-1, 2),
@@ -143,20 +137,14 @@ class Cage:
     ) -> tuple[int, int]:
         """Make edges seams, and others no seams, give edges other labels, and change nothing else.
 
-        Returns
-        -------
-        tuple of int
-            How many were not seams before, and how many of the others were.
-
-        Raises
-        ------
-        ValueError
-            Where two vertices have no edge between them; then nothing is changed.
+        Returns how many were not seams before, and how many of the others were. Raises ValueError where two vertices have no edge between
+        them; then nothing is changed.
         """
         # Looked up twice: a new layer makes what was found before invalid.
         for pairs in (mark := list(mark), clear := list(clear), labels):
             self._found(pairs)
-        layer = self._label_layer() if any(labels.values()) else self.bm.edges.layers.int.get(LABELS)
+        layers = self.bm.edges.layers.int
+        layer = layers.get(LABELS) or (layers.new(LABELS) if any(labels.values()) else None)
         new = [edge for edge in self._found(mark) if not edge.seam]
         old = [edge for edge in self._found(clear) if edge.seam]
         for edge in new:
@@ -173,16 +161,6 @@ class Cage:
             bmesh.update_edit_mesh(self.mesh, loop_triangles=False, destructive=False)
         return len(new), len(old)
 
-    def _label_layer(self) -> bmesh.types.BMLayerItem:
-        layers = self.bm.edges.layers.int
-        return layers.get(LABELS) or layers.new(LABELS)
-
-    def _in_order(self, pairs: Iterable[tuple[int, int]]) -> list[bmesh.types.BMEdge]:
-        """Return the edges that there are between pairs of vertices, each once, in the order of their numbers."""
-        bm = self.bm
-        found = {edge.index: edge for pair in pairs if (edge := _edge(bm, pair)) is not None}
-        return [found[number] for number in sorted(found)]
-
     def _found(self, pairs: Iterable[tuple[int, int]]) -> list[bmesh.types.BMEdge]:
         found, bm = [], self.bm
         for pair in pairs:
@@ -198,13 +176,7 @@ def _edge(bm: bmesh.types.BMesh, pair: tuple[int, int]) -> bmesh.types.BMEdge | 
 
 
 class StoredMesh:
-    """A mesh outside edit mode, to be marked like a `Cage` where edit mode was left before a chain had ended.
-
-    Parameters
-    ----------
-    mesh
-        Of an object in another mode.
-    """
+    """A mesh outside edit mode, to be marked like a `Cage` where edit mode was left before a chain had ended."""
 
     def __init__(self, mesh: bpy.types.Mesh) -> None:
         self.mesh = mesh
@@ -266,20 +238,15 @@ class StoredMesh:
 
 
 def read(obj: bpy.types.Object) -> Arrays:
-    """Read the edit mesh of an object.
-
-    Raises
-    ------
-    NothingVisibleError
-        Where no edge is visible.
-    """
+    """Read the edit mesh of an object. Raises NothingVisibleError where no edge is visible."""
     obj.update_from_editmode()  # the mesh then has the edit mesh's data, by the same numbers
-    # In newer versions, all data of a mesh are attributes. Reading them is ten times as fast as reading items.
-    # In edit mode the mesh does not show them, but a copy does. It shares the data and costs nothing.
+    # In edit mode the mesh does not show its attributes, but a copy does. It shares the data and costs nothing.
     shared = None if IS_OLD else obj.data.copy()
     try:
-        columns = _Items(obj.data) if shared is None else _Attributes(shared)
-        points = columns.points() if _on_basis(obj) else _shape(obj)
+        columns, key = _Columns(shared or obj.data), obj.active_shape_key
+        # The active shape key is edited and seen, and the mesh holds the basis. Without keys the index is what it was with them.
+        is_basis = key is None or obj.active_shape_key_index == 0
+        points = columns["points"] if is_basis else column(key.data, "co", np.float32, 3)
         return _arrays(obj, obj.data, columns, points)
     finally:
         if shared is not None:
@@ -289,41 +256,28 @@ def read(obj: bpy.types.Object) -> Arrays:
 def read_evaluated(obj: bpy.types.Object) -> tuple[Arrays, NDArray[np.bool_]]:
     """Read the mesh of an object in object mode as it is seen, with its modifiers and shape keys.
 
-    Returns
-    -------
-    Arrays
-        As `read` returns them.
-    (n,) array
-        Which vertices were selected in edit mode.
-
-    Raises
-    ------
-    NothingVisibleError
-        Where no edge is visible.
+    Also returns which vertices were selected in edit mode, (n,). Raises NothingVisibleError where no edge is visible.
     """
     evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
     mesh = evaluated.to_mesh()
     try:
-        columns = _Items(mesh) if IS_OLD else _Attributes(mesh)
-        return _arrays(obj, mesh, columns, columns.points()), columns.flags("vertices", "select")
+        columns = _Columns(mesh)
+        return _arrays(obj, mesh, columns, columns["points"]), columns["selected"]
     finally:
         evaluated.to_mesh_clear()
 
 
-def _arrays(
-    obj: bpy.types.Object, mesh: bpy.types.Mesh, columns: _Items | _Attributes, points: NDArray[np.float32]
-) -> Arrays:
+def _arrays(obj: bpy.types.Object, mesh: bpy.types.Mesh, columns: _Columns, points: NDArray[np.float32]) -> Arrays:
     """Return what the library needs of a mesh of an object, whose vertices are at other places where so given."""
     points = points.astype(np.float64)
-    edges = columns.edges()
-    visible = ~columns.flags("edges", "hide")
-    seams = edges[visible & columns.flags("edges", "use_seam")]
-    marked = edges[visible & (columns.flags("edges", "use_edge_sharp") | _between_materials(mesh, columns))]
+    edges, visible = columns["edges"], ~columns["hidden edges"]
+    seams = edges[visible & columns["seams"]]
+    marked = edges[visible & (columns["sharp edges"] | _between_materials(mesh, columns))]
     edges = edges[visible]
     if len(edges) == 0:
         raise NothingVisibleError("No edge of the mesh is visible: there is nothing to draw on")
-    hidden = columns.flags("polygons", "hide")
-    triangles, polygons = _cut(mesh, columns.corners(), points)
+    hidden = columns["hidden faces"]
+    triangles, polygons = _cut(mesh, columns["corners"], points)
     partly_hidden = edges[:0]
     if hidden.any():
         visible = ~hidden[polygons]
@@ -333,87 +287,49 @@ def _arrays(
     return Arrays(points @ stretch, triangles, polygons, edges, np.linalg.inv(stretch), seams, partly_hidden, marked)
 
 
-def _between_materials(mesh: bpy.types.Mesh, columns: _Items | _Attributes) -> NDArray[np.bool_]:
+def _between_materials(mesh: bpy.types.Mesh, columns: _Columns) -> NDArray[np.bool_]:
     """Return which edges of a mesh, (e,), faces of several materials share."""
     found = np.zeros(len(mesh.edges), dtype=np.bool_)
     if len(mesh.materials) > 1:
         edges = column(mesh.loops, "edge_index", np.int32)
-        materials = np.repeat(columns.materials(), column(mesh.polygons, "loop_total", np.int32))
+        materials = np.repeat(columns["materials"], column(mesh.polygons, "loop_total", np.int32))
         order = np.argsort(edges, kind="stable")
         edges, materials = edges[order], materials[order]
         found[edges[1:][(edges[1:] == edges[:-1]) & (materials[1:] != materials[:-1])]] = True
     return found
 
 
-def _on_basis(obj: bpy.types.Object) -> bool:
-    # Without keys the index is what it was with them.
-    return obj.active_shape_key is None or obj.active_shape_key_index == 0
+class _Columns:
+    """The data of a mesh.
 
+    In newer versions of Blender, all of it is attributes. Reading them is ten times as fast as reading items.
+    """
 
-def _shape(obj: bpy.types.Object) -> NDArray[np.float32]:
-    """Return the vertices as the active shape key has them: they are edited and seen, and the mesh holds the basis."""
-    return column(obj.active_shape_key.data, "co", np.float32, 3)
-
-
-class _Items:
-    """The data of a mesh, read from its items. Blender 3.4 has no attributes for most of them."""
-
-    def __init__(self, mesh: bpy.types.Mesh) -> None:
-        self._mesh = mesh
-
-    def points(self) -> NDArray[np.float32]:
-        return column(self._mesh.vertices, "co", np.float32, 3)
-
-    def edges(self) -> NDArray[np.int32]:
-        return column(self._mesh.edges, "vertices", np.int32, 2)
-
-    def corners(self) -> NDArray[np.int32]:
-        return column(self._mesh.loops, "vertex_index", np.int32)
-
-    def materials(self) -> NDArray[np.int32]:
-        return column(self._mesh.polygons, "material_index", np.int32)
-
-    def flags(self, items: str, name: str) -> NDArray[np.bool_]:
-        return column(getattr(self._mesh, items), name, np.bool_)
-
-
-class _Attributes:
-    """The data of a mesh, read from its attributes."""
-
-    NAMES: Mapping[tuple[str, str], tuple[str, ...]] = {
-        ("edges", "hide"): (".hide_edge",),
-        ("edges", "use_edge_sharp"): ("sharp_edge",),
-        ("edges", "use_seam"): ("uv_seam", ".uv_seam"),
-        ("polygons", "hide"): (".hide_poly",),
-        ("vertices", "select"): (".select_vert",),
+    SOURCES = {
+        "points": ("vertices", "co", ("position",), np.float32, 3),
+        "selected": ("vertices", "select", (".select_vert",), np.bool_, 1),
+        "edges": ("edges", "vertices", (".edge_verts",), np.int32, 2),
+        "hidden edges": ("edges", "hide", (".hide_edge",), np.bool_, 1),
+        "seams": ("edges", "use_seam", ("uv_seam", ".uv_seam"), np.bool_, 1),
+        "sharp edges": ("edges", "use_edge_sharp", ("sharp_edge",), np.bool_, 1),
+        "corners": ("loops", "vertex_index", (".corner_vert",), np.int32, 1),
+        "materials": ("polygons", "material_index", ("material_index",), np.int32, 1),
+        "hidden faces": ("polygons", "hide", (".hide_poly",), np.bool_, 1),
     }
+    """For each name the items and their property, the names of the attribute, and what it holds."""
 
     def __init__(self, mesh: bpy.types.Mesh) -> None:
         self._mesh = mesh
 
-    def points(self) -> NDArray[np.float32]:
-        return self._values(("position",), self._mesh.vertices, "vector", np.float32, 3)
-
-    def edges(self) -> NDArray[np.int32]:
-        return self._values((".edge_verts",), self._mesh.edges, "value", np.int32, 2)
-
-    def corners(self) -> NDArray[np.int32]:
-        return self._values((".corner_vert",), self._mesh.loops, "value", np.int32)
-
-    def materials(self) -> NDArray[np.int32]:
-        return self._values(("material_index",), self._mesh.polygons, "value", np.int32)
-
-    def flags(self, items: str, name: str) -> NDArray[np.bool_]:
-        return self._values(self.NAMES[items, name], getattr(self._mesh, items), "value", np.bool_)
-
-    def _values(
-        self, names: Iterable[str], items: bpy.types.bpy_prop_collection, kind: str, dtype: type, width: int = 1
-    ) -> NDArray:
-        """Return the values of the first attribute that there is. Without items, or where all values are 0, there may be no attribute."""
-        found = next((name for name in names if name in self._mesh.attributes), None)
-        if found is None or not len(items):
+    def __getitem__(self, name: str) -> NDArray:
+        items, key, attributes, dtype, width = self.SOURCES[name]
+        items = getattr(self._mesh, items)
+        if IS_OLD:
+            return column(items, key, dtype, width)
+        found = next((one for one in attributes if one in self._mesh.attributes), None)
+        if found is None or not len(items):  # there may be no attribute where all values are 0
             return np.zeros((len(items), width) if width > 1 else len(items), dtype=dtype)
-        return column(self._mesh.attributes[found].data, kind, dtype, width)
+        return column(self._mesh.attributes[found].data, "vector" if found == "position" else "value", dtype, width)
 
 
 def _cut(
@@ -442,13 +358,9 @@ def column(items: bpy.types.bpy_prop_collection, name: str, dtype: type, width: 
 
 
 def visible_stretch(matrix: Matrix) -> NDArray[np.float64]:
-    """Return what an object's matrix does to lengths, without its rotation.
+    """Return what an object's matrix does to lengths, without its rotation: the symmetric S, (3, 3), of the polar decomposition R S.
 
-    Returns
-    -------
-    (3, 3) array
-        The symmetric S of the polar decomposition R S; the identity where scaling is uniform, for the library does not
-        mind the size, and where the matrix flattens the object.
+    It is the identity where scaling is uniform, for the library does not mind the size, and where the matrix flattens the object.
     """
     linear = np.array(matrix.to_3x3(), dtype=np.float64)
     values, vectors = np.linalg.eigh(linear.T @ linear)
@@ -490,13 +402,7 @@ def selected_faces(obj: bpy.types.Object) -> NDArray[np.int64]:
 
 
 class Selection:
-    """The selection of an edit mesh.
-
-    Parameters
-    ----------
-    obj
-        A mesh object in edit mode.
-    """
+    """The selection of the edit mesh of an object in edit mode."""
 
     def __init__(self, obj: bpy.types.Object) -> None:
         self._mesh = obj.data

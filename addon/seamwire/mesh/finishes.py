@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from ..core.network.network import Network
     from ..core.network.picks import Edge, Pick
     from ..core.network.wires import Wire
-    from ..core.offers.closed_cuts import TakenCut
+    from ..core.offers.surface_loops import TakenCut
     from ..terms.choices import Finish
     from .cut import Cut
 
@@ -85,19 +85,8 @@ class Finished:
 def apply(mesh: ObjectSession, change: Change) -> tuple[ObjectSession | None, Finished]:
     """Let the mesh do what a change asks, once it has the wires: finish them, and take back cuts that are wires' no more.
 
-    Parameters
-    ----------
-    mesh
-        The session, which ends if anything is done.
-    change
-        Of the session's network.
-
-    Returns
-    -------
-    ObjectSession
-        The session that goes on; None if the mesh must be read again for one.
-    Finished
-        The counts of everything that was done.
+    The session of the mesh ends if anything is done. Returns the session that goes on, or None if the mesh must be read again for one, and
+    the counts of everything that was done.
     """
     wires = [wire for wire in mesh.session.wires if change.finishes(wire)]
     drawn = {wire.vertices: wire.finish for wire in wires}
@@ -125,12 +114,7 @@ def apply(mesh: ObjectSession, change: Change) -> tuple[ObjectSession | None, Fi
 def slide(mesh: ObjectSession, wires: Collection[Wire]) -> tuple[ObjectSession, int]:
     """Slide the vertices of snapped wires, and of their mirror images, onto the wires. The mesh has these wires.
 
-    Returns
-    -------
-    ObjectSession
-        The session that goes on.
-    int
-        How many vertices were moved.
+    Returns the session that goes on, and how many vertices were moved.
     """
     own = {wire: [wire, *mesh.session.mirrored(wire)] for wire in wires}
     courses = [(image.vertices, image.points) for images in own.values() for image in images]
@@ -164,12 +148,8 @@ They return the session that goes on, and the number of moved vertices. "SNAP" n
 def plan_cut(mesh: ObjectSession, wires: Iterable[Wire]) -> CutPlan:
     """Find what wires across the surface and their mirror images cut, and try it on a copy of the edit mesh.
 
-    The plan leaves out wires that do not run over the mesh, by their numbers here, and mirror images, by higher numbers.
-
-    Raises
-    ------
-    CutError
-        If no wire runs over the mesh, or nothing is cut.
+    The plan leaves out wires that do not run over the mesh, by their numbers here, and mirror images, by higher numbers. Raises CutError
+    if no wire runs over the mesh, or nothing is cut.
     """
     wires = list(wires)
     images = [

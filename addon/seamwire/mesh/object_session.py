@@ -11,34 +11,46 @@ from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
-from mathutils.bvhtree import BVHTree
 
+from ..core.base import native
 from ..core.drawing.drawing import Drawing
 from ..core.drawing.session import Session
 from ..core.network.network import edges_after
 from ..core.network.picks import FacePoint
 from ..core.network.strokes import on_mesh
-from ..core.offers.closed_cuts import CutMemory
-from ..core.solver.live_maker import LiveMaker
-from ..core.storage import label_reader, serialization, wire_labels
-from ..core.storage.serialization import Archive, UnreadableError
-from ..core.storage.wire_labels import EdgeLabels, Found, Places
+from ..core.offers.surface_loops import CutMemory
+from ..core.seams import placed_edges
+from ..core.solver.solver import LiveMaker
+from ..core.storage import serialization, wire_labels
+from ..core.storage.serialization import Archive, Places, UnreadableError
+from ..core.storage.wire_labels import EdgeLabels, Found
 from ..terms.options import Options
 from ..words.notices import Notices
 from . import edit_mesh
-from .auto import auto_for
 from .settings import mirror_axes, snapshot
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterable, Sequence
 
+    import seamwire_core
     from numpy.typing import NDArray
 
+    from ..core.base.mesh_arrays import Arrays
     from ..core.network.network import Network
     from ..core.network.strokes import Stroke
     from ..core.network.wires import Wire
     from ..terms.options import Auto
     from .settings import SeamwireSettings
+
+
+def auto_for(obj: bpy.types.Object, arrays: Arrays) -> Auto:
+    """Return the values that Auto stands for on a mesh object whose mesh was read as arrays."""
+    mesh = obj.data
+    rigged = len(obj.vertex_groups) > 0 or mesh.shape_keys is not None
+    sharp = edit_mesh.column(mesh.edges, "use_edge_sharp", np.bool_)
+    marks = (len(mesh.uv_layers) > 0, sharp.any(), mesh.has_custom_normals, len(mesh.materials) > 1)
+    return placed_edges.auto_for(arrays.points, arrays.triangles, arrays.polygons, rigged, sum(marks))
+
 
 _MOMENT = 0.1
 """Seconds for which the interface may wait."""
@@ -142,10 +154,7 @@ class ObjectSession:
     def symmetric_soon(self) -> tuple[int, ...] | None:
         """Return the axes over which the mesh is symmetric, or None if it takes longer than a moment to find out.
 
-        Raises
-        ------
-        ValueError
-            If it cannot be found out.
+        Raises ValueError if it cannot be found out.
         """
         self.look_for_symmetry()
         if self._looking is not None:
@@ -194,10 +203,7 @@ class ObjectSession:
     def refresh(self, obj: bpy.types.Object) -> bool:
         """Take over what the object's mesh holds now; return False where wires would run on it in another way.
 
-        Raises
-        ------
-        ValueError
-            Where there is nothing to draw on.
+        Raises ValueError where there is nothing to draw on.
         """
         arrays = edit_mesh.read(obj)
         if obj.mode != "EDIT" or not arrays.same_as(self.arrays):
@@ -219,19 +225,9 @@ class ObjectSession:
     def follow_change(self, obj: bpy.types.Object, before: Network) -> Network | None:
         """Read the object's mesh again while wires are drawn, and keep the wires.
 
-        Parameters
-        ----------
-        obj
-            The object.
-        before
-            The network that the mesh has. Wires that it does not have were drawn since.
-
-        Returns
-        -------
-        Network or None
-            `before`, or the other network that the mesh has now if Blender's undo has changed its wires. None where wires would run on
-            it in another way, or it has left edit mode: then they can be written still, as far as vertices have the numbers that they
-            had.
+        `before` is the network that the mesh has; wires that it does not have were drawn since. Returns `before`, or the other network
+        that the mesh has now if Blender's undo has changed its wires. Returns None where wires would run on it in another way, or it has
+        left edit mode: then they can be written still, as far as vertices have the numbers that they had.
         """
         self.obj = obj
         editing = obj.mode == "EDIT"
@@ -264,7 +260,7 @@ class ObjectSession:
         """Go on with the network that labels tell of."""
         self._learn(labels)
         self._labels = labels
-        self._found = Found() if self._newer else label_reader.read(labels, self._archive, self.places)
+        self._found = Found() if self._newer else wire_labels.read(labels, self._archive, self.places)
         network = self._found.network
         strokes = tuple(on_mesh(one, self.arrays.points, self.arrays.triangles) for one in network.strokes)
         self._set_seams(self.arrays.seams, labels)
@@ -332,24 +328,10 @@ class ObjectSession:
         )
 
     def write(self, plan: wire_labels.Plan, adopt: bool = True) -> tuple[int, int]:
-        """Mark and clear seams, and let the mesh keep the network.
+        """Mark and clear seams as planned, and let the mesh keep the network. Return how many edges were marked, and how many cleared.
 
-        Parameters
-        ----------
-        plan
-            From `plan`.
-        adopt
-            Whether the drawing ends with that: what was done before is Blender's to undo then.
-
-        Returns
-        -------
-        tuple of int
-            How many edges became seams, and how many ceased to be.
-
-        Raises
-        ------
-        ValueError
-            Where an edge is not there any more; then nothing is changed.
+        If the session is to `adopt` the network, the drawing ends with that: what was done before is Blender's to undo then. Raises
+        ValueError where an edge is not there any more; then nothing is changed.
         """
         if self._renumbered:
             raise ValueError("The mesh has other vertices now")
@@ -399,18 +381,17 @@ class ObjectSession:
             rows = rows[np.isin(self.arrays.polygons, list(faces))]
 
         @functools.cache
-        def tree() -> BVHTree:
-            used, corners = np.unique(triangles[rows], return_inverse=True)
-            polygons = corners.reshape(-1, 3).tolist()
-            return BVHTree.FromPolygons(in_object[used].tolist(), polygons, all_triangles=True)
+        def tree() -> seamwire_core.NearestPoints:
+            return native.load().NearestPoints(in_object, triangles[rows])
 
         def find(place: Sequence[float]) -> FacePoint:
             if not len(rows):
                 raise ValueError("No face is visible: give vertices or edges instead of places")
-            found, _, row, _ = tree().find_nearest(place)
-            if found is None:
+            # In single precision, as Blender has places, larger ones have no distance.
+            if not np.abs(np.array(place)).max() < 1e18:
                 raise ValueError(f"The place ({' '.join(f'{x:g}' for x in place)}) is too far from the mesh")
-            return FacePoint.at(np.array(found), rows[row], triangles, in_object)
+            (row,), (found,), _ = tree().find([place])
+            return FacePoint.at(found, rows[row], triangles, in_object)
 
         return find
 

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
-from mathutils.bvhtree import BVHTree
 
+from ..core.base import native
 from ..core.base.geometry import barycentric
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+    from seamwire_core import NearestPoints
 
     from ..core.base.mesh_arrays import Arrays
 
@@ -70,9 +71,8 @@ class Pose:
         return weights @ self._arrays.points[corners] if np.isfinite(off) else self._arrays.points[corners[0]]
 
     @cached_property
-    def _tree(self) -> BVHTree:
-        triangles = self._arrays.triangles.tolist()
-        return BVHTree.FromPolygons(self._arrays.points.tolist(), triangles, all_triangles=True)
+    def _tree(self) -> NearestPoints:
+        return native.load().NearestPoints(self._arrays.points, self._arrays.triangles)
 
     def _on_surface(
         self, curve: NDArray[np.float64]
@@ -83,9 +83,8 @@ class Pose:
             if len(self._found) >= _MOST_CURVES:
                 self._found.clear()
             rest, corners = self._arrays.points, self._arrays.triangles
-            rows = np.array([self._tree.find_nearest(point)[2] for point in curve.tolist()], dtype=np.int64)
-            # The triangles are moved, so that all points are the same one.
-            weights, off = barycentric(rest[corners[rows]] - curve[:, None], np.zeros(3))
+            rows, _, _ = self._tree.find(curve)
+            weights, off = barycentric(rest[corners[rows]], curve)
             weights[~np.isfinite(off)] = 1.0 / 3.0
             self._found[id(curve)] = curve, rows, weights
         return self._found[id(curve)]

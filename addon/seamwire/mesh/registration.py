@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Registers several things with Blender: all of them, or nothing if one fails."""
+"""Registers several things with Blender: all of them, or nothing if one fails; and timers."""
 
 from __future__ import annotations
 
@@ -52,6 +52,32 @@ def handler(name: str, function: Callable[..., None]) -> Change:
     """Return the change that lets Blender call a function, by the name of a list in `bpy.app.handlers`."""
     handlers = getattr(bpy.app.handlers, name)
     return lambda: handlers.append(function), lambda: handlers.remove(function)
+
+
+class Timer:
+    """Lets Blender call a function, at most one call at a time. It returns the seconds until the next call, or None to stop.
+
+    Blender finds a timer by the address of its function. A bound method is another object at each access, so this object keeps one. While
+    it is kept, no other object can have its address.
+    """
+
+    def __init__(self, call: Callable[[], float | None]) -> None:
+        self._call = call
+
+    @property
+    def is_running(self) -> bool:
+        """Whether Blender will call the function."""
+        return bpy.app.timers.is_registered(self._call)
+
+    def start(self, after: float = 0.0) -> None:
+        """Let Blender call the function after some seconds, unless it will do so anyway."""
+        if not self.is_running:
+            bpy.app.timers.register(self._call, first_interval=after)
+
+    def stop(self) -> None:
+        """Let Blender call the function no longer."""
+        if self.is_running:
+            bpy.app.timers.unregister(self._call)
 
 
 def _add(each: type) -> None:

@@ -13,9 +13,9 @@ import numpy as np
 
 from ..core.base import native
 from ..core.base.geometry import area_normals
-from ..core.islands.islands import choose_hues, neighbours, places_of
+from ..core.islands.islands import HUES, PLACES, choose_hues, neighbours
 from ..core.islands.map_faults import MappedSurface
-from ..core.islands.stretch import IslandStretch, Stretch
+from ..core.islands.stretch import Stretch
 from . import edit_mesh, uv_map
 
 if TYPE_CHECKING:
@@ -26,8 +26,6 @@ if TYPE_CHECKING:
 
 ATTRIBUTE = "island"
 """The face attribute that islands are stored as."""
-_HUES = [place / 12 for place in places_of(12)]
-"""Of the materials, around the circle of hues."""
 
 
 def read(obj: bpy.types.Object) -> Arrays:
@@ -64,10 +62,7 @@ def missing_cuts(obj: bpy.types.Object) -> NDArray[np.int32]:
 def faces_to_cut(obj: bpy.types.Object) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Return the faces of the islands that are not discs, and how many cuts each of these islands needs.
 
-    Raises
-    ------
-    ValueError, native.NativeError
-        Where no face is visible, a coordinate is no number, or the compiled part is missing.
+    Raises as `worst_island`.
     """
     arrays = read(obj)
     labels, missing = _missing_cuts(arrays)
@@ -77,25 +72,18 @@ def faces_to_cut(obj: bpy.types.Object) -> tuple[NDArray[np.int32], NDArray[np.i
 def store(obj: bpy.types.Object, kind: str) -> int:
     """Store the island of each visible face with an edit mesh; return how many there are.
 
-    Parameters
-    ----------
-    obj
-        In edit mode.
-    kind
-        ``ATTRIBUTE``: as the face attribute `ATTRIBUTE`, from 0, largest first. ``MATERIALS``: as materials in new slots, with
-        different hues for neighbors. Hidden faces keep their values. Without a value they get -1, or an empty slot.
+    The kind ``ATTRIBUTE`` is the face attribute `ATTRIBUTE`, from 0, largest first. ``MATERIALS`` are materials in new slots, with
+    different hues for neighbors. Hidden faces keep their values. Without a value they get -1, or an empty slot.
 
-    Raises
-    ------
-    ValueError, native.NativeError
-        Where no face is visible, a coordinate is no number, the attribute's name is taken, or the compiled part is missing.
+    Raises ValueError or NativeError where no face is visible, a coordinate is no number, the attribute's name is taken, or the compiled
+    part is missing.
     """
     arrays = read(obj)
     labels = labels_of(arrays)
     count = int(labels.max(initial=-1)) + 1
     polygons, first = np.unique(arrays.polygons, return_index=True)
     if kind == "MATERIALS":
-        hues = choose_hues(np.full(count, -1), neighbours(arrays.triangles, labels, arrays.seams), len(_HUES))
+        hues = choose_hues(np.full(count, -1), neighbours(arrays.triangles, labels, arrays.seams))
         if not obj.data.materials and len(polygons) < len(edit_mesh.edit_bmesh(obj.data).faces):
             obj.data.materials.append(None)
         numbers = np.array(_material_slots(obj, sorted(set(hues.tolist()))))[hues[labels]]
@@ -129,13 +117,13 @@ def _face_layer(obj: bpy.types.Object, bm: bmesh.types.BMesh) -> bmesh.types.BML
 
 def _material_slots(obj: bpy.types.Object, hues: list[int]) -> list[int]:
     """Return the slot of the material of each hue; -1 for hues that are not used."""
-    slots = [-1] * len(_HUES)
+    slots = [-1] * HUES
     for hue in hues:
         name = f"Seamwire Island {hue + 1}"
         material = bpy.data.materials.get(name)
         if material is None:
             material = bpy.data.materials.new(name)
-            material.diffuse_color = (*colorsys.hsv_to_rgb(_HUES[hue], 0.6, 0.8), 1.0)
+            material.diffuse_color = (*colorsys.hsv_to_rgb(PLACES[hue] / HUES, 0.6, 0.8), 1.0)
         slots[hue] = obj.data.materials.find(name)
         if slots[hue] < 0:
             obj.data.materials.append(material)
@@ -166,26 +154,16 @@ class Worst:
 
 
 def worst_island(obj: bpy.types.Object, kind: str) -> Worst | None:
-    """Find the island of an edit mesh that is stretched most; None: it has no UV map.
+    """Find the island of an edit mesh that is stretched most by ``ANGLE`` or ``AREA``; None: it has no UV map.
 
-    Parameters
-    ----------
-    obj
-        In edit mode.
-    kind
-        By ``ANGLE`` or ``AREA``.
-
-    Raises
-    ------
-    ValueError, native.NativeError
-        Where no face is visible, a coordinate is no number, or the compiled part is missing.
+    Raises ValueError or NativeError where no face is visible, a coordinate is no number, or the compiled part is missing.
     """
     arrays = read(obj)
     labels = labels_of(arrays)
-    islands = stretch_of(obj, arrays, labels)
-    if islands is None:
+    stretch = stretch_of(obj, arrays)
+    if stretch is None:
         return None
-    values = islands.angle if kind == "ANGLE" else islands.area
+    values, _ = stretch.islands(labels, kind)
     number = int(values.argmax())
     rows = labels == number
     normals = area_normals(arrays.in_object, arrays.triangles[rows])
@@ -203,21 +181,14 @@ def mapped(obj: bpy.types.Object) -> MappedSurface | None:
     return MappedSurface(arrays.in_object, arrays.triangles, arrays.polygons, labels_of(arrays), own, arrays.edges)
 
 
-def stretch_of(obj: bpy.types.Object, arrays: Arrays, labels: NDArray[np.int32]) -> IslandStretch | None:
-    """Return how much the active UV map of an edit mesh stretches islands; None: there is no UV map, or no visible face.
+def stretch_of(obj: bpy.types.Object, arrays: Arrays) -> Stretch | None:
+    """Return how much the active UV map of an edit mesh stretches faces; None: there is no UV map, or no visible face.
 
     As Blender unwraps it: without the object's scale.
-
-    Parameters
-    ----------
-    obj, arrays
-        In edit mode, and what was read of it.
-    labels
-        (m,) the island of each triangle.
     """
     corners, uvs = uv_map.read(obj)
     if uvs is None or not len(arrays.triangles):
         return None
     stretch = Stretch(arrays.in_object, arrays.triangles, arrays.polygons, corners.of_triangles(arrays))
     stretch.update(uvs)
-    return stretch.islands(labels)
+    return stretch

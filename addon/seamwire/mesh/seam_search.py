@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property, partial
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,12 +18,14 @@ from ..core.base import native
 from ..core.base.geometry import triangle_areas
 from ..core.islands.map_faults import NO_FAULTS
 from ..core.network.picks import undirected
-from ..core.seams.parts import PartEdits, border_wires, edges_of
 from ..core.seams.seam_plan import (
     CRUMB,
+    PartEdits,
     PlanRequest,
+    border_wires,
     curves_length,
     cut_edges,
+    edges_of,
     energy_of,
     keep_out,
     mean_stretch,
@@ -40,7 +42,7 @@ from .seam_islands import labels_of, mapped, missing_cuts
 from .unwrap import STRAIGHT_COST, UP, Layout, Unwrapped, unwrap_changed
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
 
     import bpy
     import seamwire_core
@@ -59,7 +61,7 @@ _MEASURING = 0.1
 
 @dataclass(frozen=True)
 class SearchOptions:
-    """How wires are planned.
+    """Requirements for the wires and the seams.
 
     Parameters
     ----------
@@ -71,12 +73,21 @@ class SearchOptions:
         Whether wires come in pairs where the mesh is symmetric.
     front
         (3,) the direction towards the viewer in the scene's coordinates: seams are hidden from there. None: from everywhere alike.
+    stretch
+        The mean stretch in percent.
+    islands
+        The least number of islands of each object.
+    unwraps
+        Whether to unwrap the islands whose seams have changed. Otherwise Blender's Live Unwrap decides.
     """
 
     along: Along | None = None
     finish: Finish | None = None
     symmetric: bool = True
     front: Sequence[float] | None = None
+    stretch: float = 17.0
+    islands: int = 1
+    unwraps: bool = True
 
 
 class Suggestion:
@@ -120,14 +131,14 @@ class Suggestion:
         If no edge is visible, none of the faces is, or the compiled part is missing.
     """
 
-    def __init__(self, obj: bpy.types.Object, options: SearchOptions, faces: NDArray[np.integer] | None = None) -> None:
+    def __init__(self, obj: bpy.types.Object, options: SearchOptions, faces: NDArray[np.integer] | None) -> None:
         self._core = native.load()
         self.mesh = ObjectSession(obj)
         arrays = self.mesh.arrays
         self.along: Along = options.along or self.mesh.auto.along
         self.finish: Finish = options.finish or self.mesh.auto.finish
         self._symmetric = options.symmetric
-        self._front = None if options.front is None else in_object(obj, options.front)
+        self._front = None if options.front is None else self._in_object(options.front)
         self._within, self.others = self._islands_with(faces)
         self._finder: seamwire_core.PartFinder | None = None
         self._last: tuple[float, PartEdits, seamwire_core.Parts] | None = None
@@ -154,14 +165,16 @@ class Suggestion:
             raise ValueError("No face is selected")
         return np.isin(labels, planned), int(labels.max()) + 1 - len(planned)
 
-    def measure(self, progress: Progress) -> None:
-        """Measure the mesh for parts; any thread may.
+    def _in_object(self, direction: Sequence[float]) -> tuple[float, float, float] | None:
+        """Return a direction in the scene's coordinates as one of length 1 in object coordinates; None if the object is flattened."""
+        try:
+            found = self.mesh.obj.matrix_world.to_3x3().inverted() @ Vector(direction)
+        except ValueError:
+            return None
+        return tuple(found.normalized()) if found.length > 0.0 else None
 
-        Parameters
-        ----------
-        progress
-            Is told the fraction done; where it returns False, `seamwire_core.Cancelled` is raised.
-        """
+    def measure(self, progress: Progress) -> None:
+        """Measure the mesh for parts; any thread may. `seamwire_core.Cancelled` is raised where `progress` returns False."""
         arrays = self.mesh.arrays
         self._surface = self._core.Surface(arrays.in_object, arrays.triangles, arrays.edges)
         self._axis = self._mirror()
@@ -182,8 +195,10 @@ class Suggestion:
         self._chosen = amount, edits, found
         self.part_count = self._counted(found)
         self.borders = [np.asarray(chain) for chain in found.borders]
-        if self._within is not None:
-            self._keep_within()
+        if self._within is not None:  # islands that are not to be cut keep no borders
+            corners = self.mesh.arrays.triangles[self._within].tolist()
+            inside = {undirected(side) for a, b, c in corners for side in ((a, b), (b, c), (c, a))}
+            self.borders = [chain for chain in self.borders if edges_of(chain) <= inside]
         self._planner = self.best = self.layout = None
         self.slits = []
 
@@ -203,26 +218,6 @@ class Suggestion:
         if self._within is None:
             return parts.count
         return len(np.unique(parts.of_face[self._within])) + self.others
-
-    def _keep_within(self) -> None:
-        """Drop the borders in islands that are not to be cut."""
-        corners = self.mesh.arrays.triangles[self._within].tolist()
-        inside = {undirected(side) for a, b, c in corners for side in ((a, b), (b, c), (c, a))}
-        self.borders = [chain for chain in self.borders if edges_of(chain) <= inside]
-
-    def _new_planner(self, progress: Progress) -> seamwire_core.SeamPlanner:
-        """Measure what wires in the chosen parts cost. `progress` is that of `measure`."""
-        return self._core.SeamPlanner(
-            self._surface,
-            along=self.along.lower(),
-            max_anisotropy=STRENGTHS[self.along],
-            clamp_percentile=CLAMP_PERCENTILE,
-            front=self._front,
-            mirror=self._axis,
-            weights=self._weights(),
-            seams=self.seams,
-            progress=progress,
-        )
 
     @property
     def seams(self) -> NDArray[np.int32]:
@@ -249,29 +244,28 @@ class Suggestion:
     def _weights(self) -> NDArray[np.float64] | None:
         """Return what the cost of wires is multiplied with at each vertex; None: by nothing."""
         arrays, strokes = self.mesh.arrays, self.mesh.session.network.strokes
-        weights = None
-        if self._within is not None:
-            weights = keep_out(arrays.triangles, self._within, len(arrays.points))
-        if strokes:
-            by_strokes = stroke_weights(arrays.points, arrays.edges, strokes)
-            weights = by_strokes if weights is None else weights * by_strokes
-        return weights
+        if self._within is None and not strokes:
+            return None
+        weights = stroke_weights(arrays.points, arrays.edges, strokes)
+        return weights if self._within is None else weights * keep_out(arrays.triangles, self._within, len(weights))
 
     def plan(self, request: PlanRequest, progress: Progress, is_enough: Callable[[], bool] = lambda: False) -> None:
         """Find wires in the chosen parts, better and better ones; any thread may.
 
-        Parameters
-        ----------
-        request
-            Requirements for the plan.
-        progress
-            As that of `measure`.
-        is_enough
-            Whether to stop, and go on with the best plan so far; the first one is waited for.
+        `progress` is that of `measure`. Once it `is_enough`, go on with the best plan so far; the first one is waited for.
         """
         # Other parts may be chosen meanwhile, which drops the planner.
-        planner = self._new_planner(lambda done: progress(_MEASURING * done))
-        self._planner = planner
+        self._planner = planner = self._core.SeamPlanner(
+            self._surface,
+            along=self.along.lower(),
+            max_anisotropy=STRENGTHS[self.along],
+            clamp_percentile=CLAMP_PERCENTILE,
+            front=self._front,
+            mirror=self._axis,
+            weights=self._weights(),
+            seams=self.seams,
+            progress=lambda done: progress(_MEASURING * done),
+        )
 
         def go_on(done: float) -> bool:
             is_found = self._useful(planner.best_so_far) is not None
@@ -324,14 +318,14 @@ class Suggestion:
         return plan if plan.wires or self.borders else None
 
     @property
-    def wires(self) -> list[Wire]:
-        """The borders between the chosen parts, and the wires in them, as wires."""
-        return [*self.border_wires, *self.slits]
-
-    @property
     def border_wires(self) -> list[Wire]:
         """The borders between the chosen parts as wires."""
         return border_wires(self.borders, self.mesh.arrays.points)
+
+    @property
+    def wires(self) -> list[Wire]:
+        """The borders between the chosen parts, and the wires in them, as wires."""
+        return [*self.border_wires, *self.slits]
 
     def map(self) -> NDArray[np.float64] | None:
         """Return the map of the plan, (m, 3, 2), in the object's units; None if it has none, or the mesh is another one with the wires."""
@@ -351,15 +345,16 @@ class Suggestion:
     @cached_property
     def area(self) -> float:
         """The area of the visible surface, in the object's units squared."""
-        return float(self._areas().sum())
+        return float(self._areas.sum())
 
+    @cached_property
     def _areas(self) -> NDArray[np.float64]:
         return triangle_areas(self.mesh.arrays.in_object, self.mesh.arrays.triangles)
 
     def smallest(self) -> float:
         """Return the least part of the mesh's area that an island has: of those planned, or of those that may be."""
         assert self.best is not None
-        areas = np.bincount(self.best.islands, self._areas())
+        areas = np.bincount(self.best.islands, self._areas)
         areas = areas[areas > 0.0]
         return min(CRUMB, float(areas.min() / areas.sum())) if len(areas) else CRUMB
 
@@ -370,67 +365,17 @@ class Suggestion:
         self.marked += marked
 
 
-def in_object(obj: bpy.types.Object, direction: Sequence[float]) -> tuple[float, float, float] | None:
-    """Return a direction in the scene's coordinates as one of length 1 in object coordinates; None if the object is flattened."""
-    try:
-        found = obj.matrix_world.to_3x3().inverted() @ Vector(direction)
-    except ValueError:
-        return None
-    return tuple(found.normalized()) if found.length > 0.0 else None
-
-
-@dataclass(frozen=True)
-class Wanted:
-    """Requirements for the seams.
-
-    Parameters
-    ----------
-    stretch
-        The mean stretch in percent.
-    islands
-        The least number of islands of each object.
-    unwraps
-        Whether to unwrap the islands whose seams have changed. Otherwise Blender's Live Unwrap decides.
-    """
-
-    stretch: float = 17.0
-    islands: int = 1
-    unwraps: bool = True
-
-    @property
-    def request(self) -> PlanRequest:
-        """The requirements for a plan."""
-        return PlanRequest(energy_of(0.01 * self.stretch), self.islands)
-
-
-def objects_to_cut(
-    objects: Collection[bpy.types.Object], selected: bool
-) -> dict[bpy.types.Object, NDArray[np.integer] | None]:
-    """Return the objects to cut, each with the faces whose islands are cut, or None for all islands.
-
-    Parameters
-    ----------
-    objects
-        In Edit Mode.
-    selected
-        Whether only islands with selected faces are cut.
-    """
-    if selected:
-        return {obj: edit_mesh.selected_faces(obj) for obj in objects}
-    return dict.fromkeys(objects)
-
-
 class SeamSearch:
     """Suggested wires for several objects.
 
     Parameters
     ----------
     objects
-        In Edit Mode, each with the faces whose islands are cut, or None for all islands. Objects without visible faces are left out.
+        In Edit Mode. Objects without visible faces are left out.
     options
-        How wires are planned.
-    wanted
-        Requirements for the seams.
+        Requirements for the wires and the seams.
+    selected
+        Whether only islands with selected faces are cut.
 
     Attributes
     ----------
@@ -445,15 +390,14 @@ class SeamSearch:
         If the compiled part is missing.
     """
 
-    def __init__(
-        self, objects: Mapping[bpy.types.Object, NDArray[np.integer] | None], options: SearchOptions, wanted: Wanted
-    ) -> None:
+    def __init__(self, objects: Iterable[bpy.types.Object], options: SearchOptions, selected: bool) -> None:
         self.notices = Notices()
         self.problem = "No face is visible"
-        self._wanted = wanted
+        self._options = options
         self._unwrapped: Unwrapped | None = None
         self._found: list[Suggestion] = []
-        for obj, faces in objects.items():
+        for obj in objects:
+            faces = edit_mesh.selected_faces(obj) if selected else None
             try:
                 suggestion = Suggestion(obj, options, faces)
             except ValueError as error:
@@ -476,15 +420,13 @@ class SeamSearch:
         return all(suggestion.mesh.alive() for suggestion in self)
 
     def measure(self, progress: Progress) -> None:
-        """Measure all meshes for parts; any thread may.
-
-        Parameters
-        ----------
-        progress
-            Is told the fraction done; where it returns False, `seamwire_core.Cancelled` is raised.
-        """
+        """Measure all meshes for parts; any thread may. `seamwire_core.Cancelled` is raised where `progress` returns False."""
         for suggestion, share in self._shares(progress):
             suggestion.measure(share)
+
+    @staticmethod
+    def _edits_of(suggestion: Suggestion, edits: Mapping[str, PartEdits]) -> PartEdits:
+        return edits.get(suggestion.mesh.obj.name_full, PartEdits())
 
     def count(self, amount: float, edits: Mapping[str, PartEdits], progress: Progress) -> int:
         """Return the number of parts of all meshes for an amount from 0 to 1; any thread may.
@@ -492,16 +434,16 @@ class SeamSearch:
         The edits have the names of objects. `progress` is that of `measure`.
         """
         shares = self._shares(progress)
-        return sum(suggestion.count(amount, _own(edits, suggestion), share) for suggestion, share in shares)
+        return sum(suggestion.count(amount, self._edits_of(suggestion, edits), share) for suggestion, share in shares)
 
     def choose(self, amount: float, edits: Mapping[str, PartEdits], progress: Progress = lambda _: True) -> None:
         """Choose the parts for an amount from 0 to 1, as `count` finds them."""
         for suggestion, share in self._shares(progress):
-            suggestion.choose(amount, _own(edits, suggestion), share)
+            suggestion.choose(amount, self._edits_of(suggestion, edits), share)
 
     def limit_stretch(self, percent: float) -> None:
         """Let the next plans have another mean stretch. `choose` drops those for the stretch before."""
-        self._wanted = replace(self._wanted, stretch=percent)
+        self._options = replace(self._options, stretch=percent)
 
     @property
     def part_count(self) -> int:
@@ -511,15 +453,11 @@ class SeamSearch:
     def plan(self, progress: Progress, is_enough: Callable[[], bool] = lambda: False) -> None:
         """Plan wires in the chosen parts of all meshes; any thread may.
 
-        Parameters
-        ----------
-        progress
-            As that of `measure`.
-        is_enough
-            Whether to go on with the best plans so far; the first plan of each mesh is waited for.
+        `progress` is that of `measure`. Once it `is_enough`, go on with the best plans so far; the first plan of each mesh is waited for.
         """
+        request = PlanRequest(energy_of(0.01 * self._options.stretch), self._options.islands)
         for suggestion, share in self._shares(progress):
-            suggestion.plan(self._wanted.request, share, is_enough=is_enough)
+            suggestion.plan(request, share, is_enough=is_enough)
 
     def lay_out(self, progress: Progress) -> None:
         """Find how the islands of the plans will lie in the UV map; any thread may. `progress` is that of `measure`."""
@@ -528,17 +466,13 @@ class SeamSearch:
 
     def _shares(self, progress: Progress) -> Iterator[tuple[Suggestion, Progress]]:
         """Yield each suggestion with its share of the progress."""
-        count = len(self)
         for number, suggestion in enumerate(self):
-            yield suggestion, partial(_part, progress, number, count)
+            yield suggestion, lambda done, number=number: progress((number + done) / len(self))
 
     def refresh(self) -> None:
         """Read the meshes again. Wires and seams that were added during the search stay.
 
-        Raises
-        ------
-        ValueError
-            If a mesh has another shape than the planned one.
+        Raises ValueError if a mesh has another shape than the planned one.
         """
         if not all(suggestion.mesh.refresh(suggestion.mesh.obj) for suggestion in self):
             raise ValueError("The mesh changed during the search")
@@ -551,13 +485,16 @@ class SeamSearch:
     @property
     def crumb(self) -> float:
         """The fraction of a mesh's area below which islands beside cuts are merged."""
-        smallest = (suggestion.smallest() for suggestion in self if suggestion.along == "SURFACE" and suggestion.slits)
+        smallest = (suggestion.smallest() for suggestion in self._across)
         return _CUT_CRUMB * min(smallest, default=0.0)
 
     def finished_by(self, finish: Finish) -> list[Suggestion]:
         """Return the suggestions with wires across the surface that become seams in this way."""
-        across = (suggestion for suggestion in self if suggestion.along == "SURFACE" and suggestion.slits)
-        return [suggestion for suggestion in across if suggestion.finish == finish]
+        return [suggestion for suggestion in self._across if suggestion.finish == finish]
+
+    @property
+    def _across(self) -> list[Suggestion]:
+        return [suggestion for suggestion in self if suggestion.along == "SURFACE" and suggestion.slits]
 
     def write_borders(self) -> None:
         """Keep the borders of meshes whose other wires are cut."""
@@ -574,14 +511,10 @@ class SeamSearch:
     def unwrap(self, context: bpy.types.Context) -> int:
         """Unwrap if wanted, otherwise follow Blender's Live Unwrap. Return the number of unwrapped islands.
 
-        If the meshes had no seams, all UVs are replaced, so that the new islands fill the UV square.
-
-        Raises
-        ------
-        ValueError, native.NativeError
-            If a map cannot be made.
+        If the meshes had no seams, all UVs are replaced, so that the new islands fill the UV square. Raises ValueError or NativeError if a
+        map cannot be made.
         """
-        if not self._wanted.unwraps:
+        if not self._options.unwraps:
             edit_mesh.live_unwrap(context)
             return 0
         starts = {suggestion.mesh.obj: uvs for suggestion in self if (uvs := suggestion.map()) is not None}
@@ -594,27 +527,27 @@ class SeamSearch:
 
     def outcome(self) -> Outcome:
         """Measure the islands, and the UV maps that the meshes have. If nothing was to be unwrapped, the planned maps count."""
-        wanted, done = self._wanted, self._unwrapped
+        options, done = self._options, self._unwrapped
         missing = [missing_cuts(suggestion.mesh.obj) for suggestion in self]
         is_few = any(
-            len(own) - suggestion.others < wanted.islands for own, suggestion in zip(missing, self, strict=True)
+            len(own) - suggestion.others < options.islands for own, suggestion in zip(missing, self, strict=True)
         )
         energies, areas = self._energies()
         return Outcome(
             wires=sum(len(suggestion.wires) for suggestion in self),
             marked=sum(suggestion.marked for suggestion in self),
             missing=[int(cuts) for own in missing for cuts in own],
-            islands_wanted=wanted.islands if is_few else 0,
+            islands_wanted=options.islands if is_few else 0,
             stretch=100.0 * mean_stretch(energies, areas) if energies else None,
             stretches=[100.0 * stretch_of(energy) for energy in energies],
-            stretch_wanted=wanted.stretch,
+            stretch_wanted=options.stretch,
             unwrapped=None if done is None else done.islands,
             faults=NO_FAULTS if done is None else done.faults,
         )
 
     def _energies(self) -> tuple[list[float], list[float]]:
         """Return the energy of each map, and the area of its surface."""
-        if not self._wanted.unwraps:
+        if not self._options.unwraps:
             return [float(suggestion.best.energy) for suggestion in self], [suggestion.area for suggestion in self]
         if self._unwrapped is None:  # the maps on the meshes are those from before
             return [], []
@@ -622,12 +555,3 @@ class SeamSearch:
         return [found.energy(uv_map.aspect(obj)) for obj, found in maps.items()], [
             found.area for found in maps.values()
         ]
-
-
-def _own(edits: Mapping[str, PartEdits], suggestion: Suggestion) -> PartEdits:
-    return edits.get(suggestion.mesh.obj.name_full, PartEdits())
-
-
-def _part(progress: Progress, number: int, count: int, fraction: float) -> bool:
-    """Report a fraction of one of several pieces of work."""
-    return progress((number + fraction) / count)

@@ -10,13 +10,21 @@ import bpy
 from ..terms.choices import items
 from ..terms.options import PLACED, SETTINGS, Options
 from ..words.notices import Notices
-from .redraw import redraw_views
 from .registration import classes, together
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from ..terms.options import Auto, Setting
+
+
+def redraw_views() -> None:
+    """Let all 3D views be drawn anew."""
+    for window in bpy.context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                area.tag_redraw()
+
 
 ADDON = __package__.rpartition(".")[0]
 """The add-on's name in this Blender."""
@@ -77,16 +85,9 @@ def _forget() -> None:
 
 
 def snapshot(settings: SeamwireSettings, mesh: bpy.types.Mesh | None = None, auto: Auto = PLACED) -> Options:
-    """Return the settings as they are now.
+    """Return the settings as they are now, from Blender's properties.
 
-    Parameters
-    ----------
-    settings
-        Blender's properties.
-    mesh
-        Its own options tell over which axes wires are mirrored; None: over none.
-    auto
-        The values that Auto stands for on that mesh.
+    Wires are mirrored over the axes that a mesh says, or over none without a mesh. `auto` has the values that Auto stands for there.
     """
     values = {name: _exact(getattr(settings, name)) for name in SETTINGS}
     for name, best in auto._asdict().items():

@@ -14,7 +14,7 @@ from mathutils import Vector
 from .versions import IS_OLD
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+    from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from .edit_mesh import Cage
 
     Value = Vector | float
-    Read = Callable[[bmesh.types.BMLoop], Value]
-    Write = Callable[[bmesh.types.BMLoop, Value], None]
 
 _SAME = 6
 """Digits that corners around a vertex have in common where they hang together, as in one island of a UV map."""
@@ -78,8 +76,11 @@ def carry_out(obj: bpy.types.Object, cage: Cage, moves: Mapping[int, Move]) -> N
     spans = {vertex: ([bm.verts[corner] for corner in move.corners], move.weights) for vertex, move in moves.items()}
     # All is read before anything is written: neighbors move as well.
     places = {vertex: _mean([corner.co for corner in corners], weights) for vertex, (corners, weights) in spans.items()}
-    keys = [(layer, dict(_of_key(spans, layer))) for layer in bm.verts.layers.shape.values()]
-    corners = [(write, list(_of_corners(bm, moves, places, read))) for read, write in _corner_layers(bm)]
+    keys = [
+        (layer, {vertex: _mean([corner[layer] for corner in own], weights) for vertex, (own, weights) in spans.items()})
+        for layer in bm.verts.layers.shape.values()
+    ]
+    corners = [(layer, list(_of_corners(bm, moves, places, layer))) for layer in _corner_layers(bm)]
     follows = _keys_that_follow(obj)
     for vertex, place in places.items():
         vert = bm.verts[vertex]
@@ -88,9 +89,12 @@ def carry_out(obj: bpy.types.Object, cage: Cage, moves: Mapping[int, Move]) -> N
             if number != obj.active_shape_key_index:  # that is `vert.co`
                 vert[layer] = wanted[vertex] - offset if number in follows else wanted[vertex]
         vert.co = place
-    for write, values in corners:
+    for layer, values in corners:
         for corner, value in values:
-            write(corner, value)
+            if hasattr(corner[layer], "uv"):
+                corner[layer].uv = value
+            else:
+                corner[layer] = value
     bm.normal_update()
     bmesh.update_edit_mesh(cage.mesh, loop_triangles=True, destructive=False)
 
@@ -100,14 +104,6 @@ def _mean(values: Sequence[Value], weights: Sequence[float]) -> Value:
     for value in rest:
         first = first + value
     return first
-
-
-def _of_key(
-    spans: Mapping[int, tuple[Sequence[bmesh.types.BMVert], Sequence[float]]], layer: bmesh.types.BMLayerItem
-) -> Iterator[tuple[int, Vector]]:
-    """Yield where vertices go in a shape key."""
-    for vertex, (corners, weights) in spans.items():
-        yield vertex, _mean([corner[layer] for corner in corners], weights)
 
 
 def _keys_that_follow(obj: bpy.types.Object) -> set[int]:
@@ -135,36 +131,19 @@ def _keys_that_follow(obj: bpy.types.Object) -> set[int]:
     return {number for number, block in enumerate(blocks) if block != edited and leads_there(block)}
 
 
-def _corner_layers(bm: bmesh.types.BMesh) -> Iterator[tuple[Read, Write]]:
-    """Yield how to read and how to write each layer of numbers at the corners of faces."""
-    layers = bm.loops.layers
-    for layer in layers.uv.values():
-        yield _of_uv(layer)
-    for name in ("color", "float_color", "float", "float_vector"):
-        for layer in getattr(layers, name).values():
-            yield _of_numbers(layer)
+def _corner_layers(bm: bmesh.types.BMesh) -> list[bmesh.types.BMLayerItem]:
+    """Return the layers of numbers at the corners of faces."""
+    kinds = ("uv", "color", "float_color", "float", "float_vector")
+    return [layer for kind in kinds for layer in getattr(bm.loops.layers, kind).values()]
 
 
-def _of_uv(layer: bmesh.types.BMLayerItem) -> tuple[Read, Write]:
-    def write(corner: bmesh.types.BMLoop, value: Vector) -> None:
-        corner[layer].uv = value
-
-    return lambda corner: corner[layer].uv.copy(), write
-
-
-def _of_numbers(layer: bmesh.types.BMLayerItem) -> tuple[Read, Write]:
-    def read(corner: bmesh.types.BMLoop) -> Value:
-        value = corner[layer]
-        return value if isinstance(value, float) else Vector(value)
-
-    def write(corner: bmesh.types.BMLoop, value: Value) -> None:
-        corner[layer] = value
-
-    return read, write
+def _read(corner: bmesh.types.BMLoop, layer: bmesh.types.BMLayerItem) -> Value:
+    value = getattr(corner[layer], "uv", corner[layer])
+    return value if isinstance(value, float) else Vector(value)
 
 
 def _of_corners(
-    bm: bmesh.types.BMesh, moves: Mapping[int, Move], places: Mapping[int, Vector], read: Read
+    bm: bmesh.types.BMesh, moves: Mapping[int, Move], places: Mapping[int, Vector], layer: bmesh.types.BMLayerItem
 ) -> Iterator[tuple[bmesh.types.BMLoop, Value]]:
     """Yield the corners around vertices that move, and what a layer has there.
 
@@ -172,15 +151,15 @@ def _of_corners(
     face's values are extrapolated to that place, and connected values are averaged.
     """
     for vertex, move in moves.items():
-        inside = {corner.vert.index: read(corner) for corner in bm.faces[move.polygon].loops}
+        inside = {corner.vert.index: _read(corner, layer) for corner in bm.faces[move.polygon].loops}
         there = _mean([inside[corner] for corner in move.corners], move.weights)
         groups: dict[tuple[float, ...], list[bmesh.types.BMLoop]] = defaultdict(list)
         for corner in bm.verts[vertex].link_loops:
-            groups[_rounded(read(corner))].append(corner)
+            groups[_rounded(_read(corner, layer))].append(corner)
         for key, group in groups.items():
             value = there
             if key != _rounded(inside[vertex]):
-                beyond = [_continued(corner, places[vertex], read) for corner in group]
+                beyond = [_continued(corner, places[vertex], layer) for corner in group]
                 value = _mean(beyond, [1.0 / len(beyond)] * len(beyond))
             for corner in group:
                 yield corner, value
@@ -190,10 +169,10 @@ def _rounded(value: Value) -> tuple[float, ...]:
     return tuple(round(part, _SAME) for part in ((value,) if isinstance(value, float) else value))
 
 
-def _continued(corner: bmesh.types.BMLoop, place: Vector, read: Read) -> Value:
+def _continued(corner: bmesh.types.BMLoop, place: Vector, layer: bmesh.types.BMLayerItem) -> Value:
     """Return what a face's layer has at a place, continued from the triangle of a corner and those beside it."""
     three = (corner.link_loop_prev, corner, corner.link_loop_next)
-    return _mean([read(one) for one in three], _affine([one.vert.co for one in three], place))
+    return _mean([_read(one, layer) for one in three], _affine([one.vert.co for one in three], place))
 
 
 def _affine(corners: Sequence[Vector], place: Vector) -> NDArray[np.float64]:

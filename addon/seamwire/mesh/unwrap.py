@@ -23,13 +23,11 @@ from ..core.base import native
 from ..core.base.components import components
 from ..core.base.geometry import triangle_areas
 from ..core.islands.copies import ShapedIsland, shaped_islands
-from ..core.islands.map_faults import NO_FAULTS, MapFaults, MappedSurface, find_faults, joined
-from ..core.islands.rounded_flips import turn_back
-from ..core.islands.straight_corners import CornerRing, find_straight
+from ..core.islands.map_faults import NO_FAULTS, MapFaults, MappedSurface, find_faults, joined, turn_back
+from ..core.islands.straight_corners import find_straight
 from ..core.islands.uv_islands import NewIsland, boxes_of, in_rows, place, split_edges, uv_areas
 from . import edit_mesh, uv_map
 from .seam_islands import labels_of
-from .uv_stacks import Stack, stacked
 from .versions import IS_OLD
 
 if TYPE_CHECKING:
@@ -101,8 +99,12 @@ class _Map:
         self.obj = obj
         self._arrays = arrays = edit_mesh.read(obj)
         self.aspect = uv_map.aspect(obj)
-        self._read = read = uv_map.read_with_edges(obj, UNWRAPPED)
-        self.corners, self._uvs = read.corners, read.uvs
+        with uv_map.copied(obj) as mesh:
+            self.corners, self._uvs, pinned = uv_map.corners_of(mesh), uv_map.uvs_of(mesh), uv_map.pinned_of(mesh)
+            self._seams = edit_mesh.column(mesh.edges, "use_seam", np.bool_)
+            layer = mesh.attributes.get(UNWRAPPED)
+            is_known = layer is not None and len(layer.data) == len(self._seams)
+            self._known = edit_mesh.column(layer.data, "value", np.int32) if is_known else np.zeros(len(self._seams))
         labels = labels_of(arrays)
         self.count = int(labels.max(initial=-1)) + 1
         self._of_face = np.full(int(self.corners.faces.max(initial=-1)) + 1, -1, dtype=np.int32)
@@ -113,13 +115,11 @@ class _Map:
         self._triangles = drawn[labels >= 0]
         self._labels = labels[labels >= 0]
         self._areas = triangle_areas(arrays.in_object, self.corners.vertices[self._triangles])
-        self._ring = CornerRing(self.corners.vertices, self.corners.faces, self.corners.following)
-        is_seam = read.seams[self.corners.edges]
-        self._straight = find_straight(arrays.in_object, self._ring, is_seam, self._triangles)
+        is_seam = self._seams[self.corners.edges]
+        self._straight = find_straight(arrays.in_object, self.corners, is_seam, self._triangles)
         changed = self._find_changed()
         self.changed = np.arange(self.count) if every else np.flatnonzero(changed)
-        pinned = read.pinned[self._triangles].any(axis=1)
-        self._with_pins = np.intersect1d(self.changed, self._labels[pinned])
+        self.with_pins = np.intersect1d(self.changed, self._labels[pinned[self._triangles].any(axis=1)])
         self._are_straight = np.zeros(self.count, dtype=bool)
         self.stacked = np.empty(0, dtype=np.int64)
 
@@ -127,6 +127,11 @@ class _Map:
     def bm(self) -> bmesh.types.BMesh:
         """The edit mesh, by its numbers."""
         return edit_mesh.edit_bmesh(self.obj.data)
+
+    @property
+    def _before(self) -> NDArray[np.float64]:
+        """The old map, (c, 2); zeros: there was no UV map."""
+        return np.zeros((len(self.corners.vertices), 2)) if self._uvs is None else self._uvs.astype(np.float64)
 
     def _drawn(self) -> NDArray[np.int64]:
         """Return the corners of the triangles that Blender draws in edit mode, (t, 3), hidden ones included."""
@@ -143,7 +148,7 @@ class _Map:
         self._families = np.arange(self.count)
         if self._uvs is None:
             return np.ones(self.count, dtype=bool)
-        corners, seams, known = self.corners, self._read.seams, self._read.numbers
+        corners, seams, known = self.corners, self._seams, self._known
         visible = self._of_face[corners.faces] >= 0
         pairs, torn = split_edges(corners.vertices, np.where(visible, corners.edges, -1), corners.following, self._uvs)
         islands = self._of_face[corners.faces[pairs]]
@@ -167,40 +172,17 @@ class _Map:
         """Return the faces of some islands, or else of those that have changed."""
         return np.flatnonzero(np.isin(self._of_face, self.changed if islands is None else islands))
 
-    def flat_islands(self, method: str) -> NDArray[np.integer]:
-        """Return the changed islands that are flattened here; Blender unwraps the others: all by its own methods, else those with pins."""
-        return np.setdiff1d(self.changed, self._with_pins) if method == "SEAMWIRE" else self.changed[:0]
-
     def flattened(
         self, islands: NDArray[np.integer], start: NDArray[np.float64] | None, layout: Layout
     ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64]]:
-        """Flatten islands: without flips, and without overlaps where that can be reached.
+        """Flatten islands: without flips, and without overlaps where possible. Raises ValueError if a coordinate is not a number.
 
-        Parameters
-        ----------
-        islands
-            Which.
-        start
-            (m, 3, 2) a map to start from, in lengths on the model, where it is continuous; None: the present one.
-        layout
-            Whether islands are laid out straight and upright.
-
-        Returns
-        -------
-        (c,) array
-            The corners of the islands, ascending.
-        (c, 2) array
-            Their UVs, in lengths on the model.
-        (c,) array
-            The island of each of them, numbered from 0; a new one where the seams do not part what is no surface.
-
-        Raises
-        ------
-        ValueError
-            If a coordinate is not a number.
+        `start`, (m, 3, 2), is a map to start from, in lengths on the model, where it is continuous; None: the present one. Returns the
+        corners of the islands, ascending, their UVs in lengths on the model, and the number of the island of each. An island has several
+        numbers where the seams do not part what is no surface.
         """
         drawn = self._triangles[np.isin(self._labels, islands)]
-        corners = self._straight.to_map(self._arrays.in_object, self._ring, drawn)
+        corners = self._straight.to_map(self._arrays.in_object, self.corners, drawn)
         vertices, triangles = np.unique(self.corners.vertices[corners], return_inverse=True)
         number = np.full(len(self._arrays.points), -1, dtype=np.int32)
         number[vertices] = np.arange(len(vertices))
@@ -262,14 +244,12 @@ class _Map:
 
     def pinned_down(self) -> NDArray[np.float64]:
         """Return the bounds of the triangles of changed islands with pins, (b, 4), as Blender has unwrapped them."""
-        rows = np.isin(self._labels, self._with_pins)
+        rows = np.isin(self._labels, self.with_pins)
         return boxes_of(uv_map.read_uvs(self.obj)[self._triangles[rows]].astype(np.float64))
 
     def areas(self) -> NDArray[np.float64]:
         """Return the areas of the islands in the old map and on the model, (2, count)."""
-        in_map = np.zeros(len(self._labels))
-        if self._uvs is not None:
-            in_map = uv_areas(self._uvs[self._triangles].astype(np.float64))
+        in_map = uv_areas(self._before[self._triangles])
         return np.stack([np.bincount(self._labels, areas, self.count) for areas in (in_map, self._areas)])
 
     def densities(self, fallback: float) -> NDArray[np.float64]:
@@ -281,7 +261,7 @@ class _Map:
     def shapes(self, islands: NDArray[np.integer]) -> list[ShapedIsland]:
         """Return the shapes of some islands."""
         corners, labels = self.corners, self._of_face[self.corners.faces]
-        edges = np.where(self._read.seams[corners.edges], -1, corners.edges)
+        edges = np.where(self._seams[corners.edges], -1, corners.edges)
         labels = np.where(np.isin(labels, islands), labels, -1)
         return shaped_islands(self._arrays.in_object, corners.vertices, edges, corners.following, labels)
 
@@ -292,14 +272,13 @@ class _Map:
         """
         densities = self.densities(density)
         after = uv_map.read_uvs(self.obj)
-        before = np.zeros_like(after) if self._uvs is None else self._uvs
         islands = []
         order = np.argsort(self._labels, kind="stable")
         starts = np.searchsorted(self._labels[order], np.arange(self.count + 1))
-        for label in np.setdiff1d(self.changed, np.union1d(self._with_pins, self.stacked)).tolist():
+        for label in np.setdiff1d(self.changed, np.union1d(self.with_pins, self.stacked)).tolist():
             rows = order[starts[label] : starts[label + 1]]
             corners, triangles = np.unique(self._triangles[rows], return_inverse=True)
-            one, other = (uvs[corners].astype(np.float64) for uvs in (before, after))
+            one, other = (uvs[corners].astype(np.float64) for uvs in (self._before, after))
             triangles = triangles.reshape(-1, 3)
             new = NewIsland(
                 one,
@@ -353,9 +332,7 @@ class _Map:
 
     def homes(self) -> NDArray[np.float64]:
         """Return the low corner of the tile of the UV plane that each island had before, (count, 2)."""
-        if self._uvs is None:
-            return np.zeros((self.count, 2))
-        middles = self._uvs[self._triangles].astype(np.float64).mean(axis=1)
+        middles = self._before[self._triangles].mean(axis=1)
         sizes = np.bincount(self._labels, minlength=self.count)
         sums = np.stack([np.bincount(self._labels, column, self.count) for column in middles.T], axis=1)
         return np.floor(sums / np.maximum(sizes, 1)[:, None])
@@ -364,14 +341,10 @@ class _Map:
         """Turn back what rounding has turned over in changed islands without pins; return whether anything has moved."""
         uvs = uv_map.read_uvs(self.obj)
         rows = self._with_area(uvs)
-        rows = rows[np.isin(self._labels[rows], np.setdiff1d(self.changed, self._with_pins))]
+        rows = rows[np.isin(self._labels[rows], np.setdiff1d(self.changed, self.with_pins))]
         corners, places = turn_back(uvs, self._triangles[rows], self.corners.vertices, self._labels[rows])
         self.write(corners, places)
         return len(corners) > 0
-
-    def on_image(self, uvs: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return UVs, (c, 2), squeezed as the image is wide, so that they are not stretched on it."""
-        return uvs / (self.aspect, 1.0)
 
     def remember(self) -> None:
         """Let visible edges hold whether they were seams when they were unwrapped last."""
@@ -428,7 +401,10 @@ def unwrap_changed(
     unwrapped, faults = sum(len(found.changed) for found in maps), NO_FAULTS
     kept = sum(found.count for found in maps) - unwrapped
     if unwrapped:
-        flat = {found: found.flat_islands(method) for found in maps}
+        # Blender unwraps the others: all by its own methods, else those with pins.
+        flat = {found: np.setdiff1d(found.changed, found.with_pins) for found in maps}
+        if method != "SEAMWIRE":
+            flat = {found: found.changed[:0] for found in maps}
         solved = {
             found: found.flattened(islands, starts.get(found.obj), layout)
             for found, islands in flat.items()
@@ -439,12 +415,12 @@ def unwrap_changed(
             try:
                 _unwrap_by_blender(context, blenders, "ANGLE_BASED" if method == "SEAMWIRE" else method)
                 _lay_out(solved)
-                stacks = _stacks(flat) if layout.stack else []
+                copies = _find_copies(flat) if layout.stack else []
                 _place(context, maps, flat, layout)
-                _pile_up(maps, stacks)
+                _pile_up(maps, copies)
                 faults = _faults(maps)
                 if faults.flipped and any([found.turn_back() for found in maps]):
-                    _pile_up(maps, stacks)
+                    _pile_up(maps, copies)
                     faults = _faults(maps)
             except BaseException:
                 for found in maps:
@@ -484,7 +460,7 @@ def _lay_out(solved: Mapping[_Map, tuple[NDArray[np.int64], NDArray[np.float64],
     if not solved:
         return
     offsets = np.cumsum([0, *(int(labels.max()) + 1 for _, _, labels in solved.values())])
-    uvs = np.concatenate([found.on_image(flat) for found, (_, flat, _) in solved.items()])
+    uvs = np.concatenate([flat / (found.aspect, 1.0) for found, (_, flat, _) in solved.items()])
     labels = np.concatenate([own + offset for (_, _, own), offset in zip(solved.values(), offsets[:-1], strict=True)])
     placed = in_rows(uvs, labels)
     ends = np.cumsum([len(corners) for corners, _, _ in solved.values()])
@@ -493,25 +469,29 @@ def _lay_out(solved: Mapping[_Map, tuple[NDArray[np.int64], NDArray[np.float64],
         bmesh.update_edit_mesh(found.obj.data, loop_triangles=False, destructive=False)
 
 
-def _stacks(flat: Mapping[_Map, NDArray[np.integer]]) -> list[Stack]:
+def _find_copies(flat: Mapping[_Map, NDArray[np.integer]]) -> list[uv_map.Copy]:
     """Find the islands that lie on others, for each width of the image that the UVs lie on."""
-    stacks = []
+    copies = []
     for aspect in dict.fromkeys(found.aspect for found in flat):
         own = {found: islands for found, islands in flat.items() if found.aspect == aspect}
-        stack = stacked([(found.obj, island) for found, islands in own.items() for island in found.shapes(islands)])
-        for found in own:
-            found.stacked = stack.copies.get(found.obj, found.stacked)
-        stacks.append(stack)
-    return stacks
+        copies += uv_map.copies_among(
+            [(found.obj, shape) for found, some in own.items() for shape in found.shapes(some)]
+        )
+    for found in flat:
+        found.stacked = np.array([copy.label for copy in copies if copy.obj == found.obj], dtype=np.int64)
+    return copies
 
 
-def _pile_up(maps: Sequence[_Map], stacks: Sequence[Stack]) -> None:
+def _pile_up(maps: Sequence[_Map], copies: Sequence[uv_map.Copy]) -> None:
     """Lay copies on the islands that have a place."""
-    for stack in stacks:
-        uvs = stack.uvs()
-        for found in maps:
-            if found.obj in uvs:
-                found.write(*uvs[found.obj])
+    present = {obj: uv_map.read_uvs(obj) for obj in dict.fromkeys(copy.other for copy in copies)}
+    for found in maps:
+        own = [copy for copy in copies if copy.obj == found.obj]
+        if own:
+            corners = np.concatenate([copy.corners for copy in own])
+            uvs = np.concatenate([present[copy.other][copy.below] for copy in own]).astype(np.float64)
+            order = np.argsort(corners)
+            found.write(corners[order], uvs[order])
 
 
 def _place(

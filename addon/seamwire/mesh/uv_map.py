@@ -1,116 +1,49 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The active UV map of an edit mesh as arrays."""
+"""The active UV map of an edit mesh as arrays, and islands of the same shape that lie on each other in it."""
 
 from __future__ import annotations
 
 from contextlib import contextmanager
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import bpy
 import numpy as np
 
+from ..core.islands.copies import ShapedIsland, find_copies
+from ..core.islands.uv_islands import Corners
 from . import edit_mesh
 from .versions import IS_OLD
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from numpy.typing import NDArray
 
-    from ..core.base.mesh_arrays import Arrays
 
-
-@dataclass(frozen=True)
-class Corners:
-    """The corners of a mesh's faces, face by face, hidden ones included.
-
-    Parameters
-    ----------
-    vertices, edges
-        (c,) the vertex of each, and the edge to the next corner of its face.
-    faces
-        (c,) the face that each belongs to, ascending.
-    following
-        (c,) the next corner of its face.
-    """
-
-    vertices: NDArray[np.int32]
-    edges: NDArray[np.int32]
-    faces: NDArray[np.int64]
-    following: NDArray[np.int64]
-
-    @classmethod
-    def of(cls, mesh: bpy.types.Mesh) -> Corners:
-        """Read them from a mesh that edit mode does not hold."""
-        vertices, edges = (edit_mesh.column(mesh.loops, name, np.int32) for name in ("vertex_index", "edge_index"))
-        starts = edit_mesh.column(mesh.polygons, "loop_start", np.int32)
-        sizes = np.diff(starts, append=len(vertices))
-        following = np.arange(1, len(vertices) + 1)
-        following[starts + sizes - 1] = starts
-        return cls(vertices, edges, np.repeat(np.arange(len(starts)), sizes), following)
-
-    def of_triangles(self, arrays: Arrays) -> NDArray[np.int64]:
-        """Return the corner that lies at each corner of the triangles, (m, 3)."""
-        count = len(arrays.points)
-        keys = self.faces * count + self.vertices
-        order = np.argsort(keys, kind="stable")
-        wanted = arrays.polygons[:, None].astype(np.int64) * count + arrays.triangles
-        return order[np.searchsorted(keys, wanted.reshape(-1), sorter=order)].reshape(-1, 3)
-
-
-@dataclass(frozen=True)
-class EditedMap:
-    """What unwrapping needs of an edit mesh, hidden faces included.
-
-    Parameters
-    ----------
-    corners
-        The corners of the faces.
-    uvs
-        (c, 2) their places in the active UV map; None: there is no UV map.
-    pinned
-        (c,) whether they are pinned.
-    seams
-        (e,) whether the edges are seams.
-    numbers
-        (e,) the values of the edges in a layer; zeros: there is no such layer.
-    """
-
-    corners: Corners
-    uvs: NDArray[np.float32] | None
-    pinned: NDArray[np.bool_]
-    seams: NDArray[np.bool_]
-    numbers: NDArray[np.int32]
-
-
-def read_with_edges(obj: bpy.types.Object, layer: str) -> EditedMap:
-    """Read an edit mesh, and what a layer of whole numbers holds of its edges."""
-    with _copied(obj) as mesh:
-        corners, uvs = Corners.of(mesh), _uvs(mesh)
-        seams = edit_mesh.column(mesh.edges, "use_seam", np.bool_)
-        attribute = mesh.attributes.get(layer)
-        if attribute is not None and len(attribute.data) == len(seams):
-            numbers = edit_mesh.column(attribute.data, "value", np.int32)
-        else:
-            numbers = np.zeros(len(seams), dtype=np.int32)
-        return EditedMap(corners, uvs, _pinned(mesh), seams, numbers)
+def corners_of(mesh: bpy.types.Mesh) -> Corners:
+    """Read the corners of a mesh that edit mode does not hold."""
+    vertices, edges = (edit_mesh.column(mesh.loops, name, np.int32) for name in ("vertex_index", "edge_index"))
+    starts = edit_mesh.column(mesh.polygons, "loop_start", np.int32)
+    sizes = np.diff(starts, append=len(vertices))
+    following = np.arange(1, len(vertices) + 1)
+    following[starts + sizes - 1] = starts
+    return Corners(vertices, edges, np.repeat(np.arange(len(starts)), sizes), following)
 
 
 def read(obj: bpy.types.Object) -> tuple[Corners, NDArray[np.float32] | None]:
     """Read the corners of an edit mesh, and their UVs as `read_uvs` does."""
-    with _copied(obj) as mesh:
-        return Corners.of(mesh), _uvs(mesh)
+    with copied(obj) as mesh:
+        return corners_of(mesh), uvs_of(mesh)
 
 
 def read_uvs(obj: bpy.types.Object) -> NDArray[np.float32] | None:
     """Read the places of an edit mesh's corners in the active UV map, (c, 2); None: there is no UV map."""
-    with _copied(obj) as mesh:
-        return _uvs(mesh)
+    with copied(obj) as mesh:
+        return uvs_of(mesh)
 
 
 @contextmanager
-def _copied(obj: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
+def copied(obj: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
     """Copy the mesh, which itself shows no UVs in edit mode; in newer versions a copy shares the data and costs nothing."""
     obj.update_from_editmode()
     mesh = obj.data.copy()
@@ -140,15 +73,37 @@ def aspect(obj: bpy.types.Object) -> float:
     return (width * wide) / (height * tall) if width and height else 1.0
 
 
-def _uvs(mesh: bpy.types.Mesh) -> NDArray[np.float32] | None:
+def uvs_of(mesh: bpy.types.Mesh) -> NDArray[np.float32] | None:
+    """Return the places of the corners in the active UV map, (c, 2); None: there is no UV map."""
     layer = mesh.uv_layers.active
     if layer is None:
         return None
     return edit_mesh.column(*((layer.data, "uv") if IS_OLD else (layer.uv, "vector")), np.float32, 2)
 
 
-def _pinned(mesh: bpy.types.Mesh) -> NDArray[np.bool_]:
+def pinned_of(mesh: bpy.types.Mesh) -> NDArray[np.bool_]:
+    """Return which corners are pinned, (c,)."""
     layer, count = mesh.uv_layers.active, len(mesh.loops)
     # The attribute of newer versions is empty while nothing is pinned.
     items, name = ((), "") if layer is None else (layer.data, "pin_uv") if IS_OLD else (layer.pin, "value")
     return edit_mesh.column(items, name, np.bool_) if count and len(items) == count else np.zeros(count, dtype=bool)
+
+
+class Copy(NamedTuple):
+    """An island that lies on another one: its object, number and corners, and the other object and the corners below."""
+
+    obj: bpy.types.Object
+    label: int
+    corners: NDArray[np.int64]
+    other: bpy.types.Object
+    below: NDArray[np.int64]
+
+
+def copies_among(islands: Sequence[tuple[bpy.types.Object, ShapedIsland]]) -> list[Copy]:
+    """Return the islands that are copies of earlier ones, on the first of their shape. The islands lie on images of one shape."""
+    copies = []
+    for number, (first, corners) in enumerate(find_copies([island.shape for _, island in islands])):
+        if first != number:
+            (obj, island), (other, below) = islands[number], islands[first]
+            copies.append(Copy(obj, island.label, island.corners, other, below.corners[corners]))
+    return copies

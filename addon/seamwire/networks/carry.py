@@ -4,17 +4,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..words.names import count
 from .core.network_file import NetworkFile
-from .core.placing import Shape
+from .core.placing import Shape, tell
 from .core.transfer import transfer
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
     import bpy
 
@@ -22,9 +23,9 @@ if TYPE_CHECKING:
     from ..core.network.wires import Wire
     from ..mesh.object_session import ObjectSession
     from ..mesh.settings import SeamwireSettings
+    from .core.placing import Progress
     from .core.tracing import Transfer
     from .core.transfer import Place
-    from .core.work import Work
 
 
 @dataclass(frozen=True)
@@ -52,11 +53,11 @@ def shape_of(mesh: ObjectSession) -> Shape:
     return Shape(arrays.points, arrays.triangles, arrays.edges, arrays.to_object)
 
 
-def seam_wires(mesh: ObjectSession) -> Work[list[Wire]]:
+def seam_wires(mesh: ObjectSession, progress: Progress = lambda _: True) -> list[Wire]:
     """Find wires along the seams of an object that have none. The object is not changed. Any thread may do this."""
     found, done = [], 0
     for wire in mesh.session.drawing.wires_along(mesh.plain_seams):
-        yield done / len(mesh.plain_seams)
+        tell(progress, done / len(mesh.plain_seams))
         found.append(wire)
         done += len(wire.edges())
     return found
@@ -64,17 +65,9 @@ def seam_wires(mesh: ObjectSession) -> Work[list[Wire]]:
 
 def network_of(mesh: ObjectSession, settings: SeamwireSettings, more: Iterable[Wire] = ()) -> NetworkFile:
     """Return the network of an object, and more wires, as they are saved to a file."""
-    arrays, session = mesh.arrays, mesh.session
-    return NetworkFile.of(
-        replace(session.drawing.network, wires=(*session.wires, *more)),
-        arrays.points,
-        arrays.triangles,
-        arrays.edges,
-        name=mesh.cage.mesh.name,
-        metric=settings.metric,
-        clamp=settings.clamp,
-        to_object=arrays.to_object,
-    )
+    network = replace(mesh.session.drawing.network, wires=(*mesh.session.wires, *more))
+    name = mesh.cage.mesh.name
+    return NetworkFile.of(network, shape_of(mesh), name=name, metric=settings.metric, clamp=settings.clamp)
 
 
 def group_middles(obj: bpy.types.Object) -> dict[str, int]:
@@ -103,24 +96,11 @@ def carry_over(
     mirror: int | None = None,
     align: bool = True,
     pairs: Sequence[Edge] = (),
-) -> Work[Transfer]:
-    """Find what a network is on a mesh. Nothing is written, and any thread may do the work.
+) -> Callable[..., Transfer]:
+    """Return what finds what a network is on a mesh. It writes nothing, takes `progress`, and any thread may call it.
 
-    Parameters
-    ----------
-    target
-        The mesh.
-    source
-        The network.
-    place, mirror, align
-        See `transfer`.
-    pairs
-        Vertices of both meshes. Without any, PAIRS takes the vertex groups with the same names.
-
-    Raises
-    ------
-    ValueError
-        If too few vertex groups have the same names. The work raises it if something else does not fit.
+    Other parameters are those of `transfer`. Without pairs of vertices, PAIRS takes the vertex groups with the same names. Raises
+    ValueError if these are too few; the function raises it if something else does not fit.
     """
     if place == "PAIRS" and not pairs:
         there = group_middles(target.obj)
@@ -129,7 +109,8 @@ def carry_over(
             raise ValueError(
                 f"Give at least three pairs of vertices: the objects share {count(len(pairs), 'vertex group')}"
             )
-    return transfer(
+    return partial(
+        transfer,
         source.network,
         shape_of(target),
         place=place,

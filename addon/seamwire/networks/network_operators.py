@@ -1,16 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The operators that save, load, transfer and repeat wires."""
+"""The operators that save networks, load them and draw them on other meshes, and their menus."""
 
 from __future__ import annotations
 
 import re
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
 import bpy
 from bpy_extras.io_utils import ExportHelper, ImportHelper
 
-from ..mesh.registration import classes, together
+from ..mesh.registration import classes, menu_entry, together
 from ..mesh.settings import settings
 from ..operators.edit_mesh_operator import EditMeshOperator, changing
 from ..operators.steps import Step, Stepwise, end_all
@@ -23,7 +24,6 @@ if TYPE_CHECKING:
     from ..mesh.object_session import ObjectSession
     from .carry import Source
     from .core.tracing import Transfer
-    from .core.work import Work
 
 SUFFIX = ".json"
 _PLACE_ITEMS = (
@@ -103,16 +103,10 @@ class _Placing(Stepwise):
         return {"FINISHED"}
 
 
-def _done(text: str, work: Work[object]) -> Generator[Step, None, object]:
+def _done(text: str, work: Callable[..., object]) -> Generator[Step, None, object]:
     """Yield the step that does some work, and return its result."""
-    from .core.work import result_of
-
     found = []
-
-    def run(progress: Callable[[float], bool]) -> None:
-        found.append(result_of(work, progress))
-
-    yield Step(text, run)
+    yield Step(text, lambda progress: found.append(work(progress=progress)))
     return found[0]
 
 
@@ -171,7 +165,7 @@ class MESH_OT_seamwire_transfer(_Placing, bpy.types.Operator):
 
         obj = self._object(context)
         mesh = self.open_mesh(obj)
-        wires = yield from _done("Reading seams", seam_wires(mesh))
+        wires = yield from _done("Reading seams", partial(seam_wires, mesh))
         network = network_of(mesh, settings(context), wires)
         if not network.courses:
             raise ValueError(f"{obj.name} has no seams")
@@ -317,11 +311,41 @@ class MESH_OT_seamwire_repeat(EditMeshOperator, bpy.types.Operator):
         return connected_groups(wanted, wires)
 
 
-_CLASSES = (
-    MESH_OT_seamwire_transfer,
-    MESH_OT_seamwire_load_network,
-    MESH_OT_seamwire_save_network,
-    MESH_OT_seamwire_repeat,
-)
+class VIEW3D_MT_seamwire_network(bpy.types.Menu):
+    """Save wires, load them, or draw them on other meshes"""  # noqa: D400 - a tooltip
 
-register, unregister = together(*classes(*_CLASSES), (lambda: None, end_all))
+    bl_idname = "VIEW3D_MT_seamwire_network"
+    bl_label = "Network"
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        """Show what is done with all wires of a mesh."""
+        layout = self.layout
+        layout.operator_context = "INVOKE_DEFAULT"
+        layout.operator("mesh.seamwire_load_network", text="Load...")
+        layout.operator("mesh.seamwire_save_network", text="Save...")
+        layout.separator()
+        layout.operator("mesh.seamwire_transfer", text="Transfer")
+        layout.operator("mesh.seamwire_repeat", text="Repeat")
+        layout.operator("mesh.seamwire_take_over", text="From Seams")
+
+
+def _draw_import(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
+    menu.layout.operator("mesh.seamwire_load_network", text="Seamwire Network (.json)")
+
+
+def _draw_export(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
+    menu.layout.operator("mesh.seamwire_save_network", text="Seamwire Network (.json)")
+
+
+register, unregister = together(
+    *classes(
+        MESH_OT_seamwire_transfer,
+        MESH_OT_seamwire_load_network,
+        MESH_OT_seamwire_save_network,
+        MESH_OT_seamwire_repeat,
+        VIEW3D_MT_seamwire_network,
+    ),
+    (lambda: None, end_all),
+    menu_entry("TOPBAR_MT_file_import", _draw_import),
+    menu_entry("TOPBAR_MT_file_export", _draw_export),
+)

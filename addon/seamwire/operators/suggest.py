@@ -125,7 +125,7 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
 
     def steps(self, context: bpy.types.Context) -> Generator[Step, None, set[str]]:
         """Yield the steps of the search, then mark or cut."""
-        from ..core.seams.parts import edits_of_text
+        from ..core.seams.seam_plan import edits_of_text
 
         search = self._read(context)
         search.notices.tell(self.report)
@@ -145,7 +145,7 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
 
     def _show_parts(self, context: bpy.types.Context, search: SeamSearch) -> Generator[Step, None, None]:
         """Yield steps until the artist has confirmed the parts that the views show, and seams are planned in them."""
-        from ..core.seams.parts import edits_text
+        from ..core.seams.seam_plan import edits_text
         from ..view.plan_preview import PlanPreview
         from .suggest_live import LiveParts
 
@@ -167,12 +167,13 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
 
     def _read(self, context: bpy.types.Context) -> SeamSearch:
         """Read the meshes in Edit Mode."""
-        from ..mesh.seam_search import SeamSearch, SearchOptions, Wanted, objects_to_cut
+        from ..mesh.seam_search import SeamSearch, SearchOptions
 
         along, finish = (None if chosen == "AUTO" else chosen for chosen in (self.along, self.finish))
-        options = SearchOptions(along, finish, self.symmetric, self._front(context))
-        objects = objects_to_cut(context.objects_in_mode_unique_data, self.selected)
-        return SeamSearch(objects, options, Wanted(self.distortion, self.islands, self.unwrap))
+        options = SearchOptions(
+            along, finish, self.symmetric, self._front(context), self.distortion, self.islands, self.unwrap
+        )
+        return SeamSearch(context.objects_in_mode_unique_data, options, self.selected)
 
     def _change(self, context: bpy.types.Context, search: SeamSearch) -> set[str]:
         """Write or cut the wires, unwrap, and report."""

@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..core.base import native
-from ..core.seams.parts import PartEdits, edges_of, turned
-from ..core.seams.seam_plan import mean_stretch, turned_limit
+from ..core.seams.seam_plan import PartEdits, edges_of, mean_stretch, turned, turned_limit
 from ..view.plan_preview import Curves, PlanPreview, Pointed
 from ..view.viewport import place_of
 from ..words.search_report import LIVE_HINTS, parts_text

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """All settings of the tool: their defaults, limits, names and tooltips, and their values at one moment."""
 
+# ruff: noqa: RUF009 - the fields of `Options` are made by a function
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields, replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from .choices import (
     ALONG,
@@ -77,17 +78,18 @@ class Setting(NamedTuple):
     others: Mapping[str, object] = {}
 
 
-def _shown(*words: str, **others: object) -> dict[str, Setting]:
-    """Return what a field of `Options` has of its setting."""
-    return {"setting": Setting(*words, **others)}
+def _setting(default: object, *words: str, **others: object) -> Any:  # noqa: ANN401 - a field of any type
+    """Return a field of `Options` with its default and its setting."""
+    return field(default=default, metadata={"setting": Setting(*words, **others)})
 
 
 def _across(along: Along, _metric: MetricName) -> bool:
     return along == "SURFACE"
 
 
-def _strength(along: Along) -> dict[str, Setting]:
-    return _shown(
+def _strength(along: Along) -> float:
+    return _setting(
+        STRENGTHS[along],
         "Strength",
         "How strongly wires follow the shape. 1 gives the shortest path",
         "Drawing",
@@ -112,81 +114,56 @@ class Options:
         In the object's units; 0: ten rings of vertices.
     """
 
-    along: Along = field(
-        default="EDGES",
-        metadata=_shown("Along", "How wires run on the mesh", "Drawing", choices=ALONG, auto=AUTO_ALONG),
+    along: Along = _setting("EDGES", "Along", "How wires run on the mesh", "Drawing", choices=ALONG, auto=AUTO_ALONG)
+    strength_edges: float = _strength("EDGES")
+    strength_surface: float = _strength("SURFACE")
+    finish: Finish = _setting(
+        "SNAP",
+        "Finish",
+        "How a wire across the surface becomes a seam when its chain ends",
+        "Finish",
+        choices=FINISHES,
+        auto=AUTO_FINISH,
+        matters=_across,
     )
-    strength_edges: float = field(default=STRENGTHS["EDGES"], metadata=_strength("EDGES"))
-    strength_surface: float = field(default=STRENGTHS["SURFACE"], metadata=_strength("SURFACE"))
-    finish: Finish = field(
-        default="SNAP",
-        metadata=_shown(
-            "Finish",
-            "How a wire across the surface becomes a seam when its chain ends",
-            "Finish",
-            choices=FINISHES,
-            auto=AUTO_FINISH,
-            matters=_across,
-        ),
+    straight: bool = _setting(
+        False, "Straight in View", "Offer the wire that is straight on screen first", "Drawing", matters=_across
     )
-    straight: bool = field(
-        default=False,
-        metadata=_shown(
-            "Straight in View", "Offer the wire that is straight on screen first", "Drawing", matters=_across
-        ),
+    clear: bool = _setting(False, "Clear Seams", "Clear seams instead of marking them", "Drawing")
+    snap: bool = _setting(
+        False, "Snap to Features", "Snap seeds to ridges, valleys and other features near the cursor", "Drawing"
     )
-    clear: bool = field(default=False, metadata=_shown("Clear Seams", "Clear seams instead of marking them", "Drawing"))
-    snap: bool = field(
-        default=False,
-        metadata=_shown(
-            "Snap to Features", "Snap seeds to ridges, valleys and other features near the cursor", "Drawing"
-        ),
+    xray: bool = _setting(False, "X-Ray", "Show wires through the mesh, and pick through it", "Drawing")
+    unwrap: bool = _setting(
+        False,
+        "Unwrap After Each Chain",
+        "When a chain ends, unwrap the islands whose seams it has changed. All other UVs stay in place",
+        "Islands",
     )
-    xray: bool = field(
-        default=False, metadata=_shown("X-Ray", "Show wires through the mesh, and pick through it", "Drawing")
+    metric: MetricName = _setting(next(iter(METRICS)), "Metric", "What wires follow", "Advanced", choices=METRICS)
+    clamp: float = _setting(
+        CLAMP_PERCENTILE,
+        "Feature Percentile",
+        "Clip feature strength at this percentile, so that noise does not dominate",
+        "Advanced",
+        limits=(50.0, 100.0),
+        matters=lambda _, metric: not ignores_shape(metric),
+        slider=True,
+        others={"precision": 1},
     )
-    unwrap: bool = field(
-        default=False,
-        metadata=_shown(
-            "Unwrap After Each Chain",
-            "When a chain ends, unwrap the islands whose seams it has changed. All other UVs stay in place",
-            "Islands",
-        ),
+    stroke_radius: float = _setting(
+        0.0,
+        "Stroke Radius",
+        "How far strokes reach. 0 means ten rings of vertices",
+        "Advanced",
+        others={"min": 0.0, "soft_max": 1.0, "precision": 3, "subtype": "DISTANCE"},
     )
-    metric: MetricName = field(
-        default=next(iter(METRICS)), metadata=_shown("Metric", "What wires follow", "Advanced", choices=METRICS)
-    )
-    clamp: float = field(
-        default=CLAMP_PERCENTILE,
-        metadata=_shown(
-            "Feature Percentile",
-            "Clip feature strength at this percentile, so that noise does not dominate",
-            "Advanced",
-            limits=(50.0, 100.0),
-            matters=lambda _, metric: not ignores_shape(metric),
-            slider=True,
-            others={"precision": 1},
-        ),
-    )
-    stroke_radius: float = field(
-        default=0.0,
-        metadata=_shown(
-            "Stroke Radius",
-            "How far strokes reach. 0 means ten rings of vertices",
-            "Advanced",
-            others={"min": 0.0, "soft_max": 1.0, "precision": 3, "subtype": "DISTANCE"},
-        ),
-    )
-    heat: str = field(
-        default="NONE", metadata=_shown("Heat", "Color faces by the stretch of the UV map", "Views", choices=HEATS)
-    )
-    show_crests: bool = field(
-        default=False,
-        metadata=_shown(
-            "Ridges and Valleys",
-            "Show where the surface bends most sharply. Alt-click a line to draw wires along it",
-            "Views",
-        ),
+    heat: str = _setting("NONE", "Heat", "Color faces by the stretch of the UV map", "Views", choices=HEATS)
+    show_crests: bool = _setting(
+        False,
+        "Ridges and Valleys",
+        "Show where the surface bends most sharply. Alt-click a line to draw wires along it",
+        "Views",
     )
     mirror: tuple[int, ...] = ()
 

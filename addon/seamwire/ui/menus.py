@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The Seamwire submenu in Blender's Edge and UV menus, and the entry for the tool in the context menu."""
+"""The Seamwire submenus in Blender's menus, the entry for the tool in the context menu, and the panel of help."""
 
 from __future__ import annotations
 
 import bpy
 
 from ..mesh.registration import classes, menu_entry, together
-from ..mesh.settings import TOOL, settings
+from ..mesh.settings import TOOL, preferences, settings
+from ..operators import navigation
+from ..operators.bindings import HELP_PANEL
 from ..operators.store_islands import ISLAND_ITEMS
 from ..terms.options import SETTINGS
-from .properties import VIEWS
+from ..words.first_steps import STEPS, guide
+from .toolbar import VIEWS
 
 MENUS = ("VIEW3D_MT_edit_mesh_edges", "VIEW3D_MT_uv_map", "IMAGE_MT_uvs")
 """Blender's menus that have the submenu."""
@@ -99,8 +102,45 @@ def _draw_entry(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
     _draw_tool(menu.layout)
 
 
+class VIEW3D_PT_seamwire_help(bpy.types.Panel):
+    """First steps, and all keys"""  # noqa: D400 - a tooltip
+
+    bl_idname = HELP_PANEL
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "HEADER"
+    bl_label = "Seamwire Help"
+    bl_ui_units_x = 44
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Show the first steps and the guide, and below them the keys in two columns."""
+        columns = self.layout.split(factor=0.55)
+        left, right = columns.column(), columns.column()
+        steps = _box(left, "First Steps")
+        for icon, text in STEPS:
+            steps.label(text=text, icon=icon)
+        more = _box(right, "More")
+        more.prop(preferences(context), "text")
+        if guide():
+            more.operator("wm.url_open", text="Open the Guide", icon="URL").url = guide()
+        for number, (heading, rows) in enumerate(navigation.keys(context).groups().items()):
+            column = _box(left if number < 2 else right, heading)
+            for keys, action in rows:
+                row = column.split(factor=0.32 if number < 2 else 0.5)
+                row.label(text=keys)
+                row.label(text=action)
+
+
+def _box(layout: bpy.types.UILayout, heading: str) -> bpy.types.UILayout:
+    """Return a column in a box below a heading."""
+    column = layout.box().column(align=True)
+    column.label(text=heading)
+    column.separator()
+    return column
+
+
 register, unregister = together(
     *classes(VIEW3D_MT_seamwire, VIEW3D_MT_seamwire_finish, VIEW3D_MT_seamwire_islands, VIEW3D_MT_seamwire_views),
+    *classes(VIEW3D_PT_seamwire_help),
     *(menu_entry(name, _draw_submenu) for name in MENUS),
     menu_entry(CONTEXT_MENU, _draw_entry),
 )

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 from ..core.base.newest import Newest
 from ..core.fields.crests import Crests
 from .gpu_draw import Lines, blended
-from .layers import Layer
-from .legend import Legend
+from .layers import Layer, Legend
 from .theme import Style
 
 if TYPE_CHECKING:

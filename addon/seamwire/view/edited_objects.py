@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..mesh import settings as chosen
-from ..mesh.redraw import redraw_views
+from ..mesh.registration import Timer
+from ..mesh.settings import redraw_views
 from .failures import failures
 from .object_view import ObjectView, in_bounds, let_blender_tell
-from .timer import Timer
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -68,10 +68,7 @@ class EditedObjects:
     def of(self, obj: bpy.types.Object) -> ObjectView:
         """Return an object in edit mode, read anew where it has changed.
 
-        Raises
-        ------
-        ValueError, native.NativeError
-            Where there is nothing to draw on, or nothing to draw with.
+        Raises ValueError or NativeError where there is nothing to draw on, or nothing to draw with.
         """
         name = obj.name_full
         view = self._views.get(name)
@@ -374,13 +371,7 @@ class EditedObjects:
             raise error
 
     def draw(self, part: str) -> None:
-        """Draw in the view that Blender is drawing now. A timer reads missing meshes, and nothing is read here.
-
-        Parameters
-        ----------
-        part
-            The method of overlays to call.
-        """
+        """Draw in the view that Blender is drawing now, by a method of overlays. A timer reads missing meshes, and nothing is read here."""
         context = bpy.context
         if context.window is None or context.space_data is None:
             return  # another add-on draws the view into a picture

@@ -180,24 +180,14 @@ class Lines:
         if lines is not self:
             lines.draw(eye, opacity, rim)
             return
-        if not len(self._ends):
-            return
-        style = self.style
+        style, passes = self.style, []
         if style.dash and self._seen_from != eye.key:
             self._batch = self._make(dashes(self._ends, eye.on_screen, style.dash * eye.scale))
             self._seen_from = eye.key
-        with gpu.matrix.push_pop():
-            gpu.matrix.load_matrix(eye.lifted(style.lift))
-            self._shader.bind()
-            self._shader.uniform_float("viewportSize", eye.size)
-            if self._ground is not None and rim:
-                self._shader.uniform_float("lineWidth", (style.width + style.halo) * eye.scale)
-                self._shader.uniform_float("color", (*HALO[:3], HALO[3] * opacity))
-                self._ground.draw(self._shader)
-            for color, width in layers(style, opacity, rim):
-                self._shader.uniform_float("lineWidth", width * eye.scale)
-                self._shader.uniform_float("color", color)
-                self._batch.draw(self._shader)
+        if self._ground is not None and rim:
+            passes.append((self._ground, (*HALO[:3], HALO[3] * opacity), (style.width + style.halo) * eye.scale))
+        passes += [(self._batch, color, width * eye.scale) for color, width in layers(style, opacity, rim)]
+        self._draw(eye, passes)
 
     def draw_hidden(self, eye: Eye, opacity: float) -> None:
         """Draw what the mesh lies before, in thin dashes: nobody should take it for a line on the surface."""
@@ -209,20 +199,22 @@ class Lines:
         if style.soft or len(self._ends) > _MOST_DASHED:
             self.draw(eye, opacity, rim=False)
             return
-        if not len(self._ends):
-            return
         if self._hidden[0] != eye.key:
             self._hidden = eye.key, self._make(dashes(self._ends, eye.on_screen, _HIDDEN_DASH * eye.scale))
-        batch = self._hidden[1]
-        if batch is None:
-            return
+        color = (*style.color[:3], style.color[3] * opacity)
+        self._draw(eye, [(self._hidden[1], color, max(1.0, _HIDDEN_WIDTH * style.width) * eye.scale)])
+
+    def _draw(self, eye: Eye, passes: Sequence[tuple[gpu.types.GPUBatch | None, Color, float]]) -> None:
+        """Draw batches one over the other, each in a color, with a width."""
         with gpu.matrix.push_pop():
-            gpu.matrix.load_matrix(eye.lifted(style.lift))
+            gpu.matrix.load_matrix(eye.lifted(self.style.lift))
             self._shader.bind()
             self._shader.uniform_float("viewportSize", eye.size)
-            self._shader.uniform_float("lineWidth", max(1.0, _HIDDEN_WIDTH * style.width) * eye.scale)
-            self._shader.uniform_float("color", (*style.color[:3], style.color[3] * opacity))
-            batch.draw(self._shader)
+            for batch, color, width in passes:
+                if batch is not None:
+                    self._shader.uniform_float("lineWidth", width)
+                    self._shader.uniform_float("color", color)
+                    batch.draw(self._shader)
 
 
 def layers(style: Style, opacity: float, rim: bool) -> list[tuple[Color, float]]:
@@ -243,22 +235,10 @@ def layers(style: Style, opacity: float, rim: bool) -> list[tuple[Color, float]]
 
 
 def dashes(ends: NDArray[np.float64], on_screen: object, length: float, limit: int = 200_000) -> NDArray[np.float64]:
-    """Cut segments into dashes as long as the gaps between them, measured on the screen.
+    """Cut segments, (k, 2, 3), into dashes, (d, 2, 3), as long as the gaps between them, measured on the screen.
 
-    Parameters
-    ----------
-    ends
-        (k, 2, 3).
-    on_screen
-        Takes (n, 3) points to (n, 2) pixels.
-    length
-        Pixels of a dash.
-    limit
-        More dashes than this are not made: the segments come back as they are.
-
-    Returns
-    -------
-    (d, 2, 3) array
+    `on_screen` takes (n, 3) points to (n, 2) pixels. If there were more than `limit` dashes of a length in pixels, the segments come back
+    as they are.
     """
     pixels = on_screen(ends.reshape(-1, 3)).reshape(-1, 2, 2)
     sizes = np.nan_to_num(np.linalg.norm(pixels[:, 1] - pixels[:, 0], axis=1))
@@ -303,13 +283,7 @@ def discs(centres: NDArray[np.float64], radii: NDArray[np.float64]) -> NDArray[n
 
 
 class Within:
-    """Keeps the part of a drawing within a view's clipping border, for the last few borders.
-
-    Parameters
-    ----------
-    make
-        Makes it for an eye.
-    """
+    """Keeps the part of a drawing within a view's clipping border, for the last few borders. `make` makes it for an eye."""
 
     def __init__(self, make: Callable[[Eye], object]) -> None:
         self._make = make
@@ -334,13 +308,7 @@ def whole(triangles: NDArray[np.integer], inside: NDArray[np.bool_] | None) -> N
 
 
 class ColoredFaces:
-    """Triangles of one mesh, drawn in a few colors; the vertices are handed to the GPU once.
-
-    Parameters
-    ----------
-    points
-        (n, 3).
-    """
+    """Triangles of one mesh, drawn in a few colors; the vertices, (n, 3), are handed to the GPU once."""
 
     def __init__(self, points: NDArray[np.float64]) -> None:
         self._shader = gpu.shader.from_builtin("UNIFORM_COLOR")

@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING
 import bpy
 from bpy.app.handlers import persistent
 
-from ..mesh.registration import handler, together
+from ..mesh.registration import Timer, handler, together
 from ..mesh.settings import listeners, tool_is_active
-from .timer import Timer
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
 
 _PARTS = {"POST_VIEW": "draw_in_scene", "POST_PIXEL": "draw_on_screen"}
 """When Blender draws each part of an overlay."""

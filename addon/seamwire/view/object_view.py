@@ -15,6 +15,7 @@ from mathutils import Matrix
 
 from ..core.base import native
 from ..core.islands import islands
+from ..core.network.network import edges_after
 from ..core.picking.picker import Picker
 from ..core.picking.plain import REACH
 from ..core.seams.gaps import GapFinder
@@ -27,17 +28,16 @@ from .crest_view import CrestView
 from .failures import failures
 from .layers import makers
 from .overlay import Overlay
-from .shown_islands import ShownIslands
 from .stretch_heat import StretchHeat
-from .theme import HUES
 
 if TYPE_CHECKING:
     from collections.abc import Hashable, Iterator
 
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from ..core.drawing.picture import Picture
     from ..core.drawing.session import Session
+    from ..core.islands.islands import IslandMaker, Islands
     from ..core.network.network import Snap
     from ..core.network.picks import Pick
     from ..core.network.strokes import Stroke
@@ -45,6 +45,92 @@ if TYPE_CHECKING:
     from ..core.solver.solver import End
     from ..terms.options import Options
     from .layers import Layer
+
+
+class ShownIslands:
+    """Follows the cuts of a session.
+
+    Parameters
+    ----------
+    maker
+        Computes islands.
+    session
+        Its wires are cuts.
+    seams
+        (s, 2) the edges that are seams.
+    """
+
+    def __init__(self, maker: IslandMaker, session: Session, seams: ArrayLike) -> None:
+        self._maker = maker
+        self._session = session
+        self._seams = np.asarray(seams, dtype=np.int32).reshape(-1, 2)
+        self._seams_read = 0
+        self._asked: object = None
+        self._cuts: NDArray[np.int32] | None = None
+        self._meant: frozenset[int] = frozenset()
+        self._told: object = None
+        self._part = ("islands", object())
+        self.pointed: int | None = None
+        """The triangle under the mouse; None: it is elsewhere."""
+
+    @property
+    def newest(self) -> Islands | None:
+        """The islands that were computed last. None if computing them failed."""
+        return None if self._failed else self._maker.newest
+
+    @property
+    def busy(self) -> bool:
+        """Whether islands are being computed: `poll` is to be called now and then."""
+        return not self._failed and (self._maker.busy or self._stale)
+
+    @property
+    def _failed(self) -> bool:
+        return failures.has(*self._part)
+
+    @property
+    def _stale(self) -> bool:
+        return self._asked != (self._session.drawing.network_revision, self._seams_read)
+
+    @property
+    def pointed_island(self) -> int | None:
+        """The island under the mouse. None if there is no island, or only one."""
+        found = self.newest
+        if found is None or not found.cut or found.count < 2 or self.pointed is None:
+            return None
+        return int(found.labels[self.pointed])
+
+    def set_seams(self, seams: NDArray[np.int32]) -> None:
+        """Go on with other seams."""
+        if not np.array_equal(self._seams, seams):
+            self._seams = np.asarray(seams, dtype=np.int32).reshape(-1, 2)
+            self._seams_read += 1
+
+    def poll(self) -> bool:
+        """Ask for the islands of a network whose cuts have changed. Return whether there are islands that no call before told of."""
+        failures.attempt(self._part, self._ask)
+        newest = self.newest
+        before, self._told = self._told, None if newest is None else newest.key
+        return self._told != before
+
+    def _ask(self) -> None:
+        try:
+            self._maker.check()
+            self._want()
+        except Exception:
+            self._asked = self._cuts = None  # the next attempt asks anew
+            raise
+
+    def _want(self) -> None:
+        if self._stale:
+            self._asked = (self._session.drawing.network_revision, self._seams_read)
+            session = self._session
+            wanted = edges_after(self._seams, session.edges_to_mark(), session.edges_to_clear())
+            planned = (wire for wire in session.wires if wire.planned)
+            meant = frozenset(vertex for wire in planned for edge in wire.claims() for vertex in edge)
+            # A chain that ends turns cuts of wires into seams: the islands stay the same.
+            if self._cuts is None or meant != self._meant or not np.array_equal(wanted, self._cuts):
+                self._cuts, self._meant = wanted, meant
+                self._maker.want(self._asked, wanted, meant)
 
 
 _BYTES_A_TRIANGLE = 1_150
@@ -97,9 +183,10 @@ class ObjectView:
         arrays = self.mesh.arrays
         gaps = GapFinder(arrays.points, arrays.triangles, arrays.edges, arrays.partly_hidden)
         make = self.mesh.make_live
-        self._islands = islands.IslandMaker(arrays.triangles, make.face_segments, HUES, gaps, make.missing_cuts)
+        self._islands = islands.IslandMaker(arrays.triangles, make.face_segments, gaps, make.missing_cuts)
         self.pose = Pose(arrays)
         self.crest_view = CrestView(native.load(), self.mesh.make_live.wait, self.pose)
+        self.heat = StretchHeat(arrays, self._islands, self.pose)
         self._layers: list[Layer] = []
         self._has_moved = True
         self._posed_picker: Picker | None = None
@@ -113,7 +200,6 @@ class ObjectView:
             self.pose,
             arrays.to_object,
             preferences=chosen.preferences(),
-            heat=StretchHeat(arrays, self._islands, self.pose),
             layers=self._layers,
         )
         self._strength: NDArray[np.float64] | None = None
@@ -207,7 +293,7 @@ class ObjectView:
         if self.stale and not anew:
             return  # of a mesh that is read anew soon
         stale = self.stale
-        if self.overlay.heat.follow(self.obj, self.options.heat, anew):
+        if self.heat.read(self.obj, self.options.heat, anew):
             self.was_read()
             self.stale = stale
 
@@ -219,10 +305,10 @@ class ObjectView:
             for make in makers
         ]
         self._close_layers()
-        self._layers[:] = (self.crest_view, *(layer for layer in made if layer is not None))
+        self._layers[:] = (self.heat, self.crest_view, *(layer for layer in made if layer is not None))
 
     def _close_layers(self) -> None:
-        for layer in self._layers[1:]:
+        for layer in self._layers[2:]:
             layer.close()
 
     def _follow_layers(self) -> None:

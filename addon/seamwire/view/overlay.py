@@ -15,9 +15,9 @@ from ..core.drawing.picture import LIVE, Role, SeedRole
 from ..core.network.picks import place_of, undirected
 from ..words import corner
 from ..words.first_steps import FIRST_LINES
-from . import legend
 from .failures import failures
 from .gpu_draw import ColoredFaces, Eye, Lines, blended, draw_dots, draw_text, set_text, text_size
+from .layers import draw_legends
 from .theme import Looks, Style, hue_colors
 
 if TYPE_CHECKING:
@@ -32,7 +32,6 @@ if TYPE_CHECKING:
     from ..core.network.wires import Wire
     from ..mesh.pose import Pose
     from .layers import Layer
-    from .stretch_heat import StretchHeat
 
 _NO_ROOM = (0.0, 0.0, 0.0, 0.0)
 
@@ -84,9 +83,7 @@ class Overlay:
     to_object
         (3, 3) takes those to object coordinates.
     preferences
-        The add-on's, see `Looks.of`.
-    heat
-        The stretch of the UV map, drawn in place of the islands' tint where there is something to be seen of it.
+        The add-on's, see `Looks`.
     layers
         What lies below the wires. The list may change.
     """
@@ -99,21 +96,16 @@ class Overlay:
         to_object: NDArray[np.float64],
         *,
         preferences: object | None = None,
-        heat: StretchHeat | None = None,
         layers: Sequence[Layer] = (),
     ) -> None:
         self._picture = picture
         self._obj = obj
         self._pose = pose
         self._preferences = preferences
-        self.heat = heat
         self._layers = layers
         self._to_object = Matrix(to_object.tolist()).to_4x4()
         self._looks = self._current_looks()
-        self._kept: tuple[object, _Sheet] = (None, _Sheet(pose))
-        self._live: tuple[object, _Sheet] = (None, _Sheet(pose))
-        self._bands: tuple[object, _Sheet] = (None, _Sheet(pose))
-        self._gaps: tuple[object, _Sheet] = (None, _Sheet(pose))
+        self._sheets: dict[str, tuple[object, _Sheet, object]] = {}
         self._faces: ColoredFaces | None = None
         self._tinted: object = None
 
@@ -123,19 +115,14 @@ class Overlay:
 
     def repose(self) -> None:
         """Draw everything where it is seen now."""
-        self._forget_lines()
+        self._sheets.clear()
         self._faces = self._tinted = None
-        if self.heat is not None:
-            self.heat.repose()
         list(self._ask_layers("repose"))
-
-    def _forget_lines(self) -> None:
-        self._kept = self._live = self._bands = self._gaps = (None, self._live[1])
 
     # Drawing
 
     def _current_looks(self) -> Looks:
-        return Looks.of(bpy.context.preferences.themes[0].view_3d, self._preferences)
+        return Looks(bpy.context.preferences.themes[0].view_3d, self._preferences)
 
     def draw_in_scene(self) -> None:
         """Draw on the surface; to be called for each region, after the view."""
@@ -143,17 +130,10 @@ class Overlay:
         looks = self._current_looks()
         if looks != self._looks:
             self._looks = looks
-            self._forget_lines()
-        sheets = (
-            self._bands_sheet(picture),
-            self._gaps_sheet(picture),
-            self._kept_sheet(picture),
-            self._live_sheet(picture),
-        )
+            self._sheets.clear()
+        sheets = self._current_sheets(picture)
         eye = Eye(bpy.context.region_data, self._obj.matrix_world @ self._to_object)
-        if self.heat is not None and self.heat.shown:
-            self.heat.draw(eye)
-        elif not any(self._ask_layers("draw_heat", eye)):
+        if not any(self._ask_layers("draw_heat", eye)):
             self._draw_tint(eye, picture.islands)
         list(self._ask_layers("draw_lines", eye))
         xray = picture.options.xray
@@ -195,51 +175,47 @@ class Overlay:
         with blended("NONE"):
             lines = () if self._looks.text == "NONE" else corner.lines(picture)
             _draw_corner([*(FIRST_LINES if self._looks.text == "STEPS" else ()), *lines], room[:2], scale)
-            legend.draw(self._legends(), room, scale)
-
-    def _legends(self) -> list[legend.Legend]:
-        of_heat = None if self.heat is None else self.heat.legend()
-        others = [box for boxes in self._ask_layers("legends") for box in boxes or ()]
-        return others if of_heat is None else [of_heat, *others]
+            draw_legends([box for boxes in self._ask_layers("legends") for box in boxes or ()], room, scale)
 
     # What there is to draw
 
-    def _bands_sheet(self, picture: Picture) -> _Sheet:
-        """Return the strokes, the one that is being drawn among them."""
+    def _current_sheets(self, picture: Picture) -> list[_Sheet]:
+        """Return the sheets from the lowest to the highest, those made anew whose content has changed."""
         strokes = [(stroke.points, stroke.attracts) for stroke in picture.strokes]
         if picture.stroke is not None:
             strokes.append(picture.stroke)
-        # The points themselves are held: their numbers alone could come again.
-        key = [(id(points), len(points), attracts) for points, attracts in strokes]
-        if self._bands[0] is not None and self._bands[0][0] == key:
-            return self._bands[1]
-        sheet = _Sheet(self._pose)
+        islands, moved = picture.islands, tuple(wire.id for wire in picture.all(Role.MOVED))
+        return [
+            # The points themselves are kept with the sheet: their numbers alone could come again.
+            self._sheet("bands", [(id(points), len(points), on) for points, on in strokes], self._add_bands, strokes),
+            self._sheet("gaps", None if islands is None else islands.key, self._add_gaps, islands),
+            self._sheet("kept", (picture.network_revision, moved), self._add_kept, picture),
+            self._sheet("live", picture.revision, self._add_live, picture),
+        ]
+
+    def _sheet(self, name: str, key: object, add: Callable[[_Sheet, object], None], what: object) -> _Sheet:
+        """Return a sheet, made anew if its key is another one."""
+        if name not in self._sheets or self._sheets[name][0] != key:
+            sheet = _Sheet(self._pose)
+            add(sheet, what)
+            sheet.finish()
+            self._sheets[name] = key, sheet, what
+        return self._sheets[name][1]
+
+    def _add_bands(self, sheet: _Sheet, strokes: Iterable[tuple[NDArray[np.float64], bool]]) -> None:
+        """Add the strokes, the one that is being drawn among them."""
         for points, attracts in strokes:
             sheet.curve(self._looks.attracting if attracts else self._looks.repelling, points)
-        sheet.finish()
-        self._bands = ((key, [points for points, _ in strokes]), sheet)
-        return sheet
 
-    def _gaps_sheet(self, picture: Picture) -> _Sheet:
-        """Return what keeps islands from separating: ends of seams, and the way to what they nearly meet."""
-        found = picture.islands
-        key = (None if found is None else found.key,)
-        if self._gaps[0] == key:
-            return self._gaps[1]
-        sheet = _Sheet(self._pose)
+    def _add_gaps(self, sheet: _Sheet, found: Islands | None) -> None:
+        """Add what keeps islands from separating: ends of seams, and the way to what they nearly meet."""
         for gap in () if found is None else found.gaps:
             sheet.path(self._looks.gap, gap.path)
             sheet.dot(self._looks.open_end, gap.end)
-        sheet.finish()
-        self._gaps = (key, sheet)
-        return sheet
 
-    def _kept_sheet(self, picture: Picture) -> _Sheet:
-        """Return the kept wires: many, and seldom changed."""
-        key = (picture.network_revision, tuple(wire.id for wire in picture.all(Role.MOVED)))
-        if self._kept[0] == key:
-            return self._kept[1]
-        looks, sheet = self._looks, _Sheet(self._pose)
+    def _add_kept(self, sheet: _Sheet, picture: Picture) -> None:
+        """Add the kept wires: many, and seldom changed."""
+        looks = self._looks
         kept = [shown for shown in picture.wires if shown.role is Role.KEPT]
         for shown in kept:
             sheet.edges(looks.mirrored if shown.wire.marks else looks.clear, shown.images)
@@ -248,15 +224,10 @@ class Overlay:
                 sheet.edges(looks.marked if shown.wire.marks else looks.clear, shown.wire.edges())
         for shown in kept:
             sheet.curve(looks.kept if shown.wire.marks else looks.clear, shown.wire.points)
-        sheet.finish()
-        self._kept = (key, sheet)
-        return sheet
 
-    def _live_sheet(self, picture: Picture) -> _Sheet:
-        """Return what changes with every move of the cursor."""
-        if self._live[0] == picture.revision:
-            return self._live[1]
-        looks, sheet = self._looks, _Sheet(self._pose)
+    def _add_live(self, sheet: _Sheet, picture: Picture) -> None:
+        """Add what changes with every move of the cursor."""
+        looks = self._looks
         for shown in picture.wires:
             if shown.role is Role.HOVERED:
                 sheet.curve(looks.hovered, shown.wire.points)
@@ -264,18 +235,15 @@ class Overlay:
             elif shown.role is Role.OTHER:
                 sheet.curve(looks.other, shown.wire.points)
             elif shown.role in LIVE:
-                self._add_live(sheet, shown)
+                self._add_live_wire(sheet, shown)
         if picture.line is not None:
             sheet.curve(looks.line, picture.line)
         styles = {SeedRole.LIVE: looks.live_seed, SeedRole.CLOSING: looks.closing, SeedRole.HOVERED: looks.hovered_seed}
         for seed in picture.seeds:
             sheet.dot(styles.get(seed.role, looks.seed), seed.pick)
         self._add_target(sheet, picture.target, picture.one(Role.OFFER))
-        sheet.finish()
-        self._live = (picture.revision, sheet)
-        return sheet
 
-    def _add_live(self, sheet: _Sheet, shown: ShownWire) -> None:
+    def _add_live_wire(self, sheet: _Sheet, shown: ShownWire) -> None:
         looks, wire = self._looks, shown.wire
         styles = {Role.COMPUTING: looks.computing, Role.OFFER: looks.loop, Role.EXTENSION: looks.end}
         sheet.edges(looks.mirrored_live, shown.images)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, fields, replace
@@ -10,20 +11,20 @@ from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
 import bpy
+import gpu
 import numpy as np
+from gpu_extras.batch import batch_for_shader
 
 from ..core.base import native
 from ..core.islands.islands import IslandMaker
-from ..core.picking.segments import Segments
-from ..core.picking.sight import Sight
+from ..core.picking.camera import Segments, Sight
 from ..core.picking.surface import VisibleSurface
 from ..mesh import settings as chosen
 from ..mesh.pose import Pose
-from .checked_faces import CheckedFaces
 from .edited_objects import edited
 from .failures import failures
-from .gpu_draw import ColoredFaces, Eye, Lines, blended, sees_through
-from .theme import HUES, Looks, hue_colors
+from .gpu_draw import ColoredFaces, Eye, Lines, Within, blended, draw_over, sees_through
+from .theme import Looks, hue_colors
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -31,8 +32,82 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..core.base.mesh_arrays import Arrays
+    from .gpu_draw import Eye
     from .theme import Color, Style
     from .viewport import Place
+
+
+@functools.cache
+def _checker_shader() -> gpu.types.GPUShader:
+    """Return the shader of `CheckedFaces`, compiled once."""
+    info = gpu.types.GPUShaderCreateInfo()
+    info.push_constant("MAT4", "to_clip")
+    info.push_constant("VEC4", "light")
+    info.push_constant("VEC4", "dark")
+    info.vertex_in(0, "VEC3", "pos")
+    info.vertex_in(1, "VEC2", "square")
+    passed = gpu.types.GPUStageInterfaceInfo("seamwire_checker")
+    passed.smooth("VEC2", "place")
+    info.vertex_out(passed)
+    info.fragment_out(0, "VEC4", "color")
+    info.vertex_source("void main() { place = square; gl_Position = to_clip * vec4(pos, 1.0); }")
+    # Each coordinate is a wave with its zeros at the lines. Edges are as soft as a pixel; tiny squares fade out.
+    info.fragment_source(
+        """
+        void main()
+        {
+          vec2 pixel = max(fwidth(place), vec2(1e-6));
+          vec2 wave = 2.0 * abs(fract(0.5 * place) - 0.5) - 0.5;
+          vec2 sides = clamp(2.0 * wave / pixel, -1.0, 1.0);
+          float shade = sides.x * sides.y * (1.0 - smoothstep(0.3, 0.7, max(pixel.x, pixel.y)));
+          color = shade > 0.0 ? light : dark;
+          color.a *= abs(shade);
+        }
+        """
+    )
+    return gpu.shader.create_from_info(info)
+
+
+class CheckedFaces:
+    """Triangles with a checker pattern, handed to the GPU once.
+
+    Parameters
+    ----------
+    corners
+        (m, 3, 3) the points of their corners.
+    squares
+        (m, 3, 2) where the corners lie in the pattern, in squares.
+    """
+
+    def __init__(self, corners: NDArray[np.float64], squares: NDArray[np.float64]) -> None:
+        self._shader = _checker_shader()
+
+        def make(eye: Eye) -> gpu.types.GPUBatch | None:
+            inside = eye.shows(corners.reshape(-1, 3))
+            rows = slice(None) if inside is None else inside.reshape(-1, 3).all(axis=1)
+            seen = np.ascontiguousarray(corners[rows].reshape(-1, 3), dtype=np.float32)
+            if not len(seen):
+                return None
+            places = np.ascontiguousarray(squares[rows].reshape(-1, 2), dtype=np.float32)
+            return batch_for_shader(self._shader, "TRIS", {"pos": seen, "square": places})
+
+        self._within = Within(make)
+
+    def draw_over(self, eye: Eye, light: Color, dark: Color) -> None:
+        """Draw what is seen of them over the mesh, as `ColoredFaces.draw_over`, in the colors of the squares."""
+        batch = self._within.of(eye)
+        if batch is None:
+            return
+
+        def draw(lift: float) -> None:
+            self._shader.bind()
+            self._shader.uniform_float("to_clip", gpu.matrix.get_projection_matrix() @ eye.lifted(lift))
+            self._shader.uniform_float("light", light)
+            self._shader.uniform_float("dark", dark)
+            batch.draw(self._shader)
+
+        draw_over(draw)
+
 
 _TINT = 0.35
 """The least opacity of the islands: they are what a preview is for."""
@@ -82,13 +157,7 @@ class Pointed:
 
 
 class _ObjectPreview:
-    """The drawing over one object.
-
-    Parameters
-    ----------
-    obj, arrays
-        The object and its mesh.
-    """
+    """The drawing over one object."""
 
     def __init__(self, obj: bpy.types.Object, arrays: Arrays) -> None:
         core = native.load()
@@ -98,7 +167,7 @@ class _ObjectPreview:
         self._pose.follow(obj)
         self._surface = self._posed_surface()  # threads prepare it
         surface = core.Surface(arrays.in_object, arrays.triangles, arrays.edges)
-        self._islands = IslandMaker(arrays.triangles, lambda cuts: np.asarray(core.face_segments(surface, cuts)), HUES)
+        self._islands = IslandMaker(arrays.triangles, lambda cuts: np.asarray(core.face_segments(surface, cuts)))
         self._rest, self._curves = Curves(), Curves()  # on the mesh without modifiers, and as they are seen
         self._lines: list[Lines] | None = None
         self._faces: ColoredFaces | None = None
@@ -246,16 +315,8 @@ class PlanPreview:
     ) -> None:
         """Draw wires over an object, and tint the islands that they make, in place of what was drawn over it.
 
-        Parameters
-        ----------
-        obj, arrays
-            The object and its mesh.
-        curves
-            The wires.
-        cuts
-            (c, 2) the edges that are seams with them.
-        squares
-            (m, 3, 2) the map of the corners of its triangles, in squares of a checker pattern. None: it is not drawn.
+        With the wires, the edges `cuts`, (c, 2), are seams. `squares`, (m, 3, 2), is the map of the corners of its triangles, in squares
+        of a checker pattern, if it is drawn.
         """
         if self._handle is None and not bpy.app.background:
             self._handle = bpy.types.SpaceView3D.draw_handler_add(self._draw, (), "WINDOW", "POST_VIEW")
@@ -301,7 +362,7 @@ class PlanPreview:
         context = bpy.context
         if not self._shown or not context.space_data.overlay.show_overlays:
             return
-        looks = Looks.of(context.preferences.themes[0].view_3d, chosen.preferences())
+        looks = Looks(context.preferences.themes[0].view_3d, chosen.preferences())
         for name, shown in self._shown.items():
             with suppress(ReferenceError):  # the object may be gone
                 if shown.obj.visible_in_viewport_get(context.space_data):

@@ -3,8 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import bpy
 import numpy as np
@@ -13,7 +12,7 @@ from ..core.fields import color_maps
 from ..core.islands.stretch import Stretch
 from ..mesh import uv_map
 from . import gpu_draw
-from .legend import Legend
+from .layers import Layer, Legend
 from .theme import Style
 
 if TYPE_CHECKING:
@@ -39,32 +38,16 @@ def heat_colors(opacity: float = 1.0) -> list[Color]:
     return color_maps.steps(color_maps.STRETCH, _STEPS, opacity)
 
 
-@dataclass(frozen=True)
-class Summary:
-    """What there is to say of the islands.
-
-    Parameters
-    ----------
-    mean
-        Octaves, of all.
-    worst
-        The island with the most stretch; None: there is one island only.
-    value
-        Its octaves.
-    count
-        How many islands there are.
-    triangles
-        (m,) whether each is part of the worst one.
-    """
+class _Summary(NamedTuple):
+    """What there is to say of the islands: mean and worst octaves, their number, and whether each triangle, (m,), is part of the worst."""
 
     mean: float
-    worst: int | None
     value: float
     count: int
     triangles: NDArray[np.bool_]
 
 
-class StretchHeat:
+class StretchHeat(Layer):
     """The stretch of one object's UV map.
 
     Parameters
@@ -89,29 +72,17 @@ class StretchHeat:
         self._faces: gpu_draw.ColoredFaces | None = None
         self._drawn = -1
         self._outline: tuple[object, gpu_draw.Lines | None] = (None, None)
-        self._summary: tuple[object, Summary | None] = (None, None)
+        self._summary: tuple[object, _Summary | None] = (None, None)
 
     @property
     def shown(self) -> bool:
         """Whether there is heat to be seen."""
         return self._kind != "NONE" and self._stretch is not None and not self._missing
 
-    def follow(self, obj: bpy.types.Object, kind: str, anew: bool = False) -> bool:
-        """Show a kind of stretch, or none, of the active UV map of an object in edit mode.
+    def read(self, obj: bpy.types.Object, kind: str, anew: bool = False) -> bool:
+        """Show the stretch of the active UV map of an object in edit mode by ``ANGLE`` or ``AREA``, or none. Return whether UVs were read.
 
-        Parameters
-        ----------
-        obj
-            Whose mesh it is.
-        kind
-            ``ANGLE`` or ``AREA``; of anything else nothing is shown.
-        anew
-            Whether its UVs may be others than they were; else they are read where that was not yet done.
-
-        Returns
-        -------
-        bool
-            Whether they were read.
+        They are read `anew`, or where that was not yet done.
         """
         if kind not in _NAMES:
             kind = "NONE"
@@ -144,23 +115,20 @@ class StretchHeat:
     def values(self) -> NDArray[np.float64]:
         """The octaves of each triangle's face, (m,), zero and more."""
         assert self._stretch is not None
-        return self._stretch.angle if self._kind == "ANGLE" else np.abs(self._stretch.area)
+        return self._stretch.values(self._kind)
 
-    def summary(self) -> Summary | None:
+    def summary(self) -> _Summary | None:
         """Return what there is to say of the islands; None where that is not known yet."""
         found = self._islands.newest
         if not self.shown or found is None or not found.count:
             return None
         key = (found.key, self._revision)
         if self._summary[0] != key:
-            islands = self._stretch.islands(found.labels)
-            values = islands.angle if self._kind == "ANGLE" else islands.area
-            total = islands.areas.sum()
-            mean = float((values * islands.areas).sum() / total) if total > 0.0 else 0.0
+            values, areas = self._stretch.islands(found.labels, self._kind)
+            mean = float(np.average(values, weights=areas)) if areas.any() else 0.0
             worst = int(values.argmax())
-            many = found.count > 1 and values[worst] > 0.0
-            part = found.labels == worst if many else np.zeros(len(found.labels), dtype=bool)
-            self._summary = key, Summary(mean, worst if many else None, float(values[worst]), found.count, part)
+            part = (found.labels == worst) & (found.count > 1 and values[worst] > 0.0)
+            self._summary = key, _Summary(mean, float(values[worst]), found.count, part)
         return self._summary[1]
 
     # Drawing
@@ -169,8 +137,10 @@ class StretchHeat:
         """Draw everything where it is seen now."""
         self._faces, self._drawn, self._outline = None, -1, (None, None)
 
-    def draw(self, eye: Eye) -> None:
+    def draw_heat(self, eye: Eye) -> bool:
         """Draw the heat over the faces, and the outline of the worst island."""
+        if not self.shown:
+            return False
         if self._faces is None:
             self._faces = gpu_draw.ColoredFaces(self._pose.points)
         if self._drawn != self._revision:
@@ -181,6 +151,7 @@ class StretchHeat:
         if lines is not None:
             with gpu_draw.blended("LESS_EQUAL"):
                 lines.draw(eye)
+        return True
 
     def _fill(self, faces: gpu_draw.ColoredFaces) -> None:
         steps = np.minimum(self.values * (_STEPS / HOT), _STEPS - 1).astype(np.uint8)
@@ -192,8 +163,8 @@ class StretchHeat:
             if len(rows):
                 faces.add(step, self._arrays.triangles[rows])
 
-    def _outline_of(self, summary: Summary | None) -> gpu_draw.Lines | None:
-        if summary is None or summary.worst is None:
+    def _outline_of(self, summary: _Summary | None) -> gpu_draw.Lines | None:
+        if summary is None or not summary.triangles.any():
             return None
         if self._outline[0] is not summary:
             triangles = self._arrays.triangles[summary.triangles].astype(np.int64)
@@ -203,19 +174,19 @@ class StretchHeat:
             self._outline = summary, gpu_draw.Lines(_OUTLINE, ends) if len(ends) else None
         return self._outline[1]
 
-    def legend(self) -> Legend | None:
-        """Return what the colors mean; None where no stretch is to be seen."""
+    def legends(self) -> list[Legend]:
+        """Return what the colors mean, if stretch is to be seen."""
         if self._kind == "NONE":
-            return None
+            return []
         if self._missing:
-            return Legend(("No UV map: unwrap to see its stretch",))
+            return [Legend(("No UV map: unwrap to see its stretch",))]
         lines, summary = [_NAMES[self._kind]], self.summary()
         if summary is not None:
             lines.append(f"Mean {times(summary.mean)}")
-            if summary.worst is not None:
+            if summary.triangles.any():
                 lines.append(f"Worst of {summary.count} islands {times(summary.value)}, outlined")
         marks = tuple((part, times(part * HOT) + ("+" if part == 1.0 else "")) for part in (0.0, 0.5, 1.0))
-        return Legend(tuple(lines), heat_colors(), marks)
+        return [Legend(tuple(lines), heat_colors(), marks)]
 
 
 def times(octaves: float) -> str:

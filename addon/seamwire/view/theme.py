@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..core.islands.islands import HUES, PLACES
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -20,8 +22,6 @@ HALO: Color = (0.02, 0.02, 0.03, 0.75)
 """The dark rim around lines and dots: what keeps them apart from bright meshes and from each other."""
 _BRIGHTNESS = 0.5
 """Of the islands' colors."""
-HUES = 12
-"""How many colors islands are told apart by."""
 
 
 @dataclass(frozen=True)
@@ -58,124 +58,91 @@ class Style:
     soft: bool = False
 
 
-@dataclass(frozen=True)
 class Looks:
-    """The styles of all that the overlay draws."""
+    """The styles of all that the overlay draws, under a theme, as the preferences change them.
 
-    active: Style
-    computing: Style
-    """The wire that is still being computed: paler than what a click would keep."""
-    other: Style
-    kept: Style
-    marked: Style
-    """Edges that will become seams, where the wire itself runs beside them."""
-    will_mark: Style
-    """Edges that the live wire will make seams."""
-    clear: Style
-    """Wires and edges that will cease to be seams."""
-    mirrored: Style
-    mirrored_live: Style
-    hovered: Style
-    """Laid under a kept wire that is pointed at."""
-    line: Style
-    """The line that the hand draws. Wires that follow it look like live wires."""
-    loop: Style
-    end: Style
-    target: Style
-    """The edge under the cursor."""
-    seed: Style
-    hovered_seed: Style
-    live_seed: Style
-    closing: Style
-    dot: Style
-    """The vertex under the cursor; the next two where it lies on a wire or a seam, and on a feature."""
-    dot_on_seam: Style
-    dot_on_feature: Style
-    attracting: Style
-    """The band of a stroke that wires follow."""
-    repelling: Style
-    """The band of one that they keep from: in cross bars, not in its color alone."""
-    gap: Style
-    """From the end of a seam to what it nearly meets."""
-    open_end: Style
-    """Where it ends: larger than a seed, which is drawn over it."""
-    tint: float
-    """Opacity of islands."""
-    text: str
-    """Which text the view shows, as in the preferences."""
+    Parameters
+    ----------
+    theme
+        Of the 3D view; without it the colors are those that fit Blender's default one.
+    preferences
+        The add-on's: whatever of ``line_width``, ``tint`` and ``text`` it has.
 
-    @classmethod
-    def of(cls, theme: bpy.types.ThemeView3D | None = None, preferences: object | None = None) -> Looks:
-        """Return the looks under a theme, as the preferences change them.
+    Attributes
+    ----------
+    tint
+        Opacity of islands.
+    text
+        Which text the view shows, as in the preferences.
+    """
 
-        Parameters
-        ----------
-        theme
-            Of the 3D view; without it the colors are those that fit Blender's default one.
-        preferences
-            The add-on's: whatever of ``line_width``, ``tint`` and ``text`` it has.
-        """
+    def __init__(self, theme: bpy.types.ThemeView3D | None = None, preferences: object | None = None) -> None:
         kept = (1.0, 0.2, 0.1, 1.0)
         if theme is not None:
             # Blender 5 has shortened the name.
             kept = vivid(tuple(theme.seam if hasattr(theme, "seam") else theme.edge_seam))
         active, other, loop = (1.0, 0.72, 0.05, 1.0), (0.45, 0.8, 1.0, 0.9), (0.3, 1.0, 0.55, 1.0)
         clear, white = (0.82, 0.86, 0.95, 1.0), (1.0, 1.0, 1.0, 1.0)
+        will_mark = tuple(0.75 * a + 0.25 * b for a, b in zip(kept, active, strict=True))
         attracts, repels = (0.15, 0.95, 0.75, 1.0), (1.0, 0.3, 0.75, 1.0)
-        looks = cls(
-            active=Style(active, 5.0, halo=2.5, lift=6.0),
-            computing=Style(faint(active, 0.45), 5.0, halo=1.5, hidden=0.15, lift=6.0),
-            other=Style(other, 2.0, halo=2.0, hidden=0.15, lift=5.0),
-            kept=Style(kept, 3.5, halo=2.0),
-            marked=Style(faint(kept, 0.9), 2.5, halo=1.0, hidden=0.15, lift=3.0),
-            will_mark=Style(faint(mixed(kept, active, 0.25), 0.9), 2.5, halo=1.0, hidden=0.15, lift=3.0),
-            clear=Style(clear, 3.5, halo=2.0, dash=7.0, lift=5.0),
-            mirrored=Style(faint(kept, 0.8), 2.0, halo=1.5, hidden=0.2, lift=3.5),
-            line=Style(faint(white, 0.45), 1.5, hidden=0.4, lift=8.0),
-            mirrored_live=Style(faint(active, 0.95), 3.5, halo=2.0, hidden=0.2, lift=5.0),
-            hovered=Style(white, 9.5, halo=2.0, hidden=0.15, lift=3.0),
-            loop=Style(loop, 3.5, halo=2.5, lift=6.0),
-            end=Style(faint(active, 0.9), 3.0, halo=2.0, dash=9.0, lift=6.0),
-            target=Style(white, 3.0, halo=2.0, lift=7.0),
-            seed=Style(white, 9.0, halo=3.5, hidden=0.35, lift=10.0),
-            live_seed=Style(white, 7.0, halo=3.0, hidden=0.35, lift=10.0, ring=(3.5, active)),
-            hovered_seed=Style(white, 12.0, halo=3.5, hidden=0.35, lift=11.0, ring=(4.0, active)),
-            closing=Style(white, 9.0, halo=3.5, hidden=0.35, lift=11.0, ring=(5.5, loop)),
-            dot=Style(white, 7.0, halo=3.0, lift=11.0),
-            dot_on_seam=Style(white, 7.0, halo=3.0, lift=11.0, ring=(5.0, kept)),
-            dot_on_feature=Style(white, 5.0, halo=3.0, lift=11.0, ring=(6.0, other)),
-            attracting=Style(faint(attracts, 0.4), 16.0, hidden=0.2, lift=8.0, soft=True),
-            repelling=Style(faint(repels, 0.5), 16.0, hidden=0.2, lift=8.0, dash=5.0, soft=True),
-            gap=Style(faint(kept, 0.9), 2.5, halo=1.5, hidden=0.15, dash=4.0, lift=5.0),
-            open_end=Style(kept, 14.0, halo=2.5, hidden=0.3, lift=9.0),
-            tint=float(getattr(preferences, "tint", 0.22)),
-            text=getattr(preferences, "text", "INFORMATION"),
-        )
-        return looks.widened(float(getattr(preferences, "line_width", 1.0)))
+        self.active = Style(active, 5.0, halo=2.5, lift=6.0)
+        # The wire that is still being computed: paler than what a click would keep.
+        self.computing = Style(faint(active, 0.45), 5.0, halo=1.5, hidden=0.15, lift=6.0)
+        self.other = Style(other, 2.0, halo=2.0, hidden=0.15, lift=5.0)
+        self.kept = Style(kept, 3.5, halo=2.0)
+        # Edges that will become seams, where the wire itself runs beside them.
+        self.marked = Style(faint(kept, 0.9), 2.5, halo=1.0, hidden=0.15, lift=3.0)
+        # Edges that the live wire will make seams.
+        self.will_mark = Style(faint(will_mark, 0.9), 2.5, halo=1.0, hidden=0.15, lift=3.0)
+        # Wires and edges that will cease to be seams.
+        self.clear = Style(clear, 3.5, halo=2.0, dash=7.0, lift=5.0)
+        self.mirrored = Style(faint(kept, 0.8), 2.0, halo=1.5, hidden=0.2, lift=3.5)
+        # The line that the hand draws. Wires that follow it look like live wires.
+        self.line = Style(faint(white, 0.45), 1.5, hidden=0.4, lift=8.0)
+        self.mirrored_live = Style(faint(active, 0.95), 3.5, halo=2.0, hidden=0.2, lift=5.0)
+        # Laid under a kept wire that is pointed at.
+        self.hovered = Style(white, 9.5, halo=2.0, hidden=0.15, lift=3.0)
+        self.loop = Style(loop, 3.5, halo=2.5, lift=6.0)
+        self.end = Style(faint(active, 0.9), 3.0, halo=2.0, dash=9.0, lift=6.0)
+        # The edge under the cursor.
+        self.target = Style(white, 3.0, halo=2.0, lift=7.0)
+        self.seed = Style(white, 9.0, halo=3.5, hidden=0.35, lift=10.0)
+        self.live_seed = Style(white, 7.0, halo=3.0, hidden=0.35, lift=10.0, ring=(3.5, active))
+        self.hovered_seed = Style(white, 12.0, halo=3.5, hidden=0.35, lift=11.0, ring=(4.0, active))
+        self.closing = Style(white, 9.0, halo=3.5, hidden=0.35, lift=11.0, ring=(5.5, loop))
+        # The vertex under the cursor; the next two where it lies on a wire or a seam, and on a feature.
+        self.dot = Style(white, 7.0, halo=3.0, lift=11.0)
+        self.dot_on_seam = Style(white, 7.0, halo=3.0, lift=11.0, ring=(5.0, kept))
+        self.dot_on_feature = Style(white, 5.0, halo=3.0, lift=11.0, ring=(6.0, other))
+        # The band of a stroke that wires follow.
+        self.attracting = Style(faint(attracts, 0.4), 16.0, hidden=0.2, lift=8.0, soft=True)
+        # The band of one that they keep from: in cross bars, not in its color alone.
+        self.repelling = Style(faint(repels, 0.5), 16.0, hidden=0.2, lift=8.0, dash=5.0, soft=True)
+        # From the end of a seam to what it nearly meets.
+        self.gap = Style(faint(kept, 0.9), 2.5, halo=1.5, hidden=0.15, dash=4.0, lift=5.0)
+        # Where it ends: larger than a seed, which is drawn over it.
+        self.open_end = Style(kept, 14.0, halo=2.5, hidden=0.3, lift=9.0)
+        self.tint = float(getattr(preferences, "tint", 0.22))
+        self.text = getattr(preferences, "text", "INFORMATION")
+        self._widen(float(getattr(preferences, "line_width", 1.0)))
 
-    def widened(self, factor: float) -> Looks:
-        """Return the same with lines so many times as wide; dots grow half as fast."""
-        if factor == 1.0:
-            return self
+    def _widen(self, factor: float) -> None:
+        """Make lines so many times as wide. Dots grow half as fast."""
         dots = {"seed", "live_seed", "hovered_seed", "closing", "open_end"}
+        for name, style in vars(self).items():
+            if isinstance(style, Style):
+                by = 0.5 * (1.0 + factor) if name in dots or name.startswith("dot") else factor
+                setattr(self, name, replace(style, width=style.width * by))
 
-        def wider(name: str, style: Style) -> Style:
-            by = 0.5 * (1.0 + factor) if name in dots or name.startswith("dot") else factor
-            return replace(style, width=style.width * by)
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Looks) and vars(self) == vars(other)
 
-        styles = {name: wider(name, style) for name, style in vars(self).items() if isinstance(style, Style)}
-        return replace(self, **styles)
+    __hash__ = None
 
 
 def faint(color: Color, opacity: float) -> Color:
     """Return a color with a share of its opacity."""
     return (*color[:3], color[3] * opacity)
-
-
-def mixed(one: Color, two: Color, share: float) -> Color:
-    """Return a color on the way from one to another."""
-    red, green, blue, opacity = (a + share * (b - a) for a, b in zip(one, two, strict=True))
-    return red, green, blue, opacity
 
 
 def vivid(color: Sequence[float]) -> Color:
@@ -191,8 +158,7 @@ def hue_colors(opacity: float) -> list[Color]:
     From yellow-green to pink: red and orange are left to wires and seams.
     """
     hues = np.linspace(0.24, 0.88, HUES)
-    # 5 of 12 steps on: coprime, so each hue comes once.
-    return [(*_light(float(hues[(4 + 5 * i) % HUES])), opacity) for i in range(HUES)]
+    return [(*_light(float(hues[place])), opacity) for place in PLACES]
 
 
 def _light(hue: float) -> tuple[float, float, float]:

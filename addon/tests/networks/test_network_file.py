@@ -17,6 +17,7 @@ from seamwire.core.network.wires import FOLLOWS, Wire
 from seamwire.core.offers.edge_loops import KIND_COSTS
 from seamwire.networks.core import network_file
 from seamwire.networks.core.network_file import NetworkFile, NetworkFileError
+from seamwire.networks.core.placing import Shape
 from seamwire.terms.choices import ALONG, FINISHES, METRICS
 
 SIZE = 6
@@ -31,6 +32,9 @@ def triangles() -> np.ndarray:
     return np.concatenate([np.stack([a, a + 1, a + SIZE + 1], 1), np.stack([a, a + SIZE + 1, a + SIZE], 1)]).astype(
         np.int32
     )
+
+
+SHAPE = Shape(POINTS, triangles(), EDGES, STRETCH)
 
 
 def wire(*vertices: int, **options: object) -> Wire:
@@ -64,15 +68,13 @@ def network() -> Network:
 
 
 def written(network: Network) -> NetworkFile:
-    return NetworkFile.of(
-        network, POINTS, triangles(), EDGES, name="Hémd", metric="concave", clamp=95.0, to_object=STRETCH
-    )
+    return NetworkFile.of(network, SHAPE, name="Hémd", metric="concave", clamp=95.0)
 
 
 def test_what_is_read_is_what_was_written(network: Network) -> None:
     file = NetworkFile.parse(written(network).text())
     assert (file.origin.name, file.origin.vertices, file.metric, file.clamp) == ("Hémd", 36, "concave", 95.0)
-    wires = file.wires(POINTS, STRETCH)
+    wires = file.wires(SHAPE)
     kept = [one for one in network.wires if one.marks]
     names = ("along", "vertices", "start", "closed", "heading", "follow", "strength", "mirror", "kind", "through")
     for name in (*names, "finish", "planned"):
@@ -81,18 +83,9 @@ def test_what_is_read_is_what_was_written(network: Network) -> None:
     for one, before in zip(wires, kept, strict=True):
         assert np.allclose(one.points, before.points, atol=1e-6)
     assert [one.faces for one in wires] == [None] * 4, "another mesh has other triangles"
-    (stroke,) = file.strokes_on(POINTS, STRETCH)
+    (stroke,) = file.strokes_on(SHAPE)
     assert np.allclose(stroke.points, POINTS[[0, 6]]) and stroke.radius == pytest.approx(0.3)
-    assert not file.problem_with(36, EDGES)
-
-
-def test_seeds_have_their_places_in_object_coordinates(network: Network) -> None:
-    file = NetworkFile.parse(written(network).text())
-    assert [seed.pick for seed in file.seeds][:4] == [0, (1, 2), 4, 30]
-    inside = file.seeds[-1]
-    assert isinstance(inside.pick, FacePoint) and inside.pick.corners == (26, 27, 33)
-    assert np.allclose(file.seeds[1].place, [3.0, 0.0, 0.0])
-    assert np.allclose(np.abs(file.seeds[0].normal), [0.0, 0.0, 1.0])
+    assert not file.problem_with(SHAPE)
 
 
 def test_one_more_wire_is_lines_more_and_no_line_changed(network: Network) -> None:
@@ -100,7 +93,7 @@ def test_one_more_wire_is_lines_more_and_no_line_changed(network: Network) -> No
     after = written(network).text().splitlines()
     strip = {line.rstrip(",") for line in before}, {line.rstrip(",") for line in after}
     assert not strip[0] - strip[1]
-    assert len(strip[1] - strip[0]) == 3, "a wire and its two seeds"
+    assert len(strip[1] - strip[0]) == 1, "a wire"
 
 
 def test_it_is_written_the_same_in_whatever_order_a_mesh_has_its_wires(network: Network) -> None:
@@ -140,8 +133,6 @@ def test_the_schema_has_the_values_of_the_tables() -> None:
         (lambda d: d.update(version=2), "it has version 2, and this one reads up to 1"),
         (lambda d: d.update(version="one"), "its version is not a number"),
         (lambda d: d.pop("mesh"), "damaged: mesh"),
-        (lambda d: d["seeds"][1].update(pick=[1, "a"]), "damaged: seed 2"),
-        (lambda d: d["seeds"][0].update(place=[0.0, float("nan"), 0.0]), "damaged: seed 1"),
         (lambda d: d["wires"][1].update(vertices=[0, 1, 2, 99]), "damaged: wire 2"),
         (lambda d: d["wires"][2]["vertices"].__setitem__(0, 36), "damaged: wire 3"),
         (lambda d: d["wires"][3].update(curve=[[0, 0]]), "damaged: wire 4"),
@@ -171,8 +162,12 @@ def test_every_cut_of_a_file_is_refused_and_nothing_else_is_raised(network: Netw
 
 def test_another_mesh_is_told_by_its_vertices_and_edges(network: Network) -> None:
     file = written(network)
-    assert str(file.problem_with(35, EDGES)) == "The network belongs to a mesh with 36 vertices, but this one has 35"
+    assert (
+        str(file.problem_with(replace(SHAPE, points=POINTS[:35])))
+        == "The network belongs to a mesh with 36 vertices, but this one has 35"
+    )
     fewer = EDGES[~(np.sort(EDGES, axis=1) == [2, 3]).all(axis=1)]
     assert (
-        str(file.problem_with(36, fewer)) == "The network belongs to a mesh with other edges: edge 2-3 is missing here"
+        str(file.problem_with(replace(SHAPE, edges=fewer)))
+        == "The network belongs to a mesh with other edges: edge 2-3 is missing here"
     )

@@ -8,29 +8,29 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from seamwire.core.base import native
 from seamwire.core.base.geometry import nearest_on_segments
 from seamwire.core.network.network import Network
 from seamwire.core.network.strokes import Stroke
 from seamwire.core.network.wires import Wire
 from seamwire.networks.core.network_file import NetworkFile, NetworkFileError
-from seamwire.networks.core.placing import Aligned, Landmarks, NearestSurface, Shape, Similarity
+from seamwire.networks.core.placing import Landmarks, NearestSurface, Shape, Similarity, doubt_between
 from seamwire.networks.core.tracing import Transfer
 from seamwire.networks.core.transfer import transfer
-from seamwire.networks.core.work import result_of
 
 pytest.importorskip("seamwire_core")
 
 
 def by_numbers(file: NetworkFile, target: Shape) -> Transfer:
-    return result_of(transfer(file, target, place="NUMBERS"))
+    return transfer(file, target, place="NUMBERS")
 
 
 def by_surface(file: NetworkFile, target: Shape, **options: object) -> Transfer:
-    return result_of(transfer(file, target, place="SURFACE", **options))
+    return transfer(file, target, place="SURFACE", **options)
 
 
 def by_landmarks(file: NetworkFile, source: Shape, target: Shape, pairs: object) -> Transfer:
-    return result_of(transfer(file, target, place="PAIRS", source=source, pairs=pairs))
+    return transfer(file, target, place="PAIRS", source=source, pairs=pairs)
 
 
 def tube(around: int, along: int, bend: float = 0.0) -> Shape:
@@ -73,7 +73,7 @@ def network() -> Network:
 
 @pytest.fixture
 def file() -> NetworkFile:
-    return NetworkFile.parse(NetworkFile.of(network(), SOURCE.points, SOURCE.triangles, SOURCE.edges).text())
+    return NetworkFile.parse(NetworkFile.of(network(), SOURCE).text())
 
 
 def off(found: Transfer, places: NDArray[np.float64]) -> float:
@@ -117,7 +117,7 @@ def test_a_wire_that_the_surface_does_not_lead_gets_seeds(file: NetworkFile) -> 
         *[12 * 16 + place for place in range(5, -1, -1)],
         13 * 16,
     ]
-    drawn = NetworkFile.of(Network((wire(SOURCE, zigzag),)), SOURCE.points, SOURCE.triangles, SOURCE.edges)
+    drawn = NetworkFile.of(Network((wire(SOURCE, zigzag),)), SOURCE)
     target = tube(23, 81)
     found = by_surface(drawn, target)
     assert found.added >= 1
@@ -139,7 +139,7 @@ def lopsided(points: NDArray[np.float64]) -> NDArray[np.float64]:
 def test_it_is_aligned_where_it_does_not_lie_on_the_mesh(scale: float) -> None:
     source = replace(SOURCE, points=lopsided(SOURCE.points))
     wires = tuple(replace(one, points=lopsided(one.points)) for one in network().wires)
-    file = NetworkFile.of(Network(wires), source.points, source.triangles, source.edges)
+    file = NetworkFile.of(Network(wires), source)
     flat = tube(23, 60)
     turn = np.array([[0.8, -0.6, 0.0], [0.6, 0.8, 0.0], [0.0, 0.0, 1.0]])
     target = replace(flat, points=scale * lopsided(flat.points) @ turn.T + (5.0, -2.0, 1.0))
@@ -162,9 +162,9 @@ def test_where_it_fits_as_well_turned_that_is_said_and_every_seed_is_doubtful(fi
 
 def test_what_only_lies_elsewhere_is_not_called_turned() -> None:
     shifted = replace(Similarity.mirroring(), shift=np.array([2.0, 0.0, 0.0]))
-    assert str(Aligned(Similarity.mirroring(), shifted).doubt).startswith("the network also fits in another place")
+    assert str(doubt_between(Similarity.mirroring(), shifted)).startswith("the network also fits in another place")
     turned = replace(shifted, rotation=np.diag([-1.0, -1.0, 1.0]))
-    assert str(Aligned(Similarity.mirroring(), turned).doubt).startswith(
+    assert str(doubt_between(Similarity.mirroring(), turned)).startswith(
         "the network also fits if rotated by 180 degrees"
     )
 
@@ -178,7 +178,7 @@ def test_it_is_mirrored(file: NetworkFile) -> None:
 
 def test_mirror_images_of_wires_come_too() -> None:
     one = wire(SOURCE, ACROSS, mirror=(2,))
-    file = NetworkFile.of(Network((one,)), SOURCE.points, SOURCE.triangles, SOURCE.edges)
+    file = NetworkFile.of(Network((one,)), SOURCE)
     target = tube(23, 60)
     found = by_surface(file, target)
     middles = target.places[found.seams].mean(axis=1)
@@ -213,7 +213,7 @@ def test_what_has_no_place_is_told_and_left_out(file: NetworkFile) -> None:
 
 
 def test_parts_that_do_not_hang_together_are_told() -> None:
-    file = NetworkFile.of(Network((wire(SOURCE, ALONG),)), SOURCE.points, SOURCE.triangles, SOURCE.edges)
+    file = NetworkFile.of(Network((wire(SOURCE, ALONG),)), SOURCE)
     target = tube(23, 61)
     middle = (np.abs(target.points[:, 0]) < 0.1)[target.triangles].any(axis=1)
     kept = target.triangles[~middle]
@@ -228,7 +228,7 @@ def test_parts_that_do_not_hang_together_are_told() -> None:
 def test_what_hangs_together_stays_on_one_part() -> None:
     """Of two tubes, one in the other, the outer one was thicker: some of it is nearer to the inner one now."""
     ends_there = [ring * 16 for ring in range(5, 30)]
-    drawn = NetworkFile.of(Network((wire(SOURCE, ends_there),)), SOURCE.points, SOURCE.triangles, SOURCE.edges)
+    drawn = NetworkFile.of(Network((wire(SOURCE, ends_there),)), SOURCE)
     inner, outer = tube(16, 41), tube(16, 41)
     closer = np.where(np.abs(outer.points[:, :1] - 0.9) < 0.2, 1.2, 1.03)
     inside = np.where(np.abs(outer.points[:, :1] - 0.9) < 0.2, 1.02, 0.9)
@@ -325,9 +325,9 @@ def test_by_numbers_the_same_edges_are_marked_and_another_mesh_is_refused(file: 
 def test_automatic_takes_numbers_on_the_same_mesh_and_otherwise_the_surface(file: NetworkFile) -> None:
     read = NetworkFile.parse(file.text())
     target = tube(23, 60)
-    found = result_of(transfer(read, target))
+    found = transfer(read, target)
     assert len(found.seams) and np.array_equal(found.seams, by_surface(file, target).seams)
-    same = {tuple(edge) for edge in result_of(transfer(read, SOURCE)).seams.tolist()}
+    same = {tuple(edge) for edge in transfer(read, SOURCE).seams.tolist()}
     assert same == {edge for one in network().wires for edge in one.edges()}
 
 
@@ -341,17 +341,16 @@ def test_a_transfer_tells_its_progress_and_can_be_stopped(file: NetworkFile, pla
         seen.append(fraction)
         return True
 
-    assert result_of(transfer(file, target, place=place, source=SOURCE, pairs=pairs), note).wires
+    assert transfer(file, target, place=place, source=SOURCE, pairs=pairs, progress=note).wires
     assert seen == sorted(seen)
     assert seen[0] == 0.0 and 0.5 < seen[-1] < 1.0
-    stopped = transfer(file, target, place=place, source=SOURCE, pairs=pairs)
-    assert result_of(stopped, lambda fraction: fraction < 0.5) is None
-    assert next(stopped, None) is None
+    with pytest.raises(native.load().Cancelled):
+        transfer(file, target, place=place, source=SOURCE, pairs=pairs, progress=lambda fraction: fraction < 0.5)
 
 
 def test_choices_that_do_not_fit_are_refused(file: NetworkFile) -> None:
     with pytest.raises(ValueError, match="Mirror needs Place: Nearest Surface"):
-        result_of(transfer(file, SOURCE, place="NUMBERS", mirror=0))
+        transfer(file, SOURCE, place="NUMBERS", mirror=0)
     with pytest.raises(ValueError, match="Pairs need the source object"):
         by_landmarks(file, None, SOURCE, [(0, 0), (1, 1), (2, 2)])
 
@@ -361,9 +360,7 @@ def test_strokes_come_too() -> None:
     stroke = Stroke(
         SOURCE.points[rows], np.repeat(rows[:, None], 3, 1).astype(np.int32), np.full(4, -1), attracts=False
     )
-    drawn = NetworkFile.of(
-        Network((wire(SOURCE, ACROSS),), strokes=(stroke,)), SOURCE.points, SOURCE.triangles, SOURCE.edges
-    )
+    drawn = NetworkFile.of(Network((wire(SOURCE, ACROSS),), strokes=(stroke,)), SOURCE)
     found = by_surface(drawn, tube(23, 60))
     (there,) = found.strokes
     assert not there.attracts

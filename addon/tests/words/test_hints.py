@@ -9,7 +9,7 @@ from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.picture import Offered
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Snap
-from seamwire.core.solver.live_maker import LiveMaker
+from seamwire.core.solver.solver import LiveMaker
 from seamwire.words.hints import MOST, Status, hints, idle_hints
 from seamwire.words.keys import Action, Bindings, Key
 from setting import use

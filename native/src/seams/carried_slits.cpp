@@ -27,7 +27,7 @@ class Carrying {
       : simple_(simple),
         vertices_(vertices),
         original_(original),
-        spread_(1.0 * median_length(simple.mesh)),
+        spread_(median_length(simple.mesh)),
         is_on_cut_(cut_of(original, {}, {}).is_on_cut) {
     for (const Slit& slit : slits) {
       for (const auto* chain : {&slit.path, &slit.image}) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "seams/decimation.hpp"
 #include "seams/neck_rings.hpp"
 #include "seams/seam_problems.hpp"
 #include "seams/slit_edits.hpp"

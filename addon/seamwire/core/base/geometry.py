@@ -46,14 +46,14 @@ def nearest_on_segments(
 def barycentric(
     corners: NDArray[np.float64], point: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Find a point in triangles.
+    """Find a point in triangles, or a point in each.
 
     Parameters
     ----------
     corners
         (k, 3, d) the triangles.
     point
-        (d,)
+        (d,), or (k, d).
 
     Returns
     -------

@@ -36,12 +36,8 @@ class NativeError(Told, ImportError):
 def load(folder: Path = FOLDER, wheels: Path = WHEELS) -> ModuleType:
     """Return the module: an installed one first, else the one in the add-on's own folder, unpacked there if need be.
 
-    An extension has no such folder, because Blender installs the module itself.
-
-    Raises
-    ------
-    NativeError
-        If there is no module for this Python and system, or another version is already loaded.
+    An extension has no such folder, because Blender installs the module itself. Raises NativeError if there is no module for this Python
+    and system, or another version is already loaded.
     """
     if NAME in sys.modules:
         return _of_this_package(sys.modules[NAME], wheels)

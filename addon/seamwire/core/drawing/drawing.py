@@ -12,13 +12,11 @@ import numpy as np
 from ...terms.options import Options
 from ..base import native
 from ..base.messages import NOTHING, Message
-from ..network.history import History
-from ..network.mirror_images import MirrorImages
-from ..network.network import Network
+from ..network.network import History, Network
 from ..network.picks import undirected
 from ..network.stops import Stops
 from ..network.strokes import for_library
-from ..network.symmetry import Symmetry
+from ..network.symmetry import MirrorImages, Symmetry
 from ..offers.part_borders import AMOUNTS
 from ..seams.seam_wires import seam_chains, waiting, wires_along
 from ..solver.solver import Engines

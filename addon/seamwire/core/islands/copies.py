@@ -83,15 +83,10 @@ def shaped_islands(
     following: NDArray[np.int64],
     labels: NDArray[np.integer],
 ) -> list[ShapedIsland]:
-    """Read the shapes of islands from the corners of a mesh.
+    """Read the shapes of islands from the corners of a mesh with vertices, (n, 3).
 
-    Parameters
-    ----------
-    points
-        (n, 3) vertices.
-    vertices, edges, following, labels
-        (c,) of each corner its vertex, the edge to the next corner of its face, that corner, and its island. The edge is -1 at a border
-        of the island. The island is -1 if the corner is left out.
+    Each corner, (c,), has a vertex, the edge to the next corner of its face, that corner, and its island. The edge is -1 at a border of the
+    island. The island is -1 if the corner is left out.
     """
     preceding = np.empty_like(following)
     preceding[following] = np.arange(len(following))
@@ -120,13 +115,9 @@ def shaped_islands(
 
 
 def find_copies(shapes: Sequence[IslandShape]) -> list[tuple[int, NDArray[np.int64]]]:
-    """Find the first island that each island is a copy of.
+    """Find the first island that each island is a copy of, and which of its corners corresponds to each corner, (c,).
 
-    Returns
-    -------
-    list of (int, (c,) array)
-        For each island the number of that island, and which of its corners corresponds to each corner. The first island of each shape
-        corresponds to itself.
+    The first island of each shape corresponds to itself.
     """
     found: list[tuple[int, NDArray[np.int64]]] = []
     firsts: defaultdict[int, list[tuple[float, int]]] = defaultdict(list)

@@ -33,9 +33,15 @@ AT_ONCE = 20_000
 """Triangles up to which the answer takes a few milliseconds, so that a thread would only make it late."""
 _TOLD_APART = 4096
 """Islands beyond this many are so small that neighbors may share a hue."""
+HUES = 12
+"""How many colors islands are told apart by."""
+PLACES = [(4 + 5 * hue) % HUES for hue in range(HUES)]
+"""Where each hue lies in the rainbow: hues with numbers next to each other lie far apart in it, and each place comes once."""
 _CLEAR = 3
 """By how many places in the rainbow the hues of neighbors differ wherever that can be: 60 degrees of the circle of hues, where
 12 hues share two thirds of it."""
+_TOO_NEAR = [sum(1 << other for other in range(HUES) if abs(place - PLACES[other]) < _CLEAR) for place in PLACES]
+"""The hues that are too near to each, as bits."""
 
 
 @dataclass(frozen=True)
@@ -51,7 +57,7 @@ class Islands:
     labels
         (m,) of each triangle.
     hues
-        (count,) a number below the number of hues for each; those of neighbors across a cut are far apart, see `places_of`.
+        (count,) a number below the number of hues for each; those of neighbors across a cut are far apart, see `PLACES`.
     missing
         (count,) how many more cuts each needs to become a disc.
     cut
@@ -89,8 +95,6 @@ class IslandMaker:
         (m, 3).
     label
         What tells the islands apart; called on the thread.
-    hues
-        How many colors there are.
     gaps
         Finds what keeps islands from separating; None: that is not asked for.
     count
@@ -101,13 +105,11 @@ class IslandMaker:
         self,
         triangles: NDArray[np.int32],
         label: Label,
-        hues: int = 12,
         gaps: GapFinder | None = None,
         count: Count | None = None,
     ) -> None:
         self._triangles = triangles
         self._label = label
-        self._hues = hues
         self._gaps = gaps
         self._maker: Newest[_Request, Islands] = Newest(self._make, "seamwire-islands")
         self._count = count
@@ -129,17 +131,7 @@ class IslandMaker:
     def want(
         self, key: object, cuts: Iterable[tuple[int, int]] | NDArray[np.int32], meant: frozenset[int] = frozenset()
     ) -> None:
-        """Ask for the islands that cut edges make.
-
-        Parameters
-        ----------
-        key
-            How the answer is known.
-        cuts
-            The edges.
-        meant
-            Vertices where cuts end on purpose: these are no gaps.
-        """
+        """Ask for the islands that cut edges make, with a key. Where cuts end at vertices that are `meant`, there are no gaps."""
         edges = np.array(cuts if isinstance(cuts, np.ndarray) else list(cuts), dtype=np.int32).reshape(-1, 2)
         if len(self._triangles) <= AT_ONCE:
             self._maker.answer_now((key, edges, meant))
@@ -156,13 +148,13 @@ class IslandMaker:
         if labels.shape != (len(self._triangles),):
             raise ValueError(f"{labels.shape} labels for {len(self._triangles)} triangles")
         count = int(labels.max(initial=-1)) + 1
-        hues = choose_hues(self._inherited(labels, count), neighbours(self._triangles, labels, cuts), self._hues)
+        hues = choose_hues(self._inherited(labels, count), neighbours(self._triangles, labels, cuts))
         of_triangle = hues[labels]
         order = np.argsort(of_triangle, kind="stable")
-        bounds = np.searchsorted(of_triangle[order], np.arange(self._hues + 1))
+        bounds = np.searchsorted(of_triangle[order], np.arange(HUES + 1))
         pieces = tuple(
             (hue, np.ascontiguousarray(self._triangles[order[bounds[hue] : bounds[hue + 1]]]))
-            for hue in range(self._hues)
+            for hue in range(HUES)
             if bounds[hue] < bounds[hue + 1]
         )
         missing = np.zeros(count, dtype=np.int32) if self._count is None else self._count(cuts, labels)
@@ -227,51 +219,29 @@ def neighbours(triangles: NDArray[np.int32], labels: NDArray[np.int32], cuts: ND
     return np.unique(pairs, axis=0)
 
 
-def places_of(hues: int) -> list[int]:
-    """Return where each of some hues lies in the rainbow: hues with numbers next to each other lie far apart in it."""
-    return [(4 + 5 * hue) % hues for hue in range(hues)]
+def choose_hues(inherited: NDArray[np.int64], pairs: NDArray[np.int32]) -> NDArray[np.uint8]:
+    """Choose a hue for each island, (count,), far from those of its neighbors, and one that few others have.
 
-
-def choose_hues(inherited: NDArray[np.int64], pairs: NDArray[np.int32], hues: int) -> NDArray[np.uint8]:
-    """Choose a hue for each island, far from those of its neighbors, and one that few others have.
-
-    Parameters
-    ----------
-    inherited
-        (count,) the hue that each keeps, unless a larger neighbor has one too much like it; -1: any. The largest islands
-        come first.
-    pairs
-        (k, 2) neighbors.
-    hues
-        How many there are.
-
-    Returns
-    -------
-    (count,) array
-        A hue for each island.
+    `inherited`, (count,), has the hue that each keeps, unless a larger neighbor has one too much like it, or -1. The largest islands come
+    first. Pairs of neighbors are (k, 2).
     """
     count = len(inherited)
     if count > _TOLD_APART:
-        return np.where(inherited >= 0, inherited, np.arange(count) % hues).astype(np.uint8)
-    places = places_of(hues)
+        return np.where(inherited >= 0, inherited, np.arange(count) % HUES).astype(np.uint8)
     around: list[list[int]] = [[] for _ in range(count)]
     for one, two in pairs.tolist():
         around[one].append(two)
         around[two].append(one)
     chosen = [-1] * count
-    used = [0] * hues
-    clear = max(1, min(_CLEAR, hues // 4))
-    # Sets of hues as bits: those too near to each, and for each island those that are not too near to a neighbor's.
-    too_near = [
-        sum(1 << other for other in range(hues) if abs(places[hue] - places[other]) < clear) for hue in range(hues)
-    ]
-    free = [(1 << hues) - 1] * count
+    used = [0] * HUES
+    # For each island, the hues that are not too near to a neighbor's, as bits.
+    free = [(1 << HUES) - 1] * count
 
     def settle(island: int, hue: int) -> None:
         chosen[island] = hue
         used[hue] += 1
         for other in around[island]:
-            free[other] &= ~too_near[hue]
+            free[other] &= ~_TOO_NEAR[hue]
 
     # Old hues stay, the largest islands first. The other islands get new hues when all old ones are known.
     for island, hue in enumerate(inherited.tolist()):
@@ -284,18 +254,18 @@ def choose_hues(inherited: NDArray[np.int64], pairs: NDArray[np.int32], hues: in
         left, island = heapq.heappop(waiting)
         if chosen[island] >= 0 or left != free[island].bit_count():
             continue
-        gaps = [hues] * hues
+        gaps = [HUES] * HUES
         open_to = [free[other] for other in around[island] if chosen[other] < 0]
         for other in around[island]:
             if chosen[other] >= 0:
-                place = places[chosen[other]]
-                gaps = [min(gap, abs(places[hue] - place)) for hue, gap in enumerate(gaps)]
+                place = PLACES[chosen[other]]
+                gaps = [min(gap, abs(PLACES[hue] - place)) for hue, gap in enumerate(gaps)]
 
         def merit(hue: int, gaps: list[int] = gaps, open_to: list[int] = open_to) -> tuple[int, int, int, int]:
-            taken = sum((mask & too_near[hue]).bit_count() for mask in open_to)
-            return min(gaps[hue], clear), -taken, -used[hue], gaps[hue]
+            taken = sum((mask & _TOO_NEAR[hue]).bit_count() for mask in open_to)
+            return min(gaps[hue], _CLEAR), -taken, -used[hue], gaps[hue]
 
-        settle(island, max(range(hues), key=merit))
+        settle(island, max(range(HUES), key=merit))
         for other in around[island]:
             if chosen[other] < 0:
                 heapq.heappush(waiting, (free[other].bit_count(), other))

@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is wrong with a UV map as it is stored: faces that are turned over, islands that overlap, and islands outside the UV square."""
+"""What is wrong with a UV map as it is stored: faces that are turned over, islands that overlap, and islands outside the UV square.
+
+UVs are stored in single precision. A triangle whose height in the map is less than their spacing can be turned over, or lose its area,
+when they are rounded. Then a corner moves by a few such spacings, as far as no other triangle is turned over.
+"""
 
 from __future__ import annotations
 
@@ -113,12 +117,9 @@ class MappedSurface:
 def _with_doubles(
     points: NDArray[np.float64], triangles: NDArray[np.int32], edges: NDArray[np.int32]
 ) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int32]]:
-    """Return a mesh in which each triangle that repeats another one has separate vertices. Otherwise the library leaves it out.
+    """Return a mesh, (n, 3), (m, 3), (e, 2), in which each triangle that repeats another one has separate vertices.
 
-    Parameters
-    ----------
-    points, triangles, edges
-        (n, 3), (m, 3), (e, 2) the mesh.
+    Otherwise the library leaves it out.
     """
     vertices = np.sort(triangles, axis=1)
     order = np.lexsort(vertices.T)
@@ -162,18 +163,10 @@ def find_faults(
     *,
     may_stack: bool = False,
 ) -> MapFaults:
-    """Measure what is wrong with some islands of a map.
+    """Measure what is wrong with some islands of a map. The surface is all that lies in the map.
 
-    Parameters
-    ----------
-    surface
-        All that lies in the map.
-    chosen
-        (count,) which islands are looked at. The others count only as what these may overlap. None: all islands.
-    homes
-        (count, 2) the low corner of the tile that each island had before. Islands may lie there or in the UV square. None: no other tile.
-    may_stack
-        Whether islands may lie exactly on each other, corner by corner.
+    Only islands that are `chosen`, (count,), are looked at; the others count as what these may overlap. An island may lie in the UV square,
+    or in the tile with the low corner that it has in `homes`, (count, 2). If islands `may_stack`, they may lie exactly on each other.
     """
     chosen = np.ones(surface.count, dtype=bool) if chosen is None else chosen
     homes = np.zeros((surface.count, 2)) if homes is None else homes
@@ -232,3 +225,106 @@ def _outside(surface: MappedSurface, rows: NDArray[np.int64], homes: NDArray[np.
 
     found[islands] = ~(in_tile(0.0) | in_tile(homes[islands]))
     return found
+
+
+_MOST = 64.0
+"""Spacings of numbers: a triangle that is turned over by more was not turned over by rounding."""
+_PASSES = 3
+"""A corner that moves makes room for others."""
+
+
+def turn_back(
+    uvs: NDArray[np.float32],
+    corners: NDArray[np.int64],
+    vertices: NDArray[np.int32],
+    labels: NDArray[np.int32],
+) -> tuple[NDArray[np.int64], NDArray[np.float32]]:
+    """Turn back the triangles that rounding has turned over. Return the corners that move, (k,), and their new UVs, (k, 2).
+
+    The faces' corners have UVs, (c, 2), and vertices, (c,). Corners of an island with one vertex and the same UVs move together. Triangles,
+    (t, 3) corners, have the islands `labels`, (t,).
+    """
+    if not len(corners):
+        return np.empty(0, dtype=np.int64), np.empty((0, 2), dtype=np.float32)
+    areas = signed_uv_areas(uvs[corners].astype(np.float64))
+    # An island may be mirrored as a whole.
+    side = np.where(np.bincount(labels, areas)[labels] < 0.0, -1.0, 1.0)
+    turned = np.flatnonzero(side * areas <= 0.0)
+    if not len(turned):
+        return np.empty(0, dtype=np.int64), np.empty((0, 2), dtype=np.float32)
+    mended = _Mending(uvs, corners, vertices, labels, side)
+    for _ in range(_PASSES):
+        turned = np.array([row for row in turned.tolist() if not mended.turn_back(row)], dtype=np.int64)
+    return mended.moved()
+
+
+class _Mending:
+    """A map whose corners move together where they are one point of an island."""
+
+    def __init__(
+        self,
+        uvs: NDArray[np.float32],
+        corners: NDArray[np.int64],
+        vertices: NDArray[np.int32],
+        labels: NDArray[np.int32],
+        side: NDArray[np.float64],
+    ) -> None:
+        self._side = side
+        flat = corners.reshape(-1)
+        bits = np.ascontiguousarray(uvs[flat]).view(np.int32)
+        keys = np.column_stack([np.repeat(labels, 3), vertices[flat], bits])
+        order = np.lexsort(keys.T)
+        first = np.ones(len(flat), dtype=bool)
+        first[1:] = (keys[order][1:] != keys[order][:-1]).any(axis=1)
+        of_corner = np.empty(len(flat), dtype=np.int64)
+        of_corner[order] = np.cumsum(first) - 1
+        self._triangles = of_corner.reshape(-1, 3)
+        self._corners = flat[order]
+        self._rows = order // 3
+        self._begin = np.append(np.flatnonzero(first), len(flat))
+        self._places = uvs[flat[order[first]]].astype(np.float64)
+        self._changed: set[int] = set()
+
+    def _area(self, rows: NDArray[np.int64]) -> NDArray[np.float64]:
+        """Return the areas of triangles, positive where these are not turned over."""
+        return self._side[rows] * signed_uv_areas(self._places[self._triangles[rows]])
+
+    def turn_back(self, row: int) -> bool:
+        """Turn one triangle back, and return whether it lies right."""
+        points = self._triangles[row]
+        places = self._places[points]
+        if self._area(np.array([row]))[0] > 0.0:
+            return True
+        spacing = float(np.spacing(np.abs(places).max().astype(np.float32)))
+        opposite = np.roll(places, -2, axis=0) - np.roll(places, -1, axis=0)
+        lengths = np.hypot(*opposite.T)
+        for corner in np.argsort(-lengths).tolist():
+            if not lengths[corner] > 0.0:
+                continue
+            across = self._side[row] * np.array([-opposite[corner, 1], opposite[corner, 0]]) / lengths[corner]
+            height = float(across @ (places[corner] - places[corner - 2]))
+            if -height > _MOST * spacing:
+                return False
+            for step in (1.0, 2.0, 4.0, 8.0, 16.0):
+                if self._move(int(points[corner]), places[corner] + (step * spacing - height) * across, row):
+                    return True
+        return False
+
+    def _move(self, point: int, place: NDArray[np.float64], row: int) -> bool:
+        """Move a point if that turns a triangle back and turns over no other; return whether it has moved."""
+        around = self._rows[self._begin[point] : self._begin[point + 1]]
+        before, old = self._area(around), self._places[point].copy()
+        self._places[point] = place.astype(np.float32)
+        after = self._area(around)
+        if (after[(before > 0.0) | (around == row)] > 0.0).all():
+            self._changed.add(point)
+            return True
+        self._places[point] = old
+        return False
+
+    def moved(self) -> tuple[NDArray[np.int64], NDArray[np.float32]]:
+        """Return the corners that have moved, each once, and their UVs."""
+        found = [self._corners[self._begin[point] : self._begin[point + 1]] for point in sorted(self._changed)]
+        points = np.repeat(sorted(self._changed), [len(each) for each in found]).astype(np.int64)
+        corners, first = np.unique(np.concatenate([np.empty(0, dtype=np.int64), *found]), return_index=True)
+        return corners, self._places[points[first]].astype(np.float32)

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.geometry import relative_heights
+from .uv_islands import Corners
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -21,22 +22,6 @@ _STRAIGHT = 1e-4
 """How far a vertex may lie beside the line between its neighbors, as a part of the line."""
 _NEARLY = 1e-2
 """The same, if both faces have only the triangle that it makes with these neighbors. Single precision bends short sides so far."""
-
-
-@dataclass(frozen=True)
-class CornerRing:
-    """The corners of faces: (c,) the vertex of each, its face, and the next corner of the face."""
-
-    vertices: NDArray[np.int32]
-    faces: NDArray[np.int64]
-    following: NDArray[np.int64]
-
-    @property
-    def preceding(self) -> NDArray[np.int64]:
-        """(c,) the corner before each."""
-        preceding = np.empty_like(self.following)
-        preceding[self.following] = np.arange(len(self.following))
-        return preceding
 
 
 @dataclass(frozen=True)
@@ -74,7 +59,7 @@ class StraightCorners:
         replaced[self.corners] = self.onto
         return replaced[triangles]
 
-    def to_map(self, points: NDArray[np.float64], ring: CornerRing, triangles: NDArray[np.int64]) -> NDArray[np.int64]:
+    def to_map(self, points: NDArray[np.float64], ring: Corners, triangles: NDArray[np.int64]) -> NDArray[np.int64]:
         """Return the triangles that a map is made of, (t, 3): without the left-out corners, and convex at the other straight ones.
 
         Where a straight corner has two triangles, it gets the flat one with its neighbors instead. A map that has this triangle the right
@@ -127,20 +112,12 @@ class StraightCorners:
 
 
 def find_straight(
-    points: NDArray[np.float64], ring: CornerRing, is_seam: NDArray[np.bool_], triangles: NDArray[np.int64]
+    points: NDArray[np.float64], ring: Corners, is_seam: NDArray[np.bool_], triangles: NDArray[np.int64]
 ) -> StraightCorners:
     """Find the corners whose vertex has two edges and two faces, and lies between its neighbors.
 
-    Parameters
-    ----------
-    points
-        (n, 3) vertices.
-    ring
-        The corners of the faces.
-    is_seam
-        (c,) whether the edge to the next corner is a seam.
-    triangles
-        (t, 3) the corners of the triangles that the visible faces are drawn as.
+    Points are (n, 3). `is_seam`, (c,), tells whether the edge to the next corner is a seam. The visible faces are drawn as triangles, (t,
+    3) corners.
     """
     vertices, faces, following, preceding = ring.vertices, ring.faces, ring.following, ring.preceding
     uses = np.bincount(triangles.reshape(-1), minlength=len(vertices))
@@ -188,7 +165,7 @@ def _are_straight(
 
 
 def _chains(
-    points: NDArray[np.float64], ring: CornerRing, is_seam: NDArray[np.bool_], is_straight: NDArray[np.bool_]
+    points: NDArray[np.float64], ring: Corners, is_seam: NDArray[np.bool_], is_straight: NDArray[np.bool_]
 ) -> StraightCorners:
     """Find the ends that stay on both sides of the straight corners. Faces with straight corners only keep them."""
     preceding, following = ring.preceding, ring.following

@@ -8,7 +8,6 @@ octaves: 1 means twice as long one way as the other, or an area twice too large.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,23 +17,6 @@ if TYPE_CHECKING:
 
 LIMIT = 5.0
 """Octaves that count at most: a face without any UV area, stretched beyond all numbers, does not outweigh all others."""
-
-
-@dataclass(frozen=True)
-class IslandStretch:
-    """The stretch of islands, each the mean of its faces weighted by their areas.
-
-    Parameters
-    ----------
-    angle, area
-        (count,) octaves; zero for islands without area.
-    areas
-        (count,) on the model, in its units squared.
-    """
-
-    angle: NDArray[np.float64]
-    area: NDArray[np.float64]
-    areas: NDArray[np.float64]
 
 
 class Stretch:
@@ -147,16 +129,19 @@ class Stretch:
             (angle, area) if self._plain else (np.repeat(angle, self._sizes), np.repeat(area, self._sizes))
         )
 
-    def islands(self, labels: NDArray[np.int32]) -> IslandStretch:
-        """Return the stretch of the islands that labels, (m,), tell apart."""
+    def values(self, kind: str) -> NDArray[np.float64]:
+        """Return the stretch of the face of each triangle, (m,), in octaves by ``ANGLE`` or ``AREA``, zero and more."""
+        return self.angle if kind == "ANGLE" else np.abs(self.area)
+
+    def islands(self, labels: NDArray[np.int32], kind: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return the stretch and the area on the model of the islands that labels, (m,), tell apart, (count,) each.
+
+        The stretch is the mean of the faces, weighted by their areas, and zero for islands without area.
+        """
         count = int(labels.max(initial=-1)) + 1
         areas = np.bincount(labels, self._areas, count)
-
-        def mean(values: NDArray[np.float64]) -> NDArray[np.float64]:
-            sums = np.bincount(labels, np.abs(values) * self._areas, count)
-            return np.divide(sums, areas, out=np.zeros(count), where=areas > 0.0)
-
-        return IslandStretch(mean(self.angle), mean(self.area), areas)
+        sums = np.bincount(labels, self.values(kind) * self._areas, count)
+        return np.divide(sums, areas, out=np.zeros(count), where=areas > 0.0), areas
 
 
 _TO_OCTAVES = 1.0 / np.log(2.0)

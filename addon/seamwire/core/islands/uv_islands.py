@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,11 +14,48 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from ..base.mesh_arrays import Arrays
+
 _SAME = 1e-5
 """UVs nearer than this are one place: unwrapping gives corners that belong together the same numbers, packing rounds them."""
 _CELLS = 512
 """Cells along a side of the square in which room is looked for."""
 _GAP = 1.0 / _CELLS
+
+
+@dataclass(frozen=True)
+class Corners:
+    """The corners of a mesh's faces, face by face, hidden ones included.
+
+    Parameters
+    ----------
+    vertices, edges
+        (c,) the vertex of each, and the edge to the next corner of its face.
+    faces
+        (c,) the face that each belongs to, ascending.
+    following
+        (c,) the next corner of its face.
+    """
+
+    vertices: NDArray[np.int32]
+    edges: NDArray[np.int32]
+    faces: NDArray[np.int64]
+    following: NDArray[np.int64]
+
+    @cached_property
+    def preceding(self) -> NDArray[np.int64]:
+        """(c,) the corner before each."""
+        preceding = np.empty_like(self.following)
+        preceding[self.following] = np.arange(len(self.following))
+        return preceding
+
+    def of_triangles(self, arrays: Arrays) -> NDArray[np.int64]:
+        """Return the corner that lies at each corner of the triangles, (m, 3)."""
+        count = len(arrays.points)
+        keys = self.faces * count + self.vertices
+        order = np.argsort(keys, kind="stable")
+        wanted = arrays.polygons[:, None].astype(np.int64) * count + arrays.triangles
+        return order[np.searchsorted(keys, wanted.reshape(-1), sorter=order)].reshape(-1, 3)
 
 
 def split_edges(
@@ -28,19 +66,9 @@ def split_edges(
 ) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
     """Find the edges between two faces over which a UV map is torn.
 
-    Parameters
-    ----------
-    vertices, edges, following
-        (c,) of each corner its vertex, the edge to the next corner of its face, and that corner; -1 as the edge: left out.
-    uvs
-        (c, 2).
-
-    Returns
-    -------
-    (k, 2) array
-        The two corners at which the faces at an edge hold it, for each edge with two.
-    (k,) array
-        Whether the map is torn there.
+    `vertices`, `edges` and `following` have of each corner its vertex, the edge to the next corner of its face, and that corner. An edge
+    of -1 is left out. UVs are (c, 2). Returns for each edge with two faces the corners at which they hold it, (k, 2), and whether the map
+    is torn.
     """
     order = np.argsort(edges, kind="stable")
     order = order[edges[order] >= 0]
@@ -87,17 +115,7 @@ class NewIsland:
 def in_rows(uvs: NDArray[np.float64], labels: NDArray[np.int64]) -> NDArray[np.float64]:
     """Lay islands out in rows in the UV square, the tallest first, none of them touching another, all at one scale.
 
-    Parameters
-    ----------
-    uvs
-        (c, 2) corners of the islands.
-    labels
-        (c,) the island of each, numbered from 0.
-
-    Returns
-    -------
-    (c, 2) array
-        The corners, between 0 and 1.
+    The corners, (c, 2), belong to islands with the numbers `labels`, (c,), from 0. Returns the corners between 0 and 1.
     """
     count = int(labels.max(initial=-1)) + 1
     low, high = np.full((count, 2), np.inf), np.full((count, 2), -np.inf)
@@ -134,22 +152,11 @@ def boxes_of(corners: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def place(islands: Sequence[NewIsland], taken: NDArray[np.float64]) -> list[NDArray[np.float64]]:
-    """Find a place for islands among those that stay.
+    """Find a place for unwrapped islands among the triangles that stay, with the bounds `taken`, (b, 4), see `boxes_of`.
 
     Each island keeps its texel density and rotation. A straight one is turned along the axes, as near to its rotation as possible. Each is
-    placed in the nearest free space of its square, or to the right of all islands if the square is full.
-
-    Parameters
-    ----------
-    islands
-        The unwrapped islands.
-    taken
-        (b, 4) bounds of the triangles that stay, see `boxes_of`.
-
-    Returns
-    -------
-    list of (c, 2) array
-        The corners of each.
+    placed in the nearest free space of its square, or to the right of all islands if the square is full. Returns the corners of each, (c,
+    2).
     """
     ready = [_fitted(island) for island in islands]
     sizes = [float(np.prod(np.ptp(corners, axis=0))) for corners in ready]

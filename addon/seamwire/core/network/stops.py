@@ -53,16 +53,9 @@ class Stops:
         return np.stack([self._seams >> _BITS, self._seams & _LOW], axis=1).astype(np.int32)
 
     def of(self, network: Network, live: Wire | None, begin: Iterable[int]) -> NDArray[np.int64]:
-        """Return the stops of a wire, in rising order.
+        """Return the stops of a wire, in rising order, in a network that may not have it yet: that is the `live` wire.
 
-        Parameters
-        ----------
-        network
-            The kept wires and the mirror.
-        live
-            A wire that is not kept yet; None: no such one.
-        begin
-            The vertices that the wire has before it runs on. Where all lie on the mirror's plane, it runs along that.
+        Where all vertices that the wire has before it runs on, `begin`, lie on the mirror's plane, it runs along that.
         """
         stops = self._kept(network)[0]
         if live is not None:

@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
 from ..base import native
-from ..base.geometry import length_of
+from ..base.geometry import barycentric, length_of
 from ..base.messages import Refused
 
 if TYPE_CHECKING:
@@ -79,21 +79,8 @@ def drawn(
 ) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int32]]:
     """Return a stroke as a hand drew it, smoothed a little: its points, their triangles' corners and numbers.
 
-    Parameters
-    ----------
-    points
-        (n, 3), in drawing order.
-    faces
-        (n,) the triangle that each lies in.
-    mesh
-        (k, 3) vertices.
-    triangles
-        (m, 3) the mesh's triangles.
-
-    Raises
-    ------
-    OffMeshError
-        Where it has no length, or a point is not in its triangle, nor near.
+    The points, (n, 3), lie in faces of a mesh with vertices, (k, 3), and triangles, (m, 3). Raises OffMeshError where the stroke has no
+    length, or a point is not in its triangle, nor near.
     """
     path = np.array(points, dtype=np.float64).reshape(-1, 3)
     numbers = np.array(faces, dtype=np.int32).reshape(-1)
@@ -129,10 +116,7 @@ def through_vertices(
 ) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int32]]:
     """Return a stroke through vertices: its points, three times the vertex of each, and -1 for each.
 
-    Raises
-    ------
-    OffMeshError
-        Where it has no length, or a vertex is not there.
+    Raises OffMeshError where it has no length, or a vertex is not there.
     """
     numbers = np.array(vertices, dtype=np.int64).reshape(-1)
     missing = numbers[(numbers < 0) | (numbers >= len(mesh))]
@@ -166,31 +150,15 @@ def _check_length(path: NDArray[np.float64], size: float) -> None:
 
 def into_triangles(places: NDArray[np.float64], triangles: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return (n, 3) places moved into their (n, 3, 3) triangles: one that lies in its own stays where it is."""
-    origin = triangles[:, 0]
-    u, v, w = triangles[:, 1] - origin, triangles[:, 2] - origin, places - origin
-    uu, uv, vv = (np.einsum("ij,ij->i", a, b) for a, b in ((u, u), (u, v), (v, v)))
-    uw, vw = np.einsum("ij,ij->i", u, w), np.einsum("ij,ij->i", v, w)
-    area = uu * vv - uv * uv
-    flat = area <= 1e-24 * np.maximum(uu * vv, 1e-300)  # of a triangle without an area, the first corner will do
-    divisor = np.where(flat, 1.0, area)
-    weights = np.stack([(vv * uw - uv * vw) / divisor, (uu * vw - uv * uw) / divisor], axis=1)
-    weights = np.maximum(np.column_stack([1.0 - weights.sum(axis=1), weights]), 0.0)
-    weights[flat] = [1.0, 0.0, 0.0]
-    weights /= weights.sum(axis=1, keepdims=True)
+    weights, off = barycentric(triangles, places)
+    weights[~np.isfinite(off)] = [1.0, 0.0, 0.0]  # of a triangle without an area, the first corner will do
     return np.einsum("ij,ijk->ik", weights, triangles)
 
 
 def on_mesh(stroke: Stroke, mesh: NDArray[np.float64], triangles: NDArray[np.int32] | None) -> Stroke:
     """Return a stroke with its points in the triangles between its corners, or else at the nearest of those.
 
-    Parameters
-    ----------
-    stroke
-        Of vertices below k.
-    mesh
-        (k, 3) vertices.
-    triangles
-        (m, 3) the mesh's triangles; None: not known.
+    The mesh has vertices, (k, 3), and triangles, (m, 3), unless these are not known.
     """
     corners = np.sort(stroke.corners, axis=1)
     at_vertex = corners[:, 0] == corners[:, 2]
@@ -207,17 +175,7 @@ def on_mesh(stroke: Stroke, mesh: NDArray[np.float64], triangles: NDArray[np.int
     nearest = np.take_along_axis(corners[lost], gaps.argmin(axis=1)[:, None], axis=1)
     corners[lost] = nearest
     points[lost] = mesh[nearest[:, 0]]
-    return Stroke(
-        points,
-        corners.astype(np.int32),
-        faces,
-        stroke.attracts,
-        stroke.acts_on,
-        stroke.eta,
-        stroke.rings,
-        stroke.radius,
-        stroke.id,
-    )
+    return replace(stroke, points=points, corners=corners.astype(np.int32), faces=faces)
 
 
 def for_library(stroke: Stroke) -> object:

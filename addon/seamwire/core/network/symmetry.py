@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Wires mirrored over the axes of an object: which vertex is the partner of which, by place or by topology."""
+"""Wires mirrored over the axes of an object: which vertex is the partner of which, by place or by topology, and the images of wires."""
 
 from __future__ import annotations
 
@@ -12,13 +12,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.half_edges import HalfEdges, after, among
-from ..base.spatial_hash import SpatialHash
+from ..base.messages import NOTHING, Message
+from ..base.nearest_vertices import NearestVertices
+from .network import Network, net_effect
 from .wires import Wire
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from collections.abc import Collection
 
-    from .picks import Pick
+    from numpy.typing import ArrayLike, NDArray
+
+    from .picks import Edge, Pick
 
 TOLERANCE = 2e-5
 """How far from its mirror image a vertex may be where no edges are known, in object coordinates: as Blender has it."""
@@ -103,8 +107,8 @@ class Symmetry:
         return np.maximum(REACH * lengths, np.where(np.isfinite(least), least, 0.0))
 
     @cached_property
-    def _hash(self) -> SpatialHash:
-        return SpatialHash(self._places, TOLERANCE)
+    def _vertices(self) -> NearestVertices:
+        return NearestVertices(self._places)
 
     @cached_property
     def _edge_keys(self) -> NDArray[np.int64] | None:
@@ -153,11 +157,11 @@ class Symmetry:
         return np.where(rest >= 0, first[rest], -1)
 
     def _by_place(self, axes: tuple[int, ...]) -> NDArray[np.int64]:
-        near = self._hash.nearest(self._flipped(self._places, axes), self._reach)
+        near = self._vertices.find(self._flipped(self._places, axes), self._reach)
         numbers = np.arange(len(near))
         back = np.where(near >= 0, near[near], -1)
         partners = np.where(back == numbers, near, -1)
-        # Of several vertices in one place the hash knows the first. The second's partner is the second of those where the
+        # Of several vertices in one place the search finds the first. The second's partner is the second of those where the
         # partner of the first is, and so on: halves that mirror each other have most often the same order.
         rows = np.flatnonzero((back >= 0) & (back != numbers))
         rows = rows[(self._places[back[rows]] == self._places[rows]).all(axis=1)]
@@ -179,10 +183,10 @@ class Symmetry:
         """Return what a few vertices are mirrored to; of a large mesh not all are looked for because of them."""
         if axes in self._partners or len(self._points) <= _SAMPLE or self._triangles is not None:
             return self.partners(axes)[vertices]
-        near = self._hash.nearest(self._flipped(self._places[vertices], axes), self._reach[vertices])
+        near = self._vertices.find(self._flipped(self._places[vertices], axes), self._reach[vertices])
         found = near[near >= 0]
         back = np.full(len(vertices), -1)
-        back[near >= 0] = self._hash.nearest(self._flipped(self._places[found], axes), self._reach[found])
+        back[near >= 0] = self._vertices.find(self._flipped(self._places[found], axes), self._reach[found])
         other = (back >= 0) & (back != vertices)
         if (self._places[back[other]] == self._places[vertices[other]]).all(axis=1).any():
             # Which of the vertices in one place, only all of them can tell.
@@ -358,19 +362,8 @@ def grown_partners(
     The image of a half-edge from a to b leads from the partner of b to that of a, since mirroring turns faces over. So the
     image of what comes after it in its polygon comes before its image, and that of its twin is its image's twin.
 
-    Parameters
-    ----------
-    triangles
-        (m, 3), alike oriented.
-    edges
-        (e, 2) edges of the polygons.
-    by_place
-        (n,) the partners where they can be told otherwise, each its partner's partner; -1: none.
-
-    Returns
-    -------
-    (n,) array
-        Partners; those by place where growing does not come; -1: none.
+    Triangles, (m, 3), are alike oriented, and edges, (e, 2), are those of the polygons. `by_place`, (n,), has the partners where they
+    can be told otherwise, each its partner's partner, or -1. They stay where growing does not come.
     """
     half = _PolygonEdges(triangles, edges, len(by_place))
     known = np.flatnonzero((by_place[half.tails] >= 0) & (by_place[half.tips] >= 0) & (half.sides > 0))
@@ -436,3 +429,50 @@ def _enter(partners: NDArray[np.int64], vertices: NDArray[np.int64], others: NDA
     good = (first[where].reshape(-1, 2) // 2 == np.arange(len(pairs))[:, None]).all(axis=1)
     partners[low[good]] = high[good]
     partners[high[good]] = low[good]
+
+
+class MirrorImages:
+    """Finds the images of wires by the symmetry of their mesh, each when it is first needed."""
+
+    def __init__(self, symmetry: Symmetry) -> None:
+        self._symmetry = symmetry
+        self._warned = False
+        self._effect: tuple[Network, list[Edge], list[Edge]] | None = None
+
+    def of(self, wire: Wire, network: Network, curves: bool = False) -> list[Wire]:
+        """Return the images that a wire has, or would have if a network kept it now; see `Symmetry.images`."""
+        kept = wire.images is not None or network.find(wire) is not None
+        return self._symmetry.images(wire, wire.mirror if kept else network.mirror, curves)
+
+    def complete(self, network: Network, seams: ArrayLike | None = None) -> Network:
+        """Return a network whose wires all know the edges of their images. If seams are given, (k, 2), images found now have only these."""
+        if all(wire.images is not None for wire in network.wires):
+            return network
+        among = None
+        if seams is not None:
+            pairs = np.sort(np.asarray(seams, dtype=np.int64).reshape(-1, 2), axis=1)
+            among = set(map(tuple, pairs.tolist()))
+        wires = (wire if wire.images is not None else self._with_images(wire, among) for wire in network.wires)
+        return replace(network, wires=tuple(wires))
+
+    def _with_images(self, wire: Wire, among: Collection[Edge] | None) -> Wire:
+        edges = dict.fromkeys(edge for image in self._symmetry.images(wire, wire.mirror) for edge in image.edges())
+        return replace(wire, images=tuple(edge for edge in edges if among is None or edge in among))
+
+    def net_effect(self, network: Network) -> tuple[list[Edge], list[Edge]]:
+        """Return the edges that wires and images mark and those that they clear, sorted, smaller vertex first."""
+        if self._effect is None or self._effect[0] is not network:
+            # Wires that follow a dragged seed have not found their images yet.
+            claims = ((edge, wire.marks) for wire in self.complete(network).wires for edge in wire.claims())
+            self._effect = (network, *net_effect(claims))
+        return self._effect[1:]
+
+    def warning(self, network: Network) -> Message:
+        """Return, the first time only, that part of a network's newest wire has no image; empty where it has."""
+        if self._warned or not network.wires:
+            return NOTHING
+        wire = network.wires[-1]
+        if not wire.mirror or not self._symmetry.one_sided(wire, wire.mirror):
+            return NOTHING
+        self._warned = True
+        return Message.of("no-mirror-image")

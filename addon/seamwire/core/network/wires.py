@@ -189,21 +189,10 @@ def distinct(ways: Iterable[Wire | None]) -> tuple[Wire, ...]:
 
 
 def split(wire: Wire, pick: Pick, points: NDArray[np.float64]) -> tuple[Wire, Wire] | None:
-    """Cut a wire in two where a seed is put into it.
+    """Cut a wire in two where a seed is put into it. A loop is cut open twice, at the pick and opposite to it.
 
-    Parameters
-    ----------
-    wire
-        Any wire. A loop is cut open twice, at the pick and opposite to it.
-    pick
-        One of its vertices or edges; across the surface a vertex of the edges that it marks.
-    points
-        (n, 3) vertices of the mesh.
-
-    Returns
-    -------
-    tuple of Wire or None
-        Both parts in order, the first with the wire's number; None where the pick is not on the wire, or at its end.
+    The pick is one of its vertices or edges; across the surface a vertex of the edges that it marks. Points are the mesh's vertices, (n,
+    3). Returns both parts in order, the first with the wire's number; None where the pick is not on the wire, or at its end.
     """
     if wire.closed:
         return _split_loop(wire, pick, points)
@@ -240,29 +229,15 @@ def _split_loop(wire: Wire, pick: Pick, points: NDArray[np.float64]) -> tuple[Wi
     ends = _position(wire.vertices + wire.vertices[:1], pick)
     if ends is None:
         return None
-    count = len(wire.vertices)
-    begin = ends[1] % count
+    begin, middle = ends[1] % len(wire.vertices), len(wire.vertices) // 2
     around = wire.vertices[begin:] + wire.vertices[: begin + 1]
-    middle = count // 2
     seed: Pick = around[0] if ends[0] == ends[1] else (around[-2], around[-1])
-    first = wire.drawn(
-        vertices=around[: middle + 1],
-        points=points[list(around[: middle + 1])],
-        start=seed,
-        end=around[middle],
-        closed=False,
-        heading=(around[-2], around[-1]),
-    )
-    second = wire.drawn(
-        vertices=around[middle:],
-        points=points[list(around[middle:])],
-        start=around[middle],
-        end=seed,
-        closed=False,
-        heading=(around[middle - 1], around[middle]),
-        id=next(_ids),
-    )
-    return first, second
+
+    def part(chain: tuple[int, ...], start: Pick, end: Pick, **others: object) -> Wire:
+        return wire.drawn(vertices=chain, points=points[list(chain)], start=start, end=end, closed=False, **others)
+
+    first = part(around[: middle + 1], seed, around[middle], heading=around[-2:])
+    return first, part(around[middle:], around[middle], seed, heading=around[middle - 1 : middle + 1], id=next(_ids))
 
 
 def _split_curve(wire: Wire, pick: Pick, points: NDArray[np.float64]) -> tuple[Wire, Wire] | None:
@@ -273,16 +248,6 @@ def _split_curve(wire: Wire, pick: Pick, points: NDArray[np.float64]) -> tuple[W
     # The curve passes near the vertex, not through it: it is led there from the nearest of its segments.
     _, gaps = nearest_on_segments(place, wire.points[:-1], wire.points[1:])
     nearest = int(np.argmin(gaps))
-    first = wire.drawn(
-        vertices=wire.vertices[: at + 1],
-        points=np.vstack([wire.points[: nearest + 1], place]),
-        end=pick,
-    )
-    second = wire.drawn(
-        vertices=wire.vertices[at:],
-        points=np.vstack([place, wire.points[nearest + 1 :]]),
-        start=pick,
-        heading=None,
-        id=next(_ids),
-    )
-    return first, second
+    before, after = np.vstack([wire.points[: nearest + 1], place]), np.vstack([place, wire.points[nearest + 1 :]])
+    first = wire.drawn(vertices=wire.vertices[: at + 1], points=before, end=pick)
+    return first, wire.drawn(vertices=wire.vertices[at:], points=after, start=pick, heading=None, id=next(_ids))

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,26 +12,94 @@ from ..base.geometry import length_of, nearest_on_segments
 from ..base.half_edges import among
 from ..base.messages import Message
 from ..network.picks import undirected
-from ..network.stops import ranked
 from ..network.wires import Wire
-from .crossing import Direction, Directions, as_crossing, as_kept, is_loop_of
-from .hairpins import is_hairpin
 from .offers import Offers
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Mapping, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
 
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from ...terms.choices import LoopKind
     from ..network.network import Network, Snap
     from ..network.picks import Edge, Pick
     from ..network.stops import Stops
+    from ..network.wires import Wire
     from ..solver.solver import Engines, LiveWire
     from .part_borders import PartBorders, VertexChain
 
+_MUCH_SHORTER = 0.8
+"""Loops whose lengths differ by less count as equally long."""
+
+
+@dataclass(frozen=True)
+class Direction:
+    """The likeliest loop in one direction.
+
+    Parameters
+    ----------
+    wire
+        The loop.
+    unlikeliness
+        How unlikely it is that the artist wants it.
+    edge
+        (2, 3) both ends of its edge at the cursor.
+    """
+
+    wire: Wire
+    unlikeliness: float
+    edge: NDArray[np.float64]
+
+
+class Directions:
+    """Chooses between the loop through an edge and the loop that crosses it, where edges are too short to point at one.
+
+    The last loop that was shown counts until the artist stops asking for loops. So the direction stays while the cursor moves.
+    """
+
+    def __init__(self) -> None:
+        self._last: Wire | None = None
+        self._is_chosen = False
+
+    def forget(self) -> None:
+        """Forget the last loop: the artist asks for loops anew."""
+        self._last, self._is_chosen = None, False
+
+    def was_shown(self, wire: Wire | None, is_chosen: bool) -> None:
+        """Remember the loop that was shown last; `is_chosen`: the artist asked for it in place of the first one."""
+        if wire is not None:
+            self._last, self._is_chosen = wire, self._is_chosen or is_chosen
+
+    def crossing_first(self, own: Direction, crossing: Direction) -> bool:
+        """Whether the crossing loop comes first: the chosen direction, the likelier one, the shorter one, the last one."""
+        if self._is_chosen and self._last is not None:
+            return self._follows(self._last, own, crossing)
+        if own.unlikeliness != crossing.unlikeliness:
+            return crossing.unlikeliness < own.unlikeliness
+        own_length, crossing_length = length_of(own.wire.points), length_of(crossing.wire.points)
+        if min(own_length, crossing_length) < _MUCH_SHORTER * max(own_length, crossing_length):
+            return crossing_length < own_length
+        return self._last is not None and self._follows(self._last, own, crossing)
+
+    @staticmethod
+    def _follows(last: Wire, own: Direction, crossing: Direction) -> bool:
+        """Whether the crossing edge runs more like the last loop, where that is nearest, than the picked edge does."""
+        starts, ends = last.points[:-1], last.points[1:]
+        _, gaps = nearest_on_segments(own.edge.mean(axis=0), starts, ends)
+        at = int(np.nanargmin(gaps))
+        return _cosine(crossing.edge, (starts[at], ends[at])) > _cosine(own.edge, (starts[at], ends[at]))
+
+
+def _cosine(one: ArrayLike, two: ArrayLike) -> float:
+    """Return the cosine of the angle between two edges without directions."""
+    along, other = np.diff(one, axis=0)[0], np.diff(two, axis=0)[0]
+    size = float(np.linalg.norm(along) * np.linalg.norm(other))
+    return abs(float(along @ other)) / size if size > 0.0 else 0.0
+
 
 KIND_COSTS: Mapping[LoopKind, float] = {"CLOSED": 0.0, "PAST": 0.2, "STRIP": 0.5, "WHOLE": 0.7, "FLAT": 0.8}
+_LOOPS = {"CLOSED", "FLAT"}
+"""The kinds of loops that the metric finds, and whose corners count."""
 _LOOP_CROSSES = 0.7
 _STRIP_CROSSES = 0.2
 """How unlikely an offer is, in corners of a loop; being of another kind than what was taken last counts as a corner, too.
@@ -91,6 +159,10 @@ class LoopOffers(Offers):
             self.final = self.final and self._with_parts == self._knows_parts
 
     @property
+    def _live(self) -> LiveWire:
+        return self._engines.get("EDGES")
+
+    @property
     def _knows_parts(self) -> bool:
         return self._parts is not None and self._parts.is_complete
 
@@ -135,19 +207,8 @@ class LoopOffers(Offers):
     def find(self, pick: Pick, network: Network, kept: Wire | None = None) -> tuple[Wire, ...]:
         """Return what a click on an edge may take; nothing, too, while it is computed, see `final`.
 
-        Parameters
-        ----------
-        pick
-            The edge; a vertex has no offers.
-        network
-            The wires that there are.
-        kept
-            The one of them that such a click took, which comes first then; None: the newest one that did.
-
-        Raises
-        ------
-        ValueError
-            Where the edge is not part of the surface.
+        A vertex has no offers. The wire of the network that such a click took, `kept` or else the newest one, comes first. Raises
+        ValueError where the edge is not part of the surface.
         """
         self.final = True
         if not isinstance(pick, tuple):
@@ -187,18 +248,102 @@ class LoopOffers(Offers):
         return self._known[edge][0]
 
     def _compute(self, edge: Edge, network: Network) -> tuple[tuple[Wire, ...], frozenset[Edge]] | None:
+        """Find what leads through an edge, the likeliest first, and the edges of the offer that slits the tube around it from rim to rim.
+
+        The result is None while it is computed. Raises ValueError if the edge is not part of the surface.
+        """
+        live, parts = self._live, self._parts
+        loop = live.loop(edge)
+        is_known = parts is None or parts.ready()
+        if not (loop.final and is_known):
+            return None
+        found = [self._wire("CLOSED", loop.vertices, True, edge)]
         # An edge that is taken already stops itself: what remains to be offered there is more than that.
-        stops = None if self._stops.taken(network, edge) else self._stops.of(network, None, edge)
-        return find_offers(
-            self._engines.get("EDGES"),
-            edge,
-            stops,
-            self._points,
-            self._engines.strengths["EDGES"],
-            kept=self._stops.kept(network),
-            last=_last_kind(network),
-            parts=self._parts,
-        )
+        stops: NDArray[np.int64] | tuple[()] = ()
+        if not self._stops.taken(network, edge):
+            stops = self._stops.of(network, None, edge)
+            strip = live.edge_loop(edge, stops)
+            found.append(self._wire("STRIP", strip.vertices, strip.closed, edge))
+            found.append(self._wire("PAST", *past_poles(live, edge, stops), edge))
+        chain = live.edge_loop(edge, ())
+        found.append(self._wire("WHOLE", chain.vertices, chain.closed, edge))
+        slit = None
+        if parts is not None:
+            slit = self._slit(edge, stops)
+            found += [slit, *(self._wire("FLAT", border, True, edge) for border in parts.borders(edge))]
+        edges: frozenset[Edge] = frozenset(() if slit is None else slit.edges())
+        return self._likeliest_first(_distinct(found), network, edges), edges
+
+    def _slit(self, edge: Edge, stops: NDArray[np.int64] | Sequence[int]) -> Wire | None:
+        """Return the straight way that slits the tube around an edge, or None if the edge does not lead from rim to rim.
+
+        Diagonals of a triangulated tube wind around it. So the shortest way through the edge or beside it is returned.
+        """
+        rims = [set(rim) for rim in self._parts.rims(edge)]
+        if not rims:
+            return None
+        ends = np.union1d(np.asarray(stops, dtype=np.int64), [vertex for rim in rims for vertex in rim])
+
+        def way(through: Edge) -> Wire | None:
+            chain, closed = past_poles(self._live, through, ends)
+            if closed or not chain or not among(np.array([chain[0], chain[-1]]), ends).all():
+                return None
+            if any(rim.issuperset((chain[0], chain[-1])) for rim in rims):
+                return None
+            return self._wire("STRIP", chain, False, through)
+
+        own = way(edge)
+        if own is None:
+            return None
+        beside = filter(None, map(way, self._parts.beside(edge)))
+        # Of ways of the same length, the edge's own counts.
+        return min((own, *beside), key=lambda wire: round(length_of(wire.points) / length_of(own.points), 6))
+
+    def _likeliest_first(self, offers: Sequence[Wire], network: Network, slit: frozenset[Edge]) -> tuple[Wire, ...]:
+        """Return offers in the order in which they are shown: the slit of a tube comes first, and hairpins come last."""
+
+        def order(wire: Wire) -> tuple[bool, bool, float]:
+            return slit != set(wire.edges()), self._doubles_back(wire), self._unlikeliness(wire, network)
+
+        return tuple(sorted(offers, key=order)) if len(offers) > 1 else tuple(offers)
+
+    def _doubles_back(self, wire: Wire) -> bool:
+        """Return whether a loop is a hairpin.
+
+        The exceptions are edge loops, which may be narrow, such as those around a mouth, and borders of parts.
+        """
+        if self._parts is None or not wire.closed or wire.kind == "FLAT" or wire.through is None:
+            return False
+        ring = self._live.edge_loop(wire.through, ())
+        if ring.closed and set(map(int, ring.vertices)) == set(wire.vertices):
+            return False
+        return self._parts.half_edges.is_hairpin(wire.vertices)
+
+    def _unlikeliness(self, wire: Wire, network: Network) -> float:
+        """Return how unlikely an offer is to be what the artist wants, in corners of a loop.
+
+        What leads across seams and kept wires is less likely. The next loop is likely of the same kind as the last one.
+        """
+        assert wire.kind is not None
+        inner = np.array(wire.vertices if wire.closed else wire.vertices[1:-1], dtype=np.int64)
+        crossings = min(int(among(inner, self._stops.kept(network)).sum()), _MOST_CROSSINGS)
+        last = next((own.kind for own in reversed(network.wires) if own.kind is not None), "CLOSED")
+        cost = KIND_COSTS[wire.kind] + (wire.kind != last)
+        if wire.kind not in _LOOPS:
+            return cost + _STRIP_CROSSES * crossings
+        return cost + _LOOP_CROSSES * crossings + min(corners(self._live, wire.vertices, self._points), _MOST_CORNERS)
+
+    def _wire(self, kind: LoopKind, chain: Sequence[int] | NDArray[np.int32], closed: bool, edge: Edge) -> Wire | None:
+        vertices = tuple(int(vertex) for vertex in chain)
+        if len(vertices) < (3 if closed else 2):
+            return None
+        around = [*vertices, vertices[0]] if closed else list(vertices)
+        start, end = (edge, edge) if closed else (vertices[0], vertices[-1])
+        strength = self._engines.strengths["EDGES"] if kind in _LOOPS else 0.0
+        return Wire(
+            "EDGES", vertices, self._points[around], start, end,
+            closed=closed, strength=strength, kind=kind, through=undirected(edge),
+        )  # fmt: skip
 
     def _with_face(self, edge: Edge, offers: tuple[Wire, ...], network: Network) -> tuple[Wire, ...]:
         """Return offers with the border of the flat face under the cursor, even if the edge lies inside that face."""
@@ -209,11 +354,9 @@ class LoopOffers(Offers):
         wire = self._border(border, edge)
         if wire is None or any(set(offer.edges()) == set(wire.edges()) for offer in offers):
             return offers
-        if is_hairpin(border, self._points, self._parts.half_edges):
+        if self._parts.half_edges.is_hairpin(border):
             return (*offers, wire)
-        live, kept = self._engines.get("EDGES"), ranked(self._stops.kept(network))
-        slit = self._known[edge][1]
-        return _likeliest_first(live, (*offers, wire), self._points, kept, _last_kind(network), self._parts, slit)
+        return self._likeliest_first((*offers, wire), network, self._known[edge][1])
 
     def _with_part(self, edge: Edge, offers: tuple[Wire, ...]) -> tuple[Wire, ...]:
         """Return offers with the borders of the part under the cursor first, where the cursor is inside a face.
@@ -224,7 +367,10 @@ class LoopOffers(Offers):
         triangle, snap = self._triangle_at(edge), self._snap
         if self._parts is None or snap is None or triangle is None or not snap.inside or not offers:
             return offers
-        nearest_first = [self._nearest_first(chains, edge) for chains in self._parts.around(triangle)]
+        nearest_first = [
+            sorted(chains, key=lambda chain: self._gaps(_sides(chain), edge).min())
+            for chains in self._parts.around(triangle)
+        ]
         if not nearest_first or not nearest_first[0]:
             return offers
         (first, *others), *further = nearest_first
@@ -240,9 +386,6 @@ class LoopOffers(Offers):
         snap = self._snap
         return None if snap is None or undirected(snap.pick) != undirected(edge) else snap.triangle
 
-    def _nearest_first(self, chains: Sequence[VertexChain], edge: Edge) -> list[VertexChain]:
-        return sorted(chains, key=lambda chain: self._gaps(_sides(chain), edge).min())
-
     def _gaps(self, sides: Sequence[Edge], edge: Edge) -> NDArray[np.float64]:
         """Return the distances of edges, (k,), from the middle of an edge."""
         middle = self._points[[*edge]].mean(axis=0)
@@ -254,7 +397,7 @@ class LoopOffers(Offers):
         if not sides:
             return None
         through = edge if undirected(edge) in sides else sides[int(np.nanargmin(self._gaps(sides, edge)))]
-        return _wire("FLAT", chain, True, through, self._points, self._engines.strengths["EDGES"])
+        return self._wire("FLAT", chain, True, through)
 
     def _with_crossing(self, edge: Edge, offers: tuple[Wire, ...], network: Network) -> tuple[Wire, ...]:
         """Return offers with the loop that crosses the edge at the cursor: second, or first where edges are short."""
@@ -265,14 +408,13 @@ class LoopOffers(Offers):
         if not self.final:
             return () if snap.is_close_call else offers
         known = [set(offer.edges()) for offer in offers]
-        live = self._engines.get("EDGES")
-        across = (wire for wire in found if wire.kind != "FLAT" and not is_loop_of(wire, edge))
+        across = (wire for wire in found if wire.kind != "FLAT" and undirected(edge) not in wire.edges())
         others = (wire for wire in across if set(wire.edges()) not in known)
-        crossing = next((wire for wire in others if not _doubles_back(live, wire, self._points, self._parts)), None)
+        crossing = next((wire for wire in others if not self._doubles_back(wire)), None)
         if crossing is None:
             return offers
         first, *rest = offers
-        both = [first, as_crossing(crossing)]
+        both = [first, replace(crossing, kind="CROSSING")]
         if snap.is_close_call and self._directions.crossing_first(
             self._direction(first, edge, network), self._direction(crossing, snap.crossing, network)
         ):
@@ -280,19 +422,18 @@ class LoopOffers(Offers):
         return (*both, *rest)
 
     def _direction(self, wire: Wire, edge: Edge, network: Network) -> Direction:
-        live, kept = self._engines.get("EDGES"), ranked(self._stops.kept(network))
-        unlikeliness = _unlikeliness(live, wire, self._points, kept, _last_kind(network) or "CLOSED")
-        return Direction(wire, unlikeliness, self._points[[*edge]])
-
-
-def _last_kind(network: Network) -> LoopKind | None:
-    """Return what a click on an edge took last; None: nothing yet."""
-    return next((wire.kind for wire in reversed(network.wires) if wire.kind is not None), None)
+        return Direction(wire, self._unlikeliness(wire, network), self._points[[*edge]])
 
 
 def taken(offers: tuple[Wire, ...], choice: int, marks: bool) -> Wire:
-    """Return an offer as a wire to be kept, with the others in their order, the next one first."""
-    offers = tuple(as_kept(offer) for offer in offers)
+    """Return an offer as a wire to be kept, with the others in their order, the next one first.
+
+    A loop that crosses the picked edge is kept as a closed loop or a strip.
+    """
+    offers = tuple(
+        replace(offer, kind="CLOSED" if offer.closed else "STRIP") if offer.kind == "CROSSING" else offer
+        for offer in offers
+    )
     others = tuple(offer for offer in offers[choice + 1 :] + offers[:choice] if not offer.beside)
     return offers[choice].anew(marks=marks, offers=others, beside=())
 
@@ -304,132 +445,11 @@ def others(kept: Wire, offers: tuple[Wire, ...]) -> tuple[Wire, ...]:
     return tuple(offer for offer in offers[at + 1 :] + offers[: max(at, 0)] if set(offer.edges()) != edges)
 
 
-def find_offers(
-    live: LiveWire,
-    edge: Edge,
-    stops: NDArray[np.int64] | Sequence[int] | None,
-    points: NDArray[np.float64],
-    strength: float,
-    kept: NDArray[np.int64] | Collection[int] = (),
-    last: LoopKind | None = None,
-    parts: PartBorders | None = None,
-) -> tuple[tuple[Wire, ...], frozenset[Edge]] | None:
-    """Find what one click on an edge may take.
-
-    Parameters
-    ----------
-    live
-        Of the way along edges.
-    edge
-        Strips run in its direction.
-    stops
-        The vertices where a strip and the way past poles end, before the offer without stops; None: that alone is
-        offered.
-    points
-        (n, 3) vertices of the mesh.
-    strength
-        The metric's largest anisotropy.
-    kept
-        The vertices of seams and kept wires: what leads across them is less likely.
-    last
-        The last kind of loop that was added, because the next one is likely of the same kind. None at first.
-    parts
-        Finds the borders of parts beside the edge, and tubes. None: these are not offered.
-
-    Returns
-    -------
-    offers
-        The likeliest comes first.
-    slit
-        The edges of the offer that slits the tube around the edge from rim to rim. Empty if there is no such offer.
-
-    The result is None while it is computed.
-
-    Raises
-    ------
-    ValueError
-        Where the edge is not part of the surface.
-    """
-    loop = live.loop(edge)
-    is_known = parts is None or parts.ready()
-    if not (loop.final and is_known):
-        return None
-    found = [_wire("CLOSED", loop.vertices, True, edge, points, strength)]
-    if stops is not None:
-        strip = live.edge_loop(edge, stops)
-        found.append(_wire("STRIP", strip.vertices, strip.closed, edge, points))
-        found.append(_wire("PAST", *past_poles(live, edge, stops), edge, points))
-    chain = live.edge_loop(edge, ())
-    found.append(_wire("WHOLE", chain.vertices, chain.closed, edge, points))
-    slit = None
-    if parts is not None:
-        slit = _slit(live, edge, () if stops is None else stops, points, parts)
-        found.append(slit)
-        found += [_wire("FLAT", border, True, edge, points, strength) for border in parts.borders(edge)]
-    edges: frozenset[Edge] = frozenset(() if slit is None else slit.edges())
-    return _likeliest_first(live, _distinct(found), points, ranked(kept), last, parts, edges), edges
-
-
-def _likeliest_first(
-    live: LiveWire,
-    offers: Sequence[Wire],
-    points: NDArray[np.float64],
-    kept: NDArray[np.int64],
-    last: LoopKind | None,
-    parts: PartBorders | None,
-    slit: frozenset[Edge],
-) -> tuple[Wire, ...]:
-    """Return offers in the order in which they are shown: the slit of a tube comes first, and hairpins come last."""
-    if len(offers) < 2:
-        return tuple(offers)
-
-    def order(wire: Wire) -> tuple[bool, bool, float]:
-        doubles_back = _doubles_back(live, wire, points, parts)
-        return slit != set(wire.edges()), doubles_back, _unlikeliness(live, wire, points, kept, last or "CLOSED")
-
-    return tuple(sorted(offers, key=order))
-
-
-def _doubles_back(live: LiveWire, wire: Wire, points: NDArray[np.float64], parts: PartBorders | None) -> bool:
-    """Return whether a loop is a hairpin.
-
-    The exceptions are edge loops, which may be narrow, such as those around a mouth, and borders of parts.
-    """
-    if parts is None or not wire.closed or wire.kind == "FLAT" or wire.through is None:
-        return False
-    ring = live.edge_loop(wire.through, ())
-    if ring.closed and set(map(int, ring.vertices)) == set(wire.vertices):
-        return False
-    return is_hairpin(wire.vertices, points, parts.half_edges)
-
-
-def _unlikeliness(
-    live: LiveWire, wire: Wire, points: NDArray[np.float64], kept: NDArray[np.int64], last: LoopKind
-) -> float:
-    """Return how unlikely an offer is to be what the artist wants, in corners of a loop."""
-    assert wire.kind is not None
-    inner = wire.vertices if wire.closed else wire.vertices[1:-1]
-    crossings = min(int(among(np.array(inner, dtype=np.int64), kept).sum()), _MOST_CROSSINGS)
-    cost = KIND_COSTS[wire.kind] + (wire.kind != last)
-    if wire.kind in {"CLOSED", "FLAT"}:
-        return cost + _LOOP_CROSSES * crossings + min(corners(live, wire.vertices, points), _MOST_CORNERS)
-    return cost + _STRIP_CROSSES * crossings
-
-
 def corners(live: LiveWire, loop: Sequence[int], points: NDArray[np.float64]) -> int:
     """Count the vertices where a closed chain turns off by 60 degrees or more, though straight ways go on there.
 
-    From neither side does the straight way follow the chain at such a vertex. Where both lead into the same third edge,
-    three edges meet, and no way is straight.
-
-    Parameters
-    ----------
-    live
-        Of the way along edges.
-    loop
-        The vertices of the chain, the first one not repeated.
-    points
-        (n, 3) vertices of the mesh.
+    From neither side does the straight way follow the chain at such a vertex. Where both lead into the same third edge, three edges meet,
+    and no way is straight. `live` runs along edges. The first vertex of the loop is not repeated. Points are the mesh's vertices, (n, 3).
     """
     forth = _straight_on(live, loop)
     ahead = np.roll(loop, -1)
@@ -483,41 +503,9 @@ def past_poles(live: LiveWire, edge: Edge, stops: NDArray[np.int64] | Sequence[i
     return (chain if len(set(chain)) == len(chain) else ()), False
 
 
-def _slit(
-    live: LiveWire,
-    edge: Edge,
-    stops: NDArray[np.int64] | Sequence[int],
-    points: NDArray[np.float64],
-    parts: PartBorders,
-) -> Wire | None:
-    """Return the straight way that slits the tube around an edge, or None if the edge does not lead from rim to rim.
-
-    Diagonals of a triangulated tube wind around it. So the shortest way through the edge or beside it is returned.
-    """
-    rims = [set(rim) for rim in parts.rims(edge)]
-    if not rims:
-        return None
-    ends = np.union1d(np.asarray(stops, dtype=np.int64), [vertex for rim in rims for vertex in rim])
-
-    def way(through: Edge) -> Wire | None:
-        chain, closed = past_poles(live, through, ends)
-        if closed or not chain or not among(np.array([chain[0], chain[-1]]), ends).all():
-            return None
-        if any(rim.issuperset((chain[0], chain[-1])) for rim in rims):
-            return None
-        return _wire("STRIP", chain, False, through, points)
-
-    own = way(edge)
-    if own is None:
-        return None
-    beside = filter(None, map(way, parts.beside(edge)))
-    # Of ways of the same length, the edge's own counts.
-    return min((own, *beside), key=lambda wire: round(length_of(wire.points) / length_of(own.points), 6))
-
-
 def _sides(chain: Sequence[int]) -> list[Edge]:
     """Return the edges of a closed chain."""
-    return [(min(pair), max(pair)) for pair in zip(chain, (*chain[1:], *chain[:1]), strict=True)]
+    return [undirected(pair) for pair in zip(chain, (*chain[1:], *chain[:1]), strict=True)]
 
 
 def _distinct(offers: Iterable[Wire | None]) -> tuple[Wire, ...]:
@@ -527,22 +515,3 @@ def _distinct(offers: Iterable[Wire | None]) -> tuple[Wire, ...]:
         if offer is not None:
             found.setdefault(frozenset(edge for loop in (offer, *offer.beside) for edge in loop.edges()), offer)
     return tuple(found.values())
-
-
-def _wire(
-    kind: LoopKind,
-    chain: Sequence[int] | NDArray[np.int32],
-    closed: bool,
-    edge: Edge,
-    points: NDArray[np.float64],
-    strength: float = 0.0,
-) -> Wire | None:
-    vertices = tuple(int(vertex) for vertex in chain)
-    if len(vertices) < (3 if closed else 2):
-        return None
-    around = [*vertices, vertices[0]] if closed else list(vertices)
-    start, end = (edge, edge) if closed else (vertices[0], vertices[-1])
-    pair = (min(edge), max(edge))
-    return Wire(
-        "EDGES", vertices, points[around], start, end, closed=closed, strength=strength, kind=kind, through=pair
-    )

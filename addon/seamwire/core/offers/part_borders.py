@@ -129,11 +129,6 @@ class PartBorders:
         """Yield the closed chains through an edge that are borders of parts beside it.
 
         A part may have several borders. A chain that meets itself is left out. Chains may come more than once.
-
-        Parameters
-        ----------
-        edge
-            Two vertices of an edge, in any order.
         """
         for parts in self._steps:
             found = (chain for side in self.half_edges.of(edge) for chain in parts.borders(side // 3))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How a chain of edges turns within the surface."""
+"""How a chain of edges turns within the surface, and hairpins: closed chains that come back beside themselves."""
 
 from __future__ import annotations
 
@@ -20,6 +20,15 @@ if TYPE_CHECKING:
 
 _MOST_AROUND = 512
 """Faces around a vertex that are looked at: how a chain turns at the middle of a larger fan is not known."""
+_BEND = np.radians(135.0)
+"""A chain that turns so far within the surface comes back: up, over a rim, and down again."""
+_SHORT_WAY = 0.165
+"""The part of its length within which it does so. Around two square faces in a row it takes a sixth."""
+_CIRCLE = np.radians(270.0)
+"""A chain that turns so far in all goes around a patch, and not around a limb."""
+_FEW_EDGES = 6
+_TINY = 0.2
+"""Such a circle of few edges is tiny if the square of its length is below this part of the surface's area."""
 
 
 class SurfaceEdges(HalfEdges):
@@ -55,15 +64,10 @@ class SurfaceEdges(HalfEdges):
         return tuple(self.tails[half_edges].tolist())
 
     def turns(self, chain: Sequence[int]) -> NDArray[np.float64]:
-        """Return how far a closed chain turns to its left at each vertex, (k,), in radians.
+        """Return how far a closed chain turns to its left at each vertex, (k,), in radians. The first vertex is not repeated.
 
         This is the discrete geodesic curvature of Polthier and Schmies (1998), from the face angles on both sides. On a boundary it is
         zero along the boundary, and otherwise pi minus the angle between the edges. It is zero where the faces are no single fan.
-
-        Parameters
-        ----------
-        chain
-            The vertices of the chain, the first one not repeated.
         """
         here = np.asarray(chain, dtype=np.int64)
         after, before = np.roll(here, -1), np.roll(here, 1)
@@ -78,6 +82,17 @@ class SurfaceEdges(HalfEdges):
         other = has_right & ~has_left & ~on_boundary
         turns[other] = right[other] - np.pi
         return turns
+
+    def is_hairpin(self, chain: Sequence[int]) -> bool:
+        """Return whether a closed chain doubles back within a short way, or is a tiny circle of a few edges. See `turns`.
+
+        How far it turns is measured within the surface: a ring that leads over the rims of a thin plate goes straight on.
+        """
+        turns = self.turns(chain)
+        lengths = np.linalg.norm(np.diff(self._points[[*chain, chain[0]]], axis=0), axis=1)
+        length = float(lengths.sum())
+        is_tiny = len(chain) <= _FEW_EDGES and length**2 < _TINY * self.area
+        return (is_tiny and abs(float(turns.sum())) >= _CIRCLE) or _doubles_back(turns, lengths, _SHORT_WAY * length)
 
     def _angles(
         self, here: NDArray[np.int64], first: NDArray[np.int64], last: NDArray[np.int64]
@@ -126,3 +141,18 @@ class SurfaceEdges(HalfEdges):
     def boundary(self) -> NDArray[np.bool_]:
         """(3m,) whether each half-edge lies on an edge that only one triangle has."""
         return self._is_open(self.tails, self.tips)
+
+
+def _doubles_back(turns: NDArray[np.float64], lengths: NDArray[np.float64], way: float) -> bool:
+    """Return whether a closed chain turns back on a part of it that is at most `way` long."""
+    begins = np.concatenate([[0.0], np.cumsum(lengths)])
+    if np.abs(turns).sum() < _BEND:
+        return False
+    total = begins[-1]
+    at = np.concatenate([begins[:-1], begins[:-1] + total])
+    sums = np.concatenate([[0.0], np.cumsum(np.concatenate([turns, turns]))])
+    for first in range(len(turns)):
+        last = np.searchsorted(at, at[first] + way * (1.0 + 1e-9), side="right")
+        if np.abs(sums[first + 1 : last + 1] - sums[first]).max(initial=0.0) >= _BEND:
+            return True
+    return False

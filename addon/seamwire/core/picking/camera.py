@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where points of the scene are seen in a 3D view, and what a pixel of it shows."""
+"""Where points of the scene and of an object are seen in a 3D view, and which of them are near a pixel."""
 
 from __future__ import annotations
 
@@ -9,7 +9,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..base.geometry import nearest_on_segments
+
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from numpy.typing import ArrayLike, NDArray
 
 
@@ -68,13 +72,7 @@ class Camera:
 
 
 class Projected:
-    """Points and where they are seen, computed anew only when the camera or the object has moved.
-
-    Parameters
-    ----------
-    points
-        (n, 3) in object coordinates.
-    """
+    """Points in object coordinates, (n, 3), and where they are seen, computed anew only when the camera or the object has moved."""
 
     def __init__(self, points: NDArray[np.float64]) -> None:
         self.points = points
@@ -110,3 +108,102 @@ class Projected:
         x, y, _ = self.seen(camera, matrix)
         rows = np.flatnonzero(np.abs(x - cursor[0]) <= radius)
         return rows[np.abs(y[rows] - cursor[1]) <= radius]
+
+
+@dataclass(frozen=True, eq=False)
+class Sight:
+    """A pixel of a view of an object.
+
+    Parameters
+    ----------
+    camera
+        How the view shows the world.
+    matrix
+        (4, 4) the object's matrix. It may rotate, scale and shear.
+    cursor
+        Pixels from the region's bottom left.
+    scale
+        Of the display.
+    xray
+        Whether to find what lies behind faces too.
+    """
+
+    camera: Camera
+    matrix: NDArray[np.float64]
+    cursor: tuple[float, float]
+    scale: float = 1.0
+    xray: bool = False
+
+    @classmethod
+    def of(
+        cls, camera: Camera, matrix: ArrayLike, cursor: tuple[float, float], scale: float = 1.0, xray: bool = False
+    ) -> Sight | None:
+        """Return the sight of an object, or None if its matrix flattens it so that nothing of it can be picked."""
+        placed = np.array(matrix, dtype=np.float64)
+        return None if abs(float(np.linalg.det(placed))) < 1e-30 else cls(camera, placed, cursor, scale, xray)
+
+    @cached_property
+    def inverse(self) -> NDArray[np.float64]:
+        """(4, 4), takes world coordinates to object coordinates."""
+        return np.linalg.inv(self.matrix)
+
+    def to_world(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Take (..., 3) points from object coordinates to world coordinates."""
+        return points @ self.matrix[:3, :3].T + self.matrix[:3, 3]
+
+    def from_world(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Take (..., 3) points from world coordinates to object coordinates."""
+        return points @ self.inverse[:3, :3].T + self.inverse[:3, 3]
+
+    def pixels(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return where (k, 3) points in object coordinates are seen, (k, 2)."""
+        return self.camera.to_pixels(self.to_world(points))
+
+
+VERTEX_RADIUS = 12.0
+"""Pixels around a vertex in which it is picked rather than its edge..."""
+VERTEX_SHARE = 0.25
+"""...but never over more than this part of the edge, so that every edge can be picked."""
+_MAX_PIECES = 24
+"""Pieces of curves under one cursor that are tried for one that is not hidden."""
+
+
+class Segments:
+    """Straight pieces of curves in object coordinates, (k, 3) each. A piece has the number of its curve, its owner."""
+
+    def __init__(self, curves: list[NDArray[np.float64]]) -> None:
+        none = np.empty((0, 3))
+        self.starts = Projected(np.concatenate([none, *(curve[:-1] for curve in curves)]))
+        self.ends = Projected(np.concatenate([none, *(curve[1:] for curve in curves)]))
+        self.owners = np.repeat(np.arange(len(curves)), [max(len(curve) - 1, 0) for curve in curves])
+
+    def near(self, sight: Sight, radius: float) -> Iterator[tuple[int, NDArray[np.float64]]]:
+        """Yield owners and their points under the cursor, nearest first. An owner that lies there several times comes several times."""
+        if not len(self.owners):
+            return
+        starts = np.stack(self.starts.seen(sight.camera, sight.matrix)[:2], axis=1)
+        ends = np.stack(self.ends.seen(sight.camera, sight.matrix)[:2], axis=1)
+        part, gaps = nearest_on_segments(sight.cursor, starts, ends)
+        rows = np.flatnonzero(gaps <= radius)
+        for row in rows[np.argsort(gaps[rows], kind="stable")][:_MAX_PIECES].tolist():
+            start, end = self.starts.points[row], self.ends.points[row]
+            # Halves on the screen are not halves in space where there is perspective; near enough for a few pixels.
+            yield int(self.owners[row]), start + part[row] * (end - start)
+
+
+def nearest_edge(
+    cursor: tuple[float, float], starts: NDArray[np.float64], ends: NDArray[np.float64], scale: float = 1.0
+) -> tuple[int, int | None]:
+    """Return the segment nearest to a cursor, or -1, and which of its ends, 0 or 1, is meant because the cursor is so near to it, or None.
+
+    Starts and ends, (k, 2), are pixels. An end that is not in front of the viewer is NaN.
+    """
+    _, gaps = nearest_on_segments(cursor, starts, ends)
+    if not len(gaps) or np.isnan(gaps).all():
+        return -1, None
+    index = int(np.nanargmin(gaps))
+    to_ends = np.linalg.norm(np.stack([starts[index], ends[index]]) - np.asarray(cursor), axis=1)
+    end = int(np.argmin(to_ends))
+    length = float(np.linalg.norm(ends[index] - starts[index]))
+    radius = min(VERTEX_RADIUS * scale, VERTEX_SHARE * length)
+    return index, end if to_ends[end] <= radius else None

@@ -3,20 +3,21 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..base.geometry import nearest_on_segments, triangle_normals
 from ..network.network import Snap
-from ..network.picks import place_of
-from .drawn import DrawnPicker, stroke_at
-from .features import FeaturePicker
+from ..network.picks import FacePoint, place_of
+from .camera import Projected, Segments, Sight
 from .plain import PlainPicker
-from .sight import Sight
 from .surface import VisibleSurface
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Collection, Sequence
 
     from numpy.typing import ArrayLike, NDArray
 
@@ -25,8 +26,208 @@ if TYPE_CHECKING:
     from ..fields.crests import Crests
     from ..network.picks import Pick
     from ..network.strokes import Stroke
-    from .camera import Camera
-    from .surface import Bend
+    from ..network.wires import Wire
+    from .camera import Camera, Sight
+    from .surface import Bend, VisibleSurface
+
+
+FEATURE_REACH = 10.0
+"""Pixels in which the strongest feature is looked for."""
+FEATURE_QUANTILE = 0.75
+"""A vertex counts as a feature from this share of all vertices' strengths on: on a plain nothing is stronger than noise."""
+_SHARP_COSINE = float(np.cos(np.radians(30.0)))
+"""An edge counts as a feature if its faces meet at 30 degrees or more, as Blender's Select Sharp Edges takes it."""
+_CORNER = 3
+"""So many such edges meet at a corner."""
+_MOST_TRIED = 4
+"""So many of the vertices near the cursor are tried for one that is not hidden."""
+
+
+class FeaturePicker:
+    """Finds features of a mesh near the cursor."""
+
+    def __init__(self, surface: VisibleSurface) -> None:
+        self._surface = surface
+        self._strength: tuple[object, float] = (None, 0.0)
+        self._crests: tuple[Crests | None, Segments] = (None, Segments([]))
+
+    def preferred_at(self, sight: Sight, pick: Pick, preferred: Collection[int]) -> int | None:
+        """Return the nearest of the preferred vertices within reach, going over the mesh from what is under the cursor."""
+        near = self._surface.vertices_near(sight, pick, FEATURE_REACH * sight.scale)
+        return self._nearest(sight, {vertex: gap for vertex, gap in near.items() if vertex in preferred})
+
+    def corner_at(self, sight: Sight, pick: Pick) -> int | None:
+        """Return the nearest vertex within reach where three or more sharp edges meet, going over the mesh from a pick."""
+        near = self._surface.vertices_near(sight, pick, FEATURE_REACH * sight.scale)
+        count = dict.fromkeys(near, 0)
+        for edge in self._sharp_edges(near):
+            for vertex in edge:
+                if vertex in count:
+                    count[vertex] += 1
+        return self._nearest(sight, {vertex: gap for vertex, gap in near.items() if count[vertex] >= _CORNER})
+
+    def _sharp_edges(self, vertices: Collection[int]) -> list[tuple[int, int]]:
+        """Return the edges at vertices where the mesh ends, where faces meet at a sharp angle, or where more than two meet."""
+        surface = self._surface
+        triangles = surface.triangles[surface.triangles_at.rows(vertices)]
+        normals = triangle_normals(surface.points, triangles)
+        sides: dict[tuple[int, int], list[NDArray[np.float64]]] = {}
+        for (one, two, three), normal in zip(triangles.tolist(), normals, strict=True):
+            for tail, tip in ((one, two), (two, three), (three, one)):
+                # Faces that agree which side is out have the edge in opposite directions.
+                sides.setdefault((min(tail, tip), max(tail, tip)), []).append(normal if tail < tip else -normal)
+        found = []
+        for one, two in surface.edges[surface.edges_at.rows(vertices)].tolist():
+            beside = sides.get((min(one, two), max(one, two)), [])
+            if len(beside) != 2 or -float(beside[0] @ beside[1]) <= _SHARP_COSINE:
+                found.append((one, two))
+        return found
+
+    def _nearest(self, sight: Sight, gaps: dict[int, float]) -> int | None:
+        """Return the nearest vertex that can be picked. `gaps` tells how far each one is from the cursor."""
+        nearest = sorted(gaps, key=gaps.__getitem__)[:_MOST_TRIED]
+        return next((vertex for vertex in nearest if self._can_pick(sight, vertex)), None)
+
+    def strongest_at(self, sight: Sight, pick: Pick, strength: NDArray[np.float64]) -> int | None:
+        """Return the vertex of the strongest feature within reach, going over the mesh from what is under the cursor."""
+        if self._strength[0] is not strength:
+            self._strength = (strength, float(np.quantile(strength, FEATURE_QUANTILE)) if len(strength) else 0.0)
+        near = self._surface.vertices_near(sight, pick, FEATURE_REACH * sight.scale)
+        for vertex in sorted(near, key=lambda v: -strength[v])[:_MOST_TRIED]:
+            if strength[vertex] <= self._strength[1]:
+                return None
+            if self._can_pick(sight, vertex):
+                return vertex
+        return None
+
+    def crest_at(self, sight: Sight, crests: Crests, anywhere: bool) -> Pick | None:
+        """Return the nearest point of a ridge or valley within reach of the cursor.
+
+        The point may lie within a triangle if it may lie `anywhere`. Otherwise it is a vertex beside it that is as near.
+        """
+        surface = self._surface
+        if self._crests[0] is not crests:
+            ends = surface.in_object(crests.segments.reshape(-1, 3)).reshape(-1, 2, 3)
+            self._crests = crests, Segments(list(ends))
+        for piece, seen in self._crests[1].near(sight, FEATURE_REACH * sight.scale):
+            if not surface.can_pick(sight, seen):
+                continue
+            place, triangle, vertex = crests.place_at(piece, surface.to_points @ seen)
+            if anywhere:
+                return FacePoint.at(place, triangle, surface.triangles, surface.points)
+            pixel = surface.pixels(sight, [vertex])[0]
+            if np.linalg.norm(pixel - np.asarray(sight.cursor)) <= FEATURE_REACH * sight.scale:
+                return vertex
+        return None
+
+    def _can_pick(self, sight: Sight, vertex: int) -> bool:
+        return self._surface.can_pick(sight, self._surface.to_object @ self._surface.points[vertex])
+
+
+SEED_REACH = 9.0
+"""Pixels beside a seed in which it is found..."""
+WIRE_REACH = 6.0
+"""...beside a wire..."""
+SEAM_REACH = 4.0
+"""...and beside a seam: narrower, for meshes have many, and they must not keep the edges next to them from being picked."""
+STROKE_REACH = 12.0
+"""Pixels beside a stroke in which it is found."""
+
+
+@dataclass(frozen=True)
+class _Drawn:
+    """What of a network can be found by the cursor, in object coordinates."""
+
+    key: object
+    picks: tuple[Pick, ...]
+    seeds: Projected
+    wires: tuple[Wire, ...]
+    curves: Segments
+
+
+class DrawnPicker:
+    """Finds what was drawn on a mesh. `seams` are those edges, (s, 2), that are seams and that no wire runs along."""
+
+    def __init__(self, surface: VisibleSurface, seams: ArrayLike) -> None:
+        self._surface = surface
+        self._seam_edges = np.asarray(seams, dtype=np.int64).reshape(-1, 2)
+        self._drawn: _Drawn | None = None
+
+    def set_seams(self, seams: ArrayLike) -> None:
+        """Take other edges, (s, 2), as the seams that no wire runs along."""
+        edges = np.asarray(seams, dtype=np.int64).reshape(-1, 2)
+        if not np.array_equal(edges, self._seam_edges):
+            self._seam_edges = edges
+            self.__dict__.pop("_seams", None)
+
+    @cached_property
+    def _seams(self) -> Segments:
+        surface = self._surface
+        ends = surface.in_object(surface.points[self._seam_edges.reshape(-1)]).reshape(-1, 2, 3)
+        return Segments(list(ends))
+
+    def at(self, sight: Sight, session: Session) -> Snap | None:
+        """Return the seed, otherwise the wire, otherwise the seam under the cursor."""
+        surface, drawn = self._surface, self._drawn_now(session)
+        cursor, reach = sight.cursor, SEED_REACH * sight.scale
+        rows = drawn.seeds.near(sight.camera, sight.matrix, cursor, reach)
+        x, y, _ = drawn.seeds.seen(sight.camera, sight.matrix)
+        gaps = np.hypot(x[rows] - cursor[0], y[rows] - cursor[1])
+        for i in np.argsort(gaps, kind="stable").tolist():
+            if gaps[i] <= reach and surface.can_pick(sight, drawn.seeds.points[rows[i]]):
+                return Snap(drawn.picks[rows[i]], "SEED")
+        for owner, place in drawn.curves.near(sight, WIRE_REACH * sight.scale):
+            if surface.can_pick(sight, place):
+                wire = drawn.wires[owner]
+                return Snap(self._nearest(np.array(wire.vertices), place), "WIRE", wire)
+        for owner, place in self._seams.near(sight, SEAM_REACH * sight.scale):
+            if surface.can_pick(sight, place):
+                return Snap(self._nearest(self._seam_edges[owner], place), "SEAM")
+        return None
+
+    def _nearest(self, vertices: NDArray[np.integer], place: NDArray[np.float64]) -> int:
+        """Return the vertex nearest to a place in object coordinates."""
+        away = np.linalg.norm(self._surface.in_object(self._surface.points[vertices]) - place, axis=1)
+        return int(vertices[np.argmin(away)])
+
+    def _drawn_now(self, session: Session) -> _Drawn:
+        """Return what can be found of a session's network. A held seed and its wires cannot, because they follow the mouse."""
+        moved = {wire.id for wire in session.under_way.moved}
+        picks = tuple(session.seeds())
+        wires = tuple(wire for wire in session.wires if wire.id not in moved)
+        key = (id(session), picks, tuple(map(id, wires)))
+        if self._drawn is not None and self._drawn.key == key:
+            return self._drawn
+        followed = {end for wire in session.wires if wire.id in moved for end in (wire.start, wire.end)}
+        followed |= {end[::-1] for end in followed if isinstance(end, tuple)}
+        picks = tuple(pick for pick in picks if pick not in followed)
+        surface = self._surface
+        places = [place_of(pick, surface.points) for pick in picks]
+        self._drawn = _Drawn(
+            key,
+            picks,
+            Projected(surface.in_object(np.array(places).reshape(-1, 3))),
+            wires,
+            Segments([surface.curve_in_object(wire.points) for wire in wires]),
+        )
+        return self._drawn
+
+
+def stroke_at(strokes: Sequence[Stroke], sight: Sight, surface: VisibleSurface) -> Stroke | None:
+    """Return the stroke nearest to the cursor that the surface does not hide; of equally near strokes, given oldest first, the newest."""
+    best: tuple[float, Stroke | None] = (STROKE_REACH * sight.scale, None)
+    for stroke in strokes:
+        places = surface.curve_in_object(stroke.points)
+        pixels = sight.pixels(places)
+        part, gaps = nearest_on_segments(sight.cursor, pixels[:-1], pixels[1:])
+        gaps = np.where(np.isnan(gaps), np.inf, gaps)
+        for row in np.argsort(gaps, kind="stable").tolist():
+            if gaps[row] > best[0]:
+                break
+            if surface.can_pick(sight, places[row] + part[row] * (places[row + 1] - places[row])):
+                best = (float(gaps[row]), stroke)
+                break
+    return best[1]
 
 
 class Picker:

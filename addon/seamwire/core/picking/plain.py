@@ -12,8 +12,7 @@ import numpy as np
 from ..base.geometry import nearest_on_segments
 from ..network.network import Snap
 from ..network.picks import FacePoint
-from .camera import Projected
-from .segments import VERTEX_RADIUS, VERTEX_SHARE, Segments, nearest_edge
+from .camera import VERTEX_RADIUS, VERTEX_SHARE, Projected, Segments, nearest_edge
 from .surface import MAX_NEAR
 
 if TYPE_CHECKING:
@@ -22,7 +21,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..network.picks import Edge, Pick
-    from .sight import Sight
+    from .camera import Sight
     from .surface import VisibleSurface
 
 REACH = 14.0
@@ -40,13 +39,7 @@ _FEW_EDGES = 50_000
 
 
 class PlainPicker:
-    """Finds the edges, vertices and points of a mesh.
-
-    Parameters
-    ----------
-    surface
-        The mesh.
-    """
+    """Finds the edges, vertices and points of a mesh."""
 
     def __init__(self, surface: VisibleSurface) -> None:
         self._surface = surface

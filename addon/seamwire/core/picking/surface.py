@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from ..base.mesh_arrays import Arrays
     from ..network.picks import Pick
-    from .sight import Sight
+    from .camera import Sight
 
 Bend = Callable[["NDArray[np.float64]"], "NDArray[np.float64]"]
 MAX_NEAR = 400
@@ -114,17 +114,7 @@ class VisibleSurface:
         return bool(before <= 6.0 * sight.camera.pixel_size(world))
 
     def vertices_near(self, sight: Sight, pick: Pick, reach: float) -> dict[int, float]:
-        """Return the vertices within reach of the cursor, and how near they are, walking over the mesh from a pick.
-
-        Parameters
-        ----------
-        sight
-            The cursor, and the object under it.
-        pick
-            Where the walk begins.
-        reach
-            Pixels.
-        """
+        """Return the vertices within reach of the cursor, in pixels, and how near they are, walking over the mesh from a pick."""
         frontier = sorted(set(pick.corners if isinstance(pick, FacePoint) else vertices_of(pick)))
         seen = set(frontier)
         near: dict[int, float] = {}

@@ -8,9 +8,8 @@ edges in all directions. Remeshed surfaces have edges of one length.
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -42,26 +41,12 @@ _FLAT = 1e-3
 """Triangles that meet at a smaller angle, in radians, lie in a plane."""
 
 
-class OtherSigns(NamedTuple):
-    """Signs of an artist beside the edges.
-
-    Parameters
-    ----------
-    rigged
-        Whether the mesh has shape keys or vertex groups.
-    marks
-        How many of these it has: a UV map, sharp edges, custom normals, several materials. Scans may have them too.
-    """
-
-    rigged: bool = False
-    marks: int = 0
-
-
 def auto_for(
     points: NDArray[np.float64],
     triangles: NDArray[np.int32],
     polygons: NDArray[np.int32],
-    others: OtherSigns,
+    rigged: bool = False,
+    marks: int = 0,
 ) -> Auto:
     """Return what Auto stands for on a mesh.
 
@@ -73,48 +58,19 @@ def auto_for(
         (m, 3)
     polygons
         (m,) the face that each triangle is part of, ascending.
-    others
-        Signs that the edges do not show.
+    rigged
+        Whether the mesh has shape keys or vertex groups.
+    marks
+        How many other signs of an artist it has: a UV map, sharp edges, custom normals, several materials. Scans may have them too.
     """
-    if others.rigged or len(triangles) < _FEW or _most_are_quads(polygons):
+    _, sizes = np.unique(polygons, return_counts=True)
+    most_are_quads = (sizes > 1).sum() > 0.5 * len(sizes)
+    if rigged or len(triangles) < _FEW or most_are_quads:
         return PLACED
-    signs = EdgeSigns.of(points, triangles, polygons)
-    trust = 1.0 + _MARK * others.marks
+    signs = EdgeSigns(points, triangles, polygons)
+    trust = 1.0 + _MARK * marks
     is_uniform = trust * signs.spread < _SPREAD and signs.regular < _REGULAR
     return SCANNED if is_uniform or trust * signs.follows < _FOLLOWS else PLACED
-
-
-def _most_are_quads(polygons: NDArray[np.int32]) -> bool:
-    _, triangles = np.unique(polygons, return_counts=True)
-    return bool((triangles > 1).sum() > 0.5 * len(triangles))
-
-
-@dataclass(frozen=True)
-class EdgeSigns:
-    """Three numbers that tell whether an artist placed the edges of triangles.
-
-    Parameters
-    ----------
-    follows
-        How well edges run along or across the bends of the surface: 1 if all do, 0 if their directions are random, -1 if all run halfway
-        between. Strong bends count more, and diagonals of quads do not count. 1 without bends.
-    spread
-        The standard deviation of the logarithms of their lengths.
-    regular
-        The share of regular vertices inside the mesh. They have six edges, or four edges beside the diagonals if all their faces are quads.
-    """
-
-    follows: float
-    spread: float
-    regular: float
-
-    @classmethod
-    def of(cls, points: NDArray[np.float64], triangles: NDArray[np.int32], polygons: NDArray[np.int32]) -> EdgeSigns:
-        """Return the signs of a mesh, which is given as for `auto_for`. Without shared edges, they are those of a plane."""
-        pairs = _Pairs(*_sample(points, triangles, polygons))
-        if not len(pairs.lengths):
-            return cls(1.0, 0.0, 1.0)
-        return cls(pairs.follows(), float(np.log(pairs.lengths).std()), pairs.regular())
 
 
 def _sample(
@@ -132,21 +88,14 @@ def _sample(
     return points[used], triangles.reshape(-1, 3), polygons[rows]
 
 
-class _Pairs:
-    """The pairs of triangles that share an edge.
+class EdgeSigns:
+    """Three numbers that tell whether an artist placed the edges of triangles. Without shared edges, they are those of a plane.
 
-    Parameters
-    ----------
-    points, triangles, polygons
-        As those of `auto_for`.
-
-    Attributes
-    ----------
-    lengths
-        (k,) of the edges, above zero.
+    They come from the pairs of triangles that share an edge. Parameters are those of `auto_for`.
     """
 
     def __init__(self, points: NDArray[np.float64], triangles: NDArray[np.int32], polygons: NDArray[np.int32]) -> None:
+        points, triangles, polygons = _sample(points, triangles, polygons)
         self._points, self._triangles = points, triangles
         # Each corner gets the number of the edge opposite to it. Sorted, the two corners of an edge lie side by side.
         opposite = triangles.reshape(-1)
@@ -159,7 +108,7 @@ class _Pairs:
         self._open_ends = np.concatenate([part[order[first[counts != 2]]] for part in (one, other)])
         here, there = order[first[counts == 2]], order[first[counts == 2] + 1]
         lengths = np.linalg.norm(points[other[here]] - points[one[here]], axis=1)
-        here, there, self.lengths = here[lengths > 0.0], there[lengths > 0.0], lengths[lengths > 0.0]
+        here, there, self._lengths = here[lengths > 0.0], there[lengths > 0.0], lengths[lengths > 0.0]
         self._sides = np.stack([here, there])
         self._starts, self._ends = one[here], other[here]
         self._tips = opposite[self._sides]
@@ -186,15 +135,23 @@ class _Pairs:
         outward = np.einsum("kx,kx->k", here, self._points[self._tips[1]] - self._points[self._starts])
         return np.where(angles > _FLAT, np.where(outward > 0.0, -angles, angles), 0.0)
 
+    @cached_property
+    def spread(self) -> float:
+        """The standard deviation of the logarithms of the lengths of the edges."""
+        return float(np.log(self._lengths).std()) if len(self._lengths) else 0.0
+
+    @cached_property
     def follows(self) -> float:
-        """Return how well edges follow the bends, see `EdgeSigns`.
+        """How well edges run along or across the bends of the surface: 1 if all do, 0 if their directions are random.
+
+        It is -1 if all run halfway between. Strong bends count more, and diagonals of quads do not count. It is 1 without bends.
 
         The curvature tensor of an edge sums the bends of the edges around it (Cohen-Steiner and Morvan, Restricted Delaunay
         triangulations and normal cycle, 2003). The difference of its two curvatures is the weight of the edge.
         """
-        along = (self._points[self._ends] - self._points[self._starts]) / self.lengths[:, None]
+        along = (self._points[self._ends] - self._points[self._starts]) / self._lengths[:, None]
         beside = units(np.cross(self._normals.sum(axis=0), along))
-        bends = self._bends() * self.lengths
+        bends = self._bends() * self._lengths
         difference, twist = np.zeros_like(bends), np.zeros_like(bends)
         for i, j in itertools.product(range(3), repeat=2):
             part = bends * along[:, i] * along[:, j]
@@ -210,9 +167,13 @@ class _Pairs:
         cosines = 2.0 * (difference / np.where(weights > 0.0, weights, np.inf)) ** 2 - 1.0
         return float(np.average(cosines, weights=weights))
 
+    @cached_property
     def regular(self) -> float:
-        """Return the share of regular vertices, see `EdgeSigns`; 1 if all vertices lie on the border."""
-        ones, diagonals = np.ones(len(self.lengths)), self._is_diagonal.astype(np.float64)
+        """The share of regular vertices inside the mesh, or 1 if all vertices lie on the border.
+
+        They have six edges, or four edges beside the diagonals if all their faces are quads.
+        """
+        ones, diagonals = np.ones(len(self._lengths)), self._is_diagonal.astype(np.float64)
         edges = self._summed(ones, ones)
         inside = edges > 0.0
         inside[self._open_ends] = False

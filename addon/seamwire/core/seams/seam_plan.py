@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Seams that the library plans, as wires of a network: what it is asked for, and what it answers. Knows no Blender.
+"""Parts that the library finds, and seams that it plans, as wires of a network, and what an artist changes about them. Knows no Blender.
 
 Interfaces speak of the *stretch* s of a UV map, the library of its symmetric Dirichlet energy E_d. A triangle that is 1 + s times as long
 one way, and as many times as short the other way, has E_d = 2 ((1 + s)^2 + (1 + s)^-2) (Smith and Schaefer, Bijective parameterization
@@ -9,12 +9,16 @@ with free boundaries, 2015, Section 3.1).
 from __future__ import annotations
 
 import itertools
+import json
 import math
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..network.picks import undirected
 from ..network.wires import FOLLOWS, Wire
 
 if TYPE_CHECKING:
@@ -24,6 +28,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...terms.choices import Along
+    from ..network.picks import Edge
     from ..network.strokes import Stroke
 
 STRETCH = 0.17
@@ -58,15 +63,7 @@ def stretch_of(energy: float) -> float:
 
 
 def turned_limit(percent: float, notches: int) -> float:
-    """Return the limit of the stretch after a turn of the wheel by one notch: the next one of `LIMITS`, if there is one.
-
-    Parameters
-    ----------
-    percent
-        The limit before.
-    notches
-        1 for more stretch, -1 for less.
-    """
+    """Return the next of `LIMITS` in percent, if there is one, after a turn of the wheel: by 1 for more stretch, by -1 for less."""
     beyond = [limit for limit in LIMITS if notches * (limit - percent) > _SAME_LIMIT * percent]
     return min(beyond, key=lambda limit: abs(limit - percent), default=percent)
 
@@ -90,16 +87,10 @@ class PlanRequest:
 def planned_wires(
     plan: seamwire_core.SeamPlan, along: Along, strength: float, from_object: NDArray[np.float64]
 ) -> list[Wire]:
-    """Return the wires of a plan.
+    """Return the wires of a plan that was made in object coordinates.
 
-    Parameters
-    ----------
-    plan
-        Of a mesh in object coordinates.
-    along, strength
-        How the wires run, and how strongly they follow the shape when they are drawn again.
-    from_object
-        (3, 3) takes object coordinates to those of the session.
+    `along` and `strength` say how the wires run, and how strongly they follow the shape when they are drawn again. `from_object`, (3, 3),
+    takes object coordinates to those of the session.
     """
     return [
         Wire(
@@ -112,15 +103,7 @@ def planned_wires(
 
 
 def curves_length(curves: Iterable[NDArray[np.float64]], to_scene: NDArray[np.float64]) -> float:
-    """Return the length of curves, each (k, 3).
-
-    Parameters
-    ----------
-    curves
-        In object coordinates.
-    to_scene
-        (3, 3) takes these to the coordinates in which lengths are measured.
-    """
+    """Return the length of curves, (k, 3) each, in the coordinates that `to_scene`, (3, 3), takes them to."""
     return float(sum(np.linalg.norm(np.diff(curve, axis=0) @ to_scene.T, axis=1).sum() for curve in curves))
 
 
@@ -131,22 +114,7 @@ def cut_edges(plan: seamwire_core.SeamPlan, seams: NDArray[np.int32]) -> NDArray
 
 
 def keep_out(triangles: NDArray[np.int32], is_planned: NDArray[np.bool_], count: int) -> NDArray[np.float64]:
-    """Return weights that keep wires out of some triangles.
-
-    Parameters
-    ----------
-    triangles
-        (m, 3) vertices.
-    is_planned
-        (m,) whether wires may come to a triangle.
-    count
-        The number of vertices, n.
-
-    Returns
-    -------
-    (n,) array
-        1, and infinity at vertices that no such triangle has.
-    """
+    """Return weights of n vertices, (count,): infinite at those that no planned triangle has, so that wires keep out of the others."""
     weights = np.full(count, np.inf)
     weights[triangles[is_planned]] = 1.0
     return weights
@@ -155,23 +123,10 @@ def keep_out(triangles: NDArray[np.int32], is_planned: NDArray[np.bool_], count:
 def stroke_weights(
     points: NDArray[np.float64], edges: NDArray[np.int32], strokes: Collection[Stroke]
 ) -> NDArray[np.float64]:
-    """Return how strokes weigh the cost of wires: guide strokes make it smaller, avoid strokes larger.
+    """Return how strokes weigh the cost of wires at vertices, (n,): guide strokes make it smaller, avoid strokes larger.
 
-    The weight fades, in equal factors, from the stroke to the end of its reach. Where strokes overlap, weights are multiplied.
-
-    Parameters
-    ----------
-    points
-        (n, 3) vertices, in the coordinates of the strokes.
-    edges
-        (e, 2) the mesh's edges; a stroke without a radius reaches along these.
-    strokes
-        The network's strokes.
-
-    Returns
-    -------
-    (n,) array
-        Positive factors, 1 away from the strokes.
+    The weight fades, in equal factors, from the stroke to the end of its reach, and is 1 elsewhere. Where strokes overlap, weights are
+    multiplied. Points, (n, 3), are in the coordinates of the strokes. A stroke without a radius reaches along the edges, (e, 2).
     """
     logarithms = np.zeros(len(points))
     for stroke in strokes:
@@ -218,3 +173,112 @@ def mean_stretch(energies: Sequence[float], areas: Sequence[float]) -> float:
     if total <= 0.0:
         return 0.0
     return stretch_of(sum(energy * area for energy, area in zip(energies, areas, strict=True)) / total)
+
+
+STEP = 0.05
+"""The amount of parts that a notch of the wheel adds, or several times as much if the number of parts stays the same."""
+
+
+def edges_of(chain: NDArray[np.int32]) -> frozenset[Edge]:
+    """Return the edges of a chain of vertices, each with the smaller vertex first."""
+    return frozenset(undirected(pair) for pair in pairwise(chain.tolist()))
+
+
+@dataclass(frozen=True)
+class PartEdits:
+    """An artist's changes to the parts of one mesh.
+
+    Parameters
+    ----------
+    kept
+        Edges that have to be borders.
+    dropped
+        Edges that must not be borders.
+    parted
+        A polygon for each part that is cut in two, one after another.
+    """
+
+    kept: frozenset[Edge] = frozenset()
+    dropped: frozenset[Edge] = frozenset()
+    parted: tuple[int, ...] = ()
+
+    def keep(self, edges: frozenset[Edge]) -> PartEdits:
+        """Return the edits with edges that have to be borders."""
+        return replace(self, kept=self.kept | edges, dropped=self.dropped - edges)
+
+    def drop(self, edges: frozenset[Edge]) -> PartEdits:
+        """Return the edits with edges that must not be borders."""
+        return replace(self, kept=self.kept - edges, dropped=self.dropped | edges)
+
+    def part(self, polygon: int) -> PartEdits:
+        """Return the edits with one more cut of the part that has a polygon."""
+        return replace(self, parted=(*self.parted, polygon))
+
+    def on(self, edges: NDArray[np.int32], polygons: NDArray[np.int32]) -> dict[str, NDArray[np.int32]]:
+        """Return the edits as arguments of the library's finder, as far as a mesh has their edges and polygons.
+
+        Edges are (e, 2), and the polygons of triangles, (m,), ascend.
+        """
+        rows = np.searchsorted(polygons, self.parted)
+        parted = [row for row, at in zip(rows, self.parted, strict=True) if row < len(polygons) and polygons[row] == at]
+        there = set(map(tuple, np.sort(edges, axis=1).tolist())) if self.kept or self.dropped else set()
+        kept, dropped = (
+            np.array(sorted(own & there), dtype=np.int32).reshape(-1, 2) for own in (self.kept, self.dropped)
+        )
+        return {"kept": kept, "dropped": dropped, "parted": np.array(parted, dtype=np.int32)}
+
+
+def edits_text(edits: Mapping[str, PartEdits]) -> str:
+    """Return the edits of several meshes as text, which `edits_of_text` reads."""
+    return json.dumps(
+        {
+            name: {"kept": sorted(own.kept), "dropped": sorted(own.dropped), "parted": own.parted}
+            for name, own in edits.items()
+            if own != PartEdits()
+        }
+    )
+
+
+def edits_of_text(text: str) -> dict[str, PartEdits]:
+    """Return the edits of each mesh. Raise ValueError if the text is not from `edits_text`."""
+    try:
+        return {
+            name: PartEdits(
+                *(frozenset(undirected((int(a), int(b))) for a, b in own[kind]) for kind in ("kept", "dropped")),
+                tuple(map(int, own["parted"])),
+            )
+            for name, own in (json.loads(text) if text else {}).items()
+        }
+    except (KeyError, TypeError, AttributeError) as error:
+        raise ValueError(str(error)) from error
+
+
+def turned(
+    amount: float, notches: int, count: Callable[[float], int], may_go_on: Callable[[], bool] = lambda: True
+) -> float:
+    """Return the amount of parts, 0 to 1, after a turn of the wheel by one notch: 1 for more parts, -1 for fewer.
+
+    It stays if the number of parts, which `count` tells for an amount, cannot change that way. If it `may_go_on` no longer, the wheel
+    stops at the amount that was looked at last.
+    """
+    before = count(amount)
+    place = round(amount / STEP, 6)
+    # From between two steps to the nearest one in this direction.
+    place = np.floor(place) + 1 if notches > 0 else np.ceil(place) - 1
+    while 0 <= place <= round(1.0 / STEP):
+        found = min(float(place) * STEP, 1.0)
+        if count(found) != before or not may_go_on():
+            return found
+        place += notches
+    return amount
+
+
+def border_wires(borders: list[NDArray[np.int32]], points: NDArray[np.float64]) -> list[Wire]:
+    """Return the borders of parts, chains of vertices, as wires. A closed chain ends with its first vertex. Points are (n, 3)."""
+    wires = []
+    for chain in borders:
+        vertices = chain.tolist()
+        closed = vertices[0] == vertices[-1]
+        own = tuple(vertices[:-1] if closed else vertices)
+        wires.append(Wire("EDGES", own, points[vertices], vertices[0], vertices[-1], closed=closed, planned=True))
+    return wires

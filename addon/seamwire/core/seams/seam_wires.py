@@ -25,14 +25,9 @@ _SLICE = 0.005
 
 
 def seam_chains(seams: NDArray[np.int32], seeds: Collection[int] = ()) -> list[list[int]]:
-    """Return seams as chains of vertices between those where they end or more than two meet; closed ones end where they begin.
+    """Return seams, (k, 2) edges, as chains of vertices between those where they end or more than two meet.
 
-    Parameters
-    ----------
-    seams
-        (k, 2) edges, each once.
-    seeds
-        Vertices where chains end as well.
+    Chains end at seeds as well. Closed ones end where they begin.
     """
     around: dict[int, list[int]] = {}
     for one, two in seams.tolist():
@@ -58,15 +53,7 @@ def seam_chains(seams: NDArray[np.int32], seeds: Collection[int] = ()) -> list[l
 
 
 def wires_between(seams: NDArray[np.int32], seeds: Collection[int], points: NDArray[np.float64]) -> Iterator[Wire]:
-    """Yield one wire for each chain of seams between seeds, junctions and ends; a circle is halved.
-
-    Parameters
-    ----------
-    seams, seeds
-        As those of `seam_chains`.
-    points
-        (n, 3) vertices of the mesh.
-    """
+    """Yield one wire for each chain of seams between seeds, junctions and ends, see `seam_chains`; a circle is halved."""
     for chain in seam_chains(seams, seeds):
         middle = len(chain) // 2
         for part in (chain[: middle + 1], chain[middle:]) if chain[0] == chain[-1] else (chain,):
@@ -78,28 +65,9 @@ def wires_along(
 ) -> Iterator[Wire | None]:
     """Yield wires that run along a chain of edges, each as far as one does, and going on from the one before.
 
-    Parameters
-    ----------
-    live
-        Those along edges; seeded anew.
-    chain
-        Vertices; where the last is the first, there are two wires at least.
-    points
-        (n, 3) vertices of the mesh.
-    strength
-        That of the metric of `live`.
-    before
-        The directed edge of a wire that the first one may go on from.
-
-    Yields
-    ------
-    Wire or None
-        None: the live wires are not that far yet; go on when they may be.
-
-    Raises
-    ------
-    ValueError
-        Where the chain is not part of the surface.
+    `live` runs along edges with a metric of a strength, and is seeded anew. If the last vertex of the chain is the first, there are two
+    wires at least. The first one may go on from the directed edge `before`. Points are the mesh's vertices, (n, 3). Yields None while the
+    live wires are not that far yet. Raises ValueError where the chain is not part of the surface.
     """
     begin = 0
     while begin < len(chain) - 1:
@@ -113,13 +81,7 @@ def wires_along(
 
 
 def waiting(live: LiveWire, wires: Iterable[Wire | None]) -> Iterator[Wire]:
-    """Yield the wires of `wires_along`, waiting for each.
-
-    Raises
-    ------
-    Refused
-        If all work is done and a wire is still missing.
-    """
+    """Yield the wires of `wires_along`, waiting for each. Raises Refused if all work is done and a wire is still missing."""
     done = 0
     for wire in wires:
         if wire is not None:

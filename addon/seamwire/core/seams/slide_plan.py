@@ -77,17 +77,7 @@ class Move:
 
 
 def plan(faces: SlidFaces, courses: Iterable[Course], fixed: Collection[int] = ()) -> dict[int, Move]:
-    """Find where vertices go.
-
-    Parameters
-    ----------
-    faces
-        The mesh.
-    courses
-        The ends of a chain stay, because they are seeds.
-    fixed
-        Other vertices that stay.
-    """
+    """Find where the vertices of courses go. The ends of a chain stay, because they are seeds, and those that are `fixed`."""
     curves: dict[int, list[NDArray[np.float64]]] = defaultdict(list)
     evenly: dict[int, NDArray[np.float64]] = {}
     staying: set[int] = set(fixed)

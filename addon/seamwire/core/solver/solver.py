@@ -3,24 +3,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Protocol, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from ...terms.choices import KINDS, METRICS, Kind, MetricName
 from ...terms.options import CLAMP_PERCENTILE, STRENGTHS
+from ..base import native
 from ..base.messages import NOTHING, Message, Refused
 from ..network.picks import FacePoint
 from ..network.wires import FOLLOWS
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+
     import numpy as np
-    from numpy.typing import ArrayLike, NDArray
-    from seamwire_core import Surface
+    import seamwire_core
+    from numpy.typing import NDArray
 
     from ...terms.choices import Along
-    from ..network.picks import Edge, Pick
+    from ..base.mesh_arrays import Arrays
+    from ..network.picks import Pick
     from ..network.strokes import Stroke
+
+    LiveWire = seamwire_core.LiveWire
+    Candidate = seamwire_core.LiveCandidate
+    Candidates = seamwire_core.LiveWires
+    ClosedCut = seamwire_core.LiveClosedWire
 
 _KINDS: tuple[Kind, ...] = tuple(KINDS)
 
@@ -28,29 +36,6 @@ _KINDS: tuple[Kind, ...] = tuple(KINDS)
 def kinds_of(metric: MetricName) -> tuple[Kind, ...]:
     """Return what the wires of a metric follow, by `Wire.follow`."""
     return METRICS[metric].follows
-
-
-class Candidate(Protocol):
-    """One of the wires from the seed to a target, as the library gives it."""
-
-    follow: Kind
-    points: NDArray[np.float64]
-    faces: NDArray[np.int32]
-    """The triangle of each segment, across the surface only."""
-    vertices: NDArray[np.int32]
-    length: float
-    final: bool
-
-
-class Candidates(Protocol):
-    """The wires, one for each metric; which of them leads, and whether that will stay so."""
-
-    wires: Sequence[Candidate]
-    active: int
-    settled: bool
-    solved: bool
-    """Whether each is the shortest: across the surface they may become more exact until they are `final`."""
-    final: bool
 
 
 def by_number(found: Candidates) -> tuple[tuple[Candidate, ...], int]:
@@ -67,60 +52,6 @@ def _meant_for(stroke: Stroke, kinds: tuple[Kind, ...]) -> Stroke | None:
     return replace(stroke, acts_on=kinds[number]) if number < len(kinds) else None
 
 
-class EdgeChain(Protocol):
-    """A chain of edges."""
-
-    vertices: NDArray[np.int32]
-
-
-class Loop(EdgeChain, Protocol):
-    """A closed chain of edges. It has no vertices if there is no chain, or if it is not `final` yet."""
-
-    final: bool
-
-
-class EdgeLoop(EdgeChain, Protocol):
-    """A straight chain of edges; no vertices where it cannot be told yet."""
-
-    closed: bool
-
-
-class Piece(EdgeChain, Protocol):
-    """A piece of a closed cut, and the chain of edges that it snaps to."""
-
-    points: NDArray[np.float64]
-    faces: NDArray[np.int32]
-
-
-class ClosedCut(Protocol):
-    """A closed cut across the surface: pieces from a point around to it, and where each but the last ends."""
-
-    pieces: Sequence[Piece]
-    joints: Sequence[int | tuple[int, Sequence[float]]]
-    separates: bool
-    id: tuple[int, int]
-    """The number of its metric and its number in that, for `LiveWire.bent_wire`."""
-
-
-class ClosedCuts(Protocol):
-    """The closed cuts through a point, best first; none where nothing suggests one, or where they are not `final` yet."""
-
-    cuts: Sequence[ClosedCut]
-    final: bool
-
-
-class FittedChain(EdgeChain, Protocol):
-    """The chain of edges that fits a line; no vertices where none does, or where it cannot be told yet."""
-
-    places: NDArray[np.float64]
-
-
-class EmbeddingReport(Protocol):
-    """The library's report about a mesh that wires run across."""
-
-    invalid_left: int
-
-
 End = int | tuple[int, int] | tuple[int, tuple[float, float, float]]
 """A vertex, an edge by its two vertices, or a triangle and barycentric coordinates in it."""
 
@@ -132,89 +63,19 @@ def for_live(pick: Pick, along: Along) -> End:
     return pick.vertex if along == "EDGES" else (pick.triangle, pick.weights)
 
 
-class LiveWire(Protocol):
-    """The part of ``seamwire_core.LiveWire`` that a session uses.
-
-    Only `wait` waits. Until the library has built its surface, the others answer that nothing is there yet and nothing
-    final; where it cannot be built, all raise ValueError.
-    """
-
-    def seed(self, pick: End, forward: bool = False) -> None:
-        """Start the wires from a pick."""
-
-    def wires(self, target: End) -> Candidates:
-        """Return the wires to a target, as far as they are computed."""
-
-    def loop(self, edge: Edge) -> Loop:
-        """Return the closed chain through an edge, as far as it is computed."""
-
-    def closed_wires(self, through: End) -> ClosedCuts:
-        """Return the closed cuts across the surface through a point, as far as they are computed."""
-
-    def bent_wire(self, through: End, second: End, cut: tuple[int, int]) -> ClosedCuts:
-        """Return one of these cuts, by its id, bent to a second point, as far as it is computed."""
-
-    def extend_straight(self, edge: Edge, stops: Iterable[int]) -> EdgeChain:
-        """Return the straight way on from the end of a directed edge until a stop, a boundary or itself."""
-
-    def edge_loop(self, edge: Edge, stops: Iterable[int]) -> EdgeLoop:
-        """Return the straight chain through an edge, both ways, until a stop, a pole, a boundary or itself."""
-
-    def fit_chain(
-        self, points: ArrayLike, faces: ArrayLike, begin: int | None = None, end: int | None = None
-    ) -> FittedChain:
-        """Return the chain of edges that fits a line; along edges only."""
-
-    def fork(self) -> LiveWire:
-        """Return live wires with a separate seed and the same metric."""
-
-    def set_metric(
-        self, metric: MetricName, *, max_anisotropy: float | None = None, clamp_percentile: float | None = None
-    ) -> None:
-        """Compute with another metric from here on; the seed stays, and so do the wires until there are new ones."""
-
-    def set_scribbles(self, strokes: Sequence[object]) -> None:
-        """Compute with these strokes instead of those before; the rest as `set_metric`."""
-
-    def feature_strength(self) -> NDArray[np.float64] | None:
-        """Return how strong the features are at the vertices; None as long as that is computed."""
-
-    def embeddings(self) -> Sequence[EmbeddingReport | None]:
-        """Return reports about the embeddings of the metrics. None if there is no embedding yet."""
-
-    @property
-    def surface(self) -> Surface | None:
-        """The library's surface; None: it is not built yet."""
-
-    def progress(self) -> float:
-        """Fraction of the running work that is done."""
-
-    def wait(self, seconds: float | None = None) -> bool:
-        """Wait for the running work."""
-
-
 MOST_WAITS = 50
 """So often in a row the library may say that all its work is done although an answer is not final."""
 _SLICE = 0.005
 """Seconds of one wait."""
 
 
-class Final(Protocol):
-    """An answer of live wires that may become better until it is `final`."""
-
-    final: bool
-
-
-Answer = TypeVar("Answer", bound=Final)
+Answer = TypeVar("Answer")
 
 
 def final(live: LiveWire, ask: Callable[[], Answer]) -> Answer:
     """Ask live wires again and again, and return the answer that is final.
 
-    Raises
-    ------
-    Refused
-        If all work is done and the answer is still not final.
+    Raises Refused if all work is done and the answer is still not final.
     """
     done = 0
     while not (found := ask()).final:
@@ -322,3 +183,56 @@ class Engines:
 
     def _tell_metric(self, along: Along) -> None:
         self._lives[along].set_metric(self.metric, max_anisotropy=self.strengths[along], clamp_percentile=self.clamp)
+
+
+class LiveMaker:
+    """Makes the library's live wires on a mesh. They share one surface, which they build in their own threads.
+
+    The mesh has `points`, `triangles` and `edges`. Finding parts also needs the edges that are `marked`.
+    """
+
+    def __init__(self, mesh: Arrays) -> None:
+        self._core = native.load()
+        self._mesh = mesh
+        self._first: seamwire_core.LiveWire | None = None
+
+    def __call__(self, along: Along) -> LiveWire:
+        """Return live wires for one way of running."""
+        if self._first is not None:
+            return self._first.sibling(**_options(along))
+        mesh = self._mesh
+        self._first = self._core.LiveWire(mesh.points, mesh.triangles, mesh.edges, **_options(along))
+        return self._first
+
+    def wait(self) -> seamwire_core.Surface:
+        """Wait for the surface, once there are live wires, and return it; any thread may.
+
+        Raises ValueError if wires cannot run on the mesh.
+        """
+        assert self._first is not None
+        self._first.wait_for_surface()
+        return self._first.surface
+
+    def part_finder(
+        self, mirror: int | None, seams: NDArray[np.int32], progress: Callable[[float], bool]
+    ) -> seamwire_core.PartFinder:
+        """Return what finds the parts of the mesh; it waits for the surface.
+
+        Parts come in pairs over the axis `mirror`, if there is one. The seams, (k, 2), part the mesh already. `seamwire_core.Cancelled` is
+        raised where `progress` returns False.
+        """
+        return self._core.PartFinder(
+            self.wait(), mirror=mirror, marked=self._mesh.marked, seams=seams, progress=progress
+        )
+
+    def face_segments(self, cuts: NDArray[np.int32]) -> NDArray[np.int32]:
+        """Return the island of each triangle where edges are cut; it waits for the surface."""
+        return self._core.face_segments(self.wait(), cuts)
+
+    def missing_cuts(self, cuts: NDArray[np.int32], islands: NDArray[np.int32]) -> NDArray[np.int32]:
+        """Return how many more cuts each island needs to become a disc; it waits for the surface."""
+        return self._core.missing_cuts(self.wait(), cuts, islands)
+
+
+def _options(along: Along) -> dict[str, object]:
+    return {"along": along.lower(), "max_anisotropy": STRENGTHS[along], "clamp_percentile": CLAMP_PERCENTILE}

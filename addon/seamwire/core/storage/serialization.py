@@ -14,13 +14,15 @@ import hashlib
 import json
 import zlib
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...terms.choices import ALONG, FINISHES
 from ..base.messages import Refused
-from ..base.spatial_hash import SpatialHash
+from ..base.nearest_vertices import NearestVertices
 from ..network.picks import FacePoint, undirected
 from ..network.strokes import Stroke
 from ..network.wires import FOLLOWS, LOOP_KINDS, Wire
@@ -56,6 +58,36 @@ DAMAGED = (
 """What reading raises where a text is not what it should be."""
 
 
+@dataclass(frozen=True)
+class Places:
+    """Where a mesh's vertices are.
+
+    Parameters
+    ----------
+    points
+        (n, 3) as sessions have them.
+    to_object
+        (3, 3) takes them to object coordinates: ``points @ to_object.T``.
+    """
+
+    points: NDArray[np.float64]
+    to_object: NDArray[np.float64]
+
+    @cached_property
+    def in_object(self) -> NDArray[np.float64]:
+        """(n, 3) in object coordinates."""
+        return self.points @ self.to_object.T
+
+    def from_object(self, places: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return places in object coordinates, (k, 3), as sessions have them."""
+        return places @ np.linalg.inv(self.to_object).T
+
+    @property
+    def tolerance(self) -> float:
+        """How far vertices may be from where they were and count as unmoved."""
+        return max(_TOLERANCE * float(np.ptp(self.in_object, axis=0).max(initial=0.0)), 1e-12)
+
+
 class UnreadableError(Refused):
     """A mesh's text cannot be read."""
 
@@ -82,15 +114,13 @@ class Archive:
         self.strokes: dict[int, Record] = {}
         self._sets: dict[int, tuple[int, ...]] = {}
 
+    @property
+    def _kinds(self) -> dict[str, dict[int, Any]]:
+        return {"wires": self.wires, "strokes": self.strokes, "sets": self._sets}
+
     @classmethod
     def parse(cls, text: str) -> Archive:
-        """Read what `text` wrote.
-
-        Raises
-        ------
-        NewerError, UnreadableError
-            If a later version wrote it, or if it is not a network.
-        """
+        """Read what `text` wrote. Raises NewerError or UnreadableError if a later version wrote it, or if it is not a network."""
         archive = cls()
         if not text:
             return archive
@@ -116,11 +146,9 @@ class Archive:
     def text(self, labels: Iterable[int]) -> str:
         """Write what some labels stand for; an empty string where they stand for nothing."""
         used = set(labels)
-        members = {abs(member) for label in used for member in self.members(label)}
+        used |= {abs(member) for label in used for member in self.members(label)}
         data = {
-            "wires": {number: self.wires[number] for number in sorted(members & self.wires.keys())},
-            "strokes": {number: self.strokes[number] for number in sorted(members & self.strokes.keys())},
-            "sets": {label: self._sets[label] for label in sorted(used & self._sets.keys())},
+            name: {number: kind[number] for number in sorted(used & kind.keys())} for name, kind in self._kinds.items()
         }
         if not any(data.values()):
             return ""
@@ -130,33 +158,31 @@ class Archive:
     def merge(self, other: Archive) -> bool:
         """Take in the records of another archive.
 
-        Returns
-        -------
-        bool
-            False if a number stands for something else there: then nothing is taken in, because labels would change what they mean.
+        Returns False if a number stands for something else there: then nothing is taken in, because labels would change what they mean.
         """
-        kinds = (self.wires, self.strokes, self._sets)
-        for own, more in zip(kinds, (other.wires, other.strokes, other._sets), strict=True):
-            for number, what in more.items():
-                if any(number in kind and (kind is not own or kind[number] != what) for kind in kinds):
-                    return False
-        for own, more in zip(kinds, (other.wires, other.strokes, other._sets), strict=True):
-            new = {number: what for number, what in more.items() if number not in own}
-            own.update(new)
-            self.size += sum(_size(what) for what in new.values())
+        pairs = [(own, other._kinds[name]) for name, own in self._kinds.items()]
+        if any(self._is_taken(number, own, what) for own, more in pairs for number, what in more.items()):
+            return False
+        for own, more in pairs:
+            self.size += sum(_size(what) for number, what in more.items() if number not in own)
+            own.update(more)
         return True
+
+    def _is_taken(self, number: int, kind: dict[int, Any], what: object) -> bool:
+        """Return whether a number stands for something else than a record of a kind."""
+        return any(number in own and (own is not kind or own[number] != what) for own in self._kinds.values())
 
     def newest(self, most: int) -> Archive:
         """Return an archive with the newest records, at most so many bytes of each kind."""
         kept = Archive()
-        for own, target in ((self.wires, kept.wires), (self.strokes, kept.strokes), (self._sets, kept._sets)):
+        for name, own in self._kinds.items():
             left, found = most, []
             for number, what in reversed(own.items()):
                 left -= _size(what)
                 if left < 0:
                     break
                 found.append((number, what))
-            target.update(reversed(found))
+            kept._kinds[name].update(reversed(found))
             kept.size += sum(_size(what) for _, what in found)
         return kept
 
@@ -176,24 +202,16 @@ class Archive:
         wanted = tuple(sorted(set(members)))
         if len(wanted) < 2:
             return wanted[0] if wanted else 0
-        return self._add(self._sets, wanted)
+        return self.add(self._sets, wanted)
 
-    def add_wire(self, record: Record) -> int:
-        """Add a wire's record and return its number."""
-        return self._add(self.wires, record)
-
-    def add_stroke(self, record: Record) -> int:
-        """Add a stroke's record and return its number."""
-        return self._add(self.strokes, record)
-
-    def _add(self, where: dict[int, Any], what: object) -> int:
+    def add(self, kind: dict[int, Any], what: object) -> int:
+        """Add a record to `wires` or `strokes`, and return its number."""
         digest = hashlib.blake2b(json.dumps(what, sort_keys=True).encode(), digest_size=4).digest()
         number = max(int.from_bytes(digest, "big") & 0x7FFFFFFF, _FIRST_NUMBER)
-        kinds = (self.wires, self.strokes, self._sets)
-        while any(number in kind and (kind is not where or kind[number] != what) for kind in kinds):
+        while self._is_taken(number, kind, what):
             number = max((number + 1) & 0x7FFFFFFF, _FIRST_NUMBER)
-        if number not in where:
-            where[number] = what
+        if number not in kind:
+            kind[number] = what
             self.size += _size(what)
         return number
 
@@ -213,18 +231,9 @@ def _number(text: str) -> int:
 # Wires
 
 
-def wire_record(wire: Wire, places: NDArray[np.float64], to_object: NDArray[np.float64]) -> Record:
-    """Return what there is to keep of a wire that is not closed or is, by the numbers its vertices have now.
-
-    Parameters
-    ----------
-    wire
-        Of vertices below n.
-    places
-        (n, 3) the vertices in object coordinates.
-    to_object
-        (3, 3) takes the wire's points there.
-    """
+def wire_record(wire: Wire, where: Places) -> Record:
+    """Return what there is to keep of a wire that is not closed or is, by the numbers its vertices have now."""
+    places = where.in_object
     chain = list(wire.vertices)
     record: Record = {
         "along": wire.along,
@@ -245,7 +254,7 @@ def wire_record(wire: Wire, places: NDArray[np.float64], to_object: NDArray[np.f
     if wire.planned:
         record["planned"] = True
     if wire.along == "SURFACE":
-        record["curve"] = packed(wire.points @ to_object.T)
+        record["curve"] = packed(wire.points @ where.to_object.T)
         record["places"] = packed(places[chain])
         if wire.faces is not None and len(wire.faces) == len(wire.points) - 1:
             record["faces"] = wire.faces.tolist()
@@ -282,7 +291,7 @@ def checked_wire(record: Record) -> Record:
         len(unpacked(record["curve"])) < 2 or len(unpacked(record["places"])) != len(vertices)
     ):
         raise ValueError
-    stored_faces(record)
+    _stored_faces(record)
     return record
 
 
@@ -299,27 +308,17 @@ def pick_of(stored: int | list[int]) -> Pick:
     return int(stored)
 
 
-def tolerance(places: NDArray[np.float64]) -> float:
-    """Return how far vertices of a mesh may be from where they were and count as unmoved."""
-    return max(_TOLERANCE * float(np.ptp(places, axis=0).max(initial=0.0)), 1e-12)
-
-
-def stored_curve(
-    record: Record, vertices: tuple[int, ...], places: NDArray[np.float64], to_object: NDArray[np.float64]
-) -> NDArray[np.float64] | None:
+def _stored_curve(record: Record, vertices: tuple[int, ...], where: Places) -> NDArray[np.float64] | None:
     """Return the curve of a wire across the surface where its vertices have not moved, as `Wire.points` are; else None."""
     if record["along"] != "SURFACE":
         return None
-    before = unpacked(record["places"])
-    now = places[list(vertices)]
-    if before.shape != now.shape or len(now) == 0:
+    before, now = unpacked(record["places"]), where.in_object[list(vertices)]
+    if before.shape != now.shape or np.abs(before - now).max(initial=0.0) > where.tolerance:
         return None
-    if np.abs(before - now).max() > tolerance(places):
-        return None
-    return unpacked(record["curve"]) @ np.linalg.inv(to_object).T
+    return where.from_object(unpacked(record["curve"]))
 
 
-def stored_faces(record: Record) -> NDArray[np.int32] | None:
+def _stored_faces(record: Record) -> NDArray[np.int32] | None:
     """Return the triangles of a stored curve, see `Wire.faces`. Raises ValueError if there are too few or too many."""
     if "faces" not in record:
         return None
@@ -329,37 +328,29 @@ def stored_faces(record: Record) -> NDArray[np.int32] | None:
     return faces
 
 
-def wire_of(record: Record, points: NDArray[np.float64], to_object: NDArray[np.float64]) -> Wire:
-    """Return the wire of a record on the mesh that it was made on, by its numbers; its mirror images are to be found.
+def wire_of(record: Record, where: Places, vertices: tuple[int, ...] = ()) -> Wire:
+    """Return the wire of a record that was checked; its mirror images are to be found.
 
-    Parameters
-    ----------
-    record
-        That was checked.
-    points
-        (n, 3) vertices as the session has them.
-    to_object
-        (3, 3) takes them to object coordinates.
+    `vertices` are those that it has now. Without them, it is on the mesh that it was made on, by the same numbers.
     """
-    vertices, closed = tuple(record["vertices"]), record["closed"]
-    curve = stored_curve(record, vertices, points @ to_object.T, to_object)
-    through = undirected(pick_of(record["through"])) if record.get("kind") in LOOP_KINDS else None
-    heading = None if record["heading"] is None else pick_of(record["heading"])
+    vertices, closed = vertices or tuple(record["vertices"]), record["closed"]
+    curve = _stored_curve(record, vertices, where)
+    is_loop = record.get("kind") in LOOP_KINDS
     return Wire(
         record["along"],
         vertices,
-        points[list(vertices + vertices[:1] if closed else vertices)] if curve is None else curve,
+        where.points[list(vertices + vertices[:1] if closed else vertices)] if curve is None else curve,
         pick_of(record["start"]),
         pick_of(record["end"]),
-        None if curve is None else stored_faces(record),
+        None if curve is None else _stored_faces(record),
         closed=closed,
         mirror=tuple(record["mirror"]),
-        heading=heading if isinstance(heading, tuple) else None,
+        heading=None if record["heading"] is None else pick_of(record["heading"]),
         follow=record["follow"],
         strength=float(record["strength"]),
         finish=record.get("finish", "SNAP"),
-        kind=record["kind"] if isinstance(through, tuple) else None,
-        through=through if isinstance(through, tuple) else None,
+        kind=record["kind"] if is_loop else None,
+        through=undirected(pick_of(record["through"])) if is_loop else None,
         planned=record.get("planned", False),
     )
 
@@ -380,15 +371,15 @@ def unpacked(text: str) -> NDArray[np.float64]:
 # Strokes
 
 
-def stroke_record(stroke: Stroke, places: NDArray[np.float64], to_object: NDArray[np.float64], order: int) -> Record:
-    """Return what there is to keep of a stroke; parameters as those of `wire_record`, and how many strokes came before."""
+def stroke_record(stroke: Stroke, where: Places, order: int) -> Record:
+    """Return what there is to keep of a stroke. `order` is how many strokes came before."""
     numbers = np.unique(stroke.corners)
     return {
-        "points": packed(stroke.points @ to_object.T),
+        "points": packed(stroke.points @ where.to_object.T),
         "corners": stroke.corners.tolist(),
         "vertices": numbers.tolist(),
-        "places": packed(places[numbers]),
-        "vertex_count": len(places),
+        "places": packed(where.in_object[numbers]),
+        "vertex_count": len(where.points),
         "attracts": stroke.attracts,
         "acts_on": stroke.acts_on,
         "eta": stroke.eta,
@@ -398,51 +389,28 @@ def stroke_record(stroke: Stroke, places: NDArray[np.float64], to_object: NDArra
     }
 
 
-def order_of(record: Record) -> int:
-    """Return how many strokes came before that of a record: where strokes cross, the later one counts."""
-    order = record.get("order")
-    return order if type(order) is int else 0
-
-
-def stored_stroke(
-    record: Record, places: NDArray[np.float64], to_object: NDArray[np.float64], begins: Iterable[Edge]
-) -> Stroke | None:
+def stored_stroke(record: Record, where: Places, begins: Iterable[Edge]) -> Stroke | None:
     """Return as much of a stroke in one piece as the mesh has now; None: nothing of it, or it is damaged.
 
-    Its corners alone say where it lies, see `strokes.on_mesh`.
-
-    Parameters
-    ----------
-    record
-        What `stroke_record` made.
-    places, to_object
-        As those of `wire_record`.
-    begins
-        The edges that its number stands on: they show whether vertices have the numbers that they had.
+    Its corners alone say where it lies, see `strokes.on_mesh`. Its number stands on the edges `begins`: they show whether vertices have
+    the numbers that they had.
     """
     try:
         numbers = np.array(record["vertices"], dtype=np.int64)
         corner = set(record["corners"][0])
         shared = 2 if len(corner) > 1 else 1
-        same_numbers = int(record["vertex_count"]) == len(places) and any(
+        same_numbers = int(record["vertex_count"]) == len(where.points) and any(
             len(corner.intersection(edge)) >= shared for edge in begins
         )
-        mapped, _ = matched(numbers, unpacked(record["places"]), places, same_numbers)
+        mapped = _matched(numbers, unpacked(record["places"]), where, same_numbers)
         number_of = dict(zip(numbers.tolist(), mapped.tolist(), strict=True))
-        points = unpacked(record["points"]) @ np.linalg.inv(to_object).T
-        return stroke_of(record, points, number_of)
+        return _stroke_of(record, where.from_object(unpacked(record["points"])), number_of)
     except DAMAGED:
         return None
 
 
-def stroke_of(item: Mapping[str, Any], points: NDArray[np.float64], number_of: Mapping[int, int]) -> Stroke | None:
-    """Return a stroke through those of its points whose vertices are there, as much of it as is in one piece.
-
-    Raises
-    ------
-    ValueError, TypeError, KeyError
-        Where it is damaged.
-    """
+def _stroke_of(item: Record, points: NDArray[np.float64], number_of: Mapping[int, int]) -> Stroke | None:
+    """Return a stroke through those of its points whose vertices are there, as much of it as is in one piece. Raises if it is damaged."""
     stored = np.array(item["corners"], dtype=np.int64).reshape(len(points), 3)
     acts_on: ActsOn = item["acts_on"]
     eta, rings = float(item["eta"]), int(item["rings"])
@@ -461,24 +429,22 @@ def stroke_of(item: Mapping[str, Any], points: NDArray[np.float64], number_of: M
     return Stroke(points[begin:end], corners[begin:end], faces, bool(item["attracts"]), acts_on, eta, rings, radius)
 
 
-def matched(
-    numbers: NDArray[np.int64], places: NDArray[np.float64], points: NDArray[np.float64], same_numbers: bool
-) -> tuple[NDArray[np.int64], NDArray[np.bool_]]:
-    """Return the current number of each stored vertex, or -1, and whether its position is unchanged.
+def _matched(
+    numbers: NDArray[np.int64], places: NDArray[np.float64], where: Places, same_numbers: bool
+) -> NDArray[np.int64]:
+    """Return the current number of each stored vertex, or -1.
 
     With `same_numbers`, numbers count more than positions. A mesh that moved by one cell of its pattern has other vertices in the old
     positions.
     """
-    if not len(numbers) or not len(points) or not np.isfinite(places).all():
-        return np.full(len(numbers), -1), np.zeros(len(numbers), dtype=bool)
-    near = tolerance(points)
+    points, near = where.in_object, where.tolerance
+    if not len(numbers) or not len(points):
+        return np.full(len(numbers), -1)
     known = (numbers >= 0) & (numbers < len(points))
-    here = points[np.where(known, numbers, 0)]
-    stayed = known & (np.linalg.norm(here - places, axis=1) <= near)
+    stayed = known & (np.linalg.norm(points[np.where(known, numbers, 0)] - places, axis=1) <= near)
     if same_numbers and known.all():
-        return numbers.copy(), stayed
+        return numbers
     mapped = np.where(stayed, numbers, -1)
     if not stayed.all():
-        mapped[~stayed] = SpatialHash(points, near).nearest(places[~stayed])
-        stayed = mapped >= 0
-    return mapped, stayed
+        mapped[~stayed] = NearestVertices(points).find(places[~stayed], near)
+    return mapped

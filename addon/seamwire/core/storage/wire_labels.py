@@ -7,21 +7,30 @@ where its number stands on a whole chain of edges that are all seams.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+import itertools
+from collections import defaultdict
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..base.components import groups
 from ..network.network import Network
+from ..network.picks import undirected
+from ..network.wires import LOOP_KINDS
 from . import serialization
-from .serialization import WAS_SEAM, Archive
+from .serialization import WAS_SEAM, Archive, Places, Record
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
     from numpy.typing import NDArray
 
-    from ..network.picks import Edge
+    from ..network.picks import Edge, End, Pick
     from ..network.strokes import Stroke
+    from ..network.wires import Wire
 
 Claim = tuple["Edge", int]
 """An edge and a member of its label."""
@@ -46,6 +55,11 @@ class EdgeLabels:
     seams: NDArray[np.bool_]
     hidden: NDArray[np.bool_]
 
+    @cached_property
+    def edges(self) -> list[Edge]:
+        """The edges, smaller vertex first."""
+        return list(map(tuple, np.sort(self.pairs, axis=1).tolist()))
+
     @classmethod
     def none(cls) -> EdgeLabels:
         """Return those of a mesh that has none."""
@@ -53,28 +67,9 @@ class EdgeLabels:
 
     def same_as(self, other: EdgeLabels) -> bool:
         """Whether another mesh has the same labels on the same edges, with the same seams and hidden edges."""
-        return all(np.array_equal(getattr(self, name), getattr(other, name)) for name in vars(self))
-
-
-@dataclass(frozen=True)
-class Places:
-    """Where a mesh's vertices are.
-
-    Parameters
-    ----------
-    points
-        (n, 3) as sessions have them.
-    to_object
-        (3, 3) takes them to object coordinates: ``points @ to_object.T``.
-    """
-
-    points: NDArray[np.float64]
-    to_object: NDArray[np.float64]
-
-    @property
-    def in_object(self) -> NDArray[np.float64]:
-        """(n, 3) in object coordinates."""
-        return self.points @ self.to_object.T
+        return all(
+            np.array_equal(getattr(self, name), getattr(other, name)) for name in ("pairs", "labels", "seams", "hidden")
+        )
 
 
 @dataclass(frozen=True)
@@ -89,8 +84,6 @@ class Found:
         The claims to edges that stand for those.
     broken
         The claims of former wires, whose edges have changed.
-    unknown
-        How many labels stand for what no record tells.
 
     Notes
     -----
@@ -100,7 +93,6 @@ class Found:
     network: Network = field(default_factory=Network)
     known: frozenset[Claim] = frozenset()
     broken: frozenset[Claim] = frozenset()
-    unknown: int = 0
 
 
 @dataclass(frozen=True)
@@ -124,12 +116,6 @@ class Plan:
     mark: list[Edge]
     clear: list[Edge]
     known: frozenset[Claim]
-
-
-def edge_of(pair: Iterable[int]) -> Edge:
-    """Return an edge by its two vertices, the smaller one first."""
-    one, two = pair
-    return (one, two) if one < two else (two, one)
 
 
 def plan(
@@ -160,14 +146,50 @@ def plan(
     edges
         (e, 2) the visible edges.
     """
+    wires, after, cleared, rest = _asked_for(network, archive, places, edges)
+    known = frozenset((edge, member) for edge, members in after.items() for member in members)
+    result = Plan(replace(network, wires=wires), {}, [], [], known)
+    before = {edge: set(archive.members(label)) for edge, label in zip(marks.edges, marks.labels.tolist(), strict=True)}
+    own = {edge for wire in found.network.wires for edge in wire.claims()}
+
+    def of_wires(members: Iterable[int]) -> set[int]:
+        return {member for member in members if abs(member) in archive.wires}
+
+    for edge in sorted({*before, *after, *cleared, *rest}):
+        seam, old, new = is_seam(edge), before.get(edge, set()), after.get(edge, set())
+        broken = {member for member in old if (edge, member) in found.broken}
+        understood = {member for member in old if (edge, member) in found.known}
+        others = old - broken - understood - {WAS_SEAM}
+        ours = edge in own or bool(of_wires(understood))
+        plain = not ours and not of_wires(others)
+        was_seam = edge in rest or (seam and (plain or WAS_SEAM in old or bool(of_wires(broken))))
+        if edge in cleared:
+            wanted, others = False, others - of_wires(others)
+        elif of_wires(new):
+            wanted = True
+        elif ours or edge in rest:
+            wanted = was_seam or (seam and bool(of_wires(others)))
+        else:
+            wanted = seam  # it belongs to no wire of the session
+        members = new | others
+        unknown = others and WAS_SEAM in old and not ours  # a member of a label that is not ours to change
+        if unknown or (was_seam and of_wires(members)):
+            members = members | {WAS_SEAM}
+        label = archive.label_of(members)
+        if label != archive.label_of(old):
+            result.labels[edge] = label
+        if wanted != seam:
+            (result.mark if wanted else result.clear).append(edge)
+    return result
+
+
+def _asked_for(
+    network: Network, archive: Archive, places: Places, edges: NDArray[np.int32]
+) -> tuple[tuple[Wire, ...], dict[Edge, set[int]], set[Edge], set[Edge]]:
+    """Return the wires that stay, the members of labels that edges get, the edges to clear, and those left of wires cleared in part."""
     effect = {edge: wire.marks for wire in network.wires for edge in wire.claims()}
     cleared = {edge for edge, marks_it in effect.items() if not marks_it}
-    in_object = places.in_object
-    before = {
-        edge_of(pair): set(archive.members(label))
-        for pair, label in zip(marks.pairs.tolist(), marks.labels.tolist(), strict=True)
-    }
-    after: dict[Edge, set[int]] = {}
+    after: defaultdict[Edge, set[int]] = defaultdict(set)
     rest: set[Edge] = set()
     wires = []
     for wire in network.wires:
@@ -176,134 +198,306 @@ def plan(
         if not cleared.isdisjoint(wire.edges()):
             rest.update(wire.claims())
             continue
-        number = wire.stored
-        if not number:
-            number = archive.add_wire(serialization.wire_record(wire, in_object, places.to_object))
+        number = wire.stored or archive.add(archive.wires, serialization.wire_record(wire, places))
         images = tuple(edge for edge in wire.images or () if edge not in cleared)
         for edge in wire.edges():
-            after.setdefault(edge, set()).add(number)
+            after[edge].add(number)
         for edge in images:
-            after.setdefault(edge, set()).add(-number)
+            after[edge].add(-number)
         wires.append(replace(wire, stored=number, images=images))
     for order, stroke in enumerate(network.strokes):
-        number = archive.add_stroke(serialization.stroke_record(stroke, in_object, places.to_object, order))
+        number = archive.add(archive.strokes, serialization.stroke_record(stroke, places, order))
         for edge in _beginning(stroke, edges):
-            after.setdefault(edge, set()).add(number)
-    known = frozenset((edge, member) for edge, members in after.items() for member in members)
-    result = Plan(replace(network, wires=tuple(wires)), {}, [], [], known)
-    own = {edge for wire in found.network.wires for edge in wire.claims()}
-    for edge in sorted({*before, *after, *cleared, *rest}):
-        change = _Change(
-            edge,
-            is_seam(edge),
-            before.get(edge, set()),
-            after.get(edge, set()),
-            own=edge in own,
-            cleared=edge in cleared,
-            rest=edge in rest,
-        )
-        change.decide(result, found, archive)
-    return result
+            after[edge].add(number)
+    return tuple(wires), after, cleared, rest
 
 
-@dataclass(frozen=True)
-class _Change:
-    """What becomes of one edge.
-
-    Parameters
-    ----------
-    edge, seam
-        The edge, and whether it is a seam now.
-    before, after
-        The members of its label, and those that the network asks for.
-    own
-        Whether it was a wire's of the network that the session began with.
-    cleared
-        Whether it ceases to be a seam.
-    rest
-        Whether it is left of a wire that others clear in part: a plain seam from here on.
-    """
-
-    edge: Edge
-    seam: bool
-    before: set[int]
-    after: set[int]
-    own: bool
-    cleared: bool
-    rest: bool
-
-    def decide(self, result: Plan, found: Found, archive: Archive) -> None:
-        """Add it to a plan."""
-
-        def wires(members: Iterable[int]) -> set[int]:
-            return {member for member in members if abs(member) in archive.wires}
-
-        broken = {member for member in self.before if (self.edge, member) in found.broken}
-        known = {member for member in self.before if (self.edge, member) in found.known}
-        others = self.before - broken - known - {WAS_SEAM}
-        ours = self.own or bool(wires(known))
-        plain = not ours and not wires(others)
-        was_seam = self.rest or (self.seam and (plain or WAS_SEAM in self.before or bool(wires(broken))))
-        if self.cleared:
-            wanted, others = False, others - wires(others)
-        elif wires(self.after):
-            wanted = True
-        elif ours or self.rest:
-            wanted = was_seam or (self.seam and bool(wires(others)))
-        else:
-            wanted = self.seam  # it belongs to no wire of the session
-        members = self.after | others
-        unknown = others and WAS_SEAM in self.before and not ours  # a member of a label that is not ours to change
-        if unknown or (was_seam and wires(members)):
-            members = members | {WAS_SEAM}
-        label = archive.label_of(members)
-        if label != archive.label_of(self.before):
-            result.labels[self.edge] = label
-        if wanted != self.seam:
-            (result.mark if wanted else result.clear).append(self.edge)
-
-
-def _beginning(stroke: Stroke, edges: NDArray[np.int32]) -> Iterator[Edge]:
-    """Yield an edge or several where a stroke begins."""
+def _beginning(stroke: Stroke, edges: NDArray[np.int32]) -> list[Edge]:
+    """Return an edge or several where a stroke begins."""
     corners = set(stroke.corners[0].tolist())
     near = edges[np.isin(edges, list(corners)).any(axis=1)]
     inside = [pair for pair in near.tolist() if corners.issuperset(pair)] if len(corners) > 1 else []
-    for pair in inside or near[:1].tolist():
-        yield edge_of(pair)
+    return [undirected(tuple(pair)) for pair in inside or near[:1].tolist()]
 
 
 def seams_beside(
-    seams: NDArray[np.int32],
-    labels: Mapping[Edge, int] | EdgeLabels,
-    archive: Archive,
-    known: frozenset[Claim] | None = None,
+    seams: NDArray[np.int32], labels: EdgeLabels, archive: Archive, known: frozenset[Claim]
 ) -> NDArray[np.int32]:
-    """Return those seams, (k, 2), that no wire runs along.
-
-    Parameters
-    ----------
-    seams
-        (k, 2) of the mesh.
-    labels
-        Its labels.
-    archive
-        The meaning of the labels.
-    known
-        The claims of the wires that are there, see `Found`; None: of all that have a record, broken ones too.
-    """
-    if isinstance(labels, EdgeLabels):
-        rows = zip(labels.pairs.tolist(), labels.labels.tolist(), strict=True)
-        labels = {edge_of(pair): label for pair, label in rows}
+    """Return those seams of a mesh, (k, 2), that no wire runs along. `known` has the claims of the wires that are there, see `Found`."""
     wired = [
         edge
-        for edge, label in labels.items()
-        if any(
-            abs(member) in archive.wires and (known is None or (edge, member) in known)
-            for member in archive.members(label)
-        )
+        for edge, label in zip(labels.edges, labels.labels.tolist(), strict=True)
+        if any(abs(member) in archive.wires and (edge, member) in known for member in archive.members(label))
     ]
     if not wired or not len(seams):
         return seams
     count = int(max(np.max(seams), np.max(wired))) + 1
     keys = np.sort(seams.astype(np.int64), axis=1) @ (count, 1)
     return seams[~np.isin(keys, np.array(wired, dtype=np.int64) @ (count, 1))]
+
+
+def read(marks: EdgeLabels, archive: Archive, places: Places) -> Found:
+    """Return what labels tell of."""
+    if not len(marks.labels):
+        return Found()
+    rows_of: dict[int, list[int]] = {}
+    expanded = {label: archive.members(label) for label in np.unique(marks.labels).tolist()}
+    for row, label in enumerate(marks.labels.tolist()):
+        for member in expanded[label]:
+            rows_of.setdefault(member, []).append(row)
+    edges = marks.edges
+    seams = {edge for edge, seam in zip(edges, marks.seams.tolist(), strict=True) if seam}
+    hidden = {edge for edge, hides in zip(edges, marks.hidden.tolist(), strict=True) if hides}
+    pieces: list[_Piece] = []
+    known: set[Claim] = set()
+    broken: set[Claim] = set()
+    for number in sorted({abs(number) for number in rows_of} & archive.wires.keys()):
+        own = sorted(edges[row] for row in rows_of.get(number, []))
+        parts = [[own[row] for row in group] for group in groups(own)]
+        images = sorted(edges[row] for row in rows_of.get(-number, []))
+        for part, share in zip(parts or [[]], _shares(images, len(parts)), strict=True):
+            if not hidden.isdisjoint(part):
+                continue  # nothing is known of it until it is shown again
+            chain = _chain(part, archive.wires[number], places) if seams.issuperset(part) else None
+            claims = [*((edge, number) for edge in part), *((edge, -number) for edge in share)]
+            (broken if chain is None else known).update(claims)
+            if chain is not None:
+                there = tuple(edge for edge in share if edge in seams)
+                pieces.append(_Piece(number, archive.wires[number], chain, there))
+    strokes = []
+    # Where strokes cross, the later one counts.
+    for number in sorted(archive.strokes.keys() & rows_of.keys(), key=lambda one: (_order(archive.strokes[one]), one)):
+        begins = [edges[row] for row in rows_of[number]]
+        stroke = serialization.stored_stroke(archive.strokes[number], places, begins)
+        known.update((edge, number) for edge in begins)
+        if stroke is not None:
+            strokes.append(stroke)
+    wires = _Wires(pieces, set(edges), places).all()
+    return Found(Network(wires, strokes=tuple(strokes)), frozenset(known), frozenset(broken))
+
+
+def _order(record: Record) -> int:
+    order = record.get("order")
+    return order if type(order) is int else 0
+
+
+def _shares(images: list[Edge], count: int) -> list[list[Edge]]:
+    """Return which edges of images belong to each of a wire's copies.
+
+    Copies have larger vertices than what they were made of, hence come in its order.
+    """
+    if count < 2 or len(images) % count:
+        return [images, *([] for _ in range(count - 1))]
+    size = len(images) // count
+    return [images[one * size : (one + 1) * size] for one in range(count)]
+
+
+@dataclass(frozen=True)
+class _Piece:
+    """A chain of edges that a wire's number stands on."""
+
+    number: int
+    record: Record
+    vertices: tuple[int, ...]
+    images: tuple[Edge, ...]
+
+    @property
+    def unchanged(self) -> bool:
+        """Whether it has as many edges as the wire had: else it was subdivided."""
+        return len(self.vertices) == len(self.record["vertices"])
+
+    @cached_property
+    def numbers(self) -> dict[int, int]:
+        """The numbers that its stored vertices have now."""
+        stored = self.record["vertices"]
+        if self.unchanged:
+            return dict(zip(stored, self.vertices, strict=True))
+        return {} if self.record["closed"] else {stored[0]: self.vertices[0], stored[-1]: self.vertices[-1]}
+
+
+def _chain(part: list[Edge], record: Record, places: Places) -> tuple[int, ...] | None:
+    """Return the chain that a wire runs along now, by connected edges that its number stands on; None: it is broken."""
+    stored = [int(vertex) for vertex in record["vertices"]]
+    around = stored + stored[:1] if record["closed"] else stored
+    before = {undirected(pair) for pair in itertools.pairwise(around)}
+    if before == set(part):
+        return tuple(stored)
+    if len(part) < len(before):
+        return None
+    trail = _trail(part, around[0] == around[-1])
+    if trail is None:
+        return None
+    return _directed(trail[:-1] if record["closed"] else trail, record, places)
+
+
+def _trail(edges: list[Edge], closed: bool) -> list[int] | None:
+    """Return the vertices along all of some edges, each run along once; None: they are no such trail.
+
+    Where it touches itself there are several: any of them marks the same edges.
+    """
+    around: dict[int, list[Edge]] = {}
+    for edge in edges:
+        for vertex in edge:
+            around.setdefault(vertex, []).append(edge)
+    odd = [vertex for vertex, meeting in around.items() if len(meeting) % 2]
+    if len(odd) != (0 if closed else 2):
+        return None
+    # Hierholzer's way, with the side trips put in where they leave.
+    stack, trail = [min(odd) if odd else min(around)], []
+    left = {vertex: sorted(meeting, reverse=True) for vertex, meeting in around.items()}
+    used: set[Edge] = set()
+    while stack:
+        vertex = stack[-1]
+        while left[vertex] and left[vertex][-1] in used:
+            left[vertex].pop()
+        if left[vertex]:
+            edge = left[vertex].pop()
+            used.add(edge)
+            stack.append(edge[0] if edge[1] == vertex else edge[1])
+        else:
+            trail.append(stack.pop())
+    return trail
+
+
+def _directed(trail: list[int], record: Record, where: Places) -> tuple[int, ...]:
+    """Return a trail in the direction of the stored wire, and a loop from where that begins.
+
+    If its ends have not moved, they decide. Otherwise the order of the vertex numbers decides, because deleting, copying and joining keep
+    it. Otherwise positions decide.
+    """
+    places = where.in_object
+    first, second = np.array(record["ends"], dtype=np.float64)
+    by_place = _as_placed(trail, bool(record["closed"]), first, second, places)
+    ends = places[[by_place[0], by_place[1] if record["closed"] else by_place[-1]]]
+    if np.abs(ends - (first, second)).max() <= where.tolerance:
+        return tuple(by_place)
+    ranks = _ranks(record["vertices"])
+    for way in (trail, trail[::-1]) if len(ranks) == len(trail) else ():
+        begin = way.index(min(way)) - int(np.argmin(ranks)) if record["closed"] else 0
+        around = way[begin:] + way[:begin]
+        if np.array_equal(_ranks(around), ranks):
+            return tuple(around)
+    return tuple(by_place)
+
+
+def _ranks(vertices: Iterable[int]) -> NDArray[np.int64]:
+    """Return which of the vertices each is when they are sorted."""
+    return np.unique(np.array(list(vertices)), return_inverse=True)[1]
+
+
+def _as_placed(
+    trail: list[int], closed: bool, first: NDArray[np.float64], second: NDArray[np.float64], places: NDArray[np.float64]
+) -> list[int]:
+    """Return a trail in the direction that the places of its ends, or of the first two vertices of a loop, speak for."""
+    if closed:
+        begin = int(np.argmin(np.linalg.norm(places[trail] - first, axis=1)))
+        trail = trail[begin:] + trail[:begin]
+        back = np.linalg.norm(places[[trail[1], trail[-1]]] - second, axis=1)
+        return trail if back[0] <= back[1] else [trail[0], *trail[:0:-1]]
+    # A part that moved as a whole is rotated back, and its center does not count.
+    ends = places[[trail[0], trail[-1]]]
+    shift = ends.mean(axis=0) - 0.5 * (first + second)
+    forth = np.linalg.norm(ends[0] - shift - first) + np.linalg.norm(ends[1] - shift - second)
+    back = np.linalg.norm(ends[1] - shift - first) + np.linalg.norm(ends[0] - shift - second)
+    return trail if forth <= back else trail[::-1]
+
+
+class _Wires:
+    """Wires made of pieces; their seeds are found among all of them, for a wire may begin on the last edge of another."""
+
+    def __init__(self, pieces: list[_Piece], edges: set[Edge], places: Places) -> None:
+        self._pieces, self._edges, self._places = pieces, edges, places
+        self._beside: dict[int, list[int]] = {}
+        """The pieces with each vertex, by their places in the list."""
+        for row, piece in enumerate(pieces):
+            for vertex in set(piece.vertices):
+                self._beside.setdefault(vertex, []).append(row)
+
+    def all(self) -> tuple[Wire, ...]:
+        wires = [self._wire(piece) for piece in self._pieces]
+        wires = [self._with_shared_seeds(row, wires) for row in range(len(wires))]
+        return tuple(
+            replace(wire, heading=self._heading(row, wires)) if self._pieces[row].record["heading"] else wire
+            for row, wire in enumerate(wires)
+        )
+
+    def _wire(self, piece: _Piece) -> Wire:
+        wire = serialization.wire_of(piece.record, self._places, piece.vertices)
+        through = self._through(piece)
+        start, end = self._pick(piece, "start", wire.vertices[0]), self._pick(piece, "end", wire.vertices[-1])
+        if wire.closed:
+            start, end = (through, through) if through else (start, self._pick(piece, "end", wire.vertices[0]))
+        return replace(
+            wire,
+            start=start,
+            end=end,
+            heading=None,
+            images=piece.images,
+            kind=None if through is None else wire.kind,
+            through=through,
+            # A copy of a wire, or one whose vertices have other numbers now, is still that of its record.
+            stored=piece.number if piece.unchanged else 0,
+        )
+
+    def _through(self, piece: _Piece) -> Edge | None:
+        if piece.record.get("kind") not in LOOP_KINDS or not piece.unchanged:
+            return None
+        return undirected(self._edge_now(piece, serialization.pick_of(piece.record["through"])))
+
+    def _edge_now(self, piece: _Piece, stored: Edge) -> Edge | None:
+        """Return a stored edge by the numbers of one piece, or None if it has no label."""
+        one, two = map(piece.numbers.get, stored)
+        return None if one is None or two is None or undirected((one, two)) not in self._edges else (one, two)
+
+    def _pick(self, piece: _Piece, name: End, end: int) -> Pick:
+        """Return the seed at one end of a piece; the vertex where it ends, if the seed cannot be found."""
+        stored = serialization.pick_of(piece.record[name])
+        if not isinstance(stored, tuple):
+            return piece.numbers.get(stored, end)
+        if tuple(piece.record["vertices"]) == piece.vertices and end in stored and undirected(stored) in self._edges:
+            return stored
+        found = self._edge_now(piece, stored)
+        if found is not None and end in found:
+            return found
+        if not piece.unchanged and not piece.record["closed"]:
+            at = slice(2) if name == "start" else slice(-2, None)
+            if undirected(stored) == undirected(tuple(piece.record["vertices"][at])):
+                return piece.vertices[at]
+        return end
+
+    def _with_shared_seeds(self, row: int, wires: list[Wire]) -> Wire:
+        """Return a wire with the seeds that others have at its ends, where it had the same and did not find them.
+
+        An edge where two wires meet lies on one of them, and the records of both may be of different times.
+        """
+        wire, record = wires[row], self._pieces[row].record
+        names: tuple[End, End] = ("start", "end")
+        for name in names:
+            vertex, stored = getattr(wire, name), serialization.pick_of(record[name])
+            if isinstance(vertex, tuple) or not isinstance(stored, tuple):
+                continue
+            for other in self._beside.get(vertex, []):
+                for end in names:
+                    seed = getattr(wires[other], end)
+                    before = serialization.pick_of(self._pieces[other].record[end])
+                    goes_on = (name, end) == ("start", "end") and record["heading"]
+                    if (
+                        isinstance(seed, tuple)
+                        and vertex in seed
+                        and (undirected(before) == undirected(stored) or goes_on)
+                    ):
+                        wire = replace(wire, **{name: seed})
+        return wire
+
+    def _heading(self, row: int, wires: list[Wire]) -> Edge | None:
+        """Return the last edge of the wire that one goes on from: of several, that which its record tells of."""
+        wire, stored = wires[row], serialization.pick_of(self._pieces[row].record["heading"])
+        found = [
+            (tuple(self._pieces[other].record["vertices"][-2:]) != stored, wires[other].last_edge)
+            for other in self._beside.get(wire.vertices[0], [])
+            if other != row
+            and not wires[other].closed
+            and undirected(wires[other].end) == undirected(wire.start)
+            and wires[other].vertices[-1] == wire.vertices[0]
+        ]
+        return min(found)[1] if found else None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Networks as files: JSON, one seed, wire or stroke a line; docs/network-format.md and network.schema.json say what is in them.
+"""Networks as files: JSON, one wire or stroke a line; docs/network-format.md and network.schema.json say what is in them.
 
 Wires and strokes are stored as in the mesh, see `serialization`, but with plain numbers. The file also has the positions, normals and
 sharpness at their vertices, which locate them on another mesh.
@@ -11,24 +11,25 @@ import itertools
 import json
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ...core.base.geometry import Moments, creases, vertex_normals
+from ...core.base.geometry import Moments
 from ...core.base.messages import NOTHING, Message, Refused
-from ...core.network.picks import FacePoint, place_of, undirected
+from ...core.network.picks import undirected
 from ...core.storage import serialization
 from ...core.storage.serialization import Record
 from ...terms.choices import METRICS, MetricName
 from ...terms.options import CLAMP_PERCENTILE
+from .placing import Shape
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...core.network.network import Network
-    from ...core.network.picks import Edge, Pick
+    from ...core.network.picks import Edge
     from ...core.network.strokes import Stroke
     from ...core.network.wires import Wire
 
@@ -40,42 +41,14 @@ class NetworkFileError(Refused):
     """A file cannot be used."""
 
 
-@dataclass(frozen=True)
-class Origin:
-    """The mesh that a network was drawn on.
-
-    Parameters
-    ----------
-    name
-        How it was called.
-    vertices, edges, triangles
-        How many it had; edges and triangles that were hidden are not counted.
-    moments
-        Where its surface lies, in object coordinates.
-    """
+class Origin(NamedTuple):
+    """The mesh that a network was drawn on: its name, how many visible parts it had, and where its surface lies in object coordinates."""
 
     name: str
     vertices: int
     edges: int
     triangles: int
     moments: Moments
-
-
-@dataclass(frozen=True)
-class SeedPlace:
-    """A seed and where it is.
-
-    Parameters
-    ----------
-    pick
-        A vertex, an edge, or a point in a triangle, of which `FacePoint.triangle` is -1: the file has its corners.
-    place, normal
-        (3,) in object coordinates.
-    """
-
-    pick: Pick
-    place: NDArray[np.float64]
-    normal: NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -122,8 +95,6 @@ class NetworkFile:
         The mesh it was drawn on.
     metric, clamp
         What wires are drawn by, and the percentile of feature strengths that counts as the strongest.
-    seeds
-        In the order of the wires that begin or end there.
     courses
         The wires, by their vertices.
     strokes
@@ -133,7 +104,6 @@ class NetworkFile:
     origin: Origin
     metric: MetricName
     clamp: float
-    seeds: tuple[SeedPlace, ...]
     courses: tuple[Course, ...]
     strokes: tuple[Record, ...]
 
@@ -141,59 +111,26 @@ class NetworkFile:
     def of(
         cls,
         network: Network,
-        points: NDArray[np.float64],
-        triangles: NDArray[np.int32],
-        edges: NDArray[np.int32],
+        shape: Shape,
         *,
         name: str = "",
         metric: MetricName = "feature",
         clamp: float = CLAMP_PERCENTILE,
-        to_object: NDArray[np.float64] | None = None,
     ) -> NetworkFile:
-        """Return what there is to keep of a network; wires that clear seams are not.
-
-        Parameters
-        ----------
-        network
-            Drawn on the mesh.
-        points
-            (n, 3) vertices as the session had them.
-        triangles
-            (m, 3)
-        edges
-            (e, 2)
-        name
-            Of the mesh.
-        metric, clamp
-            See the class.
-        to_object
-            (3, 3) takes `points` to object coordinates, ``points @ to_object.T``; None: they are such.
-        """
-        matrix = np.eye(3) if to_object is None else to_object
-        places = points @ matrix.T
-        normals, angles = vertex_normals(places, triangles), creases(places, triangles)
-
-        def facing(pick: Pick) -> NDArray[np.float64]:
-            normal = place_of(pick, normals)
-            return normal / max(float(np.linalg.norm(normal)), 1e-300)
-
+        """Return what there is to keep of a network on a mesh with a name; wires that clear seams are not. See the class."""
         # A mesh does not keep the order of its wires.
-        wires = sorted((wire for wire in network.wires if wire.marks), key=lambda wire: wire.vertices)
-        kept = replace(network, wires=tuple(wires))
         courses = []
-        for wire in kept.wires:
-            record = serialization.wire_record(wire, places, matrix)
+        for wire in sorted((wire for wire in network.wires if wire.marks), key=lambda wire: wire.vertices):
+            record = serialization.wire_record(wire, shape.where)
             chain = list(wire.vertices)
-            courses.append(Course(record, places[chain], normals[chain], angles[chain]))
+            courses.append(Course(record, shape.places[chain], shape.normals[chain], shape.creases[chain]))
         return cls(
-            Origin(name, len(points), len(edges), len(triangles), Moments.of(places, triangles)),
+            Origin(name, len(shape.points), len(shape.edges), len(shape.triangles), shape.moments),
             metric,
             clamp,
-            tuple(SeedPlace(pick, place_of(pick, places), facing(pick)) for pick in kept.seeds()),
             tuple(courses),
             tuple(
-                serialization.stroke_record(stroke, places, matrix, order)
-                for order, stroke in enumerate(network.strokes)
+                serialization.stroke_record(stroke, shape.where, order) for order, stroke in enumerate(network.strokes)
             ),
         )
 
@@ -217,10 +154,6 @@ class NetworkFile:
             "clamp": round(float(self.clamp), 4),
         }
         lists = {
-            "seeds": [
-                {"pick": _written(seed.pick), "place": _rounded(seed.place), "normal": _rounded(seed.normal, 3)}
-                for seed in self.seeds
-            ],
             "wires": [_wire_row(course) for course in self.courses],
             "strokes": [_stroke_row(record) for record in self.strokes],
         }
@@ -234,10 +167,7 @@ class NetworkFile:
     def parse(cls, text: str) -> NetworkFile:
         """Read what `text` wrote.
 
-        Raises
-        ------
-        NetworkFileError
-            If it is not such a file, is damaged, or a later version wrote it. The message says where.
+        Raises NetworkFileError if it is not such a file, is damaged, or a later version wrote it. The message says where.
         """
         try:
             data = json.loads(text)
@@ -262,10 +192,7 @@ class NetworkFile:
             metric, clamp = data["metric"], float(data["clamp"])
             if metric not in METRICS or not 0.0 < clamp <= 100.0:
                 raise ValueError
-            seeds, courses, strokes = [], [], []
-            for number, row in enumerate(data["seeds"], start=1):
-                where = f"seed {number}"
-                seeds.append(SeedPlace(_read_pick(row["pick"]), _point(row["place"]), _point(row["normal"])))
+            courses, strokes = [], []
             for number, row in enumerate(data["wires"], start=1):
                 where = f"wire {number}"
                 courses.append(_course(row, origin.vertices))
@@ -274,46 +201,29 @@ class NetworkFile:
                 strokes.append(_stroke_record(row, origin.vertices))
         except serialization.DAMAGED as error:
             raise NetworkFileError("file-damaged", where=where) from error
-        return cls(origin, metric, clamp, tuple(seeds), tuple(courses), tuple(strokes))
+        return cls(origin, metric, clamp, tuple(courses), tuple(strokes))
 
     # On the same mesh
 
-    def problem_with(self, count: int, edges: NDArray[np.int32]) -> Message:
-        """Return why a mesh is not the one that it was drawn on, by its numbers; nothing if it is.
-
-        Parameters
-        ----------
-        count
-            How many vertices the mesh has.
-        edges
-            (e, 2) its edges.
-        """
-        if count != self.origin.vertices:
-            return Message.of("other-vertices", count=self.origin.vertices, here=count)
-        there = {undirected((one, two)) for one, two in edges.tolist()}
+    def problem_with(self, shape: Shape) -> Message:
+        """Return why a mesh is not the one that it was drawn on, by its numbers; nothing if it is."""
+        if len(shape.points) != self.origin.vertices:
+            return Message.of("other-vertices", count=self.origin.vertices, here=len(shape.points))
+        there = {undirected((one, two)) for one, two in shape.edges.tolist()}
         for course in self.courses:
             for edge in _edges_of(course.record):
                 if edge not in there:
                     return Message.of("other-edges", pick=edge)
         return NOTHING
 
-    def wires(self, points: NDArray[np.float64], to_object: NDArray[np.float64]) -> list[Wire]:
-        """Return its wires on the mesh that it was drawn on, by their numbers; see `problem_with`.
+    def wires(self, shape: Shape) -> list[Wire]:
+        """Return its wires on the mesh that it was drawn on, by their numbers; see `problem_with`."""
+        return [serialization.wire_of(course.record, shape.where) for course in self.courses]
 
-        Parameters
-        ----------
-        points
-            (n, 3) vertices as the session has them.
-        to_object
-            (3, 3) takes them to object coordinates.
-        """
-        return [serialization.wire_of(course.record, points, to_object) for course in self.courses]
-
-    def strokes_on(self, points: NDArray[np.float64], to_object: NDArray[np.float64]) -> list[Stroke]:
-        """Return its strokes on the mesh that it was drawn on, by numbers; parameters as those of `wires`."""
-        places = points @ to_object.T
+    def strokes_on(self, shape: Shape) -> list[Stroke]:
+        """Return its strokes on the mesh that it was drawn on, by numbers."""
         found = (
-            serialization.stored_stroke(record, places, to_object, [tuple(record["corners"][0][:2])])
+            serialization.stored_stroke(record, shape.where, [tuple(record["corners"][0][:2])])
             for record in self.strokes
         )
         return [stroke for stroke in found if stroke is not None]
@@ -338,22 +248,6 @@ def _rounded(values: NDArray[np.float64], digits: int | None = None) -> list:
         return int(number) if number.is_integer() and abs(number) < 1e9 else number
 
     return short(np.asarray(values, dtype=np.float64).tolist())
-
-
-def _written(pick: Pick) -> object:
-    if isinstance(pick, FacePoint):
-        return {"corners": list(pick.corners), "weights": _rounded(np.array(pick.weights))}
-    return list(pick) if isinstance(pick, tuple) else pick
-
-
-def _read_pick(stored: object) -> Pick:
-    if not isinstance(stored, dict):
-        return serialization.pick_of(_numbers(stored))
-    corners, weights = _numbers(stored["corners"]), np.array(stored["weights"], dtype=np.float64)
-    if len(corners) != 3 or weights.shape != (3,) or not (weights >= 0.0).all() or not 0.9 < weights.sum() < 1.1:
-        raise ValueError
-    a, b, c = (weights / weights.sum()).tolist()
-    return FacePoint(-1, tuple(corners), (a, b, c))
 
 
 def _text_of(stored: int | list[int]) -> str:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -12,12 +13,16 @@ import numpy as np
 from ...core.base import native
 from ...core.base.geometry import Moments, creases, triangle_normals, vertex_normals
 from ...core.base.messages import NOTHING, Message, Refused
-from .work import PLACED, Work
+from ...core.storage.serialization import Places
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
     from seamwire_core import NearestPoints
 
+PLACED = 0.3
+"""The fraction that is finished when the first wire is drawn: before that, seeds are placed."""
+Progress = Callable[[float], bool]
+"""Takes the finished fraction, and returns whether to continue."""
 _STEPS = 30
 """Of the alignment: it has come to rest long before on shapes that are alike."""
 _ELSEWHERE = 0.1
@@ -39,6 +44,12 @@ DOUBTFUL = 0.25
 """The confidence from which on a point has a place."""
 _APART = 0.5
 """By how much more another place's distances have to be off for the best one to be sure."""
+
+
+def tell(progress: Progress, fraction: float) -> None:
+    """Tell the finished fraction. Raise `seamwire_core.Cancelled` if the work is to stop."""
+    if not progress(fraction):
+        raise native.load().Cancelled
 
 
 @dataclass(frozen=True)
@@ -63,13 +74,18 @@ class Shape:
     to_object: NDArray[np.float64] | None = None
 
     @cached_property
+    def where(self) -> Places:
+        """Where its vertices are."""
+        return Places(self.points, np.eye(3) if self.to_object is None else self.to_object)
+
+    @property
     def places(self) -> NDArray[np.float64]:
         """(n, 3) the vertices in object coordinates."""
-        return self.in_object(self.points)
+        return self.where.in_object
 
     def in_object(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return (k, 3) points in object coordinates."""
-        return points if self.to_object is None else points @ self.to_object.T
+        return points @ self.where.to_object.T
 
     @cached_property
     def normals(self) -> NDArray[np.float64]:
@@ -122,6 +138,13 @@ def _onto(source: Moments, target: Moments, scale: float, signs: tuple[int, int]
     one, other = frame(source), frame(target)
     rotation = other.T @ np.diag([*signs, signs[0] * signs[1]]) @ one
     return Similarity(scale, rotation, target.middle - scale * rotation @ source.middle)
+
+
+def doubt_between(way: Similarity, rival: Similarity) -> Message:
+    """Return the message that a rival lays a network elsewhere."""
+    cosine = 0.5 * (np.trace(rival.rotation @ way.rotation.T) - 1.0)
+    turn = np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0)))
+    return Message.of("fits-turned", degrees=round(float(turn))) if turn >= _TURNED else Message.of("fits-moved")
 
 
 @dataclass(frozen=True)
@@ -193,33 +216,6 @@ class Similarity:
         )
 
 
-@dataclass(frozen=True)
-class Aligned:
-    """What brings a network onto a mesh.
-
-    Parameters
-    ----------
-    way
-        That.
-    rival
-        What lays it elsewhere about as well; None: nothing does.
-    """
-
-    way: Similarity
-    rival: Similarity | None = None
-
-    @property
-    def doubt(self) -> Message:
-        """The report if there is a rival."""
-        if self.rival is None:
-            return NOTHING
-        cosine = 0.5 * (np.trace(self.rival.rotation @ self.way.rotation.T) - 1.0)
-        turn = np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0)))
-        if turn >= _TURNED:
-            return Message.of("fits-turned", degrees=round(float(turn)))
-        return Message.of("fits-moved")
-
-
 class NearestSurface:
     """Finds the points of a mesh that are nearest to places.
 
@@ -251,16 +247,10 @@ class NearestSurface:
     def nearest(
         self, places: NDArray[np.float64], normals: NDArray[np.float64] | None = None, part: int | None = None
     ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.float64]]:
-        """Return the triangle that is nearest to each place, its point there, and how far away that is; (k,), (k, 3), (k,).
+        """Return the triangle that is nearest to each place, (k, 3), its point there, and how far away that is; (k,), (k, 3), (k,).
 
-        Parameters
-        ----------
-        places
-            (k, 3) in object coordinates.
-        normals
-            (k, 3) triangles that face away from these do not count, unless all do: thin cloth has two sides.
-        part
-            The only one of the parts that counts; None: all.
+        Triangles that face away from normals, (k, 3), do not count, unless all do: thin cloth has two sides. If a part is given, only that
+        counts.
         """
         if part not in self._trees:
             rows = np.arange(len(self._shape.triangles)) if part is None else np.flatnonzero(self.parts == part)
@@ -270,8 +260,10 @@ class NearestSurface:
         triangles, points, gaps = tree.find(places, normals)
         return rows[triangles], points, gaps
 
-    def align(self, points: NDArray[np.float64], moments: Moments) -> Work[Aligned]:
-        """Find what brings points of a mesh onto this one.
+    def align(
+        self, points: NDArray[np.float64], moments: Moments, progress: Progress = lambda _: True
+    ) -> tuple[Similarity, Message]:
+        """Find what brings points of a mesh onto this one, and return a message if something else lays them elsewhere about as well.
 
         They stay where they are if they lie on it. Otherwise ICP starts there and from the four alignments of the principal axes without
         a reflection (Besl, McKay, A method for registration of 3-D shapes, 1992). The best result is taken.
@@ -282,19 +274,21 @@ class NearestSurface:
             (k, 3) in object coordinates.
         moments
             Of their mesh.
+        progress
+            See `transfer`.
         """
         size = self._shape.size
         some = points[np.linspace(0, len(points) - 1, min(len(points), _SAMPLE)).astype(np.int64)]
         best, least = Similarity.mirroring(), self._gap(some)
         if least <= _ALIGNED * size or len(points) < 3:
-            return Aligned(best)
+            return best, NOTHING
         own = self._shape.moments
         scale = own.size / moments.size if moments.size > 0.0 else 1.0
         starts = [best, *(_onto(moments, own, scale, signs) for signs in ((1, 1), (1, -1), (-1, 1), (-1, -1)))]
         starts.append(Similarity(scale, np.eye(3), own.middle - scale * moments.middle))
         found_ways = [(least, best)]
         for number, current in enumerate(starts):
-            yield PLACED * number / len(starts)
+            tell(progress, PLACED * number / len(starts))
             for _ in range(_STEPS):
                 moved = current.of(some)
                 _, found, gaps = self.nearest(moved)
@@ -312,7 +306,7 @@ class NearestSurface:
             if gap <= max(_RIVAL * least, 1e-6 * size)
             and np.linalg.norm(way.of(some) - best.of(some), axis=1).max() > _ELSEWHERE * size
         ]
-        return Aligned(best, min(rivals, key=lambda way: way[0])[1] if rivals else None)
+        return best, doubt_between(best, min(rivals, key=lambda way: way[0])[1]) if rivals else NOTHING
 
     def _gap(self, points: NDArray[np.float64]) -> float:
         gaps = self.nearest(points)[2]
@@ -325,21 +319,9 @@ class NearestSurface:
         spacing: NDArray[np.float64] | float = 0.0,
         part: int | None = None,
     ) -> Placed:
-        """Place points that lie near.
+        """Place points, (k, 3) in object coordinates, that lie near. `spacing`, (k,), tells how long the edges were that they came from.
 
-        Parameters
-        ----------
-        points, normals
-            (k, 3) in object coordinates.
-        spacing
-            (k,) how long the edges are there that they came from.
-        part
-            As `nearest` takes it.
-
-        Returns
-        -------
-        Placed
-            How far the surface is, in edges, and whether it faces the same way, say how sure each is.
+        How far the surface is, in edges, and whether it faces the same way, say how sure each is. `part` is that of `nearest`.
         """
         triangles, found, gaps = self.nearest(points, normals, part)
         edges = np.maximum(self._shape.spacing[self._shape.triangles[triangles]].mean(axis=1), spacing)
@@ -349,16 +331,9 @@ class NearestSurface:
         return Placed(triangles, found, near * np.where(known, np.clip(0.3 + 1.4 * agree, 0.0, 1.0), 1.0))
 
     def vertex(self, triangle: int, place: NDArray[np.float64], crease: float) -> int:
-        """Return the vertex that stands for a place in a triangle: the nearest one, or a crease beside it for what was on one.
+        """Return the vertex that stands for a place, (3,), in a triangle: the nearest one, or a crease beside it for what was on one.
 
-        Parameters
-        ----------
-        triangle
-            Its number.
-        place
-            (3,) in object coordinates.
-        crease
-            How sharp the surface was there that it came from, in degrees.
+        `crease` tells how sharp the surface was there that it came from, in degrees.
         """
         shape = self._shape
         corners = shape.triangles[triangle].tolist()

@@ -29,17 +29,7 @@ _TOLERANCES = (0.01, 0.05)
 
 @dataclass(frozen=True)
 class _WalkStep:
-    """One edge of the walk.
-
-    Parameters
-    ----------
-    dart
-        The edge and its direction.
-    parent
-        The step whose head it leaves; -1: the first one.
-    turn
-        By how many places it lies beyond the way back, counterclockwise around that vertex.
-    """
+    """One edge of the walk: a dart, the step whose head it leaves, or -1, and by how many places it lies beyond the way back there."""
 
     dart: int
     parent: int
@@ -69,15 +59,7 @@ class Repeats:
         self._look_around(len(points), triangles)
 
     def of(self, wires: Iterable[Wire], points: NDArray[np.float64]) -> list[list[Wire]]:
-        """Return for each repeat of some wires its wires.
-
-        Parameters
-        ----------
-        wires
-            Connected wires along edges. Edges that the walk does not reach are ignored.
-        points
-            (n, 3) vertices of the mesh, for the curves.
-        """
+        """Return for each repeat of connected wires along edges its wires. Edges that the walk does not reach are ignored."""
         wires = list(wires)
         return [
             [_moved(wire, to, points) for wire in wires if set(wire.vertices) <= to.keys()]
@@ -235,15 +217,7 @@ def _moved(wire: Wire, to: dict[int, int], points: NDArray[np.float64]) -> Wire:
 
 
 def connected_groups(wanted: Iterable[Wire], wires: Sequence[Wire]) -> list[list[Wire]]:
-    """Return each group of connected wires that has a wanted wire, once.
-
-    Parameters
-    ----------
-    wanted
-        Some of the wires.
-    wires
-        All wires that may belong to a group. Wires are connected if they share a vertex.
-    """
+    """Return each group of connected wires, which share vertices, that has a wanted wire, once."""
     chosen = set(wanted)
     found = ([wires[row] for row in rows] for rows in groups([wire.vertices for wire in wires]))
     return [group for group in found if not chosen.isdisjoint(group)]

@@ -20,13 +20,11 @@ from ...core.base.geometry import nearest_on_segments
 from ...core.base.messages import Message
 from ...core.network.strokes import Stroke, for_library, on_mesh
 from ...core.network.wires import LOOP_KINDS, Wire
-from ...core.solver.live_maker import LiveMaker
-from ...core.solver.solver import by_number, final
+from ...core.solver.solver import LiveMaker, by_number, final
 from ...core.storage.serialization import unpacked
 from ...terms.options import CLAMP_PERCENTILE, STRENGTHS
 from .network_file import Course, NetworkFile
-from .placing import DOUBTFUL, NearestSurface, Placed, Shape
-from .work import PLACED, Work
+from .placing import DOUBTFUL, PLACED, NearestSurface, Placed, Progress, Shape, tell
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -167,15 +165,23 @@ class Tracing:
 
     Parameters
     ----------
+    progress
+        See `transfer`.
     stray
         How many edges wires may run beside their courses.
     """
 
     def __init__(
-        self, file: NetworkFile, target: Shape, surface: NearestSurface, live: LiveMaker, stray: float = STRAY
+        self,
+        file: NetworkFile,
+        target: Shape,
+        surface: NearestSurface,
+        live: LiveMaker,
+        progress: Progress,
+        stray: float = STRAY,
     ) -> None:
         self._file, self._target, self._surface, self._make = file, target, surface, live
-        self._stray, self._done = stray, PLACED
+        self._stray, self._done, self._progress = stray, PLACED, progress
         self._lives: dict[tuple[Along, float], LiveWire] = {}
         self._result = Transfer()
         self._library_strokes: list[object] = []
@@ -186,15 +192,11 @@ class Tracing:
         place: Callable[[Course, tuple[int, ...]], Placed],
         place_stroke: Callable[[NDArray[np.float64]], Placed],
         place_on: Callable[[Course, tuple[int, ...], int], Placed] | None = None,
-    ) -> Work[Transfer]:
+    ) -> Transfer:
         """Draw all wires.
 
-        Parameters
-        ----------
-        place, place_stroke
-            They return where the vertices of a course and the points of a stroke are on the target.
-        place_on
-            Returns where the vertices of a course are on one part of the target. None if all of it counts.
+        `place` and `place_stroke` return where the vertices of a course and the points of a stroke are on the target. `place_on` returns
+        where a course is on one part of it, unless all of it counts.
         """
         result = self._result
         for number, record in enumerate(self._file.strokes, start=1):
@@ -207,7 +209,7 @@ class Tracing:
         runs = [(course, axes) for course in self._file.courses for axes in _images(course.record["mirror"])]
         placed = []
         for run in runs:
-            yield self._done
+            tell(self._progress, self._done)
             placed.append(place(*run))
         if place_on is not None:
             # Courses that share a vertex hang together on the mesh that they come from.
@@ -218,7 +220,7 @@ class Tracing:
         pieces = list(self._cut(pieces))
         for number, piece in enumerate(pieces):
             self._done = PLACED + (1.0 - PLACED) * number / len(pieces)
-            result.wires += yield from self._wires(piece)
+            result.wires += self._wires(piece)
         return result
 
     def _keep_together(
@@ -288,12 +290,12 @@ class Tracing:
 
     # Wires
 
-    def _wires(self, piece: _CoursePart) -> Work[list[Wire]]:
+    def _wires(self, piece: _CoursePart) -> list[Wire]:
         lost = float((piece.confidence < DOUBTFUL).mean())
         if lost > _MOST_LOST:
             return self._lose(piece, "course-lost", part=lost)
         if piece.vertices[0] == piece.vertices[-1]:
-            return (yield from self._loop(piece))
+            return self._loop(piece)
         ends = [self._seed(piece, row) for row in (0, -1)]
         if None in ends:
             return self._lose(piece, "end-lost")
@@ -301,7 +303,7 @@ class Tracing:
         if start == end:
             return self._lose(piece, "ends-meet", vertex=start)
         live = self._live(piece)
-        found = yield from self._between(live, piece, start, end)
+        found = self._between(live, piece, start, end)
         if found is None:
             return self._lose(piece, "no-way", start=start, end=end)
         self._result.added += len(found) - 1
@@ -311,9 +313,9 @@ class Tracing:
         self._result.lost.append(Message.of(why, wire=piece.name, **values))
         return []
 
-    def _between(self, live: LiveWire, piece: _CoursePart, start: int, end: int) -> Work[list[Wire] | None]:
+    def _between(self, live: LiveWire, piece: _CoursePart, start: int, end: int) -> list[Wire] | None:
         """Return wires between two vertices that run where a piece does, in order, or None if there is no way."""
-        yield self._done
+        tell(self._progress, self._done)
         live.seed(start)
         best = self._best(live, end, piece.places)
         if best is None:
@@ -322,8 +324,8 @@ class Tracing:
         middle = self._vertex(piece, worst) if 0 < worst < len(piece.vertices) - 1 else start
         near = self._stray * max(float(self._target.spacing[candidate.vertices].mean()), piece.course.spacing / 2.0)
         if off > near and middle not in (start, end) and middle not in candidate.vertices:
-            first = yield from self._between(live, piece.part(0, worst), start, middle)
-            second = yield from self._between(live, piece.part(worst, len(piece.vertices) - 1), middle, end)
+            first = self._between(live, piece.part(0, worst), start, middle)
+            second = self._between(live, piece.part(worst, len(piece.vertices) - 1), middle, end)
             if first is not None and second is not None:
                 return [*first, *second]
         return [self._wire(piece, candidate, follow)]
@@ -350,7 +352,7 @@ class Tracing:
             planned=record.get("planned", False),
         )  # fmt: skip
 
-    def _loop(self, piece: _CoursePart) -> Work[list[Wire]]:
+    def _loop(self, piece: _CoursePart) -> list[Wire]:
         """Return a closed wire: the loop of its kind where that runs there, else wires around it."""
         live = self._live(piece)
         whole = self._closed(live, piece)
@@ -363,7 +365,7 @@ class Tracing:
             return self._lose(piece, "loop-too-small")
         wires: list[Wire] = []
         for (begin, one), (end, other) in itertools.pairwise(zip([*rows, count], [*corners, corners[0]], strict=True)):
-            found = yield from self._between(live, piece.part(begin, end), one, other)
+            found = self._between(live, piece.part(begin, end), one, other)
             if found is None:
                 return self._lose(piece, "no-way", start=one, end=other)
             wires += found
@@ -434,9 +436,7 @@ class Tracing:
         if len(rows) < 2:
             return None
         shape = self._target
-        points = placed.places[rows]
-        if shape.to_object is not None:
-            points = points @ np.linalg.inv(shape.to_object).T
+        points = shape.where.from_object(placed.places[rows])
         triangles = placed.triangles[rows]
         stroke = Stroke(
             points, shape.triangles[triangles], triangles.astype(np.int32), bool(record["attracts"]), record["acts_on"],

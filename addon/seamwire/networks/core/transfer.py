@@ -10,14 +10,12 @@ import numpy as np
 
 from ...core.base.geometry import Moments
 from ...core.base.messages import NOTHING, Refused
-from ...core.network.mirror_images import MirrorImages
 from ...core.network.network import Network
-from ...core.network.symmetry import Symmetry
-from ...core.solver.live_maker import LiveMaker
+from ...core.network.symmetry import MirrorImages, Symmetry
+from ...core.solver.solver import LiveMaker
 from .network_file import Course, NetworkFile, NetworkFileError
-from .placing import Landmarks, NearestSurface, Placed, Shape, Similarity
+from .placing import PLACED, Landmarks, NearestSurface, Placed, Progress, Shape, Similarity, tell
 from .tracing import STRAY, PlacedSeed, Tracing, Transfer
-from .work import PLACED, Work
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -41,7 +39,8 @@ def transfer(
     pairs: ArrayLike = (),
     topology: bool = False,
     live: LiveMaker | None = None,
-) -> Work[Transfer]:
+    progress: Progress = lambda _: True,
+) -> Transfer:
     """Find what a network is on a mesh.
 
     Parameters
@@ -64,6 +63,8 @@ def transfer(
         By numbers: whether mirror images are found by how the mesh is connected, see `Symmetry`.
     live
         Makes live wires on the target. None to make them here.
+    progress
+        Is told the fraction done; where it returns False, `seamwire_core.Cancelled` is raised.
 
     Raises
     ------
@@ -74,23 +75,23 @@ def transfer(
     if mirror is not None and place in {"NUMBERS", "PAIRS"}:
         raise Refused("mirror-by-surface")
     if place == "AUTO":
-        same = mirror is None and not file.problem_with(len(target.points), target.edges)
+        same = mirror is None and not file.problem_with(target)
         by_pairs = len(pairs) and source is not None and mirror is None
         place = "NUMBERS" if same else "PAIRS" if by_pairs else "SURFACE"
-    yield 0.0
+    tell(progress, 0.0)
     if place == "NUMBERS":
         return _by_numbers(file, target, topology)
     live = live or LiveMaker(target)
     if place == "SURFACE":
-        return (yield from _by_surface(file, target, mirror, align, live))
+        return _by_surface(file, target, mirror, align, live, progress)
     if source is None:
         raise Refused("pairs-without-source")
-    return (yield from _by_pairs(file, source, target, pairs, live))
+    return _by_pairs(file, source, target, pairs, live, progress)
 
 
 def _check(file: NetworkFile, mesh: Shape) -> None:
     """Raise NetworkFileError if a network was drawn on another mesh."""
-    problem = file.problem_with(len(mesh.points), mesh.edges)
+    problem = file.problem_with(mesh)
     if problem:
         raise NetworkFileError(problem)
 
@@ -98,18 +99,19 @@ def _check(file: NetworkFile, mesh: Shape) -> None:
 def _by_numbers(file: NetworkFile, target: Shape, topology: bool) -> Transfer:
     """Return a network on a mesh of the same topology, vertex by vertex."""
     _check(file, target)
-    to_object = np.eye(3) if target.to_object is None else target.to_object
-    symmetry = Symmetry(target.points, target.edges, to_object, topology, target.triangles)
-    network = MirrorImages(symmetry).complete(Network(tuple(file.wires(target.points, to_object))))
+    symmetry = Symmetry(target.points, target.edges, target.where.to_object, topology, target.triangles)
+    network = MirrorImages(symmetry).complete(Network(tuple(file.wires(target))))
     wires = list(network.wires)
     ends = dict.fromkeys(
         vertex for wire in wires if not wire.closed for vertex in (wire.vertices[0], wire.vertices[-1])
     )
     seeds = [PlacedSeed(vertex, (), vertex, 1.0) for vertex in ends]
-    return Transfer(wires, file.strokes_on(target.points, to_object), seeds)
+    return Transfer(wires, file.strokes_on(target), seeds)
 
 
-def _by_surface(file: NetworkFile, target: Shape, mirror: int | None, align: bool, live: LiveMaker) -> Work[Transfer]:
+def _by_surface(
+    file: NetworkFile, target: Shape, mirror: int | None, align: bool, live: LiveMaker, progress: Progress
+) -> Transfer:
     """Return a network on a mesh with about the same shape and any topology."""
     surface, doubt = NearestSurface(target), NOTHING
     way = Similarity.mirroring(*(() if mirror is None else (mirror,)))
@@ -117,8 +119,8 @@ def _by_surface(file: NetworkFile, target: Shape, mirror: int | None, align: boo
         points = way.of(np.concatenate([course.places for course in file.courses]))
         moments = file.origin.moments
         moved = Moments(way.of(moments.middle[None])[0], way.of_normals(moments.axes))
-        aligned = yield from surface.align(points, moved)
-        way, doubt = aligned.way.after(way), aligned.doubt
+        aligned, doubt = surface.align(points, moved, progress)
+        way = aligned.after(way)
 
     def place(course: Course, axes: tuple[int, ...], part: int | None = None) -> Placed:
         own = way.after(Similarity.mirroring(*axes))
@@ -130,19 +132,19 @@ def _by_surface(file: NetworkFile, target: Shape, mirror: int | None, align: boo
         moved = way.of(points)
         return surface.place(moved, np.zeros_like(moved), float(target.spacing.mean()))
 
-    found = yield from Tracing(file, target, surface, live).run(place, stroke, place)
+    found = Tracing(file, target, surface, live, progress).run(place, stroke, place)
     found.doubts += [doubt] if doubt else []
     return found
 
 
 def _by_pairs(
-    file: NetworkFile, source: Shape, target: Shape, pairs: NDArray[np.int64], live: LiveMaker
-) -> Work[Transfer]:
+    file: NetworkFile, source: Shape, target: Shape, pairs: NDArray[np.int64], live: LiveMaker, progress: Progress
+) -> Transfer:
     """Return a network on a mesh with another pose or proportion and any topology."""
     _check(file, source)
     surface = NearestSurface(target)
     landmarks = Landmarks(source, target, pairs)
-    yield PLACED
+    tell(progress, PLACED)
 
     def nearest(points: NDArray[np.float64]) -> NDArray[np.int64]:
         return ((source.places[None] - points[:, None]) ** 2).sum(axis=2).argmin(axis=1)
@@ -155,4 +157,4 @@ def _by_pairs(
     def stroke(points: NDArray[np.float64]) -> Placed:
         return landmarks.place(nearest(points))
 
-    return (yield from Tracing(file, target, surface, live, stray=2.0 * STRAY).run(place, stroke))
+    return Tracing(file, target, surface, live, progress, stray=2.0 * STRAY).run(place, stroke)

@@ -10,7 +10,7 @@ from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Snap
 from seamwire.core.network.picks import FacePoint, place_of
-from seamwire.core.storage.serialization import wire_record
+from seamwire.core.storage.serialization import Places, wire_record
 from seamwire.terms.options import Options
 from setting import use
 
@@ -159,7 +159,7 @@ def test_over_a_mirror_a_wire_without_edges_has_its_image() -> None:
 def test_what_is_stored_of_a_point_is_its_vertex() -> None:
     on = session()
     click(on, at(0.3, 0.2), at(1.7, 0.9))
-    record = wire_record(on.wires[0], POINTS, np.eye(3))
+    record = wire_record(on.wires[0], Places(POINTS, np.eye(3)))
     assert (record["start"], record["end"]) == (0, 5)
 
 

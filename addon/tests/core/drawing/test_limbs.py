@@ -12,7 +12,7 @@ from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Snap
 from seamwire.core.picking.camera import Camera
 from seamwire.core.picking.picker import Picker
-from seamwire.core.solver.live_maker import LiveMaker
+from seamwire.core.solver.solver import LiveMaker
 from seamwire.terms.choices import Along
 from setting import use
 

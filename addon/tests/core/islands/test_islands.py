@@ -7,7 +7,7 @@ import time
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from seamwire.core.islands.islands import IslandMaker, choose_hues, neighbours, places_of
+from seamwire.core.islands.islands import PLACES, IslandMaker, choose_hues, neighbours
 
 
 def strip(count: int) -> NDArray[np.int32]:
@@ -68,7 +68,7 @@ def test_a_cut_inside_one_island_has_no_neighbours() -> None:
 
 
 ANY = -1
-PLACES = np.array(places_of(12))
+RAINBOW = np.array(PLACES)
 
 
 def test_the_cuts_that_islands_need_are_counted_by_what_is_given_for_that() -> None:
@@ -84,7 +84,7 @@ def test_the_cuts_that_islands_need_are_counted_by_what_is_given_for_that() -> N
 
 
 def gaps(hues: NDArray[np.uint8], pairs: NDArray[np.int32]) -> NDArray[np.int64]:
-    return np.abs(PLACES[hues[pairs[:, 0]]] - PLACES[hues[pairs[:, 1]]])
+    return np.abs(RAINBOW[hues[pairs[:, 0]]] - RAINBOW[hues[pairs[:, 1]]])
 
 
 def honeycomb(size: int) -> NDArray[np.int32]:
@@ -98,7 +98,7 @@ def honeycomb(size: int) -> NDArray[np.int32]:
 def test_neighbors_have_hues_that_are_far_apart(size: int) -> None:
     numbers = np.random.default_rng(size).permutation(size * size)
     pairs = np.sort(numbers[honeycomb(size)], axis=1).astype(np.int32)
-    hues = choose_hues(np.full(size * size, ANY), pairs, 12)
+    hues = choose_hues(np.full(size * size, ANY), pairs)
     assert gaps(hues, pairs).min() >= 3
 
 
@@ -107,24 +107,23 @@ def test_neighbors_have_different_hues_however_many_there_are(count: int) -> Non
     rng = np.random.default_rng(count)
     pairs = np.unique(np.sort(rng.integers(0, count, (2 * count, 2)), axis=1), axis=0).astype(np.int32)
     pairs = pairs[pairs[:, 0] != pairs[:, 1]]
-    assert gaps(choose_hues(np.full(count, ANY), pairs, 12), pairs).min() >= 2
+    assert gaps(choose_hues(np.full(count, ANY), pairs), pairs).min() >= 2
 
 
 def test_more_neighbours_than_hues_are_no_error() -> None:
     pairs = np.array([(i, j) for i in range(20) for j in range(i + 1, 20)], dtype=np.int32)
-    assert choose_hues(np.full(20, ANY), pairs, 12).max() < 12
-    assert choose_hues(np.full(20, ANY), pairs, 2).max() < 2
+    assert choose_hues(np.full(20, ANY), pairs).max() < 12
 
 
 def test_few_islands_have_each_a_hue_of_their_own() -> None:
     none = np.empty((0, 2), dtype=np.int32)
-    assert len(set(choose_hues(np.full(12, ANY), none, 12).tolist())) == 12
+    assert len(set(choose_hues(np.full(12, ANY), none).tolist())) == 12
 
 
 def test_of_neighbors_with_hues_too_much_alike_the_larger_keeps_its_own() -> None:
-    close = np.flatnonzero(np.abs(PLACES - PLACES[0]) == 1)[0]
+    close = np.flatnonzero(np.abs(RAINBOW - RAINBOW[0]) == 1)[0]
     pairs = np.array([[0, 1], [1, 2]], dtype=np.int32)
-    hues = choose_hues(np.array([0, close, 7]), pairs, 12)
+    hues = choose_hues(np.array([0, close, 7]), pairs)
     assert hues[[0, 2]].tolist() == [0, 7]
     assert gaps(hues, pairs).min() >= 3
 

@@ -4,8 +4,7 @@
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from seamwire.core.islands.map_faults import NO_FAULTS, MapFaults, MappedSurface, find_faults, joined
-from seamwire.core.islands.rounded_flips import turn_back
+from seamwire.core.islands.map_faults import NO_FAULTS, MapFaults, MappedSurface, find_faults, joined, turn_back
 from seamwire.core.islands.uv_islands import signed_uv_areas
 
 

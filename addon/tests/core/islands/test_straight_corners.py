@@ -2,7 +2,8 @@
 """Vertices in the middle of straight sides of faces."""
 
 import numpy as np
-from seamwire.core.islands.straight_corners import CornerRing, StraightCorners, find_straight
+from seamwire.core.islands.straight_corners import StraightCorners, find_straight
+from seamwire.core.islands.uv_islands import Corners
 
 POINTS = np.array(
     [(0, 0, 0), (1, 0, 0), (3, 0, 0), (4, 0, 0), (4, 2, 0), (0, 2, 0), (4, -2, 0), (0, -2, 0)], dtype=float
@@ -11,18 +12,17 @@ ABOVE, BELOW = (0, 1, 2, 3, 4, 5), (3, 2, 1, 0, 7, 6)
 """Two faces with the vertices 1 and 2 on their common side."""
 
 
-def ring_of(*faces: tuple[int, ...]) -> CornerRing:
+def ring_of(*faces: tuple[int, ...]) -> Corners:
     sizes = [len(face) for face in faces]
     following = np.concatenate(
         [start + np.roll(np.arange(size), -1) for start, size in zip(np.cumsum([0, *sizes]), sizes, strict=False)]
     )
-    return CornerRing(
-        np.concatenate(faces).astype(np.int32), np.repeat(np.arange(len(faces)), sizes).astype(np.int64), following
-    )
+    vertices, owners = np.concatenate(faces).astype(np.int32), np.repeat(np.arange(len(faces)), sizes).astype(np.int64)
+    return Corners(vertices, np.zeros_like(vertices), owners, following)
 
 
 def found(
-    ring: CornerRing, triangles: list[tuple[int, int, int]], seams: tuple[int, ...] = (), points: np.ndarray = POINTS
+    ring: Corners, triangles: list[tuple[int, int, int]], seams: tuple[int, ...] = (), points: np.ndarray = POINTS
 ) -> StraightCorners:
     """`triangles` and `seams` are corners."""
     is_seam = np.isin(np.arange(len(ring.vertices)), seams)

@@ -54,10 +54,10 @@ def test_area_is_compared_with_the_mean_of_all() -> None:
     assert stretch.area[:half] == pytest.approx(np.full(half, np.log2(4.0 / 2.5)), abs=1e-5)
     assert stretch.area[half:] == pytest.approx(np.full(len(uvs) - half, np.log2(1.0 / 2.5)), abs=1e-5)
     labels = np.repeat([0, 1], [half, len(uvs) - half])
-    islands = stretch.islands(labels)
-    assert islands.area == pytest.approx([np.log2(4.0 / 2.5), np.log2(2.5)], abs=1e-5)
-    assert islands.angle == pytest.approx([0.0, 0.0], abs=1e-2)
-    assert islands.areas.sum() == pytest.approx(9.0)
+    values, areas = stretch.islands(labels, "AREA")
+    assert values == pytest.approx([np.log2(4.0 / 2.5), np.log2(2.5)], abs=1e-5)
+    assert stretch.islands(labels, "ANGLE")[0] == pytest.approx([0.0, 0.0], abs=1e-2)
+    assert areas.sum() == pytest.approx(9.0)
 
 
 def test_it_agrees_with_singular_values() -> None:
@@ -96,7 +96,7 @@ def test_faces_without_area_count_for_nothing_and_those_without_uv_area_for_the_
     assert np.isfinite(nothing.area).all()
     empty = Stretch(POINTS, TRIANGLES[:0], ALONE[:0], CORNERS[:0])
     assert not empty.update(np.empty((0, 2), dtype=np.float32))
-    assert len(empty.islands(ALONE[:0]).angle) == 0
+    assert len(empty.islands(ALONE[:0], "ANGLE")[0]) == 0
 
 
 def test_only_islands_whose_uvs_changed_are_measured_again() -> None:

@@ -4,8 +4,7 @@
 from __future__ import annotations
 
 from grid import wire
-from seamwire.core.network.history import History
-from seamwire.core.network.network import Network
+from seamwire.core.network.network import History, Network
 
 EMPTY = Network()
 ONE = Network((wire(0, 1),))

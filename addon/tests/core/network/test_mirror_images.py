@@ -4,8 +4,8 @@
 from __future__ import annotations
 
 from grid import symmetry, wire
-from seamwire.core.network.mirror_images import MirrorImages
 from seamwire.core.network.network import Network
+from seamwire.core.network.symmetry import MirrorImages
 
 
 def test_a_wire_is_mirrored_as_it_was_when_it_was_kept() -> None:

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
-from seamwire.core.base.spatial_hash import SpatialHash
+from seamwire.core.base.nearest_vertices import NearestVertices
 from seamwire.core.drawing.picture import Role
 from seamwire.core.network.symmetry import TOLERANCE, Symmetry
 from seamwire.core.network.wires import Wire
@@ -29,17 +29,17 @@ def wire(*vertices: int, closed: bool = False, points: np.ndarray | None = None)
 # Places
 
 
-def test_points_on_the_borders_of_cells_are_found() -> None:
-    size = 16.0 * 0.1  # the edge of a cell
+def test_the_nearest_of_a_cubes_corners_is_found() -> None:
+    size = 1.6
     points = np.array([[x, y, z] for x in (0.0, size) for y in (0.0, size) for z in (0.0, -size)])
-    cells = SpatialHash(points, 0.1)
+    vertices = NearestVertices(points)
     for shift in np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * 0.05:
-        assert (cells.nearest(points + shift) == np.arange(len(points))).all()
+        assert (vertices.find(points + shift, 0.1) == np.arange(len(points))).all()
 
 
 def test_of_points_in_one_place_the_first_is_found() -> None:
-    assert SpatialHash(np.zeros((500, 3)), 1e-3).nearest(np.zeros((2, 3))).tolist() == [0, 0]
-    assert SpatialHash(np.empty((0, 3)), 1e-3).nearest(np.zeros((1, 3))).tolist() == [-1]
+    assert NearestVertices(np.zeros((500, 3))).find(np.zeros((2, 3)), 1e-3).tolist() == [0, 0]
+    assert NearestVertices(np.empty((0, 3))).find(np.zeros((1, 3)), 1e-3).tolist() == [-1]
 
 
 def test_every_place_has_a_reach_of_its_own() -> None:
@@ -49,7 +49,7 @@ def test_every_place_has_a_reach_of_its_own() -> None:
     reach = 10.0 ** generator.uniform(-3.0, -0.5, len(places))
     gaps = np.linalg.norm(places[:, None] - points[None], axis=2)
     expected = np.where(gaps.min(axis=1) <= reach, gaps.argmin(axis=1), -1)
-    assert (SpatialHash(points, 1.0).nearest(places, reach) == expected).all()
+    assert (NearestVertices(points).find(places, reach) == expected).all()
     assert 100 < (expected >= 0).sum() < 500
 
 
@@ -57,7 +57,7 @@ def test_every_place_has_a_reach_of_its_own() -> None:
 def test_a_point_far_from_all_others_does_not_hide_them(far: float) -> None:
     points = np.vstack([centred(40) * 1e-3, [[far, 0.0, -far]]])
     with np.errstate(all="raise"):
-        found = SpatialHash(points, 2e-4).nearest(points + 1e-4)
+        found = NearestVertices(points).find(points + 1e-4, 2e-4)
     assert (found[:-1] == np.arange(1600)).all()
 
 
@@ -65,7 +65,7 @@ def test_a_point_far_from_all_others_does_not_hide_them(far: float) -> None:
 @pytest.mark.parametrize("place", [0.0, 1e30, np.inf, -np.inf, np.nan, 1e300])
 def test_points_without_a_place_or_all_in_one_are_no_fault(place: float) -> None:
     points = np.full((5, 3), place)
-    found = SpatialHash(points, 1e-3).nearest(points, np.array([0.0, 1.0, np.inf, np.nan, -1.0]))
+    found = NearestVertices(points).find(points, np.array([0.0, 1.0, np.inf, np.nan, -1.0]))
     assert found.tolist() == ([0, 0, 0, -1, -1] if abs(place) < 1e100 else [-1] * 5)
 
 

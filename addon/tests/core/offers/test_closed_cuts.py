@@ -11,10 +11,9 @@ from fake_live import FakeCuts, FakeLive
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Network
 from seamwire.core.network.wires import Wire
-from seamwire.core.offers import closed_cuts
-from seamwire.core.offers.closed_cuts import CutMemory, is_same
-from seamwire.core.offers.surface_loops import CUT_IS_GONE, NOTHING_TO_BEND
-from seamwire.core.storage.wire_labels import Places
+from seamwire.core.offers import surface_loops
+from seamwire.core.offers.surface_loops import CUT_IS_GONE, NOTHING_TO_BEND, CutMemory, is_same
+from seamwire.core.storage.serialization import Places
 from table import Table
 
 SCALE = np.diag([2.0, 1.0, 1.0])
@@ -136,7 +135,7 @@ def test_the_memory_of_cuts_is_bounded_and_forgets_the_oldest(monkeypatch: pytes
         for cut in (cut.of(Network(tuple(wires))) for cut in session.cursor.loops.cuts.taken(session.drawing.network))
         if cut is not None
     )
-    monkeypatch.setattr(closed_cuts, "_MOST_BYTES", 2 * cut.course.nbytes)
+    monkeypatch.setattr(surface_loops, "_MOST_BYTES", 2 * cut.course.nbytes)
     memory, networks = CutMemory(), []
     for number in (100, 200, 300):
         own = tuple(replace(wire, stored=number + place) for place, wire in enumerate(cut.wires))

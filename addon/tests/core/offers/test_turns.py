@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from polygon_meshes import arrays_of
-from seamwire.core.offers.hairpins import is_hairpin
 from seamwire.core.offers.turns import SurfaceEdges
 
 SIZE = 9
@@ -51,7 +50,7 @@ def test_a_ring_over_the_rims_of_a_thin_plate_goes_straight_on() -> None:
     plate = SurfaceEdges(arrays.points, arrays.triangles, arrays.edges)
     ring = [number[corner] for corner in ((0.0, 4.0, 0.0), (0.0, 4.0, 0.1), (8.0, 4.0, 0.1), (8.0, 4.0, 0.0))]
     assert np.degrees(plate.turns(ring)).tolist() == pytest.approx([0.0] * 4)
-    assert not is_hairpin(ring, arrays.points, plate)
+    assert not plate.is_hairpin(ring)
 
 
 @pytest.mark.parametrize(
@@ -60,7 +59,7 @@ def test_a_ring_over_the_rims_of_a_thin_plate_goes_straight_on() -> None:
 )
 def test_a_narrow_box_is_a_hairpin(width: int, height: int, hairpin: bool) -> None:
     for way in (1, -1):
-        assert is_hairpin(box(1, 1, width, height)[::way], grid_points(SIZE), sheet()) == hairpin
+        assert sheet().is_hairpin(box(1, 1, width, height)[::way]) == hairpin
 
 
 def test_a_circle_of_a_few_edges_is_a_hairpin_where_it_is_tiny() -> None:
@@ -68,8 +67,8 @@ def test_a_circle_of_a_few_edges_is_a_hairpin_where_it_is_tiny() -> None:
     points = grid_points(large)
     half_edges = SurfaceEdges(points, grid_triangles(large), grid_edges(large))
     face = [large + 1, large + 2, 2 * large + 2, 2 * large + 1]
-    assert is_hairpin(face, points, half_edges)
-    assert not is_hairpin(box(3, 3, 1, 1), grid_points(SIZE), sheet())
+    assert half_edges.is_hairpin(face)
+    assert not sheet().is_hairpin(box(3, 3, 1, 1))
 
 
 def test_around_the_middle_of_a_large_fan_a_chain_is_taken_for_straight() -> None:

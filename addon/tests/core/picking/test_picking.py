@@ -11,10 +11,8 @@ from seamwire.core.base.mesh_arrays import Arrays
 from seamwire.core.network.network import Snap
 from seamwire.core.network.picks import FacePoint, Pick
 from seamwire.core.network.wires import Wire
-from seamwire.core.picking.camera import Camera
+from seamwire.core.picking.camera import Camera, Sight, nearest_edge
 from seamwire.core.picking.picker import Picker
-from seamwire.core.picking.segments import nearest_edge
-from seamwire.core.picking.sight import Sight
 from seamwire.core.picking.surface import VisibleSurface
 
 pytest.importorskip("seamwire_core")

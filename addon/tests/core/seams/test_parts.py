@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from seamwire.core.seams.parts import PartEdits, border_wires, edges_of, edits_of_text, edits_text, turned
+from seamwire.core.seams.seam_plan import PartEdits, border_wires, edges_of, edits_of_text, edits_text, turned
 
 CHAIN = np.array([4, 2, 7], dtype=np.int32)
 CIRCLE = np.array([1, 5, 3, 1], dtype=np.int32)

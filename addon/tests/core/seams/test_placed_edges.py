@@ -10,21 +10,21 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from seamwire.core.seams import placed_edges
-from seamwire.core.seams.placed_edges import EdgeSigns, OtherSigns, auto_for
+from seamwire.core.seams.placed_edges import EdgeSigns, auto_for
 from seamwire.terms.options import PLACED, SCANNED, Auto
 
 Mesh = tuple[NDArray[np.float64], NDArray[np.int32]]
 """(n, 3) vertices and (m, 3) triangles."""
 
 
-def auto(mesh: Mesh, others: OtherSigns | None = None) -> Auto:
+def auto(mesh: Mesh, rigged: bool = False, marks: int = 0) -> Auto:
     points, triangles = mesh
-    return auto_for(points, triangles, np.arange(len(triangles), dtype=np.int32), others or OtherSigns())
+    return auto_for(points, triangles, np.arange(len(triangles), dtype=np.int32), rigged, marks)
 
 
 def signs(mesh: Mesh) -> EdgeSigns:
     points, triangles = mesh
-    return EdgeSigns.of(points, triangles, np.arange(len(triangles), dtype=np.int32))
+    return EdgeSigns(points, triangles, np.arange(len(triangles), dtype=np.int32))
 
 
 def halved(quads: NDArray[np.int32]) -> NDArray[np.int32]:
@@ -238,14 +238,14 @@ def test_a_mesh_that_is_mostly_quads_is_not_cut() -> None:
     points, triangles = isotropic()
     half = len(triangles) // 2
     polygons = np.concatenate([np.arange(half) // 2, half + np.arange(half)]).astype(np.int32)
-    assert auto_for(points, triangles, polygons, OtherSigns()) == SCANNED
-    assert auto_for(points, triangles[:half], polygons[:half], OtherSigns()) == PLACED
+    assert auto_for(points, triangles, polygons) == SCANNED
+    assert auto_for(points, triangles[:half], polygons[:half]) == PLACED
 
 
 def test_a_rigged_mesh_is_not_cut() -> None:
-    assert auto(isotropic(), OtherSigns(rigged=True)) == PLACED
+    assert auto(isotropic(), rigged=True) == PLACED
 
 
 def test_marks_decide_where_edges_leave_doubts_and_not_where_they_follow_nothing() -> None:
-    assert auto(tilted_bar(), OtherSigns(marks=2)) == PLACED
-    assert auto(marching_cubes(), OtherSigns(marks=4)) == SCANNED
+    assert auto(tilted_bar(), marks=2) == PLACED
+    assert auto(marching_cubes(), marks=4) == SCANNED

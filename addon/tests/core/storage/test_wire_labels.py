@@ -13,7 +13,7 @@ from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Network, Snap
 from seamwire.core.network.picks import Edge
 from seamwire.core.network.wires import Wire
-from seamwire.core.storage import label_reader, wire_labels
+from seamwire.core.storage import wire_labels
 from seamwire.core.storage.serialization import WAS_SEAM, Archive, NewerError
 from setting import use
 from table import SIZE, Table, chain, courses, paper
@@ -360,7 +360,7 @@ def test_unknown_labels_stay_untouched() -> None:
     mesh.labels[30, 31] = 4712
     mesh.seams.add((30, 31))
     session = opened(mesh)
-    assert mesh.found.unknown == 2
+    assert mesh.unknown() == 2
     assert session.wires == (), "its edge has lost its label"
     session.click(30)
     session.click(32)
@@ -376,8 +376,8 @@ def test_a_newer_text_leaves_everything_as_it_is() -> None:
     mesh.text = "seamwire 2 something else"
     with pytest.raises(NewerError):
         mesh.read()
-    nothing = label_reader.read(mesh.marks(), Archive(), mesh.where)
-    assert (nothing.network.wires, nothing.unknown) == ((), 1)
+    nothing = wire_labels.read(mesh.marks(), Archive(), mesh.where)
+    assert nothing.network.wires == ()
     mesh.archive, mesh.found = Archive(), nothing
     before = mesh.snapshot()
     session = Table().session
@@ -452,7 +452,7 @@ def test_a_joined_meshs_wires_are_known_from_another_text() -> None:
     other, _ = drawn((12, 15))
     one.join(other)
     assert found(one) == [(0, 1, 2, 3)]
-    assert one.read().unknown == 1
+    assert one.unknown() == 1
     archive = Archive.parse(other.text)
     session = Table().session
     one.open(session, archive)
@@ -716,6 +716,6 @@ def test_a_thousand_wires_are_read_and_planned() -> None:
     network = Network(tuple(edge_wire(mesh, *row) for row in rows))
     mesh.write(network)
     marks, archive, where = mesh.marks(), Archive.parse(mesh.text), mesh.where
-    now = label_reader.read(marks, archive, where)
+    now = wire_labels.read(marks, archive, where)
     wire_labels.plan(now.network, marks, now, archive, where, mesh.seams.__contains__, mesh.visible)
     assert len(now.network.wires) == 1000
