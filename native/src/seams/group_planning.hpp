@@ -35,9 +35,11 @@ struct GroupProblem {
 
   /// On how many meshes seams are searched, one after another. Each search ends at another local optimum.
   std::size_t level_count() const { return simplified.size() + (is_large ? 0 : 1); }
-  /// The problem of a level, 0 for the finest; null instead of a simplified mesh for the original.
+  /// The problem of a level, 0 for the finest; null instead of a simplified mesh for the original. Of a large group,
+  /// the original is at level_count().
   const Simplified* simplified_at(std::size_t level) const {
-    return is_large ? &simplified[level] : (level == 0 ? nullptr : &simplified[level - 1]);
+    if (is_large) return level < simplified.size() ? &simplified[level] : nullptr;
+    return level == 0 ? nullptr : &simplified[level - 1];
   }
   const SlitProblem& searched(std::size_t level = 0) const {
     const Simplified* simple = simplified_at(level);
@@ -91,6 +93,7 @@ class GroupPlanning {
  private:
   void add_rings(std::vector<Slit> rings);
   void search_levels(const SlitGoal& goal, const std::function<void()>& found, const Task& task);
+  void search_original(const SlitGoal& goal, const Task& task);
   void search_once(const SlitGoal& goal, const std::function<void()>& found, const Task& task);
   std::vector<std::int32_t> missed_pieces(const SlitPlan& plan, double bound) const;
   const SlitProblem& problem() const { return parted_ ? *parted_ : group_->searched(level_); }
