@@ -11,7 +11,7 @@ namespace {
 
 /// The radius of the faces that are embedded for a target, and the least one that serves another target, both of the
 /// straight distance.
-constexpr double kRadius = 1.5, kLeastRadius = 1.25;
+constexpr double kRadius = 1.3, kLeastRadius = 1.1;
 /// So many triangles at most are added for each face, so that a metric that no triangle resolves delays no wire for
 /// long.
 constexpr std::size_t kMostAddedPerFace = 4;

@@ -17,7 +17,7 @@
 namespace seamwire::detail {
 
 /// Finds wires from one seed before the surface is embedded. Only the faces around the seed are, as far as a target is
-/// away and half as far again. So a wire is a real one, but not the shortest one if that leaves these faces.
+/// away and a third as far again. So a wire is a real one, but not the shortest one if that leaves these faces.
 class NearbyWires {
  public:
   /// The seed must be a point of the surface. `most_faces`: of the surface, that are embedded for a wire.
