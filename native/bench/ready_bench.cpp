@@ -5,10 +5,12 @@
 // A mesh is a file, or "torus": a bumpy torus of a million triangles. A LiveWire across the surface is made and seeded
 // at vertex 0. Then its wires to a vertex near the seed, a twelfth of the diagonal away, are requested every 2 ms.
 //
-// Prints a line for each run. For each wire, it has the time until the wire is first seen and the processor time of all
-// threads until then, and how much longer that wire is than the final one. Then follow both times until all metrics are
-// prepared. The memory is of the process, above that of the arrays: at the end of the run, and at most. The first run
-// also has the memory after N seeds (20 by default), whose wires lead to vertices nearby.
+// Prints a line for each run:
+// - For each wire, the time until it is first seen, and the processor time of all threads until then. In parentheses,
+//   how much longer that wire is than the final one.
+// - Both times until all metrics are prepared.
+// - The memory of the process above that of the arrays, when all wires are final, and at most until then. The first run
+//   also has both after N seeds (20 by default), whose wires lead to vertices nearby.
 #include <Eigen/Geometry>
 #include <chrono>
 #include <cmath>
