@@ -136,15 +136,19 @@ Prepared prepare(const SurfaceContext& context, Along along, MetricSet& metrics,
     return prepared;
   }
   const auto metric = std::make_shared<const Metric>(make_own_metric());
-  events.on_metric(prepared, metric);
+  const std::shared_ptr<const Prepared> former = metrics.former(which);
+  const auto on_metric = [&] {
+    if (!former) events.on_metric(prepared, metric);  // else it is embedded at once
+  };
+  on_metric();
   events.make_way();
   const Task task{.stop = stop, .progress = [&](double done) {
-                    events.on_metric(prepared, metric);
+                    on_metric();
                     report(done);
                     return true;
                   }};
   std::optional<EmbeddedSurface> embedded;  // on_metric() gets the rest meanwhile
-  if (const std::shared_ptr<const Prepared> former = metrics.former(which)) {
+  if (former) {
     embedded = former->embedded->with_metric(metric, task);
   } else if (scribbled) {
     embedded.emplace(context, metric, options, task);
@@ -153,7 +157,7 @@ Prepared prepare(const SurfaceContext& context, Along along, MetricSet& metrics,
   }
   embedded->points();
   embedded->geodesics({.stop = stop, .progress = [&](double) {
-                         events.on_metric(prepared, metric);
+                         on_metric();
                          return true;
                        }});
   prepared.embedded = std::move(embedded);

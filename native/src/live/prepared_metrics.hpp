@@ -68,7 +68,8 @@ class MetricSet {
 struct PreparationEvents {
   /// While nobody waits for what is being made. May take its time.
   std::function<void()> make_way = [] {};
-  /// Across the surface, while a metric is embedded: with what is there so far, `embedded` excepted, and the metric.
+  /// Across the surface, while a metric is embedded from scratch: with what is there so far, `embedded` excepted, and
+  /// the metric.
   std::function<void(const Prepared&, const std::shared_ptr<const Metric>&)> on_metric = [](const auto&, const auto&) {
   };
 };
