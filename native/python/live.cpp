@@ -450,7 +450,7 @@ std::unique_ptr<FittedChain> fit_line(const LiveWireObject& object, const py::ob
 
 void bind_chains_of_edges(LiveWireClass& live_wire) {
   live_wire.def("extend_straight", &extend, py::arg("edge"), py::arg("stops") = py::tuple(),
-                R"(Continue an edge straight, from its second vertex on.
+                R"(Continue an edge straight, from its second vertex on. Only along edges.
 
 At each vertex the chain takes the edge that turns least. A chain along a boundary stays on it; other chains end there.
 A chain also ends at a vertex of `stops`, at a vertex that it has visited, and if every edge turns 60 degrees or more.
@@ -470,7 +470,7 @@ EdgeChain
 Raises
 ------
 ValueError
-    If the edge is not part of the surface.
+    If the edge is not part of the surface, or wires run across it.
 )");
   live_wire.def("edge_loop", &edge_loop_through, py::arg("edge"), py::arg("stops") = py::tuple(),
                 R"(Find the edge loop through an edge, as modelers select it: straight on, both ways.
@@ -496,7 +496,7 @@ EdgeLoop
 Raises
 ------
 ValueError
-    If the edge is not part of the surface.
+    If the edge is not part of the surface, or wires run across it.
 )");
   live_wire.def("fit_chain", &fit_line, py::arg("points"), py::arg("faces"), py::arg("begin") = py::none(),
                 py::arg("end") = py::none(), R"(Find the chain of edges that fits a line. Only along edges.

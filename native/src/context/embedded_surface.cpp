@@ -35,7 +35,13 @@ EmbeddedSurface::EmbeddedSurface(const SurfaceContext& context, const MetricSpec
     return;
   }
   const Task silent{.stop = task.stop, .progress = {}};
-  *this = EmbeddedSurface(context, std::make_shared<const Metric>(make_metric(context, spec, silent)), options, task);
+  *this =
+      EmbeddedSurface(context, spec, std::make_shared<const Metric>(make_metric(context, spec, silent)), options, task);
+}
+
+EmbeddedSurface::EmbeddedSurface(const SurfaceContext& context, const MetricSpec& spec,
+                                 std::shared_ptr<const Metric> metric, const EmbedOptions& options, const Task& task)
+    : EmbeddedSurface(context, std::move(metric), options, task) {
   data_->spec = spec;  // nobody else has it yet
   SurfaceContext::Data& known = *context.data_;
   const MutexLock lock(known.mutex);

@@ -76,7 +76,7 @@ class Front {
     status_[v] = Status::kPassed;
     ++vertices_passed_;
     for (const std::int32_t h : mesh_.out(v)) {
-      const GeodesicMesh::HalfEdge& edge = mesh_.half_edge(h);
+      const GeodesicMesh::HalfEdge edge = mesh_.half_edge(h);
       if (status_[edge.tip] == Status::kUnreached) status_[edge.tip] = Status::kOnFront;
       if (status_[edge.apex] == Status::kUnreached) status_[edge.apex] = Status::kOnFront;
     }
@@ -84,7 +84,7 @@ class Front {
 
   /// Adds a window to the list of h.
   void add_window(std::int32_t h, double b0, double b1, const Point2& from, double distance, std::int32_t source) {
-    const GeodesicMesh::HalfEdge& edge = mesh_.half_edge(h);
+    const GeodesicMesh::HalfEdge edge = mesh_.half_edge(h);
     WindowList& list = lists_[h];
     list.reserve_back(1, blocks_).set(0, b0, b1, from.x, from.y, distance, source);
     list.grew_back(1);
@@ -105,7 +105,7 @@ class Front {
     if (list_state_[h] != ListState::kWaiting) return;
     list_state_[h] = ListState::kReady;
     ready_lists_.push_back(h);
-    prefetch(&mesh_.half_edge(h));
+    mesh_.prefetch_half_edge(h);
     prefetch(&lists_[h]);
   }
   /// The list of h, from tail to tip, has got windows. It is ready to be propagated as soon as the front has passed an

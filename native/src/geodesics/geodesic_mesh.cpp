@@ -155,14 +155,6 @@ double four_areas(double a, double b, double c) {
   return std::sqrt(std::max(product, 0.0));
 }
 
-/// Where the apex stands over the base, from its tail: (left^2 + base^2 - right^2) / (2 base), with the difference
-/// taken between the two that are nearest to each other.
-double foot(double base, double left, double right) {
-  const double square = std::abs(base - right) < std::abs(left - right) ? left * left + (base - right) * (base + right)
-                                                                        : base * base + (left - right) * (left + right);
-  return square / (2 * base);
-}
-
 /// Hops have a separate unit if the longest is longer than 2 to this power, or shorter than the inverse. 2^80 times the
 /// number of vertices is still far below 2^128, where single precision ends.
 constexpr int kMostHopExponent = 80;
@@ -192,8 +184,7 @@ GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh, const Task& task) {
 
   internal_face_ = std::move(internal_face);
 
-  half_edges_.resize(3 * external_face_.size());
-  angle_.resize(3 * external_face_.size());
+  faces_.resize(external_face_.size());
   std::vector<Triangle> corners;
   corners.reserve(external_face_.size());
   const Poll poll(task, 0.3, 0.6, external_face_.size());
@@ -206,7 +197,7 @@ GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh, const Task& task) {
       prefetch(&mesh.triangles[ahead]);
     }
     set_face(mesh, external_face_[f]);
-    corners.push_back({half_edges_[3 * f].tail, half_edges_[3 * f + 1].tail, half_edges_[3 * f + 2].tail});
+    corners.push_back(faces_[f].corners);
   }
 
   set_siblings(mesh);
@@ -216,33 +207,19 @@ GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh, const Task& task) {
   find_pseudo_sources(task);
 }
 
-/// The half-edges of a face, with their angles. Numbers have to be known.
+/// Numbers have to be known.
 void GeodesicMesh::set_face(const IntrinsicMesh& mesh, std::int32_t external) {
-  const auto entered_over = [&](std::int32_t original) {
+  const auto twin_of = [&](std::int32_t original) {
     const std::int32_t twin = mesh.twins[original];
     return twin < 0 ? -1 : 3 * internal_face_[twin / 3] + twin % 3;
   };
   const double* lengths = &mesh.lengths[3 * index(external)];
-  const double areas = four_areas(lengths[0], lengths[1], lengths[2]);
   const Triangle& triangle = mesh.triangles[external];
-  const Triangle own{internal_vertex(triangle[0]), internal_vertex(triangle[1]), internal_vertex(triangle[2])};
-  const std::array entered{entered_over(3 * external), entered_over(3 * external + 1), entered_over(3 * external + 2)};
-  const std::size_t first = 3 * index(internal_face_[external]);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t after = (i + 1) % 3, before = (i + 2) % 3;
-    HalfEdge& h = half_edges_.edit(first + i);
-    h = {.length = lengths[i],
-         .apex_x = foot(lengths[i], lengths[before], lengths[after]),
-         .apex_y = areas / (2 * lengths[i]),
-         .left_length = lengths[before],
-         .right_length = lengths[after],
-         .tail = own[i],
-         .tip = own[after],
-         .apex = own[before],
-         .left = entered[before],
-         .right = entered[after]};
-    angle_.edit(first + i) = std::atan2(h.apex_y, h.apex_x);
-  }
+  faces_.edit(index(internal_face_[external])) = {
+      .lengths = {lengths[0], lengths[1], lengths[2]},
+      .four_areas = four_areas(lengths[0], lengths[1], lengths[2]),
+      .corners = {internal_vertex(triangle[0]), internal_vertex(triangle[1]), internal_vertex(triangle[2])},
+      .twins = {twin_of(3 * external), twin_of(3 * external + 1), twin_of(3 * external + 2)}};
 }
 
 void GeodesicMesh::set_siblings(const IntrinsicMesh& mesh) {
@@ -287,18 +264,18 @@ void GeodesicMesh::each_hop(std::int32_t vertex, const Add& add) const {
   std::size_t leaving = index(out_.offset(vertex));  // of `all`, half-edges looked at
   for (const std::int32_t h : out(vertex)) {
     if (++leaving + 2 * kAhead < all.size()) {
-      prefetch(&half_edge(all[leaving + 2 * kAhead]));
-      if (const std::int32_t over = half_edge(all[leaving + kAhead]).right; over >= 0) prefetch(&half_edge(over));
+      prefetch_half_edge(all[leaving + 2 * kAhead]);
+      if (const std::int32_t over = half_edge(all[leaving + kAhead]).right; over >= 0) prefetch_half_edge(over);
     }
-    const HalfEdge& edge = half_edge(h);
+    const HalfEdge edge = half_edge(h);
     add(edge.tip, edge.length);
     // On the boundary no half-edge leaves the vertex along the edge that arrives here.
     if (edge.left < 0) add(edge.apex, half_edge(previous_in_face(h)).length);
     // Over the opposite edge, from below it in the frame of the half-edge entered.
     const std::int32_t opposite = next_in_face(h);
-    const HalfEdge& back = half_edge(opposite);
+    const HalfEdge back = half_edge(opposite);
     for_each_beyond(opposite, [&](std::int32_t entered) {
-      const HalfEdge& over = half_edge(entered);
+      const HalfEdge over = half_edge(entered);
       const bool is_turned = is_mirrored(opposite, entered);
       const double x = is_turned ? back.apex_x : over.length - back.apex_x, y = -back.apex_y;
       const double dx = over.apex_x - x, dy = over.apex_y - y, foot = x * dy - dx * y;  // times dy, which is positive
@@ -313,7 +290,7 @@ void GeodesicMesh::each_hop(std::int32_t vertex, const Add& add) const {
 }
 
 void GeodesicMesh::list_hops(const IntrinsicMesh& mesh, const Task& task) {
-  hops_.reserve(vertex_count(), 2 * half_edges_.size() + loose_.items().size());
+  hops_.reserve(vertex_count(), 2 * half_edge_count() + loose_.items().size());
   hop_unit_ = unit_of_hops(mesh);
   const auto add = [&](std::int32_t to, double length) { hops_.push({to, static_cast<float>(length * hop_unit_)}); };
   const Poll poll(task, 0.7, 0.9, vertex_count());
@@ -375,7 +352,7 @@ bool GeodesicMesh::may_bend(std::int32_t vertex) const {
   bool bends = !loose(vertex).empty();
   double angle = 0.0;
   for (const std::int32_t h : leaving) {
-    angle += angle_[index(h)];
+    angle += this->angle(h);
     bends = bends || twin(h) < 0 || half_edge(h).left < 0;
   }
   if (!bends && !leaving.empty()) {
@@ -479,8 +456,7 @@ std::optional<GeodesicMesh> GeodesicMesh::patched(const IntrinsicMesh& before, c
   for (const std::int32_t f : faces.numbers()) check_corners(mesh, index(f));
 
   GeodesicMesh out;  // rows of half-edges and hops are copied when they are patched
-  out.half_edges_ = half_edges_;
-  out.angle_ = angle_;
+  out.faces_ = faces_;
   out.is_pseudo_source_ = is_pseudo_source_;
   out.external_vertex_ = external_vertex_;
   out.internal_vertex_ = internal_vertex_;
@@ -512,8 +488,7 @@ std::optional<GeodesicMesh> GeodesicMesh::patched(const IntrinsicMesh& before, c
   }
   for (const std::int32_t f : faces.numbers()) check_triangle_inequality(mesh, index(f));
 
-  out.half_edges_.resize(3 * count);
-  out.angle_.resize(3 * count);
+  out.faces_.resize(count);
   InsertionMap around;  // internal numbers of the vertices of all these faces
   for (const std::int32_t f : faces.numbers()) {
     out.set_face(mesh, f);
@@ -544,7 +519,7 @@ std::optional<GeodesicMesh> GeodesicMesh::patched(const IntrinsicMesh& before, c
 void GeodesicMesh::patch_rows(const GeodesicMesh& former, const std::vector<std::int32_t>& faces,
                               const std::vector<std::int32_t>& vertices) {
   std::vector<std::pair<std::int32_t, std::int32_t>> leaving;  // vertex, half-edge
-  std::vector<bool> is_new(half_edges_.size() / 3, false);
+  std::vector<bool> is_new(faces_.size(), false);
   for (const std::int32_t face : faces) {
     const std::int32_t own = internal_face_[face];
     is_new[own] = true;
@@ -553,7 +528,7 @@ void GeodesicMesh::patch_rows(const GeodesicMesh& former, const std::vector<std:
   for (const std::int32_t v : vertices) {
     if (index(v) >= former.vertex_count()) continue;
     for (const std::int32_t h : former.out(v)) {
-      if (index(h) < half_edges_.size() && !is_new[h / 3]) leaving.emplace_back(v, h);
+      if (index(h) < half_edge_count() && !is_new[h / 3]) leaving.emplace_back(v, h);
     }
   }
   std::ranges::sort(leaving);

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "detail/always_inline.hpp"
 #include "detail/csr.hpp"
 #include "detail/half_edge.hpp"
 #include "detail/paged_array.hpp"
@@ -16,16 +19,16 @@
 
 namespace seamwire::detail {
 
-/// The mesh as the wavefront reads it: every triangle unfolded into the frame of each of its half-edges, in one cache
-/// line each. Vertices and faces are renumbered breadth first, so that a front touches memory that lies together: they
-/// have an internal number here, and an external one in the IntrinsicMesh. All numbers are internal unless a comment
-/// says otherwise.
+/// The mesh as the wavefront reads it: a triangle is one cache line, from which it is unfolded into the frame of each
+/// of its half-edges. Vertices and faces are renumbered breadth first, so that a front touches memory that lies
+/// together: they have an internal number here, and an external one in the IntrinsicMesh. All numbers are internal
+/// unless a comment says otherwise.
 ///
 /// The frame of a half-edge has its tail at the origin, its tip at (length, 0), its own triangle above and the triangle
 /// that paths come from below.
 class GeodesicMesh {
  public:
-  struct alignas(64) HalfEdge {
+  struct HalfEdge {
     double length;
     double apex_x, apex_y;
     double left_length, right_length;  ///< of tail-apex and of tip-apex
@@ -33,7 +36,6 @@ class GeodesicMesh {
     /// The half-edge a path enters next over tail-apex, over tip-apex; -1 on the boundary and where it has siblings.
     std::int32_t left, right;
   };
-  static_assert(sizeof(HalfEdge) == 64);
 
   struct Loose {
     std::int32_t to;
@@ -60,10 +62,12 @@ class GeodesicMesh {
                                       const Task& task = {}) const;
 
   std::size_t vertex_count() const { return external_vertex_.size(); }
-  const HalfEdge& half_edge(std::int32_t h) const { return half_edges_[index(h)]; }
-  std::size_t half_edge_count() const { return half_edges_.size(); }
+  HalfEdge half_edge(std::int32_t h) const;
+  /// Asks memory for a half-edge in advance.
+  void prefetch_half_edge(std::int32_t h) const { prefetch(&faces_[index(h / 3)]); }
+  std::size_t half_edge_count() const { return 3 * faces_.size(); }
   /// The twin of h, -1 if it has none.
-  std::int32_t twin(std::int32_t h) const { return half_edge(previous_in_face(h)).right; }
+  std::int32_t twin(std::int32_t h) const { return faces_[index(h / 3)].twins[index(h % 3)]; }
   /// The next half-edge of h's edge among siblings (IntrinsicMesh::siblings), -1 if h has none.
   std::int32_t sibling(std::int32_t h) const { return siblings_.empty() ? -1 : siblings_[index(h)]; }
   bool has_siblings() const { return !siblings_.empty(); }
@@ -86,7 +90,10 @@ class GeodesicMesh {
   }
 
   /// The angle at the tail of h in its triangle.
-  double angle(std::int32_t h) const { return angle_[index(h)]; }
+  double angle(std::int32_t h) const {
+    const HalfEdge edge = half_edge(h);
+    return std::atan2(edge.apex_y, edge.apex_x);
+  }
 
   /// Half-edges that leave a vertex, of all its umbrellas.
   std::span<const std::int32_t> out(std::int32_t vertex) const { return out_[vertex]; }
@@ -96,7 +103,7 @@ class GeodesicMesh {
   template <class See>
   void for_each_edge(std::int32_t vertex, const See& see) const {
     for (const std::int32_t h : out(vertex)) {
-      const HalfEdge& edge = half_edge(h);
+      const HalfEdge edge = half_edge(h);
       see(edge.tip, h, edge.length);
       if (edge.left < 0) see(edge.apex, previous_in_face(h), edge.left_length);  // else that of the corner beside
     }
@@ -118,12 +125,19 @@ class GeodesicMesh {
   std::int32_t internal_face(std::int32_t external) const { return internal_face_[external]; }
   std::int32_t external_half_edge(std::int32_t h) const { return 3 * external_face_[h / 3] + h % 3; }
   /// Whether a half-edge is in the memory of another mesh, which this one was patched from, or it from this one.
-  bool shares(const GeodesicMesh& other, std::int32_t h) const {
-    return half_edges_.shares(other.half_edges_, index(h));
-  }
+  bool shares(const GeodesicMesh& other, std::int32_t h) const { return faces_.shares(other.faces_, index(h / 3)); }
 
  private:
   friend class SubmeshCutter;
+  /// A triangle. Item i belongs to its half-edge i, or to that one's tail. The frames are not kept: the memory that
+  /// they take costs more than the divisions.
+  struct alignas(64) Face {
+    std::array<double, 3> lengths;
+    double four_areas;
+    std::array<std::int32_t, 3> corners, twins;
+  };
+  static_assert(sizeof(Face) == 64);
+
   GeodesicMesh() = default;
   void renumber(const IntrinsicMesh& mesh, std::vector<std::int32_t>& internal_face, const Task& task);
   static Csr<std::int32_t> leaving(std::size_t vertex_count, const std::vector<Triangle>& corners,
@@ -143,8 +157,7 @@ class GeodesicMesh {
 
   static constexpr std::uint8_t kPseudoSource = 1, kBranching = 2;
 
-  PagedArray<HalfEdge> half_edges_;
-  PagedArray<double> angle_;
+  PagedArray<Face> faces_;
   Csr<std::int32_t> out_;
   Csr<Loose> loose_;
   Csr<Hop> hops_;
@@ -154,5 +167,31 @@ class GeodesicMesh {
   std::vector<std::int32_t> siblings_;          ///< empty without any
   std::vector<std::int32_t> external_vertex_, internal_vertex_, external_face_, internal_face_;
 };
+
+// Inline, so that callers compute only what they read.
+
+/// Where the apex stands over the base, from its tail: (left^2 + base^2 - right^2) / (2 base), with the difference
+/// taken between the two that are nearest to each other.
+SEAMWIRE_INLINE double foot(double base, double left, double right) {
+  const double square = std::abs(base - right) < std::abs(left - right) ? left * left + (base - right) * (base + right)
+                                                                        : base * base + (left - right) * (left + right);
+  return square / (2 * base);
+}
+
+SEAMWIRE_INLINE GeodesicMesh::HalfEdge GeodesicMesh::half_edge(std::int32_t h) const {
+  const Face& face = faces_[index(h / 3)];
+  const std::size_t i = index(h % 3), after = i == 2 ? 0 : i + 1, before = i == 0 ? 2 : i - 1;
+  const double length = face.lengths[i], left = face.lengths[before], right = face.lengths[after];
+  return {.length = length,
+          .apex_x = foot(length, left, right),
+          .apex_y = face.four_areas / (2 * length),
+          .left_length = left,
+          .right_length = right,
+          .tail = face.corners[i],
+          .tip = face.corners[after],
+          .apex = face.corners[before],
+          .left = face.twins[before],
+          .right = face.twins[after]};
+}
 
 }  // namespace seamwire::detail

@@ -128,7 +128,7 @@ class Tracer {
   /// Whether the source at `place` in the frame of h is a point of that half-edge's face, and not another one's image.
   bool is_in_face(std::int32_t source, std::int32_t h, const Point2& place) const {
     if (!is_point(source)) return false;
-    const HalfEdge& edge = mesh_.half_edge(h);
+    const HalfEdge edge = mesh_.half_edge(h);
     return std::ranges::any_of(point(source).faces, [&](const PlacedPoint::InFace& in) {
       return in.face == h / 3 &&
              distance(position(mesh_, h, in.weights), place) <= kSameVertex * std::max(edge.length, edge.left_length);
@@ -183,7 +183,7 @@ class Tracer {
   /// From `vertex` straight towards its source. Returns the vertex to go on from: the source, or one on the way; where
   /// the line leads nowhere the best one beside it that was remembered, or -1.
   std::int32_t follow_line(std::int32_t vertex, const TraceRecord& record, Beside beside) {
-    const HalfEdge& first = mesh_.half_edge(record.half_edge);
+    const HalfEdge first = mesh_.half_edge(record.half_edge);
     Point2 from{first.apex_x, first.apex_y}, source{record.x, record.y};
     best_ = {};
     for (const std::int32_t side : {0, 1}) {
@@ -210,9 +210,9 @@ class Tracer {
     std::size_t crossings_left = 16 * mesh_.half_edge_count();
     while (h >= 0 && (source.y > 0 || is_in_face(begin, h, source)) && crossings_left-- > 0) {
       look_at_task();
-      const HalfEdge& edge = mesh_.half_edge(h);
-      if (edge.left >= 0) prefetch(&mesh_.half_edge(edge.left));
-      if (edge.right >= 0) prefetch(&mesh_.half_edge(edge.right));
+      const HalfEdge edge = mesh_.half_edge(h);
+      if (edge.left >= 0) mesh_.prefetch_half_edge(edge.left);
+      if (edge.right >= 0) mesh_.prefetch_half_edge(edge.right);
       const double x = crossing(edge, from, source);
       add_crossing(h, x, behind, distance(here, {x, 0.0}));
       here = {x, 0.0};

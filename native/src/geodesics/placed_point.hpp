@@ -36,7 +36,7 @@ inline Point2 to_right(const GeodesicMesh::HalfEdge& h, const Point2& p) {
 
 /// Barycentric coordinates in the frame of a half-edge of their face; also differences of such coordinates.
 inline Point2 position(const GeodesicMesh& mesh, std::int32_t h, const std::array<double, 3>& weights) {
-  const GeodesicMesh::HalfEdge& edge = mesh.half_edge(h);
+  const GeodesicMesh::HalfEdge edge = mesh.half_edge(h);
   const double tip = weights[next_in_face(h) % 3], apex = weights[previous_in_face(h) % 3];
   return {tip * edge.length + apex * edge.apex_x, apex * edge.apex_y};
 }
@@ -81,7 +81,7 @@ struct PlacedPoint {
     for (const InFace& in : faces) {
       const std::array<double, 3>& weights = in.weights;
       for (std::int32_t h = 3 * in.face; h < 3 * in.face + 3; ++h) {
-        const GeodesicMesh::HalfEdge& edge = mesh.half_edge(h);
+        const GeodesicMesh::HalfEdge edge = mesh.half_edge(h);
         const double apex = weights[previous_in_face(h) % 3], y = apex * edge.apex_y;
         if (!(y > 0)) continue;
         mesh.for_each_beyond(h, [&](std::int32_t entered) {

@@ -77,7 +77,7 @@ class PointSearch {
   StraightStart run() {
     look_within_faces();
     point_.for_each_exit(mesh_, [&](std::int32_t h, const Point2& p, std::int32_t left) {
-      const HalfEdge& edge = mesh_.half_edge(h);
+      const HalfEdge edge = mesh_.half_edge(h);
       add({.half_edge = h,
            .parent = -1,
            .left_over = left,
@@ -136,7 +136,7 @@ class PointSearch {
 
   /// No path through the beam to a source is shorter.
   double lower_bound(const Beam& beam) const {
-    const HalfEdge& edge = mesh_.half_edge(beam.half_edge);
+    const HalfEdge edge = mesh_.half_edge(beam.half_edge);
     // Where the path meets the base, x from its tail, |px| is behind it, and no less than d(tail) - x and
     // d(tip) - (length - x) ahead of it. The sum with the larger of the two falls up to where they are equal, and then
     // rises.
@@ -170,7 +170,7 @@ class PointSearch {
   void follow(std::int32_t number) {
     if (++work_ % kWorkBetweenChecks == 0) task_.check(0.0);
     const Beam beam = beams_[number];
-    const HalfEdge& edge = mesh_.half_edge(beam.half_edge);
+    const HalfEdge edge = mesh_.half_edge(beam.half_edge);
     for (const SourcePoints::InFace& source : solved_.sources.in_face(beam.half_edge / 3)) {
       const Point2 at = position(mesh_, beam.half_edge, source.weights);
       const double through = meets_base(beam.point, at);
@@ -246,7 +246,7 @@ class PointSearch {
       if (beam.parent < 0) break;
       if (mesh_.is_mirrored(beam.left_over, beam.half_edge)) end.x = length - end.x;
       const std::int32_t entered = beams_[beam.parent].half_edge;
-      const HalfEdge& before = mesh_.half_edge(entered);
+      const HalfEdge before = mesh_.half_edge(entered);
       end = beam.left_over == previous_in_face(entered) ? from_left(before, end) : from_right(before, end);
     }
     path.faces.push_back(last / 3);

@@ -37,41 +37,39 @@ void SubmeshCutter::number(std::span<const std::int32_t> vertices) {
 Submesh SubmeshCutter::cut(std::span<const std::int32_t> vertices) {
   number(vertices);
   const std::shared_ptr<GeodesicMesh> part(new GeodesicMesh);
-  const auto entered = [&](std::int32_t h) {
+  const auto own_half_edge = [&](std::int32_t h) {
     if (h < 0) return -1;
     const std::int32_t face = part_face_[h / 3] - 1;
     return face < 0 ? -1 : 3 * face + h % 3;
   };
-  part->half_edges_.resize(3 * used_faces_.size());
-  part->angle_.resize(3 * used_faces_.size());
+  part->faces_.resize(used_faces_.size());
   part->is_pseudo_source_.resize(used_vertices_.size());
   for (std::size_t v = 0; v < used_vertices_.size(); ++v) {
     part->is_pseudo_source_[v] = mesh_.is_pseudo_source_[used_vertices_[v]];
   }
-  if (mesh_.has_siblings()) part->siblings_.assign(part->half_edges_.size(), -1);
+  if (mesh_.has_siblings()) part->siblings_.assign(part->half_edge_count(), -1);
   std::vector<Triangle> corners;
   corners.reserve(used_faces_.size());
-  for (std::size_t own = 0; const std::int32_t face : used_faces_) {
-    Triangle& triangle = corners.emplace_back();
-    for (const std::int32_t h : {3 * face, 3 * face + 1, 3 * face + 2}) {
-      GeodesicMesh::HalfEdge edge = mesh_.half_edge(h);
-      edge.tail = part_vertex(edge.tail);
-      edge.tip = part_vertex(edge.tip);
-      edge.apex = part_vertex(edge.apex);
-      edge.left = entered(edge.left);
-      edge.right = entered(edge.right);
-      if (edge.left < 0) {
-        for (const std::int32_t v : {edge.tail, edge.apex}) part->is_pseudo_source_[v] |= GeodesicMesh::kPseudoSource;
+  for (std::size_t own = 0; own < used_faces_.size(); ++own) {
+    const std::int32_t face = used_faces_[own];
+    GeodesicMesh::Face copy = mesh_.faces_[index(face)];
+    for (std::int32_t& v : copy.corners) v = part_vertex(v);
+    for (std::size_t i = 0; i < 3; ++i) {
+      copy.twins[i] = own_half_edge(copy.twins[i]);
+      if (copy.twins[i] < 0) {
+        for (const std::int32_t v : {copy.corners[i], copy.corners[(i + 1) % 3]}) {
+          part->is_pseudo_source_[v] |= GeodesicMesh::kPseudoSource;
+        }
       }
+      const std::int32_t h = 3 * face + static_cast<std::int32_t>(i);
       if (mesh_.sibling(h) >= 0) {  // the next one of those that are inside
         std::int32_t other = mesh_.sibling(h);
-        while (entered(other) < 0) other = mesh_.sibling(other);
-        if (other != h) part->siblings_[own] = entered(other);
+        while (own_half_edge(other) < 0) other = mesh_.sibling(other);
+        if (other != h) part->siblings_[3 * own + i] = own_half_edge(other);
       }
-      triangle[index(h % 3)] = edge.tail;
-      part->half_edges_.edit(own) = edge;
-      part->angle_.edit(own++) = mesh_.angle(h);
     }
+    corners.push_back(copy.corners);
+    part->faces_.edit(own) = copy;
   }
   part->external_vertex_.resize(used_vertices_.size());
   std::iota(part->external_vertex_.begin(), part->external_vertex_.end(), 0);

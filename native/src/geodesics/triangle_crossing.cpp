@@ -143,7 +143,7 @@ void TriangleCrossing::hand_on_to_siblings(const Windows& from, const ChildWindo
 }
 
 void TriangleCrossing::propagate(std::int32_t h) {
-  const HalfEdge& edge = mesh_.half_edge(h);
+  const HalfEdge edge = mesh_.half_edge(h);
   const WindowList list = front_.take(h);
   if (edge.left >= 0) prefetch(&front_.list(edge.left));
   if (edge.right >= 0) prefetch(&front_.list(edge.right));

@@ -68,7 +68,7 @@ class Wavefront {
       const auto next = front_.queue().empty() ? std::span<const std::int32_t>() : mesh_.out(front_.queue().least());
       prefetch(next.data());
       expand_vertex(v);
-      for (const std::int32_t h : next) prefetch(&mesh_.half_edge(h));
+      for (const std::int32_t h : next) mesh_.prefetch_half_edge(h);
       propagate_ready_lists();
     }
     if (may_stop) forget_beyond(std::min(front_.result().radius, end_.max_distance));
@@ -85,7 +85,7 @@ class Wavefront {
       is_any = false;
       for (std::size_t h = 0; h < mesh_.half_edge_count(); ++h) {
         front_.check_task(1);
-        const HalfEdge& edge = mesh_.half_edge(static_cast<std::int32_t>(h));
+        const HalfEdge edge = mesh_.half_edge(static_cast<std::int32_t>(h));
         const double tail = front_.distance(edge.tail), tip = front_.distance(edge.tip);
         const bool is_tip_late = (tail + edge.length) * kLate < tip, is_tail_late = (tip + edge.length) * kLate < tail;
         if (!is_tip_late && !is_tail_late) [[likely]]

@@ -35,8 +35,9 @@ void WindowEmission::emit(std::int32_t v) {
   if (corners == mesh_.out(v).size()) return;
   // All of the umbrellas that the path did not arrive in can be seen from v.
   for (const std::int32_t h : mesh_.out(v)) {
-    if (corners == 0 || std::find(umbrella_.begin(), umbrella_.end(), h) == umbrella_.end()) {
-      emit_window(v, h, 0.0, mesh_.angle(h));
+    if (corners == 0 || std::ranges::find(umbrella_, h, &Corner::half_edge) == umbrella_.end()) {
+      const double whole = mesh_.angle(h);
+      emit_window(v, h, whole, 0.0, whole);
     }
   }
 }
@@ -47,7 +48,7 @@ std::pair<std::int32_t, double> WindowEmission::arrival_at(std::int32_t v) const
   const TraceRecord& record = front_.record(v);
   if (is_next_to_source(v, record)) return {-1, 0.0};
   if (record.half_edge >= 0) {
-    const HalfEdge& edge = mesh_.half_edge(record.half_edge);
+    const HalfEdge edge = mesh_.half_edge(record.half_edge);
     const double x = record.x - edge.apex_x, y = record.y - edge.apex_y;
     const double turn = std::atan2(edge.apex_y * x - edge.apex_x * y, -edge.apex_x * x - edge.apex_y * y);
     const std::int32_t corner = previous_in_face(record.half_edge);
@@ -55,7 +56,7 @@ std::pair<std::int32_t, double> WindowEmission::arrival_at(std::int32_t v) const
   }
   if (record.half_edge == TraceRecord::kNone || record.half_edge == TraceRecord::kLooseEdge) return {-1, 0.0};
   const std::int32_t along = ~record.half_edge;
-  const HalfEdge& edge = mesh_.half_edge(along);
+  const HalfEdge edge = mesh_.half_edge(along);
   if (edge.tail == edge.tip) return {-1, 0.0};
   if (edge.tail == v) return {along, 0.0};
   return {next_in_face(along), mesh_.angle(next_in_face(along))};
@@ -66,12 +67,13 @@ std::pair<std::int32_t, double> WindowEmission::arrival_at(std::int32_t v) const
 void WindowEmission::emit_shadow_windows_branching(std::int32_t v, std::int32_t arrival, double angle) {
   for (const CornerAngles& corner : angles_around(mesh_, v, arrival, angle)) {
     const std::int32_t h = corner.half_edge;
-    const double begin = kShadow - corner.at_right, end = mesh_.angle(h) - (kShadow - corner.at_left);
+    const double whole = mesh_.angle(h);
+    const double begin = kShadow - corner.at_right, end = whole - (kShadow - corner.at_left);
     if (h != arrival) {
-      emit_window(v, h, begin, end);
+      emit_window(v, h, whole, begin, end);
     } else {  // within the corner itself, on either side of the path
-      emit_window(v, h, begin, std::min(end, angle - kShadow));
-      emit_window(v, h, std::max(begin, angle + kShadow), end);
+      emit_window(v, h, whole, begin, std::min(end, angle - kShadow));
+      emit_window(v, h, whole, std::max(begin, angle + kShadow), end);
     }
   }
 }
@@ -83,34 +85,34 @@ std::size_t WindowEmission::emit_shadow_windows(std::int32_t v, std::int32_t arr
   double turned = -angle;
   std::int32_t h = arrival;
   do {
-    umbrella_.push_back(h);
-    turned += mesh_.angle(h);
+    umbrella_.push_back({h, mesh_.angle(h)});
+    turned += umbrella_.back().angle;
     h = mesh_.half_edge(h).left;
   } while (h >= 0 && h != arrival);
   const double shadow_end = h == arrival ? turned + angle - kShadow : std::numeric_limits<double>::infinity();
   turned = -angle;
-  for (const std::int32_t corner : umbrella_) {
-    emit_window(v, corner, kShadow - turned, shadow_end - turned);
-    turned += mesh_.angle(corner);
+  for (const auto& [corner, whole] : umbrella_) {
+    emit_window(v, corner, whole, kShadow - turned, shadow_end - turned);
+    turned += whole;
   }
   if (h == arrival) return umbrella_.size();
   // An open umbrella: the other way round to its other end.
   turned = angle;
   for (h = mesh_.twin(arrival); h >= 0; h = mesh_.twin(h)) {
     h = next_in_face(h);
-    umbrella_.push_back(h);
     const double whole = mesh_.angle(h);
-    emit_window(v, h, -1.0, whole - (kShadow - turned));
+    umbrella_.push_back({h, whole});
+    emit_window(v, h, whole, -1.0, whole - (kShadow - turned));
     turned += whole;
   }
   return umbrella_.size();
 }
 
-/// Emits a window from v over the corner between h and the edge on its left, for the directions from `begin` to
-/// `end`, as angles from h.
-void WindowEmission::emit_window(std::int32_t v, std::int32_t h, double begin, double end) {
-  if (!(begin < end) || end <= 0 || begin >= mesh_.angle(h)) return;
-  const HalfEdge& edge = mesh_.half_edge(h);
+/// Emits a window from v over the corner between h and the edge on its left, whose angle is `whole`, for the directions
+/// from `begin` to `end`, as angles from h.
+void WindowEmission::emit_window(std::int32_t v, std::int32_t h, double whole, double begin, double end) {
+  if (!(begin < end) || end <= 0 || begin >= whole) return;
+  const HalfEdge edge = mesh_.half_edge(h);
   const std::int32_t opposite = next_in_face(h);
   if (edge.right < 0 && mesh_.sibling(opposite) < 0) return;
   const double cosine = (edge.length - edge.apex_x) / edge.right_length;
@@ -124,7 +126,7 @@ void WindowEmission::emit_window(std::int32_t v, std::int32_t h, double begin, d
     const double rx = dx * cosine + dy * sine, ry = dy * cosine - dx * sine;
     return ry > 0 ? std::clamp(x - y * rx / ry, 0.0, length) : rx < 0 ? 0.0 : length;
   };
-  const double b0 = end < mesh_.angle(h) ? meets(end) : 0.0;
+  const double b0 = end < whole ? meets(end) : 0.0;
   const double b1 = begin > 0 ? meets(begin) : length;
   if (!(b1 - b0 > kLeastWidth * length)) return;
   if (edge.right >= 0) {

@@ -30,12 +30,16 @@ class WindowEmission {
   std::pair<std::int32_t, double> arrival_at(std::int32_t v) const;
   void emit_shadow_windows_branching(std::int32_t v, std::int32_t arrival, double angle);
   std::size_t emit_shadow_windows(std::int32_t v, std::int32_t arrival, double angle);
-  void emit_window(std::int32_t v, std::int32_t h, double begin, double end);
+  void emit_window(std::int32_t v, std::int32_t h, double whole, double begin, double end);
 
   Front& front_;
   const GeodesicMesh& mesh_;
   const SourcePoints& sources_;
-  std::vector<std::int32_t> umbrella_;
+  struct Corner {
+    std::int32_t half_edge;
+    double angle;
+  };
+  std::vector<Corner> umbrella_;
 };
 
 }  // namespace seamwire::detail

@@ -104,6 +104,10 @@ void choose_active(LiveWires& found, const std::vector<double>& first_lengths, c
   found.active = static_cast<int>(*std::ranges::min_element(first, {}, length));
 }
 
+void check_along_edges(const LiveSettings& settings, const std::string& what) {
+  if (settings.along != Along::kEdges) throw InvalidInput(what + " along edges, not across the surface");
+}
+
 LiveSettings settings_of(const LiveWireOptions& options) {
   return {.along = options.along,
           .turning = options.turning,
@@ -337,6 +341,7 @@ LiveClosedWires LiveWire::bent_wire(const SurfacePoint& through, const SurfacePo
 
 EdgeChain LiveWire::extend_straight(const Edge& edge, std::span<const std::int32_t> stops) const {
   const std::shared_ptr<const Surface> surface = impl_->context.peek_surface();
+  check_along_edges(impl_->settings, "chains are extended");
   check_edge(surface.get(), edge);
   const auto adjacency = surface ? impl_->context.peek_edge_adjacency() : nullptr;
   if (!adjacency) return {};
@@ -350,6 +355,7 @@ EdgeChain LiveWire::extend_straight(const Edge& edge, std::span<const std::int32
 
 EdgeLoop LiveWire::edge_loop(const Edge& edge, std::span<const std::int32_t> stops) const {
   const std::shared_ptr<const Surface> surface = impl_->context.peek_surface();
+  check_along_edges(impl_->settings, "edge loops are found");
   check_edge(surface.get(), edge);
   const auto adjacency = surface ? impl_->context.peek_edge_adjacency() : nullptr;
   return adjacency ? seamwire::edge_loop(*adjacency, edge, stops) : EdgeLoop{};
@@ -357,8 +363,7 @@ EdgeLoop LiveWire::edge_loop(const Edge& edge, std::span<const std::int32_t> sto
 
 FittedChain LiveWire::fit_chain(const DrawnLine& line, std::optional<std::int32_t> begin,
                                 std::optional<std::int32_t> end) const {
-  if (impl_->settings.along != Along::kEdges)
-    throw InvalidInput("lines are fitted along edges, not across the surface");
+  check_along_edges(impl_->settings, "lines are fitted");
   const std::shared_ptr<const Surface> surface = impl_->context.peek_surface();
   const auto adjacency = surface ? impl_->context.peek_edge_adjacency() : nullptr;
   return adjacency ? seamwire::fit_chain(*surface, *adjacency, line, begin, end) : FittedChain{};

@@ -89,7 +89,7 @@ void MetricSet::forget_former(std::size_t metric) {
 }
 
 Prepared prepare(const SurfaceContext& context, Along along, MetricSet& metrics, std::size_t which,
-                 const std::stop_token& stop, const std::function<void()>& make_way) {
+                 const std::stop_token& stop, const PreparationEvents& events) {
   const MetricSpec& spec = metrics.metrics.wires[which];
   const bool on_surface = along == Along::kSurface;
   const Task silent{.stop = stop, .progress = {}};
@@ -99,13 +99,15 @@ Prepared prepare(const SurfaceContext& context, Along along, MetricSet& metrics,
       .spec = spec, .surface = surface, .embedded = std::nullopt, .snap_graph = nullptr, .graph = nullptr};
   std::shared_ptr<const EdgeAdjacency> adjacency;
   const auto prepare_edges = [&] {
-    if (on_surface) prepared.snap_graph = context.snap_graph(silent);
-    adjacency = context.edge_adjacency(silent);
+    if (on_surface) {
+      prepared.snap_graph = context.snap_graph(silent);
+    } else {
+      adjacency = context.edge_adjacency(silent);
+    }
   };
   if (which == 1) prepare_edges();  // while the other thread is at the curvatures
   context.curvature(silent);
   if (which != 1) prepare_edges();
-  make_way();
   const bool scribbled = is_scribbled(*surface, metrics.scribbles, spec.kind());
   const EmbedOptions options = interactive_options(*surface);
   if (on_surface && !scribbled) prepared.embedded = EmbeddedSurface::find(context, spec, options);
@@ -115,30 +117,50 @@ Prepared prepare(const SurfaceContext& context, Along along, MetricSet& metrics,
     fraction = 1.0;
     return prepared;
   }
-  const Task task{.stop = stop, .progress = [&](double done) {
-                    make_way();
-                    fraction = (kEmbedBegins + (kSolveBegins - kEmbedBegins) * done) / kSolveBegins;
-                    return true;
-                  }};
-  const auto scribbled_metric = [&] {
+  const auto make_own_metric = [&] {
     Metric metric = make_metric(context, spec, silent);
     return scribbled ? apply_scribbles(*surface, metric, metrics.scribbles, spec.kind(), silent) : metric;
   };
-  const std::shared_ptr<const Prepared> former = metrics.former(which);
+  const std::function<void(double)> report = [&](double done) {
+    events.make_way();
+    fraction = (kEmbedBegins + (kSolveBegins - kEmbedBegins) * done) / kSolveBegins;
+  };
   if (!on_surface) {
+    events.make_way();
+    const Task task{.stop = stop, .progress = [&](double done) {
+                      report(done);
+                      return true;
+                    }};
     prepared.graph =
-        make_edge_graph(*surface, scribbled_metric(), std::move(adjacency), metrics.scribbles, spec.kind(), task);
-  } else if (former) {
-    prepared.embedded = former->embedded->with_metric(std::make_shared<const Metric>(scribbled_metric()), task);
+        make_edge_graph(*surface, make_own_metric(), std::move(adjacency), metrics.scribbles, spec.kind(), task);
+    return prepared;
+  }
+  const auto metric = std::make_shared<const Metric>(make_own_metric());
+  const std::shared_ptr<const Prepared> former = metrics.former(which);
+  const auto on_metric = [&] {
+    if (!former) events.on_metric(prepared, metric);  // else it is embedded at once
+  };
+  on_metric();
+  events.make_way();
+  const Task task{.stop = stop, .progress = [&](double done) {
+                    on_metric();
+                    report(done);
+                    return true;
+                  }};
+  std::optional<EmbeddedSurface> embedded;  // on_metric() gets the rest meanwhile
+  if (former) {
+    embedded = former->embedded->with_metric(metric, task);
   } else if (scribbled) {
-    prepared.embedded.emplace(context, std::make_shared<const Metric>(scribbled_metric()), options, task);
+    embedded.emplace(context, metric, options, task);
   } else {
-    prepared.embedded.emplace(context, spec, options, task);
+    embedded.emplace(context, spec, metric, options, task);
   }
-  if (on_surface) {
-    prepared.embedded->points();
-    prepared.embedded->geodesics(silent);
-  }
+  embedded->points();
+  embedded->geodesics({.stop = stop, .progress = [&](double) {
+                         on_metric();
+                         return true;
+                       }});
+  prepared.embedded = std::move(embedded);
   return prepared;
 }
 

@@ -64,11 +64,19 @@ class MetricSet {
   std::vector<std::shared_ptr<const Prepared>> former_ SEAMWIRE_GUARDED_BY(mutex_);
 };
 
+/// What prepare() calls now and then.
+struct PreparationEvents {
+  /// While nobody waits for what is being made. May take its time.
+  std::function<void()> make_way = [] {};
+  /// Across the surface, while a metric is embedded from scratch: with what is there so far, `embedded` excepted, and
+  /// the metric.
+  std::function<void(const Prepared&, const std::shared_ptr<const Metric>&)> on_metric = [](const auto&, const auto&) {
+  };
+};
+
 /// Makes what one of the metrics needs; throws Cancelled where `stop` tells it to. The metric's fractions of
-/// progress are told to `metrics`. `make_way` is called now and then while nobody waits for what is being made, and may
-/// take its time.
-Prepared prepare(
-    const SurfaceContext& context, Along along, MetricSet& metrics, std::size_t which, const std::stop_token& stop,
-    const std::function<void()>& make_way = [] {});
+/// progress are told to `metrics`.
+Prepared prepare(const SurfaceContext& context, Along along, MetricSet& metrics, std::size_t which,
+                 const std::stop_token& stop, const PreparationEvents& events = {});
 
 }  // namespace seamwire::detail

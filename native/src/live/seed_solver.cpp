@@ -7,10 +7,16 @@
 #include <utility>
 
 #include "surface/real_edges.hpp"
+#include "wires/nearby_wires.hpp"
 #include "wires/refined_wire.hpp"
 
 namespace seamwire::detail {
 namespace {
+
+/// On smaller surfaces the first wire is hardly earlier if it is found around the seed.
+constexpr std::size_t kLeastFacesForNearby = 200'000;
+/// And no more than one in so many faces is embedded for it.
+constexpr std::size_t kFacesPerNearby = 5;
 
 bool is_missing_edge(const Surface& surface, const WireEnd& end) {
   const auto* pick = std::get_if<Pick>(&end);
@@ -25,6 +31,12 @@ bool has_to_make_way(std::size_t metric) {
 }
 
 }  // namespace
+
+/// The last preview that was made before the surface was embedded.
+struct SeedSolver::Nearby {
+  std::int64_t seed = -1, target = -1;  ///< the numbers of their requests
+  std::optional<NearbyWires> wires;     ///< from that seed
+};
 
 SeedSolver::SeedSolver(std::size_t metric, const SurfaceContext& context, const LiveSettings& settings,
                        std::shared_ptr<RightOfWay> right_of_way, TargetBox& targets)
@@ -51,7 +63,13 @@ std::shared_ptr<const SeedSolution> SeedSolver::solve(const SeedBox::Job& job,
   const std::stop_token preparing = job.request->preparing.get_token();
   const std::shared_ptr<const Prepared> prepared =
       metrics.prepared[metric_]->get({.stop = preparing, .progress = {}}, [&](const Task&) {
-        return prepare(context_, settings_.along, metrics, metric_, preparing, [&] { make_way(preparing); });
+        Nearby nearby;
+        return prepare(context_, settings_.along, metrics, metric_, preparing,
+                       {.make_way = [&] { make_way(preparing); },
+                        .on_metric =
+                            [&](const Prepared& so_far, const std::shared_ptr<const Metric>& metric) {
+                              make_nearby_preview(seeds, so_far, metric, preparing, nearby);
+                            }});
       });
   metrics.forget_former(metric_);
   if (former && former->field && former->prepared == prepared) return former;  // only the other metrics have changed
@@ -67,6 +85,31 @@ std::shared_ptr<const SeedSolution> SeedSolver::solve(const SeedBox::Job& job,
 
 void SeedSolver::make_way(const std::stop_token& stop) {
   if (makes_way_) right_of_way_->wait(stop);
+}
+
+/// Finds the wire from the newest seed to the newest target around the seed.
+void SeedSolver::make_nearby_preview(const SeedBox& seeds, const Prepared& prepared,
+                                     const std::shared_ptr<const Metric>& metric, const std::stop_token& stop,
+                                     Nearby& nearby) {
+  const std::size_t faces = prepared.surface->face_count();
+  if (faces < kLeastFacesForNearby) return;
+  const std::int64_t seed_number = seeds.number(), target_number = targets_.number();
+  if (seed_number == nearby.seed && target_number == nearby.target) return;
+  const std::optional<WireEnd> seed = seeds.newest()->seed;
+  const std::shared_ptr<const WireEnd> target = targets_.newest();
+  if (!seed || !target) return;
+  if (seed_number != nearby.seed) {
+    nearby.wires.emplace(prepared.surface, metric, point_of(*seed), faces / kFacesPerNearby);
+  }
+  nearby.seed = seed_number;
+  nearby.target = target_number;
+  const Task task{.stop = stop, .progress = {}};
+  std::optional<Wire> wire = nearby.wires->wire(point_of(*target), task);
+  if (!wire) return;
+  LiveCandidate candidate = candidate_between(prepared, *std::move(wire), *seed, *target, task);
+  const double length = candidate.length;
+  targets_.show(target_number,
+                std::make_shared<const TargetWire>(TargetWire{seed_number, *target, std::move(candidate), length}));
 }
 
 /// Finds wires to the targets that are asked for meanwhile between the steps of the search for the field. A separate

@@ -71,6 +71,9 @@ class SeedSolver {
                                                   const std::shared_ptr<const Prepared>& prepared, const Task& task,
                                                   SeedBox& seeds);
   void make_way(const std::stop_token& stop);
+  struct Nearby;
+  void make_nearby_preview(const SeedBox& seeds, const Prepared& prepared, const std::shared_ptr<const Metric>& metric,
+                           const std::stop_token& stop, Nearby& nearby);
   void make_preview(const SeedBox::Job& job, const Prepared& prepared, CorridorPaths& paths, std::int64_t& answered);
 
   const std::size_t metric_;

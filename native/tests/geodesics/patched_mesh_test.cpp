@@ -36,7 +36,7 @@ std::int32_t internal(const GeodesicMesh& mesh, std::int32_t half_edge) {
 
 // All that a half-edge says, in external numbers.
 auto said_by(const GeodesicMesh& mesh, std::int32_t h) {
-  const GeodesicMesh::HalfEdge& edge = mesh.half_edge(h);
+  const GeodesicMesh::HalfEdge edge = mesh.half_edge(h);
   return std::tuple(edge.length, edge.apex_x, edge.apex_y, edge.left_length, edge.right_length,
                     mesh.external_vertex(edge.tail), mesh.external_vertex(edge.tip), mesh.external_vertex(edge.apex),
                     external(mesh, edge.left), external(mesh, edge.right), mesh.angle(h));

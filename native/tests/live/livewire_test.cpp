@@ -448,16 +448,17 @@ TEST(LiveWire, TellsWhatBecameOfItsEmbeddings) {
   EXPECT_FALSE(along_edges.embeddings()[0] || along_edges.embeddings()[1]);
 }
 
-TEST(LiveWire, RunsOnAlongBothKinds) {
+TEST(LiveWire, RunsOnAlongEdgesOnly) {
   const auto surface = std::make_shared<const Surface>(shapes::quad_cylinder(12, 6, 0.5, 1.0).surface());
-  for (const LiveWireOptions& options : {kPlain, kAlongEdges}) {
-    const LiveWire live(surface, options);
-    ASSERT_TRUE(live.wait());
-    const EdgeChain up = live.extend_straight({0, 12}, {});
-    EXPECT_EQ(up.vertices, (std::vector<std::int32_t>{12, 24, 36, 48, 60, 72}));
-    EXPECT_NEAR(up.length, 5.0 / 6, 1e-12);
-    EXPECT_THROW(live.extend_straight({0, 13}, {}), InvalidInput);
-  }
+  const LiveWire live(surface, kAlongEdges);
+  ASSERT_TRUE(live.wait());
+  const EdgeChain up = live.extend_straight({0, 12}, {});
+  EXPECT_EQ(up.vertices, (std::vector<std::int32_t>{12, 24, 36, 48, 60, 72}));
+  EXPECT_NEAR(up.length, 5.0 / 6, 1e-12);
+  EXPECT_THROW(live.extend_straight({0, 13}, {}), InvalidInput);
+  const LiveWire across(surface, kPlain);
+  EXPECT_THROW(across.extend_straight({0, 12}, {}), InvalidInput);
+  EXPECT_THROW(across.edge_loop({0, 12}, {}), InvalidInput);
 }
 
 TEST(LiveWire, RefusesWhatIsNotPartOfTheSurface) {

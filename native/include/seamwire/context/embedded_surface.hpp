@@ -42,6 +42,17 @@ class SEAMWIRE_API EmbeddedSurface {
   /// \throws Cancelled if the task is cancelled
   EmbeddedSurface(const SurfaceContext& context, const MetricSpec& spec, const EmbedOptions& options = {},
                   const Task& task = {});
+  /// Embed a surface in the metric that a spec describes, where make_metric() has made that metric already.
+  ///
+  /// \param context the surface
+  /// \param spec the metric
+  /// \param metric make_metric() of the spec, not null
+  /// \param options how far the subdivision goes
+  /// \param task progress and cancellation
+  /// \throws InvalidInput if the metric is null, or embed() rejects an argument
+  /// \throws Cancelled if the task is cancelled
+  EmbeddedSurface(const SurfaceContext& context, const MetricSpec& spec, std::shared_ptr<const Metric> metric,
+                  const EmbedOptions& options, const Task& task = {});
   /// Embed a surface in any metric.
   ///
   /// \param context the surface

@@ -286,20 +286,20 @@ class SEAMWIRE_API LiveWire {
   /// \throws InvalidInput if a point is not part of the surface, or wires run along edges
   /// \see BentWires
   LiveClosedWires bent_wire(const SurfacePoint& through, const SurfacePoint& second, const ClosedCutId& cut = {});
-  /// Extend a chain straight, with seamwire::extend_straight().
+  /// Extend a chain straight, with seamwire::extend_straight(). Along edges only.
   ///
   /// \param edge the last edge of the chain, from edge[0] to edge[1]
   /// \param stops vertices where the extension ends
   /// \returns the extension, with its length in space, of the model scaled to the unit cube. It has no vertices until
   ///   the edge adjacency is computed.
-  /// \throws InvalidInput if there is no such edge
+  /// \throws InvalidInput if there is no such edge, or wires run across the surface
   EdgeChain extend_straight(const Edge& edge, std::span<const std::int32_t> stops) const;
-  /// Find the edge loop through an edge, with seamwire::edge_loop().
+  /// Find the edge loop through an edge, with seamwire::edge_loop(). Along edges only.
   ///
   /// \param edge two vertices in either order
   /// \param stops vertices where the loop ends
   /// \returns the loop, without vertices until the edge adjacency is computed
-  /// \throws InvalidInput if there is no such edge
+  /// \throws InvalidInput if there is no such edge, or wires run across the surface
   EdgeLoop edge_loop(const Edge& edge, std::span<const std::int32_t> stops) const;
   /// Find the chain of edges that fits a line, with seamwire::fit_chain(). Along edges only.
   ///
