@@ -10,9 +10,9 @@ import statistics
 import sys
 import time
 import tracemalloc
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
-from types import FrameType
+from types import FrameType, SimpleNamespace
 
 import numpy as np
 
@@ -31,13 +31,12 @@ CURSORS = [(120.0 + 4.0 * step, 131.0 + 3.0 * step) for step in range(40)]
 
 
 @dataclass
-class Network:
-    """The part of a session that a picker reads."""
+class ShownSession:
+    """The part of a session that a picker reads. A real one would compute wires in threads, and disturb the times."""
 
     placed: tuple[int, ...]
     wires: tuple[Wire, ...]
-    moved: tuple[Wire, ...] = ()
-    network_revision: int = 0
+    under_way: SimpleNamespace = field(default_factory=lambda: SimpleNamespace(moved=()))
 
     def seeds(self) -> list[int]:
         """Return the seeds."""
@@ -64,7 +63,7 @@ class Snaps:
     def __init__(self, arrays: Arrays) -> None:
         count = len(arrays.points)
         wire = Wire("EDGES", tuple(range(60)), arrays.points[:60], 0, 59)
-        self.session = Network(tuple(range(0, count, count // 50)), (wire,))
+        self.session = ShownSession(tuple(range(0, count, count // 50)), (wire,))
         self.strength = np.random.default_rng(1).random(count)
         self.picker = Picker(arrays)
 

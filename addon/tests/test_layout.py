@@ -136,6 +136,27 @@ def test_the_page_of_words_names_what_there_is() -> None:
     assert missing == []
 
 
+def test_the_recipes_name_what_there_is() -> None:
+    native = ROOT.parents[1] / "native"
+    folders = (ROOT, LAB, ROOT.parents[1], native, native / "src", native / "include/seamwire")
+    named = re.findall(r"`([^`\s]+)`", (ROOT.parents[1] / "docs/development/recipes.md").read_text(encoding="utf-8"))
+    paths = [name for name in named if re.fullmatch(r"[\w/-]+\.(py|pyi|cpp|hpp|json|md)|[\w-]+(/[\w-]+)+", name)]
+    assert [path for path in paths if not any((folder / path).exists() for folder in folders)] == []
+    files = [*named_files(), *native.joinpath("src").rglob("*.?pp"), *native.joinpath("include").rglob("*.?pp")]
+    code = "\n".join(path.read_text(encoding="utf-8") for path in files)
+    words = [match for name in named if name not in paths if (match := re.fullmatch(r"(\w+)(?:(?:\.|::)(\w+))?", name))]
+    assert len(paths) > 20
+    assert len(words) > 50
+
+    def exists(owner: str, member: str | None) -> bool:
+        if member is None or not owner.strip("_")[0].isupper():
+            return re.search(rf"\b{member or owner}\b", code) is not None
+        body = rf"^(class|struct)( SEAMWIRE_API)? {owner}\b(?:(?!^(?:class|struct) ).)*?\b{member}[(:]"
+        return re.search(body, code, re.MULTILINE | re.DOTALL) is not None
+
+    assert [match[0] for match in words if not exists(*match.groups())] == []
+
+
 def test_nothing_of_the_drawing_tool_imports_networks() -> None:
     tool = [path for path in sorted(ROOT.rglob("*.py")) if path.relative_to(ROOT).parts[0] != "networks"]
     assert [path for path in tool for name in imported(path)[0] if name.split(".")[0] == "networks"] == []

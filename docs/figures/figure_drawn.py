@@ -47,11 +47,13 @@ def network_of(model: Model, folder: Path) -> Drawn:
         print(f"   {model.name}: no drawing, so its network is one of the planner")
         return _planned(model)
     network = json.loads(file.read_text(encoding="utf-8"))
+    wires = network["wires"]
+    ends = [wire["curve"][end] for wire in wires if not wire["closed"] for end in (0, -1)]
     with np.load(file.with_suffix(".npz")) as mesh:
         return Drawn(
-            [np.array(wire["curve"]) for wire in network["wires"]],
+            [np.array(wire["curve"]) for wire in wires],
             [np.array(stroke["points"]) for stroke in network["strokes"]],
-            np.array([seed["place"] for seed in network["seeds"]]),
+            np.unique(np.array(ends).reshape(-1, 3), axis=0),
             mesh["points"],
             mesh["triangles"],
             mesh["islands"],

@@ -98,7 +98,7 @@ def wheel(film: Film) -> None:
     film.click()
     film.hold(4)
     film.go(aside(film), 6)
-    ui.wait_until(lambda: all(suggestion.layout is not None for suggestion in live()._suggestions), 60.0)
+    ui.wait_until(lambda: all(suggestion.layout is not None for suggestion in live()._search), 60.0)
     film.say("Slits follow when the hand rests. The checker shows the map", 14)
     film.say("Enter keeps the parts, and unwraps them")
     film.ui.key("RET")

@@ -41,9 +41,14 @@ from seams_engine import SeamwireEngine
 from seamwire_core import PartFinder
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "addon"))
+from seamwire.core.network.network import Network  # these know no Blender
+from seamwire.core.network.stops import Stops
+from seamwire.core.network.strokes import for_library
 from seamwire.core.network.symmetry import Symmetry
-from seamwire.core.offers.edge_loops import find_offers, past_poles  # these know no Blender
+from seamwire.core.network.wires import Wire
+from seamwire.core.offers.edge_loops import LoopOffers, past_poles
 from seamwire.core.offers.part_borders import AMOUNTS, PartBorders
+from seamwire.core.solver.solver import Engines
 
 if TYPE_CHECKING:
     from seamwire.terms.choices import LoopKind
@@ -132,10 +137,12 @@ class Seamwire:
         if parts:
             finder = PartFinder(surface)
             labels = [finder.find(amount).of_face for amount in AMOUNTS]
-            self._parts = PartBorders(mesh[0], surface.triangles, surface.edges, lambda: labels)
+            self._parts = PartBorders(mesh[0], surface.triangles, surface.edges, find_parts=lambda *_: labels)
             self._parts.ready()
             self._parts.wait()
         self._loops: dict[Pair, list[int] | None] = {}
+        self._engines = Engines(lambda _: self.engine.live, for_library)
+        self._symmetry = Symmetry(mesh[0])
 
     def offers(self, edge: Pair, stops: frozenset[int]) -> Iterable[Edges]:
         """Return what one click on an edge can take, besides wires."""
@@ -157,18 +164,22 @@ class Seamwire:
         """Return nothing: there is no such command."""
         return frozenset()
 
-    def notches(self, wanted: Edges, stops: frozenset[int], last: LoopKind | None) -> tuple[list[int], LoopKind | None]:
+    def notches(self, wanted: Edges, taken: Edges, last: LoopKind | None) -> tuple[list[int], LoopKind | None]:
         """Return the turns from the first offer to the wanted one, for each edge that offers it, and its kind.
 
-        The tool shows the crossing loop second, so every later offer takes one more turn.
+        The edges of loops `taken` before are seams, and `last` is the kind of the last one. The tool shows the crossing loop second, so
+        every later offer takes one more turn.
         """
+        stops = Stops(np.array(sorted(taken)), self._symmetry)
+        loops = LoopOffers(self._engines, stops, self._points, self._parts)
+        # The last loop tells its kind. It has no edges here, because loops of other parts of the seams are no stops.
+        network = Network() if last is None else Network((Wire("EDGES", (), self._points[:0], 0, 0, kind=last),))
         places, kind = [], None
         for edge in sorted(wanted)[:: max(1, len(wanted) // _EDGES_TRIED)]:
-            found = None
-            while found is None:
-                found = find_offers(self.engine.live, edge, list(stops), self._points, 0.0, stops, last, self._parts)
+            offers = loops.find(edge, network)
+            while not loops.final:
                 self.engine.live.wait()
-            offers, _ = found
+                offers = loops.find(edge, network)
             place = next((i for i, offer in enumerate(offers) if set(offer.edges()) == wanted), None)
             if place is not None:
                 places.append(place + (place > 0))
@@ -219,7 +230,7 @@ def clicks(
         return min(Count(1) + with_it, without)
     total, last = Count(), None
     for left in connected(seams):
-        whole, taken, stops = left, 0, frozenset()
+        whole, taken, drawn, stops = left, 0, frozenset(), frozenset()
         while left:
             offered = {some for edge in left for some in tool.offers(edge, stops) if some <= whole}
             costs = {some: wire_clicks(left - some) for some in offered}
@@ -227,11 +238,11 @@ def clicks(
             if best is None or costs[best].presses + 1 >= wire_clicks(left).presses:
                 break
             if isinstance(tool, Seamwire):
-                places, last = tool.notches(best, stops, last)
+                places, last = tool.notches(best, drawn, last)
                 if notches is not None and places:
                     notches.append(places)
                 total += Count(0, float(np.mean(places)) if places else 0.0)
-            left, taken = left - best, taken + 1
+            left, taken, drawn = left - best, taken + 1, drawn | best
             if tool.stops_at_seams:
                 stops |= {vertex for edge in best for vertex in edge}
         spared = min(taken, len(measure.chains(sorted(left)))) if tool.path_begins_at_loop else 0

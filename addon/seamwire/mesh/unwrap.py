@@ -104,7 +104,8 @@ class _Map:
             self._seams = edit_mesh.column(mesh.edges, "use_seam", np.bool_)
             layer = mesh.attributes.get(UNWRAPPED)
             is_known = layer is not None and len(layer.data) == len(self._seams)
-            self._known = edit_mesh.column(layer.data, "value", np.int32) if is_known else np.zeros(len(self._seams))
+            none = np.zeros(len(self._seams), dtype=np.int32)
+            self._known = edit_mesh.column(layer.data, "value", np.int32) if is_known else none
         labels = labels_of(arrays)
         self.count = int(labels.max(initial=-1)) + 1
         self._of_face = np.full(int(self.corners.faces.max(initial=-1)) + 1, -1, dtype=np.int32)

@@ -32,7 +32,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..core.base.mesh_arrays import Arrays
-    from .gpu_draw import Eye
     from .theme import Color, Style
     from .viewport import Place
 

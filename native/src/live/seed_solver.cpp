@@ -104,7 +104,12 @@ void SeedSolver::make_nearby_preview(const SeedBox& seeds, const Prepared& prepa
   nearby.seed = seed_number;
   nearby.target = target_number;
   const Task task{.stop = stop, .progress = {}};
-  std::optional<Wire> wire = nearby.wires->wire(point_of(*target), task);
+  std::optional<Wire> wire;
+  try {
+    wire = nearby.wires->wire(point_of(*target), task);
+  } catch (const InvalidInput&) {
+    // The faces around the seed may not do for geodesics by themselves. Then there is no preview.
+  }
   if (!wire) return;
   LiveCandidate candidate = candidate_between(prepared, *std::move(wire), *seed, *target, task);
   const double length = candidate.length;

@@ -24,7 +24,6 @@ constexpr double kMargin = 3e-3;
 constexpr double kFirstEnd = 0.75;    // of the progress: where the first search ends
 constexpr double kGrowing = 0.05;     // share of a later search: the tree
 constexpr double kLaterBudget = 0.5;  // of a repetition, as a share of the one before
-constexpr double kLastBudget = 0.25;  // of a search on a large original, as a share of one on a simplified mesh
 
 /// The work of each part of a round: the search, and the map of the original mesh.
 struct RoundWork {
@@ -75,7 +74,8 @@ double GroupProblem::work_on(std::size_t level, double budget) const {
 
 double GroupProblem::work(double budget) const {
   double sum = 0.0;
-  for (std::size_t level = 0; level < level_count(); ++level) sum += work_on(level, budget);
+  const auto count = level_count();
+  for (std::size_t level = 0; level < count; ++level) sum += work_on(level, budget / static_cast<double>(count));
   return sum;
 }
 
@@ -145,8 +145,8 @@ void GroupPlanning::search(const SlitGoal& goal, const std::function<void()>& fo
   }
 }
 
-/// Searches on each level, and keeps the best plan. Rings belong to the finest mesh, so with rings only that is
-/// searched.
+/// Searches on each level, and keeps the best plan. Rings lie on the finest of these meshes: with rings, the others are
+/// not searched.
 void GroupPlanning::search_levels(const SlitGoal& goal, const std::function<void()>& found, const Task& task) {
   const std::size_t levels = rings_.empty() && std::isfinite(goal.energy) ? group_->level_count() : 1;
   SlitGoal aim = goal;
@@ -169,20 +169,6 @@ void GroupPlanning::search_levels(const SlitGoal& goal, const std::function<void
     missed_ = std::move(missed);
     level_ = best;
   }
-  if (levels > 1 && group_->is_large && !result_.is_within(goal.energy)) search_original(aim, part_of(task, 1.0, 1.0));
-}
-
-/// Goes on from the best plan on the original mesh, which the simplified ones did not show well enough.
-void GroupPlanning::search_original(const SlitGoal& goal, const Task& task) {
-  Result before = std::move(result_);
-  const std::size_t best = std::exchange(level_, group_->level_count());
-  SlitGoal aim = goal;
-  aim.budget *= kLastBudget;
-  start_ = SlitSolver(problem(), roots_ = {}).solve(before.slits, task);
-  search_once(aim, {}, task);
-  if (rank(result_, goal.energy) < rank(before, goal.energy)) return;
-  result_ = std::move(before);
-  level_ = best;
 }
 
 void GroupPlanning::search_once(const SlitGoal& goal, const std::function<void()>& found, const Task& task) {

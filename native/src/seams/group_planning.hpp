@@ -35,10 +35,9 @@ struct GroupProblem {
 
   /// On how many meshes seams are searched, one after another. Each search ends at another local optimum.
   std::size_t level_count() const { return simplified.size() + (is_large ? 0 : 1); }
-  /// The problem of a level, 0 for the finest; null instead of a simplified mesh for the original. Of a large group,
-  /// the original is at level_count().
+  /// The simplified mesh of a level, from 0 for the finest; null if it is the original.
   const Simplified* simplified_at(std::size_t level) const {
-    if (is_large) return level < simplified.size() ? &simplified[level] : nullptr;
+    if (is_large) return &simplified[level];
     return level == 0 ? nullptr : &simplified[level - 1];
   }
   const SlitProblem& searched(std::size_t level = 0) const {
@@ -48,7 +47,7 @@ struct GroupProblem {
   /// About how many times a Newton step moves a triangle, if the search on a level takes all of its budget and every
   /// round.
   double work_on(std::size_t level, double budget) const;
-  /// The same, of all levels.
+  /// The same for all levels, which share the budget.
   double work(double budget) const;
   /// The share of the whole surface's area that all copies have, without pieces that may not be cut.
   double counted_area() const;
@@ -75,8 +74,8 @@ class GroupPlanning {
 
   /// Grows the tree of slits and solves its maps. Throws Cancelled.
   void grow(bool has_tips, const Task& task);
-  /// Looks for a better plan within `goal.energy`. `found` is called whenever result() is a better plan, except at the
-  /// end. Throws Cancelled.
+  /// Looks for a better plan within `goal.energy`. `found` is called whenever the search on the finest mesh has made
+  /// result() better. Throws Cancelled.
   void search(const SlitGoal& goal, const std::function<void()>& found, const Task& task);
 
   /// The best plan so far.
@@ -93,7 +92,6 @@ class GroupPlanning {
  private:
   void add_rings(std::vector<Slit> rings);
   void search_levels(const SlitGoal& goal, const std::function<void()>& found, const Task& task);
-  void search_original(const SlitGoal& goal, const Task& task);
   void search_once(const SlitGoal& goal, const std::function<void()>& found, const Task& task);
   std::vector<std::int32_t> missed_pieces(const SlitPlan& plan, double bound) const;
   const SlitProblem& problem() const { return parted_ ? *parted_ : group_->searched(level_); }

@@ -32,7 +32,8 @@ using namespace detail;
 namespace {
 
 /// A surface with more triangles is planned on simplified meshes, all of them together with about so many. Each group
-/// has at least the third number, if it is not smaller itself.
+/// has at least the third number, if it is not smaller itself. Seams are also searched on a mesh of half as many
+/// triangles, if that has at least the third number.
 constexpr std::size_t kMostTriangles = 9000, kSimplified = 7000, kLeastSimplified = 600;
 /// Groups with fewer triangles are planned at the same time, on one thread each.
 constexpr std::size_t kSmallGroup = 600;
@@ -188,7 +189,7 @@ void SeamPlanner::Impl::add_simplified(GroupProblem& group, std::size_t triangle
   group.simplified.push_back(std::move(simple));
 }
 
-/// The visibility of the vertices of the meshes of all groups on which seams are searched, one after another, then of
+/// The visibility of the vertices of the finest mesh on which each group is searched, one group after another, then of
 /// mirror images.
 Visibility SeamPlanner::Impl::visibility_of_all(const Task& task) const {
   if (whole.triangles.empty()) {

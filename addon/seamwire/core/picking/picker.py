@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from ..network.picks import Pick
     from ..network.strokes import Stroke
     from ..network.wires import Wire
-    from .camera import Camera, Sight
-    from .surface import Bend, VisibleSurface
+    from .camera import Camera
+    from .surface import Bend
 
 
 FEATURE_REACH = 10.0
