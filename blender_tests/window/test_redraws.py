@@ -8,6 +8,8 @@ from contextlib import contextmanager
 import bpy
 import pytest
 from desk import Desk, draw
+from seamwire.core.drawing.cursor import Cursor
+from seamwire.core.drawing.gesture_queue import GestureQueue
 from seamwire.core.drawing.session import Session
 from seamwire.core.islands import islands
 from seamwire.core.islands.islands import IslandMaker
@@ -169,7 +171,9 @@ def test_a_picture_reads_no_mesh_and_computes_nothing(
         (IslandMaker, "want"),
         (StretchHeat, "read"),
         (CrestView, "poll"),
-        *((Session, name) for name in ("follow", "hover", "poll", "use_crests", "adopt")),
+        *((Session, name) for name in ("follow", "hover")),
+        *((GestureQueue, name) for name in ("poll", "adopt")),
+        (Cursor, "use_crests"),
     ):
         function = getattr(owner, name)
 
