@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Imports run downwards only, no two modules need each other, and no two modules or classes share a name."""
+"""Imports run one way only, no two modules need each other, and no two modules or classes share a name."""
 
 from __future__ import annotations
 

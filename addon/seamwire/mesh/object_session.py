@@ -227,7 +227,7 @@ class ObjectSession:
 
         `before` is the network that the mesh has; wires that it does not have were drawn since. Returns `before`, or the other network
         that the mesh has now if Blender's undo has changed its wires. Returns None where wires would run on it in another way, or it has
-        left edit mode: then they can be written still, as far as vertices have the numbers that they had.
+        left edit mode. They can be written even then, as far as vertices have the numbers that they had.
         """
         self.obj = obj
         editing = obj.mode == "EDIT"

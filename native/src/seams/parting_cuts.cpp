@@ -12,6 +12,7 @@
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "seams/halving.hpp"
+#include "surface/joined_faces.hpp"
 
 namespace seamwire::detail {
 namespace {
@@ -90,15 +91,11 @@ std::vector<Slit> rim_cuts(const SlitProblem& problem, std::span<const std::int3
 }
 
 std::size_t count_blocks(const SlitProblem& problem) {
-  const PlanMesh& mesh = problem.mesh;
-  DisjointSets blocks(mesh.face_count());
-  std::size_t count = mesh.face_count();
-  for (std::int32_t h = 0; index(h) < mesh.twins.size(); ++h) {
-    const std::int32_t edge = mesh.edge_of[h];
-    if (mesh.twins[h] < h || problem.is_seam[edge] != 0 || problem.prices.of_edge[edge] != kNever) continue;
-    if (blocks.join(h / 3, mesh.twins[h] / 3)) --count;
-  }
-  return count;
+  DisjointSets blocks = joined_faces(problem.mesh, [&](std::int32_t h) {
+    const std::int32_t edge = problem.mesh.edge_of[h];
+    return problem.is_seam[edge] == 0 && problem.prices.of_edge[edge] == kNever;
+  });
+  return index(blocks.numbering().count);
 }
 
 std::vector<Slit> halving_cuts(SlitProblem problem, std::size_t count, const Task& task) {

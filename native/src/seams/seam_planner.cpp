@@ -32,8 +32,8 @@ using namespace detail;
 namespace {
 
 /// A surface with more triangles is planned on simplified meshes, all of them together with about so many. Each group
-/// has at least the third number, if it is not smaller itself. Seams are also searched on a mesh of half as many
-/// triangles, if that has at least the third number.
+/// has at least kLeastSimplified, if it is not smaller itself. Seams are also searched on a mesh of half as many
+/// triangles, if that has at least kLeastSimplified.
 constexpr std::size_t kMostTriangles = 9000, kSimplified = 7000, kLeastSimplified = 600;
 /// Groups with fewer triangles are planned at the same time, on one thread each.
 constexpr std::size_t kSmallGroup = 600;

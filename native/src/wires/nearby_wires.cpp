@@ -32,8 +32,9 @@ Vector NearbyWires::place(const SurfacePoint& point) const {
 
 std::optional<Wire> NearbyWires::wire(const SurfacePoint& target, const Task& task) {
   const double straight = (place(target) - place(seed_)).norm();
-  if (!on_ || radius_ < kLeastRadius * straight) embed_within(kRadius * straight, task);
-  if (!paths_) return std::nullopt;
+  const auto is_embedded = [&] { return on_ && radius_ >= kLeastRadius * straight; };
+  if (!is_embedded() && kRadius * straight < too_far_) embed_within(kRadius * straight, task);
+  if (!is_embedded() || !paths_) return std::nullopt;
   const std::optional<SurfacePoint> to = on_->find(target);
   if (!to) return std::nullopt;
   Wire wire = on_->wire(paths_->path(*to, {.stop = task.stop, .progress = {}}));
@@ -61,16 +62,17 @@ std::vector<std::int32_t> NearbyWires::faces_within(double radius, const Task& t
 }
 
 void NearbyWires::embed_within(double radius, const Task& task) {
-  paths_.reset();
-  on_.reset();
   std::vector<std::int32_t> faces = faces_within(radius, task);
+  const double too_far = std::exchange(too_far_, radius);  // it stays so if this fails
   if (faces.empty()) return;
   const Task silent{.stop = task.stop, .progress = {}};
   const std::size_t most_added = kMostAddedPerFace * faces.size();
   auto embedding = std::make_shared<const Embedding>(
       embed(*surface_, *metric_, {.max_faces_added = most_added, .faces = std::move(faces)}, silent));
+  paths_.reset();
   on_.emplace(surface_, std::move(embedding), silent);
   radius_ = radius;
+  too_far_ = too_far;
   if (const std::optional<SurfacePoint> from = on_->find(seed_)) paths_.emplace(on_->geodesics(), *from);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -38,6 +39,7 @@ class NearbyWires {
   SurfacePoint seed_;
   std::size_t most_faces_;
   double radius_ = 0.0;  ///< of the embedded faces around the seed, in the caller's coordinates
+  double too_far_ = std::numeric_limits<double>::infinity();  ///< a radius for which faces could not be embedded
   std::optional<EmbeddedFaces> on_;
   std::optional<CorridorPaths> paths_;  ///< nullopt if the seed is not on these faces
 };
