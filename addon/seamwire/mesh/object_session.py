@@ -223,11 +223,12 @@ class ObjectSession:
         return True
 
     def follow_change(self, obj: bpy.types.Object, before: Network) -> Network | None:
-        """Read the object's mesh again while wires are drawn, and keep the wires.
+        """Read the object's mesh again while wires are drawn, and keep the wires that were drawn since.
 
         `before` is the network that the mesh has; wires that it does not have were drawn since. Returns `before`, or the other network
-        that the mesh has now if Blender's undo has changed its wires. Returns None where wires would run on it in another way, or it has
-        left edit mode. They can be written even then, as far as vertices have the numbers that they had.
+        that the mesh has now if Blender's undo has changed its wires. Then changes of earlier wires are lost. Returns None where wires
+        would run on it in another way, or it has left edit mode. They can be written even then, as far as vertices have the numbers that
+        they had.
         """
         self.obj = obj
         editing = obj.mode == "EDIT"

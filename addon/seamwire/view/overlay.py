@@ -248,7 +248,7 @@ class Overlay:
         styles = {Role.COMPUTING: looks.computing, Role.OFFER: looks.loop, Role.EXTENSION: looks.end}
         sheet.edges(looks.mirrored_live, shown.images)
         # Where the seam will be the wire, the edges that it snaps to do not matter.
-        if wire.along == "SURFACE" and not (shown.finish != "SNAP" and wire.marks):
+        if wire.along == "SURFACE" and (shown.finish == "SNAP" or not wire.marks):
             sheet.edges(looks.will_mark if wire.marks else looks.clear, wire.edges())
         sheet.curve(styles.get(shown.role, looks.active), wire.points)
         if not wire.marks and wire.along == "EDGES":

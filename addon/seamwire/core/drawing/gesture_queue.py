@@ -97,7 +97,7 @@ class GestureQueue:
         return not isinstance(done, Network) or self.step(done)
 
     def finish(self) -> None:
-        """Do what waits, because what comes now begins with the wires that it makes. Only `undo` and `end_chain` forget it."""
+        """Do what waits, because what comes now begins with the wires that it makes."""
         self._drawing.failure = NOTHING
         if self._under_way.queue:
             self.wait(clicks_only=True)

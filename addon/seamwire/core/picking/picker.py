@@ -51,14 +51,16 @@ class FeaturePicker:
         self._strength: tuple[object, float] = (None, 0.0)
         self._crests: tuple[Crests | None, Segments] = (None, Segments([]))
 
-    def preferred_at(self, sight: Sight, pick: Pick, preferred: Collection[int]) -> int | None:
-        """Return the nearest of the preferred vertices within reach, going over the mesh from what is under the cursor."""
-        near = self._surface.vertices_near(sight, pick, FEATURE_REACH * sight.scale)
+    def near(self, sight: Sight, pick: Pick) -> dict[int, float]:
+        """Return the vertices within reach with their distances in pixels, going over the mesh from what is under the cursor."""
+        return self._surface.vertices_near(sight, pick, FEATURE_REACH * sight.scale)
+
+    def preferred_at(self, sight: Sight, near: dict[int, float], preferred: Collection[int]) -> int | None:
+        """Return the nearest of the preferred vertices among those within reach."""
         return self._nearest(sight, {vertex: gap for vertex, gap in near.items() if vertex in preferred})
 
-    def corner_at(self, sight: Sight, pick: Pick) -> int | None:
-        """Return the nearest vertex within reach where three or more sharp edges meet, going over the mesh from a pick."""
-        near = self._surface.vertices_near(sight, pick, FEATURE_REACH * sight.scale)
+    def corner_at(self, sight: Sight, near: dict[int, float]) -> int | None:
+        """Return the nearest vertex within reach where three or more sharp edges meet."""
         count = dict.fromkeys(near, 0)
         for edge in self._sharp_edges(near):
             for vertex in edge:
@@ -88,11 +90,10 @@ class FeaturePicker:
         nearest = sorted(gaps, key=gaps.__getitem__)[:_MOST_TRIED]
         return next((vertex for vertex in nearest if self._can_pick(sight, vertex)), None)
 
-    def strongest_at(self, sight: Sight, pick: Pick, strength: NDArray[np.float64]) -> int | None:
-        """Return the vertex of the strongest feature within reach, going over the mesh from what is under the cursor."""
+    def strongest_at(self, sight: Sight, near: dict[int, float], strength: NDArray[np.float64]) -> int | None:
+        """Return the vertex of the strongest feature within reach."""
         if self._strength[0] is not strength:
             self._strength = (strength, float(np.quantile(strength, FEATURE_QUANTILE)) if len(strength) else 0.0)
-        near = self._surface.vertices_near(sight, pick, FEATURE_REACH * sight.scale)
         for vertex in sorted(near, key=lambda v: -strength[v])[:_MOST_TRIED]:
             if strength[vertex] <= self._strength[1]:
                 return None
@@ -315,10 +316,11 @@ class Picker:
                 pick = self._plain.at(sight, vertices_only, edges_only)
         if pick is None:
             return None
-        vertex = self._features.preferred_at(sight, pick, preferred) if preferred else None
+        near = self._features.near(sight, pick) if preferred or strength is not None else {}
+        vertex = self._features.preferred_at(sight, near, preferred) if preferred else None
         if vertex is not None:
             return Snap(vertex)
-        corner = None if strength is None else self._features.corner_at(sight, pick)
+        corner = None if strength is None else self._features.corner_at(sight, near)
         if corner is not None:
             return Snap(corner, "FEATURE")
         crest = None if crests is None else self._features.crest_at(sight, crests, anywhere)
@@ -326,7 +328,7 @@ class Picker:
             return Snap(crest, "FEATURE")
         if edges_only and isinstance(pick, tuple):
             return self._plain.with_crossing(sight, pick)
-        feature = None if strength is None else self._features.strongest_at(sight, pick, strength)
+        feature = None if strength is None else self._features.strongest_at(sight, near, strength)
         return Snap(pick) if feature is None else Snap(feature, "FEATURE")
 
     def stroke_at(
