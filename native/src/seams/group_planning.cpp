@@ -182,6 +182,8 @@ void GroupPlanning::search_once(const SlitGoal& goal, const std::function<void()
     done += amount;
     return part_of(task, begin, done / all);
   };
+  std::vector<Slit> last;  // of the round before
+  const auto is_same = [](const Slit& a, const Slit& b) { return a.path == b.path && a.image == b.image; };
   for (int round = 0;; ++round) {
     const bool is_simplified = group_->simplified_at(level_) != nullptr;
     bool is_start = true;  // which grow() has shown
@@ -195,7 +197,10 @@ void GroupPlanning::search_once(const SlitGoal& goal, const std::function<void()
         search_slits(problem(), std::move(start_), roots_, aim, tell, next(work[index(round)].search));
     steps_ += plan.work;
     if (round == 0) missed_ = missed_pieces(plan, goal.energy);
-    Result solved = solved_on_original(completed(on_original(plan.slits), plan.slits), next(work[index(round)].map));
+    std::vector<Slit> slits = completed(on_original(plan.slits), plan.slits);
+    if (round > 0 && std::ranges::equal(slits, last, is_same)) break;
+    last = slits;
+    Result solved = solved_on_original(std::move(slits), next(work[index(round)].map));
     // The simplified mesh distorts less or more than the original one. The bound is moved by as much.
     const double excess = solved.energy - goal.energy;
     const bool is_near = excess <= 0.0 && (excess > -kNearBound || plan.slits.empty());

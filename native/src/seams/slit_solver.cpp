@@ -19,6 +19,9 @@ namespace {
 
 constexpr double kReserve = 0.01;  // for what the worst triangles add to an energy, beyond what they add now
 constexpr std::size_t kTrialSteps = 6;
+/// Newton steps at most for the map of a finished cut. A body with fingers takes more than 100, and a map that is not
+/// solved to its end seems to miss the bound.
+constexpr std::size_t kFinishedSteps = 300;
 
 }  // namespace
 
@@ -140,10 +143,12 @@ CutMaps solve_cut(const PlanMesh& mesh, std::span<const std::uint8_t> is_cut, co
     sizes.push_back(all);
   }
   const auto fraction = [&](std::size_t done) { return done > 0 ? sizes[done - 1] / all : 0.0; };
+  MapOptions options = kPlanMap;
+  options.max_steps = kFinishedSteps;
   run_on_threads(islands.size(), task, fraction, [&](std::size_t k, const Task& own) {
     const std::size_t i = order[k];
     if (!is_planar(islands[i])) return;
-    IslandMap map = map_island(islands[i], mesh.points, kPlanMap, own);
+    IslandMap map = map_island(islands[i], mesh.points, options, own);
     if (map.uvs.empty()) return;
     found.maps[i] = std::make_shared<const PieceMap>(piece_map(mesh.points, std::move(islands[i]), std::move(map)));
   });

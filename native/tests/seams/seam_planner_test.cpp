@@ -23,6 +23,7 @@
 
 #include "detail/index.hpp"
 #include "seams/seam_problems.hpp"
+#include "seamwire/parameterization/flatten.hpp"
 #include "seamwire/seams/missing_cuts.hpp"
 #include "seamwire/surface/segments.hpp"
 #include "thread_sanitizer.hpp"
@@ -695,6 +696,20 @@ TEST(SeamPlanner, OneSidedSurfacesAreCut) {
   const SeamPlan plan = SeamPlanner(surface, along_edges()).plan();
   expect_sound(*surface, plan);
   EXPECT_TRUE(std::isfinite(plan.energy));
+}
+
+TEST(SeamPlanner, MapsThatTakeManyStepsAreSolvedToTheirEnd) {
+  // A test tube: Tutte's embedding makes its bottom smaller with each of the rings.
+  std::vector<std::array<double, 2>> profile{{0.0, 0.0}, {0.0, 3.0}, {0.0, 2.0}};
+  for (int ring = 0; ring <= 120; ++ring) profile.push_back({0.5 * ring, 1.0});
+  profile.push_back({60.5, 0.0});
+  const auto at_first_pole = [](const Vector& p) { return p.x() == 0.0 && p.norm() > 1.8 && p.norm() < 2.1; };
+  const auto surface = shared(shapes::without(shapes::lathe(12, profile), at_first_pole));
+  const SeamPlan plan = SeamPlanner(surface, along_edges()).plan({.distortion = kAnything});
+  ASSERT_TRUE(plan.wires.empty());
+  const Flattening solved = flatten(*surface, {}, {.max_steps = 1000});
+  const double energy = measure_map(*surface, solved.uvs).energy;
+  EXPECT_NEAR(plan.energy, energy, 0.01 * energy);
 }
 
 TEST(SeamPlanner, RefusesWrongOptions) {
