@@ -9,9 +9,9 @@
 
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
-#include "seams/carried_slits.hpp"
-#include "seams/parting_cuts.hpp"
-#include "seams/piece_body.hpp"
+#include "parts/parting_cuts.hpp"
+#include "simplified/carried_slits.hpp"
+#include "slits/piece_body.hpp"
 
 namespace seamwire::detail {
 namespace {

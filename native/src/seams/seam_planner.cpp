@@ -16,13 +16,13 @@
 #include "detail/poll.hpp"
 #include "detail/run_on_threads.hpp"
 #include "parameterization/measure_islands.hpp"
-#include "seams/decimation.hpp"
+#include "prices/visibility.hpp"
 #include "seams/group_planning.hpp"
 #include "seams/piece_groups.hpp"
 #include "seams/planned_wires.hpp"
-#include "seams/visibility.hpp"
 #include "seamwire/seams/missing_cuts.hpp"
 #include "seamwire/surface/segments.hpp"
+#include "simplified/decimation.hpp"
 #include "surface/real_edges.hpp"
 
 namespace seamwire {

@@ -18,8 +18,12 @@ ROOMS = (
     "wires",
     "parameterization",
     "context",
-    "seams",
+    "prices",
+    "slits",
     "parts",
+    "search",
+    "simplified",
+    "seams",
     "live",
 )
 """From below to above."""
