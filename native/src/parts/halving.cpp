@@ -17,12 +17,12 @@
 #include "detail/poll.hpp"
 #include "parts/minimum_cut.hpp"
 #include "slits/piece_body.hpp"
+#include "tuning/constants.hpp"
 
 namespace seamwire::detail {
 namespace {
 
 constexpr double kLeastLink = 1e-9;  // of an edge without a length, which holds its triangles together all the same
-constexpr double kLeastHalf = 0.2;   // of the area of a piece, if there is such a cut
 constexpr std::size_t kMostBlocks = 2500;  // among which a cut is looked for before it is refined
 
 /// The mirror images of edges if each of them has an image within a piece, otherwise nothing.
@@ -59,7 +59,7 @@ struct Halves {
   double price = 0.0;
   double share = 0.0;  ///< the smaller half's part of the area; 0 if the halves are more than two connected parts
 
-  bool is_balanced() const { return share >= kLeastHalf; }
+  bool is_balanced() const { return share >= tuning::kLeastHalf; }
   /// Normalized cuts are cheap for the area that they part.
   double score() const { return price / share; }
 };
@@ -418,7 +418,7 @@ class Halving {
     while (!open.empty() && sum < share * all_) {
       const std::int32_t b = open.top().second;
       open.pop();
-      if (sum > 0.0 && sum + blocks.areas[b] > (1.0 - kLeastHalf) * all_) continue;
+      if (sum > 0.0 && sum + blocks.areas[b] > (1.0 - tuning::kLeastHalf) * all_) continue;
       owner[b] = seed;
       sum += blocks.areas[b];
       for (const Link& link : blocks.links[b]) {

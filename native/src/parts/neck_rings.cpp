@@ -12,15 +12,12 @@
 #include "detail/index.hpp"
 #include "parts/minimum_cut.hpp"
 #include "slits/piece_body.hpp"
+#include "tuning/constants.hpp"
 
 namespace seamwire::detail {
 namespace {
 
 constexpr std::size_t kLevels = 96;
-constexpr double kReach = 0.6;           // of the distance to the farthest vertex: beyond this is no limb
-constexpr double kNarrow = 1.2;          // a ring is a neck if rings on both sides are so many times longer
-constexpr double kLeastPartArea = 3e-3;  // of the surface: less is no part
-constexpr double kMostPartArea = 0.5;
 
 /// Rings at equal distances from the tip of a limb.
 struct Rings {
@@ -30,7 +27,7 @@ struct Rings {
 };
 
 Rings measure_rings(const SlitProblem& problem, const PieceBody& body, std::span<const double> distances) {
-  Rings rings{.step = kReach * *std::ranges::max_element(distances) / kLevels,
+  Rings rings{.step = tuning::kLimbReach * *std::ranges::max_element(distances) / kLevels,
               .lengths = std::vector<double>(kLevels, 0.0),
               .areas = std::vector<double>(kLevels, 0.0)};
   for (std::size_t k = 0; k < body.island.triangles.size(); ++k) {
@@ -68,9 +65,9 @@ std::optional<std::pair<std::size_t, double>> narrowest(const Rings& rings) {
   std::optional<std::pair<std::size_t, double>> best;
   for (std::size_t i = 1; i + 1 < kLevels; ++i) {
     const double length = rings.lengths[i];
-    if (!(length > 0.0) || rings.areas[i] < kLeastPartArea || rings.areas[i] > kMostPartArea) continue;
+    if (!(length > 0.0) || rings.areas[i] < tuning::kLeastLimb || rings.areas[i] > tuning::kMostLimb) continue;
     const double narrow = std::min(before[i], after[i]) / length;
-    if (narrow >= kNarrow && (!best || narrow > best->second)) best = {i, narrow};
+    if (narrow >= tuning::kNeckNarrow && (!best || narrow > best->second)) best = {i, narrow};
   }
   return best;
 }
@@ -150,7 +147,7 @@ std::vector<NeckRing> find_necks(const SlitProblem& problem, const Task& task) {
   std::vector<NeckRing> found;
   for (std::int32_t p = 0; index(p) < problem.by_piece.size(); ++p) {
     task.check(0.0);
-    if (problem.by_piece[p].area < kLeastPartArea) continue;
+    if (problem.by_piece[p].area < tuning::kLeastLimb) continue;
     const PieceBody body(problem, p);
     std::vector<std::int32_t> tips = find_tips(problem, body, body.graph.mean_distances(task));
     if (problem.reflection && !problem.reflection->is_exact) {

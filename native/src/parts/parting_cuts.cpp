@@ -13,13 +13,10 @@
 #include "detail/poll.hpp"
 #include "parts/halving.hpp"
 #include "surface/joined_faces.hpp"
+#include "tuning/constants.hpp"
 
 namespace seamwire::detail {
 namespace {
-
-constexpr std::size_t kManyCorners = 16;                // of a rim
-constexpr double kLeastRegion = 2e-3;                   // of the area of its piece
-constexpr double kFlatBelow = 1.5, kSharpAbove = 30.0;  // degrees
 
 /// Marked edges as slits that have to stay. Chains end where more or fewer than two of the edges meet. Closed chains
 /// are divided into parts that can be carried to another mesh.
@@ -73,7 +70,7 @@ void mark_rims(const SlitProblem& problem, std::span<const std::int32_t> pieces,
       ++corners[other];
     }
     const auto is_large = [&](std::int32_t region) {
-      return corners[region] >= kManyCorners && areas[region] >= kLeastRegion * piece.area;
+      return corners[region] >= tuning::kManyCorners && areas[region] >= tuning::kLeastRimmed * piece.area;
     };
     for (const std::int32_t h : inner) {
       const std::int32_t one = regions.find(h / 3), other = regions.find(mesh.twins[h] / 3);
@@ -86,7 +83,7 @@ void mark_rims(const SlitProblem& problem, std::span<const std::int32_t> pieces,
 
 std::vector<Slit> rim_cuts(const SlitProblem& problem, std::span<const std::int32_t> pieces) {
   std::vector<std::uint8_t> is_marked(problem.mesh.edge_count(), 0);
-  for (const double degrees : {kFlatBelow, kSharpAbove}) mark_rims(problem, pieces, degrees, is_marked);
+  for (const double degrees : {tuning::kFlatBelow, tuning::kSharpAbove}) mark_rims(problem, pieces, degrees, is_marked);
   return slits_along(problem.mesh, is_marked);
 }
 

@@ -10,26 +10,12 @@
 
 #include "detail/csr.hpp"
 #include "detail/index.hpp"
+#include "tuning/constants.hpp"
 
 namespace seamwire::detail {
 namespace {
 
 constexpr double kDegreesOf = 180.0 / std::numbers::pi;
-constexpr double kWideReach = 0.015;      // of the diagonal: how far away on both sides a wide bend is measured
-constexpr double kLineShare = 0.2;        // what the mean bend of the edge's line adds to its own bend
-constexpr double kWideShare = 0.8;        // and what a wide bend adds that is greater than the edge's own
-constexpr double kMostSteps = 1.5;        // a wide bend exceeds the own one by at most so many times that
-constexpr double kEvenDegrees = 50.0;     // the bend at which a border is as likely as not, apart from what follows
-constexpr double kDegreesOfOdds = 18.0;   // how many more degrees add 1 to the log odds
-constexpr double kPrior = -0.8;           // of every edge
-constexpr double kOpenness = 4.0;         // taken off for each unit of openness above the mean
-constexpr double kBesideSharper = 1.5;    // taken off beside a sharper edge of the same polygon
-constexpr double kSharperBy = 5.0;        // degrees
-constexpr double kConcave = 1.0;          // added in creases
-constexpr double kConcaveDegrees = 20.0;  // from which bend on
-constexpr double kOnPlaneDegrees = 10.0;  // from which bend on the mirror plane counts
-constexpr double kMarked = 6.0;           // added where an artist expects a border
-constexpr double kLeastPrice = 0.05;      // of a cut along an edge that is a border for sure
 
 class BendFinder {
  public:
@@ -206,7 +192,7 @@ EdgeBends bends_over_edges(const PlanMesh& mesh, std::span<const FaceFrame> fram
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     if (mesh.is_boundary(e) || polygons.is_diagonal[e] != 0) continue;
     found.own[e] = bends.degrees(e);
-    found.wide[e] = bends.wide_degrees(e, kWideReach * sizes.of_piece[sizes.piece_of(mesh, e)].diagonal);
+    found.wide[e] = bends.wide_degrees(e, tuning::kWideReach * sizes.of_piece[sizes.piece_of(mesh, e)].diagonal);
   }
   return found;
 }
@@ -228,20 +214,21 @@ std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, 
   std::vector<double> odds(mesh.edge_count(), -kNever);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     if (polygons.is_diagonal[e] != 0) continue;
-    const double wider = std::clamp(bends.wide[e] - sharp[e], 0.0, kMostSteps * sharp[e]);
-    const double bend = sharp[e] + kLineShare * on_line[e] + (is_round[e] != 0 ? 0.0 : kWideShare * wider);
-    odds[e] = (bend - kEvenDegrees) / kDegreesOfOdds + kPrior - kOpenness * openness[e];
-    if (sharp[e] < beside[e] - kSharperBy) odds[e] -= kBesideSharper;
-    if (bends.own[e] < -kConcaveDegrees) odds[e] += kConcave;
-    if (is_on_plane(e) && sharp[e] > kOnPlaneDegrees) odds[e] += on_plane;
-    if (is_marked[e] != 0) odds[e] += kMarked;
+    const double wider = std::clamp(bends.wide[e] - sharp[e], 0.0, tuning::kMostSteps * sharp[e]);
+    const double bend =
+        sharp[e] + tuning::kLineShare * on_line[e] + (is_round[e] != 0 ? 0.0 : tuning::kWideShare * wider);
+    odds[e] = (bend - tuning::kEvenDegrees) / tuning::kDegreesOfOdds + tuning::kPrior - tuning::kOpenness * openness[e];
+    if (sharp[e] < beside[e] - tuning::kSharperBy) odds[e] -= tuning::kBesideSharper;
+    if (bends.own[e] < -tuning::kConcaveDegrees) odds[e] += tuning::kConcave;
+    if (is_on_plane(e) && sharp[e] > tuning::kOnPlaneDegrees) odds[e] += on_plane;
+    if (is_marked[e] != 0) odds[e] += tuning::kMarked;
   }
   if (reflection != nullptr && reflection->is_exact) make_symmetric(mesh, polygons, *reflection, odds);
   return odds;
 }
 
 double price_of_cut(double odds) {
-  return std::log1p(std::exp(-std::max(odds + kMiddleBias, -kMostOdds))) + kLeastPrice;
+  return std::log1p(std::exp(-std::max(odds + tuning::kMiddleBias, -tuning::kMostOdds))) + tuning::kLeastPrice;
 }
 
 }  // namespace seamwire::detail

@@ -43,11 +43,6 @@ std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, 
                                 const EdgeBends& bends, std::span<const double> ambient,
                                 std::span<const std::uint8_t> is_marked, const Reflection* reflection, double on_plane);
 
-/// Added to all log odds in the middle of the scale of parts.
-constexpr double kMiddleBias = 0.1;
-/// Log odds are clamped to this, so that no edge alone decides.
-constexpr double kMostOdds = 4.0;
-
 /// Returns the price of a cut along an edge with these log odds, for each unit of length. It is minus the logarithm of
 /// the probability that the edge is a border, and a little more. Edges inside polygons cost the most.
 double price_of_cut(double odds);

@@ -8,24 +8,10 @@
 
 #include "detail/index.hpp"
 #include "prices/border_odds.hpp"
+#include "tuning/constants.hpp"
 
 namespace seamwire::detail {
 namespace {
-
-constexpr double kFrontShare = 0.7;       // of what counts as visible; the rest is ambient occlusion
-constexpr double kHidden = 0.25;          // price of a place that nobody sees, in that of an average place
-constexpr double kMostOpen = 2.0;         // visibility above this counts as this
-constexpr double kFace = 1.1;             // visibility from which on a place counts as part of a face
-constexpr double kFaceWidth = 0.35;       // and by how much more it does so fully
-constexpr double kFacePrice = 8.0;        // how many times more it costs then, beside its own price
-constexpr double kRidgeCurvature = 30.0;  // of the mesh of area 1: as the rim of a thin part
-constexpr double kRidgeSaving = 0.75;
-constexpr double kOnPlane = 1.0;                         // log odds for edges on the mirror plane, where paths pay half
-constexpr double kFlatOdds = -2.0;                       // log odds up to which an edge costs as in a flat place
-constexpr double kSharpFrom = 25.0, kSharpWidth = 35.0;  // degrees
-constexpr double kSlitPrice = 0.04, kHardSaving = 0.75;  // of a slit on an organic surface, and saved on machine parts
-constexpr double kBargain = 0.15;   // the least gain of energy for a price that is a bargain on machine parts
-constexpr double kTurnPrice = 1.5;  // a turn by 90 degrees, in median edges at the mean price
 
 double ramp(double value, double from, double width) { return std::clamp((value - from) / width, 0.0, 1.0); }
 
@@ -48,7 +34,9 @@ std::vector<double> openness(const PlanMesh& mesh, const Visibility& visibility,
   std::vector<double> open = normalized(visibility.ambient, areas);
   if (!visibility.front.empty()) {
     const std::vector<double> front = normalized(visibility.front, areas);
-    for (std::size_t v = 0; v < open.size(); ++v) open[v] = kFrontShare * front[v] + (1.0 - kFrontShare) * open[v];
+    for (std::size_t v = 0; v < open.size(); ++v) {
+      open[v] = tuning::kFrontShare * front[v] + (1.0 - tuning::kFrontShare) * open[v];
+    }
   }
   if (!reflection) return open;
   std::vector<double> both = open;
@@ -61,9 +49,9 @@ std::vector<double> openness(const PlanMesh& mesh, const Visibility& visibility,
 
 /// The price of a place, by its visibility.
 double price_at(double open) {
-  const double seen = kHidden + (1.0 - kHidden) * std::pow(std::min(open, kMostOpen), 3);
-  const double face = ramp(open, kFace, kFaceWidth);
-  return seen * (1.0 + kFacePrice * face * face);
+  const double seen = tuning::kHidden + (1.0 - tuning::kHidden) * std::pow(std::min(open, tuning::kMostOpen), 3);
+  const double face = ramp(open, tuning::kFace, tuning::kFaceWidth);
+  return seen * (1.0 + tuning::kFacePrice * face * face);
 }
 
 /// The price of a seam along each edge for its length, by the shape of the surface. It is 1 in a flat place.
@@ -77,8 +65,8 @@ std::vector<double> shape_prices(const PlanMesh& mesh, const EdgeBends& bends, s
     const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
     const double width = twin < 0 ? 0.0 : (middle(twin) - middle(h)).norm();
     const double curvature = width > 0.0 ? std::abs(bends.own[e]) * std::numbers::pi / 180.0 / width : 0.0;
-    const double ridge = 1.0 - kRidgeSaving * std::clamp(curvature / kRidgeCurvature, 0.0, 1.0);
-    prices.push_back(ridge * price_of_cut(std::max(odds[e], kFlatOdds)) / price_of_cut(kFlatOdds));
+    const double ridge = 1.0 - tuning::kRidgeSaving * std::clamp(curvature / tuning::kRidgeCurvature, 0.0, 1.0);
+    prices.push_back(ridge * price_of_cut(std::max(odds[e], tuning::kFlatOdds)) / price_of_cut(tuning::kFlatOdds));
   }
   return prices;
 }
@@ -86,19 +74,17 @@ std::vector<double> shape_prices(const PlanMesh& mesh, const EdgeBends& bends, s
 /// From 0 for an organic surface to 1 for a machine part: how much of its bending is in sharp edges, where most other
 /// edges hardly bend. The latter tells machine parts from organic surfaces of few triangles.
 double hardness(const PlanMesh& mesh, std::span<const double> bends) {
-  constexpr double kSharp = 30.0, kFlat = 15.0;          // degrees
-  constexpr double kFrom = 0.35, kWidth = 0.25;          // of all bending
-  constexpr double kFlatFrom = 0.45, kFlatWidth = 0.15;  // of the length of all edges
   double sharp = 0.0, bending = 0.0, flat = 0.0, length = 0.0;
   for (std::size_t e = 0; e < bends.size(); ++e) {
     const double amount = mesh.lengths[e] * std::abs(bends[e]);
     bending += amount;
     length += mesh.lengths[e];
-    if (std::abs(bends[e]) > kSharp) sharp += amount;
-    if (std::abs(bends[e]) < kFlat) flat += mesh.lengths[e];
+    if (std::abs(bends[e]) > tuning::kHardSharp) sharp += amount;
+    if (std::abs(bends[e]) < tuning::kHardFlat) flat += mesh.lengths[e];
   }
   if (!(bending > 0.0)) return 0.0;
-  return ramp(sharp / bending, kFrom, kWidth) * ramp(flat / length, kFlatFrom, kFlatWidth);
+  return ramp(sharp / bending, tuning::kHardFrom, tuning::kHardWidth) *
+         ramp(flat / length, tuning::kHardFlatFrom, tuning::kHardFlatWidth);
 }
 
 }  // namespace
@@ -114,19 +100,19 @@ EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const
   const std::vector<double> even(mesh.vertex_count(), 1.0);
   const std::vector<std::uint8_t> none(mesh.edge_count(), 0);
   const std::vector<double> odds =
-      border_odds(mesh, polygons, sizes, bends, even, none, reflection ? &*reflection : nullptr, kOnPlane);
+      border_odds(mesh, polygons, sizes, bends, even, none, reflection ? &*reflection : nullptr, tuning::kSlitOnPlane);
   const std::vector<double> shapes = shape_prices(mesh, bends, odds);
   // On machine parts sharp edges hide seams on every side, and nothing is a face.
   const double hard = hardness(mesh, bends.own);
   for (const double open : prices.visibility) {
-    prices.is_face.push_back(open >= kFace + kFaceWidth && hard < 0.5 ? 1 : 0);
+    prices.is_face.push_back(open >= tuning::kFace + tuning::kFaceWidth && hard < 0.5 ? 1 : 0);
   }
   double sum = 0.0, length = 0.0;
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     const std::int32_t a = mesh.tail(mesh.half_edge_of[e]), b = mesh.tip(mesh.half_edge_of[e]);
     const double seen = 0.5 * (price_at(prices.visibility[a]) + price_at(prices.visibility[b]));
     const double weight = weights.empty() ? 1.0 : 0.5 * (weights[a] + weights[b]);
-    const double sharpness = ramp(std::abs(bends.own[e]), kSharpFrom, kSharpWidth);
+    const double sharpness = ramp(std::abs(bends.own[e]), tuning::kSharpFrom, tuning::kSharpWidth);
     const double price = mesh.lengths[e] * std::pow(seen, 1.0 - hard * sharpness) * shapes[e] * weight;
     prices.of_edge.push_back(mesh.is_real[e] == 0 || !std::isfinite(price) ? kNever : price);
     if (prices.of_edge.back() == kNever) continue;
@@ -142,9 +128,9 @@ EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const
       prices.of_edge[e] = is_barred ? kNever : std::sqrt(own[e] * own[image]);
     }
   }
-  if (hard > 0.0) prices.bargain = kBargain / hard;
-  prices.of_slit = kSlitPrice * (1.0 - kHardSaving * hard);
-  prices.turning = length > 0.0 ? kTurnPrice * median_length(mesh) * sum / length : 0.0;
+  if (hard > 0.0) prices.bargain = tuning::kBargain / hard;
+  prices.of_slit = tuning::kSlitPrice * (1.0 - tuning::kHardSaving * hard);
+  prices.turning = length > 0.0 ? tuning::kTurnPrice * median_length(mesh) * sum / length : 0.0;
   return prices;
 }
 

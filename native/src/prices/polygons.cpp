@@ -11,16 +11,13 @@
 
 #include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
+#include "tuning/constants.hpp"
 
 namespace seamwire::detail {
 namespace {
 
 constexpr double kDegreesOfRadian = 180.0 / std::numbers::pi;
-constexpr double kMostFold = 40.0;      // degrees between the triangles of a quad
-constexpr double kMostSkew = 55.0;      // the fold and the mean deviation of the corners from 90 degrees together
-constexpr double kOverVertex = 80.0;    // the most that a line turns at a vertex of four edges, in degrees
 constexpr std::size_t kMostEdges = 24;  // around a vertex; lines end at the middle of larger fans
-constexpr double kMostTurn = 50.0;      // and at other vertices
 
 double angle_between(const Vector& one, const Vector& other) {
   return kDegreesOfRadian * std::atan2(one.cross(other).norm(), one.dot(other));
@@ -30,7 +27,7 @@ double angle_between(const Vector& one, const Vector& other) {
 double skew_of(const PlanMesh& mesh, std::span<const FaceFrame> frames, std::int32_t h) {
   const std::int32_t twin = mesh.twins[h];
   const double fold = angle_between(frames[h / 3].normal, frames[twin / 3].normal);
-  if (!(fold < kMostFold)) return kNever;
+  if (!(fold < tuning::kMostFold)) return kNever;
   const std::array<Vector, 4> corners{mesh.points[mesh.tail(h)], mesh.points[mesh.apex(twin)], mesh.points[mesh.tip(h)],
                                       mesh.points[mesh.apex(h)]};
   double deviation = 0.0;
@@ -39,7 +36,7 @@ double skew_of(const PlanMesh& mesh, std::span<const FaceFrame> frames, std::int
     deviation += std::abs(angle_between(corners[(i + 1) % 4] - at, corners[(i + 3) % 4] - at) - 90.0);
   }
   const double skew = fold + deviation / 4.0;
-  return skew < kMostSkew ? skew : kNever;
+  return skew < tuning::kMostSkew ? skew : kNever;
 }
 
 }  // namespace
@@ -102,13 +99,13 @@ EdgeLines find_lines(const PlanMesh& mesh, const Polygons& polygons) {
     choice.assign(around.size(), -1);
     for (std::size_t i = 0; i < around.size(); ++i) {
       const Vector in = mesh.points[v] - mesh.points[around[i].vertex];
-      double least = kMostTurn;
+      double least = tuning::kMostTurn;
       for (std::size_t k = 0; k < around.size(); ++k) {
         if (k == i) continue;
         const double turn = angle_between(in, mesh.points[around[k].vertex] - mesh.points[v]);
         const bool is_opposite =
             around.size() == 4 && !mesh.is_boundary(around[i].edge) && !share_polygon(around[i].edge, around[k].edge);
-        if (is_opposite && turn < kOverVertex) {
+        if (is_opposite && turn < tuning::kOverVertex) {
           choice[i] = static_cast<std::int32_t>(k);
           break;
         }

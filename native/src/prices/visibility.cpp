@@ -10,12 +10,11 @@
 #include "detail/index.hpp"
 #include "detail/run_on_threads.hpp"
 #include "seamwire/surface/ray_tree.hpp"
+#include "tuning/constants.hpp"
 
 namespace seamwire::detail {
 namespace {
 
-constexpr int kViews = 20;  // from the front hemisphere
-constexpr int kSky = 24;    // directions above a vertex
 constexpr std::size_t kBlock = 256;
 
 /// Point i of `count` on a hemisphere around `axis`, spread evenly (Fibonacci spiral).
@@ -58,7 +57,9 @@ Visibility find_visibility(const PlanMesh& mesh, const std::optional<Vector>& fr
   rays.wait(task);
   const std::vector<Vector> normals = vertex_normals(mesh, face_frames(mesh));
   std::vector<Vector> views;
-  for (int i = 0; front && i < kViews; ++i) views.push_back(on_hemisphere(i, kViews, front->normalized()));
+  for (int i = 0; front && i < tuning::kViews; ++i) {
+    views.push_back(on_hemisphere(i, tuning::kViews, front->normalized()));
+  }
   Visibility found;
   found.ambient.assign(mesh.vertex_count(), 1.0);
   if (front) found.front.assign(mesh.vertex_count(), 1.0);
@@ -70,11 +71,11 @@ Visibility find_visibility(const PlanMesh& mesh, const std::optional<Vector>& fr
       return direction.dot(normal) > 0.0 && rays.first_hit(origin, direction).triangle < 0;
     };
     int seen = 0;
-    for (int i = 0; i < kSky; ++i) seen += is_free(by_cosine(i, kSky, normal)) ? 1 : 0;
-    found.ambient[v] = static_cast<double>(seen) / kSky;
+    for (int i = 0; i < tuning::kSkyRays; ++i) seen += is_free(by_cosine(i, tuning::kSkyRays, normal)) ? 1 : 0;
+    found.ambient[v] = static_cast<double>(seen) / tuning::kSkyRays;
     if (!front) return;
     const auto views_that_see = std::ranges::count_if(views, is_free);
-    found.front[v] = static_cast<double>(views_that_see) / kViews;
+    found.front[v] = static_cast<double>(views_that_see) / tuning::kViews;
   };
   std::vector<std::int32_t> chosen;
   const std::size_t step = (mesh.vertex_count() - 1) / std::max<std::size_t>(most, 1) + 1;

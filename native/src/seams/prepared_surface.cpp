@@ -13,14 +13,10 @@
 #include "prices/visibility.hpp"
 #include "seams/piece_groups.hpp"
 #include "simplified/decimation.hpp"
+#include "tuning/constants.hpp"
 
 namespace seamwire::detail {
 namespace {
-
-/// A surface with more triangles is planned on simplified meshes, all of them together with about so many. Each group
-/// has at least kLeastSimplified, if it is not smaller itself. Seams are also searched on a mesh of half as many
-/// triangles, if that has at least kLeastSimplified.
-constexpr std::size_t kMostTriangles = 9000, kSimplified = 7000, kLeastSimplified = 600;
 
 /// The values at some vertices; 0 in the place of -1.
 Visibility at_places(const Visibility& from, std::span<const std::int32_t> vertices) {
@@ -98,11 +94,11 @@ void PreparedSurface::find_meshes(const Task& task) {
     const Task own = part_of(task, 0.3 + 0.7 * static_cast<double>(done) / static_cast<double>(all),
                              0.3 + 0.7 * static_cast<double>(done + count) / static_cast<double>(all));
     done += count;
-    const std::size_t share = std::max(kSimplified * count / all, kLeastSimplified);
-    group.is_large = all > kMostTriangles && count * kSimplified > share * kMostTriangles;
+    const std::size_t share = std::max(tuning::kSimplified * count / all, tuning::kLeastSimplified);
+    group.is_large = all > tuning::kMostTriangles && count * tuning::kSimplified > share * tuning::kMostTriangles;
     if (group.is_large) add_simplified(group, share, part_of(own, 0.0, 0.7));
     const std::size_t half = group.searched().mesh.face_count() / 2;
-    if (half >= kLeastSimplified) add_simplified(group, half, part_of(own, 0.7, 1.0));
+    if (half >= tuning::kLeastSimplified) add_simplified(group, half, part_of(own, 0.7, 1.0));
   }
 }
 

@@ -12,6 +12,7 @@
 #include "seams/group_planning.hpp"
 #include "seams/prepared_surface.hpp"
 #include "seams/whole_plan.hpp"
+#include "tuning/constants.hpp"
 
 namespace seamwire {
 
@@ -21,9 +22,6 @@ namespace {
 
 /// Groups with fewer triangles are planned at the same time, on one thread each.
 constexpr std::size_t kSmallGroup = 600;
-/// Faces may be cut for a bound on the energy below this.
-constexpr double kLowStretch = 4.15;
-constexpr double kBudget = 4000.0;
 
 void check_options(const Surface& surface, const SeamPlannerOptions& options) {
   check_strength(options.strength);
@@ -61,13 +59,13 @@ class Planning {
   SeamPlan run() {
     part_limbs(part_of(task_, 0.0, kLimbsEnd));
     const bool is_bounded = std::isfinite(goal_.distortion);
-    const double budget = goal_.steps > 0 ? static_cast<double>(goal_.steps) : kBudget;
+    const double budget = goal_.steps > 0 ? static_cast<double>(goal_.steps) : tuning::kBudget;
     const double search_end = kTreesEnd + (1.0 - kTreesEnd) * share_of_search(budget);
     for_each_group(part_of(task_, kLimbsEnd, kTreesEnd),
                    [&](std::size_t g, const Task& own) { plans_[g].grow(is_bounded, own); });
     tell();
     const double bound = bound_of_groups();
-    const SlitGoal aim{.energy = bound, .may_cross_faces = goal_.distortion < kLowStretch, .budget = budget};
+    const SlitGoal aim{.energy = bound, .may_cross_faces = goal_.distortion < tuning::kLowStretch, .budget = budget};
     for_each_group(part_of(task_, kTreesEnd, search_end), [&](std::size_t g, const Task& own) {
       plans_[g].search(
           aim, is_small(g) ? std::function<void()>() : [&] { tell(); }, own);

@@ -7,14 +7,10 @@
 
 #include "detail/index.hpp"
 #include "slits/slit_paths.hpp"
+#include "tuning/constants.hpp"
 
 namespace seamwire::detail {
 namespace {
-
-constexpr double kNearCut = 0.07;     // nearer than this to the cut, a further slit would be a crumb
-constexpr double kPeaksApart = 0.1;   // peaks nearer to each other than this are one
-constexpr double kSpreadStep = 0.03;  // spread vertices are farther than this from the cut and each other
-constexpr double kMostExcess = 50.0;
 
 /// How much more than an isometry the triangles around each vertex have, by area.
 std::vector<double> excess_at_vertices(const SlitProblem& problem, const SlitPlan& plan) {
@@ -24,7 +20,7 @@ std::vector<double> excess_at_vertices(const SlitProblem& problem, const SlitPla
     if (!map) continue;
     for (std::size_t k = 0; k < map->energies.size(); ++k) {
       const std::int32_t f = map->island.faces[k];
-      const double above = std::clamp(map->energies[k] - 4.0, 0.0, kMostExcess);
+      const double above = std::clamp(map->energies[k] - 4.0, 0.0, tuning::kMostExcess);
       for (const std::int32_t v : mesh.triangles[f]) excess[v] += problem.areas[f] / 3.0 * above;
     }
   }
@@ -56,7 +52,7 @@ void add_peaks(const PlanMesh& mesh, std::span<const double> values, std::span<c
                std::size_t count, std::vector<std::int32_t>& chosen) {
   std::vector<std::int32_t> maxima;
   for (std::int32_t v = 0; index(v) < values.size(); ++v) {
-    if (!(values[v] > 0.0) || !(from_cut[v] > kNearCut) || !std::isfinite(from_cut[v])) continue;
+    if (!(values[v] > 0.0) || !(from_cut[v] > tuning::kNearCut) || !std::isfinite(from_cut[v])) continue;
     const bool is_highest = std::ranges::all_of(
         mesh.all_neighbors[v], [&](const PlanNeighbor& next) { return values[next.vertex] <= values[v]; });
     if (is_highest) maxima.push_back(v);
@@ -65,7 +61,7 @@ void add_peaks(const PlanMesh& mesh, std::span<const double> values, std::span<c
   for (const std::int32_t v : maxima) {
     if (count == 0) return;
     const bool is_apart = std::ranges::all_of(
-        chosen, [&](std::int32_t other) { return (mesh.points[v] - mesh.points[other]).norm() > kPeaksApart; });
+        chosen, [&](std::int32_t other) { return (mesh.points[v] - mesh.points[other]).norm() > tuning::kPeaksApart; });
     if (!is_apart) continue;
     chosen.push_back(v);
     --count;
@@ -75,13 +71,13 @@ void add_peaks(const PlanMesh& mesh, std::span<const double> values, std::span<c
 /// Adds the most distorted vertex around the end of each slit.
 void add_ahead(const PlanMesh& mesh, const SlitPlan& plan, std::span<const double> values,
                std::span<const double> from_cut, std::vector<std::int32_t>& chosen) {
-  constexpr double kAhead = 0.2, kStep = 0.04;  // at most this far from the end, and at least that far from the cut
   for (const Slit& slit : plan.slits) {
     if (slit.is_needed) continue;
     const Vector& end = mesh.points[slit.path.back()];
     std::int32_t best = -1;
     for (std::int32_t v = 0; index(v) < values.size(); ++v) {
-      const bool is_ahead = from_cut[v] > kStep && std::isfinite(from_cut[v]) && (mesh.points[v] - end).norm() < kAhead;
+      const bool is_ahead = from_cut[v] > tuning::kAheadOfCut && std::isfinite(from_cut[v]) &&
+                            (mesh.points[v] - end).norm() < tuning::kAheadOfEnd;
       if (is_ahead && (best < 0 || values[v] > values[best])) best = v;
     }
     if (best >= 0) chosen.push_back(best);
@@ -92,7 +88,6 @@ void add_ahead(const PlanMesh& mesh, const SlitPlan& plan, std::span<const doubl
 
 std::vector<std::int32_t> distortion_peaks(const SlitProblem& problem, const SlitPlan& plan,
                                            std::span<const std::uint8_t> is_on_cut) {
-  constexpr double kClose = 0.05, kWide = 0.15;  // radii around which distortion is summed up
   const PlanMesh& mesh = problem.mesh;
   std::vector<std::int32_t> cut;
   for (std::int32_t v = 0; index(v) < is_on_cut.size(); ++v) {
@@ -107,17 +102,17 @@ std::vector<std::int32_t> distortion_peaks(const SlitProblem& problem, const Sli
     for (std::size_t v = 0; v < amounts.size(); ++v) amounts[v] = around[v] > 0.0 ? amounts[v] / around[v] : 0.0;
     return amounts;
   };
-  const std::vector<double> close = density(kClose), wide = density(kWide);
+  const std::vector<double> close = density(tuning::kClosePeak), wide = density(tuning::kWidePeak);
   std::vector<double> finite(from_cut), weighted(from_cut.size());
   for (std::size_t v = 0; v < finite.size(); ++v) {
     if (!std::isfinite(finite[v])) finite[v] = 0.0;
     weighted[v] = finite[v] * wide[v];
   }
   std::vector<std::int32_t> chosen;
-  add_peaks(mesh, close, from_cut, 4, chosen);
-  add_peaks(mesh, wide, from_cut, 3, chosen);
-  add_peaks(mesh, weighted, from_cut, 2, chosen);
-  add_peaks(mesh, finite, from_cut, 2, chosen);
+  add_peaks(mesh, close, from_cut, tuning::kClosePeaks, chosen);
+  add_peaks(mesh, wide, from_cut, tuning::kWidePeaks, chosen);
+  add_peaks(mesh, weighted, from_cut, tuning::kFarPeaks, chosen);
+  add_peaks(mesh, finite, from_cut, tuning::kFarthest, chosen);
   add_ahead(mesh, plan, close, from_cut, chosen);
   return chosen;
 }
@@ -133,7 +128,7 @@ std::vector<std::int32_t> spread_vertices(const SlitProblem& problem, std::span<
   std::vector<std::int32_t> chosen;
   while (chosen.size() < count) {
     const auto farthest = std::ranges::max_element(away);
-    if (farthest == away.end() || *farthest <= kSpreadStep) break;
+    if (farthest == away.end() || *farthest <= tuning::kSpreadStep) break;
     chosen.push_back(static_cast<std::int32_t>(farthest - away.begin()));
     const std::vector<double> from_it = edge_distances(problem.mesh, {&chosen.back(), 1});
     for (std::size_t v = 0; v < away.size(); ++v) away[v] = std::min(away[v], from_it[v]);

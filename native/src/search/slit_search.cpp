@@ -15,37 +15,26 @@
 #include "search/slit_solver.hpp"
 #include "slits/slit_edits.hpp"
 #include "slits/slit_finder.hpp"
+#include "tuning/constants.hpp"
 
 namespace seamwire::detail {
 namespace {
 
-constexpr double kBelow = 0.03;        // grow this far below the bound, so that there is something to give away
-constexpr double kLeastGain = 2e-3;    // of the energy: a slit that gains less is of no use
-constexpr double kFinestGain = 1e-4;   // the same while the bound is not reached and no other slit helps
-constexpr double kChoicePrice = 2.5;   // prices of a slit; added when slits are compared, so that tiny slits do not win
-constexpr double kLeastSaving = 1e-3;  // of the price: an exchange that saves less is of no use
-constexpr double kSame = 0.03;         // slits to places nearer to each other than this are one candidate
-constexpr double kOverlapping = 0.3;   // how much a gain counts if the map overlaps itself
 constexpr std::size_t kFullSolves = 2;  // of candidates at once
 constexpr std::size_t kBatch = 2;       // solves at once; the same on every machine
-constexpr std::size_t kThorough = 48;   // places all over the surface to try where none of the likely ones helps
-constexpr std::size_t kExchanges = 8;   // tries in each round
-
-/// The shares of a slit's length that may stay, in the order in which they are tried.
-constexpr std::array<double, 3> kShares = {0.0, 0.6, 0.85};
 
 /// How a slit of a plan might become shorter.
 struct Cutback {
   double needed = 0.0;    ///< the share of its length that has to stay
-  std::size_t level = 0;  ///< which of kShares is tried next; their number if all were tried in vain
+  std::size_t level = 0;  ///< which of kShorterShares is tried next; their number if all were tried in vain
   double ratio = kNever;  ///< saved price for each lost energy, as of the last look; infinite before the first one
   std::optional<SlitPlan> plan = std::nullopt;  ///< what comes of it, if it was looked at for the present plan
 
-  bool is_open() const { return level < kShares.size(); }
-  double share() const { return std::max(kShares[level], needed); }
+  bool is_open() const { return level < tuning::kShorterShares.size(); }
+  double share() const { return std::max(tuning::kShorterShares[level], needed); }
   /// Goes on to a share that leaves more than has to stay.
   void skip_useless_shares() {
-    while (is_open() && (needed >= 1.0 || (level > 0 && kShares[level] <= needed))) ++level;
+    while (is_open() && (needed >= 1.0 || (level > 0 && tuning::kShorterShares[level] <= needed))) ++level;
   }
   void fail() {
     ++level;
@@ -142,7 +131,7 @@ class Search {
   SlitPlan best_;
   std::vector<Slit> tails_;  // what was cut off slits
   double steps_ = 0.0;
-  double least_gain_ = kLeastGain;
+  double least_gain_ = tuning::kLeastGain;
 };
 
 /// Slits that might be added.
@@ -152,15 +141,15 @@ std::vector<Slit> Search::candidates(const SlitPlan& plan, bool is_thorough) con
   std::vector<std::int32_t> ends;
   std::vector<std::int32_t> places = distortion_peaks(problem_, plan, cut.is_on_cut);
   if (is_thorough) {
-    const std::vector<std::int32_t> more = spread_vertices(problem_, cut.is_on_cut, kThorough);
+    const std::vector<std::int32_t> more = spread_vertices(problem_, cut.is_on_cut, tuning::kThoroughPlaces);
     places.insert(places.end(), more.begin(), more.end());
   }
   for (std::int32_t v : places) {
     if (problem_.reflection && problem_.reflection->sides[v] < 0 && problem_.reflection->images[v] >= 0) {
       v = problem_.reflection->images[v];
     }
-    const bool is_new =
-        std::ranges::all_of(ends, [&](std::int32_t end) { return (mesh.points[v] - mesh.points[end]).norm() > kSame; });
+    const bool is_new = std::ranges::all_of(
+        ends, [&](std::int32_t end) { return (mesh.points[v] - mesh.points[end]).norm() > tuning::kSameCandidate; });
     if (is_new && cut.is_on_cut[v] == 0) ends.push_back(v);
   }
   std::vector<Slit> found;
@@ -186,7 +175,7 @@ std::vector<Slit> Search::candidates(const SlitPlan& plan, bool is_thorough) con
 
 /// The gain of a plan over another one, down to a bound on the energy, divided by the additional cost.
 double Search::gain_ratio(const SlitPlan& before, const Trial& after, double bound) const {
-  const double price = std::max(after.price - before.price, 0.0) + kChoicePrice * problem_.prices.of_slit;
+  const double price = std::max(after.price - before.price, 0.0) + tuning::kChoicePrice * problem_.prices.of_slit;
   const double whole = (before.energy - after.energy) / price;
   return whole > problem_.prices.bargain ? whole : std::max(before.energy - std::max(after.energy, bound), 0.0) / price;
 }
@@ -210,7 +199,7 @@ bool Search::grow_once(SlitPlan& plan, double bound, bool is_thorough) {
     const bool is_repaired = plan.overlaps && !trials[i].overlaps;
     if (!(gain >= least_gain_) && !is_repaired) continue;
     double ratio = gain_ratio(plan, {plan.energy - gain, trials[i].price, trials[i].overlaps}, bound);
-    if (trials[i].overlaps && !loose.overlaps) ratio *= kOverlapping;
+    if (trials[i].overlaps && !loose.overlaps) ratio *= tuning::kOverlappingGain;
     if (is_repaired) ratio = std::max(ratio, 0.0) + 1.0;
     if (ratio > 0.0) order.push_back({-ratio, i});
   }
@@ -250,13 +239,13 @@ void Search::grow(SlitPlan& plan, double bound) {
 
 /// Grows, and takes slits that gain less while the bound is not reached.
 void Search::grow_finer(SlitPlan& plan) {
-  least_gain_ = kLeastGain;
-  grow(plan, goal_.energy - kBelow);
-  while (!is_within(plan) && !is_spent() && least_gain_ > kFinestGain) {
-    least_gain_ = std::max(0.25 * least_gain_, kFinestGain);
-    grow(plan, goal_.energy - kBelow);
+  least_gain_ = tuning::kLeastGain;
+  grow(plan, goal_.energy - tuning::kGrowBelow);
+  while (!is_within(plan) && !is_spent() && least_gain_ > tuning::kFinestGain) {
+    least_gain_ = std::max(0.25 * least_gain_, tuning::kFinestGain);
+    grow(plan, goal_.energy - tuning::kGrowBelow);
   }
-  least_gain_ = kLeastGain;
+  least_gain_ = tuning::kLeastGain;
 }
 
 SlitPlan Search::cut_back(const SlitPlan& plan, std::size_t slit, double share, const Task& task) const {
@@ -362,12 +351,12 @@ bool Search::exchange(const SlitPlan& plan) {
   if (is_spent()) return false;
   std::size_t tries = 0;
   for (const std::size_t k : worst_bargains(before)) {
-    if (tries++ == kExchanges || is_spent()) return false;
+    if (tries++ == tuning::kExchanges || is_spent()) return false;
     SlitPlan next = solver_.solve(without_slit(before.slits, k), own_task());
     steps_ += next.work;
-    grow(next, goal_.energy - kBelow);
+    grow(next, goal_.energy - tuning::kGrowBelow);
     shrink(next);
-    if (is_within(next) && next.price < before.price - kLeastSaving) {
+    if (is_within(next) && next.price < before.price - tuning::kLeastSaving) {
       offer(next);
       return true;
     }

@@ -13,12 +13,12 @@
 #include "detail/run_on_threads.hpp"
 #include "parameterization/open_island.hpp"
 #include "slits/slit_edits.hpp"
+#include "tuning/constants.hpp"
 
 namespace seamwire::detail {
 namespace {
 
 constexpr double kReserve = 0.01;  // for what the worst triangles add to an energy, beyond what they add now
-constexpr std::size_t kTrialSteps = 6;
 
 }  // namespace
 
@@ -103,7 +103,7 @@ SlitPlan SlitSolver::relaxed(const SlitPlan& plan, const Task& task) const {
 
 SlitPlan SlitSolver::try_out(const SlitPlan& relaxed, const Slit& slit, const Task& task) const {
   MapOptions options = kPlanMap;
-  options.max_steps = kTrialSteps;
+  options.max_steps = tuning::kTrialSteps;
   options.keep_apart = false;
   return continued(relaxed, slit, options, task);
 }

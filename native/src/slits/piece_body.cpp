@@ -5,12 +5,10 @@
 #include <cmath>
 #include <utility>
 
+#include "tuning/constants.hpp"
+
 namespace seamwire::detail {
 namespace {
-
-constexpr double kProminence = 0.08;  // of a tip, in the root of its piece's area
-constexpr double kToPlane = 0.07;    // vertices as near to the mirror plane as this are moved onto it, in the same unit
-constexpr double kTipsApart = 0.05;  // tips nearer to each other than this are one
 
 Island first_island(const SlitProblem& problem, std::int32_t number) {
   const SlitProblem::Piece& piece = problem.by_piece[number];
@@ -44,7 +42,7 @@ std::int32_t onto_plane(const SlitProblem& problem, const PieceBody& body, std::
   const Reflection& reflection = *problem.reflection;
   if (reflection.sides[tip] == 0) return tip;
   std::int32_t nearest = tip;
-  double least = kToPlane * body.size;
+  double least = tuning::kTipToPlane * body.size;
   for (const std::int32_t v : body.island.vertices) {
     if (reflection.sides[v] != 0) continue;
     const double distance = (problem.mesh.points[v] - problem.mesh.points[tip]).norm();
@@ -61,7 +59,7 @@ std::vector<std::int32_t> find_tips(const SlitProblem& problem, const PieceBody&
   std::vector<std::int32_t> vertices = body.island.vertices;
   std::ranges::sort(vertices);
   std::vector<std::int32_t> tips;
-  for (const std::int32_t own : body.graph.peaks(distances, kProminence * body.size)) {
+  for (const std::int32_t own : body.graph.peaks(distances, tuning::kTipProminence * body.size)) {
     std::int32_t tip = body.island.vertices[own];
     if (problem.reflection) {
       tip = onto_plane(problem, body, tip);
@@ -69,7 +67,7 @@ std::vector<std::int32_t> find_tips(const SlitProblem& problem, const PieceBody&
       if (problem.reflection->sides[tip] < 0 && std::ranges::binary_search(vertices, image)) tip = image;
     }
     const bool is_new = std::ranges::all_of(tips, [&](std::int32_t other) {
-      return (problem.mesh.points[tip] - problem.mesh.points[other]).norm() > kTipsApart * body.size;
+      return (problem.mesh.points[tip] - problem.mesh.points[other]).norm() > tuning::kTipsApart * body.size;
     });
     if (is_new) tips.push_back(tip);
   }

@@ -8,12 +8,10 @@
 
 #include "detail/index.hpp"
 #include "parameterization/open_island.hpp"
+#include "tuning/constants.hpp"
 
 namespace seamwire::detail {
 namespace {
-
-/// The share of the area, where the map is worst, that an energy leaves out.
-constexpr double kLeftOut = 1e-3;
 
 template <class Visit>
 void for_each_edge(const PlanMesh& mesh, std::span<const std::int32_t> chain, const Visit& visit) {
@@ -135,7 +133,7 @@ double mean_energy(std::vector<std::pair<double, double>> energies) {
   std::ranges::sort(energies, std::ranges::greater());
   double left_out = 0.0, sum = 0.0;
   for (const auto& [energy, own] : energies) {
-    const double counted = std::clamp(left_out + own - kLeftOut * area, 0.0, own);
+    const double counted = std::clamp(left_out + own - tuning::kLeftOut * area, 0.0, own);
     left_out += own - counted;
     if (counted > 0.0) sum += counted * energy;
   }

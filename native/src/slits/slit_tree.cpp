@@ -15,14 +15,10 @@
 #include "slits/piece_body.hpp"
 #include "slits/slit_edits.hpp"
 #include "slits/slit_finder.hpp"
+#include "tuning/constants.hpp"
 
 namespace seamwire::detail {
 namespace {
-
-constexpr double kLeastCut = 0.6;  // a piece with a shorter tree and boundary, in roots of its area, gets one slit more
-/// The area within the length of a loop from it, in the square of that length: about 4 around a hole in a plane, 1 at
-/// the end of a tube. With less than this, the loop is the end of a tube.
-constexpr double kLeastAround = 2.0;
 
 /// Something that the tree has to reach: any of some vertices.
 struct Terminal {
@@ -238,7 +234,7 @@ class TreeGrowth {
       const Triangle& t = problem_.mesh.triangles[f];
       if (std::ranges::all_of(t, [&](std::int32_t v) { return away[v] < length; })) area += problem_.areas[f];
     }
-    return area > kLeastAround * length * length;
+    return area > tuning::kLeastAround * length * length;
   }
 
   /// Takes out and returns the holes that a slit from the hidden middle of the piece could only reach across a face. An
@@ -393,7 +389,7 @@ class TreeGrowth {
   void lengthen_short_cut(std::int32_t number) {
     const State& state = states_[number];
     const PieceBody& body = state.body;
-    if (has_tips_ ? state.cut_length >= kLeastCut * body.size : state.cut_length > 0.0) return;
+    if (has_tips_ ? state.cut_length >= tuning::kLeastCut * body.size : state.cut_length > 0.0) return;
     const SlitFinder finder = finder_in(index(number));
     const std::vector<double> away = edge_distances(problem_.mesh, state.vertices);
     std::int32_t farthest = -1;

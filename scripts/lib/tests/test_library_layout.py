@@ -18,6 +18,7 @@ ROOMS = (
     "wires",
     "parameterization",
     "context",
+    "tuning",
     "prices",
     "slits",
     "parts",
