@@ -10,7 +10,7 @@
 #include <nanoflann.hpp>
 
 #include "mesh_input.hpp"
-#include "seams/point_tree.hpp"
+#include "prices/point_tree.hpp"
 
 namespace seamwire::bench {
 namespace {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "seamwire/task.hpp"
+#include "tuning/constants.hpp"
 
 namespace seamwire::detail {
 
@@ -27,10 +28,11 @@ struct RegionBorder {
 
 /// Which regions to join.
 struct RegionRules {
-  double region_price = 0.0;                   ///< what each region costs
-  double sharp_rim = 2.0;                      ///< the mean log odds of a rim that encloses a small region
-  double least_width = 0.0;                    ///< narrower regions join a neighbor if they are steps of a chamfer
-  double least_step = 25.0, most_step = 70.0;  ///< how many degrees the surface bends at the sides of such a step
+  double region_price = 0.0;             ///< what each region costs
+  double sharp_rim = tuning::kSharpRim;  ///< the mean log odds of a rim that encloses a small region
+  double least_width = 0.0;              ///< narrower regions join a neighbor if they are steps of a chamfer
+  /// How many degrees the surface bends at the sides of such a step.
+  double least_step = tuning::kLeastStep, most_step = tuning::kMostStep;
 };
 
 /// Joins regions, always the two that gain the most, as long as that gains anything, then small and narrow ones.

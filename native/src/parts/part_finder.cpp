@@ -11,17 +11,18 @@
 #include "detail/edge_chains.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
+#include "parts/halving.hpp"
 #include "parts/joined_regions.hpp"
-#include "seams/border_odds.hpp"
-#include "seams/halving.hpp"
-#include "seams/plan_mesh.hpp"
-#include "seams/polygons.hpp"
-#include "seams/reflection.hpp"
-#include "seams/slit_plan.hpp"
-#include "seams/visibility.hpp"
+#include "prices/border_odds.hpp"
+#include "prices/plan_mesh.hpp"
+#include "prices/polygons.hpp"
+#include "prices/reflection.hpp"
+#include "prices/visibility.hpp"
 #include "seamwire/errors.hpp"
 #include "seamwire/surface/segments.hpp"
+#include "slits/slit_plan.hpp"
 #include "surface/real_edges.hpp"
+#include "tuning/constants.hpp"
 
 namespace seamwire {
 
@@ -30,19 +31,12 @@ using namespace detail;
 namespace {
 
 constexpr double kEditOdds = 1e6;               // of an edge that somebody has kept or dropped
-constexpr double kBiasToOne = 1.2;              // how fast it falls towards one part, in log odds of the amount
-constexpr double kBiasToSharp = 2.2;            // what is added to it at the other end
-constexpr double kOnPlane = 2.0;                // log odds for edges on the mirror plane
-constexpr double kPartPrice = 0.2;              // of a part, in diagonals of its piece
-constexpr double kLeastArea = 0.003;            // of the area of its piece
-constexpr double kLeastWidth = 0.008;           // in diagonals of its piece
-constexpr std::size_t kLooks = 8000;            // vertices at which visibility is measured
 constexpr double kJoined = 0.3, kParted = 0.9;  // of the work of find()
 
 /// The constant that an amount of parts adds to all log odds.
 double bias_of(double amount) {
-  if (amount >= 0.5) return kMiddleBias + 2.0 * (amount - 0.5) * kBiasToSharp;
-  return kMiddleBias + kBiasToOne * std::log(amount / (1.0 - amount));
+  if (amount >= 0.5) return tuning::kMiddleBias + 2.0 * (amount - 0.5) * tuning::kBiasToSharp;
+  return tuning::kMiddleBias + tuning::kBiasToOne * std::log(amount / (1.0 - amount));
 }
 
 /// Sorts vertex pairs, the smaller vertex first.
@@ -129,13 +123,15 @@ void PartFinder::Impl::prepare(const Task& task) {
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
     for (const std::int32_t v : mesh.triangles[f]) size_at[v] = std::sqrt(sizes.of_piece[sizes.pieces.of_face[f]].area);
   }
-  const Visibility visibility = find_visibility(mesh, std::nullopt, part_of(task, 0.2, 0.8), size_at, kLooks);
+  const Visibility visibility =
+      find_visibility(mesh, std::nullopt, part_of(task, 0.2, 0.8), size_at, tuning::kMostLooks);
   std::vector<std::uint8_t> is_border = problem.is_seam;
   for (std::size_t e = 0; e < is_border.size(); ++e) is_border[e] |= is_marked[e];
   polygons = find_polygons(mesh, frames, is_border);
   task.check(0.85);
   bends = bends_over_edges(mesh, frames, polygons, sizes);
-  odds = border_odds(mesh, polygons, sizes, bends, visibility.ambient, is_marked, problem.mirror(), kOnPlane);
+  odds =
+      border_odds(mesh, polygons, sizes, bends, visibility.ambient, is_marked, problem.mirror(), tuning::kPartOnPlane);
   task.check(0.95);
   regions.resize(polygons.count);
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
@@ -143,7 +139,7 @@ void PartFinder::Impl::prepare(const Task& task) {
     if (!(diagonal > 0.0)) continue;
     Region& own = regions[polygons.of_face[f]];
     own.area += frames[f].area / (diagonal * diagonal);
-    own.least_area = kLeastArea * area / (diagonal * diagonal);
+    own.least_area = tuning::kLeastPart * area / (diagonal * diagonal);
   }
   if (problem.reflection) {
     const std::vector<std::int32_t> images = images_of(mesh, polygons, *problem.reflection);
@@ -198,7 +194,7 @@ std::vector<std::int32_t> PartFinder::Impl::joined(double amount, const PartEdit
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
     if (twin < 0 || problem.is_seam[e] != 0 || polygons.is_diagonal[e] != 0) continue;
-    double own = std::clamp(odds[e] + bias, -kMostOdds, kMostOdds);
+    double own = std::clamp(odds[e] + bias, -tuning::kMostOdds, tuning::kMostOdds);
     if (is_dropped[e] != 0) own = -kEditOdds;
     if (is_kept[e] != 0) own = kEditOdds;
     const double diagonal = sizes.of_piece[sizes.piece_of(mesh, e)].diagonal;
@@ -206,7 +202,8 @@ std::vector<std::int32_t> PartFinder::Impl::joined(double amount, const PartEdit
     found.push_back({polygons.of_face[h / 3], polygons.of_face[twin / 3], own * length, length,
                      std::abs(bends.own[e]) * length, is_kept[e] != 0});
   }
-  return joined_regions(regions, found, {.region_price = kPartPrice, .least_width = kLeastWidth}, task);
+  return joined_regions(regions, found, {.region_price = tuning::kPartPrice, .least_width = tuning::kLeastPartWidth},
+                        task);
 }
 
 /// Marks the borders of parts and the existing seams.

@@ -9,34 +9,29 @@
 
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
-#include "seams/carried_slits.hpp"
-#include "seams/parting_cuts.hpp"
-#include "seams/piece_body.hpp"
+#include "parts/parting_cuts.hpp"
+#include "simplified/carried_slits.hpp"
+#include "slits/piece_body.hpp"
+#include "tuning/constants.hpp"
 
 namespace seamwire::detail {
 namespace {
 
-/// How often a search is repeated because the original mesh distorts more than the simplified one.
-constexpr int kRounds = 2;
-constexpr int kHalvings = 4;         // how often pieces without a map are parted
-constexpr double kNearBound = 0.02;  // a map whose energy is this far below the bound may have too many seams
-constexpr double kMargin = 3e-3;
-constexpr double kFirstEnd = 0.75;    // of the progress: where the first search ends
-constexpr double kGrowing = 0.05;     // share of a later search: the tree
-constexpr double kLaterBudget = 0.5;  // of a repetition, as a share of the one before
+constexpr double kFirstEnd = 0.75;  // of the progress: where the first search ends
+constexpr double kGrowing = 0.05;   // share of a later search: the tree
 
 /// The work of each part of a round: the search, and the map of the original mesh.
 struct RoundWork {
   double search, map;
 };
-std::array<RoundWork, kRounds + 1> work_of_rounds(const GroupProblem& group, std::size_t level, double budget) {
+std::array<RoundWork, tuning::kRounds + 1> work_of_rounds(const GroupProblem& group, std::size_t level, double budget) {
   const auto faces = static_cast<double>(group.searched(level).mesh.face_count());
   const double map = kStepsOfMap * static_cast<double>(group.original.mesh.face_count());
-  std::array<RoundWork, kRounds + 1> rounds{};
+  std::array<RoundWork, tuning::kRounds + 1> rounds{};
   for (RoundWork& round : rounds) {
     round = {budget * faces, map};
     if (group.simplified_at(level) == nullptr) break;
-    budget *= kLaterBudget;
+    budget *= tuning::kLaterBudget;
   }
   return rounds;
 }
@@ -130,7 +125,7 @@ void GroupPlanning::search(const SlitGoal& goal, const std::function<void()>& fo
   search_levels(goal, found, part_of(task, 0.0, end));
   // Without a good plan the group is parted further: along the rims of the pieces that miss the bound. Without any map,
   // it is also parted into halves.
-  for (int round = 0; round <= kHalvings && !result_.is_within(goal.energy); ++round) {
+  for (int round = 0; round <= tuning::kHalvings && !result_.is_within(goal.energy); ++round) {
     if (round > 0 && std::isfinite(result_.energy)) return;
     std::vector<Slit> cuts =
         round == 0 ? rim_cuts(problem(), missed_) : halving_cuts(problem(), 2 * index(problem().pieces.count), task);
@@ -174,7 +169,7 @@ void GroupPlanning::search_levels(const SlitGoal& goal, const std::function<void
 void GroupPlanning::search_once(const SlitGoal& goal, const std::function<void()>& found, const Task& task) {
   SlitGoal aim = goal;
   Result best;
-  const std::array<RoundWork, kRounds + 1> work = work_of_rounds(*group_, level_, goal.budget);
+  const std::array<RoundWork, tuning::kRounds + 1> work = work_of_rounds(*group_, level_, goal.budget);
   const double all = group_->work_on(level_, goal.budget);
   double done = 0.0;
   const auto next = [&](double amount) {
@@ -203,14 +198,14 @@ void GroupPlanning::search_once(const SlitGoal& goal, const std::function<void()
     Result solved = solved_on_original(std::move(slits), next(work[index(round)].map));
     // The simplified mesh distorts less or more than the original one. The bound is moved by as much.
     const double excess = solved.energy - goal.energy;
-    const bool is_near = excess <= 0.0 && (excess > -kNearBound || plan.slits.empty());
+    const bool is_near = excess <= 0.0 && (excess > -tuning::kNearBound || plan.slits.empty());
     if (round == 0 || rank(solved, goal.energy) < rank(best, goal.energy)) best = std::move(solved);
-    const double energy = plan.energy - excess - kMargin;
-    const bool is_last = !is_simplified || !std::isfinite(goal.energy) || round == kRounds || is_near ||
+    const double energy = plan.energy - excess - tuning::kMargin;
+    const bool is_last = !is_simplified || !std::isfinite(goal.energy) || round == tuning::kRounds || is_near ||
                          plan.energy > aim.energy || !(energy > 4.0);
     if (is_last) break;
     aim.energy = energy;
-    aim.budget *= kLaterBudget;
+    aim.budget *= tuning::kLaterBudget;
     start_ = {};
     start_.slits = plan.slits;
   }

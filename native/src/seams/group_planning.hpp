@@ -8,13 +8,13 @@
 #include <utility>
 #include <vector>
 
-#include "seams/neck_rings.hpp"
+#include "parts/neck_rings.hpp"
 #include "seams/piece_groups.hpp"
-#include "seams/slit_plan.hpp"
-#include "seams/slit_search.hpp"
-#include "seams/slit_solver.hpp"
-#include "seams/slit_tree.hpp"
 #include "seamwire/task.hpp"
+#include "search/slit_search.hpp"
+#include "search/slit_solver.hpp"
+#include "slits/slit_plan.hpp"
+#include "slits/slit_tree.hpp"
 
 namespace seamwire::detail {
 

@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "seams/plan_mesh.hpp"
-#include "seams/reflection.hpp"
-#include "seams/slit_plan.hpp"
+#include "prices/plan_mesh.hpp"
+#include "prices/reflection.hpp"
 #include "seamwire/task.hpp"
+#include "slits/slit_plan.hpp"
 
 namespace seamwire::detail {
 

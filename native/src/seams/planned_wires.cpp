@@ -9,13 +9,12 @@
 #include <utility>
 
 #include "detail/index.hpp"
+#include "tuning/constants.hpp"
 
 namespace seamwire::detail {
 namespace {
 
-/// Wires across a surface of area 1 stay as near as this to their slits, by closeness.
-constexpr std::array<double, SlitChains::kClosest> kNearSlit = {0.04, 0.015};
-constexpr double kStraight = 0.1;  // seeds along edges are where a slit bends by more than this
+static_assert(tuning::kNearSlit.size() == SlitChains::kClosest);
 
 using Chain = SlitChains::Chain;
 
@@ -103,7 +102,7 @@ PlannedWire PlannedWires::along_edges(const PlanMesh& mesh, const Chain& chain) 
 
 std::vector<PlannedWire> PlannedWires::along_edges(const PlanMesh& mesh, const SlitChains& slits) const {
   std::vector<Chain> straight;
-  for (const Chain& chain : slits.chains) add_straight(mesh, chain, kStraight * slits.size, straight);
+  for (const Chain& chain : slits.chains) add_straight(mesh, chain, tuning::kStraight * slits.size, straight);
   std::vector<PlannedWire> wires;
   wires.reserve(straight.size());
   for (const Chain& chain : straight) wires.push_back(along_edges(mesh, chain));
@@ -123,7 +122,7 @@ std::vector<PlannedWire> PlannedWires::along(const PlanMesh& mesh, std::span<con
       std::ranges::move(along_edges(mesh, own), std::back_inserter(wires));
       continue;
     }
-    for (const Chain& chain : own.chains) open.push_back({chain, kNearSlit[index(own.closeness)] * own.size});
+    for (const Chain& chain : own.chains) open.push_back({chain, tuning::kNearSlit[index(own.closeness)] * own.size});
   }
   while (!open.empty()) {
     std::vector<CandidateWires::Ends> ends;

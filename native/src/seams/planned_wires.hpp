@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "seams/candidate_wires.hpp"
-#include "seams/slit_plan.hpp"
 #include "seamwire/seams/seam_planner.hpp"
 #include "seamwire/task.hpp"
+#include "slits/slit_plan.hpp"
 
 namespace seamwire::detail {
 

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "seams/polygons.hpp"
+#include "prices/polygons.hpp"
 #include "seamwire/surface/segments.hpp"
 #include "shapes.hpp"
 

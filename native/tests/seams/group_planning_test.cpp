@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "seams/decimation.hpp"
-#include "seams/seam_problems.hpp"
+#include "seam_problems.hpp"
+#include "simplified/decimation.hpp"
 
 namespace seamwire {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "seams/seam_problems.hpp"
+#include "seam_problems.hpp"
 
 namespace seamwire {
 

@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "detail/index.hpp"
-#include "seams/seam_problems.hpp"
+#include "seam_problems.hpp"
 #include "seamwire/parameterization/flatten.hpp"
 #include "seamwire/seams/missing_cuts.hpp"
 #include "seamwire/surface/segments.hpp"

@@ -18,8 +18,13 @@ ROOMS = (
     "wires",
     "parameterization",
     "context",
-    "seams",
+    "tuning",
+    "prices",
+    "slits",
     "parts",
+    "search",
+    "simplified",
+    "seams",
     "live",
 )
 """From below to above."""

@@ -134,7 +134,6 @@ class SEAMWIRE_API SeamPlanner {
                 const Task& task = {}) const;
 
  private:
-  friend class Planning;
   struct Impl;
   std::shared_ptr<const Impl> impl_;
 };

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "prices/border_odds.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "detail/csr.hpp"
+#include "detail/index.hpp"
+#include "tuning/constants.hpp"
+
+namespace seamwire::detail {
+namespace {
+
+constexpr double kDegreesOf = 180.0 / std::numbers::pi;
+
+class BendFinder {
+ public:
+  BendFinder(const PlanMesh& mesh, std::span<const FaceFrame> frames) : mesh_(mesh), frames_(frames) {}
+
+  double degrees(std::int32_t e) const {
+    const std::int32_t h = mesh_.half_edge_of[e], twin = mesh_.twins[h];
+    const Vector &one = frames_[h / 3].normal, &other = frames_[twin / 3].normal;
+    const double angle = kDegreesOf * std::atan2(one.cross(other).norm(), one.dot(other));
+    const Vector along = mesh_.points[mesh_.tip(h)] - mesh_.points[mesh_.tail(h)];
+    return one.cross(other).dot(along) < 0.0 ? -angle : angle;
+  }
+
+  /// Between the normals of the faces that one reaches by going straight away from an edge on both sides.
+  double wide_degrees(std::int32_t e, double distance) const {
+    const std::int32_t h = mesh_.half_edge_of[e], twin = mesh_.twins[h];
+    const Vector one = normal_at(h, distance), other = normal_at(twin, distance);
+    return kDegreesOf * std::atan2(one.cross(other).norm(), one.dot(other));
+  }
+
+ private:
+  /// The normal at a distance from the middle of a half-edge, in the plane across it.
+  Vector normal_at(std::int32_t h, double distance) const {
+    const Vector across = (mesh_.points[mesh_.tip(h)] - mesh_.points[mesh_.tail(h)]).normalized();
+    Vector at = 0.5 * (mesh_.points[mesh_.tip(h)] + mesh_.points[mesh_.tail(h)]);
+    const Vector middle = at;
+    const auto height = [&](std::int32_t v) { return (mesh_.points[v] - middle).dot(across); };
+    constexpr int kMostTriangles = 64;
+    double gone = 0.0;
+    for (int i = 0; i < kMostTriangles; ++i) {
+      const std::int32_t first = 3 * (h / 3), k = h % 3;
+      const std::int32_t tip = mesh_.apex(h);
+      // Leave through the side whose ends lie on both sides of the plane.
+      const double own = height(tip);
+      const double end = height(mesh_.tip(h));
+      const bool is_next = (own > 0.0) != (end > 0.0);
+      const std::int32_t side = first + (is_next ? (k + 1) % 3 : (k + 2) % 3);
+      const double a = height(mesh_.tail(side)), b = height(mesh_.tip(side));
+      const double t = a != b ? std::clamp(a / (a - b), 0.0, 1.0) : 0.5;
+      const Vector to =
+          mesh_.points[mesh_.tail(side)] + t * (mesh_.points[mesh_.tip(side)] - mesh_.points[mesh_.tail(side)]);
+      gone += (to - at).norm();
+      at = to;
+      if (gone >= distance || mesh_.twins[side] < 0) break;
+      h = mesh_.twins[side];
+    }
+    return frames_[h / 3].normal;
+  }
+
+  const PlanMesh& mesh_;
+  std::span<const FaceFrame> frames_;
+};
+
+/// The mean of a value over the line of each edge.
+std::vector<double> means_along(const PlanMesh& mesh, const EdgeLines& lines, const std::vector<double>& values) {
+  std::vector<double> means = values;
+  for (const std::vector<std::int32_t>& line : lines.edges) {
+    double sum = 0.0, length = 0.0;
+    for (const std::int32_t e : line) {
+      sum += mesh.lengths[e] * values[e];
+      length += mesh.lengths[e];
+    }
+    if (!(length > 0.0)) continue;
+    for (const std::int32_t e : line) means[e] = sum / length;
+  }
+  return means;
+}
+
+/// Calls visit(polygon) for the polygons on both sides of an edge.
+template <class Visit>
+void for_sides(const PlanMesh& mesh, const Polygons& polygons, std::int32_t e, const Visit& visit) {
+  const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
+  visit(polygons.of_face[h / 3]);
+  if (twin >= 0) visit(polygons.of_face[twin / 3]);
+}
+
+/// For each edge the sharpest other edge of the polygons on both sides.
+std::vector<double> sharpest_beside(const PlanMesh& mesh, const Polygons& polygons, std::span<const double> sharp) {
+  std::vector<std::array<double, 2>> sharpest(polygons.count, {0.0, 0.0});
+  std::vector<std::int32_t> edge(polygons.count, -1);
+  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    if (polygons.is_diagonal[e] != 0) continue;
+    for_sides(mesh, polygons, e, [&](std::int32_t p) {
+      auto& [most, second] = sharpest[p];
+      if (edge[p] < 0 || sharp[e] > most) {
+        second = std::exchange(most, sharp[e]);
+        edge[p] = e;
+      } else {
+        second = std::max(second, sharp[e]);
+      }
+    });
+  }
+  std::vector<double> beside(mesh.edge_count(), 0.0);
+  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    for_sides(mesh, polygons, e,
+              [&](std::int32_t p) { beside[e] = std::max(beside[e], edge[p] == e ? sharpest[p][1] : sharpest[p][0]); });
+  }
+  return beside;
+}
+
+/// Whether the surface bends on alike at the opposite edges of both polygons beside an edge, as around a tube.
+std::vector<std::uint8_t> are_round(const PlanMesh& mesh, const Polygons& polygons, std::span<const double> bends) {
+  constexpr double kAlike = 2.0;
+  std::vector<std::pair<std::int32_t, std::int32_t>> sides;
+  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    if (polygons.is_diagonal[e] == 0) for_sides(mesh, polygons, e, [&](std::int32_t p) { sides.emplace_back(p, e); });
+  }
+  const Csr<std::int32_t> around(polygons.count, sides);
+  const auto share_vertex = [&](std::int32_t one, std::int32_t other) {
+    const std::int32_t g = mesh.half_edge_of[one], h = mesh.half_edge_of[other];
+    return mesh.tail(g) == mesh.tail(h) || mesh.tail(g) == mesh.tip(h) || mesh.tip(g) == mesh.tail(h) ||
+           mesh.tip(g) == mesh.tip(h);
+  };
+  std::vector<std::uint8_t> found(mesh.edge_count(), 0);
+  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    if (polygons.is_diagonal[e] != 0 || mesh.is_boundary(e)) continue;
+    bool is_round = true;
+    for_sides(mesh, polygons, e, [&](std::int32_t p) {
+      is_round = is_round && around[p].size() == 4 && std::ranges::any_of(around[p], [&](std::int32_t other) {
+                   const double ratio = bends[other] / bends[e];
+                   return !share_vertex(e, other) && ratio > 1.0 / kAlike && ratio < kAlike;
+                 });
+    });
+    found[e] = is_round ? 1 : 0;
+  }
+  return found;
+}
+
+/// How open each edge is to the sky, less the mean over its piece.
+std::vector<double> openness_of(const PlanMesh& mesh, const PieceSizes& sizes, std::span<const double> ambient) {
+  std::vector<double> openness, sums(sizes.of_piece.size(), 0.0), lengths = sums;
+  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    const std::int32_t h = mesh.half_edge_of[e];
+    openness.push_back(0.5 * (ambient[mesh.tail(h)] + ambient[mesh.tip(h)]));
+    sums[sizes.piece_of(mesh, e)] += mesh.lengths[e] * openness.back();
+    lengths[sizes.piece_of(mesh, e)] += mesh.lengths[e];
+  }
+  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    const std::int32_t piece = sizes.piece_of(mesh, e);
+    if (lengths[piece] > 0.0) openness[e] -= sums[piece] / lengths[piece];
+  }
+  return openness;
+}
+
+/// Gives edges that are mirror images of each other the mean of their values.
+void make_symmetric(const PlanMesh& mesh, const Polygons& polygons, const Reflection& reflection,
+                    std::vector<double>& values) {
+  const std::vector<double> own = values;
+  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    const std::int32_t image = image_of_edge(mesh, reflection, e);
+    if (image >= 0 && polygons.is_diagonal[image] == polygons.is_diagonal[e]) values[e] = 0.5 * (own[e] + own[image]);
+  }
+}
+
+}  // namespace
+
+PieceSizes measure_pieces(const PlanMesh& mesh, std::span<const FaceFrame> frames) {
+  PieceSizes sizes{find_pieces(mesh, std::vector<std::uint8_t>(mesh.edge_count(), 0)), {}};
+  std::vector<Eigen::AlignedBox3d> boxes(index(sizes.pieces.count));
+  sizes.of_piece.resize(boxes.size());
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    const std::int32_t piece = sizes.pieces.of_face[f];
+    for (const std::int32_t v : mesh.triangles[f]) boxes[piece].extend(mesh.points[v]);
+    sizes.of_piece[piece].area += frames[f].area;
+  }
+  for (std::size_t p = 0; p < boxes.size(); ++p) sizes.of_piece[p].diagonal = boxes[p].diagonal().norm();
+  return sizes;
+}
+
+EdgeBends bends_over_edges(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Polygons& polygons,
+                           const PieceSizes& sizes) {
+  EdgeBends found{std::vector<double>(mesh.edge_count(), 0.0), std::vector<double>(mesh.edge_count(), 0.0)};
+  const BendFinder bends(mesh, frames);
+  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    if (mesh.is_boundary(e) || polygons.is_diagonal[e] != 0) continue;
+    found.own[e] = bends.degrees(e);
+    found.wide[e] = bends.wide_degrees(e, tuning::kWideReach * sizes.of_piece[sizes.piece_of(mesh, e)].diagonal);
+  }
+  return found;
+}
+
+std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, const PieceSizes& sizes,
+                                const EdgeBends& bends, std::span<const double> ambient,
+                                std::span<const std::uint8_t> is_marked, const Reflection* reflection,
+                                double on_plane) {
+  std::vector<double> sharp;
+  for (const double bend : bends.own) sharp.push_back(std::abs(bend));
+  const std::vector<double> on_line = means_along(mesh, find_lines(mesh, polygons), sharp);
+  const std::vector<double> beside = sharpest_beside(mesh, polygons, sharp);
+  const std::vector<std::uint8_t> is_round = are_round(mesh, polygons, bends.own);
+  const std::vector<double> openness = openness_of(mesh, sizes, ambient);
+  const auto is_on_plane = [&](std::int32_t e) {
+    const std::int32_t h = mesh.half_edge_of[e];
+    return reflection != nullptr && reflection->sides[mesh.tail(h)] == 0 && reflection->sides[mesh.tip(h)] == 0;
+  };
+  std::vector<double> odds(mesh.edge_count(), -kNever);
+  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    if (polygons.is_diagonal[e] != 0) continue;
+    const double wider = std::clamp(bends.wide[e] - sharp[e], 0.0, tuning::kMostSteps * sharp[e]);
+    const double bend =
+        sharp[e] + tuning::kLineShare * on_line[e] + (is_round[e] != 0 ? 0.0 : tuning::kWideShare * wider);
+    odds[e] = (bend - tuning::kEvenDegrees) / tuning::kDegreesOfOdds + tuning::kPrior - tuning::kOpenness * openness[e];
+    if (sharp[e] < beside[e] - tuning::kSharperBy) odds[e] -= tuning::kBesideSharper;
+    if (bends.own[e] < -tuning::kConcaveDegrees) odds[e] += tuning::kConcave;
+    if (is_on_plane(e) && sharp[e] > tuning::kOnPlaneDegrees) odds[e] += on_plane;
+    if (is_marked[e] != 0) odds[e] += tuning::kMarked;
+  }
+  if (reflection != nullptr && reflection->is_exact) make_symmetric(mesh, polygons, *reflection, odds);
+  return odds;
+}
+
+double price_of_cut(double odds) {
+  return std::log1p(std::exp(-std::max(odds + tuning::kMiddleBias, -tuning::kMostOdds))) + tuning::kLeastPrice;
+}
+
+}  // namespace seamwire::detail

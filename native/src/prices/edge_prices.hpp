@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "prices/plan_mesh.hpp"
+#include "prices/reflection.hpp"
+#include "prices/visibility.hpp"
+
+namespace seamwire::detail {
+
+/// The price of a seam along each edge of a mesh.
+///
+/// The price is the edge's length times how visible it is. Sharp edges, ridges of thin parts and hollows are cheaper.
+/// Faces with eyes, lips and a nose are open to the front and to the sky alike, and are several times as expensive.
+struct EdgePrices {
+  std::vector<double> of_edge;        ///< infinity where no seam may run
+  std::vector<double> visibility;     ///< of each vertex; 1 on average
+  std::vector<std::uint8_t> is_face;  ///< of each vertex: 1 where a seam would run across a face, or what is as open
+  double turning = 0.0;               ///< what a seam pays for a turn by 90 degrees
+  double of_slit = 0.0;               ///< what each slit costs beside its edges, so that there are few long ones
+  /// A slit that gains more energy than this for its price is worth it even below the bound on the energy. That is so
+  /// on machine parts, where sharp edges are nearly free.
+  double bargain = std::numeric_limits<double>::infinity();
+};
+
+/// `weights`: factors at vertices of the mesh; empty: 1 everywhere. Infinity keeps seams away.
+EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const std::optional<Reflection>& reflection,
+                       std::span<const double> weights);
+
+}  // namespace seamwire::detail

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "prices/plan_mesh.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "detail/index.hpp"
+#include "surface/corner_fans.hpp"
+#include "surface/joined_faces.hpp"
+
+namespace seamwire::detail {
+
+std::int32_t PlanMesh::edge_between(std::int32_t a, std::int32_t b) const {
+  std::int32_t found = -1;
+  for (const PlanNeighbor& next : neighbors[a]) {
+    if (next.vertex == b && (found < 0 || next.edge < found)) found = next.edge;
+  }
+  return found;
+}
+
+void connect(PlanMesh& mesh, std::span<const Edge> real_edges) {
+  const std::size_t half_edges = mesh.twins.size();
+  mesh.edge_of.assign(half_edges, -1);
+  mesh.half_edge_of.clear();
+  for (std::int32_t h = 0; index(h) < half_edges; ++h) {
+    if (mesh.edge_of[h] >= 0) continue;
+    mesh.edge_of[h] = static_cast<std::int32_t>(mesh.half_edge_of.size());
+    if (mesh.twins[h] >= 0) mesh.edge_of[mesh.twins[h]] = mesh.edge_of[h];
+    mesh.half_edge_of.push_back(h);
+  }
+  mesh.lengths.clear();
+  mesh.is_real.clear();
+  std::vector<std::pair<std::int32_t, PlanNeighbor>> neighbors, all_neighbors;
+  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    const std::int32_t a = mesh.tail(mesh.half_edge_of[e]), b = mesh.tip(mesh.half_edge_of[e]);
+    mesh.lengths.push_back((mesh.points[b] - mesh.points[a]).norm());
+    const std::int32_t one = mesh.sources[a], other = mesh.sources[b];
+    const Edge edge{std::min(one, other), std::max(one, other)};
+    const bool is_real = a != b && (real_edges.empty() || std::ranges::binary_search(real_edges, edge));
+    mesh.is_real.push_back(is_real ? 1 : 0);
+    for (auto* list : {&neighbors, &all_neighbors}) {
+      if (list == &neighbors && !is_real) continue;
+      list->push_back({a, {b, e}});
+      list->push_back({b, {a, e}});
+    }
+  }
+  mesh.neighbors = Csr<PlanNeighbor>(mesh.vertex_count(), neighbors);
+  mesh.all_neighbors = Csr<PlanNeighbor>(mesh.vertex_count(), all_neighbors);
+}
+
+PlanMesh plan_mesh(const Surface& surface) {
+  PlanMesh mesh;
+  mesh.triangles = corner_fans(surface).triangles;
+  mesh.twins = corner_fans(surface).twins;
+  mesh.faces = corner_fans(surface).faces;
+  mesh.sources = corner_fans(surface).vertices;
+  // The model's size first, so that no square overflows.
+  mesh.scale = surface.scale();
+  const auto put_points = [&] {
+    mesh.points.clear();
+    for (const std::int32_t v : mesh.sources) mesh.points.push_back(mesh.scale * surface.points()[v]);
+  };
+  put_points();
+  double area = 0.0;
+  for (const FaceFrame& frame : face_frames(mesh)) area += frame.area;
+  if (area > 0.0) {
+    mesh.scale /= std::sqrt(area);
+    put_points();
+  }
+  connect(mesh, surface.edges());
+  return mesh;
+}
+
+std::vector<FaceFrame> face_frames(const PlanMesh& mesh) {
+  std::vector<FaceFrame> frames;
+  frames.reserve(mesh.face_count());
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vector doubled = (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]);
+    const double size = doubled.norm();
+    frames.push_back({size > 0.0 ? Vector(doubled / size) : Vector(Vector::Zero()), 0.5 * size});
+  }
+  return frames;
+}
+
+std::vector<Vector> vertex_normals(const PlanMesh& mesh, std::span<const FaceFrame> frames) {
+  std::vector<Vector> normals(mesh.vertex_count(), Vector::Zero());
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    const Triangle& t = mesh.triangles[f];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vector one = mesh.points[t[(i + 1) % 3]] - mesh.points[t[i]];
+      const Vector other = mesh.points[t[(i + 2) % 3]] - mesh.points[t[i]];
+      normals[t[i]] += std::atan2(one.cross(other).norm(), one.dot(other)) * frames[f].normal;
+    }
+  }
+  for (Vector& normal : normals) {
+    const double size = normal.norm();
+    if (size > 0.0) normal /= size;
+  }
+  return normals;
+}
+
+std::vector<double> vertex_areas(const PlanMesh& mesh, std::span<const FaceFrame> frames) {
+  std::vector<double> areas(mesh.vertex_count(), 0.0);
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    for (const std::int32_t v : mesh.triangles[f]) areas[v] += frames[f].area / 3.0;
+  }
+  return areas;
+}
+
+double median_length(const PlanMesh& mesh) {
+  std::vector<double> lengths = mesh.lengths;
+  if (lengths.empty()) return 0.0;
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return *middle;
+}
+
+Pieces find_pieces(const PlanMesh& mesh, std::span<const std::uint8_t> is_cut) {
+  DisjointSets sets = joined_faces(mesh, [&](std::int32_t h) { return is_cut[mesh.edge_of[h]] == 0; });
+  auto [of_face, count] = sets.numbering();
+  return {std::move(of_face), count};
+}
+
+}  // namespace seamwire::detail

@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "simplified/decimation.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <queue>
+#include <utility>
+
+#include "detail/index.hpp"
+#include "detail/poll.hpp"
+
+namespace seamwire::detail {
+namespace {
+
+/// A quadratic function of a point: the sum of squared distances to planes, weighted.
+struct Quadric {
+  Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
+  Vector b = Vector::Zero();
+  double c = 0.0;
+
+  void add_plane(const Vector& normal, const Vector& through, double weight) {
+    const double d = -normal.dot(through);
+    a += weight * normal * normal.transpose();
+    b += weight * d * normal;
+    c += weight * d * d;
+  }
+  Quadric& operator+=(const Quadric& other) {
+    a += other.a;
+    b += other.b;
+    c += other.c;
+    return *this;
+  }
+  double at(const Vector& point) const { return point.dot(a * point) + 2.0 * b.dot(point) + c; }
+};
+
+/// The square of the length of a triangle's longest edge.
+double longest_square(const std::array<Vector, 3>& corners) {
+  const auto& [a, b, c] = corners;
+  return std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+}
+
+/// A mesh whose edges are being collapsed.
+class Collapsing {
+ public:
+  Collapsing(const PlanMesh& mesh, std::span<const std::uint8_t> is_seam, const Reflection* reflection)
+      : mesh_(mesh),
+        reflection_(reflection != nullptr && reflection->is_exact ? reflection : nullptr),
+        triangles_(mesh.triangles),
+        is_gone_(mesh.face_count(), 0),
+        faces_(mesh.vertex_count()),
+        valences_(mesh.vertex_count()),
+        quadrics_(mesh.vertex_count()),
+        version_(mesh.vertex_count(), 0),
+        features_(mesh.vertex_count()),
+        left_(mesh.face_count()) {
+    for (std::int32_t f = 0; index(f) < mesh.face_count(); ++f) {
+      for (const std::int32_t v : triangles_[f]) add_face(v, f);
+    }
+    add_quadrics(is_seam);
+  }
+
+  void run(std::size_t goal, const Task& task) {
+    queue_all(task);
+    const Poll poll(task, 0.0, 1.0, mesh_.vertex_count(), Poll::kFewSteps);
+    for (std::size_t step = 0; left_ > goal && !queue_.empty(); ++step) {
+      poll.at(step);
+      const Entry entry = queue_.top();
+      queue_.pop();
+      if (entry.version != version_[entry.from] + version_[entry.to]) continue;
+      collapse_with_image(entry.from, entry.to);
+    }
+  }
+
+  DecimatedMesh result() const;
+
+ private:
+  struct Entry {
+    double error = 0.0;
+    std::int32_t from = -1, to = -1;
+    std::int64_t version = 0;
+    bool operator<(const Entry& other) const {  // least error on top, then lesser numbers
+      return std::tie(other.error, other.from, other.to) < std::tie(error, from, to);
+    }
+  };
+
+  void add_quadrics(std::span<const std::uint8_t> is_seam);
+  void add_face(std::int32_t v, std::int32_t face) {
+    faces_[v].push_back(face);
+    ++valences_[v];
+  }
+  /// Takes a removed triangle from a vertex. Its list is put in order when half of it is gone, so a step of a collapse
+  /// does not depend on the number of triangles around the vertex.
+  void drop_face(std::int32_t v) {
+    --valences_[v];
+    if (2 * valences_[v] < faces_[v].size()) std::erase_if(faces_[v], [&](std::int32_t f) { return is_gone_[f] != 0; });
+  }
+  bool has_corner(std::int32_t face, std::int32_t v) const {
+    return is_gone_[face] == 0 && std::ranges::find(triangles_[face], v) != triangles_[face].end();
+  }
+  bool are_neighbors(std::int32_t a, std::int32_t b) const {
+    if (valences_[b] < valences_[a]) std::swap(a, b);
+    return std::ranges::any_of(faces_[a], [&](std::int32_t f) { return has_corner(f, b); });
+  }
+  std::vector<std::int32_t> neighbors(std::int32_t v) const {
+    std::vector<std::int32_t> found;
+    for (const std::int32_t f : faces_[v]) {
+      if (is_gone_[f] != 0) continue;
+      for (const std::int32_t other : triangles_[f]) {
+        if (other != v) found.push_back(other);
+      }
+    }
+    std::ranges::sort(found);
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    return found;
+  }
+  bool is_feature(std::int32_t a, std::int32_t b) const {
+    return std::ranges::find(features_[a], b) != features_[a].end();
+  }
+  bool may_collapse(std::int32_t from, std::int32_t to) const;
+  bool folds(std::int32_t from, std::int32_t to) const;
+  void collapse(std::int32_t from, std::int32_t to);
+  void collapse_with_image(std::int32_t from, std::int32_t to);
+  Entry entry(std::int32_t from, std::int32_t to) const {
+    Quadric sum = quadrics_[from];
+    sum += quadrics_[to];
+    const double error = std::max(sum.at(mesh_.points[to]), 0.0);
+    return {error, from, to, version_[from] + version_[to]};
+  }
+  /// Queues each directed edge once.
+  void queue_all(const Task& task) {
+    std::vector<Entry> entries;
+    const Poll poll(task, 0.0, 0.0, mesh_.vertex_count());
+    for (std::int32_t v = 0; index(v) < mesh_.vertex_count(); ++v) {
+      poll.at(index(v));
+      for (const std::int32_t other : neighbors(v)) entries.push_back(entry(v, other));
+    }
+    queue_ = std::priority_queue<Entry>({}, std::move(entries));
+  }
+  /// Queues the edges of a vertex again, in both directions.
+  void push_all(std::int32_t v) {
+    for (const std::int32_t other : neighbors(v)) {
+      queue_.push(entry(v, other));
+      queue_.push(entry(other, v));
+    }
+  }
+  std::int32_t image(std::int32_t v) const { return reflection_ != nullptr ? reflection_->images[v] : v; }
+  bool is_on_plane(std::int32_t v) const { return reflection_ != nullptr && reflection_->sides[v] == 0; }
+
+  const PlanMesh& mesh_;
+  const Reflection* reflection_;
+  std::vector<Triangle> triangles_;
+  std::vector<std::uint8_t> is_gone_;
+  std::vector<std::vector<std::int32_t>> faces_;  // of each vertex, with some that are gone
+  std::vector<std::size_t> valences_;             // of each vertex: how many faces it has
+  std::vector<Quadric> quadrics_;
+  std::vector<std::int64_t> version_;
+  std::vector<std::vector<std::int32_t>> features_;  // neighbors over boundary edges and seams
+  std::priority_queue<Entry> queue_;
+  std::size_t left_;
+};
+
+void Collapsing::add_quadrics(std::span<const std::uint8_t> is_seam) {
+  constexpr double kFeatureWeight = 10.0;  // of planes through boundaries and seams
+  const std::vector<FaceFrame> frames = face_frames(mesh_);
+  for (std::size_t f = 0; f < mesh_.face_count(); ++f) {
+    for (const std::int32_t v : triangles_[f]) {
+      quadrics_[v].add_plane(frames[f].normal, mesh_.points[triangles_[f][0]], frames[f].area);
+    }
+  }
+  for (std::int32_t e = 0; index(e) < mesh_.edge_count(); ++e) {
+    if (is_seam[e] == 0 && !mesh_.is_boundary(e)) continue;
+    const std::int32_t h = mesh_.half_edge_of[e], a = mesh_.tail(h), b = mesh_.tip(h);
+    features_[a].push_back(b);
+    features_[b].push_back(a);
+    const Vector along = mesh_.points[b] - mesh_.points[a];
+    const Vector across = along.cross(frames[h / 3].normal);
+    const double size = across.norm();
+    if (!(size > 0.0)) continue;
+    for (const std::int32_t v : {a, b}) {
+      quadrics_[v].add_plane(across / size, mesh_.points[a], kFeatureWeight * along.squaredNorm());
+    }
+  }
+}
+
+/// Whether the topology allows it, and features and the mirror plane stay.
+bool Collapsing::may_collapse(std::int32_t from, std::int32_t to) const {
+  constexpr std::size_t kMostMoved = 64, kFewFaces = 6;  // vertices with more faces have more than three neighbors
+  if (is_on_plane(from) && !is_on_plane(to)) return false;
+  if (!features_[from].empty() && (features_[from].size() != 2 || !is_feature(from, to))) return false;
+  // Vertices with many triangles stay, and get no more of them: each collapse there takes long.
+  if (valences_[from] > kMostMoved || valences_[to] > kMostMoved) return false;
+  const auto shared = std::ranges::count_if(faces_[from], [&](std::int32_t f) { return has_corner(f, to); });
+  if (shared == 0) return false;
+  std::vector<std::int32_t> common = neighbors(from);
+  std::erase_if(common, [&](std::int32_t v) { return v == to || !are_neighbors(v, to); });
+  // Link condition: the ends have only the corners of the edge's triangles in common.
+  if (common.size() != static_cast<std::size_t>(shared)) return false;
+  // A feature may not be folded onto another one.
+  if (std::ranges::any_of(common, [&](std::int32_t v) { return is_feature(from, v) && is_feature(to, v); }))
+    return false;
+  if (features_[from].empty() && std::ranges::any_of(common, [&](std::int32_t v) {
+        return valences_[v] <= kFewFaces && neighbors(v).size() <= 3;
+      })) {
+    return false;
+  }
+  return !folds(from, to);
+}
+
+/// Whether a triangle would turn over, or become needle-thin and thinner than it is.
+bool Collapsing::folds(std::int32_t from, std::int32_t to) const {
+  constexpr double kLeastCosine = 0.2, kLeastShape = 0.02;
+  for (const std::int32_t f : faces_[from]) {
+    const Triangle& t = triangles_[f];
+    if (is_gone_[f] != 0 || has_corner(f, to)) continue;
+    std::array<Vector, 3> before, after;
+    for (std::size_t i = 0; i < 3; ++i) {
+      before[i] = mesh_.points[t[i]];
+      after[i] = t[i] == from ? mesh_.points[to] : before[i];
+    }
+    const Vector was = (before[1] - before[0]).cross(before[2] - before[0]);
+    const Vector is = (after[1] - after[0]).cross(after[2] - after[0]);
+    const bool is_thin = is.norm() <= kLeastShape * longest_square(after);
+    const bool is_thinner = is.norm() * longest_square(before) <= was.norm() * longest_square(after);
+    if ((is_thin && is_thinner) || was.dot(is) < kLeastCosine * was.norm() * is.norm()) return true;
+  }
+  return false;
+}
+
+void Collapsing::collapse(std::int32_t from, std::int32_t to) {
+  for (const std::int32_t f : faces_[from]) {
+    if (is_gone_[f] != 0) continue;
+    Triangle& t = triangles_[f];
+    if (has_corner(f, to)) {
+      is_gone_[f] = 1;
+      --left_;
+      for (const std::int32_t v : t) {
+        if (v != from) drop_face(v);
+      }
+      continue;
+    }
+    std::ranges::replace(t, from, to);
+    add_face(to, f);
+  }
+  faces_[from].clear();
+  valences_[from] = 0;
+  for (const std::int32_t other : features_[from]) {
+    std::erase(features_[other], from);
+    if (other == to) continue;
+    features_[other].push_back(to);
+    features_[to].push_back(other);
+  }
+  features_[from].clear();
+  quadrics_[to] += quadrics_[from];
+  ++version_[to];
+  ++version_[from];
+}
+
+/// Collapses an edge and its mirror image, or neither.
+void Collapsing::collapse_with_image(std::int32_t from, std::int32_t to) {
+  if (valences_[from] == 0 || valences_[to] == 0 || !may_collapse(from, to)) return;
+  const std::int32_t from_image = image(from), to_image = image(to);
+  if (reflection_ == nullptr || from_image == from) {
+    collapse(from, to);
+    push_all(to);
+    return;
+  }
+  if (from_image < 0 || to_image < 0 || valences_[from_image] == 0 || valences_[to_image] == 0) return;
+  // The neighborhoods have to be apart: else one collapse changes what the other was checked for.
+  const auto has_few = [&](std::int32_t v) { return neighbors(v).size() < 5; };
+  if (are_neighbors(from, from_image) || (to == to_image && (has_few(from) || has_few(from_image)))) return;
+  if (!may_collapse(from_image, to_image)) return;
+  collapse(from, to);
+  if (may_collapse(from_image, to_image)) collapse(from_image, to_image);
+  push_all(to);
+  push_all(to_image);
+}
+
+DecimatedMesh Collapsing::result() const {
+  DecimatedMesh out;
+  std::vector<std::int32_t> number(mesh_.vertex_count(), -1);
+  for (std::int32_t v = 0; index(v) < mesh_.vertex_count(); ++v) {
+    if (valences_[v] == 0) continue;
+    number[v] = static_cast<std::int32_t>(out.vertices.size());
+    out.vertices.push_back(v);
+    out.mesh.points.push_back(mesh_.points[v]);
+    out.mesh.sources.push_back(mesh_.sources[v]);
+  }
+  std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> half_edges;
+  for (std::size_t f = 0; f < triangles_.size(); ++f) {
+    if (is_gone_[f] != 0) continue;
+    const auto at = static_cast<std::int32_t>(3 * out.mesh.triangles.size());
+    const Triangle& t = triangles_[f];
+    out.mesh.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
+    for (std::int32_t i = 0; i < 3; ++i) half_edges[{number[t[i]], number[t[(i + 1) % 3]]}] = at + i;
+  }
+  out.mesh.twins.assign(3 * out.mesh.triangles.size(), -1);
+  for (const auto& [ends, h] : half_edges) {
+    const auto twin = half_edges.find({ends.second, ends.first});
+    if (twin != half_edges.end()) out.mesh.twins[h] = twin->second;
+  }
+  out.mesh.scale = mesh_.scale;
+  connect(out.mesh, {});
+  for (const std::int32_t h : out.mesh.half_edge_of) {
+    const bool is_inner = out.mesh.twins[h] >= 0;
+    const std::int32_t a = out.vertices[out.mesh.tail(h)], b = out.vertices[out.mesh.tip(h)];
+    out.is_seam.push_back(is_inner && is_feature(a, b) ? 1 : 0);
+  }
+  return out;
+}
+
+}  // namespace
+
+DecimatedMesh decimate(const PlanMesh& mesh, std::span<const std::uint8_t> is_seam, const Reflection* reflection,
+                       std::size_t triangles, const Task& task) {
+  Collapsing collapsing(mesh, is_seam, reflection);
+  collapsing.run(triangles, task);
+  return collapsing.result();
+}
+
+}  // namespace seamwire::detail

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "detail/indexed_heap.hpp"
+#include "prices/edge_prices.hpp"
+#include "prices/plan_mesh.hpp"
+#include "prices/reflection.hpp"
+
+namespace seamwire::detail {
+
+/// Where the paths of a SlitPaths may go on a symmetric mesh.
+enum class Half : std::int8_t {
+  kNegative = -1,  ///< along the mirror plane, then off it to the negative side, and not back
+  kPlane = 0,      ///< along the mirror plane alone
+  kPositive = 1,   ///< along the mirror plane, then off it to the positive side
+  kAny = 2,        ///< anywhere
+};
+
+/// Cheapest paths over edges that also pay for their turns.
+class TurningPaths {
+ public:
+  explicit TurningPaths(const PlanMesh& mesh)
+      : mesh_(mesh),
+        before_(2 * mesh.edge_count(), -1),
+        arrival_(mesh.vertex_count(), -1),
+        price_(mesh.vertex_count(), kNever) {}
+
+  /// Finds the paths from all vertices that are marked 1 in `from`, to a vertex, or with -1 to all. `edge_price(e, a,
+  /// b)`: what edge e costs from vertex a to b, or kNever. `turning`: what a turn by 90 degrees costs.
+  template <class EdgePrice>
+  void find(std::span<const std::uint8_t> from, const EdgePrice& edge_price, double turning, std::int32_t until);
+
+  /// The price of the path to a vertex: 0 at a start, infinite if no path leads there.
+  double price(std::int32_t vertex) const { return price_[vertex]; }
+  /// The vertices of the path to a vertex; empty if no path leads there.
+  std::vector<std::int32_t> path(std::int32_t vertex) const;
+
+ private:
+  std::int32_t tail(std::int32_t d) const {
+    const std::int32_t h = mesh_.half_edge_of[d / 2];
+    return d % 2 == 0 ? mesh_.tail(h) : mesh_.tip(h);
+  }
+
+  const PlanMesh& mesh_;
+  // A path arrives at a vertex by a directed edge: 2 e from the start of the edge's half-edge to its end, 2 e + 1 back.
+  std::vector<std::int32_t> before_;   // of each directed edge: the one before it, -1 if it leaves a start
+  std::vector<std::int32_t> arrival_;  // of each vertex: the directed edge by which the cheapest path arrives
+  std::vector<double> price_;
+};
+
+template <class EdgePrice>
+void TurningPaths::find(std::span<const std::uint8_t> from, const EdgePrice& edge_price, double turning,
+                        std::int32_t until) {
+  IndexedHeap open(before_.size());
+  std::vector<double> least(before_.size(), kNever);
+  const auto relax = [&](std::int32_t v, std::int32_t arrived_by, double price) {
+    Vector direction = Vector::Zero();
+    if (arrived_by >= 0) direction = (mesh_.points[v] - mesh_.points[tail(arrived_by)]).normalized();
+    for (const PlanNeighbor& next : mesh_.neighbors[v]) {
+      double total = price + edge_price(next.edge, v, next.vertex);
+      if (total == kNever) continue;
+      if (arrived_by >= 0) {
+        const Vector ahead = (mesh_.points[next.vertex] - mesh_.points[v]).normalized();
+        total += turning * (1.0 - direction.dot(ahead));
+      }
+      const std::int32_t d = 2 * next.edge + (mesh_.tail(mesh_.half_edge_of[next.edge]) == v ? 0 : 1);
+      if (!(total < least[d])) continue;
+      least[d] = total;
+      before_[d] = arrived_by;
+      open.lower(d, total);
+    }
+  };
+  for (std::size_t v = 0; v < from.size(); ++v) {
+    if (from[v] == 0) continue;
+    price_[v] = 0.0;
+    relax(static_cast<std::int32_t>(v), -1, 0.0);
+  }
+  while (!open.empty()) {
+    const std::int32_t d = open.pop();
+    const std::int32_t v = tail(d ^ 1);
+    if (arrival_[v] < 0 && price_[v] > 0.0) {
+      arrival_[v] = d;
+      price_[v] = least[d];
+    }
+    if (v == until) return;
+    relax(v, d, least[d]);
+  }
+}
+
+/// The cheapest paths over edges from a cut to every vertex of a mesh. A path pays for its edges and its turns.
+///
+/// An edge along the mirror plane costs half, because an edge elsewhere is cut a second time at its mirror image. A
+/// mesh whose edges are not mirrored has no edges on the plane. There, paths along the plane pay for their distance
+/// from it.
+class SlitPaths {
+ public:
+  struct Rules {
+    Half half = Half::kAny;
+    /// Exponent of the price for a unit of length: 1 for the cheapest path, 0 for the shortest.
+    double exponent = 1.0;
+    std::span<const std::uint8_t> barred_edges = {};  ///< of each edge: 1 where no path may run; empty: nowhere
+  };
+
+  /// `from`: 1 at the vertices of the cut. `ends`: 1 where paths may end but not go on. `reflection`: null if the mesh
+  /// is not symmetric; then `rules.half` is kAny.
+  SlitPaths(const PlanMesh& mesh, const EdgePrices& prices, const Reflection* reflection,
+            std::span<const std::uint8_t> from, std::span<const std::uint8_t> ends, const Rules& rules);
+
+  /// The price of the path to a vertex: 0 on the cut, infinite if no path leads there.
+  double price(std::int32_t vertex) const { return paths_.price(vertex); }
+  /// The vertices of the path, from the cut to a vertex; empty if no path leads there.
+  std::vector<std::int32_t> path(std::int32_t vertex) const { return paths_.path(vertex); }
+
+ private:
+  TurningPaths paths_;
+};
+
+/// The cheapest chain of edges from one vertex to another along a line of points: at `spread` from the line an edge
+/// costs twice its price, farther away still more. Except at its ends the chain avoids `barred` vertices. Empty if no
+/// chain exists.
+std::vector<std::int32_t> chain_along(const PlanMesh& mesh, std::span<const Vector> line, double spread,
+                                      std::int32_t from, std::int32_t to, std::span<const std::uint8_t> barred,
+                                      const EdgePrices& prices);
+
+/// Edge distances from a vertex over all triangles' edges, polygons' diagonals included; infinite if unreachable.
+std::vector<double> edge_distances(const PlanMesh& mesh, std::span<const std::int32_t> from);
+
+}  // namespace seamwire::detail

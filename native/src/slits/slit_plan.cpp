@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "slits/slit_plan.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "detail/index.hpp"
+#include "parameterization/open_island.hpp"
+#include "tuning/constants.hpp"
+
+namespace seamwire::detail {
+namespace {
+
+template <class Visit>
+void for_each_edge(const PlanMesh& mesh, std::span<const std::int32_t> chain, const Visit& visit) {
+  for (std::size_t i = 1; i < chain.size(); ++i) {
+    const std::int32_t edge = mesh.edge_between(chain[i - 1], chain[i]);
+    if (edge >= 0) visit(edge);
+  }
+}
+
+}  // namespace
+
+double SlitProblem::price(std::span<const std::int32_t> chain) const {
+  double sum = 0.0;
+  for_each_edge(mesh, chain, [&](std::int32_t edge) { sum += prices.of_edge[edge]; });
+  return sum;
+}
+
+double SlitProblem::price(const Slit& slit) const {
+  const double fixed = slit.is_needed ? 0.0 : prices.of_slit;
+  return price(slit.path) + price(slit.image) + (slit.image.empty() ? fixed : 2.0 * fixed);
+}
+
+void find_pieces_of(SlitProblem& problem) {
+  const PlanMesh& mesh = problem.mesh;
+  problem.pieces = find_pieces(mesh, problem.is_seam);
+  problem.by_piece.assign(index(problem.pieces.count), {});
+  problem.is_rim = cut_of(problem, {}, {}).is_on_cut;
+  const std::vector<FaceFrame> frames = face_frames(mesh);
+  std::vector<std::int32_t> place(mesh.face_count());
+  problem.areas.clear();
+  for (std::int32_t f = 0; index(f) < mesh.face_count(); ++f) {
+    SlitProblem::Piece& piece = problem.by_piece[problem.pieces.of_face[f]];
+    place[f] = static_cast<std::int32_t>(piece.faces.size());
+    piece.faces.push_back(f);
+    piece.triangles.push_back(mesh.triangles[f]);
+    piece.area += frames[f].area;
+    problem.areas.push_back(frames[f].area);
+  }
+  const bool is_unpriced = problem.prices.of_edge.empty();
+  for (SlitProblem::Piece& piece : problem.by_piece) {
+    bool has_inner = false, has_open = false;
+    for (const std::int32_t f : piece.faces) {
+      for (std::int32_t i = 0; i < 3; ++i) {
+        const std::int32_t twin = mesh.twins[3 * f + i];
+        const bool is_inner = twin >= 0 && problem.pieces.of_face[twin / 3] == problem.pieces.of_face[f];
+        has_inner = has_inner || is_inner;
+        has_open = has_open || (is_inner && (is_unpriced || problem.prices.of_edge[mesh.edge_of[3 * f + i]] != kNever));
+        piece.twins.push_back(is_inner ? 3 * place[twin / 3] + twin % 3 : -1);
+      }
+    }
+    piece.may_be_cut = has_open || !has_inner;
+  }
+}
+
+Cut cut_of(const SlitProblem& problem, std::span<const Slit> slits, std::span<const std::int32_t> roots) {
+  const PlanMesh& mesh = problem.mesh;
+  Cut cut{problem.is_seam, std::vector<std::uint8_t>(mesh.vertex_count(), 0)};
+  for (const Slit& slit : slits) {
+    for (const auto* chain : {&slit.path, &slit.image}) {
+      for_each_edge(mesh, *chain, [&](std::int32_t edge) { cut.is_cut[edge] = 1; });
+    }
+  }
+  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    if (cut.is_cut[e] == 0 && !mesh.is_boundary(e)) continue;
+    cut.is_on_cut[mesh.tail(mesh.half_edge_of[e])] = cut.is_on_cut[mesh.tip(mesh.half_edge_of[e])] = 1;
+  }
+  for (const std::int32_t root : roots) cut.is_on_cut[root] = 1;
+  return cut;
+}
+
+bool crosses_face(const SlitProblem& problem, const Slit& slit) {
+  return std::ranges::any_of(slit.path, [&](std::int32_t v) { return problem.prices.is_face[v] != 0; });
+}
+
+std::vector<std::int32_t> pieces_of(const SlitProblem& problem, const Slit& slit) {
+  std::vector<std::int32_t> found;
+  for (const auto* chain : {&slit.path, &slit.image}) {
+    for_each_edge(problem.mesh, *chain, [&](std::int32_t edge) {
+      found.push_back(problem.pieces.of_face[problem.mesh.half_edge_of[edge] / 3]);
+    });
+  }
+  std::ranges::sort(found);
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+std::optional<Island> open_piece(const SlitProblem& problem, const Cut& cut, std::int32_t piece) {
+  const SlitProblem::Piece& part = problem.by_piece[piece];
+  std::vector<std::uint8_t> is_cut(part.twins.size(), 0);
+  for (std::size_t k = 0; k < part.faces.size(); ++k) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      is_cut[3 * k + i] = cut.is_cut[problem.mesh.edge_of[3 * static_cast<std::size_t>(part.faces[k]) + i]];
+    }
+  }
+  std::vector<Island> islands = cut_open(part, is_cut);
+  if (islands.size() != 1) return std::nullopt;
+  Island& island = islands.front();
+  for (std::int32_t& face : island.faces) face = part.faces[face];
+  if (!is_planar(island)) return std::nullopt;
+  return std::move(island);
+}
+
+std::vector<Point2> carried_over(const PieceMap& from, const Island& to) {
+  std::vector<Point2> uvs(to.vertices.size(), Point2::Zero());
+  for (std::size_t k = 0; k < to.triangles.size(); ++k) {
+    for (std::size_t i = 0; i < 3; ++i) uvs[to.triangles[k][i]] = from.map.uvs[from.island.triangles[k][i]];
+  }
+  return uvs;
+}
+
+PieceMap piece_map(std::span<const Vector> points, Island island, IslandMap map) {
+  std::vector<double> energies = triangle_energies(island, points, map.uvs);
+  return {std::move(island), std::move(map), std::move(energies)};
+}
+
+double mean_energy(std::vector<std::pair<double, double>> energies) {
+  double area = 0.0;
+  for (const auto& [energy, own] : energies) area += own;
+  std::ranges::sort(energies, std::ranges::greater());
+  double left_out = 0.0, sum = 0.0;
+  for (const auto& [energy, own] : energies) {
+    const double counted = std::clamp(left_out + own - tuning::kLeftOut * area, 0.0, own);
+    left_out += own - counted;
+    if (counted > 0.0) sum += counted * energy;
+  }
+  return area > left_out ? sum / (area - left_out) : 4.0;
+}
+
+void sum_up(const SlitProblem& problem, SlitPlan& plan) {
+  plan.price = 0.0;
+  for (const Slit& slit : plan.slits) plan.price += problem.price(slit);
+  plan.overlaps = false;
+  plan.energy = kNever;
+  std::vector<std::pair<double, double>> energies;
+  for (std::size_t p = 0; p < plan.maps.size(); ++p) {
+    if (!problem.by_piece[p].may_be_cut) continue;
+    const auto& map = plan.maps[p];
+    if (!map) return;
+    plan.overlaps = plan.overlaps || map->map.overlaps;
+    for (std::size_t k = 0; k < map->energies.size(); ++k) {
+      energies.emplace_back(map->energies[k], problem.areas[map->island.faces[k]]);
+    }
+  }
+  plan.energy = mean_energy(std::move(energies));
+}
+
+}  // namespace seamwire::detail

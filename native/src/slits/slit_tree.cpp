@@ -1,0 +1,462 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "slits/slit_tree.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "detail/disjoint_sets.hpp"
+#include "detail/index.hpp"
+#include "detail/shortest_paths.hpp"
+#include "slits/piece_body.hpp"
+#include "slits/slit_edits.hpp"
+#include "slits/slit_finder.hpp"
+#include "tuning/constants.hpp"
+
+namespace seamwire::detail {
+namespace {
+
+/// Something that the tree has to reach: any of some vertices.
+struct Terminal {
+  std::vector<std::int32_t> vertices;
+  bool is_loop = false;
+};
+
+/// Whether a seam may run along one of a vertex' edges.
+bool may_be_cut(const SlitProblem& problem, std::int32_t vertex) {
+  return std::ranges::any_of(problem.mesh.neighbors[vertex],
+                             [&](const PlanNeighbor& next) { return problem.prices.of_edge[next.edge] != kNever; });
+}
+
+/// The vertex of a closed piece at which its first slit starts: central and hidden, on the mirror plane if it crosses
+/// the piece.
+std::int32_t find_root(const SlitProblem& problem, const PieceBody& body, std::span<const double> distances) {
+  const double least = *std::ranges::min_element(distances);
+  const auto is_on_plane = [&](std::int32_t v) {
+    return problem.reflection && problem.reflection->sides[v] == 0 && may_be_cut(problem, v);
+  };
+  const bool has_plane = std::ranges::any_of(body.island.vertices, is_on_plane);
+  std::int32_t best = body.island.vertices.front();
+  double least_price = kNever;
+  for (std::size_t own = 0; own < body.island.vertices.size(); ++own) {
+    const std::int32_t v = body.island.vertices[own];
+    if (has_plane ? !is_on_plane(v) : !may_be_cut(problem, v)) continue;
+    const double price = (least > 0.0 ? distances[own] / least : 1.0) + problem.prices.visibility[v];
+    if (price < least_price) {
+      least_price = price;
+      best = v;
+    }
+  }
+  return best;
+}
+
+/// Cuts along the shortest loops around and through the handles of a piece, from a root on its cut.
+class HandleLoops {
+ public:
+  HandleLoops(const SlitProblem& problem, const PieceBody& body, std::int32_t root)
+      : problem_(problem), island_(body.island), price_(island_.vertices.size(), kNever), before_(price_.size(), -1) {
+    const auto own = std::ranges::find(island_.vertices, root) - island_.vertices.begin();
+    find_tree(static_cast<std::int32_t>(own));
+  }
+
+  /// One chain of mesh vertices for each loop that no keep-out area is in the way of: from the root around a handle, to
+  /// the root or to a chain before.
+  std::vector<std::vector<std::int32_t>> find() const {
+    std::vector<std::pair<double, std::int32_t>> inner;  // half-edges with the lengths of their loops
+    for (std::int32_t h = 0; index(h) < island_.twins.size(); ++h) {
+      if (island_.twins[h] > h && !is_in_tree(h)) inner.push_back({-loop_price(h), h});
+    }
+    std::ranges::sort(inner);
+    DisjointSets faces(island_.triangles.size());
+    std::vector<std::vector<std::int32_t>> loops;
+    for (const auto& [price, h] : inner) {
+      const bool is_loop = !faces.join(h / 3, island_.twins[h] / 3);
+      if (is_loop && std::isfinite(price)) loops.push_back(loop_through(h));
+    }
+    std::ranges::reverse(loops);
+    return loops;
+  }
+
+  /// The cheapest chain of mesh vertices from the root to one of some own vertices.
+  std::vector<std::int32_t> path_to(std::span<const std::int32_t> vertices) const {
+    const auto price = [&](std::int32_t v) { return price_[v]; };
+    std::vector<std::int32_t> path;
+    for (std::int32_t v = *std::ranges::min_element(vertices, {}, price); v >= 0; v = before_[v]) {
+      path.push_back(island_.vertices[v]);
+    }
+    std::ranges::reverse(path);
+    return path;
+  }
+
+ private:
+  double edge_price(std::int32_t h) const {
+    if (island_.twins[h] < 0) return 0.0;
+    const std::int32_t edge = problem_.mesh.edge_of[3 * island_.faces[h / 3] + h % 3];
+    return problem_.prices.of_edge[edge];
+  }
+  double loop_price(std::int32_t h) const { return price_[island_.tail(h)] + price_[island_.tip(h)] + edge_price(h); }
+  bool is_in_tree(std::int32_t h) const {
+    return before_[island_.tail(h)] == island_.tip(h) || before_[island_.tip(h)] == island_.tail(h);
+  }
+
+  void find_tree(std::int32_t root);
+  std::vector<std::int32_t> loop_through(std::int32_t h) const;
+
+  const SlitProblem& problem_;
+  const Island& island_;
+  std::vector<double> price_;
+  std::vector<std::int32_t> before_;
+};
+
+void HandleLoops::find_tree(std::int32_t root) {
+  std::vector<std::pair<std::int32_t, std::pair<std::int32_t, double>>> pairs;
+  for (std::int32_t h = 0; index(h) < island_.twins.size(); ++h) {
+    const double price = edge_price(h);
+    if ((island_.twins[h] >= 0 && island_.twins[h] < h) || !std::isfinite(price)) continue;
+    pairs.push_back({island_.tail(h), {island_.tip(h), price}});
+    pairs.push_back({island_.tip(h), {island_.tail(h), price}});
+  }
+  const Csr<std::pair<std::int32_t, double>> neighbors(price_.size(), pairs);
+  find_shortest_paths(std::array{root}, price_, [&](std::int32_t v, const auto& step) {
+    for (const auto& [next, price] : neighbors[v]) {
+      if (step(next, price)) before_[next] = v;
+    }
+  });
+}
+
+std::vector<std::int32_t> HandleLoops::loop_through(std::int32_t h) const {
+  std::vector<std::int32_t> there, back;
+  for (std::int32_t v = island_.tail(h); v >= 0; v = before_[v]) there.push_back(v);
+  for (std::int32_t v = island_.tip(h); v >= 0; v = before_[v]) back.push_back(v);
+  std::ranges::reverse(there);
+  there.insert(there.end(), back.begin(), back.end());
+  for (std::int32_t& v : there) v = island_.vertices[v];
+  return there;
+}
+
+/// Slits along loops of handles. A loop that comes back to itself, or to a slit before, ends there.
+std::vector<Slit> handle_slits(const SlitProblem& problem, const std::vector<std::vector<std::int32_t>>& loops) {
+  std::vector<Slit> slits;
+  std::vector<std::uint8_t> is_cut(problem.mesh.edge_count(), 0);
+  for (const std::vector<std::int32_t>& loop : loops) {
+    Slit slit{.path = {}, .image = {}, .is_needed = true};
+    for (std::size_t i = 1; i < loop.size(); ++i) {
+      const std::int32_t edge = problem.mesh.edge_between(loop[i - 1], loop[i]);
+      if (edge < 0 || problem.mesh.is_boundary(edge) || problem.is_seam[edge] != 0 || is_cut[edge]++ > 0) {
+        if (slit.path.size() > 1) slits.push_back(slit);
+        slit.path.clear();
+        continue;
+      }
+      if (slit.path.empty()) slit.path.push_back(loop[i - 1]);
+      slit.path.push_back(loop[i]);
+    }
+    if (slit.path.size() > 1) slits.push_back(slit);
+  }
+  return slits;
+}
+
+/// Grows the tree in all pieces.
+class TreeGrowth {
+ public:
+  TreeGrowth(const SlitProblem& problem, bool has_tips, const Task& task)
+      : problem_(problem), is_on_cut_(problem.mesh.vertex_count(), 0), has_tips_(has_tips), task_(task) {}
+
+  SlitTree grow() {
+    for (std::int32_t p = 0; index(p) < problem_.by_piece.size(); ++p) {
+      task_.check(0.0);
+      begin_piece(p);
+    }
+    reach_terminals();
+    for (std::int32_t p = 0; index(p) < states_.size(); ++p) lengthen_short_cut(p);
+    for (const std::int32_t root : tree_.roots) trim_stub(root);
+    for (Slit& slit : tree_.slits) lengthen_single_edge(slit);
+    return std::move(tree_);
+  }
+
+ private:
+  /// A piece, and how far its tree has grown.
+  struct State {
+    PieceBody body;
+    std::vector<Terminal> terminals;               ///< what the tree has not reached yet
+    std::vector<std::vector<std::int32_t>> holes;  ///< loops that the tree need not reach, and has not reached
+    std::vector<std::int32_t> vertices;            ///< of its cut; boundary loops that are not reached yet are left out
+    double cut_length = 0.0;                       ///< with all of its boundary
+  };
+
+  void begin_piece(std::int32_t number) {
+    State& state =
+        states_.emplace_back(State{.body = PieceBody(problem_, number), .terminals = {}, .holes = {}, .vertices = {}});
+    const PieceBody& body = state.body;
+    const std::vector<double> distances = body.graph.mean_distances(task_);
+    std::int32_t root = -1;
+    std::vector<std::vector<std::int32_t>> loops = body.loops;
+    if (has_tips_) state.holes = leave_holes_in_faces(body, distances, loops);
+    if (loops.empty()) {
+      root = find_root(problem_, body, distances);
+      tree_.roots.push_back(root);
+      join(state, std::vector<std::int32_t>{root});
+    } else {
+      std::ranges::stable_sort(loops, std::ranges::greater(),
+                               [&](const auto& loop) { return loop_length(loop, problem_.mesh.points); });
+      for (const std::vector<std::int32_t>& loop : loops) state.cut_length += loop_length(loop, problem_.mesh.points);
+      root = loops.front().front();
+      for (std::size_t i = 1; i < loops.size(); ++i) state.terminals.push_back({loops[i], true});
+      join(state, loops.front());
+    }
+    cut_handles(state, root);
+    if (!has_tips_) return;
+    for (const std::int32_t tip : find_tips(problem_, body, distances)) state.terminals.push_back({{tip}, false});
+  }
+
+  /// The length of a loop without the edges that it passes on both sides, as it does around an open seam.
+  double one_sided_length(const std::vector<std::int32_t>& loop) const {
+    std::map<std::int32_t, int> times;
+    double length = 0.0;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const std::int32_t edge = problem_.mesh.edge_between(loop[i], loop[(i + 1) % loop.size()]);
+      if (edge >= 0) ++times[edge];
+    }
+    for (const auto& [edge, count] : times) length += count == 1 ? problem_.mesh.lengths[edge] : 0.0;
+    return length;
+  }
+
+  /// Whether a loop is a hole in a wider surface, as an eye or an open seam is, and not the end of a tube.
+  bool is_hole(const PieceBody& body, const std::vector<std::int32_t>& loop) const {
+    const double length = one_sided_length(loop);
+    if (!(length > 0.0)) return true;
+    const std::vector<double> away = edge_distances(problem_.mesh, loop);
+    double area = 0.0;
+    for (const std::int32_t f : body.island.faces) {
+      const Triangle& t = problem_.mesh.triangles[f];
+      if (std::ranges::all_of(t, [&](std::int32_t v) { return away[v] < length; })) area += problem_.areas[f];
+    }
+    return area > tuning::kLeastAround * length * length;
+  }
+
+  /// Takes out and returns the holes that a slit from the hidden middle of the piece could only reach across a face. An
+  /// eye stays a hole of its island.
+  std::vector<std::vector<std::int32_t>> leave_holes_in_faces(const PieceBody& body, std::span<const double> distances,
+                                                              std::vector<std::vector<std::int32_t>>& loops) const {
+    const auto is_face = [this](std::int32_t v) { return problem_.prices.is_face[v] != 0; };
+    if (loops.empty() || std::ranges::none_of(body.island.vertices, is_face)) return {};
+    std::vector<std::uint8_t> from(problem_.mesh.vertex_count(), 0);
+    from[find_root(problem_, body, distances)] = 1;
+    const SlitFinder finder(problem_, from, from);
+    std::vector<std::vector<std::int32_t>> holes;
+    std::erase_if(loops, [&](std::vector<std::int32_t>& loop) {
+      if (!is_hole(body, loop)) return false;
+      const std::int32_t nearest = cheapest(finder, {loop, true}).second;
+      const std::optional<Slit> slit = nearest < 0 ? std::nullopt : finder.slit_to(nearest);
+      const bool is_left = slit && crosses_face(problem_, *slit);
+      if (is_left) holes.push_back(std::move(loop));
+      return is_left;
+    });
+    return holes;
+  }
+
+  /// Cuts the handles of a piece. A seam around a handle is two boundary loops with the same vertices: these are
+  /// joined.
+  void cut_handles(const State& state, std::int32_t root) {
+    const PieceBody& body = state.body;
+    const std::vector<std::uint8_t> is_reached = flags(state);
+    std::vector<std::vector<std::int32_t>> reached_loops;  // loops on the cut
+    for (std::vector<std::int32_t>& loop : body.island.boundaries()) {
+      const auto is_on_cut = [&](std::int32_t own) { return is_reached[body.island.vertices[own]] != 0; };
+      if (std::ranges::any_of(loop, is_on_cut)) reached_loops.push_back(std::move(loop));
+    }
+    if (body.genus() == 0 && reached_loops.size() < 2) return;
+    const HandleLoops handles(problem_, body, root);
+    std::vector<std::vector<std::int32_t>> chains;
+    if (body.genus() > 0) chains = handles.find();
+    for (const std::vector<std::int32_t>& loop : reached_loops) chains.push_back(handles.path_to(loop));
+    for (Slit& slit : handle_slits(problem_, chains)) add(std::move(slit));
+  }
+
+  std::vector<std::uint8_t> flags(const State& state) const {
+    std::vector<std::uint8_t> from(problem_.mesh.vertex_count(), 0);
+    for (const std::int32_t v : state.vertices) from[v] = 1;
+    return from;
+  }
+
+  /// Adds vertices to the cut of a piece, and the loops and tips that are reached by that.
+  void join(State& state, std::vector<std::int32_t> vertices) {
+    while (!vertices.empty()) {
+      for (const std::int32_t v : vertices) is_on_cut_[v] = 1;
+      state.vertices.insert(state.vertices.end(), vertices.begin(), vertices.end());
+      const std::vector<std::uint8_t> is_reached = flags(state);
+      vertices.clear();
+      std::erase_if(state.terminals, [&](const Terminal& terminal) {
+        if (std::ranges::none_of(terminal.vertices, [&](std::int32_t v) { return is_reached[v] != 0; })) return false;
+        if (terminal.is_loop) vertices.insert(vertices.end(), terminal.vertices.begin(), terminal.vertices.end());
+        return true;
+      });
+      // A second slit to a hole would part the piece.
+      std::erase_if(state.holes, [&](const std::vector<std::int32_t>& hole) {
+        if (std::ranges::none_of(hole, [&](std::int32_t v) { return is_reached[v] != 0; })) return false;
+        vertices.insert(vertices.end(), hole.begin(), hole.end());
+        return true;
+      });
+    }
+  }
+
+  /// The piece in which a chain lies.
+  State& state_at(std::span<const std::int32_t> chain) {
+    const std::int32_t edge = problem_.mesh.edge_between(chain[0], chain[1]);
+    return states_[problem_.pieces.of_face[problem_.mesh.half_edge_of[edge] / 3]];
+  }
+
+  void add_chain(const std::vector<std::int32_t>& chain) {
+    State& state = state_at(chain);
+    state.cut_length += chain_length(problem_.mesh, chain);
+    join(state, chain);
+  }
+
+  /// Adds a slit to the tree, and its image unless that would start away from the tree or lead back to it.
+  void add(Slit slit) {
+    add_chain(slit.path);
+    if (slit.image.size() > 1) {
+      const std::vector<std::int32_t>& known = state_at(slit.image).vertices;
+      const bool has_start = std::ranges::find(known, slit.image.front()) != known.end();
+      if (!has_start || is_on_cut_[slit.image.back()] != 0) slit.image.clear();
+    }
+    if (!slit.image.empty()) add_chain(slit.image);
+    tree_.slits.push_back(std::move(slit));
+  }
+
+  /// Finds slits within a piece. Seams around it lie in other pieces too.
+  SlitFinder finder_in(std::size_t number) const {
+    std::vector<std::uint8_t> is_outside(problem_.mesh.edge_count(), 1);
+    for (const std::int32_t f : problem_.by_piece[number].faces) {
+      for (std::int32_t i = 0; i < 3; ++i) is_outside[problem_.mesh.edge_of[3 * f + i]] = 0;
+    }
+    return {problem_, flags(states_[number]), is_on_cut_, 1.0, std::move(is_outside)};
+  }
+
+  /// The vertex of a terminal that is cheapest to reach, with its price.
+  std::pair<double, std::int32_t> cheapest(const SlitFinder& finder, const Terminal& terminal) const {
+    const auto is_on_plane = [&](std::int32_t v) { return problem_.reflection && problem_.reflection->sides[v] == 0; };
+    // A loop across the mirror plane is reached on the plane, for a slit elsewhere and its image would part it.
+    const bool has_plane = std::ranges::any_of(terminal.vertices, is_on_plane);
+    std::pair<double, std::int32_t> best{kNever, -1};
+    for (const std::int32_t v : terminal.vertices) {
+      if (!has_plane || is_on_plane(v)) best = std::min(best, {finder.price_to(v), v});
+    }
+    return best;
+  }
+
+  void reach_terminals() {
+    // Pieces take turns, for the mirror image of a slit may lie in another piece.
+    for (bool is_any_left = true; is_any_left;) {
+      is_any_left = false;
+      for (std::size_t p = 0; p < states_.size(); ++p) {
+        task_.check(0.0);
+        is_any_left = reach_terminal(p) || is_any_left;
+      }
+    }
+  }
+
+  /// Lets the tree of a piece reach its cheapest terminal, or gives that up. Whether more are left.
+  bool reach_terminal(std::size_t number) {
+    std::vector<Terminal>& terminals = states_[number].terminals;
+    if (terminals.empty()) return false;
+    const SlitFinder finder = finder_in(number);
+    std::pair<double, std::int32_t> best{kNever, -1};
+    std::size_t which = 0;
+    for (std::size_t i = 0; i < terminals.size(); ++i) {
+      const std::pair<double, std::int32_t> one = cheapest(finder, terminals[i]);
+      if (!(one < best)) continue;
+      best = one;
+      which = i;
+    }
+    std::optional<Slit> slit;
+    if (best.second >= 0) slit = finder.slit_to(best.second);
+    const Terminal reached = std::move(terminals[which]);
+    terminals.erase(terminals.begin() + static_cast<std::ptrdiff_t>(which));
+    if (!slit || (!reached.is_loop && crosses_face(problem_, *slit))) {  // out of reach, or across an exposed area
+      return !terminals.empty();
+    }
+    slit->is_needed = reached.is_loop;
+    if (reached.is_loop) join(states_[number], reached.vertices);
+    add(std::move(*slit));
+    return !terminals.empty();
+  }
+
+  /// A piece with hardly any cut gets a slit to the point farthest from its cut. Without tips only a closed one does.
+  void lengthen_short_cut(std::int32_t number) {
+    const State& state = states_[number];
+    const PieceBody& body = state.body;
+    if (has_tips_ ? state.cut_length >= tuning::kLeastCut * body.size : state.cut_length > 0.0) return;
+    const SlitFinder finder = finder_in(index(number));
+    const std::vector<double> away = edge_distances(problem_.mesh, state.vertices);
+    std::int32_t farthest = -1;
+    for (const std::int32_t v : body.island.vertices) {
+      if (std::isfinite(finder.price_to(v)) && (farthest < 0 || away[v] > away[farthest])) farthest = v;
+    }
+    if (farthest < 0) return;
+    const std::int32_t moved = problem_.reflection ? onto_plane(problem_, body, farthest) : farthest;
+    if (std::isfinite(finder.price_to(moved))) farthest = moved;
+    std::optional<Slit> slit = finder.slit_to(farthest);
+    if (slit) add(std::move(*slit));
+  }
+
+  /// If only one slit starts at a root, removes the part before its first branch.
+  void trim_stub(std::int32_t root) {
+    Slit* only = nullptr;
+    std::ptrdiff_t meeting = 0;  // how many chains' vertices are the root
+    for (Slit& slit : tree_.slits) {
+      meeting += std::ranges::count(slit.path, root) + std::ranges::count(slit.image, root);
+      if (slit.path.front() == root) only = &slit;
+    }
+    if (only == nullptr || meeting > 1) return;
+    const auto starts_at = [&](std::int32_t v) {
+      return std::ranges::any_of(tree_.slits, [&](const Slit& other) {
+        return (&other != only && other.path.front() == v) || (!other.image.empty() && other.image.front() == v);
+      });
+    };
+    for (std::size_t i = 1; i < only->path.size(); ++i) {
+      if (!starts_at(only->path[i])) continue;
+      std::ranges::replace(tree_.roots, root, only->path[i]);
+      only->path.erase(only->path.begin(), only->path.begin() + static_cast<std::ptrdiff_t>(i));
+      if (only->path.size() < 2) tree_.slits.erase(tree_.slits.begin() + (only - tree_.slits.data()));
+      return;
+    }
+  }
+
+  /// A closed piece that is cut along one edge has an outline of two edges, and no map. It is cut along one edge more.
+  void lengthen_single_edge(Slit& slit) {
+    if (slit.path.size() != 2 || !slit.image.empty()) return;
+    const std::int32_t edge = problem_.mesh.edge_between(slit.path[0], slit.path[1]);
+    const std::int32_t piece = problem_.pieces.of_face[problem_.mesh.half_edge_of[edge] / 3];
+    const auto is_elsewhere = [&](const Slit& other) {
+      return &other == &slit || std::ranges::count(pieces_of(problem_, other), piece) == 0;
+    };
+    if (!states_[piece].body.loops.empty() || !std::ranges::all_of(tree_.slits, is_elsewhere)) return;
+    std::int32_t next = -1;
+    double least = kNever;
+    for (const PlanNeighbor& neighbor : problem_.mesh.neighbors[slit.path[1]]) {
+      if (neighbor.vertex == slit.path[0] || !(problem_.prices.of_edge[neighbor.edge] < least)) continue;
+      least = problem_.prices.of_edge[neighbor.edge];
+      next = neighbor.vertex;
+    }
+    if (next >= 0) slit.path.push_back(next);
+  }
+
+  const SlitProblem& problem_;
+  std::vector<State> states_;
+  std::vector<std::uint8_t> is_on_cut_;  // of any piece
+  SlitTree tree_;
+  bool has_tips_;
+  const Task& task_;
+};
+
+}  // namespace
+
+SlitTree grow_tree(const SlitProblem& problem, bool has_tips, const Task& task) {
+  return TreeGrowth(problem, has_tips, task).grow();
+}
+
+}  // namespace seamwire::detail

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+/// The constants that decide which seams and parts are found: what each is, and why it has its value if that is known.
+///
+/// Constants of a single algorithm, such as tolerances and shares of progress, are where they are used.
+/// docs/notebook/planner-tuning.md says what was tried.
+namespace seamwire::detail::tuning {
+
+// Visibility of places: how much of the front and of the sky sees a vertex.
+
+/// Directions of view from the front. The benchmarks measure visibility with as many.
+inline constexpr int kViews = 20;
+/// Rays to the sky above a vertex. The prototype had 48, for twice the time.
+inline constexpr int kSkyRays = 24;
+
+// Price of a place, by its visibility. Without it seams would be short, but as visible as any other line.
+
+/// Share of the front in the visibility, the rest is open sky. With open sky alone, seams crossed the faces of both
+/// heads on which the planner was tuned.
+inline constexpr double kFrontShare = 0.7;
+/// Price of a place that nobody sees, in that of an average place. With 0.12, seams were longer and crossed the
+/// middle of wings.
+inline constexpr double kHidden = 0.25;
+/// Visibility above this counts as this. Otherwise the third power would make exposed tips too expensive.
+inline constexpr double kMostOpen = 2.0;
+/// Visibility from which a place counts as part of a face: a little above the mean, where eyes, nose and lips are.
+inline constexpr double kFace = 1.1;
+/// By how much more visibility a place counts fully as part of a face.
+inline constexpr double kFaceWidth = 0.35;
+/// Times that a place in a face costs more. Without it, slits ran through eyes and noses.
+inline constexpr double kFacePrice = 8.0;
+
+// Price of an edge, by the shape of the surface.
+
+/// Curvature of the rim of a thin part, on a surface of area 1. There, the saving is greatest.
+inline constexpr double kRidgeCurvature = 30.0;
+/// Share of the price that such a rim saves. Artists cut thin parts along their rims.
+inline constexpr double kRidgeSaving = 0.75;
+/// Log odds for edges on the mirror plane. This is half of kPartOnPlane, because paths on the plane pay half
+/// already.
+inline constexpr double kSlitOnPlane = 1.0;
+/// Log odds up to which an edge costs as in a flat place.
+inline constexpr double kFlatOdds = -2.0;
+/// Degrees from which an edge of a machine part counts as sharp, so that it hides a seam on every side.
+inline constexpr double kSharpFrom = 25.0;
+/// By how many more degrees it counts fully as sharp.
+inline constexpr double kSharpWidth = 35.0;
+
+// Price of a slit, beside its edges.
+
+/// Price of each slit. Without it, tiny slits beside the cut win.
+inline constexpr double kSlitPrice = 0.04;
+/// Share of this price that machine parts save, because they have more and shorter seams.
+inline constexpr double kHardSaving = 0.75;
+/// Gain of energy for a price that is worth a slit below the bound on machine parts, where sharp edges are nearly
+/// free.
+inline constexpr double kBargain = 0.15;
+/// Price of a turn by 90 degrees, in median edges at the mean price. Artists' seams go straight on at nearly all
+/// regular vertices.
+inline constexpr double kTurnPrice = 1.5;
+
+// Machine parts: surfaces whose bending is mostly in sharp edges, and whose other edges hardly bend.
+
+/// Degrees above which the bend of an edge counts as sharp.
+inline constexpr double kHardSharp = 30.0;
+/// Degrees below which an edge counts as hardly bent.
+inline constexpr double kHardFlat = 15.0;
+/// Share of all bending in sharp edges from which on a surface is a machine part.
+inline constexpr double kHardFrom = 0.35;
+/// By how much more it is one fully.
+inline constexpr double kHardWidth = 0.25;
+/// Share of the edges' length that is hardly bent, from which on it is one. It excludes organic surfaces of few
+/// triangles.
+inline constexpr double kHardFlatFrom = 0.45;
+/// By how much more it is one fully.
+inline constexpr double kHardFlatWidth = 0.15;
+
+// Log odds of an edge of being a border between parts. They are hand-made, after the features that a learned
+// model used most.
+
+/// Distance on both sides, as a share of the diagonal, at which a wide bend is measured. It spans the steps of a
+/// chamfer.
+inline constexpr double kWideReach = 0.015;
+/// Share of the mean bend of the edge's line in the bend. Borders go on along lines of edges, over edges that bend
+/// less.
+inline constexpr double kLineShare = 0.2;
+/// Share of the bend by which a wide bend exceeds the edge's own. Without it, a chamfer is no sharp edge.
+inline constexpr double kWideShare = 0.8;
+/// A wide bend exceeds the edge's own by at most so many times that, or curved places would count as chamfers.
+inline constexpr double kMostSteps = 1.5;
+/// Bend at which a border is as likely as not, apart from what follows. Of all edges above some angle, those above
+/// 45 degrees agreed best with artists' seams on hard surfaces.
+inline constexpr double kEvenDegrees = 50.0;
+/// Degrees that add 1 to the log odds.
+inline constexpr double kDegreesOfOdds = 18.0;
+/// Added to all log odds, because seams are only 6 % of the length of all edges.
+inline constexpr double kPrior = -0.8;
+/// Taken off for each unit of openness above the mean, because artists hide borders.
+inline constexpr double kOpenness = 4.0;
+/// Taken off beside a sharper edge of the same polygon. Otherwise both sides of a narrow strip are borders.
+inline constexpr double kBesideSharper = 1.5;
+/// Degrees by which the other edge has to be sharper.
+inline constexpr double kSharperBy = 5.0;
+/// Added in creases.
+inline constexpr double kConcave = 1.0;
+/// Degrees from which a concave edge is a crease.
+inline constexpr double kConcaveDegrees = 20.0;
+/// Degrees from which an edge on the mirror plane gets more log odds. A flat place has no border there.
+inline constexpr double kOnPlaneDegrees = 10.0;
+/// Added where an artist expects a border. It is enough to make a border of a flat edge.
+inline constexpr double kMarked = 6.0;
+/// Price of a cut along an edge that is a border for sure. Without it, any detour along such edges is free.
+inline constexpr double kLeastPrice = 0.05;
+/// Added to all log odds in the middle of the scale of parts.
+inline constexpr double kMiddleBias = 0.1;
+/// Log odds are clamped to this, so that no edge alone decides. A clamp at 2 gave the same agreement with artists.
+inline constexpr double kMostOdds = 4.0;
+
+// Polygons: pairs of triangles that count as quads, and lines of edges.
+
+/// Degrees between the triangles of a quad, at most.
+inline constexpr double kMostFold = 40.0;
+/// Degrees of the fold and of the mean deviation of the corners from 90 degrees together, at most.
+inline constexpr double kMostSkew = 55.0;
+/// Degrees that a line turns at most at a vertex of four edges, where the opposite edge continues it.
+inline constexpr double kOverVertex = 80.0;
+/// Degrees that a line turns at most at other vertices, where the straightest edge continues it.
+inline constexpr double kMostTurn = 50.0;
+
+// Parts: which regions stay apart.
+
+/// Log odds for each unit of the amount's log odds below the middle of the scale. The scale ends in one part at 0.
+inline constexpr double kBiasToOne = 1.2;
+/// Log odds that are added from the middle of the scale to its other end, where all sharp edges are borders.
+inline constexpr double kBiasToSharp = 2.2;
+/// Log odds for edges on the mirror plane. It was the strongest feature of a learned model.
+inline constexpr double kPartOnPlane = 2.0;
+/// Price of a part, in diagonals of its piece. A lower price gives more parts.
+inline constexpr double kPartPrice = 0.2;
+/// Share of the area of its piece below which a part joins a neighbor. Without it, characters get crumbs at ears
+/// and fingers.
+inline constexpr double kLeastPart = 0.003;
+/// Width in diagonals of its piece below which a part may be a step of a chamfer.
+inline constexpr double kLeastPartWidth = 0.008;
+/// Vertices at which visibility is measured at most, because rays take most of the time on large meshes.
+inline constexpr std::size_t kMostLooks = 8000;
+/// Mean log odds of a rim that encloses a small part of its own, such as a button or a plug.
+inline constexpr double kSharpRim = 2.0;
+/// Degrees by which the surface bends at the sides of a chamfer's step, at least.
+inline constexpr double kLeastStep = 25.0;
+/// Degrees at the sides of a chamfer's step, at most.
+inline constexpr double kMostStep = 70.0;
+/// Share of the area that each half of a piece has, if there is such a cut.
+inline constexpr double kLeastHalf = 0.2;
+
+// Limbs whose necks are cut if more islands are wanted.
+
+/// Share of the way from a tip to the farthest vertex beyond which nothing is part of the limb.
+inline constexpr double kLimbReach = 0.6;
+/// Times that rings on both sides of a neck are longer than the neck's own, at least.
+inline constexpr double kNeckNarrow = 1.2;
+/// Share of the surface's area that a limb has at least.
+inline constexpr double kLeastLimb = 3e-3;
+/// And at most. A larger one is the rest of the surface.
+inline constexpr double kMostLimb = 0.5;
+
+// Regions whose rims are cut if slits do not reach the bound. They help cylinders with many corners.
+
+/// Corners of a rim, at least: too many for a slit to each of them.
+inline constexpr std::size_t kManyCorners = 16;
+/// Share of the area of its piece that the region has at least.
+inline constexpr double kLeastRimmed = 2e-3;
+/// Degrees below which the bend of an edge is inside a flat region.
+inline constexpr double kFlatBelow = 1.5;
+/// Degrees above which an edge is on the rim of a region with sharp edges.
+inline constexpr double kSharpAbove = 30.0;
+
+// The first tree of slits. Lengths are in roots of the area of a piece.
+
+/// Height by which the tip of a limb stands out in mean distance. Lower bumps get no slit of the tree.
+inline constexpr double kTipProminence = 0.08;
+/// Distance from the mirror plane below which a tip is moved onto it. Otherwise a back gets two parallel slits.
+inline constexpr double kTipToPlane = 0.07;
+/// Distance below which two tips are one.
+inline constexpr double kTipsApart = 0.05;
+/// Length of tree and boundary below which a piece gets one more slit. A ball, which has no limbs, would have
+/// hardly any cut.
+inline constexpr double kLeastCut = 0.6;
+/// Area within the length of a loop from it, in the square of that length: about 4 around a hole in a plane, 1 at
+/// the end of a tube. With less than this, the loop is the end of a tube.
+inline constexpr double kLeastAround = 2.0;
+
+// The measure of distortion.
+
+/// Share of the area, where the map is worst, that an energy leaves out. The tips of slits are there.
+inline constexpr double kLeftOut = 1e-3;
+
+// Candidates: places to which a further slit may lead. Lengths are for a surface of area 1.
+
+/// Radius over which distortion is summed up for peaks close to their cause.
+inline constexpr double kClosePeak = 0.05;
+/// The same for peaks of whole regions.
+inline constexpr double kWidePeak = 0.15;
+/// Candidates of the first kind.
+inline constexpr std::size_t kClosePeaks = 4;
+/// Candidates of the second kind.
+inline constexpr std::size_t kWidePeaks = 3;
+/// Candidates that are far from the cut and distorted.
+inline constexpr std::size_t kFarPeaks = 2;
+/// Candidates that are farthest from the cut. Without them, a surface with a tiny boundary was stuck at an energy
+/// of 5.9.
+inline constexpr std::size_t kFarthest = 2;
+/// Distance from the cut below which there is no peak, because a slit to it would be a crumb.
+inline constexpr double kNearCut = 0.07;
+/// Distance below which two peaks are one.
+inline constexpr double kPeaksApart = 0.1;
+/// Distance from the end of a slit within which its most distorted place is a candidate.
+inline constexpr double kAheadOfEnd = 0.2;
+/// Distance that such a place has from the cut, at least.
+inline constexpr double kAheadOfCut = 0.04;
+/// Energy of a triangle above 4 that counts at most, so that one collapsed triangle does not hide all other peaks.
+inline constexpr double kMostExcess = 50.0;
+/// Distance of the places all over the surface from the cut and from each other, at least.
+inline constexpr double kSpreadStep = 0.03;
+/// Places all over the surface that are tried if no likely one helps.
+inline constexpr std::size_t kThoroughPlaces = 48;
+/// Distance below which slits to two places are one candidate.
+inline constexpr double kSameCandidate = 0.03;
+
+// The search: it adds slits, shortens them, and exchanges them.
+
+/// Newton steps of a trial, which tells about what a slit gains. A full solve may take 60.
+inline constexpr std::size_t kTrialSteps = 6;
+/// Newton steps at most for the map of a finished cut. A body with fingers takes more than 100, and a map that is not
+/// solved to its end seems to miss the bound.
+inline constexpr std::size_t kFinishedSteps = 300;
+/// Energy below the bound to which slits are added, so that there is something to give away. Without it, a seam was
+/// 2.3 long instead of 1.9.
+inline constexpr double kGrowBelow = 0.03;
+/// Energy that a slit gains at least.
+inline constexpr double kLeastGain = 2e-3;
+/// The same while the bound is not reached and no other slit helps.
+inline constexpr double kFinestGain = 1e-4;
+/// Prices of a slit that are added when slits are compared, so that tiny slits do not win.
+inline constexpr double kChoicePrice = 2.5;
+/// Price that an exchange saves at least.
+inline constexpr double kLeastSaving = 1e-3;
+/// Times that a gain counts if the map overlaps itself, because it costs 0.02 to 0.03 of energy to undo that.
+inline constexpr double kOverlappingGain = 0.3;
+/// Slits that are tried for an exchange in each round.
+inline constexpr std::size_t kExchanges = 8;
+/// Shares of a slit's length that may stay, in the order in which they are tried.
+inline constexpr std::array<double, 3> kShorterShares{0.0, 0.6, 0.85};
+
+// The planner: budgets, and simplified meshes.
+
+/// Newton steps on the whole surface that a search takes at most.
+inline constexpr double kBudget = 4000.0;
+/// Bound on the energy below which faces may be cut. At 4.1, one head needed a slit from the throat to the lip.
+inline constexpr double kLowStretch = 4.15;
+/// Triangles above which a surface is planned on simplified meshes. A Newton step on 28,000 triangles takes 40 ms.
+inline constexpr std::size_t kMostTriangles = 9000;
+/// Triangles that all simplified meshes have together, about.
+inline constexpr std::size_t kSimplified = 7000;
+/// Triangles of each group, at least, and of the coarser mesh on which seams are also searched. A group that is
+/// smaller itself stays as it is.
+inline constexpr std::size_t kLeastSimplified = 600;
+/// How often a search is repeated because the original mesh distorts more than the simplified one.
+inline constexpr int kRounds = 2;
+/// Budget of a repetition, as a share of the one before.
+inline constexpr double kLaterBudget = 0.5;
+/// Energy below the bound from which on a map may have too many seams, so that the search is repeated.
+inline constexpr double kNearBound = 0.02;
+/// Energy below the bound at which a repeated search aims, because the meshes do not differ by the same amount
+/// again.
+inline constexpr double kMargin = 3e-3;
+/// How often pieces without a map are cut into halves.
+inline constexpr int kHalvings = 4;
+
+// Wires of a plan. Lengths are in roots of the area of a piece.
+
+/// Distance from a slit that wires across the surface keep, first and if the map is bad with these.
+inline constexpr std::array<double, 2> kNearSlit{0.04, 0.015};
+/// Distance of a slit from a straight line above which it gets another seed, along edges.
+inline constexpr double kStraight = 0.1;
+
+}  // namespace seamwire::detail::tuning
