@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -12,6 +11,7 @@
 #include <variant>
 
 #include "detail/deadline.hpp"
+#include "detail/infinity.hpp"
 #include "live/candidates.hpp"
 #include "live/closed_cut_search.hpp"
 #include "live/discards.hpp"
@@ -53,8 +53,8 @@ class LiveWorker {
 
   /// The current knowledge of a wire.
   struct Known {
-    std::optional<LiveCandidate> candidate;                         ///< nullopt: nothing yet
-    double first_length = std::numeric_limits<double>::infinity();  ///< of the wire before it is refined
+    std::optional<LiveCandidate> candidate;  ///< nullopt: nothing yet
+    double first_length = kInfinity;         ///< of the wire before it is refined
   };
   /// The wire from the newest seed to a target. The thread works on this target from now on: previews lead to it until
   /// there is a field, and then its wire is refined. Along edges, needs the surface to be built.

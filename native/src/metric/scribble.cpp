@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <queue>
 #include <string>
 #include <utility>
@@ -15,6 +14,7 @@
 
 #include "detail/epoch_map.hpp"
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
 #include "detail/poll.hpp"
 #include "detail/text.hpp"
 #include "metric/scribble_points.hpp"
@@ -144,7 +144,7 @@ class DrawnLine {
   }
 
   struct Foot {
-    double distance = std::numeric_limits<double>::infinity();
+    double distance = kInfinity;
     double at = 0;  ///< length along the line
     std::size_t segment = 0;
   };

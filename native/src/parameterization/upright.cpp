@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <utility>
 
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
 
 namespace seamwire::detail {
 
@@ -61,7 +61,7 @@ std::vector<Point2> convex_hull(std::vector<Point2> points) {
 Point2 longest_direction(const std::vector<Point2>& map) {
   const std::vector<Point2> hull = convex_hull(map);
   Point2 best = Point2::Zero();
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   // Three points go around the hull with each edge: the farthest along it, across it, and back along it.
   std::size_t front = 1, top = 1, back = 1;
   const std::size_t count = hull.size();
