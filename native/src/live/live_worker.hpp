@@ -14,7 +14,6 @@
 #include "detail/infinity.hpp"
 #include "live/candidates.hpp"
 #include "live/closed_cut_search.hpp"
-#include "live/discards.hpp"
 #include "live/event_count.hpp"
 #include "live/mailbox.hpp"
 #include "live/prepared_metrics.hpp"
@@ -99,15 +98,13 @@ class LiveWorker {
   const SurfaceContext context_;
   const LiveSettings settings_;
   const std::shared_ptr<RightOfWay> right_of_way_;
-  Mutex right_of_way_mutex_;              // held while it is told
   std::stop_source quit_;                 // its state guards itself
   std::atomic<bool> has_failed_ = false;  // there is no surface
 
-  EventCount events_;  // in the boxes and discards
-  Discards discards_{events_};
-  SeedBox seeds_{events_, discards_};
-  TargetBox targets_{events_, discards_};
-  LoopBox loops_{events_, discards_};
+  EventCount events_;  // in the boxes
+  SeedBox seeds_{events_};
+  TargetBox targets_{events_};
+  LoopBox loops_{events_};
   SeedSolver solver_;
   std::optional<ClosedCutSearch> closed_cuts_;  // the thread's own; in the metrics of the newest seed
 
