@@ -63,7 +63,7 @@ void bind_live_wires(py::module_& module) {
           "all wires.")
       .def_property_readonly(
           "settled", [](const LiveWiresObject& w) { return w.wires->settled; },
-          "bool: whether the active wire is final and stays active, whatever the other wires become.")
+          "bool: whether the active wire is final and stays active, even if other wires change.")
       .def_property_readonly(
           "solved", [](const LiveWiresObject& w) { return w.wires->solved(); },
           "bool: whether all wires are solved. What follows a moving cursor need not wait for more.")

@@ -31,8 +31,7 @@ void bind_metric_family(py::module_& module) {
           [](const MetricFamilyInfo& info) {
             return info.parameter.empty() ? std::nullopt : std::optional(std::string(info.parameter));
           },
-          "str or None: the name of the parameter, as the functions that make these metrics have it. None if there is "
-          "none.")
+          "str or None: the name of the parameter, as the functions that make these metrics have it.")
       .def_readonly("least_parameter", &MetricFamilyInfo::least_parameter, "float: the smallest parameter.")
       .def_readonly("has_directions", &MetricFamilyInfo::has_directions,
                     "bool: whether a metric follows one of the principal directions, 'min' or 'max'.")

@@ -360,7 +360,7 @@ class MetricFamily:
 
     name: Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"]
     parameter: str | None
-    """str or None: the name of the parameter, as the functions that make these metrics have it. None if there is none."""
+    """str or None: the name of the parameter, as the functions that make these metrics have it."""
     least_parameter: float
     """float: the smallest parameter."""
     has_directions: bool
@@ -1154,7 +1154,7 @@ class LiveWires:
     active: int
     """int: the index of the wire to offer first. This is the first wire, or of M_min and M_max the wire that is shorter in its own metric (Section 5 of the paper). If it does not reach the target, it is the shortest of all wires."""
     settled: bool
-    """bool: whether the active wire is final and stays active, whatever the other wires become."""
+    """bool: whether the active wire is final and stays active, even if other wires change."""
     solved: bool
     """bool: whether all wires are solved. What follows a moving cursor need not wait for more."""
     final: bool
@@ -1909,7 +1909,7 @@ def flatten(
     triangles : (m, 3) array_like of int
         Vertex numbers.
     cuts : (k, 2) array_like of int
-        Vertex pairs: the edges that are seams. Pairs that are no edges cut nothing.
+        Vertex pairs: the edges that are seams. Pairs without an edge cut nothing.
     start : (m, 3, 2) array_like of float, optional
         A former map. Islands start from it if it is continuous there and flips no triangle.
     keep_apart : bool
