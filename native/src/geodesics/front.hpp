@@ -82,7 +82,6 @@ class Front {
     }
   }
 
-  /// Adds a window to the list of h.
   void add_window(std::int32_t h, double b0, double b1, const Point2& from, double distance, std::int32_t source) {
     const GeodesicMesh::HalfEdge edge = mesh_.half_edge(h);
     WindowList& list = lists_[h];

@@ -135,7 +135,6 @@ bool crosses(const std::array<Vector, 2>& segment, const std::array<Vector, 3>& 
   return off * off <= wide * squared;
 }
 
-/// The drawn line, by its length.
 class DrawnLine {
  public:
   explicit DrawnLine(const std::vector<Vector>& points) : points_(points), at_(points.size(), 0.0) {

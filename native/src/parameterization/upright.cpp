@@ -99,7 +99,6 @@ bool is_sound(const Island& island, const std::vector<Point2>& map) {
       island.triangles, [&](const Triangle& t) { return cross(map[t[1]] - map[t[0]], map[t[2]] - map[t[0]]) > 0.0; });
 }
 
-/// The nearest direction along an axis.
 Point2 along_axis(const Point2& direction) {
   if (std::abs(direction.x()) > std::abs(direction.y())) return {std::copysign(1.0, direction.x()), 0.0};
   return {0.0, std::copysign(1.0, direction.y())};
