@@ -302,8 +302,7 @@ void measure(const std::string& file, const Options& options) {
     std::printf(
         "  embedding again after a stroke of %2d edges, about %zu vertices: %.2f ms; from a stroke ten rings wide to "
         "the first wire: %.1f ms (metric %.1f, embedding again %.1f, geodesics' own mesh %.1f, quick path %.1f), all "
-        "anew "
-        "%.1f (embedding %.1f)\n",
+        "anew %.1f (embedding %.1f)\n",
         edges, touched, 1e3 * median(again), 1e3 * median(until_wire), 1e3 * median(drawing),
         1e3 * median(embedding_again), 1e3 * median(solver), 1e3 * median(path), 1e3 * median(until_wire_anew),
         1e3 * median(anew));

@@ -560,16 +560,29 @@ void check(Bytes& from) {
   if (from.coin()) check_plan(from, patience, surface);
 }
 
+/// Prints how many inputs ran, and what became of them, when the program ends.
+struct Outcomes {
+  std::size_t at_the_end = 0, refused = 0, out_of_time = 0;
+  ~Outcomes() {
+    std::fprintf(stderr, "%zu inputs: %zu reached the end, %zu were refused, %zu ran out of time\n",
+                 at_the_end + refused + out_of_time, at_the_end, refused, out_of_time);
+  }
+};
+
 }  // namespace
 }  // namespace seamwire
 
 // NOLINTNEXTLINE(readability-identifier-naming): libFuzzer calls it so
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static seamwire::Outcomes outcomes;
   seamwire::Bytes bytes(data, size);
   try {
     seamwire::check(bytes);
+    ++outcomes.at_the_end;
   } catch (const seamwire::InvalidInput&) {
+    ++outcomes.refused;
   } catch (const seamwire::Cancelled&) {
+    ++outcomes.out_of_time;
   }
   return 0;
 }

@@ -37,10 +37,10 @@ Parameters
 ----------
 points : (k, 3) array_like of float
     At least two, on the mesh or near it.
-start : int, or a pair of int and (3,) floats
+start : int or (int, (3,) array_like)
     Where it begins: a vertex, or a triangle and barycentric coordinates. If the first point does not lie there, a
     vertex only names the polygons in which the curve may begin.
-end : int, or a pair of int and (3,) floats, optional
+end : int or (int, (3,) array_like), optional
     Where it ends. None: wherever the last point lies.
 faces : (k - 1,) array_like of int, optional
     The triangle that each segment lies in. If the curve does not run there, they are found instead.

@@ -81,7 +81,7 @@ std::string text_of_embedding(const EmbeddingObject& object) {
 
 void bind_mesh(EmbeddingClass& embedding) {
   embedding
-      .def_property_readonly("points", array_in(&Embedding::points), "(p, 3) float64, in the caller's coordinates.")
+      .def_property_readonly("points", array_in(&Embedding::points), "(p, 3) float64: in the caller's coordinates.")
       .def_property_readonly("triangles", array_of<EmbeddingObject>([](const EmbeddingObject& e) -> auto& {
                                return e.embedding.mesh.triangles;
                              }),

@@ -143,7 +143,7 @@ points : (n, 3) array_like of float
 triangles : (m, 3) array_like of int
     Vertex numbers.
 cuts : (k, 2) array_like of int
-    Vertex pairs: the edges that are seams. Pairs that are no edges cut nothing.
+    Vertex pairs: the edges that are seams. Pairs without an edge cut nothing.
 start : (m, 3, 2) array_like of float, optional
     A former map. Islands start from it if it is continuous there and flips no triangle.
 keep_apart : bool

@@ -307,14 +307,14 @@ Parameters
 ----------
 embedding : Embedding
     The first call builds a solver, and the embedding keeps it.
-seed : int, (int, (3,) array_like), or a sequence of these
-    A vertex of the surface, or a triangle and barycentric coordinates, as for `DistanceField.distance`.
+seed : int, (int, (3,) array_like), or sequence of int or (int, (3,) array_like)
+    A vertex of the surface, or a triangle and barycentric coordinates, as for `DistanceField.distance`; or several.
 progress : callable, optional
     Called repeatedly with the fraction done. Returning False cancels.
 windows : int, optional
     The largest number of windows that a list passes on, at least 1. It makes the solver faster and approximate. Traced
     paths are real and have their true length, which is at least that of the shortest path. The seed must be one vertex.
-targets : as seed, optional
+targets : int, (int, (3,) array_like), or sequence of int or (int, (3,) array_like), optional
     Stop when the distances and paths of these points are known. Other distances may be missing (inf).
 max_distance : float, optional
     At least 0. Stop at this distance; larger distances are inf.

@@ -260,8 +260,8 @@ scribbles : sequence of Scribble
 
 Returns
 -------
-(n,) float64, or None while it is being computed
-    s of eq. 5.
+(n,) float64 or None
+    s of eq. 5. None while it is being computed.
 )");
   live_wire.def("embeddings", &embeddings, R"(Return summaries of the embeddings across the surface.
 
@@ -544,7 +544,7 @@ bool wait_in_slices(OptionalNumber seconds, const Wait& wait) {
 
 void bind_waiting(LiveWireClass& live_wire) {
   live_wire.def_property_readonly("surface", &surface_of,
-                                  "Surface: the surface that wires run on; None until it is built.");
+                                  "Surface or None: the surface that wires run on; None until it is built.");
   live_wire.def(
       "wait_for_surface",
       [](const LiveWireObject& object, OptionalNumber seconds) {

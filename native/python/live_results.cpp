@@ -20,12 +20,12 @@ void bind_live_candidate(py::module_& module) {
   py::class_<CandidateObject>(module, "LiveCandidate", "One of the wires from the seed to a target.")
       .def_property_readonly(
           "follow", [](const CandidateObject& c) { return name_of(c.get().metric.kind()); },
-          "str: what the metric's paths follow: 'min', 'max' or 'concave'; 'euclidean' if they follow nothing.")
+          "{'min', 'max', 'concave', 'euclidean'}: what the metric's paths follow; 'euclidean' if they follow nothing.")
       .def_property_readonly(
           "metric", [](const CandidateObject& c) { return c.get().metric; },
           "MetricSpec: the metric in which the wire is short.")
       .def_property_readonly("points", array(&LiveCandidate::points),
-                             "(p, 3) float64, in the caller's coordinates. There are no rows if there is no such wire.")
+                             "(p, 3) float64: in the caller's coordinates. There are no rows if there is no such wire.")
       .def_property_readonly("faces", array(&LiveCandidate::faces),
                              "(p - 1,) int32: the triangle of each segment. Only across the surface.")
       .def_property_readonly("vertices", array(&LiveCandidate::vertices),
@@ -63,7 +63,7 @@ void bind_live_wires(py::module_& module) {
           "all wires.")
       .def_property_readonly(
           "settled", [](const LiveWiresObject& w) { return w.wires->settled; },
-          "bool: whether the active wire is final and stays active, whatever the other wires become.")
+          "bool: whether the active wire is final and stays active, even if other wires change.")
       .def_property_readonly(
           "solved", [](const LiveWiresObject& w) { return w.wires->solved(); },
           "bool: whether all wires are solved. What follows a moving cursor need not wait for more.")
@@ -100,7 +100,7 @@ void bind_live_loop(py::module_& module) {
 void bind_live_piece(py::module_& module) {
   py::class_<LiveCandidate>(module, "LivePiece", "A piece of a closed cut.")
       .def_property_readonly("points", array_of<LiveCandidate>(&LiveCandidate::points),
-                             "(p, 3) float64, in the caller's coordinates.")
+                             "(p, 3) float64: in the caller's coordinates.")
       .def_property_readonly("faces", array_of<LiveCandidate>(&LiveCandidate::faces),
                              "(p - 1,) int32: the triangle that each segment lies in; -1 along an edge without a face.")
       .def_property_readonly("vertices", array_of<LiveCandidate>(&LiveCandidate::vertices),
@@ -127,10 +127,10 @@ void bind_live_closed_wires(py::module_& module) {
   py::class_<LiveClosedWire>(module, "LiveClosedWire", "A closed cut through a point of the surface.")
       .def_readonly("pieces", &LiveClosedWire::pieces,
                     "list of LivePiece: the pieces in order, from the point around and back to it.")
-      .def_property_readonly(
-          "joints", &joints_of,
-          "list of (int, (3,) tuple) or int: the point where each piece but the last ends, as a triangle and "
-          "barycentric coordinates. The second point may be a vertex.")
+      .def_property_readonly("joints", &joints_of,
+                             "list of int or (int, (float, float, float)): the point where each piece but the last "
+                             "ends, as a triangle and "
+                             "barycentric coordinates. The second point may be a vertex.")
       .def_readonly("separates", &LiveClosedWire::separates, "bool: as `ClosedWire.separates`.")
       .def_readonly("turn", &LiveClosedWire::turn, "float: as `ClosedWire.turn`.")
       .def_readonly("length", &LiveClosedWire::length,

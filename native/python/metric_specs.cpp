@@ -25,13 +25,13 @@ void bind_metric_family(py::module_& module) {
   py::class_<MetricFamilyInfo>(module, "MetricFamily", "A family of metrics, and the parameters of its metrics.")
       .def_property_readonly(
           "name", [](const MetricFamilyInfo& info) { return std::string(info.name); },
-          "str: 'feature', 'campen', 'pottmann_kovacs', 'concave' or 'euclidean'.")
+          "{'feature', 'campen', 'pottmann_kovacs', 'concave', 'euclidean'}")
       .def_property_readonly(
           "parameter",
           [](const MetricFamilyInfo& info) {
             return info.parameter.empty() ? std::nullopt : std::optional(std::string(info.parameter));
           },
-          "str: the name of the parameter, as the functions that make these metrics have it. None if there is none.")
+          "str or None: the name of the parameter, as the functions that make these metrics have it.")
       .def_readonly("least_parameter", &MetricFamilyInfo::least_parameter, "float: the smallest parameter.")
       .def_readonly("has_directions", &MetricFamilyInfo::has_directions,
                     "bool: whether a metric follows one of the principal directions, 'min' or 'max'.")
@@ -75,8 +75,8 @@ constexpr const char* kSpecDoc = R"(A metric as a value: what it takes to comput
 
 Parameters
 ----------
-family : str
-    The name of one of `metric_families`.
+family : {'feature', 'campen', 'pottmann_kovacs', 'concave', 'euclidean'}
+    One of `metric_families`.
 follow : {'min', 'max'}, optional
     The principal direction that paths follow, exactly in the families that have directions.
 parameter : float, optional
@@ -102,14 +102,14 @@ void bind_metric_spec(py::module_& module) {
            py::arg("clamp_percentile") = py::none())
       .def_property_readonly(
           "family", [](const MetricSpec& spec) { return std::string(info_of(spec.family).name); },
-          "str: the name of the family.")
+          "{'feature', 'campen', 'pottmann_kovacs', 'concave', 'euclidean'}: the name of the family.")
       .def_property_readonly(
           "follow",
           [](const MetricSpec& spec) { return spec.follow ? std::optional(name_of(*spec.follow)) : std::nullopt; },
-          "str: 'min' or 'max'. None if the family has no directions.")
+          "{'min', 'max'} or None: None if the family has no directions.")
       .def_property_readonly(
           "kind", [](const MetricSpec& spec) { return name_of(spec.kind()); },
-          "str: what paths follow: 'min', 'max' or 'concave'; 'euclidean' if they follow nothing.")
+          "{'min', 'max', 'concave', 'euclidean'}: what paths follow; 'euclidean' if they follow nothing.")
       .def_property_readonly("parameter", [](const MetricSpec& spec) { return spec.strength.parameter; })
       .def_property_readonly("max_anisotropy", [](const MetricSpec& spec) { return spec.strength.max_anisotropy; })
       .def_property_readonly("clamp_percentile", [](const MetricSpec& spec) { return spec.strength.clamp_percentile; })

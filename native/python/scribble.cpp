@@ -83,8 +83,8 @@ ValueError
            py::arg("eta") = 20.0, py::arg("rings") = 10, py::arg("radius") = py::none(), py::arg("attracts") = true,
            py::arg("acts_on") = "both")
       .def_property_readonly("points", array_of<Scribble>(&Scribble::points), "(k, 3) float64.")
-      .def_property_readonly("faces", array_of<Scribble>(&Scribble::faces), "(k,) int32; empty if not given.")
-      .def_property_readonly("vertices", array_of<Scribble>(&Scribble::vertices), "(k,) int32; empty if not given.")
+      .def_property_readonly("faces", array_of<Scribble>(&Scribble::faces), "(k,) int32: empty if not given.")
+      .def_property_readonly("vertices", array_of<Scribble>(&Scribble::vertices), "(k,) int32: empty if not given.")
       .def_property_readonly("eta", [](const Scribble& s) { return s.eta; })
       .def_property_readonly("rings", [](const Scribble& s) { return s.rings; })
       .def_property_readonly("radius", [](const Scribble& s) { return s.radius; })

@@ -70,7 +70,7 @@ void bind_planned_wire(py::module_& module) {
           "(int, int): the vertices between which it runs.")
       .def_property_readonly(
           "follow", [](const PlannedWire& wire) { return name_of(wire.follow); },
-          "'min' or 'max': the metric in which a wire across the surface is short.")
+          "{'min', 'max'}: the metric in which a wire across the surface is short.")
       .def_property_readonly("vertices", array_of<PlannedWire>(&PlannedWire::vertices),
                              "(k,) int32: the chain of edges that it marks, from seed to seed.")
       .def_property_readonly("points", array_of<PlannedWire>(&PlannedWire::points),
@@ -91,21 +91,22 @@ py::object uvs_of(const py::object& self) {
 
 void bind_seam_plan(py::module_& module) {
   py::class_<SeamPlan, SharedPlan>(module, "SeamPlan", "Seams that cut a surface into islands.")
-      .def_readonly("wires", &SeamPlan::wires, "list of PlannedWire, without the seams that were there.")
+      .def_readonly("wires", &SeamPlan::wires, "list of PlannedWire: without the seams that were there.")
       .def_property_readonly("islands", array_of<SeamPlan>(&SeamPlan::islands),
                              "(m,) int32: the island of each triangle, numbered as by `face_segments`.")
-      .def_readonly("island_count", &SeamPlan::island_count, "How many islands there are.")
-      .def_readonly("not_discs", &SeamPlan::not_discs, "How many islands are not discs.")
+      .def_readonly("island_count", &SeamPlan::island_count, "int: how many islands there are.")
+      .def_readonly("not_discs", &SeamPlan::not_discs, "int: how many islands are not discs.")
       .def_readonly("cost", &SeamPlan::cost,
-                    "Length times visibility of all wires, for a surface of area 1. Lower is better.")
+                    "float: length times visibility of all wires, for a surface of area 1. Lower is better.")
       .def_readonly("energy", &SeamPlan::energy,
-                    "The symmetric Dirichlet energy of the planned map, mean over the area. 4 for an isometry.")
+                    "float: the symmetric Dirichlet energy of the planned map, mean over the area. 4 for an isometry.")
       .def_readonly("is_reached", &SeamPlan::is_reached,
-                    "Whether the energy is within the bound, and no island that may be cut overlaps itself.")
-      .def_readonly("steps", &SeamPlan::steps, "Newton steps that planning took, each times the share of the surface.")
+                    "bool: whether the energy is within the bound, and no island that may be cut overlaps itself.")
+      .def_readonly("steps", &SeamPlan::steps,
+                    "float: Newton steps that planning took, each times the share of the surface.")
       .def_property_readonly(
           "uvs", &uvs_of,
-          "(m, 3, 2) float64: the planned map, in the caller's unit of length. None for a plan that\n"
+          "(m, 3, 2) float64 or None: the planned map, in the caller's unit of length. None for a plan that\n"
           "was found on the way.")
       .def("__repr__", [](const SeamPlan& plan) {
         return "<SeamPlan: " + std::to_string(plan.wires.size()) + " wires, " + std::to_string(plan.island_count) +
@@ -192,9 +193,10 @@ ValueError
     If a parameter is out of range.
 Cancelled
 )")
-      .def_property_readonly("best_so_far", &SeamPlannerObject::best_so_far,
-                             "SeamPlan: the best plan that a running or cancelled `plan` has found; None before the "
-                             "first. Any thread may read it.")
+      .def_property_readonly(
+          "best_so_far", &SeamPlannerObject::best_so_far,
+          "SeamPlan or None: the best plan that a running or cancelled `plan` has found; None before the "
+          "first. Any thread may read it.")
       .def("__repr__", [](const SeamPlannerObject&) { return std::string("<SeamPlanner>"); });
 }
 
@@ -226,7 +228,7 @@ void bind_parts(py::module_& module) {
   py::class_<Parts>(module, "Parts", "The parts of a surface.")
       .def_property_readonly("of_face", array_of<Parts>(&Parts::of_face),
                              "(m,) int32: the part of each triangle, numbered as by `face_segments`.")
-      .def_readonly("count", &Parts::count, "How many parts there are.")
+      .def_readonly("count", &Parts::count, "int: how many parts there are.")
       .def_property_readonly(
           "borders", &borders_of,
           "list of (k,) int32: chains of vertices between parts, from junction to junction. A closed\n"

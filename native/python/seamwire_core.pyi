@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# Made by scripts/lib/python_stub.py.
 """Anisotropic geodesics and live wires on triangle meshes.
 
 The method is that of Zhuang, Zou, Carr, Ju, "Anisotropic geodesics for live-wire mesh segmentation" (2014).
 
-Points are in the caller's coordinates. Lengths and curvatures are those of the model scaled to the unit cube (Section 3 of the paper),
-unless the name says otherwise. Arrays that a result hands out are read-only views of its memory.
+Points are in the caller's coordinates. Lengths and curvatures are those of the model scaled to the unit cube (Section 3
+of the paper), unless the name says otherwise. Arrays that a result hands out are read-only views of its memory.
 
-Wrong input raises ValueError, and the message names the element. Long functions release the GIL and take `progress`, a function of the
-fraction done. If it returns False, the function raises Cancelled. When the interpreter exits, long functions on other threads stop and
-raise SystemExit.
+Wrong input raises ValueError, and the message names the element. Long functions release the GIL and take `progress`, a
+function of the fraction done. If it returns False, the function raises Cancelled. When the interpreter exits, long
+functions on other threads stop and raise SystemExit.
 """
 
 from __future__ import annotations
@@ -19,61 +20,456 @@ from typing import Literal, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-Pick = int | tuple[int, int]
-"""A vertex, or an edge by its two vertices."""
-SurfacePoint = int | tuple[int, ArrayLike]
-"""A vertex, or a triangle and three barycentric coordinates in it."""
-Progress = Callable[[float], bool | None]
-
-class Cancelled(RuntimeError): ...  # noqa: N818
+class Cancelled(RuntimeError): ...
 
 class SurfaceReport:
     """Unusual parts of a surface's input. The surface works in spite of them."""
 
-    nonmanifold_edges: NDArray[np.int32]  # (k, 2)
-    unorientable_edges: NDArray[np.int32]  # (k, 2)
+    nonmanifold_edges: NDArray[np.int32]
+    """(k, 2) int32: edges with three or more faces. Wires cross them; curvature and islands end there."""
+    unorientable_edges: NDArray[np.int32]
+    """(k, 2) int32: edges whose faces cannot be oriented alike. Wires cross them; curvature and islands end there."""
     flipped_faces: NDArray[np.int32]
-    zero_area_faces: NDArray[np.int32]  # lower than 1e-9 of their longest side
-    low_faces: NDArray[np.int32]  # lower than 2^-22 of the unit cube, including zero-area faces
+    """(k,) int32: faces that were turned over to agree with their neighbors."""
+    zero_area_faces: NDArray[np.int32]
+    """(k,) int32: faces lower than 1e-9 of their longest side. They are kept, but embeddings remove them or leave holes."""
+    low_faces: NDArray[np.int32]
+    """(k,) int32: faces lower than 2^-22 of the unit cube, including those without area. They are kept, but normals and curvature ignore them."""
     degenerate_faces: NDArray[np.int32]
+    """(k,) int32: faces with two equal corners. They are left out; their edges stay."""
     duplicate_faces: NDArray[np.int32]
+    """(k,) int32: faces with the three vertices of an earlier face. They are left out."""
     isolated_vertices: NDArray[np.int32]
+    """(k,) int32: vertices in no face and no edge."""
     boundary_edges: int
+    """int: how many edges have one face."""
     components: int
+    """int: how many parts edges connect. Isolated vertices do not count."""
 
 class Surface:
-    """A triangle mesh in any condition: points (n, 3), triangles (m, 3), real edges (e, 2) or None for every edge of a triangle."""
+    """A triangle mesh in any condition.
+
+    A surface may have boundaries, several components, isolated vertices, zero-area and duplicate faces, mixed orientation,
+    and edges with three or more faces. `report` lists them. Vertices and faces keep the caller's numbers.
+
+    Parameters
+    ----------
+    points : (n, 3) array_like of float
+        Finite coordinates.
+    triangles : (m, 3) array_like of int
+        Vertex numbers, of any integer type.
+    edges : (e, 2) array_like of int, optional
+        The real edges, if the triangles come from polygons, and edges without a face. None: every edge of a triangle.
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
+
+    Raises
+    ------
+    ValueError
+        If an array has the wrong shape or type, a coordinate is not finite, a vertex number is out of range, an edge joins
+        a vertex to itself, or there is no edge. The message names the element.
+    Cancelled
+    """
 
     def __init__(
         self,
         points: ArrayLike,
         triangles: ArrayLike,
         edges: ArrayLike | None = None,
-        progress: Progress | None = None,
+        progress: Callable[[float], bool | None] | None = None,
     ) -> None: ...
     points: NDArray[np.float64]
+    """(n, 3) float64: as given."""
     triangles: NDArray[np.int32]
+    """(m, 3) int32: as given."""
     edges: NDArray[np.int32]
-    scale: float  # caller's coordinates * scale fit the unit cube
+    """(e, 2) int32: the real edges, each once, sorted. The smaller vertex comes first."""
+    scale: float
+    """float: the caller's coordinates times this number fit the unit cube."""
     report: SurfaceReport
+    """SurfaceReport: unusual parts of the input."""
 
 class Curvature:
+    """Principal curvatures at the vertices of a surface.
+
+    They are those of the model scaled to the unit cube, in 1 / side of the cube. Vertices without a usable face have
+    curvature 0.
+    """
+
     k1: NDArray[np.float64]
+    """(n,) float64: the curvature with the larger absolute value."""
     k2: NDArray[np.float64]
-    d1: NDArray[np.float64]  # (n, 3)
+    """(n,) float64: the curvature with the smaller absolute value."""
+    d1: NDArray[np.float64]
+    """(n, 3) float64: the unit tangent direction of k1."""
     d2: NDArray[np.float64]
+    """(n, 3) float64: the unit tangent direction of k2."""
     normals: NDArray[np.float64]
-    difference: NDArray[np.float64]  # s of eq. 5
+    """(n, 3) float64: unit normals."""
+    difference: NDArray[np.float64]
+    """(n,) float64: s of eq. 5, |k1| - |k2|."""
+
+def principal_curvatures(surface: Surface, progress: Callable[[float], bool | None] | None = None) -> Curvature:
+    """Compute the principal curvatures at the vertices of a surface.
+
+    Parameters
+    ----------
+    surface : Surface
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
+
+    Returns
+    -------
+    Curvature
+
+    Raises
+    ------
+    Cancelled
+
+    References
+    ----------
+    Rusinkiewicz, "Estimating Curvatures and Their Derivatives on Triangle Meshes" (2004). Normals are weighted as in Max,
+    "Weights for Computing Vertex Normals from Facet Normals" (1999).
+    """
+
+def smoothed_curvatures(
+    surface: Surface,
+    curvature: Curvature,
+    radius: float = 0.01,
+    progress: Callable[[float], bool | None] | None = None,
+) -> Curvature:
+    """Average curvatures over a radius, by averaging their tensors over 1-rings repeatedly.
+
+    Parameters
+    ----------
+    surface : Surface
+    curvature : Curvature
+        Of that surface.
+    radius : float
+        Above 0, in sides of the unit cube. It is met approximately.
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
+
+    Returns
+    -------
+    Curvature
+
+    Raises
+    ------
+    ValueError
+        If the curvature belongs to another surface, or the radius is not positive.
+    Cancelled
+    """
 
 class Metric:
-    normals: NDArray[np.float64]  # (n, 3)
-    tensors: NDArray[np.float64]  # (n, 3, 3)
+    """An anisotropic metric: a tensor on the tangent plane of each vertex."""
+
+    normals: NDArray[np.float64]
+    """(n, 3) float64: unit normals; zero at vertices without a face."""
+    tensors: NDArray[np.float64]
+    """(n, 3, 3) float64: symmetric tensors, which map the normal to zero."""
     max_anisotropy: float
+    """float: the largest ratio of the lengths of two unit vectors at a vertex."""
     def ellipses(self, of: Literal["norm", "reach"] = "norm") -> NDArray[np.float64]:
-        """Return the semi-axes at each vertex, (n, 2, 3), the longer one first: as in Figures 3 and 6, or how far length 1 reaches."""
+        """Return the ellipse of the norm at each vertex (Figures 2, 3 and 6 of the paper).
+
+        Parameters
+        ----------
+        of : {'norm', 'reach'}
+            'norm': l1 e1 and l2 e2 of eq. 2, as in the paper's figures. The ellipse is long across the direction of paths.
+            'reach': e2 / sqrt(l2) and e1 / sqrt(l1). This is how far a path of length 1 reaches.
+
+        Returns
+        -------
+        (n, 2, 3) float64
+            The two semi-axes, the longer one first, of the model scaled to the unit cube. Zero at vertices without a face.
+
+        Raises
+        ------
+        ValueError
+            If `of` has another value.
+        """
+
+def feature_metric(
+    surface: Surface,
+    curvature: Curvature,
+    follow: Literal["min", "max"] = "min",
+    gamma: float | None = None,
+    max_anisotropy: float | None = None,
+    clamp_percentile: float | None = None,
+    progress: Callable[[float], bool | None] | None = None,
+) -> Metric:
+    """Make the metric of the paper, eq. 5: l1 = 1 + gamma s, l2 = 1 / l1.
+
+    Give gamma or max_anisotropy. Without either, gamma is 0.1.
+
+    Parameters
+    ----------
+    surface : Surface
+    curvature : Curvature
+        Of that surface.
+    follow : {'min', 'max'}
+        The principal direction along which paths are short. 'min' follows ridges and valleys.
+    gamma : float, optional
+        At least 0.
+    max_anisotropy : float, optional
+        At least 1. It chooses gamma so that this is the largest anisotropy of a vertex.
+    clamp_percentile : float, optional
+        In (0, 100]. Values of s above this percentile are lowered to it.
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
+
+    Returns
+    -------
+    Metric
+
+    Raises
+    ------
+    ValueError
+        If both gamma and max_anisotropy are given, a parameter is out of range, or the curvature belongs to another
+        surface.
+    Cancelled
+    """
+
+def campen_metric(
+    surface: Surface,
+    curvature: Curvature,
+    follow: Literal["min", "max"] = "min",
+    alpha: float | None = None,
+    max_anisotropy: float | None = None,
+    progress: Callable[[float], bool | None] | None = None,
+) -> Metric:
+    """Make the metric of Campen et al., eq. 3: l1 = alpha, l2 = 1.
+
+    Give either alpha or max_anisotropy.
+
+    Parameters
+    ----------
+    surface, curvature, follow, progress
+        As for `feature_metric`.
+    alpha : float, optional
+        At least 1.
+    max_anisotropy : float, optional
+        At least 1. Its square is alpha.
+
+    Returns
+    -------
+    Metric
+
+    Raises
+    ------
+    ValueError
+        If neither or both of alpha and max_anisotropy are given, or as in `feature_metric`.
+    Cancelled
+    """
+
+def pottmann_kovacs_metric(
+    surface: Surface,
+    curvature: Curvature,
+    follow: Literal["min", "max"] = "min",
+    beta: float | None = None,
+    max_anisotropy: float | None = None,
+    progress: Callable[[float], bool | None] | None = None,
+) -> Metric:
+    """Make the metric of Pottmann et al. and Kovacs et al., eq. 4: l1 = k1^2 + beta, l2 = k2^2 + beta.
+
+    Give either beta or max_anisotropy.
+
+    Parameters
+    ----------
+    surface, curvature, follow, progress
+        As for `feature_metric`.
+    beta : float, optional
+        At least 0.
+    max_anisotropy : float, optional
+        At least 1. It chooses beta so that this is the largest anisotropy of a vertex.
+
+    Returns
+    -------
+    Metric
+
+    Raises
+    ------
+    ValueError
+        If neither or both of beta and max_anisotropy are given, or as in `feature_metric`.
+    Cancelled
+    """
+
+def concave_metric(
+    surface: Surface,
+    curvature: Curvature,
+    strength: float = 1.0,
+    progress: Callable[[float], bool | None] | None = None,
+) -> Metric:
+    """Make a metric in which paths along concave creases are short, as the cuts that people draw.
+
+    Parameters
+    ----------
+    surface : Surface
+        Its normals point outwards.
+    curvature : Curvature
+        Of that surface, best from `smoothed_curvatures`.
+    strength : float
+        At least 0. 0 gives the Euclidean metric.
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
+
+    Returns
+    -------
+    Metric
+
+    Raises
+    ------
+    ValueError
+        If the strength is negative, or the curvature belongs to another surface.
+    Cancelled
+
+    References
+    ----------
+    docs/method/metric.md.
+    """
+
+def euclidean_metric(
+    surface: Surface,
+    curvature: Curvature,
+    progress: Callable[[float], bool | None] | None = None,
+) -> Metric:
+    """Make the metric in which lengths are those of space.
+
+    Parameters
+    ----------
+    surface : Surface
+    curvature : Curvature
+        Of that surface. The metric takes its normals.
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
+
+    Returns
+    -------
+    Metric
+
+    Raises
+    ------
+    ValueError
+        If the curvature belongs to another surface.
+    Cancelled
+    """
+
+class MetricFamily:
+    """A family of metrics, and the parameters of its metrics."""
+
+    name: Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"]
+    parameter: str | None
+    """str or None: the name of the parameter, as the functions that make these metrics have it."""
+    least_parameter: float
+    """float: the smallest parameter."""
+    has_directions: bool
+    """bool: whether a metric follows one of the principal directions, 'min' or 'max'."""
+    has_clamp: bool
+    """bool: whether clamp_percentile matters."""
+
+def metric_families() -> tuple[MetricFamily, ...]:
+    """Return the families of metrics.
+
+    Returns
+    -------
+    tuple of MetricFamily
+    """
+
+class MetricSpec:
+    """A metric as a value: what it takes to compute it on any surface.
+
+    Parameters
+    ----------
+    family : {'feature', 'campen', 'pottmann_kovacs', 'concave', 'euclidean'}
+        One of `metric_families`.
+    follow : {'min', 'max'}, optional
+        The principal direction that paths follow, exactly in the families that have directions.
+    parameter : float, optional
+        `MetricFamily.parameter`, as the functions that make the family's metrics have it.
+    max_anisotropy : float, optional
+        At least 1. Instead of the parameter: the largest anisotropy of a vertex. 'concave' has the strength
+        (max_anisotropy - 1) / 19.
+    clamp_percentile : float, optional
+        As for `feature_metric`.
+
+    Without the last three, the metric has the strength that its family begins with.
+
+    Raises
+    ------
+    ValueError
+        If a parameter is out of range, or the family does not have it.
+    """
+
+    def __init__(
+        self,
+        family: Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"],
+        follow: Literal["min", "max"] | None = None,
+        *,
+        parameter: float | None = None,
+        max_anisotropy: float | None = None,
+        clamp_percentile: float | None = None,
+    ) -> None: ...
+    family: Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"]
+    """{'feature', 'campen', 'pottmann_kovacs', 'concave', 'euclidean'}: the name of the family."""
+    follow: Literal["min", "max"] | None
+    """{'min', 'max'} or None: None if the family has no directions."""
+    kind: Literal["min", "max", "concave", "euclidean"]
+    """{'min', 'max', 'concave', 'euclidean'}: what paths follow; 'euclidean' if they follow nothing."""
+    parameter: float | None
+    max_anisotropy: float | None
+    clamp_percentile: float | None
+    def __eq__(self, other: object) -> bool: ...
+    def __hash__(self) -> int: ...
+
+def make_metric(surface: Surface, spec: MetricSpec, progress: Callable[[float], bool | None] | None = None) -> Metric:
+    """Make the metric that a `MetricSpec` describes.
+
+    Curvatures are computed at the first call for a surface and kept with it. For 'concave' they are smoothed over 0.01.
+
+    Parameters
+    ----------
+    surface : Surface
+    spec : MetricSpec
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
+
+    Returns
+    -------
+    Metric
+
+    Raises
+    ------
+    ValueError
+        If the metric is too strong for the surface.
+    Cancelled
+    """
 
 class Scribble:
-    """A stroke on a surface. Each point is in the triangle of `faces` or at the vertex of `vertices`; -1 in one refers to the other."""
+    """A stroke drawn on a surface. Wires near it follow it.
+
+    Parameters
+    ----------
+    points : (k, 3) array_like of float
+        In the caller's coordinates, in drawing order. A closed stroke repeats its first point. Points may be far apart.
+    faces, vertices : (k,) array_like of int, optional
+        The triangle that each point lies in, or its vertex. -1 in one of them if the other names the place.
+    eta : float
+        The eigenvalues of the tensors along the stroke are eta and 1 / eta.
+    rings : int
+        The stroke changes the metric within fewer rings of vertices than this.
+    radius : float, optional
+        Use this distance in place of rings, in the caller's units.
+    attracts : bool
+        False makes wires that cross the stroke short, and wires that follow it long.
+    acts_on : {'both', 'min', 'max', 'concave', 'euclidean'}
+        The kind of metrics that the stroke changes, as `MetricSpec.kind`. 'both': every metric.
+
+    Raises
+    ------
+    ValueError
+        If an array has the wrong shape or type. Everything else is checked when the stroke is applied to a surface.
+    """
 
     def __init__(
         self,
@@ -88,137 +484,778 @@ class Scribble:
     ) -> None: ...
     points: NDArray[np.float64]
     faces: NDArray[np.int32]
+    """(k,) int32: empty if not given."""
     vertices: NDArray[np.int32]
+    """(k,) int32: empty if not given."""
     eta: float
     rings: int
     radius: float | None
     attracts: bool
     acts_on: Literal["both", "min", "max", "concave", "euclidean"]
 
+def apply_scribbles(
+    surface: Surface,
+    metric: Metric,
+    scribbles: Sequence[Scribble],
+    follow: Literal["min", "max", "concave", "euclidean"] | None = None,
+    progress: Callable[[float], bool | None] | None = None,
+) -> Metric:
+    """Change a metric by strokes (Section 5 of the paper).
+
+    Strokes are applied in order. Where two strokes cross, the later one decides along its line. Without strokes the result
+    equals the metric.
+
+    Parameters
+    ----------
+    surface : Surface
+    metric : Metric
+        Of that surface.
+    scribbles : sequence of Scribble
+    follow : {'min', 'max', 'concave', 'euclidean'}, optional
+        Apply only the strokes that act on metrics of this kind.
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
+
+    Returns
+    -------
+    Metric
+
+    Raises
+    ------
+    ValueError
+        If a point of a stroke is not on the surface, a parameter is out of range, or the metric belongs to another surface.
+        The message has the numbers of the stroke and of the point.
+    Cancelled
+    """
+
 class Embedding:
+    """A surface in a metric: a refined mesh with edge lengths.
+
+    The first vertices are those of the surface, with their numbers. New vertices are midpoints of edges. See Section 4.1 of
+    the paper.
+    """
+
     points: NDArray[np.float64]
+    """(p, 3) float64: in the caller's coordinates."""
     triangles: NDArray[np.int32]
-    edges: NDArray[np.int32]  # (e, 2)
-    lengths: NDArray[np.float64]  # (e,)
+    """(t, 3) int32: the valid triangles."""
+    edges: NDArray[np.int32]
+    """(e, 2) int32: each edge once. Edges that paths follow without a triangle come last."""
+    lengths: NDArray[np.float64]
+    """(e,) float64: lengths of `edges` in the metric."""
     source_face: NDArray[np.int32]
-    invalid_before: int
-    faces_added: int
-    invalid_left: int
-    hole_faces: NDArray[np.int32]  # the surface's triangles that have holes
-    clamped_edges: int  # edges with another length than the metric's
-    repaired_faces: NDArray[np.int32]  # the surface's triangles with such edges
-    worst_clamp: float
-    hit_cap: bool
-    unreachable: NDArray[np.int32]
-    estimated_error: float | None  # of distances, on average (None if max_error was 0)
-    unmet: int | None  # triangles that miss the max_error (None if it was 0)
-    largest_deviation: float | None  # eta: distances are within a factor of e^eta (None if max_error was 0)
-    mean_edge_length: float  # of the surface, in the metric
+    """(t,) int32: the surface's triangle that each triangle lies in."""
     def with_lengths(self, lengths: ArrayLike) -> Embedding:
-        """Return the same triangles with other lengths of `edges`, (e,)."""
+        """Return the same triangles with other lengths.
+
+        The lengths may come from another way of embedding, or from your own metric.
+
+        Parameters
+        ----------
+        lengths : (e,) array_like of float
+            Lengths of `edges`, in their order.
+
+        Returns
+        -------
+        Embedding
+
+        Raises
+        ------
+        ValueError
+            If the number of lengths differs from the number of edges, a length is not positive or above 1e76, all lengths are
+            below 1e-76, or a triangle fails the triangle inequality.
+        """
+    unreachable: NDArray[np.int32]
+    """(k,) int32: vertices of faces that no path reaches, because they are in no valid triangle and on no edge that paths follow."""
+    invalid_before: int
+    """int: how many triangles of the surface are invalid."""
+    faces_added: int
+    """int: how many triangles were added."""
+    invalid_left: int
+    """int: how many triangles stayed invalid. They are holes."""
+    hole_faces: NDArray[np.int32]
+    """(k,) int32: the surface's triangles that have holes, ascending."""
+    clamped_edges: int
+    """int: how many edges have another length than the metric's. These lengths were changed to make triangles valid."""
+    repaired_faces: NDArray[np.int32]
+    """(k,) int32: the surface's triangles that have such edges, ascending."""
+    worst_clamp: float
+    """float: the largest factor, up or down, between such a length and the metric's. 1 if there is no such edge."""
+    hit_cap: bool
+    """bool: whether max_faces_added ended the subdivision."""
+    estimated_error: float | None
+    """float or None: the max_error that the worst triangle meets, None if max_error was 0. An estimate of the mean relative error of distances, not a bound."""
+    unmet: int | None
+    """int or None: how many triangles miss the max_error. They are 14 bisections deep, or max_faces_added ended the subdivision."""
+    largest_deviation: float | None
+    """float or None: eta. Without holes, distances are within a factor of e^eta of those in the metric that varies linearly in each triangle."""
+    mean_edge_length: float
+    """float: the mean length of the surface's edges in the metric."""
+
+def embed(
+    surface: Surface,
+    metric: Metric,
+    sigma: float = 0.0,
+    perimeter: Literal["metric", "euclidean"] = "metric",
+    max_faces_added: int = 4000000,
+    max_error: float = 0.0,
+    progress: Callable[[float], bool | None] | None = None,
+) -> Embedding:
+    """Subdivide a surface until its triangles can have the edge lengths that a metric gives them.
+
+    Parameters
+    ----------
+    surface : Surface
+    metric : Metric
+        Of that surface.
+    sigma : float
+        At least 0. Subdivision stops when all triangles that are still invalid have smaller perimeters.
+    perimeter : {'metric', 'euclidean'}
+        How that perimeter is measured.
+    max_faces_added : int
+        At least 0. Subdivision stops after adding this many triangles.
+    max_error : float
+        Between 0 and 1. The mean relative error of distances to aim for: triangles are also subdivided until they resolve
+        the metric that well. With 0 only invalid triangles are subdivided, as in the paper.
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
+
+    Returns
+    -------
+    Embedding
+
+    Raises
+    ------
+    ValueError
+        If a parameter is out of range, or the metric belongs to another surface.
+    Cancelled
+
+    References
+    ----------
+    Section 4.1 of the paper.
+    """
+
+def invalid_faces(surface: Surface, metric: Metric) -> NDArray[np.int32]:
+    """Find the triangles that are invalid in a metric before any subdivision (Section 4.1; Figures 7 and 9).
+
+    Parameters
+    ----------
+    surface : Surface
+    metric : Metric
+        Of that surface.
+
+    Returns
+    -------
+    (k,) int32
+        Triangles that `embed` has to subdivide, ascending. They include those without area.
+
+    Raises
+    ------
+    ValueError
+        If the metric belongs to another surface.
+    """
+
+def metric_lengths(surface: Surface, metric: Metric) -> NDArray[np.float64]:
+    """Compute the lengths of a surface's edges in a metric (eq. 2), before any subdivision.
+
+    Parameters
+    ----------
+    surface : Surface
+    metric : Metric
+        Of that surface.
+
+    Returns
+    -------
+    (e,) float64
+        Lengths of `Surface.edges`, of the model scaled to the unit cube.
+
+    Raises
+    ------
+    ValueError
+        If the metric belongs to another surface.
+    """
 
 class Wire:
+    """A geodesic across a surface."""
+
     from_vertex: int
+    """int: the vertex where it begins; -1 if that point is not a vertex."""
     to_vertex: int
-    points: NDArray[np.float64]  # (p, 3)
-    faces: NDArray[np.int32]  # (p - 1,)
+    """int: the vertex where it ends; -1 if that point is not a vertex."""
+    points: NDArray[np.float64]
+    """(p, 3) float64: in the caller's coordinates. There are no rows if the target is unreachable."""
+    faces: NDArray[np.int32]
+    """(p - 1,) int32: the triangle that each segment lies in; -1 along an edge without a face."""
     length: float
+    """float: the length in the metric, of the model scaled to the unit cube. inf if the target is unreachable."""
     euclidean_length: float
+    """float: the Euclidean length, of the model scaled to the unit cube."""
 
 class ClosedWire:
-    points: NDArray[np.float64]  # the first and the last one are the seed
+    """A closed cut through a seed."""
+
+    points: NDArray[np.float64]
+    """(p, 3) float64: in the caller's coordinates. The first and the last point are the seed."""
     faces: NDArray[np.int32]
+    """(p - 1,) int32: the triangle that each segment lies in; -1 along an edge without a face."""
     length: float
+    """float: the length in the metric, of the model scaled to the unit cube."""
     euclidean_length: float
-    separates: bool  # False if it runs around or through a handle
-    turn: float  # at the seed, in radians; 0 if the cut is smooth there
+    """float: the Euclidean length, of the model scaled to the unit cube."""
+    separates: bool
+    """bool: whether the cut divides the surface into two parts. False if it runs around or through a handle."""
+    turn: float
+    """float: the turn at the seed, in radians. 0 if the cut is smooth there, pi if it turns back."""
 
 class BentWires:
+    """A closed cut that can be bent to a second point."""
+
     def through(
-        self, second: int | tuple[int, ArrayLike], progress: Progress | None = None
+        self,
+        second: int | tuple[int, ArrayLike],
+        progress: Callable[[float], bool | None] | None = None,
     ) -> tuple[Wire, Wire] | None:
-        """Return the cut through a second point as well, from the seed there and back, or None if no cut leads there."""
+        """Find the shortest closed wire through both points that goes around what the cut goes around.
+
+        Parameters
+        ----------
+        second : int or (int, (3,) array_like)
+            A vertex, or a face and three barycentric coordinates.
+        progress : callable, optional
+            Called repeatedly with 0. Returning False cancels.
+
+        Returns
+        -------
+        (Wire, Wire) or None
+            From the seed to the second point, and back. None if no such wire leads there.
+
+        Raises
+        ------
+        ValueError
+            If the point is not part of the surface, its face has no area, or the embedding has a hole there.
+        Cancelled
+        """
+
+def snap_to_edges(
+    surface: Surface,
+    wire: Wire,
+    progress: Callable[[float], bool | None] | None = None,
+) -> NDArray[np.int32]:
+    """Find the path of real edges that stays closest to a wire, from its start to its end.
+
+    Candidates run along edges of the faces that the wire crosses, and of their neighbors. The path has the least integral
+    of its distance to the wire.
+
+    Parameters
+    ----------
+    surface : Surface
+    wire : Wire
+        On that surface.
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
+
+    Returns
+    -------
+    (k,) int32
+        Vertices, each once. Empty if the wire is empty, or if there is no such path.
+
+    Raises
+    ------
+    ValueError
+        If the wire is not on the surface.
+    Cancelled
+    """
 
 class DistanceField:
-    seed: int  # -1 for several seeds, or a seed that is not a vertex
+    """Distances from a seed to every vertex."""
+
+    seed: int
+    """int: the vertex that distances start from; -1 for several seeds, or a seed that is not a vertex."""
+    radius: float
+    """float: the distance at which the solver stopped, or inf. Larger distances are inf."""
     is_exact: bool
-    radius: float  # larger distances are inf
-    distances: NDArray[np.float64]  # (n,) at the caller's vertices
-    def trace(self, vertex: int, progress: Progress | None = None) -> Wire: ...
+    """bool: whether distances are exact on the embedding. False if `windows` were limited."""
+    distances: NDArray[np.float64]
+    """(n,) float64: the distance of each of the surface's vertices, in the metric. inf if no path reaches the vertex."""
+    def trace(self, vertex: int, progress: Callable[[float], bool | None] | None = None) -> Wire:
+        """Trace the shortest path from the seed to a vertex.
+
+        Parameters
+        ----------
+        vertex : int
+        progress : callable, optional
+            Called repeatedly with 0. Returning False cancels.
+
+        Returns
+        -------
+        Wire
+            Its length is the vertex's distance if the field is exact. It has no points if the vertex is unreachable.
+
+        Raises
+        ------
+        ValueError
+            If the vertex is out of range.
+        Cancelled
+        """
     def trace_many(
-        self, vertices: ArrayLike, progress: Progress | None = None
+        self,
+        vertices: ArrayLike,
+        progress: Callable[[float], bool | None] | None = None,
     ) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.float64]]:
-        """Return the points of all paths, (p, 3), where each begins, (k + 1,), and their lengths, (k,)."""
-    def distance(self, face: int, barycentric: ArrayLike, progress: Progress | None = None) -> float:
-        """Return the distance of a point of a face, as exact as the field. barycentric is (3,), 0 or more, with the sum 1."""
-    def trace_to(self, face: int, barycentric: ArrayLike, progress: Progress | None = None) -> Wire:
-        """Return the shortest path to such a point."""
-    def closed_wires(self, count: int = 3, progress: Progress | None = None) -> list[ClosedWire]:
-        """Return the closed cuts through the seed that the surface suggests, at most `count`, best first."""
-    def bend(self, cut: ClosedWire, progress: Progress | None = None) -> BentWires:
-        """Prepare a closed cut, so that it can be bent to a second point."""
+        """Trace the shortest paths from the seed to several vertices (Figure 1).
+
+        Parameters
+        ----------
+        vertices : (k,) array_like of int
+        progress : callable, optional
+            Called repeatedly with the fraction done. Returning False cancels.
+
+        Returns
+        -------
+        points : (p, 3) float64
+            The points of all paths, one path after the other, in the caller's coordinates.
+        starts : (k + 1,) int32
+            Path i has the points starts[i] to starts[i + 1]. It has no points if its vertex is unreachable.
+        lengths : (k,) float64
+            Lengths in the metric; inf if the vertex is unreachable.
+
+        Raises
+        ------
+        ValueError
+            If a vertex is out of range.
+        Cancelled
+        """
+    def distance(
+        self,
+        face: int,
+        barycentric: ArrayLike,
+        progress: Callable[[float], bool | None] | None = None,
+    ) -> float:
+        """Compute the distance of any point of a face.
+
+        The distance is as exact as the field. It is not interpolated from the vertices.
+
+        Parameters
+        ----------
+        face : int
+            A triangle of the surface.
+        barycentric : (3,) array_like
+            One coordinate for each corner, 0 or more, with the sum 1. A coordinate of exactly 0 puts the point on the edge
+            opposite to that corner.
+        progress : callable, optional
+            Called repeatedly with 0. Returning False cancels.
+
+        Returns
+        -------
+        float
+            In the metric; inf if no path leads there, or beyond the field's radius.
+
+        Raises
+        ------
+        ValueError
+            If the face is out of range or has no area, the coordinates are invalid, or the embedding has a hole there.
+        Cancelled
+        """
+    def trace_to(
+        self,
+        face: int,
+        barycentric: ArrayLike,
+        progress: Callable[[float], bool | None] | None = None,
+    ) -> Wire:
+        """Trace the shortest path from the nearest seed to any point of a face.
+
+        Parameters
+        ----------
+        face, barycentric, progress
+            As for `distance`.
+
+        Returns
+        -------
+        Wire
+            As from `trace`. The number of an end that is not a vertex is -1.
+
+        Raises
+        ------
+        ValueError
+            As `distance`.
+        Cancelled
+        """
+    def closed_wires(self, count: int = 3, progress: Callable[[float], bool | None] | None = None) -> list[ClosedWire]:
+        """Find the closed cuts through the seed that the surface suggests, best first.
+
+        Each cut consists of two shortest wires and the edge of the embedding at whose ends they meet on the far side. Good cuts
+        are short and turn little at the seed. In a `concave_metric` they are nearest to the cuts that people draw.
+
+        Parameters
+        ----------
+        count : int
+            The largest number of cuts to return, at least 0.
+        progress : callable, optional
+            Called repeatedly with the fraction done. Returning False cancels.
+
+        Returns
+        -------
+        list of ClosedWire
+            Empty if the surface suggests no cut. Examples are planes, and spheres, where all wires meet in one place.
+
+        Raises
+        ------
+        ValueError
+            If the field has several seeds, or count is negative.
+        Cancelled
+
+        References
+        ----------
+        docs/method/closed-cuts.md.
+        """
+    def bend(self, cut: ClosedWire, progress: Callable[[float], bool | None] | None = None) -> BentWires:
+        """Prepare a closed wire of the field, so that it can be bent to a second point.
+
+        Parameters
+        ----------
+        cut : ClosedWire
+            A result of `closed_wires`.
+        progress : callable, optional
+            Called repeatedly with the fraction done. Returning False cancels.
+
+        Returns
+        -------
+        BentWires
+
+        Raises
+        ------
+        ValueError
+            If the cut does not lead through the seed of the field.
+        Cancelled
+        """
+
+def distance_field(
+    embedding: Embedding,
+    seed: int | tuple[int, ArrayLike] | Sequence[int | tuple[int, ArrayLike]],
+    progress: Callable[[float], bool | None] | None = None,
+    windows: int | None = None,
+    targets: int | tuple[int, ArrayLike] | Sequence[int | tuple[int, ArrayLike]] | None = None,
+    max_distance: float | None = None,
+) -> DistanceField:
+    """Compute distances over an embedding from a point, or from the nearest of several points.
+
+    Distances are exact on the embedding, unless `windows` is given.
+
+    Parameters
+    ----------
+    embedding : Embedding
+        The first call builds a solver, and the embedding keeps it.
+    seed : int, (int, (3,) array_like), or sequence of int or (int, (3,) array_like)
+        A vertex of the surface, or a triangle and barycentric coordinates, as for `DistanceField.distance`; or several.
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
+    windows : int, optional
+        The largest number of windows that a list passes on, at least 1. It makes the solver faster and approximate. Traced
+        paths are real and have their true length, which is at least that of the shortest path. The seed must be one vertex.
+    targets : int, (int, (3,) array_like), or sequence of int or (int, (3,) array_like), optional
+        Stop when the distances and paths of these points are known. Other distances may be missing (inf).
+    max_distance : float, optional
+        At least 0. Stop at this distance; larger distances are inf.
+
+    Returns
+    -------
+    DistanceField
+
+    Raises
+    ------
+    ValueError
+        If a seed or a target is out of range, has wrong coordinates, or lies in a hole of the embedding, or if windows or
+        max_distance is out of range.
+    Cancelled
+    """
 
 class EdgeChain:
+    """A chain of edges."""
+
     vertices: NDArray[np.int32]
+    """(p,) int32: the vertices in order, including picked edges. Empty if there is no chain."""
     length: float
-
-class EdgeWires:
-    def trace(self, target: Pick) -> EdgeChain: ...
-
-class LiveCandidate:
-    follow: Literal["min", "max", "concave", "euclidean"]
-    metric: MetricSpec
-    points: NDArray[np.float64]
-    faces: NDArray[np.int32]
-    vertices: NDArray[np.int32]  # the edges that the wire would mark
-    length: float
-    solved: bool  # the shortest in the embedding of the whole surface, or along edges
-    final: bool  # False while it is still being computed
-
-class LiveEmbedding:
-    invalid_left: int  # triangles; wires lead around them
-    hit_cap: bool
-    clamped_edges: int
-    worst_clamp: float
-
-class LiveLoop:
-    vertices: NDArray[np.int32]  # without repeating the first; empty if there is no chain, or not yet
-    length: float
-    final: bool
-
-class LivePiece:
-    points: NDArray[np.float64]
-    faces: NDArray[np.int32]
-    vertices: NDArray[np.int32]  # the edges that it snaps to
-
-class LiveClosedWire:
-    pieces: list[LivePiece]  # from the point around to it
-    joints: list[int | tuple[int, tuple[float, float, float]]]  # where one piece ends and the next begins
-    separates: bool
-    turn: float
-    length: float
-    id: tuple[int, int]  # of the metric and of the cut in it, for bent_wire
-
-class LiveClosedWires:
-    cuts: list[LiveClosedWire]  # best first; empty if the surface suggests no cut, or not yet
-    final: bool
+    """float: lengths in the metric plus the cost of turning. inf if there is no chain."""
 
 class EdgeLoop:
-    vertices: NDArray[np.int32]  # in order; a closed loop does not repeat its first vertex
+    """A run of edges straight through a mesh."""
+
+    vertices: NDArray[np.int32]
+    """(k,) int32: the vertices in order. A closed loop does not repeat its first vertex."""
     closed: bool
+    """bool: whether the loop ends where it begins."""
 
 class FittedChain:
-    vertices: NDArray[np.int32]  # in the line's order; empty if no edge fits
-    places: NDArray[np.float64]  # where on the line: i + x is the fraction x of the way from point i to the next
+    """The chain of edges that fits a line."""
+
+    vertices: NDArray[np.int32]
+    """(k,) int32: the vertices in the line's order. Empty if no edge fits."""
+    places: NDArray[np.float64]
+    """(k,) float64: where on the line each vertex is. i + x is the fraction x of the way from point i to the next point."""
+
+class EdgeWires:
+    """The cheapest chains of edges from a vertex or an edge."""
+
+    def trace(self, target: int | tuple[int, int]) -> EdgeChain:
+        """Trace the cheapest chain to a vertex, or to an edge (a, b).
+
+        Parameters
+        ----------
+        target : int or (int, int)
+
+        Returns
+        -------
+        EdgeChain
+            Includes both picks.
+
+        Raises
+        ------
+        ValueError
+            If the target is not a vertex or an edge of the surface.
+        """
+
+def edge_wires(
+    surface: Surface,
+    metric: Metric,
+    seed: int | tuple[int, int],
+    turning: float = 3.0,
+    forward: bool = False,
+    progress: Callable[[float], bool | None] | None = None,
+) -> EdgeWires:
+    """Find the cheapest chains of real edges from a pick. A chain costs its metric length plus its turning.
+
+    Parameters
+    ----------
+    surface : Surface
+    metric : Metric
+        Of that surface. The first call builds a graph of the surface's edges, and the metric keeps it.
+    seed : int or (int, int)
+        A vertex, or an edge by its two vertices.
+    turning : float
+        q, at least 0: the cost of turning, in mean edge lengths.
+    forward : bool
+        Whether the seed edge has just been drawn from its first vertex to its second, so that chains leave it at the second.
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
+
+    Returns
+    -------
+    EdgeWires
+
+    Raises
+    ------
+    ValueError
+        If the seed is not a vertex or an edge of the surface, turning is out of range, or the metric belongs to another
+        surface.
+    Cancelled
+
+    References
+    ----------
+    docs/method/edges.md.
+    """
+
+def shortest_cycle(
+    surface: Surface,
+    metric: Metric,
+    edge: tuple[int, int],
+    turning: float = 20.0,
+    progress: Callable[[float], bool | None] | None = None,
+) -> EdgeChain:
+    """Find the cheapest closed chain through an edge.
+
+    Parameters
+    ----------
+    surface, metric
+        As for `edge_wires`.
+    edge : (int, int)
+        Its two vertices.
+    turning : float
+        q, at least 0: the cost of turning, in mean edge lengths.
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
+
+    Returns
+    -------
+    EdgeChain
+        Does not repeat its first vertex. Empty if there is no closed chain.
+
+    Raises
+    ------
+    ValueError
+        If the edge is not part of the surface, turning is out of range, or the metric belongs to another surface.
+    Cancelled
+    """
+
+def fit_chain(
+    surface: Surface,
+    points: ArrayLike,
+    faces: ArrayLike,
+    begin: int | None = None,
+    end: int | None = None,
+    progress: Callable[[float], bool | None] | None = None,
+) -> FittedChain:
+    """Find the chain of edges that fits a line drawn on a surface best.
+
+    The chain begins at the vertex nearest to the line's first point, and ends at the vertex nearest to its last. Among all
+    chains along the line it minimizes the sum of l (1 + 32 d^2 / h^2) + h / 4 (1 - cos kappa). Here l is the length of an
+    edge, and kappa the turn onto it. d^2 is the mean square distance of its ends and midpoint to the line. h is the median
+    length of the edges at the line's faces. The chain turns back where the line does, and ends where edges end.
+
+    Parameters
+    ----------
+    surface : Surface
+    points : (k, 3) array_like of float
+        In the caller's coordinates, in drawing order.
+    faces : (k,) array_like of int
+        The triangle that each point lies in.
+    begin, end : int, optional
+        Vertices near the line's ends where the chain begins and ends instead.
+    progress : callable, optional
+        Called repeatedly while the first line of a surface is prepared. Returning False cancels.
+
+    Returns
+    -------
+    FittedChain
+        Has no vertices if no edge fits.
+
+    Raises
+    ------
+    ValueError
+        If the arrays have the wrong shape or type or differ in length, a coordinate is not finite, or a face or a vertex is
+        not part of the surface.
+    Cancelled
+    """
+
+class LiveCandidate:
+    """One of the wires from the seed to a target."""
+
+    follow: Literal["min", "max", "concave", "euclidean"]
+    """{'min', 'max', 'concave', 'euclidean'}: what the metric's paths follow; 'euclidean' if they follow nothing."""
+    metric: MetricSpec
+    """MetricSpec: the metric in which the wire is short."""
+    points: NDArray[np.float64]
+    """(p, 3) float64: in the caller's coordinates. There are no rows if there is no such wire."""
+    faces: NDArray[np.int32]
+    """(p - 1,) int32: the triangle of each segment. Only across the surface."""
+    vertices: NDArray[np.int32]
+    """(k,) int32: the chain of edges that the wire would mark."""
+    length: float
+    """float: the length in its own metric."""
+    solved: bool
+    """bool: True once the wire is the shortest in the embedding of the whole surface, or along edges. Across the surface, it may become more exact until it is final."""
+    final: bool
+    """bool: False while the wire is still being computed. A later answer will replace what is here."""
 
 class LiveWires:
+    """The wires from the seed to a target."""
+
     wires: tuple[LiveCandidate, ...]
+    """tuple of LiveCandidate: one for each metric. Those of M_min and M_max; across the surface, the family 'feature' has the wire in `concave_metric` before them."""
     active: int
+    """int: the index of the wire to offer first. This is the first wire, or of M_min and M_max the wire that is shorter in its own metric (Section 5 of the paper). If it does not reach the target, it is the shortest of all wires."""
     settled: bool
+    """bool: whether the active wire is final and stays active, even if other wires change."""
     solved: bool
+    """bool: whether all wires are solved. What follows a moving cursor need not wait for more."""
     final: bool
+    """bool: whether all wires are final."""
+
+class LiveEmbedding:
+    """A summary of the embedding of one metric."""
+
+    invalid_left: int
+    """int: how many triangles stayed invalid. Wires lead around them."""
+    hit_cap: bool
+    """bool: whether the cap ended the subdivision."""
+    clamped_edges: int
+    """int: how many edges have another length than the metric's."""
+    worst_clamp: float
+    """float: the largest factor between such a length and the metric's, at least 1."""
+
+class LiveLoop:
+    """A closed chain of edges."""
+
+    vertices: NDArray[np.int32]
+    """(k,) int32: the vertices, without repeating the first. Empty if there is no such chain, or not yet."""
+    length: float
+    """float: the length in its metric plus the cost of turning."""
+    final: bool
+    """bool: False while it is still being computed."""
+
+class LivePiece:
+    """A piece of a closed cut."""
+
+    points: NDArray[np.float64]
+    """(p, 3) float64: in the caller's coordinates."""
+    faces: NDArray[np.int32]
+    """(p - 1,) int32: the triangle that each segment lies in; -1 along an edge without a face."""
+    vertices: NDArray[np.int32]
+    """(k,) int32: the chain of edges that the piece snaps to. One vertex if both ends are nearest to the same vertex."""
+
+class LiveClosedWire:
+    """A closed cut through a point of the surface."""
+
+    pieces: list[LivePiece]
+    """list of LivePiece: the pieces in order, from the point around and back to it."""
+    joints: list[int | tuple[int, tuple[float, float, float]]]
+    """list of int or (int, (float, float, float)): the point where each piece but the last ends, as a triangle and barycentric coordinates. The second point may be a vertex."""
+    separates: bool
+    """bool: as `ClosedWire.separates`."""
+    turn: float
+    """float: as `ClosedWire.turn`."""
+    length: float
+    """float: the length in its metric, of the model scaled to the unit cube."""
+    id: tuple[int, int]
+    """(int, int): the number of the cut's metric and of the cut in it, for `LiveWire.bent_wire`. They may change until the cuts are final."""
+
+class LiveClosedWires:
+    """The closed cuts through a point."""
+
+    cuts: list[LiveClosedWire]
+    """list of LiveClosedWire: the best cut first. Empty if the surface suggests no cut, or not yet."""
+    final: bool
+    """bool: False while they are still being computed."""
 
 class LiveWire:
+    """Wires from a seed to any target, one in each metric of a family.
+
+    ``LiveWire(surface, ...)`` runs on a surface. ``LiveWire(points, triangles, edges=None, *, ...)`` copies the arrays,
+    returns at once, and builds the surface in the background. Until the surface is built, methods other than `wait` and
+    `wait_for_surface` return empty answers that are not final. They keep the seed, the metric and the strokes. If the
+    surface cannot be built, every method raises what `Surface` would raise.
+
+    Each metric has its own thread.
+
+    Parameters
+    ----------
+    surface : Surface
+    points, triangles, edges : array_like
+        (n, 3), (m, 3), (e, 2) or None, as for `Surface`.
+    gamma, max_anisotropy, clamp_percentile : float, optional
+        As for `feature_metric`; only 'feature' has gamma and clamp_percentile. Without gamma and max_anisotropy, 'feature'
+        has gamma = 0.1 across the surface, and max_anisotropy = 10 with clamp_percentile = 99 along edges. 'concave' has
+        max_anisotropy = 20, and other families have 10.
+    along : {'surface', 'edges'}
+        Whether wires are geodesics across the surface or chains of real edges.
+    turning : float
+        The cost of turning, as for `edge_wires`.
+    loop_turning : float, optional
+        The cost of turning in closed chains, as for `shortest_cycle`. None: 20, and more on meshes with over 6400 edges, so
+        that they have rings, too.
+    metric : {'feature', 'campen', 'pottmann_kovacs', 'concave', 'euclidean'}
+        The family of metrics. Across the surface, the first wire of 'feature' is in `concave_metric`. Its strength is
+        gamma / 0.1 or (max_anisotropy - 1) / 19, and its curvatures are smoothed over 0.01. 'concave' has two wires: one in
+        that metric, with strength (max_anisotropy - 1) / 19, and the shortest path.
+    max_error : float
+        The mean relative error of lengths to aim for, in [0, 1], across the surface: the `max_error` of `embed` for the
+        faces around a wire. The wire is final once it is the shortest there. 0: the wire of the embedding is final.
+
+    Raises
+    ------
+    ValueError
+        If a parameter is out of range, or an array has the wrong shape or type.
+    """
+
     @overload
     def __init__(
         self,
@@ -231,8 +1268,7 @@ class LiveWire:
         loop_turning: float | None = None,
         metric: Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"] = "feature",
         max_error: float = 0.01,
-    ) -> None:
-        """Start preparing metrics. Defaults: gamma = 0.1 across the surface, max_anisotropy = 10 with clamp_percentile = 99 along edges."""
+    ) -> None: ...
     @overload
     def __init__(
         self,
@@ -248,13 +1284,16 @@ class LiveWire:
         loop_turning: float | None = None,
         metric: Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"] = "feature",
         max_error: float = 0.01,
-    ) -> None:
-        """Copy the arrays, return at once and build the surface in the background. If that fails, the other methods raise the error."""
-    surface: Surface | None  # None until it is built
-    def wait_for_surface(self, seconds: float | None = None) -> bool:
-        """Wait until the surface is built, and return whether it is. Any thread may wait."""
+    ) -> None: ...
     def fork(self) -> LiveWire:
-        """Return another live wire with the same metrics and no seed. `set_metric` of one does not change the other."""
+        """Return another live wire with the same metrics and no seed.
+
+        The two share metrics, including those that are still being computed. `set_metric` of one does not change the other.
+
+        Returns
+        -------
+        LiveWire
+        """
     def sibling(
         self,
         *,
@@ -267,7 +1306,24 @@ class LiveWire:
         metric: Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"] = "feature",
         max_error: float = 0.01,
     ) -> LiveWire:
-        """Return another live wire on the same surface, with its own metrics, no strokes and no seed."""
+        """Return another live wire on the same surface, with its own metrics.
+
+        It shares the surface and the curvatures. It has no strokes and no seed.
+
+        Parameters
+        ----------
+        gamma, max_anisotropy, clamp_percentile, along, turning, loop_turning, metric
+            As for the class.
+
+        Returns
+        -------
+        LiveWire
+
+        Raises
+        ------
+        ValueError
+            If a parameter is out of range.
+        """
     def set_metric(
         self,
         metric: Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"] = "feature",
@@ -275,249 +1331,558 @@ class LiveWire:
         gamma: float | None = None,
         clamp_percentile: float | None = None,
     ) -> None:
-        """Change the metric in the background, and start from the seed again. Until then, wires are the former ones and not final."""
+        """Change the metric in the background, and start from the seed again.
+
+        Until that is done, wires are those of the former metric and not final.
+
+        Parameters
+        ----------
+        metric, max_anisotropy, gamma, clamp_percentile
+            As for the class.
+
+        Raises
+        ------
+        ValueError
+            If a parameter is out of range.
+        """
     def set_scribbles(self, scribbles: Sequence[Scribble]) -> None:
-        """Replace the strokes, as `set_metric`, which keeps them. If a stroke is not on the surface, later calls raise ValueError."""
-    def seed(self, pick: Pick | SurfacePoint, forward: bool = False) -> None:
-        """Start wires from a pick and return at once."""
-    def wires(self, target: Pick | SurfacePoint) -> LiveWires:
-        """Return the wires to a target, as far as they are computed. Work goes on for the newest target: ask again until they are final."""
-    def loop(self, edge: tuple[int, int]) -> LiveLoop:
-        """Return the closed chain through an edge. Found in the background: call again until the answer is final."""
-    def closed_wires(self, through: int | tuple[int, ArrayLike]) -> LiveClosedWires:
-        """Return at most three closed cuts through a point, found as `loop` is."""
-    def bent_wire(
-        self, through: int | tuple[int, ArrayLike], second: int | tuple[int, ArrayLike], cut: tuple[int, int] = (0, 0)
-    ) -> LiveClosedWires:
-        """Bend one of these cuts to a second point, as `closed_wires` finds them."""
-    def extend_straight(self, edge: tuple[int, int], stops: Iterable[int] = ()) -> EdgeChain:
-        """Continue an edge straight, from its second vertex on. Empty before the surface is built."""
-    def edge_loop(self, edge: tuple[int, int], stops: Iterable[int] = ()) -> EdgeLoop:
-        """Find the edge loop through an edge, as modelers select it. Empty before the surface is built."""
-    def fit_chain(
-        self, points: ArrayLike, faces: ArrayLike, begin: int | None = None, end: int | None = None
-    ) -> FittedChain:
-        """Find the chain that fits a line, as the function `fit_chain`. Empty before the surface is built."""
-    def embeddings(self) -> tuple[LiveEmbedding | None, ...]:
-        """Return summaries of the embeddings; None for one that is not prepared, and along edges."""
+        """Replace the strokes that change the metric, in the background as `set_metric`.
+
+        Later calls of `set_metric` keep the strokes. If a stroke is not on the surface, the methods that return results raise
+        ValueError.
+
+        Parameters
+        ----------
+        scribbles : sequence of Scribble
+        """
     def feature_strength(self) -> NDArray[np.float64] | None:
-        """Return s of eq. 5 at each vertex, or None while it is being computed."""
+        """Return how strong a ridge or valley is at each vertex.
+
+        Returns
+        -------
+        (n,) float64 or None
+            s of eq. 5. None while it is being computed.
+        """
+    def embeddings(self) -> tuple[LiveEmbedding | None, ...]:
+        """Return summaries of the embeddings across the surface.
+
+        Returns
+        -------
+        tuple of LiveEmbedding or None
+            In the order of the wires. None for an embedding that is not prepared yet, and along edges.
+        """
+    def seed(self, pick: int | tuple[int, int] | tuple[int, ArrayLike], forward: bool = False) -> None:
+        """Start wires from a pick and drop those of an earlier pick. Returns at once.
+
+        Parameters
+        ----------
+        pick : int, (int, int) or (int, (3,) array_like)
+            A vertex. Along edges, it may also be an edge, by its two vertices. Across the surface, it may also be a face and
+            three barycentric coordinates, each 0 or more, with the sum 1.
+        forward : bool
+            As for `edge_wires`.
+
+        Raises
+        ------
+        ValueError
+            If the pick is not part of the surface, or if it is a point in a face and wires run along edges. Before the
+            surface is built, an edge is checked later, by `wires`.
+        """
+    def wires(self, target: int | tuple[int, int] | tuple[int, ArrayLike]) -> LiveWires:
+        """Return the wires to a target, as far as they are computed.
+
+        Along edges, wires near the seed are final first. Across the surface, the work goes on for the newest target. Later calls
+        for it return a path that may be slightly too long, then the shortest wire of the embedding, then the final wire, which
+        is as exact as `max_error` says. `wait` waits for the final wire of the newest target.
+
+        Parameters
+        ----------
+        target : int, (int, int) or (int, (3,) array_like)
+            As for `seed`.
+
+        Returns
+        -------
+        LiveWires
+
+        Raises
+        ------
+        ValueError
+            If the target or the seed is not part of the surface, or there is no seed. As for `seed` otherwise.
+        """
+    def loop(self, edge: tuple[int, int]) -> LiveLoop:
+        """Return the closed chain through an edge. Only along edges.
+
+        It is the cheapest among all metrics. The first call for an edge starts the search in the background, and replaces a
+        search for another edge. Call again until the answer is final.
+
+        Parameters
+        ----------
+        edge : (int, int)
+
+        Returns
+        -------
+        LiveLoop
+
+        Raises
+        ------
+        ValueError
+            If the edge is not part of the surface, or wires do not run along edges.
+        """
+    def closed_wires(self, through: int | tuple[int, ArrayLike]) -> LiveClosedWires:
+        """Return at most three closed cuts through a point, best first. Only across the surface.
+
+        Cuts are short in the first metric of the family. The family 'concave' is made for cuts. Its second cut is the best in
+        the Euclidean metric, unless that is like the first cut. The first call for a point starts the search in the background,
+        and replaces a search for another point. Call again until the answer is final.
+
+        Parameters
+        ----------
+        through : int or (int, (3,) array_like)
+            A vertex, or a face and three barycentric coordinates.
+
+        Returns
+        -------
+        LiveClosedWires
+
+        Raises
+        ------
+        ValueError
+            If the point is not part of the surface, or wires do not run across it.
+        """
+    def bent_wire(
+        self,
+        through: int | tuple[int, ArrayLike],
+        second: int | tuple[int, ArrayLike],
+        cut: tuple[int, int] = (0, 0),
+    ) -> LiveClosedWires:
+        """Bend one of the closed cuts through a point, so that it leads through a second point as well.
+
+        The result is the shortest closed wire through both points that goes around what the cut goes around. It has two pieces
+        each way.
+
+        Parameters
+        ----------
+        through, second : int or (int, (3,) array_like)
+            A vertex, or a face and three barycentric coordinates.
+        cut : (int, int)
+            `LiveClosedWire.id` of the cut, as `closed_wires` returns it for the first point.
+
+        Returns
+        -------
+        LiveClosedWires
+            At most one. Final and empty if there is no such cut, or if none leads to the second point.
+
+        Raises
+        ------
+        ValueError
+            If a point is not part of the surface, wires do not run across it, or the id is no pair of numbers that are not
+            negative.
+        """
+    def extend_straight(self, edge: tuple[int, int], stops: Iterable[int] = ()) -> EdgeChain:
+        """Continue an edge straight, from its second vertex on. Only along edges.
+
+        At each vertex the chain takes the edge that turns least. A chain along a boundary stays on it; other chains end there.
+        A chain also ends at a vertex of `stops`, at a vertex that it has visited, and if every edge turns 60 degrees or more.
+
+        Parameters
+        ----------
+        edge : (int, int)
+        stops : iterable of int
+            Vertices. The vertex where the chain begins does not count.
+
+        Returns
+        -------
+        EdgeChain
+            It begins with the edge's second vertex. Only its last vertex may be an earlier vertex, or the edge's first. The
+            length is Euclidean, in the unit cube. It has no vertices before the surface is built.
+
+        Raises
+        ------
+        ValueError
+            If the edge is not part of the surface, or wires run across it.
+        """
+    def edge_loop(self, edge: tuple[int, int], stops: Iterable[int] = ()) -> EdgeLoop:
+        """Find the edge loop through an edge, as modelers select it: straight on, both ways.
+
+        The loop continues with the opposite edge at vertices with four edges whose faces are not all triangles. So it does at
+        vertices with six edges whose faces are all triangles. From an edge of the boundary it follows the
+        boundary. It ends at all other vertices, at vertices of `stops`, which may be ends of the edge, and where it meets
+        itself.
+
+        Parameters
+        ----------
+        edge : (int, int)
+            Its direction is that of the loop.
+        stops : iterable of int
+            Vertices.
+
+        Returns
+        -------
+        EdgeLoop
+            Closed if its ends are one vertex. If it crosses itself, its first or last vertex is also an inner vertex. It has no
+            vertices before the surface is built.
+
+        Raises
+        ------
+        ValueError
+            If the edge is not part of the surface, or wires run across it.
+        """
+    def fit_chain(
+        self,
+        points: ArrayLike,
+        faces: ArrayLike,
+        begin: int | None = None,
+        end: int | None = None,
+    ) -> FittedChain:
+        """Find the chain of edges that fits a line. Only along edges.
+
+        Parameters
+        ----------
+        points, faces, begin, end
+            As for the function `fit_chain`.
+
+        Returns
+        -------
+        FittedChain
+            Has no vertices if no edge fits, and before the surface is built.
+
+        Raises
+        ------
+        ValueError
+            As the function `fit_chain`, and if wires do not run along edges.
+        """
+    surface: Surface | None
+    """Surface or None: the surface that wires run on; None until it is built."""
+    def wait_for_surface(self, seconds: float | None = None) -> bool:
+        """Wait until the surface is built. Any thread may wait.
+
+        Parameters
+        ----------
+        seconds : float, optional
+            The longest time to wait. None: no limit.
+
+        Returns
+        -------
+        bool
+            Whether the surface is built.
+        """
     def progress(self) -> float:
-        """Return the fraction of the preparation and the seed's work that is done."""
+        """Return the fraction of the preparation and the seed's work that is done.
+
+        Returns
+        -------
+        float
+            0 until the surface is built, 1 when all work is done.
+        """
     def wait(self, seconds: float | None = None) -> bool:
-        """Wait for all running work, including loops, and return whether it is done."""
+        """Wait for all running work, including loops.
 
-class MetricFamily:
-    """A family of metrics, and the parameters of its metrics."""
+        Parameters
+        ----------
+        seconds : float, optional
+            The longest time to wait. None: no limit.
 
-    name: Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"]
-    parameter: str | None
-    least_parameter: float
-    has_directions: bool
-    has_clamp: bool
+        Returns
+        -------
+        bool
+            Whether all work is done.
+        """
 
-def metric_families() -> tuple[MetricFamily, ...]:
-    """Return the families of metrics."""
+class NearestPoints:
+    """Finds the nearest points of triangles.
 
-class MetricSpec:
-    """A metric as a value: what it takes to compute it on any surface."""
+    Parameters
+    ----------
+    points : (n, 3) array_like of float
+    triangles : (m, 3) array_like of int
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
+
+    Raises
+    ------
+    ValueError
+        If there is no triangle, a triangle has a vertex that does not exist, or a coordinate is not finite.
+    Cancelled
+    """
 
     def __init__(
         self,
-        family: Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"],
-        follow: Literal["min", "max"] | None = None,
-        *,
-        parameter: float | None = None,
-        max_anisotropy: float | None = None,
-        clamp_percentile: float | None = None,
+        points: ArrayLike,
+        triangles: ArrayLike,
+        progress: Callable[[float], bool | None] | None = None,
     ) -> None: ...
-    family: Literal["feature", "campen", "pottmann_kovacs", "concave", "euclidean"]
-    follow: Literal["min", "max"] | None
-    kind: Literal["min", "max", "concave", "euclidean"]  # what paths follow
-    parameter: float | None
-    max_anisotropy: float | None
-    clamp_percentile: float | None
-    def __eq__(self, other: object) -> bool: ...
-    def __hash__(self) -> int: ...
+    def find(
+        self,
+        places: ArrayLike,
+        normals: ArrayLike | None = None,
+        progress: Callable[[float], bool | None] | None = None,
+    ) -> tuple[NDArray[np.int32], NDArray[np.float64], NDArray[np.float64]]:
+        """Find the point that is nearest to each place.
 
-def make_metric(surface: Surface, spec: MetricSpec, progress: Progress | None = None) -> Metric:
-    """Make the metric that a spec describes. Curvatures are kept with the surface."""
+        Parameters
+        ----------
+        places : (k, 3) array_like of float
+        normals : (k, 3) array_like of float, optional
+            Triangles that face away from these do not count, unless all do.
+        progress : callable, optional
+            Called repeatedly with the fraction done. Returning False cancels.
 
-def principal_curvatures(surface: Surface, progress: Progress | None = None) -> Curvature: ...
-def feature_metric(
-    surface: Surface,
-    curvature: Curvature,
-    follow: Literal["min", "max"] = "min",
-    gamma: float | None = None,
-    max_anisotropy: float | None = None,
-    clamp_percentile: float | None = None,
-    progress: Progress | None = None,
-) -> Metric:
-    """Make the metric of the paper, eq. 5. Without gamma and max_anisotropy, gamma is 0.1."""
+        Returns
+        -------
+        triangles : (k,) int32
+        points : (k, 3) float64
+        distances : (k,) float64
 
-def campen_metric(
-    surface: Surface,
-    curvature: Curvature,
-    follow: Literal["min", "max"] = "min",
-    alpha: float | None = None,
-    max_anisotropy: float | None = None,
-    progress: Progress | None = None,
-) -> Metric: ...
-def smoothed_curvatures(
-    surface: Surface, curvature: Curvature, radius: float = 0.01, progress: Progress | None = None
-) -> Curvature: ...
-def concave_metric(
-    surface: Surface, curvature: Curvature, strength: float = 1.0, progress: Progress | None = None
-) -> Metric: ...
-def pottmann_kovacs_metric(
-    surface: Surface,
-    curvature: Curvature,
-    follow: Literal["min", "max"] = "min",
-    beta: float | None = None,
-    max_anisotropy: float | None = None,
-    progress: Progress | None = None,
-) -> Metric: ...
-def euclidean_metric(surface: Surface, curvature: Curvature, progress: Progress | None = None) -> Metric: ...
-def apply_scribbles(
-    surface: Surface,
-    metric: Metric,
-    scribbles: Sequence[Scribble],
-    follow: Literal["min", "max", "concave", "euclidean"] | None = None,
-    progress: Progress | None = None,
-) -> Metric: ...
-def embed(
-    surface: Surface,
-    metric: Metric,
-    sigma: float = 0.0,
-    perimeter: Literal["metric", "euclidean"] = "metric",
-    max_faces_added: int = 4_000_000,
-    max_error: float = 0.0,
-    progress: Progress | None = None,
-) -> Embedding:
-    """Subdivide until triangles are valid and, if max_error is above 0, resolve the metric about that well."""
-
-def distance_field(
-    embedding: Embedding,
-    seed: SurfacePoint | Sequence[SurfacePoint],
-    progress: Progress | None = None,
-    windows: int | None = None,
-    targets: SurfacePoint | Sequence[SurfacePoint] | None = None,
-    max_distance: float | None = None,
-) -> DistanceField:
-    """Compute distances from the nearest of several seeds. Stop when the targets' distances are known, or at max_distance."""
-
-def invalid_faces(surface: Surface, metric: Metric) -> NDArray[np.int32]:
-    """Find the triangles that are invalid in a metric before any subdivision."""
-
-def metric_lengths(surface: Surface, metric: Metric) -> NDArray[np.float64]:
-    """Compute the lengths of a surface's edges in a metric, (e,), before any subdivision."""
-
-def isolines(
-    surface: Surface, values: ArrayLike, levels: ArrayLike
-) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int32]]:
-    """Find the segments (k, 2, 3) where values at the vertices reach levels, with the triangle and the level of each."""
-
-class CrestLines:
-    """Ridges and valleys. Line i has the points starts[i] to starts[i + 1]. A closed line repeats its first point."""
-
-    points: NDArray[np.float64]  # (p, 3)
-    edges: NDArray[np.int32]  # (p, 2), the edge that each point lies on
-    parts: NDArray[np.float64]  # (p,), position on it, 0 to 1
-    curvatures: NDArray[np.float64]  # (p,), above 0 along ridges
-    faces: NDArray[np.int32]  # (p,), the triangle to the next point, -1 for a line's last
-    starts: NDArray[np.int32]  # (k + 1,)
-    strengths: NDArray[np.float64]  # (k,), integrals of |k1|, radians, descending
-
-def crest_lines(
-    surface: Surface,
-    curvature: Curvature,
-    least_strength: float = 1.0,
-    least_drop: float = 0.15,
-    progress: Progress | None = None,
-) -> CrestLines:
-    """Find the curves across which the surface bends most sharply (Yoshizawa, Belyaev, Seidel 2005)."""
-
-def plane_section(
-    surface: Surface, from_point: SurfacePoint, to_point: SurfacePoint, direction: ArrayLike
-) -> tuple[NDArray[np.float64], NDArray[np.int32], float]:
-    """Find the curve (p, 3) between two points in the plane along a direction, with its triangles and its length."""
-
-def snap_to_edges(surface: Surface, wire: Wire, progress: Progress | None = None) -> NDArray[np.int32]: ...
-def edge_wires(
-    surface: Surface,
-    metric: Metric,
-    seed: Pick,
-    turning: float = 3.0,
-    forward: bool = False,
-    progress: Progress | None = None,
-) -> EdgeWires: ...
-def shortest_cycle(
-    surface: Surface,
-    metric: Metric,
-    edge: Sequence[int],
-    turning: float = 20.0,
-    progress: Progress | None = None,
-) -> EdgeChain: ...
-def fit_chain(
-    surface: Surface,
-    points: ArrayLike,
-    faces: ArrayLike,
-    begin: int | None = None,
-    end: int | None = None,
-    progress: Progress | None = None,
-) -> FittedChain:
-    """Find the chain of edges that fits a line drawn on a surface best."""
+        Raises
+        ------
+        ValueError
+            If there are not as many normals as places, or a coordinate is not finite.
+        Cancelled
+        """
 
 class RayTree:
-    """Finds the first triangle that a ray meets. A tree is built in the background; answers are the same without it."""
+    """Finds the first triangle that a ray meets, from either side.
+
+    A tree is built in the background. Before it is built, each query tests all triangles and has the same answer.
+
+    Parameters
+    ----------
+    points : (n, 3) array_like of float
+    triangles : (m, 3) array_like of int
+
+    Raises
+    ------
+    ValueError
+        If an array has the wrong shape or type, or a triangle has a vertex that does not exist.
+    """
 
     def __init__(self, points: ArrayLike, triangles: ArrayLike) -> None: ...
     def first_hit(self, origin: ArrayLike, direction: ArrayLike) -> tuple[int, float] | None:
-        """Return the triangle's number, and its distance in lengths of `direction`. None if the ray meets no triangle."""
+        """Find the first triangle that a ray meets.
+
+        Parameters
+        ----------
+        origin, direction : (3,) array_like of float
+
+        Returns
+        -------
+        (int, float) or None
+            The triangle's number, and its distance in lengths of `direction`. None if the ray meets no triangle.
+        """
     ready: bool
-    def wait(self) -> None: ...
-
-class NearestPoints:
-    """Finds the nearest points of triangles."""
-
-    def __init__(self, points: ArrayLike, triangles: ArrayLike, progress: Progress | None = None) -> None: ...
-    def find(
-        self, places: ArrayLike, normals: ArrayLike | None = None, progress: Progress | None = None
-    ) -> tuple[NDArray[np.int32], NDArray[np.float64], NDArray[np.float64]]:
-        """Return the nearest triangle for each place, (k,), the point there, (k, 3), and its distance, (k,)."""
-
-def cut_polygons(
-    points: ArrayLike, corners: ArrayLike, sizes: ArrayLike
-) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Cut triangles and quads into triangles, as Blender does. Return the triangles, and the polygon of each."""
+    """bool: whether the tree is built."""
+    def wait(self) -> None:
+        """Wait until the tree is built."""
 
 def face_segments(surface: Surface, cut_edges: ArrayLike) -> NDArray[np.int32]:
-    """Find the segment of each triangle. Segment 0 has the most triangles."""
+    """Find the segments into which cuts along edges divide a surface.
+
+    Edges with three or more triangles, and edges whose triangles cannot be oriented alike, join nothing.
+
+    Parameters
+    ----------
+    surface : Surface
+    cut_edges : (k, 2) array_like of int
+        Vertex pairs. Pairs that are not real edges, such as diagonals of polygons, cut nothing.
+
+    Returns
+    -------
+    (m,) int32
+        The segment of each triangle. Segment 0 has the most triangles, and so on.
+
+    Raises
+    ------
+    ValueError
+        If a vertex is out of range.
+    """
 
 def missing_cuts(surface: Surface, cut_edges: ArrayLike, segments: ArrayLike) -> NDArray[np.int32]:
-    """Count how many more cuts each segment needs to become a disc."""
+    """Count how many more cuts each segment needs to become a disc.
+
+    Each cut leads from border to border. A segment without a border, such as a ball, needs another cut first to get one.
+    Edges with three or more triangles are borders. So are edges whose triangles cannot be oriented alike.
+
+    Parameters
+    ----------
+    surface : Surface
+    cut_edges : (k, 2) array_like of int
+        Vertex pairs, as for `face_segments`.
+    segments : (m,) array_like of int
+        The segment of each triangle, as from `face_segments`.
+
+    Returns
+    -------
+    (count,) int32
+        0 for a disc, and 1 for a tube or a closed ball. 2 for a disc with a handle, and 3 for a torus.
+
+    Raises
+    ------
+    ValueError
+        If a vertex is out of range, or the segments belong to another surface or to other cuts.
+    """
+
+def cut_polygons(
+    points: ArrayLike,
+    corners: ArrayLike,
+    sizes: ArrayLike,
+) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Cut triangles and quads into triangles, as Blender does.
+
+    A quad is cut from its first corner to its third, unless one of the two triangles would lie on the other.
+
+    Parameters
+    ----------
+    points : (n, 3) array_like of float
+    corners : (c,) array_like of int
+        Vertices, polygon by polygon.
+    sizes : (p,) array_like of int
+        How many corners each polygon has: 3 or 4.
+
+    Returns
+    -------
+    triangles : (m, 3) int32
+        In the order and the orientation of the polygons.
+    polygons : (m,) int32
+        The polygon of each triangle.
+
+    Raises
+    ------
+    ValueError
+        If a size is not 3 or 4, the sizes do not add up to the number of corners, or a vertex is out of range.
+    """
+
+class CutCurve:
+    """A curve to be cut into a mesh, see `plan_cuts`.
+
+    Parameters
+    ----------
+    points : (k, 3) array_like of float
+        At least two, on the mesh or near it.
+    start : int or (int, (3,) array_like)
+        Where it begins: a vertex, or a triangle and barycentric coordinates. If the first point does not lie there, a
+        vertex only names the polygons in which the curve may begin.
+    end : int or (int, (3,) array_like), optional
+        Where it ends. None: wherever the last point lies.
+    faces : (k - 1,) array_like of int, optional
+        The triangle that each segment lies in. If the curve does not run there, they are found instead.
+    image_of : int, optional
+        The number of an earlier curve that this one is a mirror image of. It is skipped if that one is left out.
+
+    Raises
+    ------
+    ValueError
+        If a value has another form.
+    """
+
+    def __init__(
+        self,
+        points: ArrayLike,
+        start: int | tuple[int, ArrayLike],
+        end: int | tuple[int, ArrayLike] | None = None,
+        faces: ArrayLike | None = None,
+        image_of: int | None = None,
+    ) -> None: ...
+
+class CutPlan:
+    """The changes to a mesh that cut curves into it, see `plan_cuts`."""
+
+    vertices: NDArray[np.int32]
+    """(k, 3) int32: the vertices between which each node lies, ascending. Unused ones are -1, and come last."""
+    weights: NDArray[np.float64]
+    """(k, 3) float64: the weight of each of these vertices. The sum is 1."""
+    polygons: NDArray[np.int32]
+    """(k,) int32: the polygon that each node lies inside. -1 if it is a vertex or lies on an edge."""
+    splits: list[tuple[tuple[int, int], list[int]]]
+    """list of ((int, int), list of int): the edges that get new vertices, the smaller vertex
+    first, and the nodes on each, from that vertex on.
+    """
+    along: NDArray[np.int32]
+    """(s, 2) int32: cuts between two neighboring vertices or nodes of one edge."""
+    across: list[tuple[int, NDArray[np.int32], bool]]
+    """list of (int, (s, 2) int32, bool): each polygon that is cut, and the cuts from node to
+    node inside it. True if the polygon is folded or has no area. Its cuts were planned on a
+    regular polygon then.
+    """
+    left_out: list[tuple[int, int]]
+    """list of (int, int): the curves that do not run over the mesh, without their images, and
+    a vertex near where each leaves the mesh.
+    """
+    def node_at(self, corners: ArrayLike, barycentric: ArrayLike) -> int | None:
+        """Find the node at a point of a triangle.
+
+        Parameters
+        ----------
+        corners : (3,) array_like of int
+            The vertices of the triangle.
+        barycentric : (3,) array_like of float
+
+        Returns
+        -------
+        int or None
+            The node there, or the one that was moved away from there. None if no cut passes.
+        """
+
+def plan_cuts(points: ArrayLike, triangles: ArrayLike, polygons: ArrayLike, curves: Sequence[CutCurve]) -> CutPlan:
+    """Plan how to cut curves into polygons.
+
+    If a curve ends inside a polygon and no other curve continues from there, it is cut only as far as the last edge that it
+    crosses. Curves that cross or run close to each other meet in common nodes. A cut that passes a vertex or an edge at less than 0.05, as a fraction of an edge's
+    length or a triangle's height, goes through it.
+
+    Parameters
+    ----------
+    points : (n, 3) array_like of float
+    triangles : (m, 3) array_like of int
+        The polygons, cut into triangles.
+    polygons : (m,) array_like of int
+        The polygon of each triangle, ascending.
+    curves : sequence of CutCurve
+
+    Returns
+    -------
+    CutPlan
+
+    Raises
+    ------
+    ValueError
+        If sizes do not fit, a number is out of range, or the triangles of a polygon do not form a polygon.
+    """
 
 class Flattening:
-    """A UV map of a surface: `uvs`, (m, 3, 2), in the points' unit, and the island of each triangle, (m,)."""
+    """A UV map of a surface."""
 
     uvs: NDArray[np.float64]
+    """(m, 3, 2) float64: the UVs of each triangle's corners, in the points' unit of length. Each island lies around the origin."""
     islands: NDArray[np.int32]
-    energy: float  # as in MapReport
-    island_energies: NDArray[np.float64]  # symmetric Dirichlet energy of each island, 4 for an isometry
+    """(m,) int32: the island of each triangle."""
+    energy: float
+    """float: as `MapReport.energy`."""
+    island_energies: NDArray[np.float64]
+    """(k,) float64: the symmetric Dirichlet energy of each island, averaged over its area; 4 for an isometry."""
     island_areas: NDArray[np.float64]
-    overlapping: NDArray[np.int32]  # islands
-    straight: NDArray[np.int32]  # islands that were laid out straight
-    opened: NDArray[np.int32]  # edges opened in addition to the cuts, for each island
-    steps: NDArray[np.int32]  # Newton steps, for each island
+    """(k,) float64: areas on the surface, in the points' unit squared."""
+    overlapping: NDArray[np.int32]
+    """(j,) int32: the islands that cover a part of the plane twice."""
+    straight: NDArray[np.int32]
+    """(j,) int32: the islands that were laid out straight."""
+    opened: NDArray[np.int32]
+    """(k,) int32: how many edges of each island the map is opened along in addition to the cuts."""
+    steps: NDArray[np.int32]
+    """(k,) int32: how many Newton steps each island took."""
 
 class MapReport:
     """The distortion, flips and overlaps of a UV map."""
 
-    energy: float  # symmetric Dirichlet energy at the best uniform scale, 4 for an isometry
-    energies: NDArray[np.float64]  # of each triangle
-    flipped: NDArray[np.int32]  # triangles
-    overlapping: NDArray[np.int32]  # islands that cover themselves
-    colliding: NDArray[np.int32]  # islands that cover each other
+    energy: float
+    """float: the symmetric Dirichlet energy, averaged over the area at the best uniform scale. The worst .1 % of the area and flipped triangles are left out. 4 for an isometry."""
+    energies: NDArray[np.float64]
+    """(m,) float64: the energy of each triangle at that scale; infinite if it is flipped, 0 if it is left out."""
+    flipped: NDArray[np.int32]
+    """(j,) int32: triangles that are turned over against their island, or have no area in the map."""
+    overlapping: NDArray[np.int32]
+    """(k,) int32: islands that cover a part of the plane twice, or have a flipped triangle."""
+    colliding: NDArray[np.int32]
+    """(k,) int32: islands that cover a part of another island, and those other islands."""
 
 def flatten(
     points: ArrayLike,
@@ -529,9 +1894,49 @@ def flatten(
     straighten: float | None = None,
     up: ArrayLike | None = None,
     edges: ArrayLike | None = None,
-    progress: Progress | None = None,
+    progress: Callable[[float], bool | None] | None = None,
 ) -> Flattening:
-    """Map each island of a surface to the plane, without flips and with as little stretch as possible."""
+    """Map each island of a surface to the plane.
+
+    No triangle is flipped, and the symmetric Dirichlet energy is minimized (Smith and Schaefer, "Bijective Parameterization
+    with Free Boundaries", 2015). Islands are the segments of `face_segments`. An island without a boundary or with handles
+    is opened along short paths of real edges.
+
+    Parameters
+    ----------
+    points : (n, 3) array_like of float
+        Finite coordinates.
+    triangles : (m, 3) array_like of int
+        Vertex numbers.
+    cuts : (k, 2) array_like of int
+        Vertex pairs: the edges that are seams. Pairs without an edge cut nothing.
+    start : (m, 3, 2) array_like of float, optional
+        A former map. Islands start from it if it is continuous there and flips no triangle.
+    keep_apart : bool
+        Whether an island that overlaps itself is solved again with a barrier along its outline.
+    straighten : float, optional
+        Lay an island that is a rectangle of quads out straight along the axes if that adds at most this to its energy. None:
+        islands stay as they are flattened.
+    up : (3,) array_like of float, optional
+        A direction of the model, not zero. Islands are turned such that it points to +v in the mean. An island without a
+        clear up lies with its longer side along v. None: islands are not turned.
+    edges : (e, 2) array_like of int, optional
+        The real edges, if the triangles come from polygons. The map is continuous across all other edges of triangles. None:
+        every edge of a triangle is real.
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
+
+    Returns
+    -------
+    Flattening
+
+    Raises
+    ------
+    ValueError
+        If an array has the wrong shape or type, a number is not finite, a vertex is out of range, or there is no edge. Also
+        if an island cannot be mapped.
+    Cancelled
+    """
 
 def measure_map(
     points: ArrayLike,
@@ -540,92 +1945,107 @@ def measure_map(
     islands: ArrayLike | None = None,
     *,
     edges: ArrayLike | None = None,
-    progress: Progress | None = None,
+    progress: Callable[[float], bool | None] | None = None,
 ) -> MapReport:
-    """Measure the stretch of any UV map, its flipped triangles and its overlapping islands."""
+    """Measure any UV map of a surface.
+
+    Parameters
+    ----------
+    points : (n, 3) array_like of float
+        Finite coordinates.
+    triangles : (m, 3) array_like of int
+        Vertex numbers.
+    uvs : (m, 3, 2) array_like of float
+        The UVs of each triangle's corners.
+    islands : (m,) array_like of int, optional
+        The island of each triangle, numbered from 0. By default, triangles that agree on the UVs of an edge are in one
+        island.
+    edges : (e, 2) array_like of int, optional
+        The real edges, if the triangles come from polygons. None: every edge of a triangle is real.
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
+
+    Returns
+    -------
+    MapReport
+
+    Raises
+    ------
+    ValueError
+        If an array has the wrong shape or type, a number is not finite, or a vertex or an island is out of range.
+    Cancelled
+    """
 
 class PlannedWire:
-    """One wire of a plan: the vertices between which it runs, its metric, the edges that it marks, and its curve, (p, 3)."""
+    """One wire of a `SeamPlan`."""
 
     seeds: tuple[int, int]
+    """(int, int): the vertices between which it runs."""
     follow: Literal["min", "max"]
+    """{'min', 'max'}: the metric in which a wire across the surface is short."""
     vertices: NDArray[np.int32]
+    """(k,) int32: the chain of edges that it marks, from seed to seed."""
     points: NDArray[np.float64]
+    """(p, 3) float64: its curve, in the caller's coordinates."""
     faces: NDArray[np.int32]
+    """(p - 1,) int32: the triangle of each segment, -1 along an edge without one. Only across the surface."""
 
 class SeamPlan:
-    """Seams that cut a surface into islands: `islands`, (m,), has the island of each triangle."""
+    """Seams that cut a surface into islands."""
 
     wires: list[PlannedWire]
+    """list of PlannedWire: without the seams that were there."""
     islands: NDArray[np.int32]
+    """(m,) int32: the island of each triangle, numbered as by `face_segments`."""
     island_count: int
+    """int: how many islands there are."""
     not_discs: int
+    """int: how many islands are not discs."""
     cost: float
+    """float: length times visibility of all wires, for a surface of area 1. Lower is better."""
     energy: float
+    """float: the symmetric Dirichlet energy of the planned map, mean over the area. 4 for an isometry."""
     is_reached: bool
+    """bool: whether the energy is within the bound, and no island that may be cut overlaps itself."""
     steps: float
+    """float: Newton steps that planning took, each times the share of the surface."""
     uvs: NDArray[np.float64] | None
-
-class CutCurve:
-    """A curve to be cut into a mesh."""
-
-    def __init__(
-        self,
-        points: ArrayLike,
-        start: SurfacePoint,
-        end: SurfacePoint | None = None,
-        faces: ArrayLike | None = None,
-        image_of: int | None = None,
-    ) -> None: ...
-
-class CutPlan:
-    """The changes to a mesh that cut curves into it."""
-
-    vertices: NDArray[np.int32]
-    weights: NDArray[np.float64]
-    polygons: NDArray[np.int32]
-    splits: list[tuple[tuple[int, int], list[int]]]
-    along: NDArray[np.int32]
-    across: list[tuple[int, NDArray[np.int32], bool]]
-    left_out: list[tuple[int, int]]
-    def node_at(self, corners: Sequence[int], barycentric: Sequence[float]) -> int | None:
-        """Find the node at a point of a triangle."""
-
-def plan_cuts(points: ArrayLike, triangles: ArrayLike, polygons: ArrayLike, curves: Sequence[CutCurve]) -> CutPlan:
-    """Plan how to cut curves into polygons."""
-
-class Parts:
-    """The parts of a surface."""
-
-    of_face: NDArray[np.int32]
-    count: int
-    borders: list[NDArray[np.int32]]
-
-class PartFinder:
-    """Finds the parts that an artist would make islands of."""
-
-    def __init__(
-        self,
-        surface: Surface,
-        *,
-        mirror: Literal[0, 1, 2] | None = None,
-        marked: ArrayLike | None = None,
-        seams: ArrayLike | None = None,
-        progress: Progress | None = None,
-    ) -> None: ...
-    def find(
-        self,
-        amount: float = 0.5,
-        *,
-        kept: ArrayLike | None = None,
-        dropped: ArrayLike | None = None,
-        parted: ArrayLike | None = None,
-        progress: Progress | None = None,
-    ) -> Parts:
-        """Find the parts."""
+    """(m, 3, 2) float64 or None: the planned map, in the caller's unit of length. None for a plan that
+    was found on the way.
+    """
 
 class SeamPlanner:
-    """Plans few, short, and hidden seams whose map stays within a bound on distortion."""
+    """Plans seams like an artist's: few, short, and hidden.
+
+    A seam costs its length times how visible it is, and pays by lowering the distortion of the map. The planner starts with
+    a tree of slits to the tips of limbs. It adds slits where the map is distorted. Then it shortens and exchanges slits
+    while the distortion stays within a bound.
+
+    Parameters
+    ----------
+    surface : Surface
+    along : {'surface', 'edges'}
+        Where wires run.
+    max_anisotropy, clamp_percentile : float
+        Of the feature metric in which wires across the surface are short, as for `feature_metric`.
+    front : (3,) array_like of float, optional
+        The direction from the surface towards a viewer. Seams hide from there. None: they hide from ambient light only.
+    mirror : {0, 1, 2}, optional
+        The axis along which a plane mirrors the surface: through the origin, or else through the middle of its box. Seams
+        come in pairs if the surface is symmetric.
+    weights : (n,) array_like of float, optional
+        The cost of seams at each vertex, as a factor. Infinity keeps seams away.
+    seams : (k, 2) array_like of int, optional
+        Vertex pairs: the edges that are seams already. They stay.
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
+
+    Raises
+    ------
+    ValueError
+        If a parameter is out of range.
+    Cancelled
+    """
 
     def __init__(
         self,
@@ -638,7 +2058,7 @@ class SeamPlanner:
         mirror: Literal[0, 1, 2] | None = None,
         weights: ArrayLike | None = None,
         seams: ArrayLike | None = None,
-        progress: Progress | None = None,
+        progress: Callable[[float], bool | None] | None = None,
     ) -> None: ...
     def plan(
         self,
@@ -646,8 +2066,230 @@ class SeamPlanner:
         distortion: float = 4.2,
         islands: int = 0,
         steps: int = 0,
-        progress: Progress | None = None,
+        progress: Callable[[float], bool | None] | None = None,
     ) -> SeamPlan:
-        """Plan seams."""
+        """Plan seams.
 
+        Parameters
+        ----------
+        distortion : float
+            The bound on the symmetric Dirichlet energy of the map, averaged over the area; above 4, the energy of an isometry.
+            Infinity: islands only have to be discs.
+        islands : int
+            The smallest number of islands. Limbs are separated first, then large islands are cut into halves. There are fewer
+            islands only if no seam may run inside of any.
+        steps : int
+            The largest number of Newton steps in each piece. 0: 4000.
+        progress : callable, optional
+            Called repeatedly with the fraction done. Returning False cancels, and `best_so_far` keeps the best plan.
+
+        Returns
+        -------
+        SeamPlan
+
+        Raises
+        ------
+        ValueError
+            If a parameter is out of range.
+        Cancelled
+        """
     best_so_far: SeamPlan | None
+    """SeamPlan or None: the best plan that a running or cancelled `plan` has found; None before the first. Any thread may read it."""
+
+class Parts:
+    """The parts of a surface."""
+
+    of_face: NDArray[np.int32]
+    """(m,) int32: the part of each triangle, numbered as by `face_segments`."""
+    count: int
+    """int: how many parts there are."""
+    borders: list[NDArray[np.int32]]
+    """list of (k,) int32: chains of vertices between parts, from junction to junction. A closed
+    chain ends with its first vertex. Existing seams are left out.
+    """
+
+class PartFinder:
+    """Finds the parts that an artist would make islands of.
+
+    Parameters
+    ----------
+    surface : Surface
+    mirror : {0, 1, 2}, optional
+        The axis along which a plane mirrors the surface, as for `SeamPlanner`. Parts of a symmetric surface are symmetric.
+    marked : (k, 2) array_like of int, optional
+        Edges where an artist expects a border: marked sharp, or between materials.
+    seams : (k, 2) array_like of int, optional
+        The edges that are seams already. They part the surface.
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
+
+    Raises
+    ------
+    ValueError
+        If a parameter is out of range.
+    Cancelled
+    """
+
+    def __init__(
+        self,
+        surface: Surface,
+        *,
+        mirror: Literal[0, 1, 2] | None = None,
+        marked: ArrayLike | None = None,
+        seams: ArrayLike | None = None,
+        progress: Callable[[float], bool | None] | None = None,
+    ) -> None: ...
+    def find(
+        self,
+        amount: float = 0.5,
+        *,
+        kept: ArrayLike | None = None,
+        dropped: ArrayLike | None = None,
+        parted: ArrayLike | None = None,
+        progress: Callable[[float], bool | None] | None = None,
+    ) -> Parts:
+        """Find the parts.
+
+        Parameters
+        ----------
+        amount : float
+            From 0, which joins all that is connected, to 1, which parts at all sharp edges.
+        kept, dropped : (k, 2) array_like of int, optional
+            Edges that have to be borders, and edges that must not be.
+        parted : array_like of int, optional
+            A triangle for each part that is cut in two, one after another.
+        progress : callable, optional
+            Called repeatedly with the fraction done. Returning False cancels.
+
+        Returns
+        -------
+        Parts
+
+        Raises
+        ------
+        ValueError
+            If a parameter is out of range.
+        Cancelled
+        """
+
+class CrestLines:
+    """Ridges and valleys, the strongest first."""
+
+    points: NDArray[np.float64]
+    """(p, 3) float64: the points of all lines, one line after the other. A closed line repeats its first point."""
+    edges: NDArray[np.int32]
+    """(p, 2) int32: the edge that each point lies on."""
+    parts: NDArray[np.float64]
+    """(p,) float64: the position on that edge, from 0 at its first vertex to 1 at its second."""
+    curvatures: NDArray[np.float64]
+    """(p,) float64: k1, in 1 / side of the unit cube. Above 0 on ridges, below 0 in valleys."""
+    faces: NDArray[np.int32]
+    """(p,) int32: the triangle between a point and the next; -1 for a line's last point."""
+    starts: NDArray[np.int32]
+    """(k + 1,) int32: line i has the points starts[i] to starts[i + 1]."""
+    strengths: NDArray[np.float64]
+    """(k,) float64: the integral of |k1| along each line, in radians; descending."""
+
+def crest_lines(
+    surface: Surface,
+    curvature: Curvature,
+    least_strength: float = 1.0,
+    least_drop: float = 0.15,
+    progress: Callable[[float], bool | None] | None = None,
+) -> CrestLines:
+    """Find ridges and valleys: the curves across which the surface bends most sharply (Figures 5 and 11).
+
+    Parameters
+    ----------
+    surface : Surface
+    curvature : Curvature
+        Of that surface, best from `smoothed_curvatures`.
+    least_strength : float
+        At least 0. The smallest integral of |k1| along a line, in radians.
+    least_drop : float
+        In [0, 1). The smallest relative drop of the larger curvature at one radius of curvature on both sides. With 0,
+        noise creates lines on cylinders and tori.
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
+
+    Returns
+    -------
+    CrestLines
+
+    Raises
+    ------
+    ValueError
+        If the curvature belongs to another surface, or a number is out of range.
+    Cancelled
+
+    References
+    ----------
+    Yoshizawa, Belyaev, Seidel, "Fast and robust detection of crest lines on meshes" (2005), with derivatives of curvature
+    as in Rusinkiewicz (2004). docs/method/curvature.md describes the differences.
+    """
+
+def isolines(
+    surface: Surface,
+    values: ArrayLike,
+    levels: ArrayLike,
+) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.int32]]:
+    """Find where a function on a surface has given values. The function is linear on each triangle.
+
+    Parameters
+    ----------
+    surface : Surface
+    values : (n,) array_like of float
+        The function's values at the vertices. Triangles with an infinite value are left out.
+    levels : (l,) array_like of float
+        Finite, ascending.
+
+    Returns
+    -------
+    segments : (k, 2, 3) float64
+        Straight pieces, each across one triangle, in the caller's coordinates. Neighbors share their ends.
+    faces : (k,) int32
+        The triangle that each piece lies in.
+    levels : (k,) int32
+        The number of each piece's level.
+
+    Raises
+    ------
+    ValueError
+        If the number of values differs from the number of vertices, a value is not a number, or the levels are not finite
+        and ascending.
+    """
+
+def plane_section(
+    surface: Surface,
+    from_point: int | tuple[int, ArrayLike],
+    to_point: int | tuple[int, ArrayLike],
+    direction: ArrayLike,
+) -> tuple[NDArray[np.float64], NDArray[np.int32], float]:
+    """Find the curve in which a plane cuts a surface between two of its points.
+
+    The plane contains both points and a direction. With the direction of a view, the curve is straight in that view. The
+    curve is straight in each triangle, and exact except for rounding.
+
+    Parameters
+    ----------
+    surface : Surface
+    from_point, to_point : int, or (int, (3,) array_like)
+        Vertices, or triangles with barycentric coordinates.
+    direction : (3,) array_like of float
+        In the caller's coordinates, of any length.
+
+    Returns
+    -------
+    points : (p, 3) float64
+        In the caller's coordinates, including both points. If there are two ways, the shorter one. (0, 3) if the plane's
+        curve through one point ends or closes before it reaches the other point.
+    faces : (p - 1,) int32
+        The triangle that each segment lies in.
+    length : float
+        In the caller's units; inf if there is no such curve.
+
+    Raises
+    ------
+    ValueError
+        If a point is not on the surface, the points are equal, or the direction leads from one point to the other.
+    """

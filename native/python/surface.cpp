@@ -121,10 +121,10 @@ Cancelled
            py::arg("progress") = py::none())
       .def_property_readonly("points",
                              array_of<SurfaceObject>([](const auto& s) -> auto& { return s.surface->points(); }),
-                             "(n, 3) float64, as given.")
+                             "(n, 3) float64: as given.")
       .def_property_readonly("triangles",
                              array_of<SurfaceObject>([](const auto& s) -> auto& { return s.surface->triangles(); }),
-                             "(m, 3) int32, as given.")
+                             "(m, 3) int32: as given.")
       .def_property_readonly("edges",
                              array_of<SurfaceObject>([](const auto& s) -> auto& { return s.surface->edges(); }),
                              "(e, 2) int32: the real edges, each once, sorted. The smaller vertex comes first.")

@@ -28,7 +28,7 @@ void bind_wire(py::module_& module) {
       .def_readonly("to_vertex", &Wire::to, "int: the vertex where it ends; -1 if that point is not a vertex.")
       .def_property_readonly(
           "points", array_of<Wire>(&Wire::points),
-          "(p, 3) float64, in the caller's coordinates. There are no rows if the target is unreachable.")
+          "(p, 3) float64: in the caller's coordinates. There are no rows if the target is unreachable.")
       .def_property_readonly("faces", array_of<Wire>(&Wire::faces),
                              "(p - 1,) int32: the triangle that each segment lies in; -1 along an edge without a face.")
       .def_readonly("length", &Wire::length,
@@ -45,7 +45,7 @@ void bind_wire(py::module_& module) {
 void bind_closed_wire(py::module_& module) {
   py::class_<ClosedWire>(module, "ClosedWire", "A closed cut through a seed.")
       .def_property_readonly("points", array_of<ClosedWire>([](const ClosedWire& w) -> auto& { return w.wire.points; }),
-                             "(p, 3) float64, in the caller's coordinates. The first and the last point are the seed.")
+                             "(p, 3) float64: in the caller's coordinates. The first and the last point are the seed.")
       .def_property_readonly("faces", array_of<ClosedWire>([](const ClosedWire& w) -> auto& { return w.wire.faces; }),
                              "(p - 1,) int32: the triangle that each segment lies in; -1 along an edge without a face.")
       .def_property_readonly(

@@ -32,7 +32,6 @@ class PolygonShape {
   bool is_on_rim(std::int32_t node) const;
   /// Where a node of the polygon is seen.
   Vector seen(std::int32_t node) const;
-  /// The node at a place inside.
   CutNode node_at(const Vector& place) const;
   /// Returns the index of the node that is farthest from the line between the ends; -1 if the chain hardly bends.
   std::ptrdiff_t farthest(std::span<const std::int32_t> chain) const;

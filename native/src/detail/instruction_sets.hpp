@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Kernels: functions that are compiled once for each of several instruction sets. All variants give the same bits.
+// Kernels: functions that are compiled once for each of several instruction sets. No variant contracts a product and a
+// sum, so all give the same bits.
 #pragma once
 
 #include <cstddef>

@@ -2,10 +2,10 @@
 #include "edges/edge_graph.hpp"
 
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
 #include "detail/poll.hpp"
 #include "detail/text.hpp"
 #include "edges/stroke_chain.hpp"
@@ -82,7 +82,7 @@ void check_edge(const EdgeGraph& graph, std::int32_t a, std::int32_t b, const st
 }
 
 void check_turning(double turning) {
-  if (!(turning >= 0.0) || turning == std::numeric_limits<double>::infinity()) {
+  if (!(turning >= 0.0) || turning == kInfinity) {
     throw InvalidInput("turning must be a number that is not negative, not " + text(turning));
   }
 }

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <queue>
 #include <string>
 #include <unordered_map>
 #include <utility>
 
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
 #include "edges/edge_adjacency.hpp"
 #include "surface/point_segment.hpp"
 
@@ -57,7 +57,7 @@ class Line {
   Nearest nearest(const Vector& p, double from, double to) const {
     from = std::clamp(from, 0.0, length());
     to = std::clamp(to, from, length());
-    Nearest best{std::numeric_limits<double>::infinity(), from};
+    Nearest best{kInfinity, from};
     for (std::size_t i = segment_at(from); i + 1 < points_.size(); ++i) {
       if (i > 0 && along_[i] > to) break;
       const double whole = along_[i + 1] - along_[i];
@@ -220,7 +220,7 @@ double median_edge(const Surface& surface, const EdgeAdjacency& adjacency, const
 std::int32_t nearest_vertex(const Surface& surface, const EdgeAdjacency& adjacency, const Vector& p,
                             std::int32_t face) {
   std::int32_t best = -1;
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   const auto look = [&](std::int32_t v) {
     const double squared = (surface.points()[v] - p).squaredNorm();
     if (adjacency.begin(v) == adjacency.end(v) || !(squared < least)) return;

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <queue>
 #include <span>
 #include <unordered_map>
 
+#include "detail/infinity.hpp"
 #include "metric/scribble_points.hpp"
 #include "surface/point_segment.hpp"
 
@@ -29,7 +29,7 @@ constexpr double kPointsPerEdge = 4.0;
 constexpr std::size_t kMostLookedAt = 50'000;
 
 double distance_to_line(const Vector& p, std::span<const Vector> line) {
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
     least = std::min(least, to_segment(p, line[i], line[i + 1]).squaredNorm());
   }
@@ -91,7 +91,7 @@ std::vector<std::int32_t> StrokeChains::join(std::int32_t from, std::int32_t to,
     for (std::int32_t e = adjacency_.begin(v); e < adjacency_.end(v); ++e) {
       const std::int32_t w = adjacency_.head(e);
       const double length = (point(w) - point(v)).norm();
-      const auto [known, is_new] = nodes.try_emplace(w, Node{v, std::numeric_limits<double>::infinity(), 0.0});
+      const auto [known, is_new] = nodes.try_emplace(w, Node{v, kInfinity, 0.0});
       Node& node = known->second;
       if (is_new) node.off = distance_to_line(point(w), line);
       const double there = cost + length + kOffLine * node.off;

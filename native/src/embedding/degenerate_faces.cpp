@@ -126,9 +126,10 @@ std::vector<VertexHandle> DegenerateFaces::fans_of(std::int32_t vertex) const {
     const bool is_left = !mesh_.status(fan).deleted() && !mesh_.is_isolated(fan);
     if (is_left && this->vertex(fan) == vertex) fans.push_back(fan);
   };
-  const auto [begin, end] = std::ranges::equal_range(corner_fans(surface_).vertices, vertex);
-  for (auto at = begin; at != end; ++at)
-    add(VertexHandle(static_cast<int>(at - corner_fans(surface_).vertices.begin())));
+  const std::vector<std::int32_t>& all = corner_fans(surface_).vertices;
+  // Not std::ranges::equal_range: Clang 14 cannot read what libstdc++ 12 returns.
+  const auto [begin, end] = std::equal_range(all.begin(), all.end(), vertex);
+  for (auto at = begin; at != end; ++at) add(VertexHandle(static_cast<int>(at - all.begin())));
   if (const auto more = fans_merged_.find(vertex); more != fans_merged_.end()) std::ranges::for_each(more->second, add);
   return fans;
 }

@@ -2,10 +2,10 @@
 #include "geodesics/distance_field.hpp"
 
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
 #include "geodesics/path_tracing.hpp"
 #include "geodesics/submesh.hpp"
 
@@ -19,7 +19,7 @@ namespace {
 std::int32_t nearest_vertex(const SolvedDistances& solved, const PlacedPoint& point) {
   if (point.vertex >= 0) return point.vertex;
   std::int32_t nearest = solved.mesh.half_edge(3 * point.faces.front().face).tail;
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   point.for_each_corner(solved.mesh, [&](std::int32_t h, const Point2&, double straight) {
     const std::int32_t corner = solved.mesh.half_edge(h).apex;
     if (!(solved.at(corner) + straight < least)) return;

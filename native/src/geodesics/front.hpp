@@ -3,13 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
 #include "detail/index.hpp"
 #include "detail/indexed_heap.hpp"
+#include "detail/infinity.hpp"
 #include "detail/poll.hpp"
 #include "detail/prefetch.hpp"
 #include "geodesics/geodesic_mesh.hpp"
@@ -31,7 +31,7 @@ class Front {
         queue_(mesh.vertex_count()),
         list_state_(mesh.half_edge_count(), ListState::kEmpty),
         improved_sources_(mesh.vertex_count()) {
-    result_.distances.assign(mesh.vertex_count(), std::numeric_limits<double>::infinity());
+    result_.distances.assign(mesh.vertex_count(), kInfinity);
     resize(result_.records, mesh.vertex_count(), task, 0.0);
     resize(lists_, mesh.half_edge_count(), task, 0.0);
   }
@@ -82,7 +82,6 @@ class Front {
     }
   }
 
-  /// Adds a window to the list of h.
   void add_window(std::int32_t h, double b0, double b1, const Point2& from, double distance, std::int32_t source) {
     const GeodesicMesh::HalfEdge edge = mesh_.half_edge(h);
     WindowList& list = lists_[h];

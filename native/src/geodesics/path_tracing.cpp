@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "detail/infinity.hpp"
 #include "geodesics/wavefront.hpp"
 
 namespace seamwire::detail {
@@ -83,7 +84,7 @@ class Tracer {
   /// A vertex beside the line, from which to go on if the line leads nowhere; with the path's state when it was passed.
   struct Passed {
     /// Of the whole path over it.
-    double length = std::numeric_limits<double>::infinity();
+    double length = kInfinity;
     std::int32_t vertex = -1, half_edge = -1;
     double segment = 0.0, path_length = 0.0;
     std::size_t points = 0;

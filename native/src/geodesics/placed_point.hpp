@@ -108,7 +108,6 @@ class SourcePoints {
     std::int32_t face, source;
     std::array<double, 3> weights;
   };
-  /// The sources in a face.
   std::span<const InFace> in_face(std::int32_t face) const;
 
  private:

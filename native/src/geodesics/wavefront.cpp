@@ -24,11 +24,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
 #include <utility>
 
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
 #include "detail/prefetch.hpp"
 #include "geodesics/front.hpp"
 #include "geodesics/triangle_crossing.hpp"
@@ -38,8 +38,6 @@ namespace seamwire::detail {
 namespace {
 
 using HalfEdge = GeodesicMesh::HalfEdge;
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// A distance that an edge makes shorter by more than this is not rounding.
 constexpr double kLate = 1.0 + 1e-9;

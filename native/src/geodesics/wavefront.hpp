@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <vector>
 
+#include "detail/infinity.hpp"
 #include "geodesics/geodesic_mesh.hpp"
 #include "geodesics/placed_point.hpp"
 #include "geodesics/trace_record.hpp"
@@ -19,12 +19,12 @@ struct WavefrontResult {
   std::vector<SiblingCrossing> crossings;  ///< that records name
   GeodesicCounters counters;
   /// Distances up to it are final, others infinite; infinite where the front was not stopped.
-  double radius = std::numeric_limits<double>::infinity();
+  double radius = kInfinity;
 };
 
 /// Where the front may stop.
 struct WavefrontEnd {
-  double max_distance = std::numeric_limits<double>::infinity();
+  double max_distance = kInfinity;
   std::vector<PlacedPoint> targets;  ///< none: at max_distance only
 };
 

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
 #include "geodesics/corner_angles.hpp"
 #include "geodesics/window_kernels.hpp"
 
@@ -89,7 +89,7 @@ std::size_t WindowEmission::emit_shadow_windows(std::int32_t v, std::int32_t arr
     turned += umbrella_.back().angle;
     h = mesh_.half_edge(h).left;
   } while (h >= 0 && h != arrival);
-  const double shadow_end = h == arrival ? turned + angle - kShadow : std::numeric_limits<double>::infinity();
+  const double shadow_end = h == arrival ? turned + angle - kShadow : kInfinity;
   turned = -angle;
   for (const auto& [corner, whole] : umbrella_) {
     emit_window(v, corner, whole, kShadow - turned, shadow_end - turned);

@@ -2,7 +2,8 @@
 #include "geodesics/window_kernels.hpp"
 
 #include <cmath>
-#include <limits>
+
+#include "detail/infinity.hpp"
 
 namespace seamwire::detail {
 namespace {
@@ -94,7 +95,7 @@ SEAMWIRE_INLINE void apex_distances_of(const Windows& w, std::size_t count, cons
         w.distance[i] + std::sqrt(below * below + y * y) + std::sqrt(above * above + apex_y * apex_y);
     const bool is_over_corner = (through != projection) & ((through < corner0) | (through > corner1));
     projections[i] = projection;
-    apex_distances[i] = is_over_corner ? std::numeric_limits<double>::infinity() : apex_distance;
+    apex_distances[i] = is_over_corner ? kInfinity : apex_distance;
   }
 }
 

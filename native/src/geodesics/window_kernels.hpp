@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The arithmetic of the wavefront, on all windows of a list at once. Each kernel is a plain loop without a branch,
-// which compilers turn into vector instructions; it is compiled for several sets of them, and the widest that the
-// processor has is taken. None contracts a product and a sum, so all give the same bits.
+// The arithmetic of the wavefront, on all windows of a list at once.
 #pragma once
 
 #include <cstddef>

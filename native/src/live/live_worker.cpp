@@ -58,7 +58,7 @@ void LiveWorker::change_metric(std::shared_ptr<MetricSet> metrics) {
   targets_.withdraw();  // until it is asked for again; after the post, so that no work for the former metric is left
   loops_.withdraw();    // what is found in the former metric answers nothing
   tell_right_of_way();
-  discards_.add(before);
+  events_.add(before);
 }
 
 void LiveWorker::seed(const WireEnd& seed, bool forward) {
@@ -169,7 +169,7 @@ bool LiveWorker::build_surface() {
 
 /// Does one job; returns false if no job waits.
 bool LiveWorker::work() {
-  if (!discards_.take().empty()) return true;
+  if (!events_.take_discards().empty()) return true;
   if (const std::optional<SeedBox::Job> job = seeds_.take()) {
     work_on(*job);
     return true;
@@ -223,12 +223,13 @@ EdgeChain LiveWorker::find_cycle(const Edge& edge, const std::stop_token& stop) 
   return shortest_cycle(*prepared->graph, edge, turning, {.stop = stop, .progress = {}});
 }
 
-/// To be called after each change of what it tells. Then the last call tells what is true.
+/// To be called after each change of what it tells.
 void LiveWorker::tell_right_of_way() {
   if (which_ != 0) return;
-  const MutexLock lock(right_of_way_mutex_);
-  const bool leads = seeds_.newest()->metrics->first_leads();
-  right_of_way_->set_busy(leads && !has_failed_ && !quit_.stop_requested() && !seeds_.is_finished());
+  right_of_way_->update([this] {
+    const bool leads = seeds_.newest()->metrics->first_leads();
+    return leads && !has_failed_ && !quit_.stop_requested() && !seeds_.is_finished();
+  });
 }
 
 }  // namespace seamwire::detail

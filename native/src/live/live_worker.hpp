@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -12,9 +11,9 @@
 #include <variant>
 
 #include "detail/deadline.hpp"
+#include "detail/infinity.hpp"
 #include "live/candidates.hpp"
 #include "live/closed_cut_search.hpp"
-#include "live/discards.hpp"
 #include "live/event_count.hpp"
 #include "live/mailbox.hpp"
 #include "live/prepared_metrics.hpp"
@@ -53,8 +52,8 @@ class LiveWorker {
 
   /// The current knowledge of a wire.
   struct Known {
-    std::optional<LiveCandidate> candidate;                         ///< nullopt: nothing yet
-    double first_length = std::numeric_limits<double>::infinity();  ///< of the wire before it is refined
+    std::optional<LiveCandidate> candidate;  ///< nullopt: nothing yet
+    double first_length = kInfinity;         ///< of the wire before it is refined
   };
   /// The wire from the newest seed to a target. The thread works on this target from now on: previews lead to it until
   /// there is a field, and then its wire is refined. Along edges, needs the surface to be built.
@@ -99,15 +98,13 @@ class LiveWorker {
   const SurfaceContext context_;
   const LiveSettings settings_;
   const std::shared_ptr<RightOfWay> right_of_way_;
-  Mutex right_of_way_mutex_;              // held while it is told
   std::stop_source quit_;                 // its state guards itself
   std::atomic<bool> has_failed_ = false;  // there is no surface
 
-  EventCount events_;  // in the boxes and discards
-  Discards discards_{events_};
-  SeedBox seeds_{events_, discards_};
-  TargetBox targets_{events_, discards_};
-  LoopBox loops_{events_, discards_};
+  EventCount events_;  // in the boxes
+  SeedBox seeds_{events_};
+  TargetBox targets_{events_};
+  LoopBox loops_{events_};
   SeedSolver solver_;
   std::optional<ClosedCutSearch> closed_cuts_;  // the thread's own; in the metrics of the newest seed
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <span>
 #include <string>
@@ -11,6 +10,7 @@
 
 #include "detail/deadline.hpp"
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
 #include "detail/text.hpp"
 #include "detail/thread_safety.hpp"
 #include "geodesics/placed_point.hpp"
@@ -293,7 +293,7 @@ LiveWires LiveWire::Impl::wires(const WireEnd& target) const {
   const LiveMetrics& metrics = state.metrics->metrics;
   LiveWires result;
   result.wires.resize(metrics.wires.size());
-  std::vector<double> first_lengths(metrics.wires.size(), std::numeric_limits<double>::infinity());
+  std::vector<double> first_lengths(metrics.wires.size(), kInfinity);
   for (std::size_t i = 0; i < metrics.wires.size(); ++i) {
     result.wires[i].metric = metrics.wires[i];
     if (!surface && settings.along == Along::kEdges) continue;  // a target edge could not be looked up

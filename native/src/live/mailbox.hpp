@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "detail/thread_safety.hpp"
-#include "live/discards.hpp"
 #include "live/event_count.hpp"
 #include "seamwire/errors.hpp"
 
@@ -18,7 +17,7 @@ namespace seamwire::detail {
 /// Requests of one thread to another. Only the newest request counts, and work for an older one is stopped.
 ///
 /// One thread posts requests and reads answers, another takes jobs and answers them. Neither waits in a member.
-/// Requests and answers that are replaced go to `discards`, because freeing them may take long.
+/// Requests and answers that are replaced are discarded with the events, because freeing them may take long.
 template <class Request, class Answer>
 class Mailbox {
  public:
@@ -39,7 +38,7 @@ class Mailbox {
   enum class Running { kStop, kGoOn };  ///< what a request does with the running job
 
   /// `events` counts each change.
-  Mailbox(EventCount& events, Discards& discards) : events_(events), discards_(discards) {}
+  explicit Mailbox(EventCount& events) : events_(events) {}
 
   /// Asks for an answer in place of the one asked for before.
   void post(Request request, Former former = Former::kDrop, Running running = Running::kStop) {
@@ -88,12 +87,12 @@ class Mailbox {
   void give_back(std::shared_ptr<const Answer> answer) {
     {
       const MutexLock lock(mutex_);
-      if (answer == answer_) {
+      if (!answer || answer == answer_) {
         answer = nullptr;  // the mailbox has it still
         return;
       }
     }
-    discards_.add(std::move(answer));
+    events_.add(std::move(answer));
   }
 
   /// The newest request, if it needs work.
@@ -136,9 +135,7 @@ class Mailbox {
       if (former == Former::kDrop) answer_.swap(answer);
       if (running == Running::kStop) stop_.request_stop();
     }
-    discards_.add(std::move(request));
-    discards_.add(std::move(answer));
-    events_.add();
+    events_.add(std::move(request), std::move(answer));
   }
   void keep(std::int64_t number, std::shared_ptr<const Answer> answer, std::exception_ptr error, bool is_finished) {
     {
@@ -151,12 +148,10 @@ class Mailbox {
         if (answer == answer_) answer = nullptr;
       }
     }
-    discards_.add(std::move(answer));
-    events_.add();
+    events_.add(std::move(answer));
   }
 
   EventCount& events_;
-  Discards& discards_;
   mutable Mutex mutex_;
   std::int64_t number_ SEAMWIRE_GUARDED_BY(mutex_) = 0;     // of the newest request
   std::int64_t finished_ SEAMWIRE_GUARDED_BY(mutex_) = 0;   // the newest request that needs no more work

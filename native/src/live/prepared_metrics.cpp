@@ -89,7 +89,7 @@ void MetricSet::forget_former(std::size_t metric) {
 }
 
 Prepared prepare(const SurfaceContext& context, Along along, MetricSet& metrics, std::size_t which,
-                 const std::stop_token& stop, const PreparationEvents& events) {
+                 const std::stop_token& stop, const PreparationStep& on_step) {
   const MetricSpec& spec = metrics.metrics.wires[which];
   const bool on_surface = along == Along::kSurface;
   const Task silent{.stop = stop, .progress = {}};
@@ -117,37 +117,27 @@ Prepared prepare(const SurfaceContext& context, Along along, MetricSet& metrics,
     fraction = 1.0;
     return prepared;
   }
-  const auto make_own_metric = [&] {
-    Metric metric = make_metric(context, spec, silent);
-    return scribbled ? apply_scribbles(*surface, metric, metrics.scribbles, spec.kind(), silent) : metric;
+  std::shared_ptr<const Metric> from_scratch;  // a former embedding is changed at once
+  const auto step = [&](double) {
+    on_step(prepared, from_scratch);
+    return true;
   };
-  const std::function<void(double)> report = [&](double done) {
-    events.make_way();
-    fraction = (kEmbedBegins + (kSolveBegins - kEmbedBegins) * done) / kSolveBegins;
-  };
+  const Task task{.stop = stop, .progress = [&](double done) {
+                    fraction = (kEmbedBegins + (kSolveBegins - kEmbedBegins) * done) / kSolveBegins;
+                    return step(done);
+                  }};
+  step(0.0);
+  Metric own = make_metric(context, spec, silent);
+  if (scribbled) own = apply_scribbles(*surface, own, metrics.scribbles, spec.kind(), silent);
   if (!on_surface) {
-    events.make_way();
-    const Task task{.stop = stop, .progress = [&](double done) {
-                      report(done);
-                      return true;
-                    }};
-    prepared.graph =
-        make_edge_graph(*surface, make_own_metric(), std::move(adjacency), metrics.scribbles, spec.kind(), task);
+    prepared.graph = make_edge_graph(*surface, own, std::move(adjacency), metrics.scribbles, spec.kind(), task);
     return prepared;
   }
-  const auto metric = std::make_shared<const Metric>(make_own_metric());
+  const auto metric = std::make_shared<const Metric>(std::move(own));
   const std::shared_ptr<const Prepared> former = metrics.former(which);
-  const auto on_metric = [&] {
-    if (!former) events.on_metric(prepared, metric);  // else it is embedded at once
-  };
-  on_metric();
-  events.make_way();
-  const Task task{.stop = stop, .progress = [&](double done) {
-                    on_metric();
-                    report(done);
-                    return true;
-                  }};
-  std::optional<EmbeddedSurface> embedded;  // on_metric() gets the rest meanwhile
+  if (!former) from_scratch = metric;
+  step(0.0);
+  std::optional<EmbeddedSurface> embedded;  // a step gets the rest meanwhile
   if (former) {
     embedded = former->embedded->with_metric(metric, task);
   } else if (scribbled) {
@@ -156,10 +146,7 @@ Prepared prepare(const SurfaceContext& context, Along along, MetricSet& metrics,
     embedded.emplace(context, spec, metric, options, task);
   }
   embedded->points();
-  embedded->geodesics({.stop = stop, .progress = [&](double) {
-                         on_metric();
-                         return true;
-                       }});
+  embedded->geodesics({.stop = stop, .progress = step});
   prepared.embedded = std::move(embedded);
   return prepared;
 }

@@ -64,19 +64,14 @@ class MetricSet {
   std::vector<std::shared_ptr<const Prepared>> former_ SEAMWIRE_GUARDED_BY(mutex_);
 };
 
-/// What prepare() calls now and then.
-struct PreparationEvents {
-  /// While nobody waits for what is being made. May take its time.
-  std::function<void()> make_way = [] {};
-  /// Across the surface, while a metric is embedded from scratch: with what is there so far, `embedded` excepted, and
-  /// the metric.
-  std::function<void(const Prepared&, const std::shared_ptr<const Metric>&)> on_metric = [](const auto&, const auto&) {
-  };
-};
+/// A function that prepare() calls now and then, and that may take its time. It receives the data so far, without
+/// `embedded`, and the metric that is being embedded from scratch, or null.
+using PreparationStep = std::function<void(const Prepared&, const std::shared_ptr<const Metric>&)>;
 
 /// Makes what one of the metrics needs; throws Cancelled where `stop` tells it to. The metric's fractions of
 /// progress are told to `metrics`.
-Prepared prepare(const SurfaceContext& context, Along along, MetricSet& metrics, std::size_t which,
-                 const std::stop_token& stop, const PreparationEvents& events = {});
+Prepared prepare(
+    const SurfaceContext& context, Along along, MetricSet& metrics, std::size_t which, const std::stop_token& stop,
+    const PreparationStep& on_step = [](const auto&, const auto&) {});
 
 }  // namespace seamwire::detail

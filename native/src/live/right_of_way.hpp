@@ -12,10 +12,11 @@ namespace seamwire::detail {
 /// processors than threads.
 class RightOfWay {
  public:
-  /// Sets whether that thread has something to do.
-  void set_busy(bool is_busy) {
+  /// Asks again whether that thread has something to do. Of calls at the same time, the last one asks last.
+  template <class IsBusy>
+  void update(const IsBusy& is_busy) {
     const MutexLock lock(mutex_);
-    is_busy_ = is_busy;
+    is_busy_ = is_busy();
     changed_.notify_all();
   }
   /// Waits until that thread has nothing to do, or `stop` is requested.

@@ -65,11 +65,10 @@ std::shared_ptr<const SeedSolution> SeedSolver::solve(const SeedBox::Job& job,
       metrics.prepared[metric_]->get({.stop = preparing, .progress = {}}, [&](const Task&) {
         Nearby nearby;
         return prepare(context_, settings_.along, metrics, metric_, preparing,
-                       {.make_way = [&] { make_way(preparing); },
-                        .on_metric =
-                            [&](const Prepared& so_far, const std::shared_ptr<const Metric>& metric) {
-                              make_nearby_preview(seeds, so_far, metric, preparing, nearby);
-                            }});
+                       [&](const Prepared& so_far, const std::shared_ptr<const Metric>& from_scratch) {
+                         make_way(preparing);
+                         if (from_scratch) make_nearby_preview(seeds, so_far, from_scratch, preparing, nearby);
+                       });
       });
   metrics.forget_former(metric_);
   if (former && former->field && former->prepared == prepared) return former;  // only the other metrics have changed
@@ -87,7 +86,7 @@ void SeedSolver::make_way(const std::stop_token& stop) {
   if (makes_way_) right_of_way_->wait(stop);
 }
 
-/// Finds the wire from the newest seed to the newest target around the seed.
+/// Finds the wire from the newest seed to the newest target around the seed. A newer seed stops it.
 void SeedSolver::make_nearby_preview(const SeedBox& seeds, const Prepared& prepared,
                                      const std::shared_ptr<const Metric>& metric, const std::stop_token& stop,
                                      Nearby& nearby) {
@@ -103,18 +102,24 @@ void SeedSolver::make_nearby_preview(const SeedBox& seeds, const Prepared& prepa
   }
   nearby.seed = seed_number;
   nearby.target = target_number;
-  const Task task{.stop = stop, .progress = {}};
-  std::optional<Wire> wire;
+  const Task task{.stop = stop, .progress = [&](double) { return seeds.number() == seed_number; }};
   try {
-    wire = nearby.wires->wire(point_of(*target), task);
+    std::optional<Wire> wire = nearby.wires->wire(point_of(*target), task);
+    if (!wire) return;
+    show_preview(target_number, seed_number, *target,
+                 candidate_between(prepared, *std::move(wire), *seed, *target, task));
   } catch (const InvalidInput&) {
     // The faces around the seed may not do for geodesics by themselves. Then there is no preview.
+  } catch (const Cancelled&) {
+    if (stop.stop_requested()) throw;  // otherwise by a newer seed, which the next step makes one for
   }
-  if (!wire) return;
-  LiveCandidate candidate = candidate_between(prepared, *std::move(wire), *seed, *target, task);
+}
+
+void SeedSolver::show_preview(std::int64_t target_number, std::int64_t seed_number, const WireEnd& target,
+                              LiveCandidate candidate) {
   const double length = candidate.length;
   targets_.show(target_number,
-                std::make_shared<const TargetWire>(TargetWire{seed_number, *target, std::move(candidate), length}));
+                std::make_shared<const TargetWire>(TargetWire{seed_number, target, std::move(candidate), length}));
 }
 
 /// Finds wires to the targets that are asked for meanwhile between the steps of the search for the field. A separate
@@ -156,9 +161,7 @@ void SeedSolver::make_preview(const SeedBox::Job& job, const Prepared& prepared,
     Wire wire = map_wire(on.surface(), on.embedding(), paths.path(*to, {.stop = job.stop, .progress = {}}));
     candidate = candidate_between(prepared, std::move(wire), *job.request->seed, *target);
   }
-  const double length = candidate.length;
-  targets_.show(asked,
-                std::make_shared<const TargetWire>(TargetWire{job.number, *target, std::move(candidate), length}));
+  show_preview(asked, job.number, *target, std::move(candidate));
 }
 
 TargetWire SeedSolver::refine(const SeedBox::Reading& found, const WireEnd& target, const std::stop_token& stop) const {

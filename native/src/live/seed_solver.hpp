@@ -75,6 +75,8 @@ class SeedSolver {
   void make_nearby_preview(const SeedBox& seeds, const Prepared& prepared, const std::shared_ptr<const Metric>& metric,
                            const std::stop_token& stop, Nearby& nearby);
   void make_preview(const SeedBox::Job& job, const Prepared& prepared, CorridorPaths& paths, std::int64_t& answered);
+  void show_preview(std::int64_t target_number, std::int64_t seed_number, const WireEnd& target,
+                    LiveCandidate candidate);
 
   const std::size_t metric_;
   const SurfaceContext context_;

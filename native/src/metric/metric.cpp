@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
+#include "detail/infinity.hpp"
 #include "detail/poll.hpp"
 #include "detail/text.hpp"
 #include "metric/metric_check.hpp"
@@ -78,8 +78,7 @@ Features features(const Curvature& curvature, const Strength& strength, const Ta
     out.s[v] = std::max(0.0, std::abs(curvature.k1[v]) - out.k2[v]);
     if (strength.clamp_percentile) used.push_back(out.s[v]);
   }
-  const double limit =
-      used.empty() ? std::numeric_limits<double>::infinity() : percentile(std::move(used), *strength.clamp_percentile);
+  const double limit = used.empty() ? kInfinity : percentile(std::move(used), *strength.clamp_percentile);
   const Poll clamping(task, 0.3, 0.4, n);
   for (std::size_t v = 0; v < n; ++v) {
     clamping.at(v);

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <queue>
 #include <string>
 #include <utility>
@@ -15,6 +14,7 @@
 
 #include "detail/epoch_map.hpp"
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
 #include "detail/poll.hpp"
 #include "detail/text.hpp"
 #include "metric/scribble_points.hpp"
@@ -135,7 +135,6 @@ bool crosses(const std::array<Vector, 2>& segment, const std::array<Vector, 3>& 
   return off * off <= wide * squared;
 }
 
-/// The drawn line, by its length.
 class DrawnLine {
  public:
   explicit DrawnLine(const std::vector<Vector>& points) : points_(points), at_(points.size(), 0.0) {
@@ -144,7 +143,7 @@ class DrawnLine {
   }
 
   struct Foot {
-    double distance = std::numeric_limits<double>::infinity();
+    double distance = kInfinity;
     double at = 0;  ///< length along the line
     std::size_t segment = 0;
   };

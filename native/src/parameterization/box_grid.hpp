@@ -6,18 +6,18 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
 #include "detail/csr.hpp"
+#include "detail/infinity.hpp"
 
 namespace seamwire::detail {
 
 /// An axis-aligned box in the plane.
 struct Box {
-  std::array<double, 2> low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  std::array<double, 2> high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  std::array<double, 2> low{kInfinity, kInfinity};
+  std::array<double, 2> high{-kInfinity, -kInfinity};
 
   /// Grows to contain a point and what is closer to it than `reach` along both axes.
   void add(const double* point, double reach = 0.0) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The arithmetic of the block Cholesky factorization on dense columns. Sums are formed in the same order for
-// every set of instructions, without contraction, so that all give the same bits.
+// The arithmetic of the block Cholesky factorization on dense columns. Sums are formed in the same order for every
+// instruction set.
 #pragma once
 
 #include <cstddef>

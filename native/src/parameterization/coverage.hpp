@@ -23,7 +23,6 @@ struct OutlineSide {
   bool is_longest = false;  ///< of its loop
 };
 
-/// Marks the longest side of a loop.
 void mark_longest(std::span<OutlineSide> loop);
 
 /// A point inside a piece of a group.
@@ -66,7 +65,6 @@ class Coverage {
   /// `crossing(one, other)` or `look(points)` returns true.
   template <class IsRelevant, class Crossing, class Look>
   bool find(const IsRelevant& is_relevant, const Crossing& crossing, const Look& look) const;
-  /// The groups that cover a point.
   std::vector<std::int32_t> groups_at(const Eigen::Vector2d& point) const;
 
   std::vector<OutlineSide> sides_;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "parameterization/dirichlet_kernels.hpp"
-#include "detail/infinity.hpp"
 
 #include <cmath>
+
+#include "detail/infinity.hpp"
 
 namespace seamwire::detail {
 namespace {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The symmetric Dirichlet energy of many triangles at once. Kernels are plain loops without a branch, which compilers
-// turn into vector instructions. They are compiled for several instruction sets, and all of them give the same bits.
+// The symmetric Dirichlet energy of many triangles at once.
 //
 // A triangle's map is written in complex numbers: f(z) = p z + q conj(z), with z in the plane of the rest triangle.
 // The singular values of its Jacobian are |p| + |q| and |p| - |q|. Let P_k be the complex derivative of the hat

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
 #include "parameterization/block_cholesky.hpp"
 #include "parameterization/outline.hpp"
 #include "parameterization/symmetric_dirichlet.hpp"
@@ -150,7 +151,7 @@ class Problem {
 
   /// Of the energies of a map's triangles, over the area. A few bad triangles are mended soon, and must not decide.
   double mean_logarithm(std::span<const double> map) const {
-    if (map.empty()) return std::numeric_limits<double>::infinity();
+    if (map.empty()) return kInfinity;
     const std::vector<double> energies = energy_.energies(map);
     double sum = 0.0;
     for (std::size_t k = 0; k < energies.size(); ++k) sum += energy_.weights()[k] * std::log(energies[k]);
@@ -215,7 +216,7 @@ class Minimizer {
     while (steps_ < options_.max_steps && problem_.energy().move_rest_shapes(map_, kEnergyOfMovedShapes) > 0) {
       if (!step() || decrement_ < kEndOfFirstPhase) break;
     }
-    problem_.energy().move_rest_shapes(map_, std::numeric_limits<double>::infinity());
+    problem_.energy().move_rest_shapes(map_, kInfinity);
     while (steps_ < options_.max_steps) {
       if (!step() || decrement_ < options_.tolerance) break;
       if (energy_ - kReserve * decrement_ > options_.worse_than) break;
@@ -422,8 +423,7 @@ IslandMap map_island(const Island& island, std::span<const Vector> points, const
   Problem problem(island, points, task);
   std::vector<double> start = problem.projection(task);
   if (start.empty()) start = problem.tutte(task);
-  if (start.empty())
-    return {.uvs = {}, .energy = std::numeric_limits<double>::infinity(), .overlaps = false, .steps = 0};
+  if (start.empty()) return {.uvs = {}, .energy = kInfinity, .overlaps = false, .steps = 0};
   return minimize(problem, start, true, options, task);
 }
 

@@ -3,10 +3,10 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <vector>
 
+#include "detail/infinity.hpp"
 #include "parameterization/cut_open.hpp"
 #include "seamwire/errors.hpp"
 #include "seamwire/surface/vector.hpp"
@@ -25,7 +25,7 @@ struct MapOptions {
   /// Whether to solve again with a barrier along the outline if the map overlaps itself.
   bool keep_apart = true;
   /// Stop once the energy is certain to stay above this: the quadratic model's minimum, with a reserve, is above it.
-  double worse_than = std::numeric_limits<double>::infinity();
+  double worse_than = kInfinity;
 };
 
 /// A map of an island to the plane in which no triangle is flipped.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <numeric>
 #include <string>
@@ -11,6 +10,7 @@
 #include "detail/csr.hpp"
 #include "detail/half_edge.hpp"
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
 #include "detail/poll.hpp"
 #include "parameterization/box_grid.hpp"
 #include "parameterization/coverage.hpp"
@@ -150,7 +150,7 @@ class ScaledEnergies {
   const std::vector<double>& weights_;
   double squared_scale_;
   std::vector<std::int32_t> order_;  // of the triangles that are not flipped, by energy
-  double mean_ = std::numeric_limits<double>::infinity();
+  double mean_ = kInfinity;
 };
 
 ScaledEnergies scaled_energies(const Surface& surface, const HalfEdgeMap& map, std::vector<double>& weights) {
@@ -326,7 +326,7 @@ double map_energy(const Surface& surface, std::span<const Corners> uvs, std::spa
   check_map(surface, uvs, islands);
   task.check(0.0);
   const HalfEdgeMap map(surface, uvs, islands);
-  if (map.size() == 0) return std::numeric_limits<double>::infinity();
+  if (map.size() == 0) return kInfinity;
   task.check(0.1);
   std::vector<double> weights;
   return scaled_energies(surface, map, weights).mean();
@@ -339,7 +339,7 @@ MapReport detail::measure_islands(const Surface& surface, std::span<const Corner
   check_map(surface, uvs, islands);
   task.check(0.0);
   MapReport report;
-  report.energy = std::numeric_limits<double>::infinity();
+  report.energy = kInfinity;
   report.energies.assign(surface.face_count(), 0.0);
   const HalfEdgeMap map(surface, uvs, islands);
   if (map.size() == 0) return report;

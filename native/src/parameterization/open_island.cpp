@@ -55,10 +55,8 @@ class Paths {
       if (const std::int32_t hole = hole_of[index(v)]; hole >= 0 && std::exchange(is_entered[index(hole)], 1) == 0) {
         for (const std::int32_t other : holes[index(hole)]) {
           if (other == v) continue;
-          // The path across the hole is taken even if another one is as short.
-          distance_[other] = kInfinity;
           step(other, 0.0);
-          towards_[other] = -1;
+          towards_[other] = -1;  // even if another path is as short
           across_[other] = v;
         }
       }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <tuple>
@@ -13,6 +12,7 @@
 
 #include "detail/csr.hpp"
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
 #include "detail/shortest_paths.hpp"
 
 namespace seamwire::detail {
@@ -183,7 +183,7 @@ std::optional<LongEnds> long_ends(const Island& island, std::span<const Vector> 
   for (const auto& [a, b] : island_edges(island)) pairs.insert(pairs.end(), {{a, b}, {b, a}});
   const Csr<std::int32_t> neighbors(island.vertices.size(), pairs);
   const auto farthest_from = [&](std::size_t place) {
-    std::vector<double> distance(island.vertices.size(), std::numeric_limits<double>::infinity());
+    std::vector<double> distance(island.vertices.size(), kInfinity);
     find_shortest_paths(std::array{outer[place]}, distance, [&](std::int32_t v, const auto& step) {
       for (const std::int32_t next : neighbors[v]) step(next, (points[index(v)] - points[index(next)]).norm());
     });

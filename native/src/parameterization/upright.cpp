@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <utility>
 
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
 
 namespace seamwire::detail {
 
@@ -61,7 +61,7 @@ std::vector<Point2> convex_hull(std::vector<Point2> points) {
 Point2 longest_direction(const std::vector<Point2>& map) {
   const std::vector<Point2> hull = convex_hull(map);
   Point2 best = Point2::Zero();
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   // Three points go around the hull with each edge: the farthest along it, across it, and back along it.
   std::size_t front = 1, top = 1, back = 1;
   const std::size_t count = hull.size();
@@ -99,7 +99,6 @@ bool is_sound(const Island& island, const std::vector<Point2>& map) {
       island.triangles, [&](const Triangle& t) { return cross(map[t[1]] - map[t[0]], map[t[2]] - map[t[0]]) > 0.0; });
 }
 
-/// The nearest direction along an axis.
 Point2 along_axis(const Point2& direction) {
   if (std::abs(direction.x()) > std::abs(direction.y())) return {std::copysign(1.0, direction.x()), 0.0};
   return {0.0, std::copysign(1.0, direction.y())};

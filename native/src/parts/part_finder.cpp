@@ -61,7 +61,7 @@ std::vector<std::int32_t> images_of(const PlanMesh& mesh, const Polygons& polygo
   for (std::size_t p = 0; p < corners.size(); ++p) {
     std::vector<std::int32_t>& own = corners[p];
     std::ranges::sort(own);
-    own.erase(std::ranges::unique(own).begin(), own.end());
+    own.erase(std::unique(own.begin(), own.end()), own.end());  // Clang 14 cannot read std::ranges::unique
     by_corners.emplace(own, static_cast<std::int32_t>(p));
   }
   std::vector<std::int32_t> images;

@@ -153,8 +153,9 @@ Visibility PreparedSurface::visibility_of_all(const Task& task) const {
 void PreparedSurface::find_prices_of_all(const Visibility& visibility) {
   std::size_t begin = 0;
   const auto part = [&](const std::vector<double>& values, std::size_t count) {
+    if (values.empty()) return values;
     const auto first = values.begin() + static_cast<std::ptrdiff_t>(begin);
-    return values.empty() ? values : std::vector<double>(first, first + static_cast<std::ptrdiff_t>(count));
+    return std::vector<double>(first, first + static_cast<std::ptrdiff_t>(count));
   };
   for (GroupProblem& group : groups) {
     const PlanMesh& mesh = group.searched().mesh;

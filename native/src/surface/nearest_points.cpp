@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
 #include "detail/run_on_threads.hpp"
 #include "surface/box_tree.hpp"
 #include "surface/point_segment.hpp"
@@ -73,7 +74,7 @@ Vector nearest_in(const std::array<Vector, 3>& corners, const Vector& place) {
     if (s >= 0.0 && t >= 0.0 && s + t <= 1.0) return place - (w.dot(normal) / square) * normal;
   }
   Vector best = corners[0];
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vector to = to_segment(place, corners[i], corners[(i + 1) % 3]);
     if (to.squaredNorm() < least) {
@@ -126,7 +127,7 @@ NearestPoints::NearestPoints(std::vector<Vector> points, std::vector<Triangle> t
 
 NearestPoint NearestPoints::Impl::find(const Vector& place, const Vector* normal, std::int32_t& hint) const {
   NearestPoint best;
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   const auto look_at = [&](std::int32_t i) {
     if (normal != nullptr && normals[i].dot(*normal) < 0.0) return;
     const Vector point = nearest_in(corners[i], place);

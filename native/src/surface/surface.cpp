@@ -16,6 +16,7 @@
 #include "detail/disjoint_sets.hpp"
 #include "detail/half_edge.hpp"
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
 #include "detail/poll.hpp"
 #include "surface/corner_fans.hpp"
 #include "surface/face_height.hpp"
@@ -457,7 +458,7 @@ std::vector<bool> vertices_in_use(std::size_t vertex_count, const Faces& faces, 
 }
 
 double unit_cube_scale(const std::vector<Vector>& points, const std::vector<bool>& used) {
-  Vector low = Vector::Constant(std::numeric_limits<double>::infinity());
+  Vector low = Vector::Constant(kInfinity);
   Vector high = -low;
   for (std::size_t v = 0; v < points.size(); ++v) {
     if (!used[v]) continue;

@@ -126,7 +126,6 @@ class CutLocus {
   std::optional<LoopParts> parts_;  // where edges have siblings
 };
 
-/// The point of a line at a distance along it.
 Vector point_at(const std::vector<Vector>& line, double distance) {
   for (std::size_t i = 1; i < line.size(); ++i) {
     const double step = (line[i] - line[i - 1]).norm();

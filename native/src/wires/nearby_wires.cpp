@@ -37,7 +37,7 @@ std::optional<Wire> NearbyWires::wire(const SurfacePoint& target, const Task& ta
   if (!is_embedded() || !paths_) return std::nullopt;
   const std::optional<SurfacePoint> to = on_->find(target);
   if (!to) return std::nullopt;
-  Wire wire = on_->wire(paths_->path(*to, {.stop = task.stop, .progress = {}}));
+  Wire wire = on_->wire(paths_->path(*to, task));
   if (wire.points.empty()) return std::nullopt;
   return wire;
 }
@@ -65,12 +65,11 @@ void NearbyWires::embed_within(double radius, const Task& task) {
   std::vector<std::int32_t> faces = faces_within(radius, task);
   const double too_far = std::exchange(too_far_, radius);  // it stays so if this fails
   if (faces.empty()) return;
-  const Task silent{.stop = task.stop, .progress = {}};
   const std::size_t most_added = kMostAddedPerFace * faces.size();
   auto embedding = std::make_shared<const Embedding>(
-      embed(*surface_, *metric_, {.max_faces_added = most_added, .faces = std::move(faces)}, silent));
+      embed(*surface_, *metric_, {.max_faces_added = most_added, .faces = std::move(faces)}, task));
   paths_.reset();
-  on_.emplace(surface_, std::move(embedding), silent);
+  on_.emplace(surface_, std::move(embedding), task);
   radius_ = radius;
   too_far_ = too_far;
   if (const std::optional<SurfacePoint> from = on_->find(seed_)) paths_.emplace(on_->geodesics(), *from);

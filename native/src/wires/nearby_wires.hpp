@@ -2,11 +2,11 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "detail/infinity.hpp"
 #include "seamwire/geodesics/corridor_paths.hpp"
 #include "seamwire/metric/metric.hpp"
 #include "seamwire/surface/surface.hpp"
@@ -38,8 +38,8 @@ class NearbyWires {
   std::shared_ptr<const Metric> metric_;
   SurfacePoint seed_;
   std::size_t most_faces_;
-  double radius_ = 0.0;  ///< of the embedded faces around the seed, in the caller's coordinates
-  double too_far_ = std::numeric_limits<double>::infinity();  ///< a radius for which faces could not be embedded
+  double radius_ = 0.0;         ///< of the embedded faces around the seed, in the caller's coordinates
+  double too_far_ = kInfinity;  ///< a radius for which faces could not be embedded
   std::optional<EmbeddedFaces> on_;
   std::optional<CorridorPaths> paths_;  ///< nullopt if the seed is not on these faces
 };

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+
+#include "detail/infinity.hpp"
 
 namespace seamwire::detail {
 namespace {
@@ -61,7 +62,7 @@ double Polyline::integral(const Vector& a, const Vector& b, double at_a, double 
     x[i] = (1.0 - t) * a.x() + t * b.x();
     y[i] = (1.0 - t) * a.y() + t * b.y();
     z[i] = (1.0 - t) * a.z() + t * b.z();
-    best[i] = std::numeric_limits<double>::infinity();
+    best[i] = kInfinity;
   }
   // Distances change no faster than their points move, so none on the edge is more than this.
   const double length = (b - a).norm(), most = 0.5 * (at_a + at_b + length) * kRoom;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <limits>
 #include <numeric>
 #include <queue>
 #include <string>
@@ -14,6 +13,7 @@
 #include "detail/csr.hpp"
 #include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
 #include "detail/insertion_map.hpp"
 #include "detail/poll.hpp"
 #include "wires/curve_check.hpp"
@@ -235,7 +235,7 @@ class BandSearch {
 
   /// Of a directed edge: the least cost of a path that ends with it.
   struct State {
-    double cost = std::numeric_limits<double>::infinity();
+    double cost = kInfinity;
     std::int32_t before = -1;  // the directed edge before it in that path; -1: none
     bool is_settled = false;
   };
@@ -280,7 +280,7 @@ class BandSearch {
 
   /// Goes on from a vertex that is reached over `before`.
   void leave(std::int32_t vertex, std::int32_t before) {
-    const double here = distance(vertex, std::numeric_limits<double>::infinity());
+    const double here = distance(vertex, kInfinity);
     for (const std::int32_t edge : leaving_[vertex]) {
       if (states_[edge].is_settled || edge == (before ^ 1)) continue;
       const double length = along_[edge / 2].length;

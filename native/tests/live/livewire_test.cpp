@@ -104,7 +104,7 @@ TEST(LiveWire, WhereTheLeadingWireIsFinalTheOthersNeedNotBeWaitedFor) {
 TEST(RightOfWay, IsWaitedForUntilItIsGivenUpOrTheWaitIsStopped) {
   RightOfWay right_of_way;
   right_of_way.wait({});  // nobody has it
-  right_of_way.set_busy(true);
+  right_of_way.update([] { return true; });
   std::stop_source stop;
   std::atomic<int> through = 0;
   std::jthread stopped([&] {
@@ -119,7 +119,7 @@ TEST(RightOfWay, IsWaitedForUntilItIsGivenUpOrTheWaitIsStopped) {
   stop.request_stop();
   stopped.join();
   EXPECT_EQ(through, 1);
-  right_of_way.set_busy(false);
+  right_of_way.update([] { return false; });
   patient.join();
   EXPECT_EQ(through, 11);
 }

@@ -24,8 +24,7 @@ std::shared_ptr<const int> number(int value) { return std::make_shared<const int
 /// A mailbox with what it needs.
 struct Post {
   EventCount events;
-  Discards discards{events};
-  Box box{events, discards};
+  Box box{events};
 };
 
 TEST(Mailbox, WithoutARequestThereIsNothingToDo) {
@@ -146,7 +145,7 @@ TEST(Mailbox, WhatIsReplacedIsLeftForTheWorkerToFree) {
   post.box.post(2);
   EXPECT_EQ(answer.use_count(), 2) << "in the discards still";
   EXPECT_FALSE(request.expired());
-  EXPECT_EQ(post.discards.take().size(), 2U);
+  EXPECT_EQ(post.events.take_discards().size(), 2U);
   EXPECT_EQ(answer.use_count(), 1);
   EXPECT_TRUE(request.expired());
 }
@@ -157,11 +156,11 @@ TEST(Mailbox, AnAnswerThatIsGivenBackIsFreedByTheWorkerIfItWasReplaced) {
   post.box.answer(*post.box.take(), [] { return number(10); });
   std::shared_ptr<const int> read = post.box.read().answer;
   post.box.give_back(read);
-  EXPECT_TRUE(post.discards.take().empty()) << "the mailbox has it";
+  EXPECT_TRUE(post.events.take_discards().empty()) << "the mailbox has it";
   post.box.post(2);
-  post.discards.take();
+  post.events.take_discards();
   post.box.give_back(std::move(read));
-  EXPECT_EQ(post.discards.take().size(), 1U);
+  EXPECT_EQ(post.events.take_discards().size(), 1U);
 }
 
 TEST(Mailbox, ManyRequestsToABusyThreadEndWithTheAnswerToTheLast) {
@@ -171,7 +170,7 @@ TEST(Mailbox, ManyRequestsToABusyThreadEndWithTheAnswerToTheLast) {
   std::jthread worker([&] {
     while (!is_quitting) {
       const std::uint64_t seen = post.events.count();
-      if (!post.discards.take().empty()) continue;
+      if (!post.events.take_discards().empty()) continue;
       const auto job = post.box.take();
       if (!job) {
         post.events.wait_beyond(seen);

@@ -8,8 +8,15 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <stop_token>
+#include <thread>
 #include <vector>
 
+#include "detail/deadline.hpp"
+#include "live/event_count.hpp"
+#include "live/right_of_way.hpp"
+#include "live/seed_solver.hpp"
+#include "seamwire/context/surface_context.hpp"
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
 #include "seamwire/live/livewire.hpp"
@@ -102,6 +109,45 @@ TEST(NearbyWires, AreNoneWhereTheyTakeTooManyFaces) {
   NearbyWires wires(surface, metric, SurfacePoint::at_vertex(0), 80);
   EXPECT_FALSE(wires.wire(SurfacePoint::at_vertex(near(0)), {}));
   EXPECT_TRUE(wires.wire(SurfacePoint::at_vertex(1), {})) << "a target that is nearer";
+}
+
+TEST(NearbyWires, StopWhileFacesAreEmbedded) {
+  const auto surface = bumpy_torus();
+  const auto metric = std::make_shared<const Metric>(euclidean_metric(*surface, principal_curvatures(*surface)));
+  NearbyWires wires(surface, metric, SurfacePoint::at_vertex(0), surface->face_count() / 3);
+  int looks = 0;
+  const Task task{.stop = {}, .progress = [&](double) { return ++looks <= 4; }};  // faces are chosen in two looks
+  EXPECT_THROW(wires.wire(SurfacePoint::at_vertex(near(0)), task), Cancelled);
+}
+
+TEST(NearbyWires, LetTheThreadWithTheRightOfWayGoFirst) {
+  constexpr int kSide = 330;
+  const auto surface = bumpy_torus(kSide, kSide);
+  const std::size_t metric = std::max(1U, std::thread::hardware_concurrency());
+  const SurfaceContext context(surface);
+  context.curvature({});
+  context.snap_graph({});
+  const auto right_of_way = std::make_shared<RightOfWay>();
+  right_of_way->update([] { return true; });
+  EventCount events;
+  SeedBox seeds(events);
+  TargetBox targets(events);
+  const LiveSettings settings{.along = Along::kSurface, .turning = 0.0, .loop_turning = {}, .max_error = 0.0};
+  SeedSolver solver(metric, context, settings, right_of_way, targets);
+  const LiveMetrics metrics{.wires = std::vector(metric + 1, MetricSpec::euclidean())};
+  seeds.post(
+      {.metrics = std::make_shared<MetricSet>(metrics, std::vector<Scribble>()), .preparing = {}, .seed = Pick{0}});
+  targets.post(Pick{20 * kSide + 20});
+  const SeedBox::Job job = seeds.take().value();
+  const std::uint64_t seen = events.count();
+  const std::jthread thread([&] { seeds.answer(job, [&] { return solver.solve(job, nullptr, seeds); }); });
+  EXPECT_FALSE(events.wait_beyond(seen, deadline_after(1.0))) << "no preview is shown";
+  right_of_way->update([] { return false; });
+  events.wait_beyond(seen);
+  EXPECT_TRUE(targets.read().answer) << "now it is";
+  std::stop_source preparing = job.request->preparing;
+  preparing.request_stop();
+  seeds.close();
 }
 
 TEST(NearbyWires, AreSeenBeforeTheSurfaceIsEmbedded) {
