@@ -27,14 +27,6 @@ def hide_faces(obj: bpy.types.Object, faces: set[int]) -> None:
 
 
 @pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
-def test_a_row_of_a_grid_is_marked_from_end_to_end(along: str) -> None:
-    obj = add_grid(9)
-    edit()
-    assert mark("36 44", along)
-    assert seams(obj) == chain(*range(36, 45))
-
-
-@pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
 def test_chains_go_on_from_seed_to_seed(along: str) -> None:
     obj = add_grid(9)
     edit()

@@ -84,29 +84,6 @@ def test_with_alt_a_click_on_a_ridge_that_is_seen_draws_wires_along_it(desk: Des
     assert seams(desk.obj) == []
 
 
-def test_its_seed_is_dragged_as_any_other(desk: Desk) -> None:
-    ui = desk.ui
-    desk.choose()
-    settings().show_crests = True
-    ui.wait_until(shown_ridge)
-    place = beside(desk, 0.1, 3.0)
-    ui.move(place)
-    ui.event("LEFT_ALT", "PRESS", place, alt=True)
-    ui.wait_until(lambda: desk.session.picture.offered.kind == "RIDGE")
-    ui.click(place, alt=True)
-    ui.event("LEFT_ALT", "RELEASE", place)
-    ui.wait_until(lambda: not running)
-    end = edited.front.session.wires[-1].end
-    goal = 30 * (N + 1) + 50
-    ui.move(desk.at(end))
-    ui.event("LEFTMOUSE", "PRESS", desk.at(end))
-    for part in (0.3, 0.7, 1.0):
-        a, b = np.array(desk.at(end)), np.array(desk.at(goal))
-        ui.move(tuple((a + part * (b - a)).tolist()))
-    ui.event("LEFTMOUSE", "RELEASE", desk.at(goal))
-    ui.wait_until(lambda: edited.front.session.wires[-1].end == goal)
-
-
 @pytest.mark.smoke
 def test_seeds_snap_to_ridges_beside_the_cursor(desk: Desk) -> None:
     ui = desk.ui

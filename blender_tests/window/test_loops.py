@@ -113,11 +113,6 @@ def test_a_strip_is_taken_up_to_the_seams_in_one_step(desk: Desk, capfd: pytest.
     assert seams(desk.obj) == [(34, 43)]
 
 
-def test_a_whole_strip_is_taken_across_seams(desk: Desk) -> None:
-    stub(desk)
-    assert take(desk, "WHOLE", 40, 41) == sorted([*chain(*range(36, 45)), (34, 43)])
-
-
 def fold_in_the_middle(desk: Desk) -> None:
     """Fold the grid by 45 degrees along its middle column, where alone a part ends."""
     bm = bmesh.from_edit_mesh(desk.obj.data)
@@ -144,24 +139,6 @@ def test_inside_a_face_the_border_of_its_part_comes_first(desk: Desk) -> None:
     assert seams(desk.obj) == []
     offer(desk, *corners[:2])
     assert desk.session.picture.offered.kind != "FLAT", "near an edge its loops come first"
-
-
-def test_the_border_of_a_part_is_taken(desk: Desk) -> None:
-    fold_in_the_middle(desk)
-    marked = take(desk, "FLAT", 40, 49)
-    fold = chain(*range(4, 81, 9))
-    assert set(fold) < set(marked)
-    columns = sorted({vertex % 9 for edge in marked for vertex in edge})
-    assert columns in ([0, 1, 2, 3, 4], [4, 5, 6, 7, 8]), "one of the two halves"
-    assert len(marked) == 24
-    assert desk.session.wires[0].closed
-
-
-def test_a_closed_loop_is_taken(desk: Desk) -> None:
-    marked = take(desk, "CLOSED", 40, 41)
-    assert (40, 41) in marked
-    ends = [vertex for edge in marked for vertex in edge]
-    assert all(ends.count(vertex) == 2 for vertex in ends)
 
 
 def test_a_taken_strip_is_changed_in_place(desk: Desk) -> None:

@@ -14,7 +14,6 @@ from seamwire.mesh.settings import preferences, settings
 from seamwire.operators import bindings
 from seamwire.ui import status_bar
 from seamwire.view.edited_objects import edited
-from seamwire.words import corner
 
 
 def said(desk: Desk) -> str:
@@ -116,32 +115,6 @@ def test_w_takes_the_next_candidate_and_the_wheel_zooms(cone: Desk) -> None:
     ui.click(cone.at(61))
     ui.wait_until(lambda: len(session.wires) == 1)
     assert session.wires[0].vertices == other
-
-
-def test_across_the_surface_w_goes_through_three_candidates_live_and_kept(cone: Desk) -> None:
-    settings().along, settings().finish = "SURFACE", "SNAP"
-    session, ui = cone.choose(), cone.ui
-    ui.click(cone.at(20))
-    ui.move(cone.at(61))
-    ui.wait_until(lambda: len(session.picture.others) == 2)
-    seen = []
-    for number in range(3):
-        assert f"Next Candidate ({(number + 1) % 3 + 1} of 3)" in said(cone)
-        seen.append(session.picture.active.follow)
-        kind = corner.KINDS[corner.METRICS[session.options.metric].follows[seen[-1]]]
-        assert f"{kind} ({number + 1} of 3)" in corner.lines(session.picture)
-        ui.key("W")
-    assert seen == [2, 0, 1], "that along creases first"
-    ui.click(cone.at(61))
-    ui.wait_until(lambda: len(session.wires) == 1)
-    ui.key("RET")
-    assert session.wires[0].follow == 2
-    for follow in (0, 1, 2):
-        points = session.wires[0].points
-        ui.move(ui.on_screen(tuple(points[len(points) // 2])))
-        assert session.picture.one(Role.HOVERED) is not None
-        ui.key("W")
-        ui.wait_until(lambda expected=follow: session.wires[0].follow == expected)
 
 
 def test_the_wheel_takes_the_next_candidate_where_it_is_given_to_it(cone: Desk) -> None:

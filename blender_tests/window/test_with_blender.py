@@ -288,28 +288,6 @@ def test_along_edges_a_click_with_shift_and_alt_is_blenders(desk: Desk) -> None:
     assert seams(desk.obj) == []
 
 
-def test_hidden_wires_stay_and_are_back_when_they_are_shown(desk: Desk) -> None:
-    desk.choose()
-    draw(desk, 36, 44)
-    draw(desk, 0, 8)
-    bm = bmesh.from_edit_mesh(desk.obj.data)
-    bm.faces.ensure_lookup_table()
-    for face in bm.faces[:16]:
-        face.hide_set(True)
-    bmesh.update_edit_mesh(desk.obj.data)
-    desk.ui.wait()
-    desk.ui.move(desk.at(60))
-    assert [wire.edges() for wire in desk.session.wires] == [ROW]
-    desk.ui.move(desk.at(40))
-    desk.ui.key("X")
-    assert seams(desk.obj) == chain(*range(9)), "what is hidden is not touched"
-    with desk.ui.override():
-        bpy.ops.mesh.reveal(select=False)
-    desk.ui.wait()
-    desk.ui.move(desk.at(60))
-    assert [wire.edges() for wire in desk.session.wires] == [chain(*range(9))]
-
-
 def test_what_is_prepared_is_kept_from_one_chain_to_the_next(desk: Desk) -> None:
     session = desk.choose()
     draw(desk, 36, 44)
@@ -367,31 +345,6 @@ def test_a_chain_reads_its_mesh_when_it_begins_and_no_more(
     desk.ui.wait(20)
     desk.ui.key("ESC")
     assert len(reads) <= 1
-
-
-def test_saved_and_reopened_the_network_is_there(desk: Desk, tmp_path: Path) -> None:
-    desk.choose()
-    draw(desk, 36, 40, 76)
-    path = str(tmp_path / "drawn.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    marked = seams(desk.obj)
-    bpy.ops.wm.open_mainfile(filepath=path, load_ui=False)
-    desk.ui.wait(4)
-    desk.ui = ui = driver.Ui()
-    assert seams(desk.obj) == marked
-    if desk.obj.mode != "EDIT":
-        with ui.override():
-            edit()
-    ui.look_from_top(distance=4.0)
-    session = desk.choose()
-    assert [wire.end for wire in session.wires] == [40, 76]
-    drag_to = desk.at(49)
-    ui.move(desk.at(40))
-    ui.event("LEFTMOUSE", "PRESS", desk.at(40))
-    ui.move(drag_to)
-    ui.event("LEFTMOUSE", "RELEASE", drag_to)
-    ui.wait_until(lambda: not desk.running)
-    assert {49} <= {v for edge in seams(desk.obj) for v in edge}
 
 
 def test_a_click_right_after_a_mode_switch_and_back_begins_a_chain(desk: Desk) -> None:
@@ -527,18 +480,6 @@ def test_another_workspace_ends_the_chain_and_keeps_its_wires(desk: Desk) -> Non
         ui.wait(4)
     assert desk.left_clean()
     assert seams(desk.obj) == ROW
-
-
-def test_a_script_that_leaves_edit_mode_ends_the_chain_and_its_wires_are_kept(desk: Desk) -> None:
-    live(desk)
-    bpy.ops.object.mode_set(mode="OBJECT")
-    desk.ui.move((300.0, 300.0))
-    assert desk.left_clean()
-    assert seams(desk.obj) == ROW
-    with desk.ui.override():
-        edit()
-    desk.ui.move(desk.at(40))
-    assert desk.session.picture.one(Role.HOVERED) is not None, "and known as a wire"
 
 
 def test_a_script_that_removes_the_object_ends_the_chain(desk: Desk) -> None:
