@@ -6,9 +6,10 @@ from __future__ import annotations
 import math
 import os
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn
 
 import bmesh
 import bpy
@@ -170,6 +171,28 @@ def animate(obj: bpy.types.Object) -> None:
 def edit() -> None:
     """Enter edit mode on the selected objects."""
     bpy.ops.object.mode_set(mode="EDIT")
+
+
+def fail(*_: object, **__: object) -> NoReturn:
+    """End on an error, in place of what a test wants to fail."""
+    raise RuntimeError("as the test wants it")
+
+
+@contextmanager
+def changing(obj: bpy.types.Object) -> Iterator[bmesh.types.BMesh]:
+    """Change a mesh in edit mode, whose items may be named by their numbers."""
+    bm = bmesh.from_edit_mesh(obj.data)
+    for items in (bm.verts, bm.edges, bm.faces):
+        items.ensure_lookup_table()
+    yield bm
+    bmesh.update_edit_mesh(obj.data)
+
+
+def set_seams(obj: bpy.types.Object, *chains: Sequence[int], seam: bool = True) -> None:
+    """Make the edges along chains of vertices seams of a mesh in edit mode, or no seams."""
+    with changing(obj) as bm:
+        for a, b in (pair for one in chains for pair in pairwise(one)):
+            bm.edges.get((bm.verts[a], bm.verts[b])).seam = seam
 
 
 def seams(obj: bpy.types.Object) -> list[Edge]:

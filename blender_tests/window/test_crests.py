@@ -7,12 +7,11 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 import ui as driver
-from desk import Desk, leave
+from desk import Desk, leave, said
 from scene import add_object, seams
 from seamwire.core.network.picks import FacePoint
 from seamwire.mesh.settings import settings
 from seamwire.operators.chain_state import running
-from seamwire.ui import status_bar
 from seamwire.view.edited_objects import edited
 
 N = 60
@@ -50,10 +49,6 @@ def beside(desk: Desk, y: float, pixels: float) -> tuple[float, float]:
 
 def shown_ridge() -> bool:
     return edited.front is not None and edited.front.crest_view.crests is not None
-
-
-def said() -> str:
-    return "; ".join(text for _, text in status_bar.hints(status_bar.status_of(running[0])))
 
 
 @pytest.mark.parametrize("finish", [pytest.param("SNAP", marks=pytest.mark.smoke), "CUT"])

@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Chains across the surface that are cut into the faces when they end."""
 
-import bmesh
 import bpy
 import numpy as np
 import pytest
 from desk import Desk, draw, shows
-from scene import chain, seams, snapshot
+from scene import chain, changing, seams, snapshot
 from seamwire.core.drawing.picture import Role
 from seamwire.mesh import cut
 from seamwire.mesh.settings import settings
@@ -176,15 +175,16 @@ def test_near_a_vertex_or_with_snap_a_click_takes_the_vertex(cutting: Desk) -> N
 
 def soften(cutting: Desk) -> None:
     """Take away what vertices do not slide off: creases, sharp edges, borders between materials."""
-    bm = bmesh.from_edit_mesh(cutting.obj.data)
-    for face in bm.faces:
-        face.material_index = 0
-    crease = (
-        bm.edges.layers.crease.active if hasattr(bm.edges.layers, "crease") else bm.edges.layers.float["crease_edge"]
-    )
-    for edge in bm.edges:
-        edge.smooth, edge[crease] = True, 0.0
-    bmesh.update_edit_mesh(cutting.obj.data)
+    with changing(cutting.obj) as bm:
+        for face in bm.faces:
+            face.material_index = 0
+        crease = (
+            bm.edges.layers.crease.active
+            if hasattr(bm.edges.layers, "crease")
+            else bm.edges.layers.float["crease_edge"]
+        )
+        for edge in bm.edges:
+            edge.smooth, edge[crease] = True, 0.0
     bpy.ops.ed.undo_push(message="Soft")
 
 

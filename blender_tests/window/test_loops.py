@@ -5,15 +5,9 @@ import bmesh
 import bpy
 import pytest
 import ui as driver
-from desk import GREEN, Desk, shows, undo_steps
-from scene import chain, seams
+from desk import GREEN, Desk, said, shows, undo_steps
+from scene import chain, changing, seams, set_seams
 from seamwire.core.drawing.picture import Role
-from seamwire.operators.chain_state import running
-from seamwire.ui import status_bar
-
-
-def said() -> str:
-    return "; ".join(text for _, text in status_bar.hints(status_bar.status_of(running[0])))
 
 
 def offer(desk: Desk, *edge: int) -> tuple[float, float]:
@@ -96,10 +90,7 @@ def test_alt_with_another_key_is_blenders(desk: Desk) -> None:
 
 def stub(desk: Desk) -> None:
     """Mark a seam that ends in the middle row."""
-    bm = bmesh.from_edit_mesh(desk.obj.data)
-    bm.verts.ensure_lookup_table()
-    bm.edges.get((bm.verts[34], bm.verts[43])).seam = True
-    bmesh.update_edit_mesh(desk.obj.data)
+    set_seams(desk.obj, (34, 43))
 
 
 @pytest.mark.smoke
@@ -115,14 +106,13 @@ def test_a_strip_is_taken_up_to_the_seams_in_one_step(desk: Desk, capfd: pytest.
 
 def fold_in_the_middle(desk: Desk) -> None:
     """Fold the grid by 45 degrees along its middle column, where alone a part ends."""
-    bm = bmesh.from_edit_mesh(desk.obj.data)
-    for edge in bm.edges:
-        edge.smooth = True
-    for face in bm.faces:
-        face.material_index = 0
-    for vertex in bm.verts:
-        vertex.co.z += max(vertex.co.x, 0.0)
-    bmesh.update_edit_mesh(desk.obj.data)
+    with changing(desk.obj) as bm:
+        for edge in bm.edges:
+            edge.smooth = True
+        for face in bm.faces:
+            face.material_index = 0
+        for vertex in bm.verts:
+            vertex.co.z += max(vertex.co.x, 0.0)
 
 
 def test_inside_a_face_the_border_of_its_part_comes_first(desk: Desk) -> None:
@@ -168,11 +158,10 @@ def test_the_offer_that_is_shown_is_seen(ui: driver.Ui, desk: Desk) -> None:
 
 
 def test_an_offer_of_one_edge_is_seen_though_the_edge_is_highlighted(desk: Desk) -> None:
-    bm = bmesh.from_edit_mesh(desk.obj.data)
-    for edge in bm.edges:
-        columns = {round(4.0 * (vertex.co.x + 1.0)) for vertex in edge.verts}
-        edge.seam = columns in ({4}, {5})
-    bmesh.update_edit_mesh(desk.obj.data)
+    with changing(desk.obj) as bm:
+        for edge in bm.edges:
+            columns = {round(4.0 * (vertex.co.x + 1.0)) for vertex in edge.verts}
+            edge.seam = columns in ({4}, {5})
     offer(desk, 40, 41)
     turn_to(desk, "STRIP")
     assert desk.session.picture.one(Role.OFFER).edges() == [(40, 41)]

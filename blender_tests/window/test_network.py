@@ -7,17 +7,13 @@ import bpy
 import numpy as np
 import pytest
 import ui as driver
-from desk import Desk, choose, drag, draw, undo_steps
+from desk import Desk, choose, drag, draw, said, undo_steps
 from scene import chain, seams, snapshot
 from seamwire.core.drawing.picture import Role
 from seamwire.mesh.settings import preferences, settings
 from seamwire.operators import bindings
 from seamwire.ui import status_bar
 from seamwire.view.edited_objects import edited
-
-
-def said(desk: Desk) -> str:
-    return "; ".join(text for _, text in status_bar.hints(status_bar.status_of(desk.chain)))
 
 
 def nothing_else_changed(desk: Desk) -> None:
@@ -147,7 +143,7 @@ def test_shift_and_the_wheel_change_the_strength_and_say_it(cone: Desk) -> None:
     ui.wheel(up=True, shift=True)
     assert session.drawing.strength == 12.5
     assert settings().strength_edges == 12.5
-    assert "Strength 12.5" in said(cone)
+    assert "Strength 12.5" in said()
     ui.wheel(up=False, shift=True)
     assert session.drawing.strength == 10.0
     settings().strength_edges = 40.0

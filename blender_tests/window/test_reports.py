@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 import pytest
 from desk import Desk, draw
-from scene import chain, mark_wires, seams
+from scene import chain, changing, mark_wires, seams
 from seamwire.core.drawing.picture import Role
 from seamwire.mesh import uv_map
 
@@ -134,13 +134,11 @@ def test_islands_are_unwrapped_again_after_their_uvs_were_reset(desk: Desk) -> N
 def test_a_face_that_surrounds_another_one_can_be_cut_and_unwrapped(desk: Desk) -> None:
     """A face like a horseshoe with another face in its bay."""
     with desk.ui.override():
-        bm = bmesh.from_edit_mesh(desk.obj.data)
-        bm.faces.ensure_lookup_table()
-        horseshoe = [
-            bm.faces[8 * row + column] for row, column in ((2, 2), (2, 3), (2, 4), (3, 2), (3, 4), (4, 2), (4, 4))
-        ]
-        bmesh.ops.dissolve_faces(bm, faces=horseshoe)
-        bmesh.update_edit_mesh(desk.obj.data)
+        with changing(desk.obj) as bm:
+            horseshoe = [
+                bm.faces[8 * row + column] for row, column in ((2, 2), (2, 3), (2, 4), (3, 2), (3, 4), (4, 2), (4, 4))
+            ]
+            bmesh.ops.dissolve_faces(bm, faces=horseshoe)
         assert mark_wires(chains="0 80", along="SURFACE", finish="CUT", metric="euclidean")
         assert bpy.ops.mesh.seamwire_unwrap() == {"FINISHED"}
         bpy.ops.mesh.seamwire_select_islands(which="TO_CUT")

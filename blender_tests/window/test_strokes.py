@@ -4,12 +4,11 @@
 from collections.abc import Iterator
 from itertools import pairwise
 
-import bmesh
 import bpy
 import pytest
 import ui as driver
 from desk import Desk, choose, leave, undo_steps
-from scene import add_grid, chain, seams
+from scene import add_grid, chain, changing, seams
 from seamwire.core.drawing.picture import Role
 from seamwire.mesh.settings import settings
 from seamwire.view.edited_objects import edited
@@ -130,10 +129,9 @@ def test_a_stroke_ends_where_it_leaves_the_model(fine: Desk) -> None:
 
 
 def test_hidden_parts_of_the_mesh_are_not_drawn_on(fine: Desk) -> None:
-    bm = bmesh.from_edit_mesh(fine.obj.data)
-    for face in bm.faces:
-        face.hide_set(face.calc_center_median().x > 0.0)
-    bmesh.update_edit_mesh(fine.obj.data)
+    with changing(fine.obj) as bm:
+        for face in bm.faces:
+            face.hide_set(face.calc_center_median().x > 0.0)
     choose(fine.ui)
     draw(fine, [(5.0, 15.0), (25.0, 15.0), (25.0, 20.0), (5.0, 20.0)])
     points = fine.session.network.strokes[0].points

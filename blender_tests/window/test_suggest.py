@@ -8,7 +8,6 @@ import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-import bmesh
 import bpy
 import keymaps
 import numpy as np
@@ -16,7 +15,7 @@ import pytest
 import stored
 import ui as driver
 from desk import choose, leave, undo_steps
-from scene import add_suzanne, animate, edit, head, mark_wires, seams, snapshot
+from scene import add_suzanne, animate, changing, edit, head, mark_wires, seams, snapshot
 from seamwire.core.base import native
 from seamwire.core.seams.seam_plan import PartEdits
 from seamwire.mesh.seam_search import Suggestion
@@ -79,6 +78,17 @@ def begin(ui: driver.Ui, **options: object) -> None:
     shown = live()
     ui.key("RET")
     assert shown.is_kept
+
+
+def keep(ui: driver.Ui) -> None:
+    """Keep what is shown, and wait until it is in the mesh."""
+    ui.key("RET")
+    ui.wait_until(lambda: not searches, 60.0)
+
+
+def escape(ui: driver.Ui) -> None:
+    ui.key("ESC")
+    ui.wait_until(lambda: not searches)
 
 
 def count() -> int:
@@ -259,14 +269,24 @@ def test_meanwhile_the_view_can_be_moved_and_nothing_else_done(
     assert suzanne.data.total_vert_sel == selected
 
 
+def subdivide(obj: bpy.types.Object) -> None:
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.subdivide()
+
+
+def move(obj: bpy.types.Object) -> None:
+    with changing(obj) as bm:
+        bm.verts[0].co.z += 1.0
+
+
+@pytest.mark.parametrize("change", [subdivide, move])
 def test_a_mesh_that_is_changed_meanwhile_keeps_what_it_has(
-    ui: driver.Ui, suzanne: bpy.types.Object, waiting: Waiting
+    ui: driver.Ui, suzanne: bpy.types.Object, waiting: Waiting, change: Callable[[bpy.types.Object], None]
 ) -> None:
     begin(ui)
     ui.wait_until(lambda: bool(waiting.found))
     with ui.override():
-        bpy.ops.mesh.select_all(action="SELECT")
-        bpy.ops.mesh.subdivide()
+        change(suzanne)
     waiting.end()
     ui.wait_until(lambda: not searches, 60.0)
     assert not edited.covered
@@ -302,21 +322,6 @@ def test_a_wire_that_is_marked_meanwhile_stays_after_saving(
     assert stored.agree(suzanne)
 
 
-def test_a_mesh_that_is_moved_meanwhile_keeps_what_it_has(
-    ui: driver.Ui, suzanne: bpy.types.Object, waiting: Waiting
-) -> None:
-    begin(ui)
-    ui.wait_until(lambda: bool(waiting.found))
-    with ui.override():
-        bm = bmesh.from_edit_mesh(suzanne.data)
-        bm.verts.ensure_lookup_table()
-        bm.verts[0].co.z += 1.0
-        bmesh.update_edit_mesh(suzanne.data)
-    waiting.end()
-    ui.wait_until(lambda: not searches, 60.0)
-    assert seams(suzanne) == []
-
-
 @pytest.mark.every_blender
 def test_beside_a_search_a_chain_in_another_window_is_refused_with_a_sentence(
     ui: driver.Ui, suzanne: bpy.types.Object, waiting: Waiting, capfd: pytest.CaptureFixture[str]
@@ -338,8 +343,7 @@ def test_beside_a_search_a_chain_in_another_window_is_refused_with_a_sentence(
             assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT", first="REMOVE") & {"PASS_THROUGH", "CANCELLED"}
             assert not bpy.ops.mesh.seamwire_suggest.poll(), "one search at a time"
         assert not chains
-        ui.key("ESC")
-        ui.wait_until(lambda: not searches)
+        escape(ui)
         with bpy.context.temp_override(window=other, area=area, region=region):
             assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
         assert not bpy.ops.mesh.seamwire_suggest.poll(), "a chain is drawn in the other window"
@@ -417,8 +421,7 @@ def test_a_click_drops_a_border_and_a_second_click_keeps_it(ui: driver.Ui, prism
     ui.wheel(False, rim)
     assert count() == 2, "the border that was kept stays"
     ui.click(rim)
-    ui.key("RET")
-    ui.wait_until(lambda: not searches, 60.0)
+    keep(ui)
     assert island_count(prism) == 1
 
 
@@ -428,8 +431,7 @@ def test_a_click_into_an_island_cuts_it_once_more(ui: driver.Ui, prism: bpy.type
     assert count() == 4
     ui.click(ui.on_screen(FRONT_SIDE))
     assert count() == 5
-    ui.key("RET")
-    ui.wait_until(lambda: not searches, 60.0)
+    keep(ui)
     assert island_count(prism) == 5
 
 
@@ -466,8 +468,7 @@ def test_a_long_cut_is_a_step_and_the_wheel_turns_after_it(
     ui.wait_until(lambda: not live()._searches)
     assert count() == 2, "all is one part, which is cut"
     assert not live().edits[prism.name].dropped
-    ui.key("RET")
-    ui.wait_until(lambda: not searches, 60.0)
+    keep(ui)
     assert island_count(prism) == 2
 
 
@@ -477,8 +478,7 @@ def test_escape_ends_a_long_cut(ui: driver.Ui, prism: bpy.types.Object, slow_cut
     ui.click(ui.on_screen(FRONT_SIDE))
     ui.wait(5)
     assert live()._searches
-    ui.key("ESC")
-    ui.wait_until(lambda: not searches)
+    escape(ui)
     assert not slow_cuts.is_set()
     assert snapshot(prism) == before
     assert not edited.covered
@@ -487,8 +487,7 @@ def test_escape_ends_a_long_cut(ui: driver.Ui, prism: bpy.types.Object, slow_cut
 def test_adjust_last_operation_has_what_was_clicked(ui: driver.Ui, prism: bpy.types.Object) -> None:
     invoke(ui)
     ui.click(ui.on_screen(FRONT_RIM))
-    ui.key("RET")
-    ui.wait_until(lambda: not searches, 60.0)
+    keep(ui)
     ui.wait(5)
     last = bpy.context.window_manager.operators[-1]
     options = {name: getattr(last, name) for name in ("parts", "distortion", "edits")}
@@ -548,8 +547,7 @@ def test_escape_after_changes_leaves_all_as_it_was(
     ui.wheel(True, ui.on_screen(TOP))
     ui.click(ui.on_screen(FRONT_RIM))
     ui.wait(10)
-    ui.key("ESC")
-    ui.wait_until(lambda: not searches)
+    escape(ui)
     assert snapshot(prism) == before
     assert undo_steps(capfd) == steps
     assert not edited.covered
@@ -593,8 +591,7 @@ def test_ctrl_and_the_wheel_or_keys_change_the_limit_of_the_stretch(
     assert "Stretch: up to 13 %" in shown.title
     assert (count(), shown.amount) == (parts, amount)
     ui.wait_until(lambda: shown.is_planned)
-    ui.key("RET")
-    ui.wait_until(lambda: not searches, 60.0)
+    keep(ui)
     assert bpy.context.window_manager.operators[-1].distortion == pytest.approx(13.0)
 
 
@@ -630,8 +627,7 @@ def test_the_map_is_shown_as_squares_of_one_size_while_the_hand_rests(ui: driver
     assert not squares(), "the parts have changed"
     ui.move((5.0, 5.0))
     ui.wait_until(lambda: bool(squares()))
-    ui.key("RET")
-    ui.wait_until(lambda: not searches, 60.0)
+    keep(ui)
     assert not edited.covered
     assert contrast(ui, side) < plain + 0.03
 
@@ -685,8 +681,7 @@ def test_a_file_that_is_saved_meanwhile_has_the_mesh_as_it_was(
     assert searches
     assert count() == parts
     assert live().is_planned
-    ui.key("ESC")
-    ui.wait_until(lambda: not searches)
+    escape(ui)
     assert snapshot(alone) == before
     assert undo_steps(capfd) == steps
     assert saved(path) == saved(tmp_path / "before.blend")
@@ -743,8 +738,7 @@ def test_an_animation_plays_meanwhile(ui: driver.Ui, prism: bpy.types.Object) ->
         with ui.override():
             bpy.ops.screen.animation_cancel(restore_frame=True)
     ui.wait(5)
-    ui.key("ESC")
-    ui.wait_until(lambda: not searches)
+    escape(ui)
     assert snapshot(prism) == before
 
 
@@ -827,8 +821,7 @@ def test_a_right_click_does_nothing_where_it_selects(
         ui.wait(5)
         assert searches
         assert said[-1].endswith("    Esc: Cancel")
-        ui.key("ESC")
-        ui.wait_until(lambda: not searches)
+        escape(ui)
         assert snapshot(prism) == before
     ui.wait(5)
     invoke(ui)

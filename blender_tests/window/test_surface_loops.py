@@ -8,13 +8,11 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 import ui as driver
-from desk import Desk, leave
+from desk import Desk, leave, said
 from scene import add_object, seams
 from seamwire.core.base.geometry import nearest_on_segments
 from seamwire.core.drawing.picture import Role
 from seamwire.mesh.settings import settings
-from seamwire.operators.chain_state import running
-from seamwire.ui import status_bar
 
 AROUND, ROWS = 24, 41
 
@@ -59,10 +57,6 @@ def offer(desk: Desk, vertex: int) -> tuple[float, float]:
     desk.ui.event("LEFT_ALT", "PRESS", place, alt=True)
     desk.ui.wait_until(lambda: not desk.session.under_way.computing)
     return place
-
-
-def said() -> str:
-    return "; ".join(text for _, text in status_bar.hints(status_bar.status_of(running[0])))
 
 
 @pytest.mark.smoke

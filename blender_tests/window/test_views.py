@@ -145,37 +145,6 @@ def test_drawing_is_on_the_shape_that_is_seen(ui: driver.Ui) -> None:
         leave(ui)
 
 
-def test_blenders_undo_in_a_second_window_leaves_a_chain_its_wires(desk: Desk) -> None:
-    ui = desk.ui
-    desk.choose()
-    ui.click(desk.at(36))
-    ui.click(desk.at(44))
-    session = desk.session
-    ui.wait_until(lambda: len(session.wires) == 1)
-    name = desk.name
-    with ui.override():
-        bpy.ops.wm.window_new()
-    other = next(window for window in bpy.context.window_manager.windows if window != ui.window)
-    ui.wait(4)
-    try:
-        x, y = other.width // 2, other.height // 2
-        other.event_simulate(type="MOUSEMOVE", value="NOTHING", x=x, y=y)
-        for value in ("PRESS", "RELEASE"):
-            other.event_simulate(type="Z", value=value, x=x, y=y, ctrl=True)
-        ui.wait(4)
-    finally:
-        with bpy.context.temp_override(window=other):
-            bpy.ops.wm.window_close()
-        ui.wait(4)
-    ui.move(desk.at(60))
-    ui.key("ESC")
-    assert not running
-    obj = bpy.data.objects.get(name)
-    if obj is not None and obj.mode == "EDIT":
-        assert seams(obj) in (ROW, []), "kept, or undone with all else"
-        assert bool(edited.of(obj).session.wires) == bool(seams(obj))
-
-
 @pytest.mark.parametrize(
     "name", [pytest.param("show_gizmo", marks=[pytest.mark.smoke, pytest.mark.every_blender]), "show_gizmo_tool"]
 )

@@ -13,7 +13,7 @@ import pytest
 import stored
 import ui as driver
 from desk import ORANGE, Desk, choose, dismiss, draw, shows, undo_steps
-from scene import chain, edit, mark_wires, seams
+from scene import chain, changing, edit, fail, mark_wires, seams, set_seams
 from seamwire.core.drawing.gesture_queue import GestureQueue
 from seamwire.core.drawing.picture import Role, SeedRole, ShownSeed
 from seamwire.core.drawing.session import Session
@@ -160,9 +160,6 @@ def test_a_preview_that_raises_tells_nobody_and_the_next_key_is_blenders(
 ) -> None:
     session = desk.choose()
 
-    def fail(*_: object, **__: object) -> None:
-        raise RuntimeError("as the test wants it")
-
     ui, place = desk.ui, desk.at(40)
     ui.move(place)
     monkeypatch.setattr(session, "hover", fail)
@@ -178,14 +175,12 @@ def test_a_preview_that_raises_tells_nobody_and_the_next_key_is_blenders(
 def test_what_was_hidden_just_now_is_not_picked_and_alt_h_shows_it(desk: Desk) -> None:
     """The keys come so fast that Blender tells of the hidden faces only after the last one."""
     desk.choose()
-    bm = bmesh.from_edit_mesh(desk.obj.data)
-    bm.verts.ensure_lookup_table()
-    with desk.ui.override():
-        bpy.ops.mesh.select_all(action="DESELECT")
-    for vertex in (0, 1, 9, 10):
-        bm.verts[vertex].select = True
-    bm.select_flush_mode()
-    bmesh.update_edit_mesh(desk.obj.data)
+    with changing(desk.obj) as bm:
+        with desk.ui.override():
+            bpy.ops.mesh.select_all(action="DESELECT")
+        for vertex in (0, 1, 9, 10):
+            bm.verts[vertex].select = True
+        bm.select_flush_mode()
     ui, place = desk.ui, desk.at(40)
     ui.move(place)
     ui.wait(20)
@@ -312,10 +307,8 @@ def test_a_mesh_is_read_once_until_it_changes(desk: Desk, monkeypatch: pytest.Mo
         desk.ui.move(desk.at(vertex))
     desk.ui.wait(20)
     assert len(reads) == 1
-    bm = bmesh.from_edit_mesh(desk.obj.data)
-    bm.verts.ensure_lookup_table()
-    bm.verts[80].co.x += 0.1
-    bmesh.update_edit_mesh(desk.obj.data)
+    with changing(desk.obj) as bm:
+        bm.verts[80].co.x += 0.1
     desk.ui.wait_until(lambda: len(reads) > 1)
     desk.ui.wait(20)
     assert len(reads) <= 3, "read anew when it rests"
@@ -449,12 +442,10 @@ def test_a_press_in_another_editor_ends_the_chain_and_does_what_it_does(desk: De
 
 def test_undo_in_another_window_leaves_the_chain_its_wires(desk: Desk) -> None:
     bpy.ops.ed.undo_push(message="One")
-    bm = bmesh.from_edit_mesh(desk.obj.data)
-    bm.verts.ensure_lookup_table()
-    for vertex in bm.verts:
-        vertex.select = False
-    bm.select_flush(False)
-    bmesh.update_edit_mesh(desk.obj.data)
+    with changing(desk.obj) as bm:
+        for vertex in bm.verts:
+            vertex.select = False
+        bm.select_flush(False)
     bpy.ops.ed.undo_push(message="Two")
     live(desk)
     name = desk.obj.name
@@ -492,10 +483,8 @@ def test_a_script_that_removes_the_object_ends_the_chain(desk: Desk) -> None:
 
 def test_a_script_that_changes_the_mesh_ends_the_chain(desk: Desk) -> None:
     live(desk)
-    bm = bmesh.from_edit_mesh(desk.obj.data)
-    bm.verts.ensure_lookup_table()
-    bmesh.ops.delete(bm, geom=[bm.verts[0]], context="VERTS")
-    bmesh.update_edit_mesh(desk.obj.data)
+    with changing(desk.obj) as bm:
+        bmesh.ops.delete(bm, geom=[bm.verts[0]], context="VERTS")
     desk.ui.wait()
     desk.ui.move((300.0, 300.0))
     assert desk.left_clean()
@@ -504,10 +493,8 @@ def test_a_script_that_changes_the_mesh_ends_the_chain(desk: Desk) -> None:
 
 def test_a_script_that_moves_vertices_ends_the_chain_and_its_wires_are_kept(desk: Desk) -> None:
     live(desk)
-    bm = bmesh.from_edit_mesh(desk.obj.data)
-    bm.verts.ensure_lookup_table()
-    bm.verts[80].co.z += 0.1
-    bmesh.update_edit_mesh(desk.obj.data)
+    with changing(desk.obj) as bm:
+        bm.verts[80].co.z += 0.1
     desk.ui.wait()
     desk.ui.move((300.0, 300.0))
     assert desk.left_clean()
@@ -516,10 +503,7 @@ def test_a_script_that_moves_vertices_ends_the_chain_and_its_wires_are_kept(desk
 
 def test_another_add_ons_seams_under_a_chain_are_heard_of(desk: Desk) -> None:
     session = live(desk)
-    bm = bmesh.from_edit_mesh(desk.obj.data)
-    bm.verts.ensure_lookup_table()
-    bm.edges.get((bm.verts[0], bm.verts[1])).seam = True
-    bmesh.update_edit_mesh(desk.obj.data)
+    set_seams(desk.obj, (0, 1))
     desk.ui.wait()
     desk.ui.move(desk.at(53))
     assert desk.running
@@ -531,9 +515,6 @@ def test_another_add_ons_seams_under_a_chain_are_heard_of(desk: Desk) -> None:
 @pytest.mark.smoke
 def test_an_exception_ends_the_chain_and_leaves_the_mesh_as_it_was(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     session = live(desk)
-
-    def fail(*_: object, **__: object) -> None:
-        raise RuntimeError("as the test wants it")
 
     monkeypatch.setattr(session, "hover", fail)
     desk.ui.move(desk.at(50))
@@ -609,9 +590,6 @@ def test_a_chain_whose_wires_are_written_in_part_leaves_the_mesh_as_it_was(
 def test_an_exception_in_the_first_click_leaves_blender_alive(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     session = desk.choose()
 
-    def fail(*_: object, **__: object) -> None:
-        raise RuntimeError("as the test wants it")
-
     monkeypatch.setattr(session, "click", fail)
     desk.ui.click(desk.at(36))
     monkeypatch.undo()
@@ -625,9 +603,6 @@ def test_an_exception_in_the_first_click_leaves_blender_alive(desk: Desk, monkey
 
 def test_an_exception_in_the_overlay_ends_the_chain(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     session = live(desk)
-
-    def fail() -> None:
-        raise RuntimeError("as the test wants it")
 
     monkeypatch.setattr(session, "seeds", fail)
     desk.ui.move(desk.at(54))
