@@ -11,7 +11,6 @@ from fake_live import grid_points, grid_triangles
 from numpy.typing import NDArray
 from seamwire.core.drawing.picture import Role
 from seamwire.core.network.strokes import OffMeshError, drawn, into_triangles, on_mesh, through_vertices
-from setting import use
 from table import SIZE, Table, paper
 
 MESH, TRIANGLES = grid_points(SIZE), grid_triangles(SIZE)
@@ -229,14 +228,6 @@ def test_a_waiting_click_goes_on_waiting_while_a_stroke_is_drawn() -> None:
     table.compute()
     assert [wire.vertices for wire in session.wires] == [(0, 1, 2, 3)]
     assert len(session.network.strokes) == 1
-
-
-def test_live_wires_made_later_know_the_strokes() -> None:
-    table = Table()
-    session = table.session
-    stroke(session, (0.5, 0.2), (4.5, 0.2))
-    use(session, along="SURFACE")
-    assert table.lives["SURFACE"].strokes == [session.network.strokes]
 
 
 # As they are stored
