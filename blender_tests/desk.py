@@ -4,6 +4,8 @@
 import ctypes
 import math
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 import bmesh
 import bpy
@@ -166,6 +168,23 @@ def leave(ui: driver.Ui) -> None:
         choose(ui, "builtin.select_box")
     ui.move((ui.region.width * 0.5, ui.region.height * 0.5))
     ui.wait()
+
+
+@contextmanager
+def second_window(ui: driver.Ui) -> Iterator[dict[str, object]]:
+    """Open another window, return what to override the context with for its view, and close it."""
+    with ui.override():
+        bpy.ops.wm.window_new()
+    window = bpy.context.window_manager.windows[-1]
+    ui.wait(5)
+    area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
+    region = next(region for region in area.regions if region.type == "WINDOW")
+    try:
+        yield {"window": window, "area": area, "region": region}
+    finally:
+        with bpy.context.temp_override(window=window):
+            bpy.ops.wm.window_close()
+        ui.wait(4)
 
 
 def dismiss(ui: driver.Ui) -> None:

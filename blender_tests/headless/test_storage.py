@@ -396,17 +396,7 @@ def test_what_a_newer_version_wrote_stays_byte_by_byte_and_is_said(
 
 
 @pytest.mark.parametrize(
-    "operator",
-    [
-        "close_gaps",
-        "finish",
-        "load_network",
-        "repeat",
-        "save_network",
-        "suggest",
-        "take_over",
-        "transfer",
-    ],
+    "operator", ["close_gaps", "finish", "load_network", "repeat", "save_network", "suggest", "take_over", "transfer"]
 )
 def test_each_operator_tells_of_wires_that_it_cannot_read(
     drawn: bpy.types.Object,

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 import pytest
 import ui as driver
-from desk import Desk, choose, leave
+from desk import Desk, choose, leave, second_window
 from numpy.typing import NDArray
 from scene import add_grid, changing, edit, seams
 from seamwire.core.islands import islands
@@ -128,15 +128,8 @@ def test_a_new_window_draws(halves: Desk, monkeypatch: pytest.MonkeyPatch) -> No
         draw(overlay)
 
     monkeypatch.setattr(Overlay, "draw_in_scene", counted)
-    with halves.ui.override():
-        bpy.ops.wm.window_new()
-    other = next(window for window in bpy.context.window_manager.windows if window != halves.ui.window)
-    try:
-        halves.ui.wait_until(lambda: drawn[other.as_pointer()] > 0)
-    finally:
-        with bpy.context.temp_override(window=other):
-            bpy.ops.wm.window_close()
-        halves.ui.wait(4)
+    with second_window(halves.ui) as other:
+        halves.ui.wait_until(lambda: drawn[other["window"].as_pointer()] > 0)
 
 
 def test_all_edited_objects_are_drawn_and_the_active_one_is_in_front(ui: driver.Ui) -> None:

@@ -55,19 +55,6 @@ def test_scans_start_across_the_surface_until_the_artist_chooses(scan: driver.Ui
     assert settings().along == "EDGES", "the artist has chosen"
 
 
-def test_modeled_meshes_start_along_edges_after_a_scan(scan: driver.Ui) -> None:
-    point_at(scan, (0.1, 0.1, 0.0))
-    assert edited.front.session.options.along == "SURFACE"
-    with scan.override():
-        bpy.ops.object.mode_set(mode="OBJECT")
-        bpy.data.objects["Scan"].hide_set(True)
-        add_grid(5, name="Model")
-        edit()
-    point_at(scan, (0.1, 0.1, 0.0))
-    scan.wait_until(lambda: edited.front.name == "Model")
-    assert edited.front.session.options.along == "EDGES"
-
-
 def test_pointing_at_objects_changes_no_setting(scan: driver.Ui) -> None:
     with scan.override():
         bpy.ops.object.mode_set(mode="OBJECT")

@@ -113,17 +113,3 @@ def test_a_line_elsewhere_is_a_chain_of_its_own(desk: Desk, capfd: pytest.Captur
     assert undo_steps(capfd)[-2:] == ["Draw Seamwires", "Draw Seamwires"]
     ui.key("Z", ctrl=True)
     assert seams(desk.obj) == chain(0, 1, 2, 3, 4)
-
-
-def test_a_line_may_be_mirrored(desk: Desk) -> None:
-    session = desk.choose()
-    desk.obj.data.use_mirror_y = True
-    press_and_draw(desk, desk.at(54), desk.at(60))
-    assert session.options.mirror == (1,)
-    pixels = desk.ui.pixels()
-    assert shows(pixels, desk.at(56, 57), ORANGE)
-    image = session.mirrored(session.picture.all(Role.FOLLOWING)[0])
-    assert [one.vertices for one in image] == [tuple(range(18, 25))]
-    desk.ui.event("LEFTMOUSE", "RELEASE")
-    desk.ui.wait_until(lambda: not desk.running)
-    assert seams(desk.obj) == sorted(chain(*range(54, 61)) + chain(*range(18, 25)))

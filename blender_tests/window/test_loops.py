@@ -4,7 +4,6 @@
 import bmesh
 import bpy
 import pytest
-import ui as driver
 from desk import GREEN, Desk, said, shows, undo_steps
 from scene import chain, changing, seams, set_seams
 from seamwire.core.drawing.picture import Role
@@ -142,19 +141,6 @@ def test_a_taken_strip_is_changed_in_place(desk: Desk) -> None:
     assert seams(desk.obj) != chain(*range(36, 45))
     ui.key("Z", ctrl=True)
     assert seams(desk.obj) == chain(*range(36, 45)), "one step"
-
-
-@pytest.mark.oldest_and_newest
-def test_the_offer_that_is_shown_is_seen(ui: driver.Ui, desk: Desk) -> None:
-    place = offer(desk, 40, 41)
-    turn_to(desk, "STRIP")
-    assert shows(ui.pixels(), desk.at(37, 38), GREEN)
-    strip, before = set(desk.session.picture.one(Role.OFFER).edges()), ui.pixels()
-    turn_to(desk, "CLOSED")
-    new = min(set(desk.session.picture.one(Role.OFFER).edges()) - strip)
-    assert shows(ui.pixels(), desk.at(*new), GREEN)
-    assert not shows(before, desk.at(*new), GREEN)
-    ui.event("LEFT_ALT", "RELEASE", place)
 
 
 def test_an_offer_of_one_edge_is_seen_though_the_edge_is_highlighted(desk: Desk) -> None:

@@ -38,12 +38,7 @@ def calls(monkeypatch: pytest.MonkeyPatch) -> Counter[str]:
 
         monkeypatch.setattr(owner, name, staticmethod(counted) if name == "redraw" else counted)
 
-    for owner, name in (
-        (edit_mesh, "read"),
-        (LiveMaker, "__call__"),
-        (IslandMaker, "want"),
-        (EditedObjects, "redraw"),
-    ):
+    for owner, name in ((edit_mesh, "read"), (LiveMaker, "__call__"), (IslandMaker, "want"), (EditedObjects, "redraw")):
         count(owner, name)
     return found
 

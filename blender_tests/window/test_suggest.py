@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 import stored
 import ui as driver
-from desk import choose, leave, undo_steps
+from desk import choose, leave, second_window, undo_steps
 from scene import add_suzanne, animate, changing, edit, head, mark_wires, seams, snapshot
 from seamwire.core.base import native
 from seamwire.core.seams.seam_plan import PartEdits
@@ -327,16 +327,10 @@ def test_beside_a_search_a_chain_in_another_window_is_refused_with_a_sentence(
     ui: driver.Ui, suzanne: bpy.types.Object, waiting: Waiting, capfd: pytest.CaptureFixture[str]
 ) -> None:
     choose(ui)
-    with ui.override():
-        bpy.ops.wm.window_new()
-    other = bpy.context.window_manager.windows[-1]
-    ui.wait(5)
-    try:
+    with second_window(ui) as other:
         invoke(ui)
         ui.wait_until(lambda: bool(waiting.found))
-        area = next(area for area in other.screen.areas if area.type == "VIEW_3D")
-        region = next(region for region in area.regions if region.type == "WINDOW")
-        with bpy.context.temp_override(window=other, area=area, region=region):
+        with bpy.context.temp_override(**other):
             capfd.readouterr()
             assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT", first="CLICK") == {"CANCELLED"}
             assert "Suggest Seamwires is running" in "".join(capfd.readouterr())
@@ -344,14 +338,10 @@ def test_beside_a_search_a_chain_in_another_window_is_refused_with_a_sentence(
             assert not bpy.ops.mesh.seamwire_suggest.poll(), "one search at a time"
         assert not chains
         escape(ui)
-        with bpy.context.temp_override(window=other, area=area, region=region):
+        with bpy.context.temp_override(**other):
             assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
         assert not bpy.ops.mesh.seamwire_suggest.poll(), "a chain is drawn in the other window"
         chains[0].drop()
-    finally:
-        with bpy.context.temp_override(window=other):
-            bpy.ops.wm.window_close()
-        ui.wait(3)
 
 
 def test_seams_are_hidden_from_the_side_that_the_view_shows(
@@ -423,16 +413,6 @@ def test_a_click_drops_a_border_and_a_second_click_keeps_it(ui: driver.Ui, prism
     ui.click(rim)
     keep(ui)
     assert island_count(prism) == 1
-
-
-def test_a_click_into_an_island_cuts_it_once_more(ui: driver.Ui, prism: bpy.types.Object) -> None:
-    invoke(ui)
-    ui.click(ui.on_screen(FRONT_SIDE))
-    assert count() == 4
-    ui.click(ui.on_screen(FRONT_SIDE))
-    assert count() == 5
-    keep(ui)
-    assert island_count(prism) == 5
 
 
 @pytest.fixture
@@ -773,20 +753,13 @@ def test_undo_from_elsewhere_ends_it_and_the_mesh_is_as_undo_has_it(ui: driver.U
 @pytest.mark.oldest_and_newest
 def test_its_window_may_be_closed(ui: driver.Ui, prism: bpy.types.Object) -> None:
     before = snapshot(prism)
-    with ui.override():
-        bpy.ops.wm.window_new()
-    other = bpy.context.window_manager.windows[-1]
-    ui.wait(5)
-    area = next(area for area in other.screen.areas if area.type == "VIEW_3D")
-    region = next(region for region in area.regions if region.type == "WINDOW")
-    with bpy.context.temp_override(window=other, area=area, region=region):
-        assert bpy.ops.mesh.seamwire_suggest("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
-    ui.wait_until(lambda: live() is not None)
-    ui.wait_until(lambda: live().is_planned)
-    ui.wheel(True, ui.on_screen(TOP))
-    assert count() == 3, "the wheel over the first window is for that window"
-    with bpy.context.temp_override(window=other):
-        bpy.ops.wm.window_close()
+    with second_window(ui) as other:
+        with bpy.context.temp_override(**other):
+            assert bpy.ops.mesh.seamwire_suggest("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
+        ui.wait_until(lambda: live() is not None)
+        ui.wait_until(lambda: live().is_planned)
+        ui.wheel(True, ui.on_screen(TOP))
+        assert count() == 3, "the wheel over the first window is for that window"
     ui.wait_until(lambda: not searches)
     assert not edited.covered
     assert snapshot(prism) == before

@@ -12,7 +12,7 @@ import bpy
 import pytest
 import stored
 import ui as driver
-from desk import ORANGE, Desk, choose, dismiss, draw, shows, undo_steps
+from desk import ORANGE, Desk, choose, dismiss, draw, second_window, shows, undo_steps
 from scene import chain, changing, edit, fail, mark_wires, seams, set_seams
 from seamwire.core.drawing.gesture_queue import GestureQueue
 from seamwire.core.drawing.picture import Role, SeedRole, ShownSeed
@@ -440,39 +440,6 @@ def test_a_press_in_another_editor_ends_the_chain_and_does_what_it_does(desk: De
     assert seams(desk.obj) == ROW
 
 
-def test_undo_in_another_window_leaves_the_chain_its_wires(desk: Desk) -> None:
-    bpy.ops.ed.undo_push(message="One")
-    with changing(desk.obj) as bm:
-        for vertex in bm.verts:
-            vertex.select = False
-        bm.select_flush(False)
-    bpy.ops.ed.undo_push(message="Two")
-    live(desk)
-    name = desk.obj.name
-    with desk.ui.override():
-        bpy.ops.ed.undo()
-    desk.ui.move(desk.at(60))
-    desk.ui.key("ESC")
-    assert not desk.running
-    assert seams(bpy.data.objects[name]) == ROW
-
-
-def test_another_workspace_ends_the_chain_and_keeps_its_wires(desk: Desk) -> None:
-    live(desk)
-    ui = desk.ui
-    before = ui.window.workspace
-    ui.window.workspace = next(space for space in bpy.data.workspaces if space != before)
-    ui.wait(4)
-    try:
-        ui.move((300.0, 300.0))
-        assert not desk.running
-    finally:
-        ui.window.workspace = before
-        ui.wait(4)
-    assert desk.left_clean()
-    assert seams(desk.obj) == ROW
-
-
 def test_a_script_that_removes_the_object_ends_the_chain(desk: Desk) -> None:
     live(desk)
     bpy.ops.object.mode_set(mode="OBJECT")
@@ -628,24 +595,14 @@ def test_one_chain_at_a_time_and_only_in_edit_mode(desk: Desk) -> None:
 def test_beside_a_chain_another_window_says_that_it_must_end_first(
     desk: Desk, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    with desk.ui.override():
-        bpy.ops.wm.window_new()
-    other = bpy.context.window_manager.windows[-1]
-    desk.ui.wait(5)
-    try:
+    with second_window(desk.ui) as other:
         desk.start()
-        area = next(area for area in other.screen.areas if area.type == "VIEW_3D")
-        region = next(region for region in area.regions if region.type == "WINDOW")
-        with bpy.context.temp_override(window=other, area=area, region=region):
+        with bpy.context.temp_override(**other):
             capfd.readouterr()
             assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT", first="CLICK") == {"CANCELLED"}
         assert "A chain is being drawn in another window" in "".join(capfd.readouterr())
         assert len(running) == 1
         running[0].drop()
-    finally:
-        with bpy.context.temp_override(window=other):
-            bpy.ops.wm.window_close()
-        desk.ui.wait(3)
 
 
 @pytest.mark.oldest_and_newest

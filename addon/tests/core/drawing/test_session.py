@@ -64,14 +64,6 @@ def test_toggling_makes_the_other_active_until_a_wire_is_kept() -> None:
     assert session.picture.active.vertices == (8, 9, 15), "the next wire is the shorter one again"
 
 
-def test_a_kept_wire_says_what_wires_lead_around() -> None:
-    table = Table(along="SURFACE", holes=(0, 2))
-    table.session.click(0)
-    table.session.hover(7)
-    table.session.click(7)
-    assert str(table.session.drawing.message).startswith("2 triangles could not be made valid")
-
-
 def test_a_click_keeps_the_active_wire_and_goes_on_along_its_last_edge() -> None:
     table = Table()
     session = table.session
@@ -263,16 +255,6 @@ def test_undo_takes_back_waiting_clicks_first() -> None:
     session.undo()
     assert session.under_way.waiting == 0
     assert session.seed == 0
-
-
-def test_what_no_wire_reaches_is_said() -> None:
-    session = Table(islands=(35,)).session
-    session.click(0)
-    assert not session.click(35)
-    assert str(session.drawing.message) == "No wire reaches vertex 35"
-    assert session.seed == 0
-    session.hover(3)
-    assert str(session.drawing.message) == ""
 
 
 def test_a_refused_seed_leaves_the_one_before() -> None:

@@ -15,15 +15,7 @@ import pytest
 from fake_live import grid_edges
 from paper_mesh import PaperMesh
 from seamwire.core.network.network import Network
-from seamwire.core.storage.serialization import (
-    FORMAT,
-    VERSION,
-    WAS_SEAM,
-    Archive,
-    NewerError,
-    UnreadableError,
-    packed,
-)
+from seamwire.core.storage.serialization import FORMAT, VERSION, WAS_SEAM, Archive, NewerError, UnreadableError, packed
 from setting import use
 from table import SIZE, Table, chain, paper
 
