@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 import os
+import random
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
@@ -96,6 +97,16 @@ def add_suzanne(levels: int = 0) -> bpy.types.Object:
         modifier = obj.modifiers.new("Subdivision", "SUBSURF")
         modifier.levels = levels
         bpy.ops.object.modifier_apply(modifier=modifier.name)
+    return obj
+
+
+def add_scan() -> bpy.types.Object:
+    """Add a rough ball of 5,120 triangles."""
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=5)
+    obj = bpy.context.active_object
+    dice = random.Random(3)
+    for v in obj.data.vertices:
+        v.co *= 1.0 + 0.03 * dice.random()
     return obj
 
 

@@ -18,6 +18,7 @@ from scene import (
     add_grid,
     add_layers,
     add_object,
+    add_scan,
     add_suzanne,
     changing,
     edit,
@@ -83,16 +84,6 @@ def add_hills() -> bpy.types.Object:
         for v in bm.verts:
             v.co.z = 0.2 * math.sin(3.0 * v.co.x) * v.co.y
     bpy.ops.object.mode_set(mode="OBJECT")
-    return obj
-
-
-def add_scan() -> bpy.types.Object:
-    """Add a ball of irregular triangles."""
-    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=5)
-    obj = bpy.context.active_object
-    dice = random.Random(3)
-    for v in obj.data.vertices:
-        v.co *= 1.0 + 0.03 * dice.random()
     return obj
 
 

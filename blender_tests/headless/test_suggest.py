@@ -2,7 +2,6 @@
 """Seams that are suggested: ``mesh.seamwire_suggest``."""
 
 import math
-import random
 import re
 from collections.abc import Callable
 from dataclasses import replace
@@ -13,7 +12,7 @@ import numpy as np
 import pytest
 from maps import energy, flipped, in_square, overlapping_pairs, triangles
 from mathutils import Matrix
-from scene import add_grid, add_object, add_suzanne, changing, edit, mark_wires, seams, snapshot
+from scene import add_grid, add_object, add_scan, add_suzanne, changing, edit, mark_wires, seams, snapshot
 from seamwire.core.base import native
 from seamwire.core.islands.islands import IslandMaker
 from seamwire.core.seams.gaps import Gap, GapFinder
@@ -82,13 +81,9 @@ def add_ball(name: str = "Ball", subdivisions: int = 4) -> bpy.types.Object:
 
 
 def add_bmesh(bm: bmesh.types.BMesh, name: str) -> bpy.types.Object:
-    mesh = bpy.data.meshes.new(name)
-    bm.to_mesh(mesh)
+    obj = add_object([], [], name=name)
+    bm.to_mesh(obj.data)
     bm.free()
-    obj = bpy.data.objects.new(name, mesh)
-    bpy.context.collection.objects.link(obj)
-    bpy.context.view_layer.objects.active = obj
-    obj.select_set(True)
     return obj
 
 
@@ -513,14 +508,6 @@ def test_strokes_and_selected_islands_weigh_the_wires(planners: list[dict[str, o
     assert np.isinf(weights[231:]).all()
     assert np.isfinite(weights[:231]).all()
     assert weights[47] == pytest.approx(0.125, rel=1e-6)
-
-
-def add_scan() -> bpy.types.Object:
-    """Add a rough ball of 5,120 triangles."""
-    obj, dice = add_ball(subdivisions=5), random.Random(3)
-    for v in obj.data.vertices:
-        v.co *= 1.0 + 0.03 * dice.random()
-    return obj
 
 
 def add_triangulated_pebble() -> bpy.types.Object:

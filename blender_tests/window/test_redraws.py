@@ -83,18 +83,6 @@ def test_the_first_picture_after_a_chain_shows_all_of_its_end(desk: Desk, calls:
     assert edited.front.islands.newest.count == 2
 
 
-def test_the_second_chain_goes_on_with_what_the_first_one_prepared(desk: Desk, calls: Counter[str]) -> None:
-    desk.choose()
-    draw(desk, 36, 44)
-    made = calls["__call__"]
-    assert made == 1
-    read = calls["read"]
-    session = draw(desk, 4, 22)
-    assert len(session.wires) == 2
-    assert calls["__call__"] == made
-    assert calls["read"] == read
-
-
 def test_progress_is_told_without_a_picture(desk: Desk, calls: Counter[str], monkeypatch: pytest.MonkeyPatch) -> None:
     session, ui = desk.choose(), desk.ui
     ui.click(desk.at(36))
