@@ -7,13 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from fake_live import FakeCuts, FakeLive, grid_edges
-from seamwire.core.drawing.drawing import Drawing
+from fake_live import FakeCuts, FakeLive
 from seamwire.core.drawing.picture import Intent, Role
-from seamwire.core.drawing.session import Session
-from seamwire.terms.options import Options
 from setting import use
-from table import SIZE, Table, chain
+from table import Table, chain
 
 RIGHT = (8, 9, 10, 16, 22, 21, 20, 14)
 LEFT = (8, 7, 6, 12, 18, 19, 20, 14)
@@ -137,15 +134,6 @@ def test_cuts_are_found_in_the_concave_metric_whatever_wires_are() -> None:
     assert it.lives["SURFACE"].metrics == [("concave", 20.0, None)]
     use(it.session, strength_surface=40.0)
     assert it.lives["SURFACE"].metrics[-1] == ("concave", 40.0, None)
-
-
-def test_without_triangles_there_is_none() -> None:
-    made = table()
-    session = Session(
-        Drawing(made.session.drawing.engines._make, made.points, Options(along="SURFACE"), edges=grid_edges(SIZE))
-    )
-    session.hover(8, loop=True)
-    assert session.picture.one(Role.OFFER) is None
 
 
 def taken_at_8() -> Table:

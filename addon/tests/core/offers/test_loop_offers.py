@@ -15,9 +15,7 @@ from seamwire.core.network.network import Network, Snap
 from seamwire.core.network.stops import Stops
 from seamwire.core.offers import part_borders
 from seamwire.core.offers.edge_loops import LoopOffers
-from seamwire.core.offers.part_borders import NO_SEAMS, PartBorders
-
-EDGE = (14, 15)
+from seamwire.core.offers.part_borders import PartBorders
 
 
 def loops(grid: Grid) -> LoopOffers:
@@ -48,23 +46,6 @@ def test_borders_of_parts_are_offered_last() -> None:
     assert set(found[-2].edges()) == offers.part_border(edge[::-1])
     assert offers.part_border((0, 1)) == offers.part_border(edge)
     assert not offers.part_border((7, 8))
-
-
-def test_until_the_faces_are_prepared_nothing_is_offered() -> None:
-    parts = halves()
-    go_on = threading.Event()
-    parts._thread = threading.Thread(target=go_on.wait)
-    parts._thread.start()
-    offers = LoopOffers(Grid().engines, Stops([], symmetry()), POINTS, parts)
-    offers.aim(EDGE)
-    assert offers.find(EDGE, Network()) == ()
-    offers.stop_waiting()
-    assert not offers.final
-    go_on.set()
-    parts._thread.join()
-    parts._search(NO_SEAMS, threading.Event())
-    assert offers.find(EDGE, Network())
-    assert offers.final
 
 
 def test_loops_do_not_wait_for_parts_and_parts_join_them(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -166,17 +166,6 @@ def test_copies_of_a_mirrored_wire_have_their_own_images() -> None:
     assert mesh.seams == lines((36, 37, 38, 44), (41, 40, 39, 45))
 
 
-def test_what_is_left_of_images_whose_wire_is_gone_is_plain() -> None:
-    mesh = mirrored()
-    mesh.delete_vertices([1])
-    session = opened(mesh)
-    assert session.wires == ()
-    before = set(mesh.seams)
-    mesh.write(session)
-    assert mesh.seams == before
-    assert mesh.labels == {}
-
-
 def test_images_of_a_wire_of_which_nothing_is_left_are_plain() -> None:
     mesh = mirrored()
     mesh.delete_edges(chain(0, 1, 2, 8))
