@@ -209,6 +209,23 @@ def test_a_straight_wire_has_no_other_way() -> None:
     assert "same edges" in str(session.drawing.message)
 
 
+def test_the_other_way_of_half_a_wire_is_computed() -> None:
+    table = Table(fork_ready=(False, False))
+    session = table.session
+    session.click(0)
+    session.click(20)
+    assert courses(session) == [(0, 1, 2, 8, 14, 20)]
+    insert(session, session.wires[0], 8)
+    assert session.retrace(session.wires[0])
+    assert session.under_way.computing
+    assert courses(session) == [(0, 1, 2, 8), (8, 14, 20)]
+    table.compute()
+    assert courses(session) == [(0, 6, 7, 8), (8, 14, 20)]
+    assert session.wires[1].heading == (7, 8)
+    session.undo()
+    assert courses(session) == [(0, 1, 2, 8), (8, 14, 20)]
+
+
 def test_dropping_waits_for_nothing_that_was_asked_of_the_wire() -> None:
     table = Table(fork_ready=(False, False))
     session = table.session
