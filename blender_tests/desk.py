@@ -4,6 +4,8 @@
 import ctypes
 import math
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 import bmesh
 import bpy
@@ -19,6 +21,7 @@ from seamwire.mesh.settings import TOOL, settings
 from seamwire.operators import steps
 from seamwire.operators.chain import Chain
 from seamwire.operators.chain_state import running
+from seamwire.ui import status_bar
 from seamwire.view.edited_objects import edited
 
 ORANGE, RED, GREEN, WHITE = (1.0, 0.72, 0.05), (1.0, 0.25, 0.15), (0.3, 1.0, 0.55), (1.0, 1.0, 1.0)
@@ -167,6 +170,23 @@ def leave(ui: driver.Ui) -> None:
     ui.wait()
 
 
+@contextmanager
+def second_window(ui: driver.Ui) -> Iterator[dict[str, object]]:
+    """Open another window, return what to override the context with for its view, and close it."""
+    with ui.override():
+        bpy.ops.wm.window_new()
+    window = bpy.context.window_manager.windows[-1]
+    ui.wait(5)
+    area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
+    region = next(region for region in area.regions if region.type == "WINDOW")
+    try:
+        yield {"window": window, "area": area, "region": region}
+    finally:
+        with bpy.context.temp_override(window=window):
+            bpy.ops.wm.window_close()
+        ui.wait(4)
+
+
 def dismiss(ui: driver.Ui) -> None:
     """Move away from a message of Blender's, which closes it."""
     for step in range(3):
@@ -174,6 +194,11 @@ def dismiss(ui: driver.Ui) -> None:
         ui.wait(3)
     ui.key("ESC")  # newer Blenders keep it open
     ui.wait(3)
+
+
+def said() -> str:
+    """Return what the status bar says of the chain."""
+    return "; ".join(text for _, text in status_bar.hints(status_bar.status_of(running[0])))
 
 
 def undo_steps(capfd: pytest.CaptureFixture[str]) -> list[str]:

@@ -5,10 +5,12 @@ from __future__ import annotations
 
 import math
 import os
+import random
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn
 
 import bmesh
 import bpy
@@ -98,6 +100,16 @@ def add_suzanne(levels: int = 0) -> bpy.types.Object:
     return obj
 
 
+def add_scan() -> bpy.types.Object:
+    """Add a rough ball of 5,120 triangles."""
+    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=5)
+    obj = bpy.context.active_object
+    dice = random.Random(3)
+    for v in obj.data.vertices:
+        v.co *= 1.0 + 0.03 * dice.random()
+    return obj
+
+
 GATE_SIDE = 17
 GATE_SEEDS = (8 * GATE_SIDE + 4, 8 * GATE_SIDE + 12)
 """The feet of the gate's ridge."""
@@ -170,6 +182,28 @@ def animate(obj: bpy.types.Object) -> None:
 def edit() -> None:
     """Enter edit mode on the selected objects."""
     bpy.ops.object.mode_set(mode="EDIT")
+
+
+def fail(*_: object, **__: object) -> NoReturn:
+    """End on an error, in place of what a test wants to fail."""
+    raise RuntimeError("as the test wants it")
+
+
+@contextmanager
+def changing(obj: bpy.types.Object) -> Iterator[bmesh.types.BMesh]:
+    """Change a mesh in edit mode, whose items may be named by their numbers."""
+    bm = bmesh.from_edit_mesh(obj.data)
+    for items in (bm.verts, bm.edges, bm.faces):
+        items.ensure_lookup_table()
+    yield bm
+    bmesh.update_edit_mesh(obj.data)
+
+
+def set_seams(obj: bpy.types.Object, *chains: Sequence[int], seam: bool = True) -> None:
+    """Make the edges along chains of vertices seams of a mesh in edit mode, or no seams."""
+    with changing(obj) as bm:
+        for a, b in (pair for one in chains for pair in pairwise(one)):
+            bm.edges.get((bm.verts[a], bm.verts[b])).seam = seam
 
 
 def seams(obj: bpy.types.Object) -> list[Edge]:

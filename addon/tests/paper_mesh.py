@@ -32,8 +32,6 @@ class PaperMesh:
         (n, 3) vertices in object coordinates.
     edges
         (e, 2) by their vertices.
-    stretch
-        (3, 3) what the object's matrix does to lengths: sessions have ``places @ stretch``.
     triangles
         (m, 3) for strokes.
     seams, labels, hidden, text
@@ -46,7 +44,6 @@ class PaperMesh:
 
     places: NDArray[np.float64]
     edges: NDArray[np.int32]
-    stretch: NDArray[np.float64] = field(default_factory=lambda: np.eye(3))
     triangles: NDArray[np.int32] | None = None
     seams: set[Edge] = field(default_factory=set)
     labels: dict[Edge, int] = field(default_factory=dict)
@@ -60,12 +57,12 @@ class PaperMesh:
     @property
     def points(self) -> NDArray[np.float64]:
         """Return the vertices as sessions have them."""
-        return self.places @ self.stretch
+        return self.places
 
     @property
     def where(self) -> Places:
         """Return where the vertices are."""
-        return Places(self.points, np.linalg.inv(self.stretch))
+        return Places(self.places, np.eye(3))
 
     @property
     def pairs(self) -> list[Edge]:
@@ -205,16 +202,6 @@ class PaperMesh:
             kept.update([edges[edge] for edge in kept if edge in edges])
         self.labels.update({edges[edge]: label for edge, label in self.labels.items() if edge in edges})
         return numbers
-
-    def join(self, other: PaperMesh) -> None:
-        """Take in another mesh, as Ctrl+J does: its text is lost."""
-        count = len(self.places)
-        edges = other._renamed({one: one + count for one in range(len(other.places))})
-        self.places = np.vstack([self.places, other.places])
-        self.edges = np.vstack([self.edges, np.array(list(edges.values()), dtype=np.int32).reshape(-1, 2)])
-        self.seams |= {edges[edge] for edge in other.seams}
-        self.hidden |= {edges[edge] for edge in other.hidden}
-        self.labels |= {edges[edge]: label for edge, label in other.labels.items()}
 
     def hide(self, *edges: Edge) -> None:
         """Hide edges."""

@@ -17,18 +17,7 @@ from seamwire.words.sentences import SENTENCES
 ROOT = Path(__file__).parent.parent / "seamwire"
 LAB = ROOT.parent / "seamwire_lab"
 BATCH = ROOT.parents[1] / "batch" / "seamwire_batch"
-ROOMS = (
-    "base",
-    "network",
-    "solver",
-    "storage",
-    "seams",
-    "islands",
-    "fields",
-    "offers",
-    "drawing",
-    "picking",
-)
+ROOMS = ("base", "network", "solver", "storage", "seams", "islands", "fields", "offers", "drawing", "picking")
 """The rooms of the core; each imports from itself and from those before it."""
 FLOORS = (
     "terms",
@@ -43,12 +32,7 @@ FLOORS = (
 )
 CORES = ("core.", "networks.core.")
 """The modules that do not know Blender, and hold no sentence for artists."""
-KNOWN_CYCLES = {
-    ("operators.chain_state", "operators.chain"): {
-        "operators.chain",
-        "operators.chain_state",
-    },
-}
+KNOWN_CYCLES = {("operators.chain_state", "operators.chain"): {"operators.chain", "operators.chain_state"}}
 """Imports of types that lead back to the module itself, and all modules on the way."""
 
 

@@ -18,7 +18,9 @@ from scene import (
     add_grid,
     add_layers,
     add_object,
+    add_scan,
     add_suzanne,
+    changing,
     edit,
     head,
     items_of,
@@ -77,23 +79,11 @@ def add_hills() -> bpy.types.Object:
     """Add a grid with some polygons of up to ten corners, concave ones too, and heights that make them uneven."""
     obj = add_grid(13)
     edit()
-    bm = bmesh.from_edit_mesh(obj.data)
-    bm.verts.ensure_lookup_table()
-    bmesh.ops.dissolve_verts(bm, verts=[bm.verts[v] for v in (30, 31, 57, 84, 97, 98, 111)])
-    for v in bm.verts:
-        v.co.z = 0.2 * math.sin(3.0 * v.co.x) * v.co.y
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        bmesh.ops.dissolve_verts(bm, verts=[bm.verts[v] for v in (30, 31, 57, 84, 97, 98, 111)])
+        for v in bm.verts:
+            v.co.z = 0.2 * math.sin(3.0 * v.co.x) * v.co.y
     bpy.ops.object.mode_set(mode="OBJECT")
-    return obj
-
-
-def add_scan() -> bpy.types.Object:
-    """Add a ball of irregular triangles."""
-    bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=5)
-    obj = bpy.context.active_object
-    dice = random.Random(3)
-    for v in obj.data.vertices:
-        v.co *= 1.0 + 0.03 * dice.random()
     return obj
 
 
@@ -209,12 +199,11 @@ def test_layers_come_out_as_blenders_own_bisect_leaves_them() -> None:
             assert cut("0 44")
         else:
             # The wire leads from one side of the grid to another, as the plane does.
-            bm = bmesh.from_edit_mesh(obj.data)
-            a, b = (bm.verts[:][v].co.copy() for v in (0, 44))
-            everything = [*bm.verts, *bm.edges, *bm.faces]
-            across = (b - a).cross((0.0, 0.0, 1.0))
-            bmesh.ops.bisect_plane(bm, geom=everything, plane_co=a, plane_no=across, dist=1e-6)
-            bmesh.update_edit_mesh(obj.data)
+            with changing(obj) as bm:
+                a, b = (bm.verts[:][v].co.copy() for v in (0, 44))
+                everything = [*bm.verts, *bm.edges, *bm.faces]
+                across = (b - a).cross((0.0, 0.0, 1.0))
+                bmesh.ops.bisect_plane(bm, geom=everything, plane_co=a, plane_no=across, dist=1e-6)
         found.append(by_place(obj))
         bpy.ops.object.mode_set(mode="OBJECT")
         bpy.data.objects.remove(obj)
@@ -408,19 +397,17 @@ def test_a_cut_that_ends_on_an_error_leaves_every_mesh_as_it_was(monkeypatch: py
 def select_some(obj: bpy.types.Object, mode: str) -> None:
     """Select some faces of a mesh in a select mode, and make one active."""
     bpy.context.tool_settings.mesh_select_mode = [mode == name for name in ("VERT", "EDGE", "FACE")]
-    bm = bmesh.from_edit_mesh(obj.data)
-    bm.select_mode = {mode}
-    bm.faces.ensure_lookup_table()
-    for item in (*bm.verts, *bm.edges, *bm.faces):
-        item.select = False
-    for number in (1, 2, 9, 18, 27):
-        bm.faces[number].select = True
-    bm.select_history.clear()
-    if mode == "FACE":
-        bm.select_history.add(bm.faces[9])
-    bm.faces.active = bm.faces[9]
-    bm.select_flush_mode()
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        bm.select_mode = {mode}
+        for item in (*bm.verts, *bm.edges, *bm.faces):
+            item.select = False
+        for number in (1, 2, 9, 18, 27):
+            bm.faces[number].select = True
+        bm.select_history.clear()
+        if mode == "FACE":
+            bm.select_history.add(bm.faces[9])
+        bm.faces.active = bm.faces[9]
+        bm.select_flush_mode()
 
 
 @pytest.mark.every_blender
@@ -509,11 +496,10 @@ def test_an_image_is_cut_across_other_triangles(chains: str, capfd: pytest.Captu
 
 def test_all_images_of_a_wire_from_pole_to_pole_are_cut() -> None:
     obj = add_unlike_halves(3)
-    bm = bmesh.from_edit_mesh(obj.data)
-    for v in bm.verts:
-        if abs(v.co.z) < 0.9 and min(abs(v.co.x), abs(v.co.y)) < 0.3:
-            v.co *= 2.0  # the way down leads along a corner of the cube
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        for v in bm.verts:
+            if abs(v.co.z) < 0.9 and min(abs(v.co.x), abs(v.co.y)) < 0.3:
+                v.co *= 2.0  # the way down leads along a corner of the cube
     top, bottom = (vertex_near(obj, (0.0, 0.0, z)) for z in (1.0, -1.0))
     assert cut(f"{top} {bottom}", mirror={"X", "Y"}, strength=1.0)
     assert islands(obj) == 4
@@ -769,10 +755,9 @@ def test_seams_cannot_be_cleared_by_a_cut() -> None:
 def test_hidden_faces_are_not_cut() -> None:
     obj = add_grid(9)
     edit()
-    bm = bmesh.from_edit_mesh(obj.data)
-    for face in bm.faces:
-        face.hide_set(face.calc_center_median().x > 0.5)
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        for face in bm.faces:
+            face.hide_set(face.calc_center_median().x > 0.5)
     hidden = sum(face.hide for face in bm.faces)
     assert cut("0 76")
     bm = bmesh.from_edit_mesh(obj.data)
@@ -850,9 +835,8 @@ def chain_inside(triangulated: bool, *seeds: tuple[float, float, float] | int) -
     obj = add_grid(9)
     edit()
     if triangulated:
-        bm = bmesh.from_edit_mesh(obj.data)
-        bmesh.ops.triangulate(bm, faces=bm.faces[:])
-        bmesh.update_edit_mesh(obj.data)
+        with changing(obj) as bm:
+            bmesh.ops.triangulate(bm, faces=bm.faces[:])
     assert cut(" ".join(f"({x[0]} {x[1]} {x[2]})" if isinstance(x, tuple) else str(x) for x in (75, *seeds)))
     return obj
 
@@ -1007,9 +991,8 @@ def test_dragging_a_seed_twice_leaves_no_old_cut_whatever_blender_did_with_the_m
 def add_triangles() -> bpy.types.Object:
     obj = add_grid(7)
     edit()
-    bm = bmesh.from_edit_mesh(obj.data)
-    bmesh.ops.triangulate(bm, faces=bm.faces[:])
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        bmesh.ops.triangulate(bm, faces=bm.faces[:])
     bpy.ops.object.mode_set(mode="OBJECT")
     return obj
 
@@ -1071,10 +1054,9 @@ def test_cuts_in_a_mesh_that_blender_changed_are_taken_back_as_far_as_they_are_t
         bpy.ops.object.join()
         edit()
     elif change == "hide":
-        bm = bmesh.from_edit_mesh(obj.data)
-        for face in bm.faces[:20]:
-            face.hide_set(True)
-        bmesh.update_edit_mesh(obj.data)
+        with changing(obj) as bm:
+            for face in bm.faces[:20]:
+                face.hide_set(True)
     else:
         getattr(bpy.ops.mesh, change)()
     while wires := session_on(obj).session.wires:
@@ -1218,9 +1200,8 @@ def test_what_is_smaller_than_a_crumb_is_no_island(crumb: float, islands: int) -
 def test_small_parts_of_a_mesh_are_cut_all_the_same() -> None:
     obj = add_grid(21)
     edit()
-    bm = bmesh.from_edit_mesh(obj.data)
-    bmesh.ops.create_grid(bm, x_segments=4, y_segments=4, size=0.02, matrix=Matrix.Translation((3.0, 0.0, 0.0)))
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        bmesh.ops.create_grid(bm, x_segments=4, y_segments=4, size=0.02, matrix=Matrix.Translation((3.0, 0.0, 0.0)))
     mesh = lines(obj, ((2.98, -0.02), (3.02, 0.01)))
     cut_with(mesh, 1e-3)
     assert island_count(obj) == 3
@@ -1229,12 +1210,10 @@ def test_small_parts_of_a_mesh_are_cut_all_the_same() -> None:
 def test_a_seam_that_was_there_stays_though_it_borders_a_crumb() -> None:
     obj = add_grid(21)
     edit()
-    bm = bmesh.from_edit_mesh(obj.data)
-    bm.verts.ensure_lookup_table()
-    row = [bm.edges.get((bm.verts[10 * 21 + x], bm.verts[10 * 21 + x + 1])) for x in range(20)]
-    for edge in row:
-        edge.seam = True
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        row = [bm.edges.get((bm.verts[10 * 21 + x], bm.verts[10 * 21 + x + 1])) for x in range(20)]
+        for edge in row:
+            edge.seam = True
     # The part of it between the two others is the longest border of what they enclose with it, 0.25 % of the square.
     mesh = lines(obj, ((-1.0, 0.0), (1.0, 0.0)), ((-1.0, -0.2), (1.0, 0.3)), ((-1.0, 0.3), (1.0, -0.2)))
     cut_with(mesh, 5e-3)

@@ -70,8 +70,7 @@ def test_a_face_without_area_on_the_way_is_cut(shape: tuple, back: bool) -> None
 
 @pytest.mark.every_blender
 @pytest.mark.parametrize(
-    ("share", "seed", "chains"),
-    [(0.1, 3, "174 130"), (0.3, 4, "505 147; 364 137"), (0.3, 4, "364 137")],
+    ("share", "seed", "chains"), [(0.1, 3, "174 130"), (0.3, 4, "505 147; 364 137"), (0.3, 4, "364 137")]
 )
 def test_folded_faces_are_cut(share: float, seed: int, chains: str, capfd: pytest.CaptureFixture[str]) -> None:
     obj = add_folded_faces(share, seed)

@@ -4,9 +4,8 @@
 import bmesh
 import bpy
 import pytest
-from scene import add_grid, chain, edit, seams, snapshot
+from scene import add_grid, chain, changing, edit, seams, set_seams, snapshot
 from stored import agree, chains
-from test_take_over import mark
 
 ROW, COLUMN = chain(*range(36, 45)), chain(4, 13, 22, 31)
 
@@ -16,7 +15,7 @@ def nearly() -> bpy.types.Object:
     """A grid in edit mode with seams along a row, and down a column to one edge before it; vertex y * 9 + x is column x of row y."""
     obj = add_grid(9)
     edit()
-    mark(obj, [*ROW, *COLUMN])
+    set_seams(obj, *ROW, *COLUMN)
     return obj
 
 
@@ -52,19 +51,18 @@ def test_longer_ones_stay_open_unless_they_are_asked_for(nearly: bpy.types.Objec
 def test_the_edge_of_what_is_hidden_is_no_border(hidden: bool) -> None:
     obj = add_grid(9)
     edit()
-    mark(obj, chain(*range(36, 43)))
-    bm = bmesh.from_edit_mesh(obj.data)
-    for face in list(bm.faces):
-        if face.calc_center_median().x > 0.75:
-            face.hide_set(True) if hidden else bm.faces.remove(face)
-    bmesh.update_edit_mesh(obj.data)
+    set_seams(obj, range(36, 43))
+    with changing(obj) as bm:
+        for face in list(bm.faces):
+            if face.calc_center_median().x > 0.75:
+                face.hide_set(True) if hidden else bm.faces.remove(face)
     assert bpy.ops.mesh.seamwire_close_gaps() == ({"CANCELLED"} if hidden else {"FINISHED"})
 
 
 def test_where_the_mesh_is_mirrored_both_sides_are_closed() -> None:
     obj = add_grid(9)
     edit()
-    mark(obj, [*chain(*range(36, 45)), *chain(2, 11, 20, 29), *chain(6, 15, 24, 33)])
+    set_seams(obj, range(36, 45), (2, 11, 20, 29), (6, 15, 24, 33))
     obj.data.use_mirror_x = True
     assert bpy.ops.mesh.seamwire_close_gaps() == {"FINISHED"}
     assert {(29, 38), (33, 42)} < set(seams(obj))
@@ -76,7 +74,7 @@ def test_all_objects_in_edit_mode_and_none_where_one_fails(nearly: bpy.types.Obj
     other = add_grid(9)
     nearly.select_set(True)
     edit()
-    mark(other, [*ROW, *COLUMN])
+    set_seams(other, *ROW, *COLUMN)
     assert bpy.ops.mesh.seamwire_close_gaps() == {"FINISHED"}
     assert (31, 40) in seams(nearly)
     assert (31, 40) in seams(other)

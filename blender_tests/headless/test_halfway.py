@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 import bmesh
 import bpy
 import pytest
-from scene import add_grid, edit, mark_wires, snapshot
+from scene import add_grid, changing, edit, mark_wires, snapshot
 from seamwire.mesh import edit_mesh, finishes, seam_islands
 from seamwire.mesh.object_session import ObjectSession
 
@@ -41,13 +41,10 @@ def grids() -> Iterator[list[str]]:
     names = [obj.name for obj in objects]
     edit()
     for obj in objects:
-        bm = bmesh.from_edit_mesh(obj.data)
-        bm.verts.ensure_lookup_table()
-        bm.faces.ensure_lookup_table()
-        bmesh.ops.delete(bm, geom=[bm.faces[9]], context="FACES_ONLY")
-        for start in (*range(36, 39), *range(40, 44)):
-            bm.edges.get((bm.verts[start], bm.verts[start + 1])).seam = True
-        bmesh.update_edit_mesh(obj.data)
+        with changing(obj) as bm:
+            bmesh.ops.delete(bm, geom=[bm.faces[9]], context="FACES_ONLY")
+            for start in (*range(36, 39), *range(40, 44)):
+                bm.edges.get((bm.verts[start], bm.verts[start + 1])).seam = True
     bpy.ops.ed.undo_push(message="Before")
     yield names
 

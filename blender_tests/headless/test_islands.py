@@ -7,7 +7,7 @@ from functools import partial
 import bmesh
 import bpy
 import pytest
-from scene import add_grid, add_object, edit, seams, snapshot
+from scene import add_grid, add_object, changing, edit, seams, snapshot
 from seamwire.mesh.seam_islands import faces_to_cut, missing_cuts
 from seamwire.mesh.versions import IS_OLD
 
@@ -21,10 +21,9 @@ def add_tube() -> bpy.types.Object:
 
 
 def mark(obj: bpy.types.Object, wanted: object) -> None:
-    bm = bmesh.from_edit_mesh(obj.data)
-    for edge in bm.edges:
-        edge.seam = wanted(*(v.co for v in edge.verts))
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        for edge in bm.edges:
+            edge.seam = wanted(*(v.co for v in edge.verts))
 
 
 def halves(a: object, b: object) -> bool:
@@ -122,12 +121,11 @@ def test_blender_marks_seams_as_sharp() -> None:
 def test_hidden_faces_keep_what_they_have_and_nothing_visible_is_said() -> None:
     obj = add_grid(9)
     edit()
-    bm = bmesh.from_edit_mesh(obj.data)
-    layer = bm.faces.layers.int.new("island")
-    bm.faces.ensure_lookup_table()
-    bm.faces[0][layer] = 7
-    bm.faces[0].hide_set(True)
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        layer = bm.faces.layers.int.new("island")
+        bm.faces.ensure_lookup_table()
+        bm.faces[0][layer] = 7
+        bm.faces[0].hide_set(True)
     bpy.ops.mesh.seamwire_store(what="ATTRIBUTE")
     assert sorted({number for number, _ in numbers(obj, "island")}) == [0, 7]
     bpy.ops.mesh.select_all(action="SELECT")
@@ -140,10 +138,8 @@ def test_hidden_faces_that_have_nothing_yet_become_no_island() -> None:
     obj = add_grid(9)
     edit()
     mark(obj, halves)
-    bm = bmesh.from_edit_mesh(obj.data)
-    bm.faces.ensure_lookup_table()
-    bm.faces[0].hide_set(True)
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        bm.faces[0].hide_set(True)
     assert bpy.ops.mesh.seamwire_store(what="ATTRIBUTE") == {"FINISHED"}
     assert {number for number, _ in numbers(obj, "island")} == {-1, 0, 1}
     assert bpy.ops.mesh.seamwire_store(what="MATERIALS") == {"FINISHED"}

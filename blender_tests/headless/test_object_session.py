@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 import pytest
 from mathutils import Matrix
-from scene import add_grid, add_layers, chain, edit, mark_wires, seams, snapshot
+from scene import add_grid, add_layers, chain, changing, edit, fail, mark_wires, seams, set_seams, snapshot
 from seamwire.core.solver.solver import LiveMaker
 from seamwire.mesh import edit_mesh
 from seamwire.mesh.object_session import ObjectSession
@@ -41,14 +41,6 @@ def draw(mesh: ObjectSession, *picks: int) -> None:
         assert mesh.session.click(pick), str(mesh.session.drawing.message)
         mesh.session.queue.wait()
     write(mesh)
-
-
-def set_seams(obj: bpy.types.Object, *pairs: tuple[int, int], seam: bool = True) -> None:
-    bm = bmesh.from_edit_mesh(obj.data)
-    bm.verts.ensure_lookup_table()
-    for a, b in pairs:
-        bm.edges.get((bm.verts[a], bm.verts[b])).seam = seam
-    bmesh.update_edit_mesh(obj.data)
 
 
 def has_labels(obj: bpy.types.Object) -> bool:
@@ -181,9 +173,6 @@ def test_symmetry_is_looked_for_again_after_an_error(grid: bpy.types.Object, mon
     def found(mesh: ObjectSession) -> tuple[int, ...]:
         return next(axes for axes in iter(mesh.symmetric_soon, ()) if axes is not None)
 
-    def fail(_symmetry: object) -> None:
-        raise RuntimeError("as the test wants it")
-
     mesh = session_on(grid)
     with monkeypatch.context() as patch:
         patch.setattr(type(mesh.session.drawing.symmetry), "symmetric_axes", property(fail))
@@ -297,10 +286,8 @@ def test_refreshed_it_keeps_what_was_prepared_where_only_seams_changed(grid: bpy
 
 def test_it_does_not_go_on_with_another_shape(grid: bpy.types.Object) -> None:
     mesh = session_on(grid)
-    bm = bmesh.from_edit_mesh(grid.data)
-    bm.verts.ensure_lookup_table()
-    bm.verts[40].co.z += 0.5
-    bmesh.update_edit_mesh(grid.data)
+    with changing(grid) as bm:
+        bm.verts[40].co.z += 0.5
     assert not mesh.refresh(grid)
     assert mesh.follow_change(grid, mesh.session.network) is None
     assert session_on(grid).refresh(grid)
@@ -378,7 +365,9 @@ def test_wires_do_not_mind_the_objects_scale(
 ) -> None:
     mesh = session_on(grid)
     mesh.session.follow(replace(mesh.session.options, along=along))
+    assert mesh.session.draw_stroke(vertices=[38, 42])
     draw(mesh, 36, 40, 44)
+    stroke = mesh.session.network.strokes[0].points @ mesh.arrays.to_object.T
     curves = {wire.vertices: wire.points @ mesh.arrays.to_object.T for wire in mesh.session.wires}
     grid.matrix_world = Matrix.Diagonal((1.0, 4.0, 0.5, 1.0))
     bpy.context.view_layer.update()
@@ -388,6 +377,8 @@ def test_wires_do_not_mind_the_objects_scale(
     assert chains(grid) == [(36, 37, 38, 39, 40), (40, 41, 42, 43, 44)]
     for wire in again.session.wires:
         np.testing.assert_allclose(wire.points @ again.arrays.to_object.T, curves[wire.vertices], atol=1e-5)
+    found = again.session.network.strokes[0].points
+    np.testing.assert_allclose(found @ again.arrays.to_object.T, stroke, atol=1e-5)
     assert agree(grid)
 
 

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is read of an edit mesh: the same as Blender itself tells of it, whatever its faces are like."""
 
-import bmesh
 import bpy
 import numpy as np
 import pytest
-from scene import add_grid, add_object, add_suzanne, edit
+from scene import add_grid, add_object, add_suzanne, changing, edit
 from seamwire.mesh import edit_mesh
 from stored import island_count as islands
 
@@ -77,11 +76,9 @@ def test_seams_past_a_vertex_in_the_middle_of_an_edge_part_islands(more: tuple[t
     obj = add_object([(*point, 0.0) for point in points], faces)
     edit()
     assert islands(obj) == 1
-    bm = bmesh.from_edit_mesh(obj.data)
-    bm.verts.ensure_lookup_table()
-    for edge in bm.verts[1].link_edges:
-        edge.seam = True
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        for edge in bm.verts[1].link_edges:
+            edge.seam = True
     assert islands(obj) == 2
     arrays = edit_mesh.read(obj)
     corners = arrays.points[arrays.triangles]
@@ -91,12 +88,9 @@ def test_seams_past_a_vertex_in_the_middle_of_an_edge_part_islands(more: tuple[t
 def test_what_is_hidden_is_left_out_and_seams_are_told() -> None:
     obj = add_grid(5)
     edit()
-    bm = bmesh.from_edit_mesh(obj.data)
-    bm.verts.ensure_lookup_table()
-    bm.faces.ensure_lookup_table()
-    bm.faces[0].hide_set(True)
-    bm.edges.get((bm.verts[11], bm.verts[12])).seam = True
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        bm.faces[0].hide_set(True)
+        bm.edges.get((bm.verts[11], bm.verts[12])).seam = True
     arrays = edit_mesh.read(obj)
     assert len(arrays.triangles) == 30
     assert [sorted(edge) for edge in arrays.seams.tolist()] == [[11, 12]]

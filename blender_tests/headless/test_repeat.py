@@ -3,10 +3,9 @@
 
 import random
 
-import bmesh
 import bpy
 import pytest
-from scene import add_grid, add_suzanne, edit, mark_wires, seams, snapshot
+from scene import add_grid, add_suzanne, changing, edit, mark_wires, seams, snapshot
 from stored import agree, chains
 
 
@@ -81,10 +80,8 @@ def test_all_wires_are_repeated_or_those_with_selected_edges(bolts: bpy.types.Ob
 def select(obj: bpy.types.Object, *vertices: int) -> None:
     """Select the edge between two vertices alone."""
     bpy.ops.mesh.select_all(action="DESELECT")
-    bm = bmesh.from_edit_mesh(obj.data)
-    bm.verts.ensure_lookup_table()
-    bm.edges.get([bm.verts[vertex] for vertex in vertices]).select_set(True)
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        bm.edges.get([bm.verts[vertex] for vertex in vertices]).select_set(True)
 
 
 def test_without_a_wire_it_says_so() -> None:

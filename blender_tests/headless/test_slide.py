@@ -5,7 +5,7 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from scene import add_grid, add_layers, edit, mark_wires, seams, snapshot
+from scene import add_grid, add_layers, changing, edit, mark_wires, seams, snapshot
 from seamwire.mesh.finishes import FINISHERS
 from seamwire.terms.choices import FINISHES
 from stored import agree, session_on
@@ -91,15 +91,14 @@ def test_sliding_again_changes_nothing() -> None:
 @pytest.mark.every_blender
 def test_what_the_corners_hold_stays_where_it_is_on_the_surface() -> None:
     obj = add_quads()
-    bm = bmesh.from_edit_mesh(obj.data)
-    layer = bm.loops.layers.uv.verify()
-    color = bm.loops.layers.float_color.new("painted")
-    for face in bm.faces:
-        for loop in face.loops:
-            x, y, _ = loop.vert.co
-            loop[layer].uv = (3.0 * x + y, 0.5 - y)
-            loop[color] = (x, y, 0.25, 1.0)
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        layer = bm.loops.layers.uv.verify()
+        color = bm.loops.layers.float_color.new("painted")
+        for face in bm.faces:
+            for loop in face.loops:
+                x, y, _ = loop.vert.co
+                loop[layer].uv = (3.0 * x + y, 0.5 - y)
+                loop[color] = (x, y, 0.25, 1.0)
     mark()
     bm = bmesh.from_edit_mesh(obj.data)
     layer, color = bm.loops.layers.uv.active, bm.loops.layers.float_color["painted"]
@@ -113,14 +112,13 @@ def test_what_the_corners_hold_stays_where_it_is_on_the_surface() -> None:
 @pytest.mark.every_blender
 def test_islands_of_a_uv_map_stay_apart_and_each_as_it_was() -> None:
     obj = add_quads()
-    bm = bmesh.from_edit_mesh(obj.data)
-    layer = bm.loops.layers.uv.verify()
-    for face in bm.faces:
-        far = face.calc_center_median().y > face.calc_center_median().x
-        for loop in face.loops:
-            x, y, _ = loop.vert.co
-            loop[layer].uv = (10.0 - y, 2.0 * x) if far else (x, y)
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        layer = bm.loops.layers.uv.verify()
+        for face in bm.faces:
+            far = face.calc_center_median().y > face.calc_center_median().x
+            for loop in face.loops:
+                x, y, _ = loop.vert.co
+                loop[layer].uv = (10.0 - y, 2.0 * x) if far else (x, y)
     mark(chains="12 140; 24 142")
     bm = bmesh.from_edit_mesh(obj.data)
     layer = bm.loops.layers.uv.active
@@ -166,16 +164,14 @@ def test_the_surface_stays_in_every_shape_key(active: int) -> None:
 def test_vertices_on_marks_stay(what: str) -> None:
     obj = add_quads()
     bpy.ops.mesh.select_all(action="DESELECT")
-    bm = bmesh.from_edit_mesh(obj.data)
-    bm.faces.ensure_lookup_table()
-    column = [edge for edge in bm.edges if all(v.index % 12 == 6 for v in edge.verts)]
-    if what == "material":
-        for face in bm.faces:
-            face.material_index = int(face.calc_center_median().x > bm.verts[:][6].co.x)
-    else:
-        for edge in column:
-            edge.select_set(True)
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        column = [edge for edge in bm.edges if all(v.index % 12 == 6 for v in edge.verts)]
+        if what == "material":
+            for face in bm.faces:
+                face.material_index = int(face.calc_center_median().x > bm.verts[:][6].co.x)
+        else:
+            for edge in column:
+                edge.select_set(True)
     if what == "sharp":
         bpy.ops.mesh.mark_sharp()
     elif what == "crease":

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from maps import flipped, in_square, overlapping_pairs
 from mathutils import Matrix
-from scene import add_object, edit
+from scene import add_object, changing, edit
 
 
 def add_parts() -> bpy.types.Object:
@@ -59,13 +59,12 @@ def test_copies_lie_on_each_other_if_they_are_wanted(capfd: pytest.CaptureFixtur
 def test_new_copies_lie_on_each_other_beside_islands_that_stay() -> None:
     obj = add_parts()
     assert bpy.ops.mesh.seamwire_unwrap() == {"FINISHED"}
-    bm = bmesh.from_edit_mesh(obj.data)
-    layer = bm.loops.layers.uv.active
-    bm.faces.ensure_lookup_table()
-    for number in (2, 3, 4, 5):  # two of the strips get no area in the map, so they are new
-        for loop in bm.faces[number].loops:
-            loop[layer].uv = 0.0, 0.0
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        layer = bm.loops.layers.uv.active
+        bm.faces.ensure_lookup_table()
+        for number in (2, 3, 4, 5):  # two of the strips get no area in the map, so they are new
+            for loop in bm.faces[number].loops:
+                loop[layer].uv = 0.0, 0.0
     first, _, _, other = islands(obj)
     assert bpy.ops.mesh.seamwire_unwrap(stack=True) == {"FINISHED"}
     found = islands(obj)

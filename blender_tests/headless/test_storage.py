@@ -8,7 +8,7 @@ from pathlib import Path
 import bmesh
 import bpy
 import pytest
-from scene import add_grid, chain, edit, mark_wires, seams, snapshot
+from scene import add_grid, chain, changing, edit, mark_wires, seams, snapshot
 from seamwire.mesh.edit_mesh import LABELS
 from stored import agree, chains, forget, session_on, wired, write
 
@@ -39,11 +39,10 @@ def select(obj: bpy.types.Object, wanted: Callable[[bmesh.types.BMFace], bool]) 
     """Select faces of an edit mesh, and nothing else."""
     bpy.context.tool_settings.mesh_select_mode = (False, False, True)
     bpy.ops.mesh.select_all(action="DESELECT")
-    bm = bmesh.from_edit_mesh(obj.data)
-    for face in bm.faces:
-        face.select_set(wanted(face))
-    bm.select_flush_mode()
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        for face in bm.faces:
+            face.select_set(wanted(face))
+        bm.select_flush_mode()
 
 
 def vertices(obj: bpy.types.Object, *places: tuple[float, float]) -> list[int]:
@@ -296,10 +295,8 @@ def test_where_a_part_was_deleted_the_rest_of_a_wire_is_a_plain_seam(drawn: bpy.
 
 
 def test_dissolved_edges_under_a_wire_leave_no_wire_and_no_error(drawn: bpy.types.Object) -> None:
-    bm = bmesh.from_edit_mesh(drawn.data)
-    bm.verts.ensure_lookup_table()
-    bmesh.ops.dissolve_verts(bm, verts=[bm.verts[38]])
-    bmesh.update_edit_mesh(drawn.data)
+    with changing(drawn) as bm:
+        bmesh.ops.dissolve_verts(bm, verts=[bm.verts[38]])
     assert session_on(drawn).notices.take() == []
     assert len(chains(drawn)) == 2
 
@@ -399,17 +396,7 @@ def test_what_a_newer_version_wrote_stays_byte_by_byte_and_is_said(
 
 
 @pytest.mark.parametrize(
-    "operator",
-    [
-        "close_gaps",
-        "finish",
-        "load_network",
-        "repeat",
-        "save_network",
-        "suggest",
-        "take_over",
-        "transfer",
-    ],
+    "operator", ["close_gaps", "finish", "load_network", "repeat", "save_network", "suggest", "take_over", "transfer"]
 )
 def test_each_operator_tells_of_wires_that_it_cannot_read(
     drawn: bpy.types.Object,

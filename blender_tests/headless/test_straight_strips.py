@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 import pytest
 from maps import energy, flipped, in_square, overlapping_pairs
-from scene import add_object, edit
+from scene import add_object, changing, edit
 
 SIDES = 12
 
@@ -34,11 +34,10 @@ def add_barrel(rows: int = 4, turned: float = 0.0) -> bpy.types.Object:
     lids = [tuple(range(SIDES))[::-1], tuple(range(SIDES * rows, SIDES * (rows + 1)))]
     obj = add_object(points, [*faces, *lids])
     edit()
-    bm = bmesh.from_edit_mesh(obj.data)
-    for edge in bm.edges:
-        one, other = (vertex.index for vertex in edge.verts)
-        edge.seam = any(len(face.verts) > 4 for face in edge.link_faces) or (one % SIDES == other % SIDES == 0)
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        for edge in bm.edges:
+            one, other = (vertex.index for vertex in edge.verts)
+            edge.seam = any(len(face.verts) > 4 for face in edge.link_faces) or (one % SIDES == other % SIDES == 0)
     return obj
 
 
@@ -83,9 +82,8 @@ def test_the_wall_of_a_barrel_is_laid_out_straight_unless_it_is_not_wanted() -> 
 @pytest.mark.parametrize("quads", ["BEAUTY", "FIXED", "ALTERNATE"])
 def test_the_wall_of_a_triangulated_barrel_is_laid_out_straight(quads: str) -> None:
     obj = add_barrel()
-    bm = bmesh.from_edit_mesh(obj.data)
-    bmesh.ops.triangulate(bm, faces=[face for face in bm.faces if len(face.verts) == 4], quad_method=quads)
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        bmesh.ops.triangulate(bm, faces=[face for face in bm.faces if len(face.verts) == 4], quad_method=quads)
     assert bpy.ops.mesh.seamwire_unwrap() == {"FINISHED"}
     assert lines_of(obj) == [SIDES + 1, 5]
 
@@ -131,16 +129,15 @@ def test_blender_turns_islands_if_upright_is_not_wanted() -> None:
 def test_a_straight_island_stays_along_the_axes_beside_islands_that_stay() -> None:
     obj = add_barrel()
     assert bpy.ops.mesh.seamwire_unwrap() == {"FINISHED"}
-    bm = bmesh.from_edit_mesh(obj.data)
-    layer = bm.loops.layers.uv.active
-    turn = np.array([[math.cos(0.3), math.sin(0.3)], [-math.sin(0.3), math.cos(0.3)]])
-    for face in bm.faces:
-        for loop in face.loops:
-            loop[layer].uv = 0.5 * (np.array(loop[layer].uv) - 0.5) @ turn + 0.5
-    # The wall in two halves.
-    for edge in bm.edges:
-        edge.seam |= all(vertex.index % SIDES == SIDES // 2 for vertex in edge.verts)
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        layer = bm.loops.layers.uv.active
+        turn = np.array([[math.cos(0.3), math.sin(0.3)], [-math.sin(0.3), math.cos(0.3)]])
+        for face in bm.faces:
+            for loop in face.loops:
+                loop[layer].uv = 0.5 * (np.array(loop[layer].uv) - 0.5) @ turn + 0.5
+        # The wall in two halves.
+        for edge in bm.edges:
+            edge.seam |= all(vertex.index % SIDES == SIDES // 2 for vertex in edge.verts)
     lids = uvs_of(obj, True)
     assert bpy.ops.mesh.seamwire_unwrap() == {"FINISHED"}
     assert np.array_equal(uvs_of(obj, True), lids)

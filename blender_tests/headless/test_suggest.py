@@ -2,7 +2,6 @@
 """Seams that are suggested: ``mesh.seamwire_suggest``."""
 
 import math
-import random
 import re
 from collections.abc import Callable
 from dataclasses import replace
@@ -13,7 +12,7 @@ import numpy as np
 import pytest
 from maps import energy, flipped, in_square, overlapping_pairs, triangles
 from mathutils import Matrix
-from scene import add_grid, add_object, add_suzanne, edit, mark_wires, seams, snapshot
+from scene import add_grid, add_object, add_scan, add_suzanne, changing, edit, mark_wires, seams, snapshot
 from seamwire.core.base import native
 from seamwire.core.islands.islands import IslandMaker
 from seamwire.core.seams.gaps import Gap, GapFinder
@@ -82,13 +81,9 @@ def add_ball(name: str = "Ball", subdivisions: int = 4) -> bpy.types.Object:
 
 
 def add_bmesh(bm: bmesh.types.BMesh, name: str) -> bpy.types.Object:
-    mesh = bpy.data.meshes.new(name)
-    bm.to_mesh(mesh)
+    obj = add_object([], [], name=name)
+    bm.to_mesh(obj.data)
     bm.free()
-    obj = bpy.data.objects.new(name, mesh)
-    bpy.context.collection.objects.link(obj)
-    bpy.context.view_layer.objects.active = obj
-    obj.select_set(True)
     return obj
 
 
@@ -391,10 +386,8 @@ def test_only_islands_with_selected_faces_are_cut(count: int) -> None:
     bpy.ops.mesh.select_all(action="DESELECT")
     with pytest.raises(RuntimeError, match="No face is selected"):
         suggest(islands=count, selected=True)
-    bm = bmesh.from_edit_mesh(obj.data)
-    bm.faces.ensure_lookup_table()
-    next(face for face in bm.faces if face.calc_center_median().x > 0.0).select = True
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        next(face for face in bm.faces if face.calc_center_median().x > 0.0).select = True
     suggest(selected=True, islands=count, distortion=40.0)
     bm = bmesh.from_edit_mesh(obj.data)
     places = [vertex.co.x for edge in bm.edges if edge.seam for vertex in edge.verts]
@@ -517,14 +510,6 @@ def test_strokes_and_selected_islands_weigh_the_wires(planners: list[dict[str, o
     assert weights[47] == pytest.approx(0.125, rel=1e-6)
 
 
-def add_scan() -> bpy.types.Object:
-    """Add a rough ball of 5,120 triangles."""
-    obj, dice = add_ball(subdivisions=5), random.Random(3)
-    for v in obj.data.vertices:
-        v.co *= 1.0 + 0.03 * dice.random()
-    return obj
-
-
 def add_triangulated_pebble() -> bpy.types.Object:
     """Add a rounded cube of 6,348 triangles, squeezed into three sizes."""
     obj = add_cube(22)
@@ -570,10 +555,9 @@ def test_several_objects_and_what_is_hidden() -> None:
     one.location.x = 5.0
     bpy.context.view_layer.objects.active = one
     edit()
-    bm = bmesh.from_edit_mesh(other.data)
-    for face in bm.faces:
-        face.hide_set(face.calc_center_median().z > 0.0)
-    bmesh.update_edit_mesh(other.data)
+    with changing(other) as bm:
+        for face in bm.faces:
+            face.hide_set(face.calc_center_median().z > 0.0)
     suggest(distortion=8.0)
     assert seams(one)
     heights = np.array([[bm.verts[v].co.z for v in edge] for edge in seams(other)])
@@ -687,10 +671,9 @@ def test_sharp_marks_and_borders_of_materials_count() -> None:
     assert suggest(unwrap=False) == {"CANCELLED"}, "flat, so one part"
     for name in ("One", "Other"):
         obj.data.materials.append(bpy.data.materials.new(name))
-    bm = bmesh.from_edit_mesh(obj.data)
-    for face in bm.faces:
-        face.material_index = int(face.calc_center_median().x > 0.0)
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        for face in bm.faces:
+            face.material_index = int(face.calc_center_median().x > 0.0)
     found = {frozenset(edge) for edge in edit_mesh.read(obj).marked.tolist()}
     assert len(found) == 8
     assert suggest(parts=100.0, unwrap=False) == {"FINISHED"}
@@ -726,8 +709,7 @@ def test_only_selected_islands_get_borders(selected: bool) -> None:
     obj = add_bmesh(bm, "Cubes")
     edit()
     bpy.ops.mesh.select_all(action="DESELECT")
-    bm = bmesh.from_edit_mesh(obj.data)
-    next(face for face in bm.faces if face.calc_center_median().x > 0.0).select = True
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        next(face for face in bm.faces if face.calc_center_median().x > 0.0).select = True
     assert suggest(parts=100.0, selected=selected, unwrap=False) == {"FINISHED"}
     assert islands(obj) == (7 if selected else 12)

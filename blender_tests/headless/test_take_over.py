@@ -4,18 +4,10 @@
 import bmesh
 import bpy
 import pytest
-from scene import add_grid, add_suzanne, chain, edit, ends, mark_wires, seams, snapshot
+from scene import add_grid, add_suzanne, chain, changing, edit, ends, mark_wires, seams, set_seams, snapshot
 from stored import agree, chains, session_on, wired, write
 
 ROW, COLUMN = chain(*range(36, 45)), chain(4, 13, 22, 31, 40)
-
-
-def mark(obj: bpy.types.Object, edges: list[tuple[int, int]]) -> None:
-    bm = bmesh.from_edit_mesh(obj.data)
-    bm.verts.ensure_lookup_table()
-    for pair in edges:
-        bm.edges.get([bm.verts[v] for v in pair]).seam = True
-    bmesh.update_edit_mesh(obj.data)
 
 
 @pytest.fixture
@@ -23,7 +15,7 @@ def seamed() -> bpy.types.Object:
     """A grid in edit mode with seams along a row and half a column; vertex y * 9 + x is column x of row y."""
     obj = add_grid(9)
     edit()
-    mark(obj, [*ROW, *COLUMN])
+    set_seams(obj, *ROW, *COLUMN)
     return obj
 
 
@@ -58,13 +50,11 @@ def test_a_wire_that_is_dropped_or_moved_takes_its_seam_with_it(seamed: bpy.type
 
 def test_seams_of_wires_and_those_not_selected_stay_what_they_were(seamed: bpy.types.Object) -> None:
     mark_wires(chains="0 8")
-    bm = bmesh.from_edit_mesh(seamed.data)
-    bm.verts.ensure_lookup_table()
-    bpy.context.tool_settings.mesh_select_mode = (False, True, False)
-    bpy.ops.mesh.select_all(action="DESELECT")
-    for pair in COLUMN:
-        bm.edges.get([bm.verts[v] for v in pair]).select_set(True)
-    bmesh.update_edit_mesh(seamed.data)
+    with changing(seamed) as bm:
+        bpy.context.tool_settings.mesh_select_mode = (False, True, False)
+        bpy.ops.mesh.select_all(action="DESELECT")
+        for pair in COLUMN:
+            bm.edges.get([bm.verts[v] for v in pair]).select_set(True)
     assert bpy.ops.mesh.seamwire_take_over(selected=True) == {"FINISHED"}
     assert chains(seamed) == [tuple(range(9)), (4, 13, 22, 31, 40)]
     assert agree(seamed, plain=ROW)
@@ -75,7 +65,7 @@ def test_what_there_is_nothing_to_take_over_of_is_said() -> None:
     edit()
     with pytest.raises(RuntimeError, match="No seams to convert"):
         bpy.ops.mesh.seamwire_take_over()
-    mark(obj, ROW)
+    set_seams(obj, *ROW)
     bpy.ops.mesh.select_all(action="DESELECT")
     with pytest.raises(RuntimeError, match="No selected seams to convert"):
         bpy.ops.mesh.seamwire_take_over(selected=True)
@@ -90,8 +80,8 @@ def test_seams_of_several_objects_that_run_anyhow() -> None:
     edit()
     bm = bmesh.from_edit_mesh(edited[0].data)
     jagged = [(e.verts[0].index, e.verts[1].index) for e in bm.edges if e.index % 3 == 0]
-    mark(edited[0], jagged)
-    mark(edited[1], [*ROW, *COLUMN])
+    set_seams(edited[0], *jagged)
+    set_seams(edited[1], *ROW, *COLUMN)
     before = [seams(obj) for obj in edited]
     assert bpy.ops.mesh.seamwire_take_over() == {"FINISHED"}
     assert [seams(obj) for obj in edited] == before

@@ -2,14 +2,13 @@
 """What ``mesh.seamwire_unwrap`` unwraps, and that all else stays."""
 
 import math
-from itertools import pairwise
 
 import bmesh
 import bpy
 import numpy as np
 import pytest
 from maps import areas, energy, flipped, in_square, overlapping_pairs, signed_areas, triangles
-from scene import add_grid, add_layers, add_object, add_suzanne, edit, mark_wires, snapshot
+from scene import add_grid, add_layers, add_object, add_suzanne, changing, edit, mark_wires, set_seams, snapshot
 from seamwire.core.base import native
 from seamwire.core.drawing.change import Change
 from seamwire.mesh import finishes
@@ -29,16 +28,6 @@ def add_hill() -> bpy.types.Object:
     return obj
 
 
-def mark(obj: bpy.types.Object, *chains: tuple[int, ...], seam: bool = True) -> None:
-    """Make the edges between each vertex of chains and the next seams, or no seams."""
-    bm = bmesh.from_edit_mesh(obj.data)
-    bm.verts.ensure_lookup_table()
-    for chain in chains:
-        for a, b in pairwise(chain):
-            bm.edges.get((bm.verts[a], bm.verts[b])).seam = seam
-    bmesh.update_edit_mesh(obj.data)
-
-
 def row(y: int) -> tuple[int, ...]:
     return tuple(range(ROWS * y, ROWS * y + ROWS))
 
@@ -51,12 +40,11 @@ def uvs(obj: bpy.types.Object) -> np.ndarray:
 
 
 def move(obj: bpy.types.Object, faces: slice, by: tuple[float, float], scale: float = 1.0) -> None:
-    bm = bmesh.from_edit_mesh(obj.data)
-    layer = bm.loops.layers.uv.active
-    for face in list(bm.faces)[faces]:
-        for loop in face.loops:
-            loop[layer].uv = [scale * value + offset for value, offset in zip(loop[layer].uv, by, strict=True)]
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        layer = bm.loops.layers.uv.active
+        for face in list(bm.faces)[faces]:
+            for loop in face.loops:
+                loop[layer].uv = [scale * value + offset for value, offset in zip(loop[layer].uv, by, strict=True)]
 
 
 def unwrap() -> set[str]:
@@ -93,7 +81,7 @@ def test_with_blenders_methods_a_mesh_without_uvs_is_unwrapped_and_packed_as_ble
         obj = add_hill()
         obj.name = name
         edit()
-        mark(obj, row(3))
+        set_seams(obj, row(3))
         if name == "ours":
             assert bpy.ops.mesh.seamwire_unwrap(method=method) == {"FINISHED"}
         else:
@@ -108,11 +96,10 @@ def test_with_blenders_methods_a_mesh_without_uvs_is_unwrapped_and_packed_as_ble
 
 def cut_at(obj: bpy.types.Object, axis: str) -> None:
     """Make the edges seams whose faces lie on both sides of the plane through the origin across an axis."""
-    bm = bmesh.from_edit_mesh(obj.data)
-    number = "xyz".index(axis)
-    for edge in bm.edges:
-        edge.seam = len({face.calc_center_median()[number] > 0.0 for face in edge.link_faces}) == 2
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        number = "xyz".index(axis)
+        for edge in bm.edges:
+            edge.seam = len({face.calc_center_median()[number] > 0.0 for face in edge.link_faces}) == 2
 
 
 @pytest.mark.every_blender
@@ -144,7 +131,7 @@ def test_the_flattening_stretches_less_than_blenders_unwrap() -> None:
 def test_islands_have_one_scale_where_all_are_new() -> None:
     obj = add_hill()
     edit()
-    mark(obj, row(2), row(7))
+    set_seams(obj, row(2), row(7))
     assert unwrap() == {"FINISHED"}
     found = [density(obj, faces) for faces in (slice(0, 16), slice(16, 56), slice(56, 64))]
     assert max(found) < 1.1 * min(found)
@@ -178,7 +165,7 @@ def test_uvs_are_squeezed_as_the_image_is_wide() -> None:
     for method in ("SEAMWIRE", "ANGLE_BASED"):
         assert bpy.ops.mesh.seamwire_unwrap(method=method, changed_only=False) == {"FINISHED"}
         assert energy(obj, aspect=3.0) < 4.3
-    mark(obj, row(4))
+    set_seams(obj, row(4))
     assert unwrap() == {"FINISHED"}
     assert energy(obj, aspect=3.0) < 4.3, "in a place of its own too"
 
@@ -186,7 +173,7 @@ def test_uvs_are_squeezed_as_the_image_is_wide() -> None:
 def test_all_islands_are_unwrapped_if_asked_for() -> None:
     obj = add_hill()
     edit()
-    mark(obj, row(3))
+    set_seams(obj, row(3))
     unwrap()
     move(obj, slice(0, 24), (0.1, 0.1), 0.3)
     before = uvs(obj)
@@ -200,14 +187,14 @@ def test_all_islands_are_unwrapped_if_asked_for() -> None:
 def test_only_the_islands_whose_seams_changed_are_unwrapped_and_the_others_keep_every_bit() -> None:
     obj = add_hill()
     edit()
-    mark(obj, row(3), row(6))
+    set_seams(obj, row(3), row(6))
     assert unwrap() == {"FINISHED"}
     packed = [slice(0, 24), slice(24, 48), slice(48, 64)]
     for number, faces in enumerate(packed):
         low, _ = boxes(uvs(obj)[faces])
         move(obj, faces, (0.31 * number - 0.4 * low[0], 0.1 - 0.4 * low[1]), 0.4)
     before, kept = uvs(obj), density(obj, packed[1])
-    mark(obj, tuple(range(ROWS * 3 + 4, ROWS * 6 + 5, ROWS)))
+    set_seams(obj, tuple(range(ROWS * 3 + 4, ROWS * 6 + 5, ROWS)))
     assert unwrap() == {"FINISHED"}
     after = uvs(obj)
     for faces in (packed[0], packed[2]):
@@ -242,10 +229,10 @@ def test_only_changed_islands_are_flattened_from_the_map_that_is_there(
 ) -> None:
     obj = add_hill()
     edit()
-    mark(obj, row(3))
+    set_seams(obj, row(3))
     assert unwrap() == {"FINISHED"}
     assert flattenings[0][1]["start"] is None
-    mark(obj, row(6))
+    set_seams(obj, row(6))
     assert unwrap() == {"FINISHED"}
     assert len(flattenings) == 2
     (points, triangles, cuts), options = flattenings[1]
@@ -259,14 +246,14 @@ def test_only_changed_islands_are_flattened_from_the_map_that_is_there(
 def test_without_room_in_the_square_new_islands_lie_beside_it() -> None:
     obj = add_hill()
     edit()
-    mark(obj, row(2))
+    set_seams(obj, row(2))
     assert unwrap() == {"FINISHED"}
     # The large island fills the square, the small one lies under it.
     low, high = boxes(uvs(obj)[16:])
     move(obj, slice(16, 64), tuple(-low / (high - low).min()), 1.0 / (high - low).min())
     low, high = boxes(uvs(obj)[:16])
     move(obj, slice(0, 16), tuple(0.3 - low))
-    mark(obj, (4, 13, 22))
+    set_seams(obj, (4, 13, 22))
     assert unwrap() == {"FINISHED"}
     places = uvs(obj)[:16]
     assert apart(places, uvs(obj)[16:])
@@ -277,29 +264,28 @@ def test_a_slit_that_stays_closed_in_the_map_is_not_unwrapped_again() -> None:
     obj = add_grid(ROWS)
     edit()
     unwrap()
-    mark(obj, (40, 41, 42))
+    set_seams(obj, (40, 41, 42))
     assert unwrap() == {"FINISHED"}
     # As unwrapping leaves a slit where all is flat, up to rounding.
-    bm = bmesh.from_edit_mesh(obj.data)
-    layer = bm.loops.layers.uv.active
-    for face in bm.faces:
-        for loop in face.loops:
-            loop[layer].uv = 0.5 * loop.vert.co.xy
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        layer = bm.loops.layers.uv.active
+        for face in bm.faces:
+            for loop in face.loops:
+                loop[layer].uv = 0.5 * loop.vert.co.xy
     places = uvs(obj)
     assert unwrap() == {"CANCELLED"}
     assert np.array_equal(uvs(obj), places)
-    mark(obj, (37, 38, 39))
+    set_seams(obj, (37, 38, 39))
     assert unwrap() == {"FINISHED"}
 
 
 def test_a_seam_that_is_cleared_joins_its_islands() -> None:
     obj = add_hill()
     edit()
-    mark(obj, row(3), row(6))
+    set_seams(obj, row(3), row(6))
     unwrap()
     before = uvs(obj)
-    mark(obj, row(3), seam=False)
+    set_seams(obj, row(3), seam=False)
     assert unwrap() == {"FINISHED"}
     after = uvs(obj)
     assert np.array_equal(before[48:], after[48:])
@@ -342,7 +328,7 @@ def test_uvs_that_blender_unwrapped_meanwhile_are_kept() -> None:
     obj = add_hill()
     edit()
     unwrap()
-    mark(obj, row(3))
+    set_seams(obj, row(3))
     bpy.ops.mesh.select_all(action="SELECT")
     bpy.ops.uv.unwrap()
     places = uvs(obj)
@@ -360,18 +346,17 @@ def test_selections_hidden_faces_and_every_layer_stay(mode: str, sync: bool) -> 
     edit()
     bpy.context.tool_settings.use_uv_select_sync = sync
     bpy.ops.mesh.select_mode(type=mode)
-    bm = bmesh.from_edit_mesh(obj.data)
-    for face in bm.faces:
-        if face.index % 5 == 0:
-            face.hide_set(True)
-    bpy.ops.mesh.select_all(action="DESELECT")
-    bm.faces.ensure_lookup_table()
-    for face in list(bm.faces)[31:90:2]:
-        if not face.hide:
-            face.select = True
-    bm.select_flush_mode()
-    bm.faces.active = bm.faces[33]
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        for face in bm.faces:
+            if face.index % 5 == 0:
+                face.hide_set(True)
+        bpy.ops.mesh.select_all(action="DESELECT")
+        bm.faces.ensure_lookup_table()
+        for face in list(bm.faces)[31:90:2]:
+            if not face.hide:
+                face.select = True
+        bm.select_flush_mode()
+        bm.faces.active = bm.faces[33]
     before = but_uvs(obj)
     hidden = [[loop.index for loop in face.loops] for face in bm.faces if face.hide]
     layer = bm.loops.layers.uv.active
@@ -391,7 +376,7 @@ def test_selections_hidden_faces_and_every_layer_stay(mode: str, sync: bool) -> 
 def test_pinned_corners_stay() -> None:
     obj = add_hill()
     edit()
-    mark(obj, row(4))
+    set_seams(obj, row(4))
     unwrap()
     bm = bmesh.from_edit_mesh(obj.data)
     layer = bm.loops.layers.uv.active
@@ -400,7 +385,7 @@ def test_pinned_corners_stay() -> None:
         for loop in face.loops:
             loop[layer].pin_uv = True
     before = uvs(obj)
-    mark(obj, (4, 13, 22))
+    set_seams(obj, (4, 13, 22))
     assert unwrap() == {"FINISHED"}
     after = uvs(obj)
     assert after[[0, 7]] == pytest.approx(before[[0, 7]], abs=1e-6)
@@ -411,7 +396,7 @@ def test_pinned_corners_stay() -> None:
 def test_where_all_islands_are_new_they_keep_clear_of_one_with_pins() -> None:
     obj = add_hill()
     edit()
-    mark(obj, row(4))
+    set_seams(obj, row(4))
     unwrap()
     bm = bmesh.from_edit_mesh(obj.data)
     layer = bm.loops.layers.uv.active
@@ -420,7 +405,7 @@ def test_where_all_islands_are_new_they_keep_clear_of_one_with_pins() -> None:
         for loop in face.loops:
             loop[layer].pin_uv = True
             loop[layer].uv = (0.5 + 0.2 * loop.vert.co.x, 0.7 + 0.2 * loop.vert.co.y)
-    mark(obj, (4, 13, 22), (58, 67, 76))
+    set_seams(obj, (4, 13, 22), (58, 67, 76))
     assert unwrap() == {"FINISHED"}
     found = uvs(obj)
     assert found[[0, 7]].min() > 0.2, "the pinned faces stay"
@@ -431,7 +416,7 @@ def test_where_all_islands_are_new_they_keep_clear_of_one_with_pins() -> None:
 def test_another_uv_map_is_unwrapped_for_itself() -> None:
     obj = add_hill()
     edit()
-    mark(obj, row(4))
+    set_seams(obj, row(4))
     unwrap()
     first = uvs(obj)
     obj.data.uv_layers.new(name="Other", do_init=False)
@@ -449,7 +434,7 @@ def test_all_objects_in_edit_mode_are_unwrapped_among_each_other() -> None:
     edit()
     assert unwrap() == {"FINISHED"}
     first, second = (uvs(obj) for obj in objects)
-    mark(objects[1], row(4))
+    set_seams(objects[1], row(4))
     assert unwrap() == {"FINISHED"}
     assert np.array_equal(uvs(objects[0]), first)
     assert not np.array_equal(uvs(objects[1]), second)
@@ -462,11 +447,11 @@ def test_undo_is_one_step() -> None:
     obj = add_hill()
     name = obj.name
     edit()
-    mark(obj, row(4))
+    set_seams(obj, row(4))
     unwrap()
     bpy.ops.ed.undo_push(message="before")
     before = uvs(obj)
-    mark(obj, (4, 13, 22))
+    set_seams(obj, (4, 13, 22))
     bpy.ops.ed.undo_push(message="mark")
     assert bpy.ops.mesh.seamwire_unwrap("EXEC_DEFAULT", True) == {"FINISHED"}
     assert not np.array_equal(uvs(bpy.data.objects[name]), before)
@@ -505,14 +490,13 @@ def test_the_worst_island_is_selected(mode: str) -> None:
     edit()
     bpy.ops.mesh.select_mode(type=mode)
     for obj in objects:
-        mark(obj, row(4))
+        set_seams(obj, row(4))
     unwrap()
-    bm = bmesh.from_edit_mesh(objects[0].data)
-    layer = bm.loops.layers.uv.active
-    for face in list(bm.faces)[32:]:
-        for loop in face.loops:
-            loop[layer].uv.x *= 4.0
-    bmesh.update_edit_mesh(objects[0].data)
+    with changing(objects[0]) as bm:
+        layer = bm.loops.layers.uv.active
+        for face in list(bm.faces)[32:]:
+            for loop in face.loops:
+                loop[layer].uv.x *= 4.0
     before = uvs(objects[0])
     assert bpy.ops.mesh.seamwire_select_islands(which="WORST") == {"FINISHED"}
     assert selected(objects[0]) == list(range(32, 64))

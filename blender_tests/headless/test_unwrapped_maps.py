@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 import pytest
 from maps import flipped, folded, in_square, overlapping_pairs, signed_areas, triangles
-from scene import add_grid, add_object, edit, snapshot
+from scene import add_grid, add_object, changing, edit, snapshot
 from seamwire.mesh import unwrap as unwrapping
 from seamwire.mesh.versions import IS_OLD
 from seamwire.operators.unwrap_islands import unwrap_after_chain
@@ -78,15 +78,14 @@ def test_vertices_in_the_middle_of_sides_leave_the_map_valid_as_blender_cuts_the
     obj = add_shape(shape)
     for edge in bmesh.from_edit_mesh(obj.data).edges:
         edge.seam = edge.index % 11 == 0
-    bm = bmesh.from_edit_mesh(obj.data)
-    for number, edge in enumerate(bm.edges[:][::3]):
-        _, vertex = bmesh.utils.edge_split(edge, edge.verts[0], (0.5, 0.3, 0.01)[number % 3])
-        face = vertex.link_faces[0]
-        neighbors = {each.other_vert(vertex) for each in vertex.link_edges}
-        others = [each for each in face.verts if each is not vertex and each not in neighbors]
-        if is_joined and others:
-            bmesh.utils.face_split(face, vertex, others[0])
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        for number, edge in enumerate(bm.edges[:][::3]):
+            _, vertex = bmesh.utils.edge_split(edge, edge.verts[0], (0.5, 0.3, 0.01)[number % 3])
+            face = vertex.link_faces[0]
+            neighbors = {each.other_vert(vertex) for each in vertex.link_edges}
+            others = [each for each in face.verts if each is not vertex and each not in neighbors]
+            if is_joined and others:
+                bmesh.utils.face_split(face, vertex, others[0])
     assert unwrap() == {"FINISHED"}
     assert (folded(obj), overlapping_pairs(obj, deep=1e-6)) == (0, 0)
 
@@ -149,20 +148,19 @@ def test_islands_that_overlap_after_packing_are_told_as_a_warning(capfd: pytest.
 def test_islands_that_stay_do_not_count_even_if_they_overlap(capfd: pytest.CaptureFixture[str]) -> None:
     obj = add_grid(5)
     edit()
-    bm = bmesh.from_edit_mesh(obj.data)
-    for edge in bm.edges:
-        edge.seam = all(abs(vertex.co.x) in {0.0, 0.5} for vertex in edge.verts) and edge.calc_length() < 0.6
-        edge.seam &= abs(edge.verts[0].co.x - edge.verts[1].co.x) < 1e-6
-    assert unwrap() == {"FINISHED"}
-    assert "4 islands unwrapped" in capfd.readouterr().out
-    layer = bm.loops.layers.uv.active
-    for face in bm.faces:  # the two islands at the sides onto each other, as an artist stacks them
-        if abs(face.calc_center_median().x) > 0.5:
-            for loop in face.loops:
-                loop[layer].uv = 0.1 + 0.1 * abs(loop.vert.co.x), 0.1 + 0.1 * loop.vert.co.y
-    for edge in bm.edges:
-        edge.seam &= abs(edge.verts[0].co.x) > 0.1
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        for edge in bm.edges:
+            edge.seam = all(abs(vertex.co.x) in {0.0, 0.5} for vertex in edge.verts) and edge.calc_length() < 0.6
+            edge.seam &= abs(edge.verts[0].co.x - edge.verts[1].co.x) < 1e-6
+        assert unwrap() == {"FINISHED"}
+        assert "4 islands unwrapped" in capfd.readouterr().out
+        layer = bm.loops.layers.uv.active
+        for face in bm.faces:  # the two islands at the sides onto each other, as an artist stacks them
+            if abs(face.calc_center_median().x) > 0.5:
+                for loop in face.loops:
+                    loop[layer].uv = 0.1 + 0.1 * abs(loop.vert.co.x), 0.1 + 0.1 * loop.vert.co.y
+        for edge in bm.edges:
+            edge.seam &= abs(edge.verts[0].co.x) > 0.1
     assert unwrap() == {"FINISHED"}
     assert overlapping_pairs(obj)
     assert "Info: 1 island unwrapped, 2 kept\n" in capfd.readouterr().out
@@ -171,19 +169,18 @@ def test_islands_that_stay_do_not_count_even_if_they_overlap(capfd: pytest.Captu
 def test_an_island_outside_the_uv_square_is_told(capfd: pytest.CaptureFixture[str]) -> None:
     obj = add_grid(5)
     edit()
-    bm = bmesh.from_edit_mesh(obj.data)
-    for edge in bm.edges:
-        edge.seam = all(abs(vertex.co.x) < 1e-6 for vertex in edge.verts)
-    assert unwrap() == {"FINISHED"}
-    layer = bm.loops.layers.uv.active
-    left = [face for face in bm.faces if face.calc_center_median().x < 0.0]
-    for face in left:  # it fills the square
-        for loop in face.loops:
-            loop[layer].uv = loop.vert.co.x + 1.0, 0.5 * loop.vert.co.y + 0.5
-    bm.edges.ensure_lookup_table()
-    for edge in bm.edges:
-        edge.seam |= all(abs(vertex.co.y) < 1e-6 and vertex.co.x >= 0.0 for vertex in edge.verts)
-    bmesh.update_edit_mesh(obj.data)
+    with changing(obj) as bm:
+        for edge in bm.edges:
+            edge.seam = all(abs(vertex.co.x) < 1e-6 for vertex in edge.verts)
+        assert unwrap() == {"FINISHED"}
+        layer = bm.loops.layers.uv.active
+        left = [face for face in bm.faces if face.calc_center_median().x < 0.0]
+        for face in left:  # it fills the square
+            for loop in face.loops:
+                loop[layer].uv = loop.vert.co.x + 1.0, 0.5 * loop.vert.co.y + 0.5
+        bm.edges.ensure_lookup_table()
+        for edge in bm.edges:
+            edge.seam |= all(abs(vertex.co.y) < 1e-6 and vertex.co.x >= 0.0 for vertex in edge.verts)
     assert unwrap() == {"FINISHED"}
     assert not in_square(obj)
     assert "Warning: 2 islands unwrapped, 1 kept, 2 islands outside the UV square\n" in capfd.readouterr().out

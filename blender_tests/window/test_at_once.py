@@ -9,9 +9,9 @@ import bpy
 import numpy as np
 import pytest
 import ui as driver
-from desk import Desk, choose, leave
+from desk import Desk, choose, leave, second_window
 from numpy.typing import NDArray
-from scene import add_grid, edit, seams
+from scene import add_grid, changing, edit, seams
 from seamwire.core.islands import islands
 from seamwire.mesh import edit_mesh, uv_map
 from seamwire.view import edited_objects, object_view
@@ -26,12 +26,11 @@ ABOVE, BELOW = (49, 59), (13, 23)
 @pytest.fixture
 def halves(desk: Desk) -> Desk:
     """A grid with a seam across its middle, the tool chosen, and the mouse beside the mesh."""
-    bm = bmesh.from_edit_mesh(desk.obj.data)
-    for edge in bm.edges:
-        edge.seam = all(v.index // 9 == 4 for v in edge.verts)
-        edge.select = False
-    bm.select_flush(False)
-    bmesh.update_edit_mesh(desk.obj.data)
+    with changing(desk.obj) as bm:
+        for edge in bm.edges:
+            edge.seam = all(v.index // 9 == 4 for v in edge.verts)
+            edge.select = False
+        bm.select_flush(False)
     desk.ui.move((3.0, desk.ui.region.height - 3.0))
     choose(desk.ui)
     return desk
@@ -89,10 +88,9 @@ def test_the_tint_is_there_on_a_duplicate(halves: Desk) -> None:
 def test_the_tint_is_there_after_undo_and_redo(halves: Desk) -> None:
     ui = halves.ui
     bpy.ops.ed.undo_push(message="Seams")
-    bm = bmesh.from_edit_mesh(halves.obj.data)
-    for edge in bm.edges:
-        edge.seam = False
-    bmesh.update_edit_mesh(halves.obj.data)
+    with changing(halves.obj) as bm:
+        for edge in bm.edges:
+            edge.seam = False
     bpy.ops.ed.undo_push(message="No seams")
     ui.wait_until(lambda: not is_tinted(halves))
     ui.key("Z", ctrl=True)
@@ -108,10 +106,8 @@ def test_the_tint_is_there_on_a_mesh_with_other_vertices(halves: Desk) -> None:
     ui = halves.ui
     ui.wait_until(lambda: is_tinted(halves))
     for _ in range(2):
-        bm = bmesh.from_edit_mesh(halves.obj.data)
-        bm.faces.ensure_lookup_table()
-        bmesh.ops.poke(bm, faces=[bm.faces[0]])
-        bmesh.update_edit_mesh(halves.obj.data)
+        with changing(halves.obj) as bm:
+            bmesh.ops.poke(bm, faces=[bm.faces[0]])
         ui.wait(2)
         ui.wait_until(lambda: len(edited.views()) == 1 and is_tinted(halves))
 
@@ -132,15 +128,8 @@ def test_a_new_window_draws(halves: Desk, monkeypatch: pytest.MonkeyPatch) -> No
         draw(overlay)
 
     monkeypatch.setattr(Overlay, "draw_in_scene", counted)
-    with halves.ui.override():
-        bpy.ops.wm.window_new()
-    other = next(window for window in bpy.context.window_manager.windows if window != halves.ui.window)
-    try:
-        halves.ui.wait_until(lambda: drawn[other.as_pointer()] > 0)
-    finally:
-        with bpy.context.temp_override(window=other):
-            bpy.ops.wm.window_close()
-        halves.ui.wait(4)
+    with second_window(halves.ui) as other:
+        halves.ui.wait_until(lambda: drawn[other["window"].as_pointer()] > 0)
 
 
 def test_all_edited_objects_are_drawn_and_the_active_one_is_in_front(ui: driver.Ui) -> None:
@@ -179,10 +168,9 @@ def test_pointing_reads_and_copies_nothing_that_has_not_changed(ui: driver.Ui, m
     add_grid(5, size=1.0, name="Shown").location.x = -0.8
     with ui.override():
         edit()
-    bm = bmesh.from_edit_mesh(bpy.data.objects["Hidden"].data)
-    for item in (*bm.verts, *bm.edges, *bm.faces):
-        item.hide = True
-    bmesh.update_edit_mesh(bpy.data.objects["Hidden"].data)
+    with changing(bpy.data.objects["Hidden"]) as bm:
+        for item in (*bm.verts, *bm.edges, *bm.faces):
+            item.hide = True
     ui.look_from_top(distance=4.0)
     choose(ui)
     try:

@@ -7,12 +7,11 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 import ui as driver
-from desk import Desk, leave
+from desk import Desk, leave, said
 from scene import add_object, seams
 from seamwire.core.network.picks import FacePoint
 from seamwire.mesh.settings import settings
 from seamwire.operators.chain_state import running
-from seamwire.ui import status_bar
 from seamwire.view.edited_objects import edited
 
 N = 60
@@ -52,10 +51,6 @@ def shown_ridge() -> bool:
     return edited.front is not None and edited.front.crest_view.crests is not None
 
 
-def said() -> str:
-    return "; ".join(text for _, text in status_bar.hints(status_bar.status_of(running[0])))
-
-
 @pytest.mark.parametrize("finish", [pytest.param("SNAP", marks=pytest.mark.smoke), "CUT"])
 def test_with_alt_a_click_on_a_ridge_that_is_seen_draws_wires_along_it(desk: Desk, finish: str) -> None:
     ui = desk.ui
@@ -82,29 +77,6 @@ def test_with_alt_a_click_on_a_ridge_that_is_seen_draws_wires_along_it(desk: Des
     assert max(abs(x - top(y)) for x, y in curve) < (1.5 if finish == "CUT" else 3.0) / N
     ui.key("Z", ctrl=True)
     assert seams(desk.obj) == []
-
-
-def test_its_seed_is_dragged_as_any_other(desk: Desk) -> None:
-    ui = desk.ui
-    desk.choose()
-    settings().show_crests = True
-    ui.wait_until(shown_ridge)
-    place = beside(desk, 0.1, 3.0)
-    ui.move(place)
-    ui.event("LEFT_ALT", "PRESS", place, alt=True)
-    ui.wait_until(lambda: desk.session.picture.offered.kind == "RIDGE")
-    ui.click(place, alt=True)
-    ui.event("LEFT_ALT", "RELEASE", place)
-    ui.wait_until(lambda: not running)
-    end = edited.front.session.wires[-1].end
-    goal = 30 * (N + 1) + 50
-    ui.move(desk.at(end))
-    ui.event("LEFTMOUSE", "PRESS", desk.at(end))
-    for part in (0.3, 0.7, 1.0):
-        a, b = np.array(desk.at(end)), np.array(desk.at(goal))
-        ui.move(tuple((a + part * (b - a)).tolist()))
-    ui.event("LEFTMOUSE", "RELEASE", desk.at(goal))
-    ui.wait_until(lambda: edited.front.session.wires[-1].end == goal)
 
 
 @pytest.mark.smoke

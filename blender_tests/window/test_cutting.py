@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Chains across the surface that are cut into the faces when they end."""
 
-import bmesh
 import bpy
 import numpy as np
 import pytest
-from desk import Desk, drag, draw, shows
-from scene import chain, seams, snapshot
+from desk import Desk, draw, shows
+from scene import chain, changing, seams, snapshot
 from seamwire.core.drawing.picture import Role
 from seamwire.mesh import cut
 from seamwire.mesh.settings import settings
@@ -176,15 +175,16 @@ def test_near_a_vertex_or_with_snap_a_click_takes_the_vertex(cutting: Desk) -> N
 
 def soften(cutting: Desk) -> None:
     """Take away what vertices do not slide off: creases, sharp edges, borders between materials."""
-    bm = bmesh.from_edit_mesh(cutting.obj.data)
-    for face in bm.faces:
-        face.material_index = 0
-    crease = (
-        bm.edges.layers.crease.active if hasattr(bm.edges.layers, "crease") else bm.edges.layers.float["crease_edge"]
-    )
-    for edge in bm.edges:
-        edge.smooth, edge[crease] = True, 0.0
-    bmesh.update_edit_mesh(cutting.obj.data)
+    with changing(cutting.obj) as bm:
+        for face in bm.faces:
+            face.material_index = 0
+        crease = (
+            bm.edges.layers.crease.active
+            if hasattr(bm.edges.layers, "crease")
+            else bm.edges.layers.float["crease_edge"]
+        )
+        for edge in bm.edges:
+            edge.smooth, edge[crease] = True, 0.0
     bpy.ops.ed.undo_push(message="Soft")
 
 
@@ -252,29 +252,6 @@ def drawn_cut(cutting: Desk, start: int, end: int) -> None:
     assert agree(cutting.obj)
 
 
-def distance(cutting: Desk, one: int, two: int) -> float:
-    vertices = cutting.obj.data.vertices
-    return (vertices[one].co - vertices[two].co).length
-
-
-def test_a_dragged_seed_of_a_cut_wire_is_one_step_and_leaves_no_old_cut(cutting: Desk) -> None:
-    drawn_cut(cutting, 0, 44)
-    cutting.obj.update_from_editmode()
-    count, ui = len(cutting.obj.data.vertices), cutting.ui
-    drag(cutting, cutting.at(44), cutting.at(61))
-    ui.wait_until(lambda: not cutting.running)
-    assert cutting.left_clean()
-    assert agree(cutting.obj)
-    assert length(cutting) == pytest.approx(distance(cutting, 0, 61), rel=1e-6)
-    used = {vertex for edge in seams(cutting.obj) for vertex in edge}
-    assert all(vertex in used or vertex < 81 for vertex in range(len(cutting.obj.data.vertices))), "an old cut is left"
-    ui.key("Z", ctrl=True)
-    cutting.obj.update_from_editmode()
-    assert len(cutting.obj.data.vertices) == count
-    assert length(cutting) == pytest.approx(distance(cutting, 0, 44), rel=1e-6)
-    assert agree(cutting.obj)
-
-
 def test_a_drag_of_a_cut_wire_that_is_given_up_changes_nothing(cutting: Desk) -> None:
     drawn_cut(cutting, 0, 44)
     before, ui = snapshot(cutting.obj), cutting.ui
@@ -287,23 +264,3 @@ def test_a_drag_of_a_cut_wire_that_is_given_up_changes_nothing(cutting: Desk) ->
     assert cutting.left_clean()
     assert snapshot(cutting.obj) == before
     assert agree(cutting.obj)
-
-
-@pytest.mark.every_blender
-def test_a_removed_cut_wire_takes_its_cut_back_after_undo_and_redo(cutting: Desk) -> None:
-    drawn_cut(cutting, 0, 44)
-    ui = cutting.ui
-    ui.key("Z", ctrl=True)
-    ui.wait(redraw=True)
-    assert seams(cutting.obj) == []
-    ui.key("Z", ctrl=True, shift=True)
-    ui.wait(redraw=True)
-    cutting.obj.update_from_editmode()
-    assert len(cutting.obj.data.polygons) > 64
-    ui.move(cutting.at(len(cutting.obj.data.vertices) - 1))
-    ui.key("X")
-    ui.wait_until(lambda: not seams(cutting.obj))
-    assert cutting.left_clean()
-    cutting.obj.update_from_editmode()
-    assert len(cutting.obj.data.vertices) == 81
-    assert len(cutting.obj.data.polygons) == 64

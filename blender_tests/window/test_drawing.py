@@ -1,28 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Chains in the real window: what is marked, what is seen, and that nothing is left behind."""
 
-import math
 from types import SimpleNamespace
 
 import bpy
 import pytest
 import ui as driver
-from desk import GREEN, ORANGE, RED, WHITE, Desk, choose, near, shows, undo_steps
+from desk import ORANGE, RED, WHITE, Desk, choose, shows, undo_steps
 from mathutils import Euler
 from scene import add_grid, chain, seams, snapshot
-from seamwire.core.drawing.picture import Role
-from seamwire.core.drawing.session import Session
-from seamwire.mesh import object_session
 from seamwire.operators import chain_events
-
-
-def with_a_wire(desk: Desk) -> Session:
-    """Begin a chain and keep a wire along the middle row."""
-    session, ui = desk.start(), desk.ui
-    ui.click(desk.at(36), ctrl=True)
-    ui.click(desk.at(44))
-    ui.wait_until(lambda: len(session.wires) == 1)
-    return session
 
 
 @pytest.mark.smoke
@@ -73,24 +60,6 @@ def test_edges_are_lit_before_the_click_and_picked(desk: Desk) -> None:
     assert session.edges_to_mark() == chain(*range(36, 44))
 
 
-def test_alt_shows_the_loop_and_an_alt_click_takes_it(cone: Desk) -> None:
-    session, ui = cone.start(), cone.ui
-    edge = cone.at(40, 49)
-    ui.wait_until(lambda: not session.under_way.computing)
-    ui.move(edge)
-    assert session.picture.one(Role.OFFER) is None
-    ui.move(edge, alt=True)
-    preview = session.picture.one(Role.OFFER)
-    assert preview is not None
-    assert (40, 49) in preview.edges()
-    assert shows(ui.pixels(), cone.at(*preview.vertices[1:3]), GREEN)
-    ui.click(edge, alt=True)
-    assert seams(cone.obj) == sorted(preview.edges())
-    assert not cone.running
-    ui.move(edge)
-    assert session.picture.one(Role.OFFER) is None
-
-
 @pytest.mark.smoke
 @pytest.mark.every_blender
 def test_a_double_click_on_an_edge_takes_its_loop(cone: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -138,25 +107,6 @@ def test_e_switches_to_the_surface_and_back(cone: Desk) -> None:
 
 
 @pytest.mark.oldest_and_newest
-def test_wires_on_the_far_side_are_faint(desk: Desk) -> None:
-    with_a_wire(desk)
-    ui = desk.ui
-    at = desk.at(37, 38)
-    assert shows(ui.pixels(), at, RED)
-    # A second sheet above the first, as seen from the eye, is in Blender's way and not in the drawing's.
-    mesh = bpy.data.meshes.new("Cover")
-    mesh.from_pydata([(-3, -3, 1), (3, -3, 1), (3, 3, 1), (-3, 3, 1)], [], [(0, 1, 2, 3)])
-    cover = bpy.data.objects.new("Cover", mesh)
-    bpy.context.collection.objects.link(cover)
-    ui.wait(redraw=True)
-    pixels = ui.pixels()
-    assert not shows(pixels, at, RED)
-    surroundings = near(pixels, (at[0], at[1] + 25.0)).mean(axis=0)
-    faint = near(pixels, at, radius=1)
-    assert (faint[:, 0] - faint[:, 1]).max() > (surroundings[0] - surroundings[1]) + 0.05, "reddish still"
-
-
-@pytest.mark.oldest_and_newest
 def test_on_a_turned_and_unevenly_scaled_object_wires_lie_on_the_mesh(ui: driver.Ui) -> None:
     obj = add_grid(9)
     obj.scale = (0.5, 1.4, 2.0)
@@ -176,43 +126,6 @@ def test_on_a_turned_and_unevenly_scaled_object_wires_lie_on_the_mesh(ui: driver
         assert shows(pixels, desk.at(first, first + 1), ORANGE)
     ui.key("ESC")
     assert desk.unchanged()
-
-
-def test_wires_that_are_being_computed_come_when_they_are_ready(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
-    ready = [False]
-
-    class Slow:
-        """A live wire that is ready when the test says so."""
-
-        def __init__(self, live: object) -> None:
-            self.live = live
-
-        def __getattr__(self, name: str) -> object:
-            return getattr(self.live, name)
-
-        def progress(self) -> float:
-            return self.live.progress() if ready[0] else 0.25
-
-        def wires(self, target: object) -> object:
-            if ready[0]:
-                self.live.wait()
-                return self.live.wires(target)
-            nothing = {"points": [], "vertices": [], "length": math.inf, "final": False}
-            wires = [type("Nothing", (), {**nothing, "follow": follow})() for follow in ("min", "max")]
-            return type("Wires", (), {"wires": wires, "active": 0, "settled": False, "final": False})()
-
-    make = object_session.LiveMaker
-    monkeypatch.setattr(make, "__call__", lambda self, along, call=make.__call__: Slow(call(self, along)))
-    session, ui = desk.start(), desk.ui
-    ui.click(desk.at(36), ctrl=True)
-    ui.click(desk.at(44))
-    assert session.under_way.computing
-    assert session.under_way.waiting == 1
-    assert session.wires == ()
-    ready[0] = True
-    ui.wait_until(lambda: len(session.wires) == 1)
-    assert session.edges_to_mark() == chain(*range(36, 45))
-    ui.wait_until(lambda: not session.under_way.computing)
 
 
 @pytest.mark.smoke

@@ -4,13 +4,12 @@
 from collections.abc import Callable, Iterator
 from types import SimpleNamespace
 
-import bmesh
 import bpy
 import numpy as np
 import pytest
 import ui as driver
 from desk import Desk, choose, draw
-from scene import seams
+from scene import changing, seams
 from seamwire import interface
 from seamwire.core.islands.islands import IslandMaker
 from seamwire.mesh import settings as chosen
@@ -57,10 +56,8 @@ def change_tool(desk: Desk) -> None:
 
 
 def change_mesh(desk: Desk) -> None:
-    bm = bmesh.from_edit_mesh(desk.obj.data)
-    bm.edges.ensure_lookup_table()
-    bm.edges[0].seam = not bm.edges[0].seam
-    bmesh.update_edit_mesh(desk.obj.data)
+    with changing(desk.obj) as bm:
+        bm.edges[0].seam = not bm.edges[0].seam
     desk.ui.wait(redraw=True)
 
 

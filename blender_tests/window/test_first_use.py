@@ -55,25 +55,6 @@ def test_scans_start_across_the_surface_until_the_artist_chooses(scan: driver.Ui
     assert settings().along == "EDGES", "the artist has chosen"
 
 
-def test_the_way_that_was_chosen_stays_on_scans(scan: driver.Ui) -> None:
-    settings().along = "EDGES"
-    point_at(scan, (0.1, 0.1, 0.0))
-    assert edited.front.session.options.along == "EDGES"
-
-
-def test_modeled_meshes_start_along_edges_after_a_scan(scan: driver.Ui) -> None:
-    point_at(scan, (0.1, 0.1, 0.0))
-    assert edited.front.session.options.along == "SURFACE"
-    with scan.override():
-        bpy.ops.object.mode_set(mode="OBJECT")
-        bpy.data.objects["Scan"].hide_set(True)
-        add_grid(5, name="Model")
-        edit()
-    point_at(scan, (0.1, 0.1, 0.0))
-    scan.wait_until(lambda: edited.front.name == "Model")
-    assert edited.front.session.options.along == "EDGES"
-
-
 def test_pointing_at_objects_changes_no_setting(scan: driver.Ui) -> None:
     with scan.override():
         bpy.ops.object.mode_set(mode="OBJECT")
@@ -99,11 +80,6 @@ def test_pointing_at_objects_changes_no_setting(scan: driver.Ui) -> None:
     assert settings().strength_edges == before["strength_edges"]
     scan.key("ESC")
     settings().strength_surface = before["strength_surface"]
-
-
-def test_a_grid_of_quads_starts_along_edges(desk: Desk) -> None:
-    desk.choose()
-    assert desk.session.options.along == "EDGES"
 
 
 @pytest.fixture
@@ -147,11 +123,6 @@ def test_the_first_steps_are_seen_until_they_are_turned_off(newcomer: Desk) -> N
     assert text_pixels(newcomer) < 50
     choose(newcomer.ui, "builtin.select_box")
     newcomer.choose()
-    assert text_pixels(newcomer) < 50
-
-
-def test_with_another_tool_there_are_no_first_steps(newcomer: Desk) -> None:
-    choose(newcomer.ui, "builtin.select_box")
     assert text_pixels(newcomer) < 50
 
 

@@ -5,10 +5,9 @@ import itertools
 
 import bpy
 import pytest
-from desk import ORANGE, RED, WHITE, Desk, drag, draw, shows, undo_steps
+from desk import ORANGE, RED, WHITE, Desk, drag, shows, undo_steps
 from scene import chain, seams
 from seamwire.core.drawing.picture import Role
-from seamwire.mesh.settings import settings
 
 
 def press_and_draw(desk: Desk, *places: tuple[float, float]) -> None:
@@ -114,56 +113,3 @@ def test_a_line_elsewhere_is_a_chain_of_its_own(desk: Desk, capfd: pytest.Captur
     assert undo_steps(capfd)[-2:] == ["Draw Seamwires", "Draw Seamwires"]
     ui.key("Z", ctrl=True)
     assert seams(desk.obj) == chain(0, 1, 2, 3, 4)
-
-
-def test_a_line_ends_on_the_wire_it_comes_to(desk: Desk) -> None:
-    session = desk.choose()
-    draw(desk, 36, 44)
-    drag(desk, desk.at(4), desk.at(40))
-    desk.ui.wait_until(lambda: not desk.running)
-    assert seams(desk.obj) == sorted(chain(*range(36, 45)) + chain(4, 13, 22, 31, 40))
-    assert 40 in session.seeds(), "the wire has a seed there"
-
-
-def test_a_line_may_be_mirrored(desk: Desk) -> None:
-    session = desk.choose()
-    desk.obj.data.use_mirror_y = True
-    press_and_draw(desk, desk.at(54), desk.at(60))
-    assert session.options.mirror == (1,)
-    pixels = desk.ui.pixels()
-    assert shows(pixels, desk.at(56, 57), ORANGE)
-    image = session.mirrored(session.picture.all(Role.FOLLOWING)[0])
-    assert [one.vertices for one in image] == [tuple(range(18, 25))]
-    desk.ui.event("LEFTMOUSE", "RELEASE")
-    desk.ui.wait_until(lambda: not desk.running)
-    assert seams(desk.obj) == sorted(chain(*range(54, 61)) + chain(*range(18, 25)))
-
-
-def test_across_the_surface_wires_keep_near_to_the_line(cone: Desk) -> None:
-    session, ui = cone.choose(), cone.ui
-    settings().along = "SURFACE"
-    ui.move(cone.at(20))
-    ui.wait_until(lambda: session.options.along == "SURFACE")
-    press_and_draw(cone, cone.at(20), cone.at(24), cone.at(60))
-    ui.wait_until(lambda: not session.under_way.computing)
-    ui.wait(4)
-    assert session.picture.all(Role.FOLLOWING)
-    along = session.picture.all(Role.FOLLOWING)[0].points
-    assert shows(ui.pixels(), ui.on_screen(along[len(along) // 2]), ORANGE)
-    ui.event("LEFTMOUSE", "RELEASE")
-    ui.wait_until(lambda: not cone.running)
-    wires = session.wires
-    assert [wires[0].start, wires[-1].end] == [20, 60]
-    assert all(wire.along == "SURFACE" for wire in wires)
-    assert len(wires) > 1, "round the corner"
-    assert len(seams(cone.obj)) >= 7
-    ui.key("Z", ctrl=True)
-    assert seams(cone.obj) == []
-
-
-def test_a_drag_too_short_for_an_edge_says_so(desk: Desk) -> None:
-    session = desk.choose()
-    drag(desk, beside(desk.at(36), 1), beside(desk.at(36), 12))
-    assert not desk.running
-    assert session.wires == ()
-    assert desk.unchanged()

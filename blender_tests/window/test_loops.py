@@ -4,16 +4,9 @@
 import bmesh
 import bpy
 import pytest
-import ui as driver
-from desk import GREEN, Desk, shows, undo_steps
-from scene import chain, seams
+from desk import GREEN, Desk, said, shows, undo_steps
+from scene import chain, changing, seams, set_seams
 from seamwire.core.drawing.picture import Role
-from seamwire.operators.chain_state import running
-from seamwire.ui import status_bar
-
-
-def said() -> str:
-    return "; ".join(text for _, text in status_bar.hints(status_bar.status_of(running[0])))
 
 
 def offer(desk: Desk, *edge: int) -> tuple[float, float]:
@@ -96,10 +89,7 @@ def test_alt_with_another_key_is_blenders(desk: Desk) -> None:
 
 def stub(desk: Desk) -> None:
     """Mark a seam that ends in the middle row."""
-    bm = bmesh.from_edit_mesh(desk.obj.data)
-    bm.verts.ensure_lookup_table()
-    bm.edges.get((bm.verts[34], bm.verts[43])).seam = True
-    bmesh.update_edit_mesh(desk.obj.data)
+    set_seams(desk.obj, (34, 43))
 
 
 @pytest.mark.smoke
@@ -113,21 +103,15 @@ def test_a_strip_is_taken_up_to_the_seams_in_one_step(desk: Desk, capfd: pytest.
     assert seams(desk.obj) == [(34, 43)]
 
 
-def test_a_whole_strip_is_taken_across_seams(desk: Desk) -> None:
-    stub(desk)
-    assert take(desk, "WHOLE", 40, 41) == sorted([*chain(*range(36, 45)), (34, 43)])
-
-
 def fold_in_the_middle(desk: Desk) -> None:
     """Fold the grid by 45 degrees along its middle column, where alone a part ends."""
-    bm = bmesh.from_edit_mesh(desk.obj.data)
-    for edge in bm.edges:
-        edge.smooth = True
-    for face in bm.faces:
-        face.material_index = 0
-    for vertex in bm.verts:
-        vertex.co.z += max(vertex.co.x, 0.0)
-    bmesh.update_edit_mesh(desk.obj.data)
+    with changing(desk.obj) as bm:
+        for edge in bm.edges:
+            edge.smooth = True
+        for face in bm.faces:
+            face.material_index = 0
+        for vertex in bm.verts:
+            vertex.co.z += max(vertex.co.x, 0.0)
 
 
 def test_inside_a_face_the_border_of_its_part_comes_first(desk: Desk) -> None:
@@ -146,24 +130,6 @@ def test_inside_a_face_the_border_of_its_part_comes_first(desk: Desk) -> None:
     assert desk.session.picture.offered.kind != "FLAT", "near an edge its loops come first"
 
 
-def test_the_border_of_a_part_is_taken(desk: Desk) -> None:
-    fold_in_the_middle(desk)
-    marked = take(desk, "FLAT", 40, 49)
-    fold = chain(*range(4, 81, 9))
-    assert set(fold) < set(marked)
-    columns = sorted({vertex % 9 for edge in marked for vertex in edge})
-    assert columns in ([0, 1, 2, 3, 4], [4, 5, 6, 7, 8]), "one of the two halves"
-    assert len(marked) == 24
-    assert desk.session.wires[0].closed
-
-
-def test_a_closed_loop_is_taken(desk: Desk) -> None:
-    marked = take(desk, "CLOSED", 40, 41)
-    assert (40, 41) in marked
-    ends = [vertex for edge in marked for vertex in edge]
-    assert all(ends.count(vertex) == 2 for vertex in ends)
-
-
 def test_a_taken_strip_is_changed_in_place(desk: Desk) -> None:
     take(desk, "STRIP", 40, 41)
     ui = desk.ui
@@ -177,25 +143,11 @@ def test_a_taken_strip_is_changed_in_place(desk: Desk) -> None:
     assert seams(desk.obj) == chain(*range(36, 45)), "one step"
 
 
-@pytest.mark.oldest_and_newest
-def test_the_offer_that_is_shown_is_seen(ui: driver.Ui, desk: Desk) -> None:
-    place = offer(desk, 40, 41)
-    turn_to(desk, "STRIP")
-    assert shows(ui.pixels(), desk.at(37, 38), GREEN)
-    strip, before = set(desk.session.picture.one(Role.OFFER).edges()), ui.pixels()
-    turn_to(desk, "CLOSED")
-    new = min(set(desk.session.picture.one(Role.OFFER).edges()) - strip)
-    assert shows(ui.pixels(), desk.at(*new), GREEN)
-    assert not shows(before, desk.at(*new), GREEN)
-    ui.event("LEFT_ALT", "RELEASE", place)
-
-
 def test_an_offer_of_one_edge_is_seen_though_the_edge_is_highlighted(desk: Desk) -> None:
-    bm = bmesh.from_edit_mesh(desk.obj.data)
-    for edge in bm.edges:
-        columns = {round(4.0 * (vertex.co.x + 1.0)) for vertex in edge.verts}
-        edge.seam = columns in ({4}, {5})
-    bmesh.update_edit_mesh(desk.obj.data)
+    with changing(desk.obj) as bm:
+        for edge in bm.edges:
+            columns = {round(4.0 * (vertex.co.x + 1.0)) for vertex in edge.verts}
+            edge.seam = columns in ({4}, {5})
     offer(desk, 40, 41)
     turn_to(desk, "STRIP")
     assert desk.session.picture.one(Role.OFFER).edges() == [(40, 41)]

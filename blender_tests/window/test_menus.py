@@ -48,10 +48,7 @@ def test_blenders_menus_have_one_entry_of_ours(desk: Desk, name: str) -> None:
 
 @pytest.mark.smoke
 @pytest.mark.every_blender
-@pytest.mark.parametrize(
-    "name",
-    ["VIEW3D_MT_seamwire", *menus.SUBMENUS],
-)
+@pytest.mark.parametrize("name", ["VIEW3D_MT_seamwire", *menus.SUBMENUS])
 def test_each_entry_of_our_menus_is_an_operator_a_menu_or_a_setting(
     desk: Desk, name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:

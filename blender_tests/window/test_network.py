@@ -7,18 +7,13 @@ import bpy
 import numpy as np
 import pytest
 import ui as driver
-from desk import Desk, choose, drag, draw, undo_steps
+from desk import Desk, choose, drag, draw, said, undo_steps
 from scene import chain, seams, snapshot
 from seamwire.core.drawing.picture import Role
 from seamwire.mesh.settings import preferences, settings
 from seamwire.operators import bindings
 from seamwire.ui import status_bar
 from seamwire.view.edited_objects import edited
-from seamwire.words import corner
-
-
-def said(desk: Desk) -> str:
-    return "; ".join(text for _, text in status_bar.hints(status_bar.status_of(desk.chain)))
 
 
 def nothing_else_changed(desk: Desk) -> None:
@@ -118,32 +113,6 @@ def test_w_takes_the_next_candidate_and_the_wheel_zooms(cone: Desk) -> None:
     assert session.wires[0].vertices == other
 
 
-def test_across_the_surface_w_goes_through_three_candidates_live_and_kept(cone: Desk) -> None:
-    settings().along, settings().finish = "SURFACE", "SNAP"
-    session, ui = cone.choose(), cone.ui
-    ui.click(cone.at(20))
-    ui.move(cone.at(61))
-    ui.wait_until(lambda: len(session.picture.others) == 2)
-    seen = []
-    for number in range(3):
-        assert f"Next Candidate ({(number + 1) % 3 + 1} of 3)" in said(cone)
-        seen.append(session.picture.active.follow)
-        kind = corner.KINDS[corner.METRICS[session.options.metric].follows[seen[-1]]]
-        assert f"{kind} ({number + 1} of 3)" in corner.lines(session.picture)
-        ui.key("W")
-    assert seen == [2, 0, 1], "that along creases first"
-    ui.click(cone.at(61))
-    ui.wait_until(lambda: len(session.wires) == 1)
-    ui.key("RET")
-    assert session.wires[0].follow == 2
-    for follow in (0, 1, 2):
-        points = session.wires[0].points
-        ui.move(ui.on_screen(tuple(points[len(points) // 2])))
-        assert session.picture.one(Role.HOVERED) is not None
-        ui.key("W")
-        ui.wait_until(lambda expected=follow: session.wires[0].follow == expected)
-
-
 def test_the_wheel_takes_the_next_candidate_where_it_is_given_to_it(cone: Desk) -> None:
     preferences().wheel_switches = True
     try:
@@ -174,7 +143,7 @@ def test_shift_and_the_wheel_change_the_strength_and_say_it(cone: Desk) -> None:
     ui.wheel(up=True, shift=True)
     assert session.drawing.strength == 12.5
     assert settings().strength_edges == 12.5
-    assert "Strength 12.5" in said(cone)
+    assert "Strength 12.5" in said()
     ui.wheel(up=False, shift=True)
     assert session.drawing.strength == 10.0
     settings().strength_edges = 40.0

@@ -19,7 +19,7 @@ import show
 import ui as driver
 from numpy.typing import NDArray
 from scene import add_grid, add_object, edit
-from seamwire.core.drawing.picture import Offered, Picture, Role, ShownWire, shown_seeds
+from seamwire.core.drawing.picture import Picture, Role, ShownWire, shown_seeds
 from seamwire.core.islands.islands import IslandMaker
 from seamwire.core.network.network import Snap
 from seamwire.core.network.picks import Edge
@@ -100,8 +100,6 @@ class Said:
             hovered if dragged is None else dragged,
             (),
         )
-        kinds, choice = said.pop("loop_offers", ()), said.pop("loop_choice", None)
-        number = said.pop("loop_number", 0)
         names = {field.name for field in fields(Options)}
         options = Options(**{name: said.pop(name) for name in names & said.keys()})
         self.picture = Picture(
@@ -110,7 +108,6 @@ class Said:
             network_revision=self.picture.network_revision + ("wires" in what),
             wires=tuple(shown),
             seeds=seeds,
-            offered=Offered(kinds if choice else (), number),
             **{"strength": options.strength, **said},
         )
 
@@ -481,17 +478,6 @@ def test_a_stroke_is_seen_while_it_is_drawn_and_lies_under_the_wires(sight: Sigh
     assert has(over, at, "orange"), "the wire is on top"
 
 
-def test_the_text_names_what_a_click_on_the_edge_would_take(sight: Sight) -> None:
-    loop = sight.wire(30, 31, 32, 41, 50, 49, 48, 39)
-    offers = ("CLOSED", "STRIP", "WHOLE")
-    seen = [
-        text_pixels(sight.pixels(loop_preview=loop, loop_offers=offers, loop_choice=choice, loop_number=number))
-        for number, choice in enumerate((*offers, None))
-    ]
-    for one, two in pairwise(seen):
-        assert (one != two).sum() > 5
-
-
 @pytest.mark.parametrize("name", ["WIREFRAME", "XRAY"])
 def test_where_blender_shows_all_layers_the_nearest_is_tinted_and_hidden_wires_are_faint(
     ui: driver.Ui, name: str
@@ -544,16 +530,6 @@ def test_segments_are_tinted_apart_and_counted(sight: Sight) -> None:
 def text_pixels(pixels: NDArray[np.float32]) -> NDArray[np.bool_]:
     """Return which pixels of the lower left corner, beside the toolbar, are as light as text."""
     return pixels[:90, 40:330, :3].min(axis=-1) > 0.6
-
-
-def test_the_text_tells_of_strength_clearing_and_mirror(sight: Sight) -> None:
-    seen = [
-        text_pixels(sight.pixels(**said))
-        for said in ({}, {"strength": 15.6}, {"clear": True}, {"mirror": (0,)}, {"along": "SURFACE"})
-    ]
-    for one, two in pairwise(seen):
-        assert (one != two).sum() > 5
-    assert all(one.sum() > 40 for one in seen)
 
 
 def test_styles_are_told_apart_by_more_than_their_hue() -> None:

@@ -38,12 +38,7 @@ def calls(monkeypatch: pytest.MonkeyPatch) -> Counter[str]:
 
         monkeypatch.setattr(owner, name, staticmethod(counted) if name == "redraw" else counted)
 
-    for owner, name in (
-        (edit_mesh, "read"),
-        (LiveMaker, "__call__"),
-        (IslandMaker, "want"),
-        (EditedObjects, "redraw"),
-    ):
+    for owner, name in ((edit_mesh, "read"), (LiveMaker, "__call__"), (IslandMaker, "want"), (EditedObjects, "redraw")):
         count(owner, name)
     return found
 
@@ -86,18 +81,6 @@ def test_the_first_picture_after_a_chain_shows_all_of_its_end(desk: Desk, calls:
     assert after[0], "no other picture is needed"
     assert calls["want"] == wanted, "the seams cut what the wires cut before"
     assert edited.front.islands.newest.count == 2
-
-
-def test_the_second_chain_goes_on_with_what_the_first_one_prepared(desk: Desk, calls: Counter[str]) -> None:
-    desk.choose()
-    draw(desk, 36, 44)
-    made = calls["__call__"]
-    assert made == 1
-    read = calls["read"]
-    session = draw(desk, 4, 22)
-    assert len(session.wires) == 2
-    assert calls["__call__"] == made
-    assert calls["read"] == read
 
 
 def test_progress_is_told_without_a_picture(desk: Desk, calls: Counter[str], monkeypatch: pytest.MonkeyPatch) -> None:

@@ -166,23 +166,6 @@ def test_the_users_keys_are_the_add_ons_in_the_same_order(ui: driver.Ui) -> None
         assert of_user.icon(action) == defaults.icon(action), action
 
 
-def test_a_changed_key_is_the_actions_first(ui: driver.Ui) -> None:
-    ui.wait()
-    manager = bpy.context.window_manager
-
-    def bind(old: str, new: str) -> None:
-        # Blender may make the items anew whenever one has changed: none is kept.
-        items = bindings.items_of(bindings.user_keymap(manager), bindings.ACTION_OPERATOR)
-        next(item for item in items if item.type == old).type = new
-
-    try:
-        bind("NUMPAD_ENTER", "P")
-        assert bindings.of_user(manager).keys_of(Action.END)[0].type == "P"
-    finally:
-        bind("P", "NUMPAD_ENTER")
-    assert bindings.of_user(manager).rows() == Bindings().rows()
-
-
 def test_an_actions_number_in_a_users_keys_is_its_own(ui: driver.Ui) -> None:
     ui.wait()
     items = bindings.items_of(bindings.user_keymap(bpy.context.window_manager), bindings.ACTION_OPERATOR)

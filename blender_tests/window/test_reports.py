@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 import pytest
 from desk import Desk, draw
-from scene import chain, mark_wires, seams, snapshot
+from scene import chain, changing, mark_wires, seams
 from seamwire.core.drawing.picture import Role
 from seamwire.mesh import uv_map
 
@@ -80,17 +80,6 @@ def test_alt_and_the_middle_button_center_the_view_between_chains_and_within_one
     assert desk.running
 
 
-def test_undo_right_after_the_first_click_takes_back_the_seed_alone(desk: Desk) -> None:
-    desk.choose()
-    ui = desk.ui
-    ui.click(desk.at(36))
-    ui.key("Z", ctrl=True)
-    ui.wait(3)
-    assert desk.unchanged()
-    draw(desk, 36, 44)
-    assert seams(desk.obj) == ROW
-
-
 def test_seams_and_wires_come_back_with_faces_that_were_deleted(desk: Desk) -> None:
     desk.choose()
     draw(desk, 36, 44)
@@ -125,22 +114,6 @@ def test_undo_over_a_change_in_object_mode_and_back_leaves_a_mesh_to_be_drawn_on
     assert set(chain(*range(9))) <= set(seams(desk.obj))
 
 
-@pytest.mark.parametrize("mode", ["VERT", "EDGE", "FACE"])
-def test_operators_leave_the_select_mode_and_the_selection(desk: Desk, mode: str) -> None:
-    ui = desk.ui
-    with ui.override():
-        bpy.ops.mesh.select_mode(type=mode)
-        bpy.ops.mesh.select_all(action="DESELECT")
-    bm = bmesh.from_edit_mesh(desk.obj.data)
-    bm.faces.ensure_lookup_table()
-    bm.faces[20].select = True
-    bmesh.update_edit_mesh(desk.obj.data)
-    before = snapshot(desk.obj, with_seams=False)
-    with ui.override():
-        mark_wires(chains="36 44; 4 76")
-    assert snapshot(desk.obj, with_seams=False) == before
-
-
 def test_islands_are_unwrapped_again_after_their_uvs_were_reset(desk: Desk) -> None:
     desk.choose()
     draw(desk, 36, 44)
@@ -161,13 +134,11 @@ def test_islands_are_unwrapped_again_after_their_uvs_were_reset(desk: Desk) -> N
 def test_a_face_that_surrounds_another_one_can_be_cut_and_unwrapped(desk: Desk) -> None:
     """A face like a horseshoe with another face in its bay."""
     with desk.ui.override():
-        bm = bmesh.from_edit_mesh(desk.obj.data)
-        bm.faces.ensure_lookup_table()
-        horseshoe = [
-            bm.faces[8 * row + column] for row, column in ((2, 2), (2, 3), (2, 4), (3, 2), (3, 4), (4, 2), (4, 4))
-        ]
-        bmesh.ops.dissolve_faces(bm, faces=horseshoe)
-        bmesh.update_edit_mesh(desk.obj.data)
+        with changing(desk.obj) as bm:
+            horseshoe = [
+                bm.faces[8 * row + column] for row, column in ((2, 2), (2, 3), (2, 4), (3, 2), (3, 4), (4, 2), (4, 4))
+            ]
+            bmesh.ops.dissolve_faces(bm, faces=horseshoe)
         assert mark_wires(chains="0 80", along="SURFACE", finish="CUT", metric="euclidean")
         assert bpy.ops.mesh.seamwire_unwrap() == {"FINISHED"}
         bpy.ops.mesh.seamwire_select_islands(which="TO_CUT")

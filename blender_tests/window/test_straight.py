@@ -103,21 +103,3 @@ def test_the_key_that_closes_a_chain_closes_it_straight(desk: Desk) -> None:
     ui.key("C")
     ui.wait_until(lambda: len(session.wires) == 3)
     assert bend_on_screen(desk, session.wires[2]) < 0.05
-
-
-def test_w_goes_on_to_the_wires_of_the_metric(desk: Desk) -> None:
-    ui = desk.ui
-    desk.choose()
-    aim(desk)
-    ui.key("W")
-    ui.wait()
-    assert not desk.session.picture.choice.straight
-    assert bend_on_screen(desk, desk.session.picture.active) > 3.0
-
-
-def test_it_is_offered_only_where_it_is_asked_for(desk: Desk) -> None:
-    settings().straight = False
-    desk.choose()
-    aim(desk)
-    assert not desk.session.picture.choice.straight
-    assert min(bend_on_screen(desk, wire) for wire in (desk.session.picture.active, *desk.session.picture.others)) > 1.0

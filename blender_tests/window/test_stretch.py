@@ -12,6 +12,7 @@ import pytest
 import ui as driver
 from desk import Desk, draw, grid, leave, near, undo_steps
 from mathutils import Vector
+from scene import changing
 from seamwire.core.islands.stretch import Stretch
 from seamwire.mesh.settings import settings
 from seamwire.view.edited_objects import edited
@@ -106,10 +107,9 @@ def test_a_map_that_changes_is_measured_once_and_only_where_it_changed(
         return changed
 
     monkeypatch.setattr(Stretch, "update", counting)
-    bm = bmesh.from_edit_mesh(desk.obj.data)
-    for edge in bm.edges:
-        edge.seam = all(abs(v.co.x) < 1e-6 for v in edge.verts)
-    bmesh.update_edit_mesh(desk.obj.data)
+    with changing(desk.obj) as bm:
+        for edge in bm.edges:
+            edge.seam = all(abs(v.co.x) < 1e-6 for v in edge.verts)
     desk.choose()
     settings().heat = "ANGLE"
     desk.ui.wait_until(lambda: bool(measured))
@@ -169,10 +169,9 @@ def test_a_chain_unwraps_what_it_changed_in_its_own_step_of_undo(desk: Desk, cap
 
 @pytest.mark.smoke
 def test_the_worst_island_is_one_key_away(desk: Desk) -> None:
-    bm = bmesh.from_edit_mesh(desk.obj.data)
-    for edge in bm.edges:
-        edge.seam = all(abs(v.co.x) < 1e-6 for v in edge.verts)
-    bmesh.update_edit_mesh(desk.obj.data)
+    with changing(desk.obj) as bm:
+        for edge in bm.edges:
+            edge.seam = all(abs(v.co.x) < 1e-6 for v in edge.verts)
     lay_out(desk, right=2.0)
     bpy.ops.mesh.select_mode(type="FACE")
     desk.choose()
@@ -188,12 +187,11 @@ def test_the_worst_island_is_one_key_away(desk: Desk) -> None:
 
 @pytest.mark.parametrize("scale", [pytest.param(1.0, marks=pytest.mark.every_blender), -1.0])
 def test_the_worst_island_is_turned_to_the_viewer(desk: Desk, scale: float) -> None:
-    bm = bmesh.from_edit_mesh(desk.obj.data)
-    for edge in bm.edges:
-        edge.seam = all(abs(v.co.x) < 1e-6 for v in edge.verts)
-    for vertex in bm.verts:  # a roof: its right half falls to the right
-        vertex.co.z = -max(vertex.co.x, 0.0)
-    bmesh.update_edit_mesh(desk.obj.data)
+    with changing(desk.obj) as bm:
+        for edge in bm.edges:
+            edge.seam = all(abs(v.co.x) < 1e-6 for v in edge.verts)
+        for vertex in bm.verts:  # a roof: its right half falls to the right
+            vertex.co.z = -max(vertex.co.x, 0.0)
     lay_out(desk, right=2.0)
     desk.obj.scale.z = scale
     desk.choose()

@@ -8,15 +8,14 @@ import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-import bmesh
 import bpy
 import keymaps
 import numpy as np
 import pytest
 import stored
 import ui as driver
-from desk import choose, leave, undo_steps
-from scene import add_suzanne, animate, edit, head, mark_wires, seams, snapshot
+from desk import choose, leave, second_window, undo_steps
+from scene import add_suzanne, animate, changing, edit, head, mark_wires, seams, snapshot
 from seamwire.core.base import native
 from seamwire.core.seams.seam_plan import PartEdits
 from seamwire.mesh.seam_search import Suggestion
@@ -79,6 +78,17 @@ def begin(ui: driver.Ui, **options: object) -> None:
     shown = live()
     ui.key("RET")
     assert shown.is_kept
+
+
+def keep(ui: driver.Ui) -> None:
+    """Keep what is shown, and wait until it is in the mesh."""
+    ui.key("RET")
+    ui.wait_until(lambda: not searches, 60.0)
+
+
+def escape(ui: driver.Ui) -> None:
+    ui.key("ESC")
+    ui.wait_until(lambda: not searches)
 
 
 def count() -> int:
@@ -259,14 +269,24 @@ def test_meanwhile_the_view_can_be_moved_and_nothing_else_done(
     assert suzanne.data.total_vert_sel == selected
 
 
+def subdivide(obj: bpy.types.Object) -> None:
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.mesh.subdivide()
+
+
+def move(obj: bpy.types.Object) -> None:
+    with changing(obj) as bm:
+        bm.verts[0].co.z += 1.0
+
+
+@pytest.mark.parametrize("change", [subdivide, move])
 def test_a_mesh_that_is_changed_meanwhile_keeps_what_it_has(
-    ui: driver.Ui, suzanne: bpy.types.Object, waiting: Waiting
+    ui: driver.Ui, suzanne: bpy.types.Object, waiting: Waiting, change: Callable[[bpy.types.Object], None]
 ) -> None:
     begin(ui)
     ui.wait_until(lambda: bool(waiting.found))
     with ui.override():
-        bpy.ops.mesh.select_all(action="SELECT")
-        bpy.ops.mesh.subdivide()
+        change(suzanne)
     waiting.end()
     ui.wait_until(lambda: not searches, 60.0)
     assert not edited.covered
@@ -302,52 +322,26 @@ def test_a_wire_that_is_marked_meanwhile_stays_after_saving(
     assert stored.agree(suzanne)
 
 
-def test_a_mesh_that_is_moved_meanwhile_keeps_what_it_has(
-    ui: driver.Ui, suzanne: bpy.types.Object, waiting: Waiting
-) -> None:
-    begin(ui)
-    ui.wait_until(lambda: bool(waiting.found))
-    with ui.override():
-        bm = bmesh.from_edit_mesh(suzanne.data)
-        bm.verts.ensure_lookup_table()
-        bm.verts[0].co.z += 1.0
-        bmesh.update_edit_mesh(suzanne.data)
-    waiting.end()
-    ui.wait_until(lambda: not searches, 60.0)
-    assert seams(suzanne) == []
-
-
 @pytest.mark.every_blender
 def test_beside_a_search_a_chain_in_another_window_is_refused_with_a_sentence(
     ui: driver.Ui, suzanne: bpy.types.Object, waiting: Waiting, capfd: pytest.CaptureFixture[str]
 ) -> None:
     choose(ui)
-    with ui.override():
-        bpy.ops.wm.window_new()
-    other = bpy.context.window_manager.windows[-1]
-    ui.wait(5)
-    try:
+    with second_window(ui) as other:
         invoke(ui)
         ui.wait_until(lambda: bool(waiting.found))
-        area = next(area for area in other.screen.areas if area.type == "VIEW_3D")
-        region = next(region for region in area.regions if region.type == "WINDOW")
-        with bpy.context.temp_override(window=other, area=area, region=region):
+        with bpy.context.temp_override(**other):
             capfd.readouterr()
             assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT", first="CLICK") == {"CANCELLED"}
             assert "Suggest Seamwires is running" in "".join(capfd.readouterr())
             assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT", first="REMOVE") & {"PASS_THROUGH", "CANCELLED"}
             assert not bpy.ops.mesh.seamwire_suggest.poll(), "one search at a time"
         assert not chains
-        ui.key("ESC")
-        ui.wait_until(lambda: not searches)
-        with bpy.context.temp_override(window=other, area=area, region=region):
+        escape(ui)
+        with bpy.context.temp_override(**other):
             assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
         assert not bpy.ops.mesh.seamwire_suggest.poll(), "a chain is drawn in the other window"
         chains[0].drop()
-    finally:
-        with bpy.context.temp_override(window=other):
-            bpy.ops.wm.window_close()
-        ui.wait(3)
 
 
 def test_seams_are_hidden_from_the_side_that_the_view_shows(
@@ -417,20 +411,8 @@ def test_a_click_drops_a_border_and_a_second_click_keeps_it(ui: driver.Ui, prism
     ui.wheel(False, rim)
     assert count() == 2, "the border that was kept stays"
     ui.click(rim)
-    ui.key("RET")
-    ui.wait_until(lambda: not searches, 60.0)
+    keep(ui)
     assert island_count(prism) == 1
-
-
-def test_a_click_into_an_island_cuts_it_once_more(ui: driver.Ui, prism: bpy.types.Object) -> None:
-    invoke(ui)
-    ui.click(ui.on_screen(FRONT_SIDE))
-    assert count() == 4
-    ui.click(ui.on_screen(FRONT_SIDE))
-    assert count() == 5
-    ui.key("RET")
-    ui.wait_until(lambda: not searches, 60.0)
-    assert island_count(prism) == 5
 
 
 @pytest.fixture
@@ -466,8 +448,7 @@ def test_a_long_cut_is_a_step_and_the_wheel_turns_after_it(
     ui.wait_until(lambda: not live()._searches)
     assert count() == 2, "all is one part, which is cut"
     assert not live().edits[prism.name].dropped
-    ui.key("RET")
-    ui.wait_until(lambda: not searches, 60.0)
+    keep(ui)
     assert island_count(prism) == 2
 
 
@@ -477,8 +458,7 @@ def test_escape_ends_a_long_cut(ui: driver.Ui, prism: bpy.types.Object, slow_cut
     ui.click(ui.on_screen(FRONT_SIDE))
     ui.wait(5)
     assert live()._searches
-    ui.key("ESC")
-    ui.wait_until(lambda: not searches)
+    escape(ui)
     assert not slow_cuts.is_set()
     assert snapshot(prism) == before
     assert not edited.covered
@@ -487,8 +467,7 @@ def test_escape_ends_a_long_cut(ui: driver.Ui, prism: bpy.types.Object, slow_cut
 def test_adjust_last_operation_has_what_was_clicked(ui: driver.Ui, prism: bpy.types.Object) -> None:
     invoke(ui)
     ui.click(ui.on_screen(FRONT_RIM))
-    ui.key("RET")
-    ui.wait_until(lambda: not searches, 60.0)
+    keep(ui)
     ui.wait(5)
     last = bpy.context.window_manager.operators[-1]
     options = {name: getattr(last, name) for name in ("parts", "distortion", "edits")}
@@ -548,8 +527,7 @@ def test_escape_after_changes_leaves_all_as_it_was(
     ui.wheel(True, ui.on_screen(TOP))
     ui.click(ui.on_screen(FRONT_RIM))
     ui.wait(10)
-    ui.key("ESC")
-    ui.wait_until(lambda: not searches)
+    escape(ui)
     assert snapshot(prism) == before
     assert undo_steps(capfd) == steps
     assert not edited.covered
@@ -593,8 +571,7 @@ def test_ctrl_and_the_wheel_or_keys_change_the_limit_of_the_stretch(
     assert "Stretch: up to 13 %" in shown.title
     assert (count(), shown.amount) == (parts, amount)
     ui.wait_until(lambda: shown.is_planned)
-    ui.key("RET")
-    ui.wait_until(lambda: not searches, 60.0)
+    keep(ui)
     assert bpy.context.window_manager.operators[-1].distortion == pytest.approx(13.0)
 
 
@@ -630,8 +607,7 @@ def test_the_map_is_shown_as_squares_of_one_size_while_the_hand_rests(ui: driver
     assert not squares(), "the parts have changed"
     ui.move((5.0, 5.0))
     ui.wait_until(lambda: bool(squares()))
-    ui.key("RET")
-    ui.wait_until(lambda: not searches, 60.0)
+    keep(ui)
     assert not edited.covered
     assert contrast(ui, side) < plain + 0.03
 
@@ -685,8 +661,7 @@ def test_a_file_that_is_saved_meanwhile_has_the_mesh_as_it_was(
     assert searches
     assert count() == parts
     assert live().is_planned
-    ui.key("ESC")
-    ui.wait_until(lambda: not searches)
+    escape(ui)
     assert snapshot(alone) == before
     assert undo_steps(capfd) == steps
     assert saved(path) == saved(tmp_path / "before.blend")
@@ -743,8 +718,7 @@ def test_an_animation_plays_meanwhile(ui: driver.Ui, prism: bpy.types.Object) ->
         with ui.override():
             bpy.ops.screen.animation_cancel(restore_frame=True)
     ui.wait(5)
-    ui.key("ESC")
-    ui.wait_until(lambda: not searches)
+    escape(ui)
     assert snapshot(prism) == before
 
 
@@ -779,20 +753,13 @@ def test_undo_from_elsewhere_ends_it_and_the_mesh_is_as_undo_has_it(ui: driver.U
 @pytest.mark.oldest_and_newest
 def test_its_window_may_be_closed(ui: driver.Ui, prism: bpy.types.Object) -> None:
     before = snapshot(prism)
-    with ui.override():
-        bpy.ops.wm.window_new()
-    other = bpy.context.window_manager.windows[-1]
-    ui.wait(5)
-    area = next(area for area in other.screen.areas if area.type == "VIEW_3D")
-    region = next(region for region in area.regions if region.type == "WINDOW")
-    with bpy.context.temp_override(window=other, area=area, region=region):
-        assert bpy.ops.mesh.seamwire_suggest("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
-    ui.wait_until(lambda: live() is not None)
-    ui.wait_until(lambda: live().is_planned)
-    ui.wheel(True, ui.on_screen(TOP))
-    assert count() == 3, "the wheel over the first window is for that window"
-    with bpy.context.temp_override(window=other):
-        bpy.ops.wm.window_close()
+    with second_window(ui) as other:
+        with bpy.context.temp_override(**other):
+            assert bpy.ops.mesh.seamwire_suggest("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
+        ui.wait_until(lambda: live() is not None)
+        ui.wait_until(lambda: live().is_planned)
+        ui.wheel(True, ui.on_screen(TOP))
+        assert count() == 3, "the wheel over the first window is for that window"
     ui.wait_until(lambda: not searches)
     assert not edited.covered
     assert snapshot(prism) == before
@@ -827,8 +794,7 @@ def test_a_right_click_does_nothing_where_it_selects(
         ui.wait(5)
         assert searches
         assert said[-1].endswith("    Esc: Cancel")
-        ui.key("ESC")
-        ui.wait_until(lambda: not searches)
+        escape(ui)
         assert snapshot(prism) == before
     ui.wait(5)
     invoke(ui)

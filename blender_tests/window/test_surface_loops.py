@@ -8,14 +8,11 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 import ui as driver
-from desk import GREEN, Desk, leave, shows
+from desk import Desk, leave, said
 from scene import add_object, seams
 from seamwire.core.base.geometry import nearest_on_segments
 from seamwire.core.drawing.picture import Role
-from seamwire.core.offers.surface_loops import SurfaceLoops
 from seamwire.mesh.settings import settings
-from seamwire.operators.chain_state import running
-from seamwire.ui import status_bar
 
 AROUND, ROWS = 24, 41
 
@@ -60,31 +57,6 @@ def offer(desk: Desk, vertex: int) -> tuple[float, float]:
     desk.ui.event("LEFT_ALT", "PRESS", place, alt=True)
     desk.ui.wait_until(lambda: not desk.session.under_way.computing)
     return place
-
-
-def said() -> str:
-    return "; ".join(text for _, text in status_bar.hints(status_bar.status_of(running[0])))
-
-
-def test_alt_over_a_limb_shows_the_cut_around_it_and_a_click_takes_it(desk: Desk) -> None:
-    ui = desk.ui
-    place = offer(desk, WAIST)
-    session = desk.session
-    assert session.picture.offered.kind == "ACROSS"
-    assert "Add Closed Cut" in said()
-    assert shows(ui.pixels(), desk.at(WAIST + 3), GREEN)
-    preview = session.picture.one(Role.OFFER)
-    assert abs(preview.points[:, 1]).max() < 0.06, "it goes around the waist"
-    shown = sorted(preview.edges())
-    ui.click(place, alt=True)
-    assert len(session.wires) == 3
-    ui.event("LEFT_ALT", "RELEASE", place)
-    assert desk.left_clean()
-    marked = seams(desk.obj)
-    assert marked == shown
-    assert set(Counter(v for edge in marked for v in edge).values()) == {2}, "it is closed"
-    ui.key("Z", ctrl=True)
-    assert seams(desk.obj) == []
 
 
 @pytest.mark.smoke
@@ -137,22 +109,6 @@ def test_escape_while_it_is_bent_leaves_the_cut_as_it_was(desk: Desk) -> None:
     ui.event("LEFT_SHIFT", "RELEASE", away)
     assert desk.left_clean()
     assert seams(desk.obj) == before
-
-
-def test_it_can_be_cut_into_the_faces(desk: Desk) -> None:
-    settings().finish = "CUT"
-    ui, count = desk.ui, len(desk.obj.data.vertices)
-    place = offer(desk, WAIST)
-    ui.click(place, alt=True)
-    ui.event("LEFT_ALT", "RELEASE", place)
-    assert desk.left_clean()
-    obj = desk.obj
-    obj.update_from_editmode()
-    marked = seams(obj)
-    assert set(Counter(v for edge in marked for v in edge).values()) == {2}, "it is closed"
-    length = sum((obj.data.vertices[a].co - obj.data.vertices[b].co).length for a, b in marked)
-    assert length == pytest.approx(2.0 * math.pi * 0.2, rel=0.03)
-    assert len(obj.data.vertices) >= count
 
 
 SECONDS = (WAIST + 6 * AROUND + 3, WAIST - 4 * AROUND + 2)
@@ -252,14 +208,3 @@ def test_after_undo_and_redo_of_three_cuts_the_last_one_is_bent(desk: Desk) -> N
     assert others() == before
     ends = np.array([desk.obj.data.vertices[v].co for edge in bent for v in edge])
     assert np.linalg.norm(ends - place, axis=1).min() < 0.03
-
-
-def test_where_nothing_suggests_one_the_status_bar_says_so(desk: Desk) -> None:
-    ui = desk.ui
-    ui.look((0.0, 0.0, 0.7071, 0.7071), (0.0, 0.0, 0.0), 4.0)  # from behind
-    place = offer(desk, ROWS * AROUND + 1)
-    assert desk.session.picture.one(Role.OFFER) is None
-    assert str(SurfaceLoops.NONE) in said()
-    ui.event("LEFT_ALT", "RELEASE", place)
-    assert not desk.running
-    assert desk.unchanged()

@@ -8,31 +8,12 @@ import bpy
 import pytest
 import ui as driver
 from desk import Desk, choose, leave
-from scene import add_grid, chain, edit, seams
+from scene import add_grid, chain, changing, edit, seams
 from seamwire.mesh.settings import TOOL
 from seamwire.operators import draw
 from seamwire.operators.chain_state import running
 from seamwire.view.edited_objects import edited
 from seamwire.words import corner
-
-
-@pytest.mark.parametrize("modifiers", [{}, {"ctrl": True}])
-def test_the_first_click_with_the_tool_places_a_seed(desk: Desk, modifiers: dict[str, bool]) -> None:
-    ui = desk.ui
-    desk.choose()
-    assert not desk.running
-    ui.click(desk.at(36), **modifiers)
-    assert desk.running
-    session = desk.session
-    ui.wait_until(lambda: session.seed == 36)
-    ui.click(desk.at(44))
-    ui.wait_until(lambda: len(session.wires) == 1)
-    ui.key("RET")
-    assert seams(desk.obj) == chain(*range(36, 45))
-    ui.click(desk.at(0))
-    assert desk.running, "the tool stays: the next click begins again"
-    ui.key("ESC")
-    assert desk.left_clean()
 
 
 def test_the_island_under_the_mouse_is_named(desk: Desk) -> None:
@@ -158,9 +139,8 @@ def test_the_object_under_the_cursor_is_drawn_on_each_in_a_chain_of_its_own(two:
 def test_undo_that_changes_another_objects_mesh_leaves_the_object_in_front_there(two: Two) -> None:
     ui = two.ui
     bpy.ops.ed.undo_push(message="Before")
-    bm = bmesh.from_edit_mesh(two.right.data)
-    bmesh.ops.poke(bm, faces=list(bm.faces))
-    bmesh.update_edit_mesh(two.right.data)
+    with changing(two.right) as bm:
+        bmesh.ops.poke(bm, faces=list(bm.faces))
     bpy.ops.ed.undo_push(message="Poke")
     for side in (two.right, two.left):
         ui.move(two.at(side, 12))
@@ -173,10 +153,9 @@ def test_undo_that_changes_another_objects_mesh_leaves_the_object_in_front_there
 
 def test_other_objects_may_have_nothing_to_draw_on(two: Two) -> None:
     ui = two.ui
-    bm = bmesh.from_edit_mesh(two.right.data)
-    for face in bm.faces:
-        face.hide_set(True)
-    bmesh.update_edit_mesh(two.right.data)
+    with changing(two.right) as bm:
+        for face in bm.faces:
+            face.hide_set(True)
     ui.click(two.at(two.left, 10))
     ui.move(two.at(two.right, 12))
     ui.click(two.at(two.left, 14))

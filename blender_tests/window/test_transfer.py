@@ -7,13 +7,12 @@ import threading
 from collections.abc import Iterator
 from pathlib import Path
 
-import bmesh
 import bpy
 import pytest
 import stored
 import ui as driver
 from desk import leave, undo_steps
-from scene import add_suzanne, edit, head, mark_wires, seams, snapshot
+from scene import add_suzanne, changing, edit, head, mark_wires, seams, snapshot
 from seamwire.networks.core.tracing import Tracing
 from seamwire.operators.steps import running
 
@@ -121,10 +120,8 @@ def test_a_mesh_that_is_changed_meanwhile_keeps_what_it_has(
         if change == "subdivide":
             bpy.ops.mesh.subdivide()
         else:
-            bm = bmesh.from_edit_mesh(target.data)
-            bm.verts.ensure_lookup_table()
-            bm.verts[0].co.z += 1.0
-            bmesh.update_edit_mesh(target.data)
+            with changing(target) as bm:
+                bm.verts[0].co.z += 1.0
     gate.open()
     ui.wait_until(lambda: not running)
     assert seams(target) == []

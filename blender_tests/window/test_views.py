@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Drawing in views of every kind: with perspective, on a display of larger scale, clipped, from a second window, on a shape key."""
+"""Drawing in views of every kind: with perspective, on a display of larger scale, clipped, split in four, on a shape key."""
 
 from collections.abc import Iterator
 
@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 import pytest
 import ui as driver
+from bpy_extras.view3d_utils import location_3d_to_region_2d
 from desk import ORANGE, WHITE, Desk, choose, draw, leave, shows
 from scene import add_grid, chain, edit, seams
 from seamwire.mesh.settings import settings
@@ -145,37 +146,6 @@ def test_drawing_is_on_the_shape_that_is_seen(ui: driver.Ui) -> None:
         leave(ui)
 
 
-def test_blenders_undo_in_a_second_window_leaves_a_chain_its_wires(desk: Desk) -> None:
-    ui = desk.ui
-    desk.choose()
-    ui.click(desk.at(36))
-    ui.click(desk.at(44))
-    session = desk.session
-    ui.wait_until(lambda: len(session.wires) == 1)
-    name = desk.name
-    with ui.override():
-        bpy.ops.wm.window_new()
-    other = next(window for window in bpy.context.window_manager.windows if window != ui.window)
-    ui.wait(4)
-    try:
-        x, y = other.width // 2, other.height // 2
-        other.event_simulate(type="MOUSEMOVE", value="NOTHING", x=x, y=y)
-        for value in ("PRESS", "RELEASE"):
-            other.event_simulate(type="Z", value=value, x=x, y=y, ctrl=True)
-        ui.wait(4)
-    finally:
-        with bpy.context.temp_override(window=other):
-            bpy.ops.wm.window_close()
-        ui.wait(4)
-    ui.move(desk.at(60))
-    ui.key("ESC")
-    assert not running
-    obj = bpy.data.objects.get(name)
-    if obj is not None and obj.mode == "EDIT":
-        assert seams(obj) in (ROW, []), "kept, or undone with all else"
-        assert bool(edited.of(obj).session.wires) == bool(seams(obj))
-
-
 @pytest.mark.parametrize(
     "name", [pytest.param("show_gizmo", marks=[pytest.mark.smoke, pytest.mark.every_blender]), "show_gizmo_tool"]
 )
@@ -190,3 +160,48 @@ def test_what_a_click_takes_is_lit_where_gizmos_are_hidden_too(desk: Desk, name:
         assert not running
     finally:
         setattr(desk.ui.space, name, True)
+
+
+def test_every_view_of_a_quad_view_can_be_drawn_in(ui: driver.Ui) -> None:
+    with ui.override():
+        bpy.ops.screen.region_quadview()
+    ui.wait(4, redraw=True)
+    try:
+        draw_in_each(ui)
+    finally:
+        # This frees the regions of the four views. The next test finds the one that is left.
+        with ui.override():
+            bpy.ops.screen.region_quadview()
+        ui.wait(4)
+
+
+def draw_in_each(ui: driver.Ui) -> None:
+    obj = add_grid(9)
+    ui.wait()
+    with ui.override():
+        edit()
+    ui.look_from_top(distance=4.0)
+    with ui.override():
+        bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT")
+    ui.wait()
+    session = running[0].session
+    for view in ui.space.region_quadviews:
+        view.view_location = (0.0, 0.0, 0.0)
+        view.view_distance = 3.0
+    ui.wait(4, redraw=True)
+    point = obj.data.vertices[40].co
+    views = [region for region in ui.area.regions if region.type == "WINDOW"]
+    assert len(views) == 4
+    found = 0
+    for region, view in zip(views, ui.space.region_quadviews, strict=True):
+        at = location_3d_to_region_2d(region, view, point)
+        from_the_side = abs(view.view_rotation.to_matrix()[2][2]) < 0.1
+        if from_the_side:
+            continue
+        session.hover(None)
+        ui.move((region.x + at.x - ui.region.x, region.y + at.y - ui.region.y))
+        assert session.cursor.target.pick == 40
+        found += 1
+    assert found == 3, "from above twice, for the view that the drawing began in was turned there, and the user's"
+    ui.key("ESC")
+    assert not running

@@ -12,8 +12,8 @@ import bpy
 import pytest
 import stored
 import ui as driver
-from desk import ORANGE, Desk, choose, dismiss, draw, shows, undo_steps
-from scene import chain, edit, mark_wires, seams
+from desk import ORANGE, Desk, choose, dismiss, draw, second_window, shows, undo_steps
+from scene import chain, changing, edit, fail, mark_wires, seams, set_seams
 from seamwire.core.drawing.gesture_queue import GestureQueue
 from seamwire.core.drawing.picture import Role, SeedRole, ShownSeed
 from seamwire.core.drawing.session import Session
@@ -160,9 +160,6 @@ def test_a_preview_that_raises_tells_nobody_and_the_next_key_is_blenders(
 ) -> None:
     session = desk.choose()
 
-    def fail(*_: object, **__: object) -> None:
-        raise RuntimeError("as the test wants it")
-
     ui, place = desk.ui, desk.at(40)
     ui.move(place)
     monkeypatch.setattr(session, "hover", fail)
@@ -178,14 +175,12 @@ def test_a_preview_that_raises_tells_nobody_and_the_next_key_is_blenders(
 def test_what_was_hidden_just_now_is_not_picked_and_alt_h_shows_it(desk: Desk) -> None:
     """The keys come so fast that Blender tells of the hidden faces only after the last one."""
     desk.choose()
-    bm = bmesh.from_edit_mesh(desk.obj.data)
-    bm.verts.ensure_lookup_table()
-    with desk.ui.override():
-        bpy.ops.mesh.select_all(action="DESELECT")
-    for vertex in (0, 1, 9, 10):
-        bm.verts[vertex].select = True
-    bm.select_flush_mode()
-    bmesh.update_edit_mesh(desk.obj.data)
+    with changing(desk.obj) as bm:
+        with desk.ui.override():
+            bpy.ops.mesh.select_all(action="DESELECT")
+        for vertex in (0, 1, 9, 10):
+            bm.verts[vertex].select = True
+        bm.select_flush_mode()
     ui, place = desk.ui, desk.at(40)
     ui.move(place)
     ui.wait(20)
@@ -288,28 +283,6 @@ def test_along_edges_a_click_with_shift_and_alt_is_blenders(desk: Desk) -> None:
     assert seams(desk.obj) == []
 
 
-def test_hidden_wires_stay_and_are_back_when_they_are_shown(desk: Desk) -> None:
-    desk.choose()
-    draw(desk, 36, 44)
-    draw(desk, 0, 8)
-    bm = bmesh.from_edit_mesh(desk.obj.data)
-    bm.faces.ensure_lookup_table()
-    for face in bm.faces[:16]:
-        face.hide_set(True)
-    bmesh.update_edit_mesh(desk.obj.data)
-    desk.ui.wait()
-    desk.ui.move(desk.at(60))
-    assert [wire.edges() for wire in desk.session.wires] == [ROW]
-    desk.ui.move(desk.at(40))
-    desk.ui.key("X")
-    assert seams(desk.obj) == chain(*range(9)), "what is hidden is not touched"
-    with desk.ui.override():
-        bpy.ops.mesh.reveal(select=False)
-    desk.ui.wait()
-    desk.ui.move(desk.at(60))
-    assert [wire.edges() for wire in desk.session.wires] == [chain(*range(9))]
-
-
 def test_what_is_prepared_is_kept_from_one_chain_to_the_next(desk: Desk) -> None:
     session = desk.choose()
     draw(desk, 36, 44)
@@ -334,10 +307,8 @@ def test_a_mesh_is_read_once_until_it_changes(desk: Desk, monkeypatch: pytest.Mo
         desk.ui.move(desk.at(vertex))
     desk.ui.wait(20)
     assert len(reads) == 1
-    bm = bmesh.from_edit_mesh(desk.obj.data)
-    bm.verts.ensure_lookup_table()
-    bm.verts[80].co.x += 0.1
-    bmesh.update_edit_mesh(desk.obj.data)
+    with changing(desk.obj) as bm:
+        bm.verts[80].co.x += 0.1
     desk.ui.wait_until(lambda: len(reads) > 1)
     desk.ui.wait(20)
     assert len(reads) <= 3, "read anew when it rests"
@@ -367,31 +338,6 @@ def test_a_chain_reads_its_mesh_when_it_begins_and_no_more(
     desk.ui.wait(20)
     desk.ui.key("ESC")
     assert len(reads) <= 1
-
-
-def test_saved_and_reopened_the_network_is_there(desk: Desk, tmp_path: Path) -> None:
-    desk.choose()
-    draw(desk, 36, 40, 76)
-    path = str(tmp_path / "drawn.blend")
-    bpy.ops.wm.save_as_mainfile(filepath=path)
-    marked = seams(desk.obj)
-    bpy.ops.wm.open_mainfile(filepath=path, load_ui=False)
-    desk.ui.wait(4)
-    desk.ui = ui = driver.Ui()
-    assert seams(desk.obj) == marked
-    if desk.obj.mode != "EDIT":
-        with ui.override():
-            edit()
-    ui.look_from_top(distance=4.0)
-    session = desk.choose()
-    assert [wire.end for wire in session.wires] == [40, 76]
-    drag_to = desk.at(49)
-    ui.move(desk.at(40))
-    ui.event("LEFTMOUSE", "PRESS", desk.at(40))
-    ui.move(drag_to)
-    ui.event("LEFTMOUSE", "RELEASE", drag_to)
-    ui.wait_until(lambda: not desk.running)
-    assert {49} <= {v for edge in seams(desk.obj) for v in edge}
 
 
 def test_a_click_right_after_a_mode_switch_and_back_begins_a_chain(desk: Desk) -> None:
@@ -494,53 +440,6 @@ def test_a_press_in_another_editor_ends_the_chain_and_does_what_it_does(desk: De
     assert seams(desk.obj) == ROW
 
 
-def test_undo_in_another_window_leaves_the_chain_its_wires(desk: Desk) -> None:
-    bpy.ops.ed.undo_push(message="One")
-    bm = bmesh.from_edit_mesh(desk.obj.data)
-    bm.verts.ensure_lookup_table()
-    for vertex in bm.verts:
-        vertex.select = False
-    bm.select_flush(False)
-    bmesh.update_edit_mesh(desk.obj.data)
-    bpy.ops.ed.undo_push(message="Two")
-    live(desk)
-    name = desk.obj.name
-    with desk.ui.override():
-        bpy.ops.ed.undo()
-    desk.ui.move(desk.at(60))
-    desk.ui.key("ESC")
-    assert not desk.running
-    assert seams(bpy.data.objects[name]) == ROW
-
-
-def test_another_workspace_ends_the_chain_and_keeps_its_wires(desk: Desk) -> None:
-    live(desk)
-    ui = desk.ui
-    before = ui.window.workspace
-    ui.window.workspace = next(space for space in bpy.data.workspaces if space != before)
-    ui.wait(4)
-    try:
-        ui.move((300.0, 300.0))
-        assert not desk.running
-    finally:
-        ui.window.workspace = before
-        ui.wait(4)
-    assert desk.left_clean()
-    assert seams(desk.obj) == ROW
-
-
-def test_a_script_that_leaves_edit_mode_ends_the_chain_and_its_wires_are_kept(desk: Desk) -> None:
-    live(desk)
-    bpy.ops.object.mode_set(mode="OBJECT")
-    desk.ui.move((300.0, 300.0))
-    assert desk.left_clean()
-    assert seams(desk.obj) == ROW
-    with desk.ui.override():
-        edit()
-    desk.ui.move(desk.at(40))
-    assert desk.session.picture.one(Role.HOVERED) is not None, "and known as a wire"
-
-
 def test_a_script_that_removes_the_object_ends_the_chain(desk: Desk) -> None:
     live(desk)
     bpy.ops.object.mode_set(mode="OBJECT")
@@ -551,10 +450,8 @@ def test_a_script_that_removes_the_object_ends_the_chain(desk: Desk) -> None:
 
 def test_a_script_that_changes_the_mesh_ends_the_chain(desk: Desk) -> None:
     live(desk)
-    bm = bmesh.from_edit_mesh(desk.obj.data)
-    bm.verts.ensure_lookup_table()
-    bmesh.ops.delete(bm, geom=[bm.verts[0]], context="VERTS")
-    bmesh.update_edit_mesh(desk.obj.data)
+    with changing(desk.obj) as bm:
+        bmesh.ops.delete(bm, geom=[bm.verts[0]], context="VERTS")
     desk.ui.wait()
     desk.ui.move((300.0, 300.0))
     assert desk.left_clean()
@@ -563,10 +460,8 @@ def test_a_script_that_changes_the_mesh_ends_the_chain(desk: Desk) -> None:
 
 def test_a_script_that_moves_vertices_ends_the_chain_and_its_wires_are_kept(desk: Desk) -> None:
     live(desk)
-    bm = bmesh.from_edit_mesh(desk.obj.data)
-    bm.verts.ensure_lookup_table()
-    bm.verts[80].co.z += 0.1
-    bmesh.update_edit_mesh(desk.obj.data)
+    with changing(desk.obj) as bm:
+        bm.verts[80].co.z += 0.1
     desk.ui.wait()
     desk.ui.move((300.0, 300.0))
     assert desk.left_clean()
@@ -575,10 +470,7 @@ def test_a_script_that_moves_vertices_ends_the_chain_and_its_wires_are_kept(desk
 
 def test_another_add_ons_seams_under_a_chain_are_heard_of(desk: Desk) -> None:
     session = live(desk)
-    bm = bmesh.from_edit_mesh(desk.obj.data)
-    bm.verts.ensure_lookup_table()
-    bm.edges.get((bm.verts[0], bm.verts[1])).seam = True
-    bmesh.update_edit_mesh(desk.obj.data)
+    set_seams(desk.obj, (0, 1))
     desk.ui.wait()
     desk.ui.move(desk.at(53))
     assert desk.running
@@ -590,9 +482,6 @@ def test_another_add_ons_seams_under_a_chain_are_heard_of(desk: Desk) -> None:
 @pytest.mark.smoke
 def test_an_exception_ends_the_chain_and_leaves_the_mesh_as_it_was(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     session = live(desk)
-
-    def fail(*_: object, **__: object) -> None:
-        raise RuntimeError("as the test wants it")
 
     monkeypatch.setattr(session, "hover", fail)
     desk.ui.move(desk.at(50))
@@ -668,9 +557,6 @@ def test_a_chain_whose_wires_are_written_in_part_leaves_the_mesh_as_it_was(
 def test_an_exception_in_the_first_click_leaves_blender_alive(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     session = desk.choose()
 
-    def fail(*_: object, **__: object) -> None:
-        raise RuntimeError("as the test wants it")
-
     monkeypatch.setattr(session, "click", fail)
     desk.ui.click(desk.at(36))
     monkeypatch.undo()
@@ -684,9 +570,6 @@ def test_an_exception_in_the_first_click_leaves_blender_alive(desk: Desk, monkey
 
 def test_an_exception_in_the_overlay_ends_the_chain(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     session = live(desk)
-
-    def fail() -> None:
-        raise RuntimeError("as the test wants it")
 
     monkeypatch.setattr(session, "seeds", fail)
     desk.ui.move(desk.at(54))
@@ -712,24 +595,14 @@ def test_one_chain_at_a_time_and_only_in_edit_mode(desk: Desk) -> None:
 def test_beside_a_chain_another_window_says_that_it_must_end_first(
     desk: Desk, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    with desk.ui.override():
-        bpy.ops.wm.window_new()
-    other = bpy.context.window_manager.windows[-1]
-    desk.ui.wait(5)
-    try:
+    with second_window(desk.ui) as other:
         desk.start()
-        area = next(area for area in other.screen.areas if area.type == "VIEW_3D")
-        region = next(region for region in area.regions if region.type == "WINDOW")
-        with bpy.context.temp_override(window=other, area=area, region=region):
+        with bpy.context.temp_override(**other):
             capfd.readouterr()
             assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT", first="CLICK") == {"CANCELLED"}
         assert "A chain is being drawn in another window" in "".join(capfd.readouterr())
         assert len(running) == 1
         running[0].drop()
-    finally:
-        with bpy.context.temp_override(window=other):
-            bpy.ops.wm.window_close()
-        desk.ui.wait(3)
 
 
 @pytest.mark.oldest_and_newest

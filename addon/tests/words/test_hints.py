@@ -71,6 +71,11 @@ def test_the_hints_follow_what_is_going_on(session: Session) -> None:
     assert "Loop" not in said(session)
 
 
+def test_what_could_not_be_done_is_said(session: Session) -> None:
+    assert not session.close()
+    assert "draw a wire first" in said(session)
+
+
 def test_the_mirror_is_offered_and_told(session: Session) -> None:
     assert "Mirror? Symmetric on XY" in said(session, mirror_offer="XY")
     use(session, mirror=(0,))

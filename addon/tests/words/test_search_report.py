@@ -16,10 +16,7 @@ def test_a_good_result_is_told_in_numbers() -> None:
 def test_what_was_not_reached_is_told_and_no_good_result() -> None:
     for outcome, text in (
         (Outcome(1, 0, [0], islands_wanted=4), "1 island, fewer than 4 because no island can be cut further"),
-        (
-            Outcome(1, 0, [0], stretch=21.0, stretches=[21.0], stretch_wanted=17.0),
-            "stretch 21 %, 17 % was not reached",
-        ),
+        (Outcome(1, 0, [0], stretch=21.0, stretches=[21.0], stretch_wanted=17.0), "stretch 21 %, 17 % was not reached"),
         (Outcome(1, 0, [0, 0], unwrapped=2, faults=MapFaults(overlapping=2)), "2 islands, 2 islands overlap"),
     ):
         assert not outcome.is_good

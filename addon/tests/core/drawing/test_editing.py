@@ -51,16 +51,6 @@ def test_a_join_on_a_seam_ends_the_chain() -> None:
     assert len(session.wires) == 1
 
 
-def test_a_chain_can_begin_on_a_wire() -> None:
-    session = corner().session
-    session.end_chain()
-    session.hover(Snap(2, "WIRE", session.wires[0]))
-    assert session.picture.intent is Intent.BRANCH
-    session.click(Snap(2, "WIRE", session.wires[0]))
-    session.click(14)
-    assert courses(session) == [(0, 1, 2), (2, 3), (3, 9, 15, 21), (2, 8, 14)]
-
-
 def test_a_chain_goes_on_from_its_last_seed_in_its_direction() -> None:
     table = corner()
     session = table.session
@@ -87,27 +77,6 @@ def test_a_click_on_the_first_seed_closes_the_loop() -> None:
     assert session.wires[-1].end == 0
     assert session.seed is None
     assert session.drawing.network.closing_point is None
-
-
-def test_close_does_the_same_wherever_the_cursor_is() -> None:
-    session = corner().session
-    session.hover(35)
-    assert session.close()
-    assert session.wires[-1].end == 0
-    assert session.seed is None
-    session.undo()
-    assert session.seed == (15, 21)
-    assert session.drawing.network.closing_point == 0
-
-
-def test_closing_waits_for_its_wire() -> None:
-    table = corner()
-    table.lives["EDGES"].ready = (False, False)
-    assert table.session.close()
-    assert len(table.session.wires) == 2
-    table.compute()
-    assert len(table.session.wires) == 3
-    assert table.session.seed is None
 
 
 def test_a_chain_of_one_wire_is_not_closed_by_going_back_along_it() -> None:
@@ -167,17 +136,6 @@ def test_dropping_the_last_wire_leaves_the_live_one_at_its_place() -> None:
     assert session.picture.active.vertices == (21, 22, 23)
 
 
-def test_a_seed_put_into_a_wire_makes_two_of_it() -> None:
-    session = corner().session
-    first = session.wires[0]
-    assert insert(session, first, 2)
-    assert courses(session) == [(0, 1, 2), (2, 3), (3, 9, 15, 21)]
-    assert session.wires[0].id == first.id
-    assert session.edges_to_mark() == chain(0, 1, 2, 3, 9, 15, 21)
-    assert session.undo()
-    assert session.wires[0] is first
-
-
 def test_an_edge_seed_in_a_wire_belongs_to_the_part_before_it() -> None:
     session = corner().session
     assert insert(session, session.wires[1], (15, 9))
@@ -232,18 +190,6 @@ def test_a_kept_wire_takes_its_other_way_and_back() -> None:
     assert courses(session) == [(0, 6, 7)]
 
 
-def test_of_three_a_kept_wire_takes_its_ways_in_turn() -> None:
-    session = Table(ready=(True, True, True)).session
-    session.click(0)
-    session.click(14)
-    seen = []
-    for _ in range(4):
-        seen.append((session.wires[0].follow, session.wires[0].vertices))
-        assert session.retrace(session.wires[0])
-    assert seen[:3] == [(2, (0, 1, 7, 8, 14)), (0, (0, 1, 2, 8, 14)), (1, (0, 6, 12, 13, 14))]
-    assert seen[3] == seen[0]
-
-
 def test_of_three_the_ways_of_half_a_wire_are_computed_and_come_in_the_same_order() -> None:
     table = Table(ready=(True, True, True), fork_ready=(False, False, False))
     session = table.session
@@ -255,20 +201,6 @@ def test_of_three_the_ways_of_half_a_wire_are_computed_and_come_in_the_same_orde
         assert session.retrace(session.wires[0])
         table.compute()
         assert courses(session) == [expected, (14, 15, 21)]
-
-
-def test_after_the_second_way_of_half_a_wire_the_third_is_computed() -> None:
-    session = Table(ready=(True, True, True)).session
-    session.click(0)
-    session.hover(21)
-    while session.picture.active.follow != 1:
-        session.cursor.next_candidate()
-    session.click(21)
-    assert courses(session) == [(0, 6, 12, 18, 19, 20, 21)]
-    insert(session, session.wires[0], 20)
-    assert session.retrace(session.wires[0])
-    assert session.wires[0].follow == 2
-    assert courses(session) == [(0, 1, 7, 8, 14, 20), (20, 21)]
 
 
 def test_a_straight_wire_has_no_other_way() -> None:
@@ -405,37 +337,7 @@ def test_the_preview_of_the_end_can_be_let_go() -> None:
     assert courses(session)[-1] == (21, 22)
 
 
-def test_running_on_waits_for_the_wire() -> None:
-    table = Table(ready=(False, False))
-    session = table.session
-    session.click(6)
-    session.hover(8)
-    assert session.run_to_end()
-    assert session.under_way.waiting == 1
-    table.compute()
-    assert courses(session) == [(6, 7, 8, 9, 10, 11)]
-
-
 # The effect of a click
-
-
-def test_the_intent_follows_what_is_going_on() -> None:
-    table = Table()
-    session = table.session
-    assert session.picture.intent is Intent.NOTHING
-    session.hover(0)
-    assert session.picture.intent is Intent.SEED
-    session.click(0)
-    assert session.picture.intent is Intent.NOTHING, "the wire would end where it begins"
-    session.hover(3)
-    assert session.picture.intent is Intent.KEEP
-    session.hover(None)
-    assert session.picture.intent is Intent.NOTHING
-    session.hover((14, 15), loop=True)
-    assert session.picture.intent is Intent.LOOP
-    table.lives["EDGES"].ready = (False, False)
-    session.hover(4)
-    assert session.picture.intent is Intent.WAIT
 
 
 def test_a_preview_is_seen_and_not_kept() -> None:

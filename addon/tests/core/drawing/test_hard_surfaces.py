@@ -119,6 +119,7 @@ def offers(session: Session, target: Snap) -> list[tuple[str, frozenset[Edge]]]:
     for _ in session.picture.offered.kinds:
         loops = [shown.wire for shown in session.picture.wires if shown.role is Role.OFFER]
         found.append((session.picture.offered.kind, frozenset(edge for loop in loops for edge in loop.edges())))
+        assert session.picture.offered.kind != "FLAT" or all(loop.closed for loop in loops)
         session.cursor.next_candidate()
     session.hover(None)
     return found

@@ -84,18 +84,6 @@ def test_a_loop_across_seams_comes_later() -> None:
     assert first_offer((14, 15), seams=[(16, 22), (10, 11), (7, 6), (13, 19), (3, 9)]) != "CLOSED"
 
 
-def test_a_strip_is_kept_with_its_ends_as_seeds() -> None:
-    session = grid()
-    assert take(session, (14, 20), "STRIP")
-    (wire,) = session.wires
-    assert wire.vertices == COLUMN
-    assert not wire.closed
-    assert (wire.start, wire.end) == (2, 32)
-    assert session.edges_to_mark() == chain(*COLUMN)
-    assert session.seeds() == [2, 32]
-    assert str(session.drawing.message) == ""
-
-
 def test_a_strip_ends_where_its_own_edge_meets_a_seam() -> None:
     assert show(grid(seams=[(14, 15)]), (14, 20), "STRIP") == (14, 20, 26, 32)
     assert show(grid(seams=[(14, 15), (20, 21)]), (14, 20), "STRIP") == (14, 20)
@@ -140,16 +128,6 @@ def test_toggling_goes_around_and_stays_while_the_edge_is_the_same() -> None:
     session.cursor.next_candidate()
     show(session, (15, 16))
     assert session.picture.offered.kind == "CLOSED", "another edge begins with its default"
-
-
-@pytest.mark.parametrize("keep", ["click", "loop"])
-def test_what_is_chosen_is_kept(keep: str) -> None:
-    session = grid()
-    show(session, (14, 15), "STRIP")
-    assert getattr(session, keep)((14, 15))
-    session.queue.wait()
-    assert session.wires[0].vertices == ROW
-    assert session.wires[0].kind == "STRIP"
 
 
 def test_a_kept_loop_takes_its_next_offer_in_place() -> None:
@@ -337,19 +315,6 @@ COMPUTED = (14, 15, 21, 27, 26, 20)
 """The loop of edge 14-15 on a fake."""
 
 
-def test_a_double_click_waits_for_the_loop() -> None:
-    table = Table(ready=(False, False))
-    session = table.session
-    session.click((14, 20))
-    session.loop((14, 20))
-    assert session.seed is None
-    assert session.under_way.waiting == 1
-    assert session.under_way.computing
-    table.compute()
-    assert [wire.vertices for wire in session.wires] == [COLUMN]
-    assert not session.under_way.computing
-
-
 def test_while_the_loop_is_computed_nothing_is_offered_yet() -> None:
     table = Table(ready=(False, False))
     session = table.session
@@ -401,25 +366,6 @@ def test_a_stored_loop_or_strip_goes_through_the_same_offers_again(order: range,
     for _ in range(3):
         assert again.undo()
     assert again.wires[0] is kept
-
-
-def test_a_stored_loops_offers_wait_until_they_are_computed() -> None:
-    table = Table()
-    table.session.loop((14, 15))
-    mesh = paper()
-    mesh.write(table.session)
-    again = Table("SURFACE", ready=(False, False))
-    session = again.session
-    mesh.open(session)
-    assert session.retrace(session.wires[0])
-    assert session.under_way.waiting == 1
-    assert session.under_way.computing
-    again.compute()
-    assert session.under_way.waiting == 0
-    assert not session.under_way.computing
-    assert session.wires[0].vertices == ROW
-    assert session.undo()
-    assert session.wires[0].vertices == COMPUTED
 
 
 def test_a_stored_loops_offers_are_waited_for_across_the_surface_too() -> None:

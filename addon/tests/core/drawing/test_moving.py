@@ -3,33 +3,9 @@
 
 from __future__ import annotations
 
-from seamwire.core.drawing.picture import Intent
 from seamwire.core.network.network import Snap
 from setting import use
 from table import Table, corner, courses
-
-
-def test_a_dragged_seeds_wires_follow_on_both_sides() -> None:
-    table = corner()
-    session = table.session
-    assert session.drag(3)
-    assert session.under_way.drag
-    assert session.picture.intent is Intent.MOVE
-    assert session.cursor.drag_to(4)
-    assert courses(session) == [(0, 1, 2, 3, 4), (4, 10, 16, 22, 21)]
-    assert set(session.under_way.moved) == set(session.wires)
-    assert session.drawing.network_revision == 2
-    assert session.cursor.drag_to(2)
-    assert session.queue.drag_end()
-    assert not session.under_way.drag
-    assert session.seeds() == [0, 2, 21]
-    assert session.wires[1].heading == session.wires[0].last_edge
-    assert len(table.lives["EDGES"].forks) == 2, "a live wire for each"
-    assert session.drawing.network_revision == 3
-    assert session.undo()
-    assert courses(session) == [(0, 1, 2, 3), (3, 9, 15, 21)]
-    assert session.redo()
-    assert session.seeds() == [0, 2, 21]
 
 
 def test_a_mirror_that_is_set_while_a_seed_is_dragged_stays() -> None:
@@ -52,25 +28,6 @@ def test_wires_arrive_and_leave_as_their_neighbours_do() -> None:
     assert [fork.seeded for fork in table.lives["EDGES"].forks[2:]] == [(0, False), ((22, 21), True)]
     session.cursor.drag_to(9)
     assert courses(session) == [(0, 1, 2, 3, 9), (9, 15, 21), (21, 22, 23)]
-
-
-def test_around_an_edge_seed_wires_keep_their_direction() -> None:
-    table = Table()
-    session = table.session
-    for pick in (0, (2, 3), 21):
-        session.click(pick)
-    assert courses(session) == [(0, 1, 2, 3), (3, 9, 15, 21)]
-    session.drag(0)
-    assert table.lives["EDGES"].forks[0].seeded == ((3, 2), True), "the wire after it leaves over 3"
-    session.cursor.drag_to(1)
-    assert courses(session) == [(1, 2, 3), (3, 9, 15, 21)]
-    session.cursor.let_go()
-    session.drag((3, 2))
-    session.cursor.drag_to((8, 9))
-    assert courses(session) == [(0, 1, 2, 8, 9), (9, 15, 21)], "the second leaves the edge where the first led over it"
-    assert session.queue.drag_end()
-    assert session.wires[1].heading == (8, 9)
-    assert session.seeds() == [0, (8, 9), 21]
 
 
 def test_the_seed_of_the_live_wire_moves_with_its_wire() -> None:

@@ -47,21 +47,6 @@ def test_a_click_does_not_wait_for_wires_that_do_not_lead() -> None:
     assert session.wires[0].alternatives == (), "they are found when they are asked for"
 
 
-def test_a_stroke_is_for_the_wire_that_leads_and_another_metrics_wires_are_others() -> None:
-    table = Table(ready=(True, True, True))
-    session = table.session
-    session.click(0)
-    session.hover(14)
-    session.draw_stroke(vertices=(1, 2, 3))
-    assert session.network.strokes[-1].acts_on == "concave"
-    assert session.picture.active.follow == 2
-    table.lives["EDGES"].metric_ready = (True, True)
-    session.hover(None)
-    use(session, metric="concave")
-    session.draw_stroke(vertices=(1, 2, 3))
-    assert session.network.strokes[-1].acts_on == "min"
-
-
 def test_toggling_makes_the_other_active_until_a_wire_is_kept() -> None:
     session = Table().session
     session.click(0)
@@ -79,14 +64,6 @@ def test_toggling_makes_the_other_active_until_a_wire_is_kept() -> None:
     assert session.picture.active.vertices == (8, 9, 15), "the next wire is the shorter one again"
 
 
-def test_a_kept_wire_says_what_wires_lead_around() -> None:
-    table = Table(along="SURFACE", holes=(0, 2))
-    table.session.click(0)
-    table.session.hover(7)
-    table.session.click(7)
-    assert str(table.session.drawing.message).startswith("2 triangles could not be made valid")
-
-
 def test_a_click_keeps_the_active_wire_and_goes_on_along_its_last_edge() -> None:
     table = Table()
     session = table.session
@@ -98,14 +75,6 @@ def test_a_click_keeps_the_active_wire_and_goes_on_along_its_last_edge() -> None
     assert session.wires[1].vertices == (8, 14, 20), "the edge before the seed is the first wire's"
     assert session.edges_to_mark() == [(0, 1), (1, 2), (2, 8), (8, 14), (14, 20)]
     assert session.seeds() == [0, 8, 20]
-
-
-def test_picked_edges_are_part_of_the_wire_and_shown_as_its_seeds() -> None:
-    session = Table().session
-    session.click((0, 1))
-    session.click((3, 4))
-    assert session.edges_to_mark() == [(0, 1), (1, 2), (2, 3), (3, 4)]
-    assert session.seeds() == [(0, 1), (3, 4)]
 
 
 def test_clicking_the_seed_again_keeps_nothing() -> None:
@@ -143,15 +112,6 @@ def test_ending_a_chain_leaves_the_kept_wires_and_no_live_one() -> None:
     assert len(session.wires) == 1, "the click began a new chain"
 
 
-def test_starting_a_chain_lets_go_of_the_live_wire() -> None:
-    session = Table().session
-    session.click(0)
-    session.click(3)
-    session.start(20)
-    session.click(22)
-    assert [wire.vertices for wire in session.wires] == [(0, 1, 2, 3), (20, 21, 22)]
-
-
 def test_undo_takes_back_wires_then_seeds_and_redo_brings_them_again() -> None:
     session = Table().session
     session.click(0)
@@ -175,16 +135,6 @@ def test_undo_takes_back_wires_then_seeds_and_redo_brings_them_again() -> None:
     assert not session.redo()
 
 
-def test_undo_after_the_end_of_a_chain_takes_its_last_wire() -> None:
-    session = Table().session
-    session.click(0)
-    session.click(2)
-    session.end_chain()
-    assert session.undo()
-    assert session.wires == ()
-    assert session.seed == 0
-
-
 def test_undo_skips_a_seed_that_was_let_go() -> None:
     session = Table().session
     session.click(0)
@@ -194,26 +144,6 @@ def test_undo_skips_a_seed_that_was_let_go() -> None:
     session.end_chain()
     session.undo()
     assert session.wires == ()
-
-
-def test_a_new_wire_forgets_what_redo_would_bring() -> None:
-    session = Table().session
-    session.click(0)
-    session.click(2)
-    session.undo()
-    session.click(3)
-    assert not session.picture.can_redo
-
-
-def test_a_loop_is_kept_beside_the_chain() -> None:
-    session = Table().session
-    session.click(0)
-    assert session.loop((14, 15))
-    assert session.wires[0].closed
-    assert session.wires[0].edges() == [(14, 15), (15, 21), (21, 27), (26, 27), (20, 26), (14, 20)]
-    assert session.seed == 0
-    assert session.seeds() == [0]
-    assert (session.wires[0].points[0] == session.wires[0].points[-1]).all()
 
 
 def test_a_double_click_may_find_its_edge_the_other_way_round() -> None:
@@ -247,20 +177,6 @@ def test_across_the_surface_picks_are_vertices() -> None:
     assert table.lives["SURFACE"].seeded == (8, False)
     assert session.wires[0].along == "SURFACE"
     assert len(session.wires[0].points) == 4
-
-
-def test_switching_goes_on_from_the_same_seed_the_other_way() -> None:
-    table = Table()
-    session = table.session
-    session.click((0, 1))
-    session.click((3, 4))
-    assert use(session, along="SURFACE")
-    assert table.lives["SURFACE"].seeded == (4, False)
-    assert session.seed == 4
-    session.click(16)
-    assert use(session, along="EDGES")
-    assert table.lives["EDGES"].seeded == (16, False)
-    assert [wire.along for wire in session.wires] == ["EDGES", "SURFACE"]
 
 
 def test_switching_forth_and_back_keeps_the_direction() -> None:
@@ -309,21 +225,6 @@ def test_waiting_shows_nothing_new_until_there_is_a_wire() -> None:
     assert session.drawing.revision > before
 
 
-def test_clicks_wait_for_their_wires_in_order() -> None:
-    table = Table(ready=(False, False))
-    session = table.session
-    for pick in (0, 2, 14):
-        session.click(pick)
-    assert session.wires == ()
-    assert session.under_way.waiting == 2
-    session.hover(30)
-    assert session.cursor.target.pick == 2, "what is shown is what the first of them asks for"
-    table.lives["EDGES"].ready = (True, True)
-    session.queue.poll()
-    assert [wire.vertices for wire in session.wires] == [(0, 1, 2), (2, 8, 14)]
-    assert session.under_way.waiting == 0
-
-
 def test_a_click_before_anything_is_seen_waits_until_it_is_known_which_wire_is_shorter() -> None:
     table = Table(ready=(False, False))
     session = table.session
@@ -354,16 +255,6 @@ def test_undo_takes_back_waiting_clicks_first() -> None:
     session.undo()
     assert session.under_way.waiting == 0
     assert session.seed == 0
-
-
-def test_what_no_wire_reaches_is_said() -> None:
-    session = Table(islands=(35,)).session
-    session.click(0)
-    assert not session.click(35)
-    assert str(session.drawing.message) == "No wire reaches vertex 35"
-    assert session.seed == 0
-    session.hover(3)
-    assert str(session.drawing.message) == ""
 
 
 def test_a_refused_seed_leaves_the_one_before() -> None:

@@ -7,14 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from fake_live import FakeCuts, FakeLive, grid_edges
-from seamwire.core.drawing.drawing import Drawing
+from fake_live import FakeCuts, FakeLive
 from seamwire.core.drawing.picture import Intent, Role
-from seamwire.core.drawing.session import Session
-from seamwire.core.network.picks import FacePoint
-from seamwire.terms.options import Options
 from setting import use
-from table import SIZE, Table, chain
+from table import Table, chain
 
 RIGHT = (8, 9, 10, 16, 22, 21, 20, 14)
 LEFT = (8, 7, 6, 12, 18, 19, 20, 14)
@@ -46,41 +42,6 @@ def test_the_best_cut_is_shown_and_toggling_goes_through_the_others() -> None:
     assert session.picture.one(Role.OFFER) is None
 
 
-@pytest.mark.parametrize("keep", ["click", "loop"])
-def test_the_cut_that_is_shown_is_kept_as_a_closed_chain_of_wires(keep: str) -> None:
-    session = table().session
-    use(session, finish="CUT")
-    session.hover(8, loop=True)
-    session.cursor.next_candidate()
-    assert getattr(session, keep)(8)
-    assert session.edges_to_mark() == edges(*LEFT)
-    wires = session.wires
-    assert len(wires) == 3
-    assert [wire.start for wire in wires] == [wires[-1].end, wires[0].end, wires[1].end]
-    assert wires[0].start == 8
-    assert all(isinstance(wire.end, FacePoint) for wire in wires[:2])
-    assert {(wire.along, wire.finish, wire.closed, wire.kind) for wire in wires} == {("SURFACE", "CUT", False, None)}
-    assert len(session.seeds()) == 3
-    assert session.undo()
-    assert session.wires == (), "one step"
-
-
-def test_of_cuts_along_the_same_edges_one_is_offered(monkeypatch: pytest.MonkeyPatch) -> None:
-    squares = FakeLive.closed_wires
-
-    def first_twice(self: FakeLive, through: object) -> FakeCuts:
-        found = squares(self, through)
-        return FakeCuts([*found.cuts[:1], *found.cuts], found.final)
-
-    monkeypatch.setattr(FakeLive, "closed_wires", first_twice)
-    session = table().session
-    session.hover(8, loop=True)
-    assert session.picture.offered.kinds == ("ACROSS", "HANDLE")
-    session.cursor.next_candidate()
-    session.click(8)
-    assert session.edges_to_mark() == edges(*LEFT)
-
-
 @pytest.mark.parametrize(("finish", "count"), [("SNAP", 2), ("SLIDE", 2), ("CUT", 3)])
 def test_cuts_that_run_apart_along_the_same_edges_are_two_where_they_are_to_be_cut(
     monkeypatch: pytest.MonkeyPatch, finish: str, count: int
@@ -104,20 +65,6 @@ def test_cuts_that_run_apart_along_the_same_edges_are_two_where_they_are_to_be_c
     np.testing.assert_array_equal(session.wires[0].points[0], shown.points[0])
 
 
-def test_until_it_is_computed_nothing_is_shown_and_a_click_waits() -> None:
-    it = table(metric_ready=(False, False))
-    session = it.session
-    session.hover(8, loop=True)
-    assert session.picture.one(Role.OFFER) is None
-    assert str(session.drawing.message) == ""
-    assert session.under_way.computing
-    assert session.loop(8)
-    assert session.under_way.waiting == 1
-    it.compute()
-    assert session.under_way.waiting == 0
-    assert session.edges_to_mark() == edges(*RIGHT)
-
-
 def test_what_is_there_early_is_shown_and_refined_while_the_cursor_rests() -> None:
     it = table(metric_ready=(False, False), early=True)
     session = it.session
@@ -129,17 +76,6 @@ def test_what_is_there_early_is_shown_and_refined_while_the_cursor_rests() -> No
     assert session.drawing.revision == revision, "the same is not drawn anew"
     it.compute()
     assert session.picture.one(Role.OFFER).vertices == RIGHT
-    assert not session.under_way.computing
-
-
-def test_a_click_on_what_is_not_final_waits() -> None:
-    it = table(metric_ready=(False, False), early=True)
-    session = it.session
-    session.hover(8, loop=True)
-    assert session.click(8)
-    assert session.wires == (), "what is not final is not kept"
-    it.compute()
-    assert session.edges_to_mark() == edges(*RIGHT)
     assert not session.under_way.computing
 
 
@@ -200,39 +136,11 @@ def test_cuts_are_found_in_the_concave_metric_whatever_wires_are() -> None:
     assert it.lives["SURFACE"].metrics[-1] == ("concave", 40.0, None)
 
 
-def test_without_triangles_there_is_none() -> None:
-    made = table()
-    session = Session(
-        Drawing(made.session.drawing.engines._make, made.points, Options(along="SURFACE"), edges=grid_edges(SIZE))
-    )
-    session.hover(8, loop=True)
-    assert session.picture.one(Role.OFFER) is None
-
-
 def taken_at_8() -> Table:
     it = table()
     it.session.hover(8, loop=True)
     it.session.click(8)
     return it
-
-
-def test_a_cut_that_was_taken_is_shown_bent_and_a_click_keeps_it_in_place_of_the_other() -> None:
-    it = taken_at_8()
-    session = it.session
-    use(session, finish="CUT")
-    session.hover(28, bend=True)
-    assert session.picture.offered.bends
-    assert session.picture.one(Role.OFFER).vertices == (8, 9, 10, 16, 22, 28, 27, 26, 20, 14)
-    assert session.picture.offered.kind == "ACROSS"
-    assert session.edges_to_mark() == edges(*RIGHT), "until the click"
-    assert session.click(28)
-    assert session.edges_to_mark() == edges(8, 9, 10, 16, 22, 28, 27, 26, 20, 14)
-    assert [(wire.start, wire.end) for wire in session.wires] == [(8, 28), (28, 8)]
-    assert session.seeds() == [8, 28]
-    assert it.lives["SURFACE"].bent[-1] == (8, 28, (0, 0))
-    session.hover(28)
-    assert not session.picture.offered.bends
-    assert session.picture.one(Role.OFFER) is None
 
 
 def test_the_one_of_several_cuts_that_was_taken_is_the_one_that_is_bent() -> None:

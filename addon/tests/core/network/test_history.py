@@ -41,12 +41,3 @@ def test_a_new_step_ends_what_was_taken_back() -> None:
     assert history.can_redo
     history.step(EMPTY)
     assert not history.can_redo
-
-
-def test_the_mirror_is_no_step() -> None:
-    history = History()
-    history.step(EMPTY)
-    assert not history.can_undo(Network(mirror=(0,)))
-    mirrored = Network(ONE.wires, mirror=(0,))
-    assert history.back(mirrored) == Network(mirror=(0,)), "the mirror stays"
-    assert history.forth(EMPTY) == ONE

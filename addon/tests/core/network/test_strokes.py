@@ -11,7 +11,6 @@ from fake_live import grid_points, grid_triangles
 from numpy.typing import NDArray
 from seamwire.core.drawing.picture import Role
 from seamwire.core.network.strokes import OffMeshError, drawn, into_triangles, on_mesh, through_vertices
-from setting import use
 from table import SIZE, Table, paper
 
 MESH, TRIANGLES = grid_points(SIZE), grid_triangles(SIZE)
@@ -115,32 +114,6 @@ def test_triangles_without_an_area_take_a_point_to_their_corner() -> None:
 # Steps of a drawing
 
 
-def test_a_stroke_is_a_step() -> None:
-    table = Table()
-    session = table.session
-    live = table.lives["EDGES"]
-    before = session.drawing.revision, session.drawing.network_revision
-    assert stroke(session, (0.5, 0.2), (4.5, 0.2))
-    (one,) = session.network.strokes
-    assert live.strokes == [(one,)]
-    assert one.attracts
-    assert one.acts_on == "both"
-    assert session.drawing.revision > before[0]
-    assert session.drawing.network_revision == before[1], "no kept wire changed"
-    assert stroke(session, (0.5, 1.2), (4.5, 1.2), attracts=False)
-    two = session.network.strokes[1]
-    assert not two.attracts
-    assert live.strokes[-1] == (one, two)
-    assert session.undo()
-    assert live.strokes[-1] == (one,)
-    assert session.undo()
-    assert live.strokes[-1] == ()
-    assert not session.picture.can_undo
-    assert session.redo()
-    assert session.redo()
-    assert live.strokes[-1] == (one, two)
-
-
 def test_other_steps_leave_the_strokes_alone() -> None:
     table = Table()
     session = table.session
@@ -229,14 +202,6 @@ def test_a_waiting_click_goes_on_waiting_while_a_stroke_is_drawn() -> None:
     table.compute()
     assert [wire.vertices for wire in session.wires] == [(0, 1, 2, 3)]
     assert len(session.network.strokes) == 1
-
-
-def test_live_wires_made_later_know_the_strokes() -> None:
-    table = Table()
-    session = table.session
-    stroke(session, (0.5, 0.2), (4.5, 0.2))
-    use(session, along="SURFACE")
-    assert table.lives["SURFACE"].strokes == [session.network.strokes]
 
 
 # As they are stored

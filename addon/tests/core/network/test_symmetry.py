@@ -432,21 +432,6 @@ def test_topology_of_nothing_and_of_broken_meshes() -> None:
 # In a session
 
 
-def test_mirrored_edges_are_marked_and_cleared() -> None:
-    session = Table(centred=True).session
-    assert session.drawing.symmetry.symmetric_axes == (0, 1)
-    use(session, mirror=[0])
-    session.click(0)
-    session.click(1)
-    assert session.edges_to_mark() == [(0, 1), (4, 5)]
-    use(session, clear=not session.options.clear)
-    session.start(4)
-    session.click(5)
-    assert session.edges_to_mark() == []
-    assert session.edges_to_clear() == [(0, 1), (4, 5)]
-    assert [image.vertices for image in session.mirrored(session.wires[0])] == [(5, 4)]
-
-
 def test_mirroring_is_for_wires_kept_from_then_on_and_no_step() -> None:
     session = Table(centred=True).session
     assert use(session, mirror=(0,))

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,11 +12,10 @@ from fake_live import grid_edges, grid_triangles
 from grid import POINTS, SIZE, Grid, symmetry
 from numpy.typing import NDArray
 from seamwire.core.network.network import Network, Snap
-from seamwire.core.network.picks import undirected
 from seamwire.core.network.stops import Stops
 from seamwire.core.offers import part_borders
-from seamwire.core.offers.edge_loops import LoopOffers, taken
-from seamwire.core.offers.part_borders import NO_SEAMS, PartBorders
+from seamwire.core.offers.edge_loops import LoopOffers
+from seamwire.core.offers.part_borders import PartBorders
 
 EDGE = (14, 15)
 
@@ -39,17 +37,6 @@ def test_each_offer_is_shown_in_turn() -> None:
     for _ in offers.offers[1:]:
         offers.advance()
     assert offers.wire is first
-
-
-def test_another_edge_or_none_lets_them_vanish() -> None:
-    offers = loops(Grid())
-    offers.aim(EDGE)
-    offers.show(EDGE, offers.find(EDGE, Network()))
-    assert not offers.aim(EDGE[::-1]), "the same edge"
-    assert offers.wire is not None
-    assert offers.aim(None)
-    assert offers.wire is None
-    assert not offers.missing
 
 
 def halves(go_on: threading.Event | None = None) -> PartBorders:
@@ -76,23 +63,6 @@ def test_borders_of_parts_are_offered_last() -> None:
     assert set(found[-2].edges()) == offers.part_border(edge[::-1])
     assert offers.part_border((0, 1)) == offers.part_border(edge)
     assert not offers.part_border((7, 8))
-
-
-def test_until_the_faces_are_prepared_nothing_is_offered() -> None:
-    parts = halves()
-    go_on = threading.Event()
-    parts._thread = threading.Thread(target=go_on.wait)
-    parts._thread.start()
-    offers = LoopOffers(Grid().engines, Stops([], symmetry()), POINTS, parts)
-    offers.aim(EDGE)
-    assert offers.find(EDGE, Network()) == ()
-    offers.stop_waiting()
-    assert not offers.final
-    go_on.set()
-    parts._thread.join()
-    parts._search(NO_SEAMS, threading.Event())
-    assert offers.find(EDGE, Network())
-    assert offers.final
 
 
 def test_loops_do_not_wait_for_parts_and_parts_join_them(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -163,32 +133,3 @@ def test_the_search_for_parts_ends_when_no_offers_are_asked_for(monkeypatch: pyt
     assert len(searches) == 2
     assert parts.is_complete
     assert "FLAT" in [offer.kind for offer in offers.find(edge, Network())]
-
-
-def test_nothing_is_offered_until_it_is_computed() -> None:
-    grid = Grid(ready=(False, False))
-    offers = loops(grid)
-    offers.aim(EDGE)
-    assert offers.find(EDGE, Network()) == ()
-    assert not offers.final
-    offers.stop_waiting()
-    assert not offers.final, "it is asked for still"
-    offers.aim(None)
-    offers.stop_waiting()
-    assert offers.final
-    grid.lives["EDGES"].wait()
-    assert offers.find(EDGE, Network())
-
-
-def test_a_kept_loop_comes_first_and_what_else_there_is_after_it() -> None:
-    offers = loops(Grid())
-    found = offers.find(EDGE, Network())
-    kept = taken(found, 0, marks=True)
-    network = Network((kept,))
-    assert network.taken_through(EDGE[::-1]) is kept
-    assert kept.through == undirected(EDGE)
-    assert [one.kind for one in offers.find(EDGE, network)] == [one.kind for one in found]
-    stored = replace(kept, offers=())
-    again = offers.find(EDGE, Network((stored,)))
-    assert again[0].kind == kept.kind
-    assert kept.kind not in {one.kind for one in again[1:]}

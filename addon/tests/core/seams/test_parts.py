@@ -57,10 +57,7 @@ def test_the_last_click_on_a_border_decides() -> None:
 
 
 def test_edits_go_into_text_and_back() -> None:
-    edits = {
-        'A "name"': PartEdits().drop(edges_of(CHAIN)).part(3).part(8),
-        "Other": PartEdits().keep(edges_of(CIRCLE)),
-    }
+    edits = {'A "name"': PartEdits().drop(edges_of(CHAIN)).part(3).part(8), "Other": PartEdits().keep(edges_of(CIRCLE))}
     assert edits_of_text(edits_text({**edits, "Unchanged": PartEdits()})) == edits
     assert edits_of_text("") == {}
     for text in ("{", "[]", '{"A": {}}', '{"A": {"kept": [1], "dropped": [], "parted": []}}'):

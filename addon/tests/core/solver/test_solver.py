@@ -57,17 +57,6 @@ def test_those_that_are_made_later_hear_of_metric_and_strokes() -> None:
     assert [live.strokes for live in made.lives] == [[(("stroke", one), ("stroke", two))]] * 2
 
 
-def test_another_strength_is_told_to_those_that_it_is_for() -> None:
-    made = Made()
-    for along in STRENGTHS:
-        made.engines.get(along)
-    made.engines.use("feature", {**STRENGTHS, "EDGES": 33.0}, CLAMP_PERCENTILE)
-    told = {live.along: live.metrics for live in made.lives}
-    assert told == {"EDGES": [("feature", 33.0, CLAMP_PERCENTILE)], "SURFACE": []}
-    made.engines.use("concave", {**STRENGTHS, "EDGES": 33.0}, CLAMP_PERCENTILE)
-    assert [live.metrics[-1][0] for live in made.lives] == ["concave", "concave"]
-
-
 def test_triangles_that_wires_lead_around_are_told_of_once() -> None:
     made = Made()
     for along in ("EDGES", "SURFACE"):

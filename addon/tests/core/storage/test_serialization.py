@@ -15,16 +15,7 @@ import pytest
 from fake_live import grid_edges
 from paper_mesh import PaperMesh
 from seamwire.core.network.network import Network
-from seamwire.core.network.wires import Wire
-from seamwire.core.storage.serialization import (
-    FORMAT,
-    VERSION,
-    WAS_SEAM,
-    Archive,
-    NewerError,
-    UnreadableError,
-    packed,
-)
+from seamwire.core.storage.serialization import FORMAT, VERSION, WAS_SEAM, Archive, NewerError, UnreadableError, packed
 from setting import use
 from table import SIZE, Table, chain, paper
 
@@ -98,21 +89,6 @@ def test_what_a_label_stands_for_is_kept_though_its_records_are_unknown() -> Non
     archive = Archive()
     label = archive.label_of([WAS_SEAM, 4711])
     assert set(Archive.parse(archive.text([label])).members(label)) == {WAS_SEAM, 4711}
-
-
-def test_a_text_stays_small() -> None:
-    side = 100
-    dice = np.random.default_rng(1)
-    mesh = PaperMesh(np.array([[x, y, 0.0] for y in range(side) for x in range(side)]), grid_edges(side))
-
-    def wire(row: int, turn: int) -> Wire:
-        steps = [row * side + x for x in range(turn)] + [y * side + turn for y in range(row, side)]
-        return Wire("EDGES", tuple(steps), mesh.points[steps], steps[0], steps[-1], strength=10.0)
-
-    wires = [wire(*pair) for pair in dice.integers(1, side, (100, 2)).tolist()]
-    mesh.write(Network(tuple(wires)))
-    vertices = sum(len(wire.vertices) for wire in wires)
-    assert len(mesh.text) < 100 * 100 + 4 * vertices, f"{len(mesh.text)} bytes of 100 wires, {vertices} vertices"
 
 
 # Texts without a network

@@ -7,14 +7,12 @@ from collections.abc import Callable, Iterable
 
 import numpy as np
 import pytest
-from fake_live import grid_edges
 from paper_mesh import PaperMesh
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Network, Snap
 from seamwire.core.network.picks import Edge
 from seamwire.core.network.wires import Wire
-from seamwire.core.storage import wire_labels
-from seamwire.core.storage.serialization import WAS_SEAM, Archive, NewerError
+from seamwire.core.storage.serialization import WAS_SEAM
 from setting import use
 from table import SIZE, Table, chain, courses, paper
 
@@ -157,17 +155,6 @@ def test_an_image_that_was_cleared_by_hand_is_none_and_the_wire_stays() -> None:
     assert (plan.mark, plan.clear, set(plan.labels)) == ([], [], {(3, 4)})
 
 
-def test_a_dragged_wires_images_follow_in_the_mesh() -> None:
-    mesh = mirrored()
-    session = opened(mesh, centred=True)
-    session.drag(8)
-    session.cursor.drag_to(7)
-    assert set(session.edges_to_mark()) == lines((0, 1, 7), (5, 4, 10)), "while it is dragged too"
-    session.queue.drag_end()
-    mesh.write(session)
-    assert mesh.seams == lines((0, 1, 7), (5, 4, 10))
-
-
 def test_copies_of_a_mirrored_wire_have_their_own_images() -> None:
     mesh = mirrored()
     mesh.duplicate(range(SIZE**2), (0.0, 20.0, 0.0))
@@ -177,17 +164,6 @@ def test_copies_of_a_mirrored_wire_have_their_own_images() -> None:
     assert sorted(second.images) == chain(41, 40, 39, 45)
     mesh.write(session.network.without(first))
     assert mesh.seams == lines((36, 37, 38, 44), (41, 40, 39, 45))
-
-
-def test_what_is_left_of_images_whose_wire_is_gone_is_plain() -> None:
-    mesh = mirrored()
-    mesh.delete_vertices([1])
-    session = opened(mesh)
-    assert session.wires == ()
-    before = set(mesh.seams)
-    mesh.write(session)
-    assert mesh.seams == before
-    assert mesh.labels == {}
 
 
 def test_images_of_a_wire_of_which_nothing_is_left_are_plain() -> None:
@@ -260,17 +236,6 @@ def test_what_is_left_of_a_cleared_wire_is_a_seam_under_others_too() -> None:
 # By hand
 
 
-def test_a_wire_with_an_edge_that_is_no_seam_any_more_is_none_and_its_labels_are_cleaned() -> None:
-    mesh, _ = drawn((0, 3), (12, 15))
-    mesh.clear_seam((1, 2))
-    session = opened(mesh)
-    assert courses(session) == [(12, 13, 14, 15)]
-    assert mesh.plain_seams() == lines((0, 1), (2, 3)), "they are shown and snapped to as such"
-    plan = mesh.write(session)
-    assert (plan.mark, plan.clear) == ([], [])
-    assert set(mesh.labels) == lines((12, 13, 14, 15))
-
-
 def test_what_is_left_of_a_broken_wire_stays_under_a_wire_that_goes() -> None:
     mesh, _ = drawn((0, 4), (1, 3))
     mesh.clear_seam((3, 4))
@@ -282,39 +247,7 @@ def test_what_is_left_of_a_broken_wire_stays_under_a_wire_that_goes() -> None:
     assert mesh.seams == lines((0, 1, 2, 3))
 
 
-@pytest.mark.parametrize("gone", [lambda mesh: mesh.delete_edges([(1, 2)]), lambda mesh: mesh.delete_edges([(0, 1)])])
-def test_a_wire_whose_edge_is_gone_is_none(gone: Callable[[PaperMesh], None]) -> None:
-    mesh, _ = drawn((0, 3), (12, 15))
-    gone(mesh)
-    session = opened(mesh)
-    assert courses(session) == [(12, 13, 14, 15)]
-    seams = set(mesh.seams)
-    mesh.write(session)
-    assert mesh.seams == seams
-    assert set(mesh.labels) == lines((12, 13, 14, 15))
-
-
 # Hidden
-
-
-def test_hidden_wires_stay_whatever_is_drawn_meanwhile() -> None:
-    mesh, _ = drawn((0, 3), (12, 15))
-    before = {edge: mesh.labels[edge] for edge in lines((0, 1, 2, 3))}
-    mesh.hide((0, 1))
-    session = opened(mesh)
-    assert courses(session) == [(12, 13, 14, 15)]
-    assert mesh.plain_seams() == lines((1, 2, 3)), "what is to be seen of it"
-    session.click(1)
-    session.click(3)
-    session.end_chain()
-    mesh.write(session, adopt=True)
-    session.drop(session.wires[-1])
-    session.drop(session.wires[0])
-    mesh.write(session)
-    assert mesh.seams == lines((0, 1, 2, 3))
-    assert mesh.labels == before
-    mesh.hidden.clear()
-    assert found(mesh) == [(0, 1, 2, 3)]
 
 
 def test_a_seam_cleared_by_hand_beside_a_hidden_part_of_its_wire_stays_cleared() -> None:
@@ -371,64 +304,7 @@ def test_unknown_labels_stay_untouched() -> None:
     assert mesh.seams == lines((0, 1, 2, 3), (30, 31))
 
 
-def test_a_newer_text_leaves_everything_as_it_is() -> None:
-    mesh, _ = drawn((0, 3))
-    mesh.text = "seamwire 2 something else"
-    with pytest.raises(NewerError):
-        mesh.read()
-    nothing = wire_labels.read(mesh.marks(), Archive(), mesh.where)
-    assert nothing.network.wires == ()
-    mesh.archive, mesh.found = Archive(), nothing
-    before = mesh.snapshot()
-    session = Table().session
-    session.click(12)
-    session.click(15)
-    plan = mesh.write(session)
-    assert lines((0, 1, 2, 3)).isdisjoint(plan.labels)
-    assert mesh.seams == before[0] | lines((12, 13, 14, 15))
-
-
-# Undo
-
-
-def test_undone_labels_bring_back_the_wire_of_that_time() -> None:
-    mesh, session = drawn((0, 3))
-    before = mesh.snapshot()
-    session.drag(3)
-    session.cursor.drag_to(9)
-    session.queue.drag_end()
-    mesh.write(session, adopt=True)
-    after = mesh.snapshot()
-    text = mesh.text
-    mesh.undo(before)
-    mesh.open(session, mesh.archive)
-    assert courses(session) == [(0, 1, 2, 3)]
-    mesh.undo(after)
-    mesh.open(session, mesh.archive)
-    assert courses(session) == [(0, 1, 2, 3, 9)]
-    mesh.undo((set(), {}))
-    mesh.open(session, mesh.archive)
-    assert session.wires == ()
-    assert mesh.text == text, "undo does not know of it"
-
-
 # Copies and joining
-
-
-def test_copies_of_a_wire_can_be_dragged_apart() -> None:
-    mesh, _ = drawn((0, 3))
-    mesh.duplicate(range(SIZE**2), (0.0, 20.0, 0.0))
-    session = opened(mesh)
-    assert sorted(courses(session)) == [(0, 1, 2, 3), (36, 37, 38, 39)]
-    session.drag(3)
-    session.cursor.drag_to(2)
-    session.queue.drag_end()
-    mesh.write(session, adopt=True)
-    assert found(mesh) == [(0, 1, 2), (36, 37, 38, 39)]
-    assert mesh.seams == lines((0, 1, 2), (36, 37, 38, 39))
-    session.drop(next(wire for wire in session.wires if wire.vertices[0] == 36))
-    mesh.write(session)
-    assert mesh.seams == lines((0, 1, 2))
 
 
 @pytest.mark.parametrize("turn", [-1.0, 1.0])
@@ -445,20 +321,6 @@ def test_a_copy_runs_as_what_it_was_made_of_however_it_was_moved(turn: float) ->
             pick = getattr(own, name)
             moved = tuple(copies[one] for one in pick) if isinstance(pick, tuple) else copies.get(pick)
             assert getattr(copy, name) == moved, name
-
-
-def test_a_joined_meshs_wires_are_known_from_another_text() -> None:
-    one, _ = drawn((0, 3))
-    other, _ = drawn((12, 15))
-    one.join(other)
-    assert found(one) == [(0, 1, 2, 3)]
-    assert one.unknown() == 1
-    archive = Archive.parse(other.text)
-    session = Table().session
-    one.open(session, archive)
-    assert sorted(courses(session)) == [(0, 1, 2, 3), (48, 49, 50, 51)]
-    one.write(session)
-    assert found(one) == sorted(courses(session)), "now its own text tells of both"
 
 
 # Other vertices
@@ -533,26 +395,6 @@ def test_of_wires_that_end_in_one_seed_each_goes_on_from_its_own() -> None:
 
 
 # Subdivided
-
-
-def test_a_subdivided_wire_is_the_same_wire_with_more_vertices() -> None:
-    mesh, _ = drawn((0, 3, 21))
-    middles = mesh.subdivide()
-    network = mesh.read().network
-    assert found(mesh) == [
-        (0, middles[0, 1], 1, middles[1, 2], 2, middles[2, 3], 3),
-        (3, middles[3, 9], 9, middles[9, 15], 15, middles[15, 21], 21),
-    ]
-    first, second = sorted(network.wires, key=lambda wire: wire.vertices)
-    assert (first.start, first.end, second.start, second.end) == (0, 3, 3, 21)
-    assert second.heading == first.last_edge
-    session = Table().session
-    mesh.open(session)
-    plan = mesh.write(session)
-    assert (plan.mark, plan.clear) == ([], [])
-    assert found(mesh) == sorted(courses(session))
-    records = Archive.parse(mesh.text).wires.values()
-    assert sorted(tuple(record["vertices"]) for record in records) == found(mesh), "from here on it is another wire"
 
 
 def test_the_edge_seed_between_subdivided_wires_is_one_seed() -> None:
@@ -642,33 +484,6 @@ def test_an_open_wire_back_to_its_first_vertex_survives_other_numbers() -> None:
 # Across the surface, strokes, scale
 
 
-@pytest.mark.parametrize(
-    "stretch", [np.diag([2.0, 1.0, 0.5]), np.array([[2.0, 1.0, 0.0], [1.0, 3.0, 0.0], [0, 0, 1.0]])]
-)
-def test_an_objects_scale_does_not_matter(stretch: np.ndarray) -> None:
-    mesh = paper()
-    session = Table("SURFACE").session
-    session.click(0)
-    session.click(9)
-    session.draw_stroke(vertices=[1, 8, 20])
-    use(session, along="EDGES")
-    session.start(30)
-    session.click(33)
-    mesh.write(session)
-    curve = session.wires[0].points
-    mesh.stretch = stretch
-    where = mesh.renumber(np.arange(SIZE**2)[::-1])
-    found_now = mesh.read()
-    wire = next(wire for wire in found_now.network.wires if wire.along == "SURFACE")
-    assert wire.vertices == tuple(where[list(session.wires[0].vertices)].tolist())
-    assert np.allclose(wire.points, curve @ stretch, atol=1e-5)
-    assert np.allclose(found_now.network.strokes[0].points, session.network.strokes[0].points @ stretch, atol=1e-5)
-    mesh.found, mesh.archive = found_now, Archive.parse(mesh.text)
-    plan = mesh.write(found_now.network)
-    assert (plan.mark, plan.clear) == ([], [])
-    assert {one.stored for one in plan.network.wires} == {one.stored for one in found_now.network.wires}
-
-
 def test_a_curve_stays_while_its_vertices_do_and_comes_back_with_them() -> None:
     mesh = paper()
     session = Table("SURFACE").session
@@ -707,15 +522,3 @@ def test_a_stroke_whose_ground_is_gone_is_none() -> None:
     assert session.network.strokes == ()
     mesh.write(session)
     assert mesh.labels == {}
-
-
-def test_a_thousand_wires_are_read_and_planned() -> None:
-    side = 120
-    mesh = PaperMesh(np.array([[x, y, 0.0] for y in range(side) for x in range(side)]), grid_edges(side))
-    rows = [tuple(range(y * side + x, y * side + x + 12)) for y in range(100) for x in range(0, 100, 10)]
-    network = Network(tuple(edge_wire(mesh, *row) for row in rows))
-    mesh.write(network)
-    marks, archive, where = mesh.marks(), Archive.parse(mesh.text), mesh.where
-    now = wire_labels.read(marks, archive, where)
-    wire_labels.plan(now.network, marks, now, archive, where, mesh.seams.__contains__, mesh.visible)
-    assert len(now.network.wires) == 1000
