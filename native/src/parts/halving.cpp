@@ -134,7 +134,8 @@ class Halving {
     for (std::int32_t k = 0; k < count_; ++k) own[island().faces[k]] = k;
     std::size_t with = 0, without = 0;
     for_inner([&](std::int32_t h, std::int32_t k, std::int32_t other) {
-      if (problem_.prices.of_edge[edge_of(h)] == kNever) return;  // a diagonal has no image if its quad is divided anew
+      if (problem_.prices.of_edge[edge_of(h)] == kInfinity)
+        return;  // a diagonal has no image if its quad is divided anew
       const std::int32_t image = image_of_half_edge(3 * island().faces[k] + h % 3);
       const std::int32_t twin = image < 0 ? -1 : mesh.twins[image];
       if (twin < 0 || own[image / 3] < 0 || own[twin / 3] < 0) {
@@ -163,7 +164,7 @@ class Halving {
   Blocks joined_blocks(bool with_images) const {
     DisjointSets sets(island().triangles.size());
     for_inner([&](std::int32_t h, std::int32_t k, std::int32_t other) {
-      if (problem_.prices.of_edge[edge_of(h)] == kNever) sets.join(k, other);
+      if (problem_.prices.of_edge[edge_of(h)] == kInfinity) sets.join(k, other);
     });
     if (with_images) {
       for (const auto& [k, image] : images_) sets.join(k, image);
@@ -407,7 +408,7 @@ class Halving {
     using Next = std::pair<double, std::int32_t>;
     std::priority_queue<Next, std::vector<Next>, std::greater<>> open;
     std::vector<std::uint8_t> is_seen(owner.size(), 0);
-    Next first{kNever, -1};
+    Next first{kInfinity, -1};
     for (std::int32_t b = 0; index(b) < owner.size(); ++b) {
       if (owner[b] < 0) first = std::min(first, Next{sign * places[b], b});
     }
@@ -470,7 +471,7 @@ class Halving {
         --part_count;
       }
     });
-    if (part_count != 2 || own.price == kNever) return;
+    if (part_count != 2 || own.price == kInfinity) return;
     double source = 0.0;
     for (std::int32_t k = 0; k < count_; ++k) source += own.side[k] != 0 ? area(k) : 0.0;
     own.share = std::min(source, all_ - source) / all_;

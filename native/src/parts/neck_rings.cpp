@@ -76,7 +76,7 @@ std::optional<std::pair<std::size_t, double>> narrowest(const Rings& rings) {
 bool is_possible(const SlitProblem& problem, std::span<const std::int32_t> loop) {
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const std::int32_t edge = problem.mesh.edge_between(loop[i], loop[(i + 1) % loop.size()]);
-    if (edge < 0 || problem.prices.of_edge[edge] == kNever) return false;
+    if (edge < 0 || problem.prices.of_edge[edge] == kInfinity) return false;
   }
   return true;
 }

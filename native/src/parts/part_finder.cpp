@@ -146,7 +146,7 @@ void PartFinder::Impl::prepare(const Task& task) {
     for (std::size_t p = 0; p < images.size(); ++p) regions[p].image = images[p];
   }
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
-    problem.prices.of_edge.push_back(mesh.is_real[e] == 0 ? kNever : price_of_cut(odds[e]) * mesh.lengths[e]);
+    problem.prices.of_edge.push_back(mesh.is_real[e] == 0 ? kInfinity : price_of_cut(odds[e]) * mesh.lengths[e]);
   }
 }
 
@@ -189,7 +189,7 @@ std::vector<std::uint8_t> PartFinder::Impl::edited(const std::vector<Edge>& edge
 std::vector<std::int32_t> PartFinder::Impl::joined(double amount, const PartEdits& edits, const Task& task) const {
   const PlanMesh& mesh = problem.mesh;
   const std::vector<std::uint8_t> is_kept = edited(edits.kept, "kept"), is_dropped = edited(edits.dropped, "dropped");
-  const double bias = amount > 0.0 ? bias_of(amount) : -kNever;
+  const double bias = amount > 0.0 ? bias_of(amount) : -kInfinity;
   std::vector<RegionBorder> found;
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
@@ -221,7 +221,7 @@ std::vector<std::uint8_t> PartFinder::Impl::borders(double amount, const PartEdi
   SlitProblem parted = problem;
   const std::vector<std::uint8_t> is_dropped = edited(edits.dropped, "dropped");
   for (std::size_t e = 0; e < is_dropped.size(); ++e) {
-    if (is_dropped[e] != 0) parted.prices.of_edge[e] = kNever;
+    if (is_dropped[e] != 0) parted.prices.of_edge[e] = kInfinity;
   }
   const double step = (kParted - kJoined) / static_cast<double>(edits.parted.size());
   double done = kJoined;

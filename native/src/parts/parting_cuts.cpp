@@ -57,7 +57,7 @@ void mark_rims(const SlitProblem& problem, std::span<const std::int32_t> pieces,
         if (twin < h || problem.is_seam[edge] != 0) continue;
         inner.push_back(h);
         const bool is_smooth = frames[f].normal.dot(frames[twin / 3].normal) > least_cosine;
-        if (is_smooth || problem.prices.of_edge[edge] == kNever) regions.join(f, twin / 3);
+        if (is_smooth || problem.prices.of_edge[edge] == kInfinity) regions.join(f, twin / 3);
       }
     }
     std::vector<double> areas(mesh.face_count(), 0.0);
@@ -90,7 +90,7 @@ std::vector<Slit> rim_cuts(const SlitProblem& problem, std::span<const std::int3
 std::size_t count_blocks(const SlitProblem& problem) {
   DisjointSets blocks = joined_faces(problem.mesh, [&](std::int32_t h) {
     const std::int32_t edge = problem.mesh.edge_of[h];
-    return problem.is_seam[edge] == 0 && problem.prices.of_edge[edge] == kNever;
+    return problem.is_seam[edge] == 0 && problem.prices.of_edge[edge] == kInfinity;
   });
   return index(blocks.numbering().count);
 }

@@ -211,7 +211,7 @@ std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, 
     const std::int32_t h = mesh.half_edge_of[e];
     return reflection != nullptr && reflection->sides[mesh.tail(h)] == 0 && reflection->sides[mesh.tip(h)] == 0;
   };
-  std::vector<double> odds(mesh.edge_count(), -kNever);
+  std::vector<double> odds(mesh.edge_count(), -kInfinity);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     if (polygons.is_diagonal[e] != 0) continue;
     const double wider = std::clamp(bends.wide[e] - sharp[e], 0.0, tuning::kMostSteps * sharp[e]);

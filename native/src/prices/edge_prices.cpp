@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "detail/index.hpp"
@@ -114,8 +113,8 @@ EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const
     const double weight = weights.empty() ? 1.0 : 0.5 * (weights[a] + weights[b]);
     const double sharpness = ramp(std::abs(bends.own[e]), tuning::kSharpFrom, tuning::kSharpWidth);
     const double price = mesh.lengths[e] * std::pow(seen, 1.0 - hard * sharpness) * shapes[e] * weight;
-    prices.of_edge.push_back(mesh.is_real[e] == 0 || !std::isfinite(price) ? kNever : price);
-    if (prices.of_edge.back() == kNever) continue;
+    prices.of_edge.push_back(mesh.is_real[e] == 0 || !std::isfinite(price) ? kInfinity : price);
+    if (prices.of_edge.back() == kInfinity) continue;
     sum += price;
     length += mesh.lengths[e];
   }
@@ -124,8 +123,8 @@ EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const
     for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
       const std::int32_t image = image_of_edge(mesh, *reflection, e);
       if (image < 0) continue;
-      const bool is_barred = own[e] == kNever || own[image] == kNever;
-      prices.of_edge[e] = is_barred ? kNever : std::sqrt(own[e] * own[image]);
+      const bool is_barred = own[e] == kInfinity || own[image] == kInfinity;
+      prices.of_edge[e] = is_barred ? kInfinity : std::sqrt(own[e] * own[image]);
     }
   }
   if (hard > 0.0) prices.bargain = tuning::kBargain / hard;

@@ -3,19 +3,16 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
 #include "detail/csr.hpp"
+#include "detail/infinity.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/surface/triangle_connectivity.hpp"
 #include "seamwire/surface/vector.hpp"
 
 namespace seamwire::detail {
-
-/// The price of an edge that no seam may use, and the length of a path that does not exist.
-inline constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// A neighbor of a vertex in a PlanMesh.
 struct PlanNeighbor {

@@ -23,11 +23,11 @@ double angle_between(const Vector& one, const Vector& other) {
   return kDegreesOfRadian * std::atan2(one.cross(other).norm(), one.dot(other));
 }
 
-/// How far the two triangles beside a half-edge are from a rectangle, in degrees; kNever if they are no quad.
+/// How far the two triangles beside a half-edge are from a rectangle, in degrees; kInfinity if they are no quad.
 double skew_of(const PlanMesh& mesh, std::span<const FaceFrame> frames, std::int32_t h) {
   const std::int32_t twin = mesh.twins[h];
   const double fold = angle_between(frames[h / 3].normal, frames[twin / 3].normal);
-  if (!(fold < tuning::kMostFold)) return kNever;
+  if (!(fold < tuning::kMostFold)) return kInfinity;
   const std::array<Vector, 4> corners{mesh.points[mesh.tail(h)], mesh.points[mesh.apex(twin)], mesh.points[mesh.tip(h)],
                                       mesh.points[mesh.apex(h)]};
   double deviation = 0.0;
@@ -36,7 +36,7 @@ double skew_of(const PlanMesh& mesh, std::span<const FaceFrame> frames, std::int
     deviation += std::abs(angle_between(corners[(i + 1) % 4] - at, corners[(i + 3) % 4] - at) - 90.0);
   }
   const double skew = fold + deviation / 4.0;
-  return skew < tuning::kMostSkew ? skew : kNever;
+  return skew < tuning::kMostSkew ? skew : kInfinity;
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ Polygons find_polygons(const PlanMesh& mesh, std::span<const FaceFrame> frames,
     if (twin < 0 || is_alone[h / 3] == 0 || is_alone[twin / 3] == 0) continue;
     if (!is_border.empty() && is_border[e] != 0) continue;
     const double skew = skew_of(mesh, frames, h);
-    if (skew != kNever) pairs.emplace_back(skew, e);
+    if (skew != kInfinity) pairs.emplace_back(skew, e);
   }
   std::ranges::sort(pairs);
   for (const auto& [skew, e] : pairs) {

@@ -261,7 +261,7 @@ GroupPlanning::Result GroupPlanning::solved_on_original(std::vector<Slit> slits,
       energies.emplace_back(map->energies[k], original.areas[map->island.faces[k]]);
     }
   }
-  solved.energy = is_mapped ? mean_energy(std::move(energies)) : kNever;
+  solved.energy = is_mapped ? mean_energy(std::move(energies)) : kInfinity;
   for (const Slit& slit : slits) solved.price += original.price(slit);
   solved.slits = std::move(slits);
   return solved;

@@ -81,7 +81,7 @@ class GroupPlanning {
   /// The best plan so far.
   struct Result {
     std::vector<Slit> slits;  ///< on the original mesh, rings first
-    double energy = kNever, price = 0.0;
+    double energy = kInfinity, price = 0.0;
     bool overlaps = false;
     CutMaps maps;  ///< empty before search() has ended
     bool is_within(double bound) const { return energy <= bound && !overlaps; }

@@ -238,7 +238,7 @@ std::uint64_t likeness(const SlitProblem& problem) {
     add(static_cast<std::uint64_t>(std::floor(kCoarse * std::min(length, 1e12) + 0.31)));
   }
   for (const double price : problem.prices.of_edge) {
-    add(price == kNever ? 0 : static_cast<std::uint64_t>(std::floor(kCoarse * std::min(price, 1e12) + 0.31)));
+    add(price == kInfinity ? 0 : static_cast<std::uint64_t>(std::floor(kCoarse * std::min(price, 1e12) + 0.31)));
   }
   return hash;
 }

@@ -223,7 +223,7 @@ void WholePlan::add_maps(SeamPlan& plan, const PlanMesh& mesh, const Place* plac
 /// Says what holds for the planned map. measure_map() scales the map first; the search does not.
 void WholePlan::measure(SeamPlan& plan, const Task& task) const {
   plan.is_reached = false;
-  plan.energy = kNever;
+  plan.energy = kInfinity;
   if (!is_mapped_) return;
   const MapReport report = measure_islands(*prepared_.surface, plan.uvs, plan.islands, false, task);
   std::vector<std::uint8_t> is_counted_island(plan.island_count, 0);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -25,9 +24,9 @@ constexpr std::size_t kBatch = 2;       // solves at once; the same on every mac
 
 /// How a slit of a plan might become shorter.
 struct Cutback {
-  double needed = 0.0;    ///< the share of its length that has to stay
-  std::size_t level = 0;  ///< which of kShorterShares is tried next; their number if all were tried in vain
-  double ratio = kNever;  ///< saved price for each lost energy, as of the last look; infinite before the first one
+  double needed = 0.0;       ///< the share of its length that has to stay
+  std::size_t level = 0;     ///< which of kShorterShares is tried next; their number if all were tried in vain
+  double ratio = kInfinity;  ///< saved price for each lost energy, as of the last look; infinite before the first one
   std::optional<SlitPlan> plan = std::nullopt;  ///< what comes of it, if it was looked at for the present plan
 
   bool is_open() const { return level < tuning::kShorterShares.size(); }
@@ -38,7 +37,7 @@ struct Cutback {
   }
   void fail() {
     ++level;
-    ratio = kNever;
+    ratio = kInfinity;
     plan.reset();
     skip_useless_shares();
   }
@@ -46,7 +45,7 @@ struct Cutback {
 
 /// The results of a plan that was tried.
 struct Trial {
-  double energy = kNever;
+  double energy = kInfinity;
   double price = 0.0;
   bool overlaps = false;
 };
@@ -216,7 +215,7 @@ bool Search::grow_once(SlitPlan& plan, double bound, bool is_thorough) {
     for (std::size_t k = 0; k < full.size(); ++k) {
       if ((full[k].overlaps && !plan.overlaps) || !(plan.energy - full[k].energy >= least_gain_)) continue;
       const double ratio = plan.overlaps && !full[k].overlaps
-                               ? kNever
+                               ? kInfinity
                                : gain_ratio(plan, {full[k].energy, full[k].price, full[k].overlaps}, bound);
       if (ratio <= most) continue;
       most = ratio;
@@ -332,7 +331,7 @@ std::vector<std::size_t> Search::worst_bargains(const SlitPlan& plan) {
     own.check(0.0);
     std::vector<Slit> slits = without_slit(plan.slits, free[i]);
     std::vector<std::int32_t> pieces = pieces_of(problem_, plan.slits[free[i]]);
-    const SlitPlan result = solver_.solve_changed(std::move(slits), plan, pieces, kNever, own);
+    const SlitPlan result = solver_.solve_changed(std::move(slits), plan, pieces, kInfinity, own);
     const double gained = std::max(result.energy - plan.energy, 1e-4);
     order[i] = {-(plan.price - result.price) / gained, free[i]};
     return result.work;

@@ -30,7 +30,7 @@ SlitPlan SlitSolver::solve(std::vector<Slit> slits, const Task& task) const {
   none.maps.resize(problem_.by_piece.size());
   std::vector<std::int32_t> all(none.maps.size());
   std::iota(all.begin(), all.end(), 0);
-  return solve_changed(std::move(slits), none, all, kNever, task);
+  return solve_changed(std::move(slits), none, all, kInfinity, task);
 }
 
 SlitPlan SlitSolver::solve_changed(std::vector<Slit> slits, const SlitPlan& before,

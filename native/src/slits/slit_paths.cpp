@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "detail/index.hpp"
 #include "detail/shortest_paths.hpp"
@@ -42,8 +41,8 @@ SlitPaths::SlitPaths(const PlanMesh& mesh, const EdgePrices& prices, const Refle
   const double plane_width = 0.5 * median_length(mesh);
   const bool hugs_plane = reflection != nullptr && rules.half == Half::kPlane && !reflection->is_exact;
   const auto edge_price = [&](std::int32_t e, std::int32_t a, std::int32_t b) {
-    if (!rules.barred_edges.empty() && rules.barred_edges[e] != 0) return kNever;
-    if (from[b] != 0 || (ends[a] != 0 && from[a] == 0)) return kNever;
+    if (!rules.barred_edges.empty() && rules.barred_edges[e] != 0) return kInfinity;
+    if (from[b] != 0 || (ends[a] != 0 && from[a] == 0)) return kInfinity;
     const double unit = mesh.lengths[e] > 0.0 ? prices.of_edge[e] / mesh.lengths[e] : 1.0;
     const double price = rules.exponent == 1.0 ? prices.of_edge[e] : mesh.lengths[e] * std::pow(unit, rules.exponent);
     if (reflection == nullptr) return price;
@@ -52,7 +51,7 @@ SlitPaths::SlitPaths(const PlanMesh& mesh, const EdgePrices& prices, const Refle
       const double away = (place - reflection->offset) / plane_width;
       return price * (0.5 + away * away);
     }
-    if (!may_step(rules.half, side(a), side(b))) return kNever;
+    if (!may_step(rules.half, side(a), side(b))) return kInfinity;
     return side(a) == 0 && side(b) == 0 ? 0.5 * price : price;
   };
   paths_.find(from, edge_price, prices.turning, -1);
@@ -88,7 +87,7 @@ std::vector<std::int32_t> chain_along(const PlanMesh& mesh, std::span<const Vect
     return away[v];
   };
   const auto edge_price = [&](std::int32_t e, std::int32_t a, std::int32_t b) {
-    if (barred[b] != 0 && b != to) return kNever;
+    if (barred[b] != 0 && b != to) return kInfinity;
     const double d = 0.5 * (distance(a) + distance(b));
     return prices.of_edge[e] * (1.0 + d * d * d * d);
   };
@@ -100,7 +99,7 @@ std::vector<std::int32_t> chain_along(const PlanMesh& mesh, std::span<const Vect
 }
 
 std::vector<double> edge_distances(const PlanMesh& mesh, std::span<const std::int32_t> from) {
-  std::vector<double> least(mesh.vertex_count(), kNever);
+  std::vector<double> least(mesh.vertex_count(), kInfinity);
   find_shortest_paths(from, least, [&](std::int32_t v, const auto& step) {
     for (const auto& [next, edge] : mesh.all_neighbors[v]) step(next, mesh.lengths[edge]);
   });

@@ -27,10 +27,10 @@ class TurningPaths {
       : mesh_(mesh),
         before_(2 * mesh.edge_count(), -1),
         arrival_(mesh.vertex_count(), -1),
-        price_(mesh.vertex_count(), kNever) {}
+        price_(mesh.vertex_count(), kInfinity) {}
 
   /// Finds the paths from all vertices that are marked 1 in `from`, to a vertex, or with -1 to all. `edge_price(e, a,
-  /// b)`: what edge e costs from vertex a to b, or kNever. `turning`: what a turn by 90 degrees costs.
+  /// b)`: what edge e costs from vertex a to b, or kInfinity. `turning`: what a turn by 90 degrees costs.
   template <class EdgePrice>
   void find(std::span<const std::uint8_t> from, const EdgePrice& edge_price, double turning, std::int32_t until);
 
@@ -56,13 +56,13 @@ template <class EdgePrice>
 void TurningPaths::find(std::span<const std::uint8_t> from, const EdgePrice& edge_price, double turning,
                         std::int32_t until) {
   IndexedHeap open(before_.size());
-  std::vector<double> least(before_.size(), kNever);
+  std::vector<double> least(before_.size(), kInfinity);
   const auto relax = [&](std::int32_t v, std::int32_t arrived_by, double price) {
     Vector direction = Vector::Zero();
     if (arrived_by >= 0) direction = (mesh_.points[v] - mesh_.points[tail(arrived_by)]).normalized();
     for (const PlanNeighbor& next : mesh_.neighbors[v]) {
       double total = price + edge_price(next.edge, v, next.vertex);
-      if (total == kNever) continue;
+      if (total == kInfinity) continue;
       if (arrived_by >= 0) {
         const Vector ahead = (mesh_.points[next.vertex] - mesh_.points[v]).normalized();
         total += turning * (1.0 - direction.dot(ahead));

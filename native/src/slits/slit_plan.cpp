@@ -58,7 +58,8 @@ void find_pieces_of(SlitProblem& problem) {
         const std::int32_t twin = mesh.twins[3 * f + i];
         const bool is_inner = twin >= 0 && problem.pieces.of_face[twin / 3] == problem.pieces.of_face[f];
         has_inner = has_inner || is_inner;
-        has_open = has_open || (is_inner && (is_unpriced || problem.prices.of_edge[mesh.edge_of[3 * f + i]] != kNever));
+        has_open =
+            has_open || (is_inner && (is_unpriced || problem.prices.of_edge[mesh.edge_of[3 * f + i]] != kInfinity));
         piece.twins.push_back(is_inner ? 3 * place[twin / 3] + twin % 3 : -1);
       }
     }
@@ -144,7 +145,7 @@ void sum_up(const SlitProblem& problem, SlitPlan& plan) {
   plan.price = 0.0;
   for (const Slit& slit : plan.slits) plan.price += problem.price(slit);
   plan.overlaps = false;
-  plan.energy = kNever;
+  plan.energy = kInfinity;
   std::vector<std::pair<double, double>> energies;
   for (std::size_t p = 0; p < plan.maps.size(); ++p) {
     if (!problem.by_piece[p].may_be_cut) continue;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
@@ -29,7 +28,7 @@ struct Terminal {
 /// Whether a seam may run along one of a vertex' edges.
 bool may_be_cut(const SlitProblem& problem, std::int32_t vertex) {
   return std::ranges::any_of(problem.mesh.neighbors[vertex],
-                             [&](const PlanNeighbor& next) { return problem.prices.of_edge[next.edge] != kNever; });
+                             [&](const PlanNeighbor& next) { return problem.prices.of_edge[next.edge] != kInfinity; });
 }
 
 /// The vertex of a closed piece at which its first slit starts: central and hidden, on the mirror plane if it crosses
@@ -41,7 +40,7 @@ std::int32_t find_root(const SlitProblem& problem, const PieceBody& body, std::s
   };
   const bool has_plane = std::ranges::any_of(body.island.vertices, is_on_plane);
   std::int32_t best = body.island.vertices.front();
-  double least_price = kNever;
+  double least_price = kInfinity;
   for (std::size_t own = 0; own < body.island.vertices.size(); ++own) {
     const std::int32_t v = body.island.vertices[own];
     if (has_plane ? !is_on_plane(v) : !may_be_cut(problem, v)) continue;
@@ -58,7 +57,10 @@ std::int32_t find_root(const SlitProblem& problem, const PieceBody& body, std::s
 class HandleLoops {
  public:
   HandleLoops(const SlitProblem& problem, const PieceBody& body, std::int32_t root)
-      : problem_(problem), island_(body.island), price_(island_.vertices.size(), kNever), before_(price_.size(), -1) {
+      : problem_(problem),
+        island_(body.island),
+        price_(island_.vertices.size(), kInfinity),
+        before_(price_.size(), -1) {
     const auto own = std::ranges::find(island_.vertices, root) - island_.vertices.begin();
     find_tree(static_cast<std::int32_t>(own));
   }
@@ -341,7 +343,7 @@ class TreeGrowth {
     const auto is_on_plane = [&](std::int32_t v) { return problem_.reflection && problem_.reflection->sides[v] == 0; };
     // A loop across the mirror plane is reached on the plane, for a slit elsewhere and its image would part it.
     const bool has_plane = std::ranges::any_of(terminal.vertices, is_on_plane);
-    std::pair<double, std::int32_t> best{kNever, -1};
+    std::pair<double, std::int32_t> best{kInfinity, -1};
     for (const std::int32_t v : terminal.vertices) {
       if (!has_plane || is_on_plane(v)) best = std::min(best, {finder.price_to(v), v});
     }
@@ -364,7 +366,7 @@ class TreeGrowth {
     std::vector<Terminal>& terminals = states_[number].terminals;
     if (terminals.empty()) return false;
     const SlitFinder finder = finder_in(number);
-    std::pair<double, std::int32_t> best{kNever, -1};
+    std::pair<double, std::int32_t> best{kInfinity, -1};
     std::size_t which = 0;
     for (std::size_t i = 0; i < terminals.size(); ++i) {
       const std::pair<double, std::int32_t> one = cheapest(finder, terminals[i]);
@@ -436,7 +438,7 @@ class TreeGrowth {
     };
     if (!states_[piece].body.loops.empty() || !std::ranges::all_of(tree_.slits, is_elsewhere)) return;
     std::int32_t next = -1;
-    double least = kNever;
+    double least = kInfinity;
     for (const PlanNeighbor& neighbor : problem_.mesh.neighbors[slit.path[1]]) {
       if (neighbor.vertex == slit.path[0] || !(problem_.prices.of_edge[neighbor.edge] < least)) continue;
       least = problem_.prices.of_edge[neighbor.edge];

@@ -198,7 +198,7 @@ TEST(PartingCuts, HalvesAreOfComparableSizeAndSymmetric) {
 
 TEST(PartingCuts, KeepOutAreasAreNotParted) {
   const Surface surface = shapes::quad_grid(4).surface();
-  const SlitProblem problem = problem_on(surface, {.weights = std::vector<double>(surface.vertex_count(), kNever)});
+  const SlitProblem problem = problem_on(surface, {.weights = std::vector<double>(surface.vertex_count(), kInfinity)});
   EXPECT_TRUE(halving_cuts(problem, 4, {}).empty());
   EXPECT_EQ(count_blocks(problem), 1U);
 }

@@ -26,7 +26,7 @@ double mean_price(const SlitProblem& problem, const Condition& holds) {
   for (std::int32_t e = 0; e < static_cast<std::int32_t>(problem.mesh.edge_count()); ++e) {
     const std::int32_t h = problem.mesh.half_edge_of[e];
     const Vector middle = 0.5 * (problem.mesh.points[problem.mesh.tail(h)] + problem.mesh.points[problem.mesh.tip(h)]);
-    if (problem.prices.of_edge[e] == kNever || !holds(Vector(middle / problem.mesh.scale))) continue;
+    if (problem.prices.of_edge[e] == kInfinity || !holds(Vector(middle / problem.mesh.scale))) continue;
     price += problem.prices.of_edge[e];
     length += problem.mesh.lengths[e];
   }
@@ -64,7 +64,7 @@ TEST(EdgePrices, DiagonalsAndKeepOutAreasHaveNone) {
   for (std::int32_t e = 0; e < static_cast<std::int32_t>(problem.mesh.edge_count()); ++e) {
     const std::int32_t h = problem.mesh.half_edge_of[e];
     const bool is_barred = problem.mesh.is_real[e] == 0 || problem.mesh.tail(h) == 5 || problem.mesh.tip(h) == 5;
-    EXPECT_EQ(problem.prices.of_edge[e] == kNever, is_barred);
+    EXPECT_EQ(problem.prices.of_edge[e] == kInfinity, is_barred);
     EXPECT_GE(problem.prices.of_edge[e], 0.0);
   }
   EXPECT_TRUE(std::isfinite(problem.prices.turning));
@@ -86,7 +86,7 @@ TEST(EdgePrices, AreTheSameOnBothSides) {
   weights[static_cast<std::size_t>(before.mesh.sources[nearest_vertex(before.mesh, {0.45, 0, 0})])] = 4.0;
   // Free on one side, barred on the other: barred on both.
   weights[static_cast<std::size_t>(before.mesh.sources[nearest_vertex(before.mesh, {-1, 0, 0})])] = 0.0;
-  weights[static_cast<std::size_t>(before.mesh.sources[nearest_vertex(before.mesh, {1, 0, 0})])] = kNever;
+  weights[static_cast<std::size_t>(before.mesh.sources[nearest_vertex(before.mesh, {1, 0, 0})])] = kInfinity;
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(before.mesh.vertex_count()); ++v) {
     if (before.mesh.points[v].x() / before.mesh.scale < -0.95) weights[before.mesh.sources[v]] = 0.0;
   }

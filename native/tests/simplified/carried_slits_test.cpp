@@ -40,7 +40,7 @@ struct Simplified {
 };
 
 double distance(const Vector& point, const PlanMesh& mesh, const std::vector<std::int32_t>& chain) {
-  double least = kNever;
+  double least = kInfinity;
   for (std::size_t i = 1; i < chain.size(); ++i) {
     const Vector &a = mesh.points[chain[i - 1]], along = mesh.points[chain[i]] - a;
     const double t = std::clamp((point - a).dot(along) / along.squaredNorm(), 0.0, 1.0);

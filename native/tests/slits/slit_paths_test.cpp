@@ -23,7 +23,7 @@ EdgePrices by_length(const PlanMesh& mesh) {
   EdgePrices prices;
   prices.of_edge = mesh.lengths;
   for (std::size_t e = 0; e < mesh.edge_count(); ++e) {
-    if (mesh.is_real[e] == 0) prices.of_edge[e] = kNever;
+    if (mesh.is_real[e] == 0) prices.of_edge[e] = kInfinity;
   }
   prices.visibility.assign(mesh.vertex_count(), 1.0);
   prices.is_face.assign(mesh.vertex_count(), 0);
@@ -69,12 +69,12 @@ TEST(SlitPaths, GoAroundWhatIsExpensive) {
   const Chain cheapest = paths_from(mesh, prices, {0}).path(6), shortest = paths_from(mesh, prices, {0}, 0.0).path(6);
   EXPECT_EQ(shortest.size(), 7U);
   EXPECT_EQ(cheapest.size(), 7U) << "ten times an edge is less than both ways down and up";
-  for (std::int32_t row = 0; row < 6; ++row) prices.of_edge[mesh.edge_between(7 * row + 2, 7 * row + 3)] = kNever;
+  for (std::int32_t row = 0; row < 6; ++row) prices.of_edge[mesh.edge_between(7 * row + 2, 7 * row + 3)] = kInfinity;
   const Chain around = paths_from(mesh, prices, {0}).path(6);
   EXPECT_EQ(around.size(), 19U);
   EXPECT_TRUE(std::ranges::find(around, 44) != around.end());
-  prices.of_edge[mesh.edge_between(44, 45)] = kNever;
-  EXPECT_EQ(paths_from(mesh, prices, {0}).price(6), kNever);
+  prices.of_edge[mesh.edge_between(44, 45)] = kInfinity;
+  EXPECT_EQ(paths_from(mesh, prices, {0}).price(6), kInfinity);
   EXPECT_TRUE(paths_from(mesh, prices, {0}).path(6).empty());
 }
 
@@ -85,7 +85,7 @@ TEST(SlitPaths, EndAtRims) {
   const EdgePrices prices = by_length(mesh);
   const SlitPaths paths(mesh, prices, nullptr, flags_at(mesh, {0}), flags_at(mesh, wall), {});
   EXPECT_NEAR(paths.price(3), 0.5, 1e-12);
-  EXPECT_EQ(paths.price(4), kNever);
+  EXPECT_EQ(paths.price(4), kInfinity);
 }
 
 TEST(SlitPaths, StayOnOneSideOfTheMirrorPlane) {
@@ -99,10 +99,10 @@ TEST(SlitPaths, StayOnOneSideOfTheMirrorPlane) {
   std::size_t reached = 0;
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(sides.size()); ++v) {
     if (sides[v] < 0) {
-      EXPECT_EQ(above.price(v), kNever);
+      EXPECT_EQ(above.price(v), kInfinity);
     }
     if (sides[v] != 0) {
-      EXPECT_EQ(plane.price(v), kNever);
+      EXPECT_EQ(plane.price(v), kInfinity);
     }
     bool has_left = false;
     for (const std::int32_t on : above.path(v)) {
@@ -154,7 +154,7 @@ TEST(EdgeDistances, PassOverDiagonals) {
   const std::vector<double> distances = edge_distances(mesh, from);
   EXPECT_NEAR(distances[24], std::sqrt(2.0), 1e-12);
   EXPECT_NEAR(distances[4], 1.0, 1e-12);
-  EXPECT_EQ(edge_distances(mesh, {})[0], kNever);
+  EXPECT_EQ(edge_distances(mesh, {})[0], kInfinity);
 }
 
 }  // namespace

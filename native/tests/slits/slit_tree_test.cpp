@@ -178,7 +178,7 @@ TEST(SlitTree, AvoidsKeepOutAreas) {
   const Surface surface = shapes::dumbbell(12, 24).surface();
   std::vector<double> weights(surface.vertex_count(), 1.0);
   for (std::size_t v = 0; v < weights.size(); ++v) {
-    if (surface.points()[v].x() > 0.6) weights[v] = kNever;
+    if (surface.points()[v].x() > 0.6) weights[v] = kInfinity;
   }
   const SlitProblem problem = problem_on(surface, {.weights = weights});
   const SlitTree tree = grow_tree(problem, true, {});
@@ -191,7 +191,7 @@ TEST(SlitTree, AvoidsKeepOutAreas) {
 TEST(SlitTree, OpensABallOutsideOfKeepOutAreas) {
   const Surface surface = shapes::icosphere(3).surface();
   std::vector<double> weights;
-  for (const Vector& point : surface.points()) weights.push_back(point.z() > -0.2 ? kNever : 1.0);
+  for (const Vector& point : surface.points()) weights.push_back(point.z() > -0.2 ? kInfinity : 1.0);
   for (const int mirror : {-1, 0}) {
     const SlitProblem problem = problem_on(surface, {.mirror = mirror, .weights = weights});
     for (const bool has_tips : {true, false}) expect_discs(problem, grow_tree(problem, has_tips, {}));
@@ -248,7 +248,7 @@ TEST(DistortionPeaks, AreAwayFromTheCut) {
     if (cut.is_on_cut[v] != 0) on_cut.push_back(static_cast<std::int32_t>(v));
   }
   const auto away = [&](std::int32_t v) {
-    double least = kNever;
+    double least = kInfinity;
     for (const std::int32_t other : on_cut) {
       least = std::min(least, (problem.mesh.points[v] - problem.mesh.points[other]).norm());
     }
@@ -294,7 +294,7 @@ TEST(SlitSolver, StopsEarlyWhereTheEnergyIsTooHigh) {
   const SlitPlan solved = solver.solve_changed({*parts.left}, whole, pieces, 100.0, {});
   EXPECT_TRUE(std::isfinite(solved.energy));
   EXPECT_LT(given_up.work, solved.work);
-  EXPECT_EQ(solver.solve({}, {}).energy, kNever) << "a closed ball has no map";
+  EXPECT_EQ(solver.solve({}, {}).energy, kInfinity) << "a closed ball has no map";
 }
 
 }  // namespace
