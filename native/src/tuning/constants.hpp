@@ -146,7 +146,7 @@ inline constexpr double kLeastPart = 0.003;
 inline constexpr double kLeastPartWidth = 0.008;
 /// Vertices at which visibility is measured at most, because rays take most of the time on large meshes.
 inline constexpr std::size_t kMostLooks = 8000;
-/// Mean log odds of a rim that encloses a small part of its own, such as a button or a plug.
+/// Mean log odds of a rim that encloses a small separate part, such as a button or a plug.
 inline constexpr double kSharpRim = 2.0;
 /// Degrees by which the surface bends at the sides of a chamfer's step, at least.
 inline constexpr double kLeastStep = 25.0;
