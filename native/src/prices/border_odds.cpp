@@ -217,7 +217,7 @@ std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, 
     const double wider = std::clamp(bends.wide[e] - sharp[e], 0.0, tuning::kMostSteps * sharp[e]);
     const double bend =
         sharp[e] + tuning::kLineShare * on_line[e] + (is_round[e] != 0 ? 0.0 : tuning::kWideShare * wider);
-    odds[e] = (bend - tuning::kEvenDegrees) / tuning::kDegreesOfOdds + tuning::kPrior - tuning::kOpenness * openness[e];
+    odds[e] = (bend - tuning::kEvenDegrees) / tuning::kDegreesOfOdds - tuning::kOpenness * openness[e];
     if (sharp[e] < beside[e] - tuning::kSharperBy) odds[e] -= tuning::kBesideSharper;
     if (bends.own[e] < -tuning::kConcaveDegrees) odds[e] += tuning::kConcave;
     if (is_on_plane(e) && sharp[e] > tuning::kOnPlaneDegrees) odds[e] += on_plane;
