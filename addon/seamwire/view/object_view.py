@@ -418,9 +418,9 @@ class ObjectView:
         return any(self._follow_picker().surface_at(view, matrix, cursor) is not None for matrix in flipped)
 
     def stroke_at(self, view: Camera, cursor: tuple[float, float]) -> Stroke | None:
-        """Return the stroke under the cursor."""
+        """Return the stroke under the cursor, which may still wait."""
         scale = bpy.context.preferences.system.ui_scale
-        matrix, strokes = self.obj.matrix_world, self.session.network.strokes
+        matrix, strokes = self.obj.matrix_world, self.session.picture.strokes
         return self._follow_picker().stroke_at(strokes, view, matrix, cursor, xray=self.options.xray, scale=scale)
 
     def show(self, front: bool) -> bool:
