@@ -248,7 +248,6 @@ class ObjectView:
         if not self.mesh.refresh(obj):
             return False
         self.mesh.follow(chosen.settings())  # it does not follow them outside Edit Mode
-        self.was_read()
         self.renew()
         return True
 
@@ -259,7 +258,10 @@ class ObjectView:
         self.stale = False
 
     def renew(self) -> None:
-        """Let picker and overlay follow the mesh that was read, or written."""
+        """Let picker and overlay follow the mesh that was read, or written. Outside Edit Mode they have nothing to follow."""
+        if not self.mesh.alive():
+            return
+        self.was_read()
         self.has_moved()
         self._follow_picker().set_seams(self.mesh.plain_seams)
         self.overlay.renew(self.obj)
