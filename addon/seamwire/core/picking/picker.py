@@ -153,6 +153,7 @@ class DrawnPicker:
         self._surface = surface
         self._seam_edges = np.asarray(seams, dtype=np.int64).reshape(-1, 2)
         self._drawn: _Drawn | None = None
+        self._drawn_of: tuple[object, ...] = ()
 
     def set_seams(self, seams: ArrayLike) -> None:
         """Take other edges, (s, 2), as the seams that no wire runs along."""
@@ -193,10 +194,14 @@ class DrawnPicker:
 
     def _drawn_now(self, session: Session) -> _Drawn:
         """Return what can be found of a session's network. A held seed and its wires cannot, because they follow the mouse."""
-        moved = {wire.id for wire in session.under_way.moved}
+        network, along, moving = session.network, session.options.along, session.under_way.moved
+        if self._drawn is not None and self._drawn_of == (network, along, moving):
+            return self._drawn
+        self._drawn_of = network, along, moving
+        moved = {wire.id for wire in moving}
         picks = tuple(session.seeds())
         wires = tuple(wire for wire in session.wires if wire.id not in moved)
-        key = (id(session), picks, tuple(map(id, wires)))
+        key = picks, wires
         if self._drawn is not None and self._drawn.key == key:
             return self._drawn
         followed = {end for wire in session.wires if wire.id in moved for end in (wire.start, wire.end)}
