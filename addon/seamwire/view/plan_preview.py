@@ -24,7 +24,7 @@ from ..mesh.pose import Pose
 from .edited_objects import edited
 from .failures import failures
 from .gpu_draw import ColoredFaces, Eye, Lines, Within, blended, draw_over, sees_through
-from .theme import Looks, hue_colors
+from .theme import Looks, hue_colors, looks_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -361,7 +361,7 @@ class PlanPreview:
         context = bpy.context
         if not self._shown or not context.space_data.overlay.show_overlays:
             return
-        looks = Looks(context.preferences.themes[0].view_3d, chosen.preferences())
+        looks = looks_of(context.preferences.themes[0].view_3d, chosen.preferences())
         for name, shown in self._shown.items():
             with suppress(ReferenceError):  # the object may be gone
                 if shown.obj.visible_in_viewport_get(context.space_data):
