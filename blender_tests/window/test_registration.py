@@ -160,7 +160,7 @@ def test_if_a_part_cannot_be_registered_nothing_is(ui: driver.Ui, monkeypatch: p
 def test_the_users_keys_are_the_add_ons_in_the_same_order(ui: driver.Ui) -> None:
     ui.wait()
     of_user, defaults = bindings.of_user(bpy.context.window_manager), Bindings()
-    assert of_user.rows() == defaults.rows()
+    assert of_user.groups() == defaults.groups()
     for action in Action:
         assert of_user.keys_of(action) == defaults.keys_of(action), action
         assert of_user.icon(action) == defaults.icon(action), action
@@ -180,7 +180,7 @@ def test_a_changed_key_is_the_actions_first(ui: driver.Ui) -> None:
         assert bindings.of_user(manager).keys_of(Action.END)[0].type == "P"
     finally:
         bind("P", "NUMPAD_ENTER")
-    assert bindings.of_user(manager).rows() == Bindings().rows()
+    assert bindings.of_user(manager).groups() == Bindings().groups()
 
 
 def test_an_actions_number_in_a_users_keys_is_its_own(ui: driver.Ui) -> None:
