@@ -157,10 +157,8 @@ class Overlay:
         if self._faces is None:
             self._faces = ColoredFaces(self._pose.points)
         if found.key != self._tinted:
-            self._faces.clear()
             # Without a cut the parts of a mesh are no news, and tinting them would only change its colors.
-            for hue, triangles in found.pieces if found.cut else ():
-                self._faces.add(hue, triangles)
+            self._faces.fill(found.pieces if found.cut else ())
             self._tinted = found.key
         self._faces.draw_over(eye, hue_colors(self._looks.tint))
 

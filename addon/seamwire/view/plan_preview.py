@@ -257,9 +257,7 @@ class _ObjectPreview:
         if self._faces is None:
             self._faces = ColoredFaces(self._pose.points)
         if found is not None and found.key != self._tinted:
-            self._faces.clear()
-            for hue, triangles in found.pieces:
-                self._faces.add(hue, triangles)
+            self._faces.fill(found.pieces)
             self._tinted = found.key
         self._faces.draw_over(eye, hue_colors(max(looks.tint, _TINT)))
         if self._squares is not None:

@@ -157,11 +157,7 @@ class StretchHeat(Layer):
         steps = np.minimum(self.values * (_STEPS / HOT), _STEPS - 1).astype(np.uint8)
         order = np.argsort(steps, kind="stable")
         bounds = np.searchsorted(steps[order], np.arange(_STEPS + 1))
-        faces.clear()
-        for step in range(_STEPS):
-            rows = order[bounds[step] : bounds[step + 1]]
-            if len(rows):
-                faces.add(step, self._arrays.triangles[rows])
+        faces.fill((step, self._arrays.triangles[order[bounds[step] : bounds[step + 1]]]) for step in range(_STEPS))
 
     def _outline_of(self, summary: _Summary | None) -> gpu_draw.Lines | None:
         if summary is None or not summary.triangles.any():
