@@ -34,10 +34,6 @@ listeners: list[Callable[[], None]] = []
 """Functions to call when a setting has changed, so that the drawing follows at once."""
 
 
-def _changed(_settings: bpy.types.PropertyGroup, _context: bpy.types.Context) -> None:
-    tell_listeners()
-
-
 def tell_listeners() -> None:
     """Let the drawing follow the settings, and draw all 3D views anew."""
     for listener in tuple(listeners):
@@ -52,7 +48,7 @@ def _property(name: str, setting: Setting) -> object:
         "name": setting.name,
         "description": setting.tooltip,
         "default": default,
-        "update": _changed,
+        "update": lambda _settings, _context: tell_listeners(),
         **setting.others,
     }
     if setting.choices is not None:

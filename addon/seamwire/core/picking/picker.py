@@ -219,23 +219,6 @@ class DrawnPicker:
         return self._drawn
 
 
-def stroke_at(strokes: Sequence[Stroke], sight: Sight, surface: VisibleSurface) -> Stroke | None:
-    """Return the stroke nearest to the cursor that the surface does not hide; of equally near strokes, given oldest first, the newest."""
-    best: tuple[float, Stroke | None] = (STROKE_REACH * sight.scale, None)
-    for stroke in strokes:
-        places = surface.curve_in_object(stroke.points)
-        pixels = sight.pixels(places)
-        part, gaps = nearest_on_segments(sight.cursor, pixels[:-1], pixels[1:])
-        gaps = np.where(np.isnan(gaps), np.inf, gaps)
-        for row in np.argsort(gaps, kind="stable").tolist():
-            if gaps[row] > best[0]:
-                break
-            if surface.can_pick(sight, places[row] + part[row] * (places[row + 1] - places[row])):
-                best = (float(gaps[row]), stroke)
-                break
-    return best[1]
-
-
 class Picker:
     """Finds what is under the cursor on one edit mesh.
 
@@ -345,9 +328,23 @@ class Picker:
         xray: bool = False,
         scale: float = 1.0,
     ) -> Stroke | None:
-        """Return the stroke under the cursor. `strokes` are given oldest first."""
+        """Return the stroke nearest to the cursor that the surface does not hide. Of equally near strokes, it is the last one."""
         sight = Sight.of(camera, matrix, cursor, scale, xray)
-        return None if sight is None else stroke_at(strokes, sight, self._surface)
+        if sight is None:
+            return None
+        best, nearest = None, STROKE_REACH * sight.scale
+        for stroke in strokes:
+            places = self._surface.curve_in_object(stroke.points)
+            pixels = sight.pixels(places)
+            part, gaps = nearest_on_segments(sight.cursor, pixels[:-1], pixels[1:])
+            gaps = np.where(np.isnan(gaps), np.inf, gaps)
+            for row in np.argsort(gaps, kind="stable").tolist():
+                if gaps[row] > nearest:
+                    break
+                if self._surface.can_pick(sight, places[row] + part[row] * (places[row + 1] - places[row])):
+                    best, nearest = stroke, float(gaps[row])
+                    break
+        return best
 
     def seen_along(self, camera: Camera, matrix: ArrayLike, pick: Pick) -> tuple[float, float, float] | None:
         """Return the direction from the viewer to a pick, in the coordinates of the mesh, or None if it lies behind the viewer."""
