@@ -42,7 +42,7 @@ class ShownSession:
 
     @property
     def network(self) -> tuple[object, ...]:
-        """What was drawn."""
+        """The seeds and wires."""
         return self.placed, self.wires
 
     def seeds(self) -> list[int]:

@@ -48,7 +48,7 @@ class Finished:
     reports
         What each of `FINISHERS` has done.
     cut
-        What was cut into the faces.
+        The cut into the faces; None: nothing was cut.
     problem
         Why nothing was cut.
     taken_back

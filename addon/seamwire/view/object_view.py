@@ -76,7 +76,7 @@ class ShownIslands:
     @property
     def newest(self) -> Islands | None:
         """The islands that were computed last. None if computing them failed."""
-        return None if self._failed else self._maker.newest
+        return None if self._failed else self._maker.answer
 
     @property
     def busy(self) -> bool:
@@ -130,7 +130,7 @@ class ShownIslands:
             # A chain that ends turns cuts of wires into seams: the islands stay the same.
             if self._cuts is None or meant != self._meant or not np.array_equal(wanted, self._cuts):
                 self._cuts, self._meant = wanted, meant
-                self._maker.want(self._asked, wanted, meant)
+                self._maker.ask(self._asked, wanted, meant)
 
 
 _BYTES_A_TRIANGLE = 1_150

@@ -179,7 +179,7 @@ class _ObjectPreview:
     @property
     def is_new(self) -> bool:
         """Whether there are islands that were not drawn yet."""
-        found = self._islands.newest
+        found = self._islands.answer
         return found is not None and found.key != self._tinted
 
     def follow(self, curves: Curves, cuts: NDArray[np.int32], squares: NDArray[np.float64] | None) -> None:
@@ -190,7 +190,7 @@ class _ObjectPreview:
         self._rest = curves
         self._place_curves()
         self._count += 1
-        self._islands.want(self._count, cuts)
+        self._islands.ask(self._count, cuts)
 
     def repose(self) -> None:
         """Show all where modifiers bend the mesh to now, as in an animation."""
@@ -253,7 +253,7 @@ class _ObjectPreview:
     def draw(self, looks: Looks) -> None:
         """Draw in the view that Blender is drawing now."""
         eye = Eye(bpy.context.region_data, self.obj.matrix_world)
-        found = self._islands.newest
+        found = self._islands.answer
         if self._faces is None:
             self._faces = ColoredFaces(self._pose.points)
         if found is not None and found.key != self._tinted:

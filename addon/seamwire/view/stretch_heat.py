@@ -107,7 +107,7 @@ class StretchHeat(Layer):
             uvs = uv_map.read_uvs(obj)
         self._missing = uvs is None
         if uvs is not None:
-            found = self._islands.newest
+            found = self._islands.answer
             self._stretch.update(uvs, None if found is None else found.labels)
         self._revision += 1
 
@@ -119,7 +119,7 @@ class StretchHeat(Layer):
 
     def summary(self) -> _Summary | None:
         """Return what there is to say of the islands; None where that is not known yet."""
-        found = self._islands.newest
+        found = self._islands.answer
         if not self.shown or found is None or not found.count:
             return None
         key = (found.key, self._revision)
