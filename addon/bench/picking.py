@@ -21,6 +21,7 @@ from seamwire.core.base.mesh_arrays import Arrays
 from seamwire.core.network.wires import Wire
 from seamwire.core.picking.camera import Camera
 from seamwire.core.picking.picker import Picker
+from seamwire.terms.options import Options
 
 SIDES = (317, 513, 1025)
 """Vertices along a side: a hundred thousand, a quarter of a million and a million quads."""
@@ -37,6 +38,12 @@ class ShownSession:
     placed: tuple[int, ...]
     wires: tuple[Wire, ...]
     under_way: SimpleNamespace = field(default_factory=lambda: SimpleNamespace(moved=()))
+    options: Options = field(default_factory=Options)
+
+    @property
+    def network(self) -> tuple[object, ...]:
+        """The seeds and wires."""
+        return self.placed, self.wires
 
     def seeds(self) -> list[int]:
         """Return the seeds."""

@@ -11,6 +11,7 @@
 - Drawing: `Eye`, `Lines`, `ColoredFaces` and what they need, legends, and colors for numbers.
 """
 
+# ruff: noqa: F401 - the names are for another add-on
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
@@ -33,41 +34,6 @@ from .view.theme import Color, Style
 
 if TYPE_CHECKING:
     from .view.layers import LayerMaker
-
-__all__ = [
-    "Arrays",
-    "Color",
-    "ColorMap",
-    "ColoredFaces",
-    "Eye",
-    "Layer",
-    "Legend",
-    "Lines",
-    "Newest",
-    "Options",
-    "Pose",
-    "Style",
-    "Within",
-    "add_layer",
-    "auto_for",
-    "blended",
-    "colors",
-    "draw_legends",
-    "draw_over",
-    "edit_bmesh",
-    "free_room",
-    "kinds_of",
-    "load",
-    "read",
-    "read_evaluated",
-    "remove_layer",
-    "settings",
-    "snapshot",
-    "steps",
-    "strength_name",
-    "tell_listeners",
-    "whole",
-]
 
 
 def add_layer(make: LayerMaker) -> None:

@@ -210,9 +210,8 @@ class Views:
 
     def _invalid_faces(self, invalid: fields.Invalid) -> ColoredFaces:
         faces = self._tool.ColoredFaces(self._pose.points)
-        for color, numbers in enumerate((invalid.split, invalid.repaired, invalid.left)):
-            if len(numbers):
-                faces.add(color, self._arrays.triangles[numbers])
+        kinds = (invalid.split, invalid.repaired, invalid.left)
+        faces.fill((color, self._arrays.triangles[numbers]) for color, numbers in enumerate(kinds))
         return faces
 
     # Legends

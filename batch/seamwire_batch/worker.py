@@ -317,7 +317,7 @@ class Run:
         from seamwire.core.seams.seam_plan import stretch_of
         from seamwire.mesh import uv_map
         from seamwire.mesh.seam_islands import mapped
-        from seamwire.words.maps import in_words, not_reached, percent
+        from seamwire.words.reports import in_words, not_reached, percent
 
         surface = mapped(obj)
         if surface is None:

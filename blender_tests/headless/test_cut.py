@@ -547,7 +547,7 @@ def test_the_tool_tells_of_a_wire_that_is_not_cut() -> None:
     wires[0] = replace(wires[0], points=wires[0].points * 3.0)
     mesh.session.queue.adopt(replace(before, wires=tuple(wires)), mesh.plain_seams)
     _, done = finishes.apply(mesh, Change(before, mesh.session.network))
-    assert (done.cut, done.left_out, done.problem) == (1, 1, "")
+    assert (done.cut.wires, done.cut.left_out, done.problem) == (1, 1, "")
     assert 79 in joined(obj, 64) and 16 in joined(obj, 0), "the other stays snapped"
 
 
@@ -562,7 +562,7 @@ def test_a_wire_that_leaves_the_mesh_where_a_cut_was_taken_back_is_kept(monkeypa
 
     monkeypatch.setattr(finishes, "_placed", astray)
     _, done = finishes.apply(mesh, change)
-    assert (done.cut, done.left_out, done.problem) == (1, 1, "")
+    assert (done.cut.wires, done.cut.left_out, done.problem) == (1, 1, "")
     kept = session_on(obj).session.wires
     assert sorted((wire.along, wire.start, wire.end) for wire in kept) == [("EDGES", 8, 36), ("SURFACE", 64, 79)]
     assert 79 in joined(obj, 64), "it is snapped to edges"
@@ -589,7 +589,7 @@ def test_a_cut_that_ends_after_another_was_taken_back_says_so(failing: str, monk
     if failing == "finder":
         monkeypatch.setattr(finishes, "_placed", refuse_place)
     _, done = finishes.apply(mesh, change)
-    assert (done.cut, done.problem) == (0, "too far away. The old cut was removed: undo restores it")
+    assert (done.cut, done.problem) == (None, "too far away. The old cut was removed: undo restores it")
     kept = sorted((wire.along, wire.start, wire.end) for wire in session_on(obj).session.wires)
     assert kept == ([] if failing == "finder" else [("SURFACE", 8, 36), ("SURFACE", 64, 79)])
     assert agree(obj)

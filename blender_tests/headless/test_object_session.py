@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 from mathutils import Matrix
 from scene import add_grid, add_layers, chain, changing, edit, fail, mark_wires, seams, set_seams, snapshot
+from seamwire.core.network.network import Snap
 from seamwire.core.solver.solver import LiveMaker
 from seamwire.mesh import edit_mesh
 from seamwire.mesh.object_session import ObjectSession
@@ -291,6 +292,42 @@ def test_it_does_not_go_on_with_another_shape(grid: bpy.types.Object) -> None:
     assert not mesh.refresh(grid)
     assert mesh.follow_change(grid, mesh.session.network) is None
     assert session_on(grid).refresh(grid)
+
+
+@pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
+def test_after_a_scripts_undo_moved_split_and_removed_wires_stay_so(grid: bpy.types.Object, along: str) -> None:
+    mesh = session_on(grid)
+    session = mesh.session
+    session.follow(replace(session.options, along=along))
+    draw(mesh, 36, 40)
+    draw(mesh, 63, 71)
+    draw(mesh, 72, 76)
+    assert session.draw_stroke(vertices=[20, 24], attracts=True, acts_on="both")
+    write(mesh)
+    before = session.network
+    moved, split, removed = before.wires
+    for grip, place in ((40, 49), (67, 58)):
+        assert session.drag(Snap(grip, "WIRE", split) if grip == 67 else grip)
+        session.cursor.drag_to(place)
+        session.queue.wait()
+        session.queue.drag_end()
+        session.queue.wait()
+    session.drop(removed)
+    session.erase(before.strokes[0])
+    done = sorted(wire.vertices for wire in session.wires)
+    assert len(done) == 3
+    # As after a script's undo, the mesh has other wires than before the chain.
+    again = session_on(grid)
+    draw(again, 0, 4)
+    found = mesh.follow_change(grid, before)
+    assert found is not None
+    assert found is not before
+    assert sorted(wire.vertices for wire in session.wires) == sorted([*done, (0, 1, 2, 3, 4)])
+    assert {wire.id for wire in session.wires} >= {wire.id for wire in found.wires if wire.vertices == moved.vertices}
+    assert session.network.strokes == ()
+    write(mesh)
+    assert agree(grid)
+    assert not set(chain(*range(72, 77))) & set(seams(grid))
 
 
 def test_it_tells_when_its_mesh_is_gone(grid: bpy.types.Object) -> None:

@@ -4,7 +4,6 @@
 import math
 import re
 from collections.abc import Callable
-from dataclasses import replace
 
 import bmesh
 import bpy
@@ -16,7 +15,7 @@ from scene import add_grid, add_object, add_scan, add_suzanne, changing, edit, m
 from seamwire.core.base import native
 from seamwire.core.islands.islands import IslandMaker
 from seamwire.core.seams.gaps import Gap, GapFinder
-from seamwire.core.seams.seam_plan import PartEdits, PlanRequest, edits_text, energy_of, stretch_of
+from seamwire.core.seams.seam_plan import PartEdits, edits_text, energy_of, stretch_of
 from seamwire.mesh import edit_mesh, seam_islands, seam_search, uv_map
 from seamwire.mesh.object_session import ObjectSession
 from seamwire.view.object_view import ShownIslands
@@ -311,8 +310,8 @@ def test_what_the_report_says_of_the_limit_is_true_of_the_map_and_not_of_the_pla
 ) -> None:
     plan = seam_search.Suggestion.plan
 
-    def looser(self: seam_search.Suggestion, request: PlanRequest, *arguments: object, **options: object) -> None:
-        plan(self, replace(request, distortion=energy_of(0.6)), *arguments, **options)
+    def looser(self: seam_search.Suggestion, _energy: float, *arguments: object) -> None:
+        plan(self, energy_of(0.6), *arguments)
         self.best = Unreached(self.best)
 
     monkeypatch.setattr(seam_search.Suggestion, "plan", looser)

@@ -329,6 +329,21 @@ def test_a_seam_that_a_script_marks_leaves_the_second_chain_as_it_is(desk: Desk)
     assert seams(desk.obj) == sorted([*chain(*range(5)), *ROW, (79, 80)])
 
 
+def test_x_removes_a_stroke_that_waits(desk: Desk, slow: Slow) -> None:
+    session = click_ahead(desk, slow)
+    stroke(desk)
+    assert session.under_way.waiting == 2
+    assert session.network.strokes == ()
+    desk.ui.move(desk.at(12))
+    desk.ui.key("X")
+    assert desk.running
+    assert session.under_way.waiting == 0
+    assert session.network.strokes == ()
+    assert session.picture.strokes == ()
+    end(desk)
+    assert seams(desk.obj) == LONG_ROW
+
+
 @pytest.fixture
 def halves(ui: driver.Ui) -> Iterator[driver.Ui]:
     """Two grids beside each other, both edited, with the tool."""

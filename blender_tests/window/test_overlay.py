@@ -6,6 +6,7 @@ The sessions are made by hand: what they say is known, and the drawing of it is 
 
 from __future__ import annotations
 
+import weakref
 from collections.abc import Iterator
 from dataclasses import dataclass, fields, replace
 from itertools import pairwise
@@ -29,7 +30,7 @@ from seamwire.mesh.pose import Pose
 from seamwire.terms.options import Options
 from seamwire.view.object_view import ShownIslands
 from seamwire.view.overlay import Overlay
-from seamwire.view.theme import Looks, Style
+from seamwire.view.theme import Looks, Style, looks_of
 
 pytestmark = pytest.mark.oldest_and_newest
 
@@ -537,7 +538,24 @@ def test_styles_are_told_apart_by_more_than_their_hue() -> None:
     styles: list[Style] = [looks.active, looks.other, looks.kept, looks.clear, looks.mirrored, looks.loop]
     told = {(round(sum(style.color[:3]), 1), style.width, style.dash) for style in styles}
     assert len(told) == len(styles)
-    assert Looks(preferences=SimpleNamespace(line_width=2.0)).active.width == 2.0 * looks.active.width
+    assert Looks(line_width=2.0).active.width == 2.0 * looks.active.width
+
+
+def test_styles_are_made_anew_only_if_the_theme_or_the_preferences_change() -> None:
+    theme = bpy.context.preferences.themes[0].view_3d
+    preferences = SimpleNamespace(line_width=2.0, tint=0.3, text="NONE")
+    looks = looks_of(theme, preferences)
+    assert looks_of(theme, preferences) is looks
+    assert (looks.tint, looks.text) == (0.3, "NONE")
+    preferences.line_width = 1.0
+    assert looks_of(theme, preferences).active.width == 0.5 * looks.active.width
+
+
+def test_a_picture_is_freed_when_another_one_is_drawn(sight: Sight) -> None:
+    sight.pixels(wires=(sight.wire(*range(36, 45)),), active=sight.wire(*range(4, 77, 9)))
+    first = weakref.ref(sight.session.picture)
+    sight.pixels(active=sight.wire(*range(3, 76, 9)))
+    assert first() is None
 
 
 def test_the_overlay_follows_the_object(sight: Sight) -> None:

@@ -160,7 +160,7 @@ def test_if_a_part_cannot_be_registered_nothing_is(ui: driver.Ui, monkeypatch: p
 def test_the_users_keys_are_the_add_ons_in_the_same_order(ui: driver.Ui) -> None:
     ui.wait()
     of_user, defaults = bindings.of_user(bpy.context.window_manager), Bindings()
-    assert of_user.rows() == defaults.rows()
+    assert of_user.groups() == defaults.groups()
     for action in Action:
         assert of_user.keys_of(action) == defaults.keys_of(action), action
         assert of_user.icon(action) == defaults.icon(action), action

@@ -104,7 +104,12 @@ class Waiting:
         self._go_on = threading.Event()
 
     def plan(
-        self, suggestion: Suggestion, request: object, progress: Callable[[float], bool], **options: object
+        self,
+        suggestion: Suggestion,
+        energy: float,
+        islands: int,
+        progress: Callable[[float], bool],
+        is_enough: Callable[[], bool],
     ) -> None:
         """Plan as a suggestion does, and wait in between."""
 
@@ -112,11 +117,11 @@ class Waiting:
             best = suggestion.best_so_far
             if best is not None and not self.found:
                 self.found.append(best)
-                while not self._go_on.wait(0.02) and progress(fraction) and not options["is_enough"]():
+                while not self._go_on.wait(0.02) and progress(fraction) and not is_enough():
                     pass
             return progress(fraction)
 
-        PLAN(suggestion, request, wait, **options)
+        PLAN(suggestion, energy, islands, wait, is_enough)
 
     def end(self) -> None:
         """Let it go on."""
@@ -131,10 +136,7 @@ def waiting(monkeypatch: pytest.MonkeyPatch) -> Iterator[Waiting]:
     """Planners that find one plan, and wait."""
     made = Waiting()
 
-    def plan(suggestion: Suggestion, request: object, progress: Callable[[float], bool], **options: object) -> None:
-        made.plan(suggestion, request, progress, **options)
-
-    monkeypatch.setattr(Suggestion, "plan", plan)
+    monkeypatch.setattr(Suggestion, "plan", lambda suggestion, *given: made.plan(suggestion, *given))
     yield made
     made.end()
 

@@ -47,10 +47,8 @@ class Finished:
     ----------
     reports
         What each of `FINISHERS` has done.
-    cut, edges, uncut
-        How many wires were cut into the faces, how many edges they run along, and how many faces could not be cut.
-    left_out
-        How many wires and mirror images were not cut, because they do not run over the mesh.
+    cut
+        The cut into the faces; None: nothing was cut.
     problem
         Why nothing was cut.
     taken_back
@@ -58,10 +56,7 @@ class Finished:
     """
 
     reports: tuple[str, ...] = ()
-    cut: int = 0
-    edges: int = 0
-    uncut: int = 0
-    left_out: int = 0
+    cut: Cut | None = None
     problem: str = ""
     taken_back: int = 0
 
@@ -69,12 +64,11 @@ class Finished:
     def text(self) -> str:
         """The report; an empty text if nothing was done."""
         parts = list(self.reports)
-        if self.cut:
-            parts.append(f"{count(self.cut, 'wire')} cut, {count(self.edges, 'edge')} marked")
-        if self.uncut:
-            parts.append(gaps(self.uncut))
-        if self.left_out:
-            parts.append(left_out(self.left_out))
+        if self.cut is not None:
+            if self.cut.wires:
+                parts.append(f"{count(self.cut.wires, 'wire')} cut, {count(len(self.cut.edges), 'edge')} marked")
+            parts += [gaps(self.cut.uncut)] if self.cut.uncut else []
+            parts += [left_out(self.cut.left_out)] if self.cut.left_out else []
         if self.problem:
             parts.append(f"not cut: {self.problem}")
         if self.taken_back:
@@ -108,7 +102,7 @@ def apply(mesh: ObjectSession, change: Change) -> tuple[ObjectSession | None, Fi
         mesh, done = cut(mesh, plan_cut(mesh, cuts), cuts, kept=True, before=change.before)
     except CutError as error:
         return mesh, replace(finished, problem=str(error))
-    return mesh, replace(finished, cut=done.wires, edges=len(done.edges), uncut=done.uncut, left_out=done.left_out)
+    return mesh, replace(finished, cut=done)
 
 
 def slide(mesh: ObjectSession, wires: Collection[Wire]) -> tuple[ObjectSession, int]:

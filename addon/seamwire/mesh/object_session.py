@@ -13,6 +13,7 @@ import bpy
 import numpy as np
 
 from ..core.base import native
+from ..core.drawing.change import Change
 from ..core.drawing.drawing import Drawing
 from ..core.drawing.session import Session
 from ..core.network.network import edges_after
@@ -132,7 +133,7 @@ class ObjectSession:
         self._damaged = False
         self._renumbered = False
         self._unstored = False
-        self._adopt(self.cage.labels())
+        self._adopt(self.cage.labels(), self.arrays.seams)
 
     # Symmetry
 
@@ -213,9 +214,8 @@ class ObjectSession:
         self._renumbered = False
         labels = self.cage.labels()
         same = labels.same_as(self._labels) and np.array_equal(arrays.seams, self.arrays.seams)
-        self.arrays = replace(self.arrays, seams=arrays.seams)
         if not same:
-            self._adopt(labels)
+            self._adopt(labels, arrays.seams)
         elif self._found.known:
             self._store()
         session = self.session
@@ -223,12 +223,11 @@ class ObjectSession:
         return True
 
     def follow_change(self, obj: bpy.types.Object, before: Network) -> Network | None:
-        """Read the object's mesh again while wires are drawn, and keep the wires that were drawn since.
+        """Read the object's mesh again while wires are drawn, and keep what was done since.
 
-        `before` is the network that the mesh has; wires that it does not have were drawn since. Returns `before`, or the other network
-        that the mesh has now if Blender's undo has changed its wires. Then changes of earlier wires are lost. Returns None where wires
-        would run on it in another way, or it has left edit mode. They can be written even then, as far as vertices have the numbers that
-        they had.
+        `before` is the network that the mesh has; what differs from it was drawn or changed since. Returns `before`, or the other network
+        that the mesh has now if Blender's undo has changed its wires. Returns None where wires would run on it in another way, or it has
+        left edit mode. They can be written even then, as far as vertices have the numbers that they had.
         """
         self.obj = obj
         editing = obj.mode == "EDIT"
@@ -247,24 +246,20 @@ class ObjectSession:
             self._set_seams(arrays.seams, self._labels)
             return before
         self.session.end_chain()
-        drawn = self.session.network
-        self.arrays = replace(self.arrays, seams=arrays.seams)
-        self._adopt(self._labels)
-        found, ids = self.session.network, {wire.id for wire in before.wires}
-        self.add(
-            (wire for wire in drawn.wires if wire.id not in ids),
-            (stroke for stroke in drawn.strokes if stroke not in before.strokes),
-        )
+        change = Change(before, self.session.network)
+        self._adopt(self._labels, arrays.seams)
+        found = self.session.network
+        self.session.queue.adopt(change.on(found), self.plain_seams)
         return found
 
-    def _adopt(self, labels: EdgeLabels) -> None:
-        """Go on with the network that labels tell of."""
+    def _adopt(self, labels: EdgeLabels, seams: NDArray[np.int32]) -> None:
+        """Go on with the network that labels tell of, and the seams of the mesh."""
         self._learn(labels)
         self._labels = labels
         self._found = Found() if self._newer else wire_labels.read(labels, self._archive, self.places)
         network = self._found.network
         strokes = tuple(on_mesh(one, self.arrays.points, self.arrays.triangles) for one in network.strokes)
-        self._set_seams(self.arrays.seams, labels)
+        self._set_seams(seams, labels)
         self.session.queue.adopt(replace(network, strokes=strokes), self.plain_seams)
         if not self._damaged:
             self._store()

@@ -21,7 +21,6 @@ from ..core.network.picks import undirected
 from ..core.seams.seam_plan import (
     CRUMB,
     PartEdits,
-    PlanRequest,
     border_wires,
     curves_length,
     cut_edges,
@@ -249,10 +248,19 @@ class Suggestion:
         weights = stroke_weights(arrays.points, arrays.edges, strokes)
         return weights if self._within is None else weights * keep_out(arrays.triangles, self._within, len(weights))
 
-    def plan(self, request: PlanRequest, progress: Progress, is_enough: Callable[[], bool] = lambda: False) -> None:
+    def plan(self, energy: float, islands: int, progress: Progress, is_enough: Callable[[], bool]) -> None:
         """Find wires in the chosen parts, better and better ones; any thread may.
 
-        `progress` is that of `measure`. Once it `is_enough`, go on with the best plan so far; the first one is waited for.
+        Parameters
+        ----------
+        energy
+            The largest symmetric Dirichlet energy of the map.
+        islands
+            The least number of islands among those that are planned.
+        progress
+            That of `measure`.
+        is_enough
+            Whether to go on with the best plan so far. The first one is waited for.
         """
         # Other parts may be chosen meanwhile, which drops the planner.
         self._planner = planner = self._core.SeamPlanner(
@@ -272,7 +280,7 @@ class Suggestion:
             return progress(_MEASURING + (1.0 - _MEASURING) * done) and not (is_enough() and is_found)
 
         try:
-            found = planner.plan(distortion=request.distortion, islands=request.islands + self.others, progress=go_on)
+            found = planner.plan(distortion=energy, islands=islands + self.others, progress=go_on)
         except self._core.Cancelled:
             found = self._useful(planner.best_so_far)
             if found is None or not is_enough():
@@ -280,7 +288,7 @@ class Suggestion:
         if self._planner is not planner:
             return  # the plan is for other parts
         from_object = np.linalg.inv(self.mesh.arrays.to_object)
-        self.straight_cost = min(STRAIGHT_COST, max(0.0, request.distortion - found.energy))
+        self.straight_cost = min(STRAIGHT_COST, max(0.0, energy - found.energy))
         self.best, self.slits = found, planned_wires(found, self.along, STRENGTHS[self.along], from_object)
 
     def lay_out(self, progress: Progress) -> None:
@@ -455,9 +463,9 @@ class SeamSearch:
 
         `progress` is that of `measure`. Once it `is_enough`, go on with the best plans so far; the first plan of each mesh is waited for.
         """
-        request = PlanRequest(energy_of(0.01 * self._options.stretch), self._options.islands)
+        energy = energy_of(0.01 * self._options.stretch)
         for suggestion, share in self._shares(progress):
-            suggestion.plan(request, share, is_enough=is_enough)
+            suggestion.plan(energy, self._options.islands, share, is_enough)
 
     def lay_out(self, progress: Progress) -> None:
         """Find how the islands of the plans will lie in the UV map; any thread may. `progress` is that of `measure`."""

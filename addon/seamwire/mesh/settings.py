@@ -34,10 +34,6 @@ listeners: list[Callable[[], None]] = []
 """Functions to call when a setting has changed, so that the drawing follows at once."""
 
 
-def _changed(_settings: bpy.types.PropertyGroup, _context: bpy.types.Context) -> None:
-    tell_listeners()
-
-
 def tell_listeners() -> None:
     """Let the drawing follow the settings, and draw all 3D views anew."""
     for listener in tuple(listeners):
@@ -52,7 +48,7 @@ def _property(name: str, setting: Setting) -> object:
         "name": setting.name,
         "description": setting.tooltip,
         "default": default,
-        "update": _changed,
+        "update": lambda _settings, _context: tell_listeners(),
         **setting.others,
     }
     if setting.choices is not None:
@@ -89,7 +85,9 @@ def snapshot(settings: SeamwireSettings, mesh: bpy.types.Mesh | None = None, aut
 
     Wires are mirrored over the axes that a mesh says, or over none without a mesh. `auto` has the values that Auto stands for there.
     """
-    values = {name: _exact(getattr(settings, name)) for name in SETTINGS}
+    values = {name: getattr(settings, name) for name in SETTINGS}
+    # Blender's properties have single precision, which adds digits to a number.
+    values = {name: float(f"{value:.7g}") if isinstance(value, float) else value for name, value in values.items()}
     for name, best in auto._asdict().items():
         if values[name] == "AUTO":
             values[name] = best
@@ -99,11 +97,6 @@ def snapshot(settings: SeamwireSettings, mesh: bpy.types.Mesh | None = None, aut
 def mirror_axes(mesh: bpy.types.Mesh) -> tuple[int, ...]:
     """Return the axes over which Blender mirrors what is done to a mesh."""
     return tuple(axis for axis, name in enumerate("xyz") if getattr(mesh, f"use_mirror_{name}"))
-
-
-def _exact(value: object) -> object:
-    """Return a value without the digits that single precision, which Blender's properties have, adds to it."""
-    return float(f"{value:.7g}") if isinstance(value, float) else value
 
 
 def preferences(context: bpy.types.Context | None = None) -> bpy.types.AddonPreferences:

@@ -26,19 +26,19 @@ def key_of(item: bpy.types.KeyMapItem) -> Key:
     return Key(item.type, item.value, *(int(getattr(item, name)) for name in ("ctrl", "shift", "alt", "oskey")))
 
 
-def user_keymap(manager: bpy.types.WindowManager) -> bpy.types.KeyMap | None:
-    """Return the keymap of a chain's keys with the user's changes; None where there are no keymaps."""
+def user_keymap(manager: bpy.types.WindowManager, name: str = NAME) -> bpy.types.KeyMap | None:
+    """Return a keymap with the user's changes, that of a chain's keys by default; None where there are no keymaps."""
     configuration = manager.keyconfigs.user
-    return configuration.keymaps.get(NAME) if configuration is not None else None
+    return configuration.keymaps.get(name) if configuration is not None else None
 
 
-def items_of(keymap: bpy.types.KeyMap, idname: str) -> list[bpy.types.KeyMapItem]:
+def items_of(keymap: bpy.types.KeyMap | None, idname: str) -> list[bpy.types.KeyMapItem]:
     """Return a keymap's items of one operator, as the add-on has them: a chain's in the order of `KEYS`.
 
     Blender hands the items that add-ons added to the user's keymap on newest first. An action's keys that the user has
     changed come before its others.
     """
-    items = [item for item in reversed(keymap.keymap_items) if item.idname == idname]
+    items = [] if keymap is None else [item for item in reversed(keymap.keymap_items) if item.idname == idname]
     if idname != ACTION_OPERATOR:
         return items
     actions = [action.name for action, _ in KEYS]

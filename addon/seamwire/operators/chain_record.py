@@ -85,7 +85,6 @@ class ChainRecord:
         if found is None:
             return reason or "The mesh was changed"
         self._before = found
-        view.was_read()
         view.renew()
         return reason or ("" if found is known else "Undo has changed the wires of the mesh")
 
@@ -113,13 +112,13 @@ class ChainRecord:
             if view.session.drawing.failure:
                 self._notices.add("WARNING", str(view.session.drawing.failure))
                 view.session.drawing.failure = NOTHING
-        view, before = self.drawn_on, self._before
+        view = self.drawn_on
+        change = None if view is None else Change(self._before, view.session.network)
         title = undo_steps.EDIT if self._titles == {undo_steps.EDIT} else undo_steps.DRAW
         self._titles.clear()
-        if view is None or not (self._is_saved or Change(before, view.session.network)):
+        if view is None or change is None or not (self._is_saved or change):
             self.drawn_on = None
             return
-        change = Change(before, view.session.network)
         try:
             marked, cleared = view.mesh.write(view.mesh.plan())
         except ValueError:
@@ -129,7 +128,7 @@ class ChainRecord:
             raise
         self.drawn_on, self._is_saved = None, False
         # The wires are in the mesh by now. Whatever fails, a step of undo must lead back.
-        self._try("drawing them", view, lambda: _renew(view))
+        self._try("drawing them", view, view.renew)
         done = self._try("finishing them", view, lambda: _apply(view, change)) or ""
         problem = ""
         if not at_once:
@@ -172,14 +171,7 @@ class ChainRecord:
 
 def _write(view: ObjectView, adopt: bool) -> None:
     view.mesh.write(view.mesh.plan(), adopt)
-    _renew(view)
-
-
-def _renew(view: ObjectView) -> None:
-    """Let a view show the mesh with its wires."""
-    if view.mesh.alive():
-        view.renew()
-        view.was_read()
+    view.renew()
 
 
 def _apply(view: ObjectView, change: Change) -> str:

@@ -67,7 +67,7 @@ def is_harmless(event: bpy.types.Event, manager: bpy.types.WindowManager) -> boo
 
 def right_click_cancels(manager: bpy.types.WindowManager) -> bool:
     """Return whether a right click cancels what runs. It does not if the user's keymap selects or moves the view with it."""
-    keymap = manager.keyconfigs.user.keymaps.get("3D View") if manager.keyconfigs.user is not None else None
+    keymap = bindings.user_keymap(manager, "3D View")
     return keymap is None or not any(
         item.active
         and item.type == "RIGHTMOUSE"
@@ -80,9 +80,8 @@ def right_click_cancels(manager: bpy.types.WindowManager) -> bool:
 def _item_for(event: bpy.types.Event, manager: bpy.types.WindowManager) -> bpy.types.KeyMapItem | None:
     if event.value not in {"PRESS", "CLICK", "DOUBLE_CLICK", "CLICK_DRAG", "ANY"} or event.type.startswith("TIMER"):
         return None
-    configuration = manager.keyconfigs.user
     for name in _KEYMAPS:
-        keymap = configuration.keymaps.get(name) if configuration is not None else None
+        keymap = bindings.user_keymap(manager, name)
         item = keymap.keymap_items.match_event(event) if keymap is not None else None
         if item is not None and item.active:
             return item
@@ -107,8 +106,7 @@ def takes(key: Key, context: bpy.types.Context) -> bool:
         by_command = getattr(inputs, "mouse_emulate_3_button_modifier", "ALT") == "OSKEY"
         if (key.oskey if by_command else key.alt) == 1:
             return True
-    configuration = context.window_manager.keyconfigs.user
-    keymap = configuration.keymaps.get("3D View") if configuration is not None else None
+    keymap = bindings.user_keymap(context.window_manager, "3D View")
     return keymap is not None and any(
         item.active
         and item.idname.startswith(_NAVIGATION)

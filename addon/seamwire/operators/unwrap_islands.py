@@ -6,8 +6,8 @@ from __future__ import annotations
 import bpy
 
 from ..mesh.settings import settings
-from ..words.maps import in_words
 from ..words.names import count
+from ..words.reports import in_words
 from .edit_mesh_operator import EditMeshOperator
 
 

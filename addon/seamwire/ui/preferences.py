@@ -66,15 +66,14 @@ class SeamwirePreferences(bpy.types.AddonPreferences):
 
 def draw_keys(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
     """Show the keys, so that users can change them."""
-    configuration = context.window_manager.keyconfigs.user
     box = layout.box()
     box.label(text="Keys of the Tool", icon="MOUSE_LMB")
-    keys = configuration.keymaps.get(toolbar.KEYMAP) if configuration is not None else None
-    for item in bindings.items_of(keys, toolbar.OPERATOR) if keys is not None else ():
-        _draw_key(box, keys, item, item.properties.bl_rna.properties["first"].enum_items[item.properties.first].name)
-    for item in bindings.items_of(keys, select_islands.OPERATOR) if keys is not None else ():
-        _draw_key(box, keys, item, item.properties.bl_rna.properties["which"].enum_items[item.properties.which].name)
-    for item in bindings.items_of(keys, "wm.call_panel") if keys is not None else ():
+    keys = bindings.user_keymap(context.window_manager, toolbar.KEYMAP)
+    for operator, name in ((toolbar.OPERATOR, "first"), (select_islands.OPERATOR, "which")):
+        for item in bindings.items_of(keys, operator):
+            given = item.properties
+            _draw_key(box, keys, item, given.bl_rna.properties[name].enum_items[getattr(given, name)].name)
+    for item in bindings.items_of(keys, "wm.call_panel"):
         _draw_key(box, keys, item, Action.KEYS.text)
     keys = bindings.user_keymap(context.window_manager)
     if keys is None:

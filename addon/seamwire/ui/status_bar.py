@@ -31,11 +31,12 @@ def status_of(chain: Chain) -> Status:
     return Status(chain.session.picture, chain.keys, chain.notices.hint, axes)
 
 
-def status_drawer(status: Status) -> Callable[[bpy.types.Header, bpy.types.Context], None]:
+def status_drawer(chain: Chain) -> Callable[[bpy.types.Header, bpy.types.Context], None]:
     """Return a function that draws the hints for a chain in the status bar.
 
     It is a plain function, because Blender makes it a method of its header class and crashes on a bound method.
     """
+    status = status_of(chain)
 
     def draw(header: bpy.types.Header, _context: bpy.types.Context) -> None:
         _draw_hints(header, hints(status))
@@ -51,11 +52,8 @@ def draw_idle(header: bpy.types.Header, context: bpy.types.Context) -> None:
 
 def tool_keys(manager: bpy.types.WindowManager) -> dict[str, bindings.Key]:
     """Return the keys of the tool as the user has set them, by the names of what they begin with."""
-    configuration = manager.keyconfigs.user
-    keymap = configuration.keymaps.get(toolbar.KEYMAP) if configuration is not None else None
-    items = bindings.items_of(keymap, toolbar.OPERATOR) if keymap is not None else []
     found: dict[str, bindings.Key] = {}
-    for item in items:
+    for item in bindings.items_of(bindings.user_keymap(manager, toolbar.KEYMAP), toolbar.OPERATOR):
         if item.active:
             found.setdefault(item.properties.first, bindings.key_of(item))
     return found
@@ -72,13 +70,9 @@ def _draw_hints(header: bpy.types.Header, shown: Iterable[Hint]) -> None:
         row.label(text=text, icon=icon)
 
 
-def _drawer_of(chain: Chain) -> Callable[[bpy.types.Header, bpy.types.Context], None]:
-    return status_drawer(status_of(chain))
-
-
 def register() -> None:
     """Add the hints."""
-    status_makers.append(_drawer_of)
+    status_makers.append(status_drawer)
     STATUSBAR_HT_header.prepend(draw_idle)
     if hasattr(STATUSBAR_HT_header, "_draw_orig"):
         # An add-on has shown its own status before. Blender goes back to this function after each such status.
@@ -91,4 +85,4 @@ def unregister() -> None:
     draw = getattr(STATUSBAR_HT_header, "_draw_orig", STATUSBAR_HT_header.draw)
     if draw_idle in draw._draw_funcs:
         draw._draw_funcs.remove(draw_idle)
-    status_makers.remove(_drawer_of)
+    status_makers.remove(status_drawer)

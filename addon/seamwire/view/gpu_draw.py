@@ -17,7 +17,7 @@ from .theme import HALO, Color, Style
 from .viewport import clipping_planes
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Sequence
 
     from numpy.typing import NDArray
 
@@ -320,14 +320,9 @@ class ColoredFaces:
         self._pieces: list[tuple[int, NDArray[np.integer]]] = []
         self._within = Within(self._make)
 
-    def clear(self) -> None:
-        """Forget the triangles, not the vertices."""
-        self._pieces = []
-        self._within.clear()
-
-    def add(self, color: int, triangles: NDArray[np.integer]) -> None:
-        """Add triangles, (k, 3), in the color of a number."""
-        self._pieces.append((color, triangles))
+    def fill(self, pieces: Iterable[tuple[int, NDArray[np.integer]]]) -> None:
+        """Draw other triangles from here on: pairs of the number of a color and triangles, (k, 3)."""
+        self._pieces = list(pieces)
         self._within.clear()
 
     def _make(self, eye: Eye) -> list[tuple[int, gpu.types.GPUBatch]]:

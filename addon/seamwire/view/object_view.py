@@ -76,7 +76,7 @@ class ShownIslands:
     @property
     def newest(self) -> Islands | None:
         """The islands that were computed last. None if computing them failed."""
-        return None if self._failed else self._maker.newest
+        return None if self._failed else self._maker.answer
 
     @property
     def busy(self) -> bool:
@@ -130,7 +130,7 @@ class ShownIslands:
             # A chain that ends turns cuts of wires into seams: the islands stay the same.
             if self._cuts is None or meant != self._meant or not np.array_equal(wanted, self._cuts):
                 self._cuts, self._meant = wanted, meant
-                self._maker.want(self._asked, wanted, meant)
+                self._maker.ask(self._asked, wanted, meant)
 
 
 _BYTES_A_TRIANGLE = 1_150
@@ -248,7 +248,6 @@ class ObjectView:
         if not self.mesh.refresh(obj):
             return False
         self.mesh.follow(chosen.settings())  # it does not follow them outside Edit Mode
-        self.was_read()
         self.renew()
         return True
 
@@ -259,7 +258,10 @@ class ObjectView:
         self.stale = False
 
     def renew(self) -> None:
-        """Let picker and overlay follow the mesh that was read, or written."""
+        """Let picker and overlay follow the mesh that was read, or written. Outside Edit Mode they have nothing to follow."""
+        if not self.mesh.alive():
+            return
+        self.was_read()
         self.has_moved()
         self._follow_picker().set_seams(self.mesh.plain_seams)
         self.overlay.renew(self.obj)
@@ -418,9 +420,9 @@ class ObjectView:
         return any(self._follow_picker().surface_at(view, matrix, cursor) is not None for matrix in flipped)
 
     def stroke_at(self, view: Camera, cursor: tuple[float, float]) -> Stroke | None:
-        """Return the stroke under the cursor."""
+        """Return the stroke under the cursor, which may still wait."""
         scale = bpy.context.preferences.system.ui_scale
-        matrix, strokes = self.obj.matrix_world, self.session.network.strokes
+        matrix, strokes = self.obj.matrix_world, self.session.picture.strokes
         return self._follow_picker().stroke_at(strokes, view, matrix, cursor, xray=self.options.xray, scale=scale)
 
     def show(self, front: bool) -> bool:

@@ -18,7 +18,7 @@ from ..words.first_steps import FIRST_LINES
 from .failures import failures
 from .gpu_draw import ColoredFaces, Eye, Lines, blended, draw_dots, draw_text, set_text, text_size
 from .layers import draw_legends
-from .theme import Looks, Style, hue_colors
+from .theme import Looks, Style, hue_colors, looks_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -105,7 +105,8 @@ class Overlay:
         self._layers = layers
         self._to_object = Matrix(to_object.tolist()).to_4x4()
         self._looks = self._current_looks()
-        self._sheets: dict[str, tuple[object, _Sheet, object]] = {}
+        self._sheets: dict[str, tuple[object, _Sheet]] = {}
+        self._strokes: list[tuple[NDArray[np.float64], bool]] = []
         self._faces: ColoredFaces | None = None
         self._tinted: object = None
 
@@ -122,13 +123,13 @@ class Overlay:
     # Drawing
 
     def _current_looks(self) -> Looks:
-        return Looks(bpy.context.preferences.themes[0].view_3d, self._preferences)
+        return looks_of(bpy.context.preferences.themes[0].view_3d, self._preferences)
 
     def draw_in_scene(self) -> None:
         """Draw on the surface; to be called for each region, after the view."""
         picture = self._picture()
         looks = self._current_looks()
-        if looks != self._looks:
+        if looks is not self._looks:
             self._looks = looks
             self._sheets.clear()
         sheets = self._current_sheets(picture)
@@ -156,10 +157,8 @@ class Overlay:
         if self._faces is None:
             self._faces = ColoredFaces(self._pose.points)
         if found.key != self._tinted:
-            self._faces.clear()
             # Without a cut the parts of a mesh are no news, and tinting them would only change its colors.
-            for hue, triangles in found.pieces if found.cut else ():
-                self._faces.add(hue, triangles)
+            self._faces.fill(found.pieces if found.cut else ())
             self._tinted = found.key
         self._faces.draw_over(eye, hue_colors(self._looks.tint))
 
@@ -184,14 +183,16 @@ class Overlay:
         strokes = [(stroke.points, stroke.attracts) for stroke in picture.strokes]
         if picture.stroke is not None:
             strokes.append(picture.stroke)
+        bands = [(id(points), len(points), on) for points, on in strokes]
         islands, moved = picture.islands, tuple(wire.id for wire in picture.all(Role.MOVED))
-        return [
-            # The points themselves are kept with the sheet: their numbers alone could come again.
-            self._sheet("bands", [(id(points), len(points), on) for points, on in strokes], self._add_bands, strokes),
+        sheets = [
+            self._sheet("bands", bands, self._add_bands, strokes),
             self._sheet("gaps", None if islands is None else islands.key, self._add_gaps, islands),
             self._sheet("kept", (picture.network_revision, moved), self._add_kept, picture),
             self._sheet("live", picture.revision, self._add_live, picture),
         ]
+        self._strokes = strokes  # while their points are kept, no other points have the same id
+        return sheets
 
     def _sheet(self, name: str, key: object, add: Callable[[_Sheet, object], None], what: object) -> _Sheet:
         """Return a sheet, made anew if its key is another one."""
@@ -199,7 +200,7 @@ class Overlay:
             sheet = _Sheet(self._pose)
             add(sheet, what)
             sheet.finish()
-            self._sheets[name] = key, sheet, what
+            self._sheets[name] = key, sheet
         return self._sheets[name][1]
 
     def _add_bands(self, sheet: _Sheet, strokes: Iterable[tuple[NDArray[np.float64], bool]]) -> None:

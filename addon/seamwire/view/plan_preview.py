@@ -24,7 +24,7 @@ from ..mesh.pose import Pose
 from .edited_objects import edited
 from .failures import failures
 from .gpu_draw import ColoredFaces, Eye, Lines, Within, blended, draw_over, sees_through
-from .theme import Looks, hue_colors
+from .theme import Looks, hue_colors, looks_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -179,7 +179,7 @@ class _ObjectPreview:
     @property
     def is_new(self) -> bool:
         """Whether there are islands that were not drawn yet."""
-        found = self._islands.newest
+        found = self._islands.answer
         return found is not None and found.key != self._tinted
 
     def follow(self, curves: Curves, cuts: NDArray[np.int32], squares: NDArray[np.float64] | None) -> None:
@@ -190,7 +190,7 @@ class _ObjectPreview:
         self._rest = curves
         self._place_curves()
         self._count += 1
-        self._islands.want(self._count, cuts)
+        self._islands.ask(self._count, cuts)
 
     def repose(self) -> None:
         """Show all where modifiers bend the mesh to now, as in an animation."""
@@ -253,13 +253,11 @@ class _ObjectPreview:
     def draw(self, looks: Looks) -> None:
         """Draw in the view that Blender is drawing now."""
         eye = Eye(bpy.context.region_data, self.obj.matrix_world)
-        found = self._islands.newest
+        found = self._islands.answer
         if self._faces is None:
             self._faces = ColoredFaces(self._pose.points)
         if found is not None and found.key != self._tinted:
-            self._faces.clear()
-            for hue, triangles in found.pieces:
-                self._faces.add(hue, triangles)
+            self._faces.fill(found.pieces)
             self._tinted = found.key
         self._faces.draw_over(eye, hue_colors(max(looks.tint, _TINT)))
         if self._squares is not None:
@@ -361,7 +359,7 @@ class PlanPreview:
         context = bpy.context
         if not self._shown or not context.space_data.overlay.show_overlays:
             return
-        looks = Looks(context.preferences.themes[0].view_3d, chosen.preferences())
+        looks = looks_of(context.preferences.themes[0].view_3d, chosen.preferences())
         for name, shown in self._shown.items():
             with suppress(ReferenceError):  # the object may be gone
                 if shown.obj.visible_in_viewport_get(context.space_data):

@@ -107,7 +107,7 @@ class StretchHeat(Layer):
             uvs = uv_map.read_uvs(obj)
         self._missing = uvs is None
         if uvs is not None:
-            found = self._islands.newest
+            found = self._islands.answer
             self._stretch.update(uvs, None if found is None else found.labels)
         self._revision += 1
 
@@ -119,7 +119,7 @@ class StretchHeat(Layer):
 
     def summary(self) -> _Summary | None:
         """Return what there is to say of the islands; None where that is not known yet."""
-        found = self._islands.newest
+        found = self._islands.answer
         if not self.shown or found is None or not found.count:
             return None
         key = (found.key, self._revision)
@@ -157,11 +157,7 @@ class StretchHeat(Layer):
         steps = np.minimum(self.values * (_STEPS / HOT), _STEPS - 1).astype(np.uint8)
         order = np.argsort(steps, kind="stable")
         bounds = np.searchsorted(steps[order], np.arange(_STEPS + 1))
-        faces.clear()
-        for step in range(_STEPS):
-            rows = order[bounds[step] : bounds[step + 1]]
-            if len(rows):
-                faces.add(step, self._arrays.triangles[rows])
+        faces.fill((step, self._arrays.triangles[order[bounds[step] : bounds[step + 1]]]) for step in range(_STEPS))
 
     def _outline_of(self, summary: _Summary | None) -> gpu_draw.Lines | None:
         if summary is None or not summary.triangles.any():

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import colorsys
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -59,28 +60,27 @@ class Style:
 
 
 class Looks:
-    """The styles of all that the overlay draws, under a theme, as the preferences change them.
+    """The styles of all that the overlay draws.
 
     Parameters
     ----------
-    theme
-        Of the 3D view; without it the colors are those that fit Blender's default one.
-    preferences
-        The add-on's: whatever of ``line_width``, ``tint`` and ``text`` it has.
-
-    Attributes
-    ----------
+    kept
+        The color of kept wires.
+    line_width
+        How many times as wide lines are as usual.
     tint
         Opacity of islands.
     text
         Which text the view shows, as in the preferences.
     """
 
-    def __init__(self, theme: bpy.types.ThemeView3D | None = None, preferences: object | None = None) -> None:
-        kept = (1.0, 0.2, 0.1, 1.0)
-        if theme is not None:
-            # Blender 5 has shortened the name.
-            kept = vivid(tuple(theme.seam if hasattr(theme, "seam") else theme.edge_seam))
+    def __init__(
+        self,
+        kept: Color = (1.0, 0.2, 0.1, 1.0),
+        line_width: float = 1.0,
+        tint: float = 0.22,
+        text: str = "INFORMATION",
+    ) -> None:
         active, other, loop = (1.0, 0.72, 0.05, 1.0), (0.45, 0.8, 1.0, 0.9), (0.3, 1.0, 0.55, 1.0)
         clear, white = (0.82, 0.86, 0.95, 1.0), (1.0, 1.0, 1.0, 1.0)
         will_mark = tuple(0.75 * a + 0.25 * b for a, b in zip(kept, active, strict=True))
@@ -122,9 +122,8 @@ class Looks:
         self.gap = Style(faint(kept, 0.9), 2.5, halo=1.5, hidden=0.15, dash=4.0, lift=5.0)
         # Where it ends: larger than a seed, which is drawn over it.
         self.open_end = Style(kept, 14.0, halo=2.5, hidden=0.3, lift=9.0)
-        self.tint = float(getattr(preferences, "tint", 0.22))
-        self.text = getattr(preferences, "text", "INFORMATION")
-        self._widen(float(getattr(preferences, "line_width", 1.0)))
+        self.tint, self.text = tint, text
+        self._widen(line_width)
 
     def _widen(self, factor: float) -> None:
         """Make lines so many times as wide. Dots grow half as fast."""
@@ -134,10 +133,16 @@ class Looks:
                 by = 0.5 * (1.0 + factor) if name in dots or name.startswith("dot") else factor
                 setattr(self, name, replace(style, width=style.width * by))
 
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Looks) and vars(self) == vars(other)
 
-    __hash__ = None
+_looks = lru_cache(maxsize=2)(Looks)
+
+
+def looks_of(theme: bpy.types.ThemeView3D, preferences: object | None = None) -> Looks:
+    """Return the styles for the theme of the 3D view and the add-on's preferences, the same object until one of them changes."""
+    # Blender 5 has shortened the name.
+    kept = vivid(tuple(theme.seam if hasattr(theme, "seam") else theme.edge_seam))
+    names = ("line_width", "tint", "text")
+    return _looks(kept, **{name: getattr(preferences, name) for name in names if hasattr(preferences, name)})
 
 
 def faint(color: Color, opacity: float) -> Color:

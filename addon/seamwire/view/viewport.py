@@ -15,12 +15,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
-def view_of(region: bpy.types.Region, region_3d: bpy.types.RegionView3D) -> Camera:
-    """Return how a 3D region sees the world."""
-    perspective = np.array(region_3d.perspective_matrix, dtype=np.float64)
-    return Camera(region.width, region.height, perspective, clipping_planes(region_3d))
-
-
 def clipping_planes(region_3d: bpy.types.RegionView3D) -> NDArray[np.float64]:
     """Return the planes, (k, 4), of a view's clipping border (Alt+B); none where it is not clipped."""
     if not region_3d.use_clip_planes:
@@ -73,7 +67,9 @@ def place_of(window: bpy.types.Window, event: bpy.types.Event) -> Place | None:
 
 def place_in(area: bpy.types.Area, region: bpy.types.Region, location: tuple[int, int]) -> Place:
     """Return a pixel of a 3D view, counted from the bottom left of its region."""
-    view = view_of(region, _region_3d(area, region))
+    region_3d = _region_3d(area, region)
+    perspective = np.array(region_3d.perspective_matrix, dtype=np.float64)
+    view = Camera(region.width, region.height, perspective, clipping_planes(region_3d))
     x, y = location
     return Place(area, region, view, (x + 0.5, y + 0.5), region.x + x, region.y + y)
 

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The keys of a chain: one table of what each does, and what an event means by it."""
+"""The keys of a chain: one table of what each does, and what an event means by it.
+
+`KeyMapItems.match_event` cannot match these keys: Blender turns a double click into a press before it calls a modal operator.
+"""
 
 from __future__ import annotations
 
@@ -232,12 +235,8 @@ class Bindings:
         wheel = "Wheel" if key.type in WHEEL else ""
         return key.icon, f"{key.modifiers} {wheel}".strip()
 
-    def rows(self) -> list[tuple[str, str]]:
-        """Return each action with its keys, in words, for a table."""
-        return [(self.text(action), action.text) for action in Action if self.keys_of(action)]
-
     def groups(self) -> dict[str, list[tuple[str, str]]]:
-        """Return the rows of each group below its heading."""
+        """Return each action with its keys, in words, for a table with the headings of the groups."""
         found: dict[str, list[tuple[str, str]]] = {action.group: [] for action in Action}
         for action in Action:
             if self.keys_of(action):

@@ -3,7 +3,7 @@
 
 import pytest
 from seamwire.core.islands.map_faults import MapFaults
-from seamwire.words.maps import in_words, is_beyond, not_reached, percent
+from seamwire.words.reports import in_words, is_beyond, not_reached, percent
 from seamwire.words.search_report import Outcome
 
 

@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 if TYPE_CHECKING:
     from ..network.network import Network
@@ -39,6 +41,28 @@ class Change:
         """The numbers of the wires that are new or have another course."""
         same = {id(wire) for wire in self.before.wires}
         return frozenset(wire.id for wire in self.after.wires if id(wire) not in same)
+
+    def on(self, found: Network) -> Network:
+        """Return another network with the same change. A wire along the same vertices, or a stroke in the same triangles, is the same."""
+        left = {id(one) for one in (*self.after.wires, *self.after.strokes)}
+        known = {id(one) for one in (*self.before.wires, *self.before.strokes)}
+        gone = {wire.vertices for wire in self.before.wires if id(wire) not in left}
+        erased = [np.sort(stroke.corners, axis=1) for stroke in self.before.strokes if id(stroke) not in left]
+        # A wire that took another course keeps the number that the found network has for it.
+        vertices = {wire.id: wire.vertices for wire in self.before.wires}
+        numbers = {wire.vertices: wire.id for wire in found.wires}
+        new = [wire for wire in self.after.wires if id(wire) not in known]
+        new = [replace(wire, id=numbers.get(vertices.get(wire.id), wire.id)) for wire in new]
+        strokes = [
+            stroke
+            for stroke in found.strokes
+            if not any(np.array_equal(np.sort(stroke.corners, axis=1), corners) for corners in erased)
+        ]
+        return replace(
+            found,
+            wires=(*(wire for wire in found.wires if wire.vertices not in gone), *new),
+            strokes=(*strokes, *(stroke for stroke in self.after.strokes if id(stroke) not in known)),
+        )
 
     def finishes(self, wire: Wire) -> bool:
         """Whether the seam of a wire is to lie where the wire runs, rather than on the edges beside it."""

@@ -93,14 +93,25 @@ class Cursor:
             self.under_way.read_progress()
         return True
 
-    def aim(self, target: Snap | None, again: bool = False) -> None:
-        """Find the wires to a target; `again`: also if it is the same as before."""
+    def aim(self, target: Snap | None, again: bool = False, is_read: bool = False) -> None:
+        """Find the wires to a target.
+
+        Parameters
+        ----------
+        target
+            The pick under the cursor, or None.
+        again
+            Whether to find them also if the target is the same as before.
+        is_read
+            Whether the caller has just read the progress.
+        """
         candidates, drawing = self.live.candidates, self._drawing
         same = candidates.is_aimed_at(target, drawing.options.straight) and candidates.final
         if same and not again and self.loops.final:
             return
         before = (candidates.shown, drawing.message)
-        self.under_way.read_progress()
+        if not is_read:
+            self.under_way.read_progress()
         drawing.message = self.live.aim(target)
         # Asking again while nothing is ready shows nothing new, and must not cost a redraw each time.
         drawing.revision += before != (candidates.shown, drawing.message)
@@ -110,9 +121,9 @@ class Cursor:
         """Find the wires to the target once more: they may be others now."""
         self.aim(self.target, again=True)
 
-    def show_offers(self) -> None:
-        """Show the offers at the cursor, as soon as they are computed."""
-        if self.loops.offers.unfinished:
+    def show_offers(self, is_read: bool = False) -> None:
+        """Show the offers at the cursor, as soon as they are computed. `is_read` is that of `aim`."""
+        if self.loops.offers.unfinished and not is_read:
             self.under_way.read_progress()
         before = self._drawing.message
         is_awaited = any(one.gesture.needs_offers for one in self.under_way.queue)

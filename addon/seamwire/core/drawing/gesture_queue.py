@@ -100,7 +100,7 @@ class GestureQueue:
         """Do what waits, because what comes now begins with the wires that it makes."""
         self._drawing.failure = NOTHING
         if self._under_way.queue:
-            self.wait(clicks_only=True)
+            self.wait(until_committed=True)
         self.leave_seed()
         self.calm()
 
@@ -108,7 +108,7 @@ class GestureQueue:
         """Wait for the wires of a seed that was released. A seed that is held still goes back."""
         drag = self._under_way.drag
         if drag is not None and drag.ending:
-            self.wait(clicks_only=True)
+            self.wait(until_committed=True)
         self._cursor.let_go(SeedDrag)
 
     def calm(self) -> None:
@@ -146,9 +146,9 @@ class GestureQueue:
             drawing.message = line.message or drawing.message
         while queue and self._poll_queue():
             pass
-        if not queue and not self._cursor.live.candidates.final:
-            cursor.aim_again()
-        cursor.show_offers()
+        if not queue and not cursor.live.candidates.final:
+            cursor.aim(cursor.target, again=True, is_read=True)
+        cursor.show_offers(is_read=True)
         cursor.show_extension()
         return before != (drawing.revision, round(drawing.progress, 2))
 
@@ -159,7 +159,7 @@ class GestureQueue:
         if isinstance(head.gesture, LineGesture):
             self._drawing.revision += head.gesture.poll()
         elif head.target is not None:
-            self._cursor.aim(head.target, again=True)
+            self._cursor.aim(head.target, again=True, is_read=True)
             if head.gesture is not self._cursor.live:
                 head.gesture.aim(head.target)
         done = self._attempt(head.gesture, head.target)
@@ -185,14 +185,14 @@ class GestureQueue:
         if not done:
             self._drawing.failure = self._drawing.message
 
-    def wait(self, clicks_only: bool = False) -> None:
+    def wait(self, until_committed: bool = False) -> None:
         """Wait until everything is computed and every waiting gesture is committed.
 
         If the library has done all its work and a gesture still waits, the gesture is dropped, and the message says so.
 
         Parameters
         ----------
-        clicks_only
+        until_committed
             Whether to stop as soon as every waiting gesture is committed.
         """
         under_way, drawing = self._under_way, self._drawing
@@ -205,7 +205,7 @@ class GestureQueue:
                     drawing.refuse(message_of(error))
             self._cursor.loops.edges.wait()
             self.poll()
-            if not under_way.waiting and (clicks_only or not under_way.computing):
+            if not under_way.waiting and (until_committed or not under_way.computing):
                 return
             now = (*map(id, under_way.queue), *map(id, under_way.retraces), drawing.progress)
             rounds, before = (rounds + 1 if now == before else 0), now

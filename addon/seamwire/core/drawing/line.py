@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from ..solver.solver import LiveWire
     from .drawing import Drawing
     from .gesture import Committed
-    from .line_wires import Line
 
 
 class LineGesture(Gesture):
@@ -56,7 +55,7 @@ class LineGesture(Gesture):
         """The pick under the cursor at its current end."""
         self._line = self._begun(begin.pick, drawing.network.seed if goes_on else None)
 
-    def _begun(self, pick: Pick, seed: Seed | None) -> Line:
+    def _begun(self, pick: Pick, seed: Seed | None) -> EdgeLine | SurfaceLine:
         """Return a line from a pick, or from the live wire's seed."""
         drawing = self._drawing
         if drawing.options.along == "SURFACE":

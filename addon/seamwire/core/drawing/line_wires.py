@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -42,50 +42,6 @@ _SLICE = 0.004
 """Seconds between two times that others get a turn."""
 
 
-class Line(Protocol):
-    """A line that is drawn, and the wires that follow it.
-
-    Attributes
-    ----------
-    points
-        (k, 3) the line so far.
-    wires
-        What follows it, as far as it is known.
-    message
-        Why that is not all.
-    """
-
-    points: NDArray[np.float64]
-    wires: tuple[Wire, ...]
-    message: Message
-
-    def to(
-        self, points: NDArray[np.float64], triangles: NDArray[np.int32], end: Pick | None, stops: NDArray[np.int64]
-    ) -> None:
-        """Take the line as it is drawn by now.
-
-        Parameters
-        ----------
-        points
-            (k, 3); the former ones, and more.
-        triangles
-            (k,) the triangle that each lies in.
-        end
-            What of the network or of a seam it ends at; None: nothing.
-        stops
-            The vertices of seams and kept wires, in rising order.
-        """
-
-    def finish(self) -> None:
-        """Let there be no more of it: `poll` tells when its wires are those to be kept."""
-
-    def poll(self) -> bool:
-        """Take in what was computed; return whether all is that there is to compute for what is drawn by now."""
-
-    def lives(self) -> list[LiveWire]:
-        """Return what computes the wires."""
-
-
 class EdgeLine:
     """A line whose wires run along edges: while it is drawn, the one chain that fits it; then as few wires as reproduce that.
 
@@ -99,6 +55,15 @@ class EdgeLine:
         The vertex where it begins; None: the one nearest to it.
     before
         The directed edge of a wire that it goes on from.
+
+    Attributes
+    ----------
+    points
+        (k, 3) the line so far.
+    wires
+        The wires that follow it, as far as they are known.
+    message
+        Why they do not follow all of it, or an empty message.
     """
 
     def __init__(self, engines: Engines, mesh: NDArray[np.float64], begin: int | None, before: Edge | None) -> None:
@@ -122,7 +87,19 @@ class EdgeLine:
     def to(
         self, points: NDArray[np.float64], triangles: NDArray[np.int32], end: Pick | None, stops: NDArray[np.int64]
     ) -> None:
-        """Fit the chain to what is drawn by now."""
+        """Fit the chain to what is drawn by now.
+
+        Parameters
+        ----------
+        points
+            (k, 3) all of the line. The points before are the same.
+        triangles
+            (k,) the triangle that each point lies in.
+        end
+            Where it ends on the network or on a seam. None: it ends elsewhere.
+        stops
+            The vertices of seams and kept wires, in rising order.
+        """
         self.points = points
         self._early = (points, triangles, end, stops) if self._live.progress() < 1.0 else None
         begin = self._fixed[-1] if self._fixed else self._begin
@@ -198,6 +175,8 @@ def _without_overshoot(chain: list[int], stops: NDArray[np.int64]) -> list[int]:
 
 class SurfaceLine:
     """A line whose wires run across the surface, each as far as one keeps near to the line, and going on where that ended.
+
+    Its attributes and methods are those of `EdgeLine`.
 
     Parameters
     ----------

@@ -293,7 +293,7 @@ class LoopGesture(Gesture):
 
     def lives(self) -> list[LiveWire]:
         """Return the live wires that compute closed cuts. Loops along edges come from the live wire's."""
-        return [self._drawing.engines.cuts()] if self.cuts.wanted else []
+        return [self._drawing.engines.cuts()] if self._drawing.options.along == "SURFACE" else []
 
 
 class NextOffer(Gesture):

@@ -204,7 +204,7 @@ class Session:
         if not wait:
             self.under_way.retraces.clear()
         elif self.under_way.waiting:
-            self.queue.wait(clicks_only=True)
+            self.queue.wait(until_committed=True)
         self.queue.calm()
         if self.drawing.network.seed is None:
             return
@@ -299,7 +299,7 @@ class Session:
         if options == before:
             return True
         if options.draws != before.draws and self.under_way.waiting:
-            self.queue.wait(clicks_only=True)
+            self.queue.wait(until_committed=True)
         if options.along != before.along:
             self.queue.calm()
         return self.cursor.follow(options)

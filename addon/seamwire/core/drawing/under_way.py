@@ -100,12 +100,8 @@ class UnderWay:
 
     def lives(self) -> list[LiveWire]:
         """Return the live wires that compute something for what is shown or waits."""
-        # A loop that waits is computed even if no offers are shown.
-        cuts = self._drawing.options.along == "SURFACE" and any(one.gesture is self._loops for one in self.queue)
-        return [
-            *(live for gesture in (self._live, self._loops, *self.gestures) for live in gesture.lives()),
-            *([self._drawing.engines.cuts()] if cuts else []),
-        ]
+        shown = [self._live, self._loops] if self._loops.cuts.wanted else [self._live]
+        return [live for gesture in (*shown, *self.gestures) for live in gesture.lives()]
 
     def read_progress(self) -> None:
         """Read how much is computed. Wires that are not final after all work is done stay so, so this comes before asking."""

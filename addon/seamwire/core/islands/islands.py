@@ -86,7 +86,7 @@ class Islands:
         return np.bincount(self.labels, minlength=self.count)
 
 
-class IslandMaker:
+class IslandMaker(Newest[_Request, Islands]):
     """Computes islands in its own thread. Only the newest waiting request is answered.
 
     Parameters
@@ -108,41 +108,23 @@ class IslandMaker:
         gaps: GapFinder | None = None,
         count: Count | None = None,
     ) -> None:
+        super().__init__(self._islands_of, "seamwire-islands")
         self._triangles = triangles
         self._label = label
         self._gaps = gaps
-        self._maker: Newest[_Request, Islands] = Newest(self._make, "seamwire-islands")
         self._count = count
 
-    @property
-    def busy(self) -> bool:
-        """Whether something is being computed."""
-        return self._maker.busy
-
-    @property
-    def newest(self) -> Islands | None:
-        """The latest result."""
-        return self._maker.answer
-
-    def check(self) -> None:
-        """Raise what went wrong on the thread since the last call."""
-        self._maker.check()
-
-    def want(
+    def ask(
         self, key: object, cuts: Iterable[tuple[int, int]] | NDArray[np.int32], meant: frozenset[int] = frozenset()
     ) -> None:
         """Ask for the islands that cut edges make, with a key. Where cuts end at vertices that are `meant`, there are no gaps."""
         edges = np.array(cuts if isinstance(cuts, np.ndarray) else list(cuts), dtype=np.int32).reshape(-1, 2)
         if len(self._triangles) <= AT_ONCE:
-            self._maker.answer_now((key, edges, meant))
+            self.answer_now((key, edges, meant))
         else:
-            self._maker.want((key, edges, meant))
+            self.want((key, edges, meant))
 
-    def close(self) -> None:
-        """Drop what is asked for; a running computation ends unseen."""
-        self._maker.close()
-
-    def _make(self, request: _Request) -> Islands:
+    def _islands_of(self, request: _Request) -> Islands:
         key, cuts, meant = request
         labels = np.asarray(self._label(cuts), dtype=np.int32)
         if labels.shape != (len(self._triangles),):
@@ -176,7 +158,7 @@ class IslandMaker:
         An island has the hue of the one that most of it belonged to; of several pieces of that, the largest has it.
         """
         hues = np.full(count, -1, dtype=np.int64)
-        before = self._maker.answer
+        before = self.answer
         if before is None or not before.count or max(count, before.count) > _TOLD_APART:
             return hues
         shared = np.sort(labels.astype(np.int64) * before.count + before.labels)

@@ -156,10 +156,6 @@ class CutMemory:
                 yield TakenCut(min(gaps, key=gaps.__getitem__), course, wires)
 
 
-NOTHING_TO_BEND = "nothing-to-bend"
-CUT_IS_GONE = "cut-is-gone"
-
-
 class SurfaceLoops(Offers):
     """The closed cuts through the point under the cursor, while they are asked for; or, to be bent, the one taken last through it too.
 
@@ -203,7 +199,7 @@ class SurfaceLoops(Offers):
         if self.bends:
             cut = self.bendable(network)
             if cut is None:
-                raise Refused(NOTHING_TO_BEND)
+                raise Refused("nothing-to-bend")
             begin = cut.through
             number = self._id_of(cut, live)
             if number is None:
@@ -267,7 +263,7 @@ class SurfaceLoops(Offers):
         apart = {each.id: is_same(cut.course, _course(each)) for each in found.cuts}
         same = {number: gap for number, gap in apart.items() if gap is not None}
         if not same:
-            raise Refused(CUT_IS_GONE)
+            raise Refused("cut-is-gone")
         nearest = min(same, key=same.__getitem__)
         self._cuts[self._cuts.index(cut)] = replace(cut, id=nearest, metric=self._metric)
         return nearest

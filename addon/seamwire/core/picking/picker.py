@@ -153,6 +153,7 @@ class DrawnPicker:
         self._surface = surface
         self._seam_edges = np.asarray(seams, dtype=np.int64).reshape(-1, 2)
         self._drawn: _Drawn | None = None
+        self._drawn_of: tuple[object, ...] = ()
 
     def set_seams(self, seams: ArrayLike) -> None:
         """Take other edges, (s, 2), as the seams that no wire runs along."""
@@ -193,10 +194,14 @@ class DrawnPicker:
 
     def _drawn_now(self, session: Session) -> _Drawn:
         """Return what can be found of a session's network. A held seed and its wires cannot, because they follow the mouse."""
-        moved = {wire.id for wire in session.under_way.moved}
+        network, along, moving = session.network, session.options.along, session.under_way.moved
+        if self._drawn is not None and self._drawn_of == (network, along, moving):
+            return self._drawn
+        self._drawn_of = network, along, moving
+        moved = {wire.id for wire in moving}
         picks = tuple(session.seeds())
         wires = tuple(wire for wire in session.wires if wire.id not in moved)
-        key = (id(session), picks, tuple(map(id, wires)))
+        key = picks, wires
         if self._drawn is not None and self._drawn.key == key:
             return self._drawn
         followed = {end for wire in session.wires if wire.id in moved for end in (wire.start, wire.end)}
@@ -212,23 +217,6 @@ class DrawnPicker:
             Segments([surface.curve_in_object(wire.points) for wire in wires]),
         )
         return self._drawn
-
-
-def stroke_at(strokes: Sequence[Stroke], sight: Sight, surface: VisibleSurface) -> Stroke | None:
-    """Return the stroke nearest to the cursor that the surface does not hide; of equally near strokes, given oldest first, the newest."""
-    best: tuple[float, Stroke | None] = (STROKE_REACH * sight.scale, None)
-    for stroke in strokes:
-        places = surface.curve_in_object(stroke.points)
-        pixels = sight.pixels(places)
-        part, gaps = nearest_on_segments(sight.cursor, pixels[:-1], pixels[1:])
-        gaps = np.where(np.isnan(gaps), np.inf, gaps)
-        for row in np.argsort(gaps, kind="stable").tolist():
-            if gaps[row] > best[0]:
-                break
-            if surface.can_pick(sight, places[row] + part[row] * (places[row + 1] - places[row])):
-                best = (float(gaps[row]), stroke)
-                break
-    return best[1]
 
 
 class Picker:
@@ -340,9 +328,23 @@ class Picker:
         xray: bool = False,
         scale: float = 1.0,
     ) -> Stroke | None:
-        """Return the stroke under the cursor. `strokes` are given oldest first."""
+        """Return the stroke nearest to the cursor that the surface does not hide. Of equally near strokes, it is the last one."""
         sight = Sight.of(camera, matrix, cursor, scale, xray)
-        return None if sight is None else stroke_at(strokes, sight, self._surface)
+        if sight is None:
+            return None
+        best, nearest = None, STROKE_REACH * sight.scale
+        for stroke in strokes:
+            places = self._surface.curve_in_object(stroke.points)
+            pixels = sight.pixels(places)
+            part, gaps = nearest_on_segments(sight.cursor, pixels[:-1], pixels[1:])
+            gaps = np.where(np.isnan(gaps), np.inf, gaps)
+            for row in np.argsort(gaps, kind="stable").tolist():
+                if gaps[row] > nearest:
+                    break
+                if self._surface.can_pick(sight, places[row] + part[row] * (places[row + 1] - places[row])):
+                    best, nearest = stroke, float(gaps[row])
+                    break
+        return best
 
     def seen_along(self, camera: Camera, matrix: ArrayLike, pick: Pick) -> tuple[float, float, float] | None:
         """Return the direction from the viewer to a pick, in the coordinates of the mesh, or None if it lies behind the viewer."""

@@ -31,8 +31,6 @@ if TYPE_CHECKING:
     from ..network.picks import Edge
     from ..network.strokes import Stroke
 
-STRETCH = 0.17
-"""The stretch that a map may have on average, unless another one is asked for: E_d = 4.2."""
 CRUMB = 0.004
 """An island with a smaller part of the mesh's area becomes part of a larger one after wires were cut into the faces."""
 LIMITS = (0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 10.0, 13.0, 17.0, 22.0, 30.0, 40.0, 60.0, 100.0, 200.0, 500.0, 1000.0)
@@ -66,22 +64,6 @@ def turned_limit(percent: float, notches: int) -> float:
     """Return the next of `LIMITS` in percent, if there is one, after a turn of the wheel: by 1 for more stretch, by -1 for less."""
     beyond = [limit for limit in LIMITS if notches * (limit - percent) > _SAME_LIMIT * percent]
     return min(beyond, key=lambda limit: abs(limit - percent), default=percent)
-
-
-@dataclass(frozen=True)
-class PlanRequest:
-    """Requirements for a plan.
-
-    Parameters
-    ----------
-    distortion
-        The largest E_d of the map.
-    islands
-        The least number of islands among those that are planned.
-    """
-
-    distortion: float = energy_of(STRETCH)
-    islands: int = 1
 
 
 def planned_wires(

@@ -13,7 +13,7 @@ from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Snap
 from seamwire.core.network.picks import Edge, FacePoint
-from seamwire.core.offers.surface_loops import NOTHING_TO_BEND, SurfaceLoops
+from seamwire.core.offers.surface_loops import SurfaceLoops
 from seamwire.terms.options import Options
 from setting import use
 
@@ -203,14 +203,14 @@ def test_what_is_not_there_as_it_was_taken_is_not_bent(session: Session) -> None
     second = WAIST + 5 * AROUND + 12
     assert not session.bend(second)
     session.queue.wait()
-    assert session.drawing.message.code == NOTHING_TO_BEND
+    assert session.drawing.message.code == "nothing-to-bend"
     session.loop(WAIST)
     session.queue.wait()
     assert session.picture.can_bend
     session.drop(session.wires[1])
     assert not session.picture.can_bend
     assert not shows(session, second, bend=True)
-    assert session.drawing.message.code == NOTHING_TO_BEND
+    assert session.drawing.message.code == "nothing-to-bend"
     session.undo()
     assert session.picture.can_bend, "it is there again"
     use(session, strength_surface=40.0)
@@ -221,7 +221,7 @@ def test_what_is_said_of_bending_goes_with_it_where_a_wire_is_live(session: Sess
     second = WAIST + 5 * AROUND + 12
     session.click(WAIST)
     assert not shows(session, second, bend=True)
-    assert session.drawing.message.code == NOTHING_TO_BEND
+    assert session.drawing.message.code == "nothing-to-bend"
     revision = session.drawing.revision
     session.hover(second)
     assert str(session.drawing.message) == ""

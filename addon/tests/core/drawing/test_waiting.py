@@ -11,6 +11,7 @@ from fake_live import FakeLive, grid_points, grid_triangles
 from seamwire.core.base.messages import Refused
 from seamwire.core.drawing import candidates
 from seamwire.core.drawing.session import Session
+from seamwire.core.drawing.under_way import UnderWay
 from seamwire.core.fields.crests import Crests
 from seamwire.core.network.network import Snap
 from seamwire.core.network.wires import Wire
@@ -461,3 +462,15 @@ def test_a_stroke_for_a_wire_that_closes_or_is_straight_acts_on_both() -> None:
     session.cursor.live.candidates.clear()
     assert session.draw_stroke(vertices=[27, 28])
     assert session.network.strokes[0].acts_on == "both"
+
+
+def test_a_look_at_running_work_reads_the_progress_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    table = Table(ready=(False, False))
+    session = table.session
+    session.click(0)
+    session.hover((14, 15), loop=True)
+    session.click(20)
+    read, count = UnderWay.read_progress, []
+    monkeypatch.setattr(UnderWay, "read_progress", lambda under_way: (count.append(1), read(under_way)))
+    session.queue.poll()
+    assert len(count) == 1

@@ -40,8 +40,8 @@ def finished(maker: IslandMaker) -> None:
 def test_pieces_are_all_triangles_once() -> None:
     triangles = strip(30)
     maker = IslandMaker(triangles, labelled(30))
-    maker.want("a", cut_at(30, 4, 11, 20))
-    found = maker.newest
+    maker.ask("a", cut_at(30, 4, 11, 20))
+    found = maker.answer
     assert found.key == "a"
     assert found.count == 4
     assert found.cut
@@ -76,11 +76,11 @@ def test_the_cuts_that_islands_need_are_counted_by_what_is_given_for_that() -> N
         return 10 * len(cuts) + np.arange(labels.max() + 1, dtype=np.int32)
 
     maker = IslandMaker(strip(30), labelled(30), count=count)
-    maker.want("a", cut_at(30, 4, 11))
-    assert maker.newest.missing.tolist() == [20, 21, 22]
+    maker.ask("a", cut_at(30, 4, 11))
+    assert maker.answer.missing.tolist() == [20, 21, 22]
     maker = IslandMaker(strip(30), labelled(30))
-    maker.want("a", cut_at(30, 4, 11))
-    assert maker.newest.missing.tolist() == [0, 0, 0]
+    maker.ask("a", cut_at(30, 4, 11))
+    assert maker.answer.missing.tolist() == [0, 0, 0]
 
 
 def gaps(hues: NDArray[np.uint8], pairs: NDArray[np.int32]) -> NDArray[np.int64]:
@@ -130,8 +130,8 @@ def test_of_neighbors_with_hues_too_much_alike_the_larger_keeps_its_own() -> Non
 
 def tinted(maker: IslandMaker, key: object, cuts: NDArray[np.int32]) -> NDArray[np.uint8]:
     """Return the hue of each triangle."""
-    maker.want(key, cuts)
-    return maker.newest.hues[maker.newest.labels]
+    maker.ask(key, cuts)
+    return maker.answer.hues[maker.answer.labels]
 
 
 def test_a_new_cut_recolors_only_what_it_cuts_off_and_dropping_it_nothing_else() -> None:
@@ -164,7 +164,7 @@ def test_hues_stay_whatever_is_cut_and_dropped_elsewhere() -> None:
         changed = (after != before) & ~touched
         # Where two islands have become one, its neighbor may have a hue too much like it: that alone gives way.
         assert len(np.unique(np.searchsorted(sorted(cuts), np.flatnonzero(changed) // 2, side="right"))) <= 1
-        newest = maker.newest
+        newest = maker.answer
         pairs = neighbours(strip(count), newest.labels, cut_at(count, *sorted(cuts)))
         assert gaps(newest.hues, pairs).min() >= 3
         before = after
@@ -192,13 +192,13 @@ def test_a_large_mesh_is_done_on_a_thread_and_the_newest_request_wins() -> None:
 
     maker = IslandMaker(strip(count), slow)
     for number in range(1, 6):
-        maker.want(number, cut_at(count, *range(100, 100 + number)))
+        maker.ask(number, cut_at(count, *range(100, 100 + number)))
         assert maker.busy
-    assert maker.newest is None
+    assert maker.answer is None
     go.set()
     finished(maker)
-    assert maker.newest.key == 5
-    assert maker.newest.count == 6
+    assert maker.answer.key == 5
+    assert maker.answer.count == 6
     assert len([number for number in asked if number]) <= 2, "without cuts it is asked once more"
     assert threading.get_ident() not in threads
 
@@ -208,7 +208,7 @@ def test_what_goes_wrong_on_the_thread_comes_out() -> None:
         raise RuntimeError("as the test wants it")
 
     maker = IslandMaker(strip(15_000), fail)
-    maker.want(1, cut_at(15_000, 3))
+    maker.ask(1, cut_at(15_000, 3))
     end = time.monotonic() + 20.0
     with pytest.raises(RuntimeError, match="as the test wants it"):
         while maker.busy and time.monotonic() < end:
@@ -225,21 +225,21 @@ def test_nothing_comes_after_the_end() -> None:
         return labelled(count)(cuts)
 
     maker = IslandMaker(strip(count), slow)
-    maker.want(1, cut_at(count, 5))
+    maker.ask(1, cut_at(count, 5))
     maker.close()
     go.set()
     finished(maker)
-    assert maker.newest is None
+    assert maker.answer is None
 
 
 def test_a_wrong_number_of_labels_is_refused() -> None:
     maker = IslandMaker(strip(4), lambda _: np.zeros(3, dtype=np.int32))
     with pytest.raises(ValueError, match="labels"):
-        maker.want(1, cut_at(4, 2))
+        maker.ask(1, cut_at(4, 2))
 
 
 def test_no_triangles_are_no_segments() -> None:
     maker = IslandMaker(np.empty((0, 3), dtype=np.int32), lambda _: np.empty(0, dtype=np.int32))
-    maker.want(1, [])
-    assert maker.newest.count == 0
-    assert maker.newest.pieces == ()
+    maker.ask(1, [])
+    assert maker.answer.count == 0
+    assert maker.answer.pieces == ()

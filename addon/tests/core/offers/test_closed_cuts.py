@@ -12,7 +12,7 @@ from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Network
 from seamwire.core.network.wires import Wire
 from seamwire.core.offers import surface_loops
-from seamwire.core.offers.surface_loops import CUT_IS_GONE, NOTHING_TO_BEND, CutMemory, is_same
+from seamwire.core.offers.surface_loops import CutMemory, is_same
 from seamwire.core.storage.serialization import Places
 from table import Table
 
@@ -107,7 +107,7 @@ def test_where_none_runs_there_it_says_so() -> None:
     it.lives["SURFACE"] = it.session.drawing.engines.cuts()
     it.lives["SURFACE"].islands = (8,)
     assert not it.session.bend(28)
-    assert it.session.drawing.message.code == CUT_IS_GONE
+    assert it.session.drawing.message.code == "cut-is-gone"
     assert len(it.session.wires) == 2
 
 
@@ -116,7 +116,7 @@ def test_what_is_not_all_there_is_forgotten() -> None:
     for wires in (as_cut(session)[:1], [replace(wire, stored=0) for wire in as_cut(session)]):
         it = after_cutting(session, wires)
         assert not it.session.bend(28)
-        assert it.session.drawing.message.code == NOTHING_TO_BEND
+        assert it.session.drawing.message.code == "nothing-to-bend"
 
 
 def test_what_was_changed_since_it_was_taken_is_not_handed_on() -> None:

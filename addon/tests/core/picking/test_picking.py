@@ -14,6 +14,7 @@ from seamwire.core.network.wires import Wire
 from seamwire.core.picking.camera import Camera, Sight, nearest_edge
 from seamwire.core.picking.picker import Picker
 from seamwire.core.picking.surface import VisibleSurface
+from seamwire.terms.options import Options
 
 pytest.importorskip("seamwire_core")
 
@@ -293,6 +294,14 @@ class Network:
         """The wires that are dragged are here."""
         return self
 
+    @property
+    def network(self) -> object:
+        return self.placed, self.wires
+
+    @property
+    def options(self) -> Options:
+        return Options()
+
     def seeds(self) -> list[Pick]:
         return list(self.placed)
 
@@ -364,6 +373,18 @@ def test_a_dragged_seed_and_its_wires_are_not_found() -> None:
     for point in ((-0.5, 0.0, 0.0), (0.1, 0.0, 0.0), (0.5, 0.0, 0.0)):
         assert find.snap(view, HERE, pixel(view, point), vertices_only=True, session=session).to == "MESH"
     assert find.snap(view, HERE, pixel(view, (-0.5, 1.0, 0.0)), vertices_only=True, session=session).to == "SEED"
+
+
+def test_what_was_drawn_is_found_anew_only_if_it_changed() -> None:
+    picker, asked = Picker(grid()), []
+    view, session = from_above(), Network(placed=(12,), wires=(wire(11, 12, 13),))
+    session.seeds = lambda: asked.append(1) or list(session.placed)
+    for _ in range(3):
+        picker.snap(view, HERE, pixel(view, (0.0, 0.0, 0.0)), vertices_only=True, session=session)
+    assert len(asked) == 1
+    session.placed = (14,)
+    at = pixel(view, (1.0, 0.0, 0.0))
+    assert picker.snap(view, HERE, at, vertices_only=True, session=session) == Snap(14, "SEED")
 
 
 def test_xray_finds_what_lies_behind_and_nothing_that_is_hidden() -> None:

@@ -80,11 +80,11 @@ def test_where_the_mesh_goes_on_hidden_there_is_no_border_to_meet() -> None:
 def test_islands_tell_of_gaps_where_they_are_asked_for() -> None:
     finder = GapFinder(grid_points(SIZE), grid_triangles(SIZE), grid_edges(SIZE))
     maker = IslandMaker(grid_triangles(SIZE), lambda _: np.zeros(2 * (SIZE - 1) ** 2, dtype=np.int32), gaps=finder)
-    maker.want("open", seams(ROW, (4, 13, 22, 31)))
-    assert maker.newest is not None
-    assert maker.newest.gaps == (Gap(31, 40, 1.0),)
-    maker.want("closed", seams(ROW, (4, 13, 22, 31, 40)))
-    assert maker.newest.gaps == ()
+    maker.ask("open", seams(ROW, (4, 13, 22, 31)))
+    assert maker.answer is not None
+    assert maker.answer.gaps == (Gap(31, 40, 1.0),)
+    maker.ask("closed", seams(ROW, (4, 13, 22, 31, 40)))
+    assert maker.answer.gaps == ()
 
 
 def test_while_seams_are_drawn_an_end_some_edges_from_another_cut_is_no_gap_yet() -> None:
@@ -98,6 +98,6 @@ def test_a_cut_that_ends_on_purpose_has_no_gap_there() -> None:
     finder = GapFinder(grid_points(SIZE), grid_triangles(SIZE), grid_edges(SIZE))
     maker = IslandMaker(grid_triangles(SIZE), lambda _: np.zeros(2 * (SIZE - 1) ** 2, dtype=np.int32), gaps=finder)
     drawn = seams(ROW, (4, 13, 22, 31), (50, 59, 68, 77))
-    maker.want("planned", drawn, frozenset({4, 13, 22, 31}))
-    assert maker.newest is not None
-    assert maker.newest.gaps == (Gap(50, 41, 1.0),)
+    maker.ask("planned", drawn, frozenset({4, 13, 22, 31}))
+    assert maker.answer is not None
+    assert maker.answer.gaps == (Gap(50, 41, 1.0),)
