@@ -30,6 +30,11 @@ def test_there_is_no_other_where_both_run_alike_or_nothing_is_computed() -> None
     assert str(aimed(8, ready=(False, False))[0].advance()) == "No other candidate found yet"
 
 
+def test_where_no_wire_leads_there_is_no_other_to_wait_for() -> None:
+    candidates, message = aimed(35, islands=(35,))
+    assert str(candidates.advance()) == str(message) == "No wire reaches vertex 35: it is not connected to the seed"
+
+
 def test_the_one_that_is_there_is_shown_while_the_other_is_computed() -> None:
     candidates, _ = aimed(8, ready=(False, True))
     assert candidates.active.follow == 1
