@@ -154,6 +154,11 @@ def test_wires_on_the_far_side_are_faint(desk: Desk) -> None:
     surroundings = near(pixels, (at[0], at[1] + 25.0)).mean(axis=0)
     faint = near(pixels, at, radius=1)
     assert (faint[:, 0] - faint[:, 1]).max() > (surroundings[0] - surroundings[1]) + 0.05, "reddish still"
+    ui.key("RET")
+    choose(ui)
+    ui.move(desk.at(10))
+    seed = near(ui.pixels(), desk.at(44), radius=1).mean()
+    assert 0.2 < seed < 0.45, "a seed is faint too: it is not on this side"
 
 
 @pytest.mark.oldest_and_newest
