@@ -330,7 +330,7 @@ def test_what_can_be_reached_is_marked_and_the_rest_said() -> None:
     edit()
     done = mark("0 1 5")
     assert (done.wires, done.marked, done.cleared) == (1, 1, 0)
-    assert done.problems == ("chains[0]: No wire reaches vertex 5",)
+    assert done.problems == ("chains[0]: No wire reaches vertex 5: it is not connected to the seed",)
     assert seams(obj) == [(0, 1)]
 
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 import shutil
 import threading
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 
 import bpy
@@ -749,6 +750,19 @@ def test_undo_from_elsewhere_ends_it_and_the_mesh_is_as_undo_has_it(ui: driver.U
     obj = bpy.context.active_object
     obj.update_from_editmode()
     assert len(obj.data.vertices) > first
+
+
+@pytest.mark.parametrize("act", ["move", "click", "wheel"])
+def test_a_hand_over_an_object_that_was_just_removed_takes_nothing(
+    ui: driver.Ui, prism: bpy.types.Object, act: str
+) -> None:
+    invoke(ui)
+    at = ui.on_screen(FRONT_SIDE)
+    ui.move(at)
+    bpy.data.objects.remove(prism)
+    {"move": partial(ui.move, at), "click": partial(ui.click, at), "wheel": partial(ui.wheel, True, at)}[act]()
+    ui.wait_until(lambda: not searches)
+    assert not edited.covered
 
 
 @pytest.mark.smoke

@@ -275,7 +275,7 @@ def _arrays(obj: bpy.types.Object, mesh: bpy.types.Mesh, columns: _Columns, poin
     marked = edges[visible & (columns["sharp edges"] | _between_materials(mesh, columns))]
     edges = edges[visible]
     if len(edges) == 0:
-        raise NothingVisibleError("No edge of the mesh is visible: there is nothing to draw on")
+        raise NothingVisibleError("No edge of the mesh is visible")
     hidden = columns["hidden faces"]
     triangles, polygons = _cut(mesh, columns["corners"], points)
     partly_hidden = edges[:0]

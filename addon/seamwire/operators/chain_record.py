@@ -136,7 +136,7 @@ class ChainRecord:
                 problem = self._try("unwrapping", view, lambda: unwrap_after_chain(context)) or ""
             undo_steps.push(title)
         self.has_kept = True
-        told = f"{title}: {done or summary(change.drawn, marked, cleared)}"
+        told = f"{title}: {done or summary(change, marked, cleared)}"
         self._notices.add("WARNING" if problem else "INFO", f"{told}. {problem}" if problem else told)
 
     def _try(self, what: str, view: ObjectView, work: Callable[[], _Result]) -> _Result | None:

@@ -185,7 +185,7 @@ class LiveParts:
 
     def take(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Take an event of the wheel, the mouse or the keys, as `Hand.take`."""
-        if self.is_kept:
+        if self.is_kept or not self._search.are_alive:
             return set()
         place = place_of(self._window, event)
         if event.type == "MOUSEMOVE":

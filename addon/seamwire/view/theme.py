@@ -106,7 +106,7 @@ class Looks:
         self.end = Style(faint(active, 0.9), 3.0, halo=2.0, dash=9.0, lift=6.0)
         # The edge under the cursor.
         self.target = Style(white, 3.0, halo=2.0, lift=7.0)
-        self.seed = Style(white, 9.0, halo=3.5, hidden=0.35, lift=10.0)
+        self.seed = Style(white, 9.0, halo=3.5, hidden=0.12, lift=10.0)
         self.live_seed = Style(white, 7.0, halo=3.0, hidden=0.35, lift=10.0, ring=(3.5, active))
         self.hovered_seed = Style(white, 12.0, halo=3.5, hidden=0.35, lift=11.0, ring=(4.0, active))
         self.closing = Style(white, 9.0, halo=3.5, hidden=0.35, lift=11.0, ring=(5.5, loop))

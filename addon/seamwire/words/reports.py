@@ -11,6 +11,7 @@ from .names import count
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from ..core.drawing.change import Change
     from ..core.islands.map_faults import MapFaults
 
 ADJUST_DRAWN = ("Point at a wire to change it:", "swap its path, drag its seeds, or remove it")
@@ -22,14 +23,19 @@ HALFWAY = "Stopped halfway"
 """The first words of an operator's report that an error came while meshes were changed."""
 
 
-def summary(wires: int, marked: int, cleared: int) -> str:
-    """Return a report."""
-    parts = [count(wires, "wire")]
-    if marked or not cleared:
-        parts.append(f"{count(marked, 'edge')} marked")
-    if cleared:
-        parts.append(f"{count(cleared, 'edge')} cleared")
-    return ", ".join(parts)
+def summary(change: Change, marked: int, cleared: int) -> str:
+    """Return a report of what was drawn, changed and removed, and of the numbers of edges that this marked and cleared."""
+    drawn_strokes, removed_strokes = change.strokes
+    parts = [
+        (change.drawn, count(change.drawn, "wire")),
+        (change.rerouted, f"{count(change.rerouted, 'wire')} changed"),
+        (change.removed, f"{count(change.removed, 'wire')} removed"),
+        (drawn_strokes, count(drawn_strokes, "stroke")),
+        (removed_strokes, f"{count(removed_strokes, 'stroke')} removed"),
+        (marked or (change.drawn and not cleared), f"{count(marked, 'edge')} marked"),
+        (cleared, f"{count(cleared, 'edge')} cleared"),
+    ]
+    return ", ".join(text for is_said, text in parts if is_said) or "no edge has changed"
 
 
 def gaps(uncut: int) -> str:

@@ -68,7 +68,7 @@ SENTENCES = {
     "no-wire-between": "No wire from {start} reaches {pick}",
     "no-wire-follows-line": "No wire fits this line: draw closer to the surface",
     "no-wire-further": "No wire fits the rest of the line",
-    "no-wire-reaches": "No wire reaches {pick}",
+    "no-wire-reaches": "No wire reaches {pick}: it is not connected to the seed",
     "nothing-else-here": "No other closed cut here",
     "nothing-else-through-edge": "No other loop through this edge",
     "nothing-runs-on": "Nothing to extend: place a seed first",

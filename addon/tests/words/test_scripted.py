@@ -17,7 +17,7 @@ def test_drawing_a_chain_waits_for_each_wire() -> None:
 
 def test_drawing_a_chain_goes_on_past_what_cannot_be_reached() -> None:
     session = Table(islands=(35,)).session
-    assert draw_chain(session, [0, 35, 3]) == ["No wire reaches vertex 35"]
+    assert draw_chain(session, [0, 35, 3]) == ["No wire reaches vertex 35: it is not connected to the seed"]
     assert [wire.vertices for wire in session.wires] == [(0, 1, 2, 3)]
 
 

@@ -135,6 +135,8 @@ class CandidateWires:
         """Bring the next wire forward; return why that cannot be, else nothing."""
         others = self.others
         if not others:
+            if self.finals and not self._is_reached:
+                return Message.of("no-wire-reaches", pick=self.target.pick)
             same = self.final and self.active is not None
             return Message.of("same-edges" if same else "no-next-candidate")
         self.chosen = next(at for at, wire in enumerate(self.wires) if wire is others[0])
@@ -176,8 +178,12 @@ class CandidateWires:
             self._add_ring(network, target, along)
         if self.chosen is not None and self.chosen >= len(self.wires):
             self.chosen = None  # the metric that is used now has no such wire
-        is_reached = not self.final or any(self.wires)
-        return NOTHING if is_reached else Message.of("no-wire-reaches", pick=target.pick)
+        return NOTHING if self._is_reached else Message.of("no-wire-reaches", pick=target.pick)
+
+    @property
+    def _is_reached(self) -> bool:
+        """Whether a wire leads to the target, or one may still be found."""
+        return not self.final or any(self.wires)
 
     def _add_straight(self, begin: Pick, target: Snap) -> None:
         if target.seen_along is None:

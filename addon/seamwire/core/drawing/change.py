@@ -64,6 +64,24 @@ class Change:
             strokes=(*strokes, *(stroke for stroke in self.after.strokes if id(stroke) not in known)),
         )
 
+    @cached_property
+    def rerouted(self) -> int:
+        """How many wires have another course than before."""
+        known = {wire.id: wire for wire in self.before.wires}
+        return sum(wire.id in known and not wire.like(known[wire.id]) for wire in self.after.wires)
+
+    @cached_property
+    def removed(self) -> int:
+        """How many wires are gone."""
+        left = {wire.id for wire in self.after.wires}
+        return sum(wire.id not in left for wire in self.before.wires)
+
+    @cached_property
+    def strokes(self) -> tuple[int, int]:
+        """How many strokes are new, and how many are gone."""
+        before, after = ({stroke.id for stroke in network.strokes} for network in (self.before, self.after))
+        return len(after - before), len(before - after)
+
     def finishes(self, wire: Wire) -> bool:
         """Whether the seam of a wire is to lie where the wire runs, rather than on the edges beside it."""
         return wire.id in self.changed and wire.along == "SURFACE" and wire.marks and wire.finish != "SNAP"

@@ -171,11 +171,13 @@ def find_faults(
     chosen = np.ones(surface.count, dtype=bool) if chosen is None else chosen
     homes = np.zeros((surface.count, 2)) if homes is None else homes
     under = _under(surface) if may_stack else {}
+    # A triangle whose corners lie in one place has no shape that its UVs could keep.
+    has_size = np.ptp(surface.points[surface.triangles], axis=1).max(axis=1) > 0.0
     is_under = np.isin(surface.labels, list(under))
-    rows, report = surface.measured(shown=~is_under)
+    rows, report = surface.measured(shown=has_size & ~is_under)
     is_bad = ~np.isfinite(surface.uvs).all(axis=(1, 2))
     if under:
-        is_bad |= is_under & _turned_over(surface)
+        is_bad |= has_size & is_under & _turned_over(surface)
     overlapping = np.empty(0, dtype=np.int32)
     outside = np.zeros(surface.count, dtype=bool)
     if report is not None:

@@ -240,19 +240,24 @@ def turned(
 ) -> float:
     """Return the amount of parts, 0 to 1, after a turn of the wheel by one notch: 1 for more parts, -1 for fewer.
 
-    It stays if the number of parts, which `count` tells for an amount, cannot change that way. If it `may_go_on` no longer, the wheel
-    stops at the amount that was looked at last.
+    It stays if the number of parts, which `count` tells for an amount, cannot change that way. A larger amount can have fewer parts. Such
+    amounts are passed over, unless all further amounts are like that. If it `may_go_on` no longer, the wheel stops at the best amount so
+    far.
     """
     before = count(amount)
     place = round(amount / STEP, 6)
     # From between two steps to the nearest one in this direction.
     place = np.floor(place) + 1 if notches > 0 else np.ceil(place) - 1
+    against = None
     while 0 <= place <= round(1.0 / STEP):
         found = min(float(place) * STEP, 1.0)
-        if count(found) != before or not may_go_on():
-            return found
+        more = notches * (count(found) - before)
+        if more < 0 and against is None:
+            against = found
+        if more > 0 or not may_go_on():
+            return found if more > 0 or against is None else against
         place += notches
-    return amount
+    return amount if against is None else against
 
 
 def border_wires(borders: list[NDArray[np.int32]], points: NDArray[np.float64]) -> list[Wire]:

@@ -257,6 +257,16 @@ def test_undo_takes_back_waiting_clicks_first() -> None:
     assert session.seed == 0
 
 
+def test_what_no_wire_reaches_is_said() -> None:
+    session = Table(islands=(35,)).session
+    session.click(0)
+    assert not session.click(35)
+    assert str(session.drawing.message) == "No wire reaches vertex 35: it is not connected to the seed"
+    assert session.seed == 0
+    session.hover(3)
+    assert str(session.drawing.message) == ""
+
+
 def test_a_refused_seed_leaves_the_one_before() -> None:
     table = Table()
     session = table.session

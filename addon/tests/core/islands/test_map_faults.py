@@ -80,6 +80,19 @@ def test_faces_that_are_turned_over_or_have_no_number_count_once() -> None:
     assert turned.energy() == np.inf
 
 
+def test_a_face_whose_corners_lie_in_one_place_is_never_turned_over() -> None:
+    surface = squares((0.2, 0.2), (0.7, 0.7))
+    surface.points[4:] = surface.points[4]
+    uvs = surface.uvs.copy()
+    uvs[2:] = uvs[2, 0]
+    shrunk = MappedSurface(*list(vars(surface).values())[:4], uvs, surface.edges)
+    assert find_faults(shrunk) == NO_FAULTS
+    uvs[2] = uvs[2, 0] + [(0.0, 0.0), (0.0, 0.1), (0.1, 0.0)]
+    assert find_faults(shrunk) == NO_FAULTS
+    uvs[3, 1] = np.nan
+    assert find_faults(shrunk) == MapFaults(flipped=1), "it has no map at all"
+
+
 def test_a_mirrored_island_is_good() -> None:
     surface = squares((0.0, 0.0), (0.5, 0.5))
     uvs = surface.uvs.copy()

@@ -35,6 +35,19 @@ def test_a_notch_changes_the_number_of_parts_or_nothing(amount: float, notches: 
     assert turned(amount, notches, steps) == pytest.approx(expected)
 
 
+@pytest.mark.parametrize(
+    ("amount", "notches", "expected"),
+    [(0.5, 1, 0.6), (0.8, -1, 0.55), (0.55, -1, 0.5), (0.6, 1, 0.7), (0.6, -1, 0.55), (0.5, -1, 0.5)],
+)
+def test_amounts_with_fewer_parts_do_not_answer_a_turn_for_more_if_others_follow(
+    amount: float, notches: int, expected: float
+) -> None:
+    def count(of: float) -> int:
+        return 10 if of < 0.52 else 9 if of < 0.58 else 13 if of < 0.68 else 12
+
+    assert turned(amount, notches, count) == pytest.approx(expected)
+
+
 def test_the_ends_of_the_scale_are_reached_exactly() -> None:
     assert turned(0.95, 1, lambda amount: int(amount == 1.0)) == 1.0
     assert turned(0.05, -1, lambda amount: int(amount == 0.0)) == 0.0

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is reported of a chain or an edit: only what has happened."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from seamwire.core.drawing.change import Change
+from seamwire.core.network.network import Network
+from seamwire.core.network.strokes import Stroke, through_vertices
+from seamwire.words.reports import summary
+from seamwire.words.scripted import draw_chain
+from table import SIZE, Table, grid_points
+
+
+def drawn() -> Network:
+    """Return a network of two wires."""
+    session = Table().session
+    assert draw_chain(session, [0, 2, 14]) == []
+    return session.network
+
+
+def test_drawn_wires_are_counted_with_their_edges() -> None:
+    network = drawn()
+    change = Change(Network(), network)
+    assert summary(change, 4, 0) == "2 wires, 4 edges marked"
+    assert summary(change, 0, 0) == "2 wires, 0 edges marked", "all of them were seams already"
+    assert summary(change, 0, 3) == "2 wires, 3 edges cleared"
+
+
+def test_a_wire_with_another_path_is_changed_and_not_drawn() -> None:
+    before = drawn()
+    first, second = before.wires
+    other = replace(second, vertices=(2, 3, 9, 8, 14))
+    change = Change(before, replace(before, wires=(replace(first), other)))
+    assert summary(change, 18, 12) == "1 wire changed, 18 edges marked, 12 edges cleared"
+
+
+def test_a_removed_wire_is_told() -> None:
+    before = drawn()
+    assert summary(Change(before, replace(before, wires=before.wires[:1])), 0, 2) == "1 wire removed, 2 edges cleared"
+
+
+def test_strokes_are_told_without_edges() -> None:
+    before = drawn()
+    stroke = Stroke(*through_vertices([0, 1], grid_points(SIZE)))
+    after = replace(before, strokes=(stroke,))
+    assert summary(Change(before, after), 0, 0) == "1 stroke"
+    assert summary(Change(after, before), 0, 0) == "1 stroke removed"
