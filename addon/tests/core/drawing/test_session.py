@@ -261,8 +261,12 @@ def test_what_no_wire_reaches_is_said() -> None:
     session = Table(islands=(35,)).session
     session.click(0)
     assert not session.click(35)
-    assert str(session.drawing.message) == "No wire reaches vertex 35: it is not connected to the seed"
+    why = "No wire reaches vertex 35: it is not connected to the seed"
+    assert str(session.drawing.message) == why
     assert session.seed == 0
+    session.hover(35)
+    assert not session.cursor.next_candidate()
+    assert str(session.drawing.message) == why, "there is no other to wait for"
     session.hover(3)
     assert str(session.drawing.message) == ""
 
