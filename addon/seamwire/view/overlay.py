@@ -184,15 +184,14 @@ class Overlay:
         if picture.stroke is not None:
             strokes.append(picture.stroke)
         bands = [(id(points), len(points), on) for points, on in strokes]
+        self._strokes = strokes  # while their points are kept, no other points have the same id
         islands, moved = picture.islands, tuple(wire.id for wire in picture.all(Role.MOVED))
-        sheets = [
+        return [
             self._sheet("bands", bands, self._add_bands, strokes),
             self._sheet("gaps", None if islands is None else islands.key, self._add_gaps, islands),
             self._sheet("kept", (picture.network_revision, moved), self._add_kept, picture),
             self._sheet("live", picture.revision, self._add_live, picture),
         ]
-        self._strokes = strokes  # while their points are kept, no other points have the same id
-        return sheets
 
     def _sheet(self, name: str, key: object, add: Callable[[_Sheet, object], None], what: object) -> _Sheet:
         """Return a sheet, made anew if its key is another one."""

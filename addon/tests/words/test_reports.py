@@ -8,6 +8,7 @@ from dataclasses import replace
 from seamwire.core.drawing.change import Change
 from seamwire.core.network.network import Network
 from seamwire.core.network.strokes import Stroke, through_vertices
+from seamwire.core.network.wires import split
 from seamwire.words.reports import summary
 from seamwire.words.scripted import draw_chain
 from table import SIZE, Table, grid_points
@@ -34,6 +35,16 @@ def test_a_wire_with_another_path_is_changed_and_not_drawn() -> None:
     other = replace(second, vertices=(2, 3, 9, 8, 14))
     change = Change(before, replace(before, wires=(replace(first), other)))
     assert summary(change, 18, 12) == "1 wire changed, 18 edges marked, 12 edges cleared"
+
+
+def test_a_wire_that_is_split_is_neither_drawn_nor_changed() -> None:
+    before = drawn()
+    first, second = before.wires
+    middle = second.vertices[len(second.vertices) // 2]
+    parts = split(second, middle, grid_points(SIZE))
+    assert parts is not None
+    change = Change(before, replace(before, wires=(first, parts[0], replace(parts[1], id=77))))
+    assert summary(change, 0, 0) == "no edge has changed"
 
 
 def test_a_removed_wire_is_told() -> None:

@@ -32,9 +32,9 @@ class Change:
 
     @cached_property
     def drawn(self) -> int:
-        """How many wires are new."""
+        """How many wires are new. A part of a wire that was split is not."""
         known = {wire.id for wire in self.before.wires}
-        return sum(wire.id not in known for wire in self.after.wires)
+        return sum(wire.id not in known and not self._is_part(wire) for wire in self.after.wires)
 
     @cached_property
     def changed(self) -> frozenset[int]:
@@ -48,11 +48,24 @@ class Change:
         known = {id(one) for one in (*self.before.wires, *self.before.strokes)}
         gone = {wire.vertices for wire in self.before.wires if id(wire) not in left}
         erased = [np.sort(stroke.corners, axis=1) for stroke in self.before.strokes if id(stroke) not in left]
-        # A wire that took another course keeps the number that the found network has for it.
-        vertices = {wire.id: wire.vertices for wire in self.before.wires}
-        numbers = {wire.vertices: wire.id for wire in found.wires}
-        new = [wire for wire in self.after.wires if id(wire) not in known]
-        new = [replace(wire, id=numbers.get(vertices.get(wire.id), wire.id)) for wire in new]
+        # A wire that took another course keeps the number that the found network has for it. Undo may have led further back, to an even
+        # earlier course, which has the same ends then. What undo removed is not drawn again only because another wire was joined to it.
+        former = {wire.id: wire.vertices for wire in self.before.wires}
+        courses = set(former.values())
+        by_course = {wire.vertices: wire.id for wire in found.wires}
+        by_ends = {(wire.start, wire.end): wire for wire in found.wires if wire.vertices not in courses}
+        new = []
+        for wire in (wire for wire in self.after.wires if id(wire) not in known):
+            course = former.get(wire.id)
+            number = by_course.get(course, wire.id)
+            if course is not None and course not in by_course:
+                earlier = by_ends.get((wire.start, wire.end))
+                if earlier is not None:
+                    number = earlier.id
+                    gone.add(earlier.vertices)
+                elif wire.vertices == course:
+                    continue
+            new.append(replace(wire, id=number))
         strokes = [
             stroke
             for stroke in found.strokes
@@ -68,7 +81,9 @@ class Change:
     def rerouted(self) -> int:
         """How many wires have another course than before."""
         known = {wire.id: wire for wire in self.before.wires}
-        return sum(wire.id in known and not wire.like(known[wire.id]) for wire in self.after.wires)
+        return sum(
+            wire.id in known and not wire.like(known[wire.id]) and not self._is_part(wire) for wire in self.after.wires
+        )
 
     @cached_property
     def removed(self) -> int:
@@ -82,6 +97,19 @@ class Change:
         before, after = ({stroke.id for stroke in network.strokes} for network in (self.before, self.after))
         return len(after - before), len(before - after)
 
+    def _is_part(self, wire: Wire) -> bool:
+        """Whether a wire is a part of a former one that was split."""
+        left = {id(own) for own in self.after.wires}
+        return any(_is_run(wire.vertices, own.vertices) for own in self.before.wires if id(own) not in left)
+
     def finishes(self, wire: Wire) -> bool:
         """Whether the seam of a wire is to lie where the wire runs, rather than on the edges beside it."""
         return wire.id in self.changed and wire.along == "SURFACE" and wire.marks and wire.finish != "SNAP"
+
+
+def _is_run(part: tuple[int, ...], whole: tuple[int, ...]) -> bool:
+    """Whether vertices follow one another in a longer chain as well."""
+    if len(part) >= len(whole) or part[0] not in whole:
+        return False
+    begin = whole.index(part[0])
+    return whole[begin : begin + len(part)] == part

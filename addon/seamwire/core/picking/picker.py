@@ -195,14 +195,15 @@ class DrawnPicker:
     def _drawn_now(self, session: Session) -> _Drawn:
         """Return what can be found of a session's network. A held seed and its wires cannot, because they follow the mouse."""
         network, along, moving = session.network, session.options.along, session.under_way.moved
-        if self._drawn is not None and self._drawn_of == (network, along, moving):
+        of = network, along, moving
+        if self._drawn is not None and self._drawn_of == of:
             return self._drawn
-        self._drawn_of = network, along, moving
         moved = {wire.id for wire in moving}
         picks = tuple(session.seeds())
         wires = tuple(wire for wire in session.wires if wire.id not in moved)
         key = picks, wires
         if self._drawn is not None and self._drawn.key == key:
+            self._drawn_of = of
             return self._drawn
         followed = {end for wire in session.wires if wire.id in moved for end in (wire.start, wire.end)}
         followed |= {end[::-1] for end in followed if isinstance(end, tuple)}
@@ -216,6 +217,7 @@ class DrawnPicker:
             wires,
             Segments([surface.curve_in_object(wire.points) for wire in wires]),
         )
+        self._drawn_of = of
         return self._drawn
 
 
