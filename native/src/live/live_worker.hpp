@@ -101,7 +101,7 @@ class LiveWorker {
   std::stop_source quit_;                 // its state guards itself
   std::atomic<bool> has_failed_ = false;  // there is no surface
 
-  EventCount events_;  // in the boxes
+  EventCount events_;  // in the boxes, with what is to be freed
   SeedBox seeds_{events_};
   TargetBox targets_{events_};
   LoopBox loops_{events_};

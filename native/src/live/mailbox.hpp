@@ -85,9 +85,10 @@ class Mailbox {
   }
   /// Gives an answer back that was read, so that the reader is not the one who frees it.
   void give_back(std::shared_ptr<const Answer> answer) {
+    if (!answer) return;
     {
       const MutexLock lock(mutex_);
-      if (!answer || answer == answer_) {
+      if (answer == answer_) {
         answer = nullptr;  // the mailbox has it still
         return;
       }

@@ -19,7 +19,7 @@ using Point2 = Eigen::Vector2d;
 
 /// When to stop, and whether the outline may cross itself.
 struct MapOptions {
-  std::size_t max_steps = 60;  ///< Newton steps at most, in all phases together
+  std::size_t max_steps = 60;  ///< Newton steps at most, and as many again with a barrier
   /// Stop after a step whose predicted decrease of the energy (half the Newton decrement) is below this.
   double tolerance = 1e-4;
   /// Whether to solve again with a barrier along the outline if the map overlaps itself.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "parts/minimum_cut.hpp"
+#include "detail/infinity.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "detail/poll.hpp"
 
@@ -64,7 +64,7 @@ double MinimumCut::push(std::int32_t source, std::int32_t sink) {
     at = arcs_[path.back() ^ 1].to;
     path.pop_back();
   }
-  double amount = std::numeric_limits<double>::infinity();
+  double amount = kInfinity;
   for (const std::int32_t a : path) amount = std::min(amount, arcs_[a].left);
   for (const std::int32_t a : path) {
     arcs_[a].left -= amount;

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "detail/infinity.hpp"
 #include "prices/plan_mesh.hpp"
 #include "prices/reflection.hpp"
 #include "prices/visibility.hpp"
@@ -25,7 +25,7 @@ struct EdgePrices {
   double of_slit = 0.0;               ///< what each slit costs beside its edges, so that there are few long ones
   /// A slit that gains more energy than this for its price is worth it even below the bound on the energy. That is so
   /// on machine parts, where sharp edges are nearly free.
-  double bargain = std::numeric_limits<double>::infinity();
+  double bargain = kInfinity;
 };
 
 /// `weights`: factors at vertices of the mesh; empty: 1 everywhere. Infinity keeps seams away.

@@ -193,6 +193,7 @@ void GroupPlanning::search_once(const SlitGoal& goal, const std::function<void()
     steps_ += plan.work;
     if (round == 0) missed_ = missed_pieces(plan, goal.energy);
     std::vector<Slit> slits = completed(on_original(plan.slits), plan.slits);
+    // The moved bound has given the same slits. Another round would rarely give others.
     if (round > 0 && std::ranges::equal(slits, last, is_same)) break;
     last = slits;
     Result solved = solved_on_original(std::move(slits), next(work[index(round)].map));

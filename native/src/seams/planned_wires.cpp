@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <limits>
 #include <set>
 #include <utility>
 
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
 #include "tuning/constants.hpp"
 
 namespace seamwire::detail {
@@ -30,7 +30,7 @@ std::pair<std::size_t, double> farthest_from(const PlanMesh& mesh, std::span<con
                                              std::span<const Vector> line) {
   std::pair<std::size_t, double> farthest{0, 0.0};
   for (std::size_t i = 1; i + 1 < chain.size(); ++i) {
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (std::size_t k = 1; k < line.size(); ++k) {
       least = std::min(least, distance_to(mesh.points[chain[i]], line[k - 1], line[k]));
     }

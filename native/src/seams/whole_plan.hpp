@@ -15,7 +15,7 @@ namespace seamwire::detail {
 /// Makes plans for the whole surface from the plans of its groups.
 class WholePlan {
  public:
-  /// `distortion`: the bound for the mean over the surface. All arguments must outlive this object.
+  /// `distortion`: the bound for the mean over the surface. `prepared` and `plans` must outlive this object.
   WholePlan(const PreparedSurface& prepared, const std::vector<GroupPlanning>& plans, double distortion);
 
   /// The present plan, without a map.

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
 #include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
 #include "detail/run_on_threads.hpp"
 #include "detail/shortest_paths.hpp"
 
@@ -35,7 +35,7 @@ IslandGraph::IslandGraph(const Island& island, std::span<const Vector> points) :
 }
 
 std::vector<double> IslandGraph::distances_from(std::int32_t vertex) const {
-  std::vector<double> least(areas.size(), std::numeric_limits<double>::infinity());
+  std::vector<double> least(areas.size(), kInfinity);
   find_shortest_paths(std::array{vertex}, least, [&](std::int32_t v, const auto& step) {
     for (const auto& [next, length] : neighbors[v]) step(next, length);
   });

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
 
 namespace seamwire::detail {
 namespace {
@@ -33,7 +33,7 @@ std::vector<std::int32_t> exact_image(const SlitProblem& problem, std::span<cons
 
 std::int32_t nearest_on_cut(const PlanMesh& mesh, std::span<const std::uint8_t> is_on_cut, const Vector& to) {
   std::int32_t nearest = -1;
-  double least = std::numeric_limits<double>::infinity();
+  double least = kInfinity;
   for (std::int32_t v = 0; index(v) < mesh.vertex_count(); ++v) {
     if (is_on_cut[v] == 0) continue;
     const double distance = (mesh.points[v] - to).squaredNorm();

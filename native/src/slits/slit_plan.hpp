@@ -2,13 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "detail/infinity.hpp"
 #include "parameterization/island_map.hpp"
 #include "prices/edge_prices.hpp"
 #include "prices/plan_mesh.hpp"
@@ -74,7 +74,7 @@ struct SlitPlan {
   std::vector<Slit> slits;
   std::vector<std::shared_ptr<const PieceMap>> maps;  ///< by piece
   /// E_d, mean over the area without the worst 0.1 %, where the tips of slits are; infinite if a piece has no map.
-  double energy = std::numeric_limits<double>::infinity();
+  double energy = kInfinity;
   double price = 0.0;  ///< of all slits, each with a fixed share
   bool overlaps = false;
   double work = 0.0;  ///< Newton steps that it took to get here from another plan, each times its share of the area

@@ -183,6 +183,9 @@ inline constexpr double kSharpAbove = 30.0;
 inline constexpr double kTipProminence = 0.08;
 /// Distance from the mirror plane below which a tip is moved onto it. Otherwise a back gets two parallel slits.
 inline constexpr double kTipToPlane = 0.07;
+/// Distance below which two tips are one. On a surface that is nearly its own mirror image, a tip that is mirrored
+/// falls beside the other one, and the limb would get two.
+inline constexpr double kTipsApart = 0.05;
 /// Length of tree and boundary below which a piece gets one more slit. A ball, which has no limbs, would have
 /// hardly any cut.
 inline constexpr double kLeastCut = 0.6;
@@ -229,10 +232,10 @@ inline constexpr double kSameCandidate = 0.03;
 
 // The search: it adds slits, shortens them, and exchanges them.
 
-/// Newton steps of a trial, which tells about what a slit gains. A full solve may take 60.
+/// Newton steps of a trial, which tells about what a slit gains. A full solve of the search may take 60.
 inline constexpr std::size_t kTrialSteps = 6;
-/// Newton steps at most for the map of a finished cut. A body with fingers takes more than 100, and a map that is not
-/// solved to its end seems to miss the bound.
+/// Newton steps at most for the map of a finished cut, and as many more if its outline crosses itself. A body with
+/// fingers takes more than 100, and a map that is not solved to its end seems to miss the bound.
 inline constexpr std::size_t kFinishedSteps = 300;
 /// Energy below the bound to which slits are added, so that there is something to give away. Without it, a seam was
 /// 2.3 long instead of 1.9.
