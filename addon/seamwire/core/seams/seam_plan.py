@@ -241,8 +241,8 @@ def turned(
     """Return the amount of parts, 0 to 1, after a turn of the wheel by one notch: 1 for more parts, -1 for fewer.
 
     It stays if the number of parts, which `count` tells for an amount, cannot change that way. A larger amount can have fewer parts.
-    Amounts that change the number the wrong way are skipped unless nothing better follows. If it `may_go_on` no longer, the first of these is returned,
-    or else the last amount that was tried.
+    Amounts that change the number the wrong way are skipped unless nothing better follows. If it `may_go_on` no longer, the first of these
+    is returned, or else the last amount that was tried.
     """
     before = count(amount)
     place = round(amount / STEP, 6)
