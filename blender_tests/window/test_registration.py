@@ -47,8 +47,8 @@ def endless(monkeypatch: pytest.MonkeyPatch) -> list[object]:
     """Let searches show their first plan, and go on until they are cancelled. Return the plans."""
     plan, found = Suggestion.plan, []
 
-    def plan_on(suggestion: Suggestion, request: object, progress: object, **options: object) -> None:
-        plan(suggestion, request, progress, **options)
+    def plan_on(suggestion: Suggestion, energy: float, islands: int, progress: object, is_enough: object) -> None:
+        plan(suggestion, energy, islands, progress, is_enough)
         found.append(suggestion.best_so_far)
         while progress(0.5):
             threading.Event().wait(0.01)
