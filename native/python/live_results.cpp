@@ -54,8 +54,8 @@ py::tuple candidates_of(const LiveWiresObject& object) {
 void bind_live_wires(py::module_& module) {
   py::class_<LiveWiresObject>(module, "LiveWires", "The wires from the seed to a target.")
       .def_property_readonly("wires", &candidates_of,
-                             "tuple of LiveCandidate: one for each metric. Those of M_min and M_max; across the "
-                             "surface, the family 'feature' has the wire in `concave_metric` before them.")
+                             "tuple of LiveCandidate: the wires in M_min and M_max. Across the surface, the family "
+                             "'feature' has the wire in `concave_metric` before them.")
       .def_property_readonly(
           "active", [](const LiveWiresObject& w) { return w.wires->active; },
           "int: the index of the wire to offer first. This is the first wire, or of M_min and M_max the wire that is "

@@ -66,8 +66,8 @@ class Surface:
     Raises
     ------
     ValueError
-        If an array has the wrong shape or type, a coordinate is not finite, a vertex number is out of range, an edge joins
-        a vertex to itself, or there is no edge. The message names the element.
+        If an array has the wrong shape or type, or there is no edge. Also if a coordinate is not finite, a vertex number is out
+        of range, or an edge joins a vertex to itself. The message names the element.
     Cancelled
     """
 
@@ -1150,7 +1150,7 @@ class LiveWires:
     """The wires from the seed to a target."""
 
     wires: tuple[LiveCandidate, ...]
-    """tuple of LiveCandidate: one for each metric. Those of M_min and M_max; across the surface, the family 'feature' has the wire in `concave_metric` before them."""
+    """tuple of LiveCandidate: the wires in M_min and M_max. Across the surface, the family 'feature' has the wire in `concave_metric` before them."""
     active: int
     """int: the index of the wire to offer first. This is the first wire, or of M_min and M_max the wire that is shorter in its own metric (Section 5 of the paper). If it does not reach the target, it is the shortest of all wires."""
     settled: bool

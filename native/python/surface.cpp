@@ -113,8 +113,8 @@ progress : callable, optional
 Raises
 ------
 ValueError
-    If an array has the wrong shape or type, a coordinate is not finite, a vertex number is out of range, an edge joins
-    a vertex to itself, or there is no edge. The message names the element.
+    If an array has the wrong shape or type, or there is no edge. Also if a coordinate is not finite, a vertex number is out
+    of range, or an edge joins a vertex to itself. The message names the element.
 Cancelled
 )")
       .def(py::init(&make_surface), py::arg("points"), py::arg("triangles"), py::arg("edges") = py::none(),

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import pytest
 from seamwire.core.drawing.change import Change
 from seamwire.core.network.network import Network
 from seamwire.core.network.strokes import Stroke, through_vertices
@@ -37,13 +38,17 @@ def test_a_wire_with_another_path_is_changed_and_not_drawn() -> None:
     assert summary(change, 18, 12) == "1 wire changed, 18 edges marked, 12 edges cleared"
 
 
-def test_a_wire_that_is_split_is_neither_drawn_nor_changed() -> None:
+@pytest.mark.parametrize("closed", [False, True])
+def test_a_wire_that_is_split_is_neither_drawn_nor_changed(closed: bool) -> None:
     before = drawn()
     first, second = before.wires
-    middle = second.vertices[len(second.vertices) // 2]
-    parts = split(second, middle, grid_points(SIZE))
+    if closed:
+        around = (2, 3, 4, 10, 16, 15, 14, 8)
+        second = replace(second, vertices=around, points=grid_points(SIZE)[list(around)], closed=True)
+        before = replace(before, wires=(first, second))
+    parts = split(second, second.vertices[len(second.vertices) // 2], grid_points(SIZE))
     assert parts is not None
-    change = Change(before, replace(before, wires=(first, parts[0], replace(parts[1], id=77))))
+    change = Change(before, replace(before, wires=(first, *parts)))
     assert summary(change, 0, 0) == "no edge has changed"
 
 

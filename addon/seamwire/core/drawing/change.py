@@ -44,9 +44,9 @@ class Change:
 
     def on(self, found: Network) -> Network:
         """Return another network with the same change. A wire along the same vertices, or a stroke in the same triangles, is the same."""
-        left = {id(one) for one in (*self.after.wires, *self.after.strokes)}
+        left = {id(stroke) for stroke in self.after.strokes}
         known = {id(one) for one in (*self.before.wires, *self.before.strokes)}
-        gone = {wire.vertices for wire in self.before.wires if id(wire) not in left}
+        gone = {wire.vertices for wire in self._gone}
         erased = [np.sort(stroke.corners, axis=1) for stroke in self.before.strokes if id(stroke) not in left]
         # A wire that took another course keeps the number that the found network has for it. Undo may have led further back, to an even
         # earlier course, which has the same ends then. What undo removed is not drawn again only because another wire was joined to it.
@@ -97,19 +97,24 @@ class Change:
         before, after = ({stroke.id for stroke in network.strokes} for network in (self.before, self.after))
         return len(after - before), len(before - after)
 
+    @cached_property
+    def _gone(self) -> tuple[Wire, ...]:
+        """The former wires that were changed or removed."""
+        left = {id(wire) for wire in self.after.wires}
+        return tuple(wire for wire in self.before.wires if id(wire) not in left)
+
     def _is_part(self, wire: Wire) -> bool:
         """Whether a wire is a part of a former one that was split."""
-        left = {id(own) for own in self.after.wires}
-        return any(_is_run(wire.vertices, own.vertices) for own in self.before.wires if id(own) not in left)
+        return any(_is_run(wire.vertices, own) for own in self._gone)
 
     def finishes(self, wire: Wire) -> bool:
         """Whether the seam of a wire is to lie where the wire runs, rather than on the edges beside it."""
         return wire.id in self.changed and wire.along == "SURFACE" and wire.marks and wire.finish != "SNAP"
 
 
-def _is_run(part: tuple[int, ...], whole: tuple[int, ...]) -> bool:
-    """Whether vertices follow one another in a longer chain as well."""
-    if len(part) >= len(whole) or part[0] not in whole:
+def _is_run(part: tuple[int, ...], wire: Wire) -> bool:
+    """Whether vertices follow one another along a longer wire as well."""
+    if len(part) >= len(wire.vertices) or part[0] not in wire.vertices:
         return False
-    begin = whole.index(part[0])
-    return whole[begin : begin + len(part)] == part
+    begin = wire.vertices.index(part[0])
+    return (wire.vertices * (2 if wire.closed else 1))[begin : begin + len(part)] == part
