@@ -31,7 +31,7 @@ from .core.network.picks import FacePoint, undirected
 from .core.offers.edge_loops import KIND_COSTS
 from .mesh import edit_mesh, finishes, settings
 from .mesh.object_session import ObjectSession
-from .terms.choices import ALONG, FINISHES, METRICS
+from .terms.choices import ALONG, DEFAULT_FINISH, FINISHES, METRICS
 from .terms.options import Options, strength_name
 from .words.reports import HALFWAY, gaps, left_out
 from .words.scripted import draw_chain, draw_loop
@@ -78,7 +78,7 @@ def mark(
     strokes: Sequence[Sequence[int]] = (),
     avoid: Sequence[Sequence[int]] = (),
     along: Along = "EDGES",
-    finish: Finish = "SNAP",
+    finish: Finish = DEFAULT_FINISH,
     clear: bool = False,
     mirror: Iterable[str] | None = None,
     strength: float | None = None,
@@ -122,7 +122,7 @@ def mark(
     _one_of("metric", metric, METRICS)
     _one_of("take", take, TAKES)
     across = along == "SURFACE"
-    if across and finish == "CUT" and clear:
+    if across and FINISHES[finish].cuts and clear:
         raise ValueError("A cut cannot clear seams: choose another finish")
     if across and take != "FIRST":
         raise ValueError("take needs along='EDGES'")
@@ -157,9 +157,9 @@ def mark(
         wires = [wire for wire in mesh.session.wires if wire not in before]
         if not wires:
             raise ValueError(". ".join(["No seam was marked", *problems]))
-        if across and finish == "CUT":
+        if options.into_faces and across:
             return _cut(mesh, wires, problems)
-        return _write(mesh, wires, problems, "SNAP" if clear or not across else finish)
+        return _write(mesh, wires, problems, finish if across and not clear else DEFAULT_FINISH)
 
 
 def suggest(obj: bpy.types.Object, **options: object) -> bool:
@@ -190,8 +190,7 @@ def _write(mesh: ObjectSession, wires: list[Wire], problems: list[str], finish: 
     plan = mesh.plan()
     with _changing():
         marked, cleared = mesh.write(plan)
-        if finish in finishes.FINISHERS:
-            finishes.FINISHERS[finish](mesh, wires)
+        finishes.move(mesh, wires, finish)
         if marked or cleared:
             edit_mesh.live_unwrap(bpy.context)
     return Marked(len(wires), marked, cleared, tuple(problems))

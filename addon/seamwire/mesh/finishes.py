@@ -85,15 +85,15 @@ def apply(mesh: ObjectSession, change: Change) -> tuple[ObjectSession | None, Fi
     wires = [wire for wire in mesh.session.wires if change.finishes(wire)]
     drawn = {wire.vertices: wire.finish for wire in wires}
     reports = []
-    for name, finisher in FINISHERS.items():
+    for name in FINISHERS:
         own = [wire for wire in wires if wire.finish == name]
         if own:
-            mesh, moved = finisher(mesh, own)
+            mesh, moved = move(mesh, own, name)
             reports.append(
                 f"{FINISHES[name].name}: {count(len(own), 'wire')}, {count(moved, 'vertex', 'vertices')} moved"
             )
             wires = [wire for wire in mesh.session.wires if drawn.get(wire.vertices) == wire.finish]
-    cuts = [wire for wire in wires if wire.finish == "CUT"]
+    cuts = [wire for wire in wires if wire.cuts]
     finished = Finished(tuple(reports))
     if not cuts:
         taken_back = _take_back(mesh, change.before)
@@ -135,8 +135,14 @@ def slide(mesh: ObjectSession, wires: Collection[Wire]) -> tuple[ObjectSession, 
 FINISHERS: Mapping[Finish, Callable[[ObjectSession, Collection[Wire]], tuple[ObjectSession, int]]] = {"SLIDE": slide}
 """Functions that finish wires which the mesh has as seams along the nearest edges. Each may move vertices, and does not renumber them.
 
-They return the session that goes on, and the number of moved vertices. "SNAP" needs no function. "CUT" comes last, because it renumbers.
+They return the session that goes on, and the number of moved vertices. Marking the nearest edges needs no function. Cuts come last,
+because they renumber.
 """
+
+
+def move(mesh: ObjectSession, wires: Collection[Wire], finish: Finish) -> tuple[ObjectSession, int]:
+    """Finish kept wires in a way that does not cut. Returns the session that goes on, and the number of moved vertices."""
+    return FINISHERS[finish](mesh, wires) if wires and finish in FINISHERS else (mesh, 0)
 
 
 def plan_cut(mesh: ObjectSession, wires: Iterable[Wire]) -> CutPlan:

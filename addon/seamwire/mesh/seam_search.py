@@ -32,10 +32,11 @@ from ..core.seams.seam_plan import (
     stretch_of,
     stroke_weights,
 )
+from ..terms.choices import FINISHES
 from ..terms.options import CLAMP_PERCENTILE, STRENGTHS
 from ..words.notices import Notices
 from ..words.search_report import Outcome
-from . import edit_mesh, uv_map
+from . import edit_mesh, finishes, uv_map
 from .object_session import ObjectSession, mirror_axes
 from .seam_islands import labels_of, mapped, missing_cuts
 from .unwrap import STRAIGHT_COST, UP, Layout, Unwrapped, unwrap_changed
@@ -337,7 +338,7 @@ class Suggestion:
 
     def map(self) -> NDArray[np.float64] | None:
         """Return the map of the plan, (m, 3, 2), in the object's units; None if it has none, or the mesh is another one with the wires."""
-        is_same = not self.slits or self.along == "EDGES" or self.finish == "SNAP"
+        is_same = not self.slits or self.along == "EDGES" or not FINISHES[self.finish].on_wire
         return self.best.uvs if is_same and self.best is not None else None
 
     def length_of(self, plan: seamwire_core.SeamPlan) -> float:
@@ -366,11 +367,18 @@ class Suggestion:
         areas = areas[areas > 0.0]
         return min(CRUMB, float(areas.min() / areas.sum())) if len(areas) else CRUMB
 
-    def write(self, wires: Iterable[Wire]) -> None:
-        """Keep wires with the mesh."""
-        self.mesh.add(wires)
+    @property
+    def cuts(self) -> bool:
+        """Whether the wires in the parts are to be cut into the faces."""
+        return self.along == "SURFACE" and bool(self.slits) and FINISHES[self.finish].cuts
+
+    def write(self) -> None:
+        """Keep the wires with the mesh, and finish them. Only borders are kept if the others are to be cut."""
+        self.mesh.add(self.border_wires if self.cuts else self.wires)
         marked, _ = self.mesh.write(self.mesh.plan())
         self.marked += marked
+        if self.along == "SURFACE":
+            finishes.move(self.mesh, self.slits, self.finish)
 
 
 class SeamSearch:
@@ -493,28 +501,19 @@ class SeamSearch:
     @property
     def crumb(self) -> float:
         """The fraction of a mesh's area below which islands beside cuts are merged."""
-        smallest = (suggestion.smallest() for suggestion in self._across)
+        smallest = (suggestion.smallest() for suggestion in self if suggestion.along == "SURFACE" and suggestion.slits)
         return _CUT_CRUMB * min(smallest, default=0.0)
 
-    def finished_by(self, finish: Finish) -> list[Suggestion]:
-        """Return the suggestions with wires across the surface that become seams in this way."""
-        return [suggestion for suggestion in self._across if suggestion.finish == finish]
-
     @property
-    def _across(self) -> list[Suggestion]:
-        return [suggestion for suggestion in self if suggestion.along == "SURFACE" and suggestion.slits]
+    def to_cut(self) -> dict[ObjectSession, list[Wire]]:
+        """The wires that are to be cut into each mesh."""
+        return {suggestion.mesh: suggestion.slits for suggestion in self if suggestion.cuts}
 
-    def write_borders(self) -> None:
-        """Keep the borders of meshes whose other wires are cut."""
-        for suggestion in self.finished_by("CUT"):
-            suggestion.write(suggestion.border_wires)
-
-    def write(self) -> None:
-        """Keep all wires with the meshes, except meshes whose wires are cut."""
-        cut = self.finished_by("CUT")
+    def write(self, before_cuts: bool) -> None:
+        """Keep wires with the meshes: the borders of meshes that are to be cut, or everything with the other meshes."""
         for suggestion in self:
-            if suggestion not in cut:
-                suggestion.write(suggestion.wires)
+            if suggestion.cuts == before_cuts:
+                suggestion.write()
 
     def unwrap(self, context: bpy.types.Context) -> int:
         """Unwrap if wanted, otherwise follow Blender's Live Unwrap. Return the number of unwrapped islands.

@@ -13,11 +13,12 @@ from ..words.reports import gaps, left_out
 from .edit_mesh_operator import EditMeshOperator, changing, description_of_item
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from ..core.network.wires import Wire
     from ..mesh.object_session import ObjectSession
-    from ..terms.choices import Finish
+
+_ITEMS = tuple(item for item in items(FINISHES) if FINISHES[item[0]].on_wire)
 
 
 class MESH_OT_seamwire_finish(EditMeshOperator, bpy.types.Operator):
@@ -29,7 +30,7 @@ class MESH_OT_seamwire_finish(EditMeshOperator, bpy.types.Operator):
     finish: bpy.props.EnumProperty(
         name="Finish",
         description="How a seam comes to lie on its wire",
-        items=tuple(item for item in items(FINISHES) if item[0] != "SNAP"),
+        items=_ITEMS,
         default="CUT",
     )
 
@@ -37,17 +38,18 @@ class MESH_OT_seamwire_finish(EditMeshOperator, bpy.types.Operator):
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Finish the wires of all objects in Edit Mode."""
-        from ..mesh import edit_mesh
+        from ..mesh import edit_mesh, finishes
 
         wires = _wires_across(self, context)
         if not wires:
             return {"CANCELLED"}
-        if self.finish == "CUT":
+        if FINISHES[self.finish].cuts:
             return cut_wires(self, context, wires, kept=True)
         with changing():
-            done = move_vertices(self.finish, wires)
+            moved = sum(finishes.move(mesh, own, self.finish)[1] for mesh, own in wires.items())
             edit_mesh.live_unwrap(context)
-        self.report({"INFO"}, f"{count(sum(map(len, wires.values())), 'wire')}: {done}")
+        done = count(sum(map(len, wires.values())), "wire"), count(moved, "vertex", "vertices")
+        self.report({"INFO"}, "{}: {} moved".format(*done))
         return {"FINISHED"}
 
 
@@ -131,13 +133,6 @@ def cut_wires(
     )
     operator.report({"INFO"}, ", ".join(done))
     return {"FINISHED"}
-
-
-def move_vertices(finish: Finish, wires: Mapping[ObjectSession, Collection[Wire]]) -> str:
-    """Finish kept wires by one of `FINISHERS`, and return a report. The sessions of the meshes end."""
-    from ..mesh.finishes import FINISHERS
-
-    return f"{count(sum(FINISHERS[finish](mesh, own)[1] for mesh, own in wires.items() if own), 'vertex', 'vertices')} moved"
 
 
 register, unregister = bpy.utils.register_classes_factory((MESH_OT_seamwire_finish,))

@@ -12,7 +12,7 @@ from mathutils import Vector
 
 from ..terms.choices import ALONG, AUTO_ALONG, AUTO_FINISH, FINISHES, items
 from .edit_mesh_operator import changing
-from .finish import cut_wires, move_vertices
+from .finish import cut_wires
 from .steps import Step, Stepwise, end_all
 
 if TYPE_CHECKING:
@@ -177,17 +177,13 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
 
     def _change(self, context: bpy.types.Context, search: SeamSearch) -> set[str]:
         """Write or cut the wires, unwrap, and report."""
-        from ..mesh.finishes import FINISHERS
-
-        to_cut = {suggestion.mesh: suggestion.slits for suggestion in search.finished_by("CUT")}
-        if to_cut:
-            first, crumb = search.write_borders, search.crumb
-            if cut_wires(self, context, to_cut, crumb=crumb, live_unwrap=False, first=first) == {"CANCELLED"}:
-                return {"CANCELLED"}
+        if search.to_cut:
+            first = partial(search.write, before_cuts=True)
+            done = cut_wires(self, context, search.to_cut, crumb=search.crumb, live_unwrap=False, first=first)
+            if done == {"CANCELLED"}:
+                return done
         with changing():
-            search.write()
-            for finish in FINISHERS:
-                move_vertices(finish, {suggestion.mesh: suggestion.slits for suggestion in search.finished_by(finish)})
+            search.write(before_cuts=False)
             self._unwrap(context, search)
             self._report_outcome(search)
         return {"FINISHED"}

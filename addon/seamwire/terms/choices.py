@@ -19,6 +19,23 @@ class Term(NamedTuple):
     tooltip: str
 
 
+class Finishing(NamedTuple):
+    """The name of a finish, its tooltip, and what it does. All code asks this row, and none asks for a name.
+
+    Parameters
+    ----------
+    on_wire
+        Whether the seam lies where the wire runs, instead of on the nearest edges.
+    cuts
+        Whether it adds vertices. Otherwise it may move vertices, and keeps their numbers.
+    """
+
+    name: str
+    tooltip: str
+    on_wire: bool = True
+    cuts: bool = False
+
+
 class Metric(NamedTuple):
     """The name of a metric, its tooltip, and the library's names of what its wires follow, by `Wire.follow`."""
 
@@ -38,12 +55,13 @@ AUTO_ALONG = "Along the edges that an artist placed, across the surface of scans
 
 Finish = str
 """A row of `FINISHES`: what becomes the seam of a wire across the surface."""
-FINISHES: Mapping[Finish, Term] = {
-    "SNAP": Term("Snap", "Mark the nearest edges"),
-    "SLIDE": Term("Slide", "Mark the nearest edges, and slide their vertices onto the wire"),
-    "CUT": Term("Cut", "Cut the wire into the faces"),
+FINISHES: Mapping[Finish, Finishing] = {
+    "SNAP": Finishing("Snap", "Mark the nearest edges", on_wire=False),
+    "SLIDE": Finishing("Slide", "Mark the nearest edges, and slide their vertices onto the wire"),
+    "CUT": Finishing("Cut", "Cut the wire into the faces", cuts=True),
 }
-"""`mesh/finishes.py` has the function for each."""
+"""`mesh/finishes.py` carries them out. The first is the default."""
+DEFAULT_FINISH: Finish = next(iter(FINISHES))
 AUTO_FINISH = "Cut scans and sculpts, snap to the edges that an artist placed"
 """The tooltip of Auto."""
 
@@ -100,7 +118,7 @@ HEATS: Mapping[str, Term] = {
 """What colors faces."""
 
 
-def items(table: Mapping[str, Term | Metric], auto: str = "") -> tuple[tuple[str, str, str, int], ...]:
+def items(table: Mapping[str, Term | Finishing | Metric], auto: str = "") -> tuple[tuple[str, str, str, int], ...]:
     """Return the items of a property of Blender's. `auto` is the tooltip of the first item, Auto; without it there is no such item."""
     first = (("AUTO", "Auto", auto, 0),) if auto else ()
     return first + tuple((code, row[0], row[1], number) for number, (code, row) in enumerate(table.items(), start=1))

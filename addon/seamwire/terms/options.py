@@ -12,11 +12,13 @@ from .choices import (
     ALONG,
     AUTO_ALONG,
     AUTO_FINISH,
+    DEFAULT_FINISH,
     FINISHES,
     HEATS,
     METRICS,
     Along,
     Finish,
+    Finishing,
     Metric,
     MetricName,
     Term,
@@ -71,7 +73,7 @@ class Setting(NamedTuple):
     tooltip: str
     group: str
     limits: tuple[float, float] | None = None
-    choices: Mapping[str, Term | Metric] | None = None
+    choices: Mapping[str, Term | Finishing | Metric] | None = None
     auto: str = ""
     matters: Callable[[Along, MetricName], bool] = lambda _along, _metric: True
     slider: bool = False
@@ -118,7 +120,7 @@ class Options:
     strength_edges: float = _strength("EDGES")
     strength_surface: float = _strength("SURFACE")
     finish: Finish = _setting(
-        "SNAP",
+        DEFAULT_FINISH,
         "Finish",
         "How a wire across the surface becomes a seam when its chain ends",
         "Finish",
@@ -178,6 +180,11 @@ class Options:
     def marking(self) -> bool:
         """Whether wires mark seams."""
         return not self.clear
+
+    @property
+    def into_faces(self) -> bool:
+        """Whether new wires across the surface are to be cut into the faces."""
+        return self.marking and FINISHES[self.finish].cuts
 
     @property
     def strengths(self) -> Mapping[Along, float]:

@@ -388,7 +388,7 @@ class ObjectView:
             cursor,
             vertices_only=across,
             edges_only=plain and not across,
-            anywhere=across and options.marking and options.finish == "CUT",
+            anywhere=across and options.into_faces,
             session=None if plain else self.session,
             xray=options.xray,
             preferred=self.session.drawing.symmetry.on_plane(self.session.options.mirror) if mirrored else frozenset(),

@@ -13,6 +13,7 @@ from mathutils import Matrix
 
 from ..core.drawing.picture import LIVE, Role, SeedRole
 from ..core.network.picks import place_of, undirected
+from ..terms.choices import FINISHES
 from ..words import corner
 from ..words.first_steps import FIRST_LINES
 from .failures import failures
@@ -248,7 +249,7 @@ class Overlay:
         styles = {Role.COMPUTING: looks.computing, Role.OFFER: looks.loop, Role.EXTENSION: looks.end}
         sheet.edges(looks.mirrored_live, shown.images)
         # Where the seam will be the wire, the edges that it snaps to do not matter.
-        if wire.along == "SURFACE" and (shown.finish == "SNAP" or not wire.marks):
+        if wire.along == "SURFACE" and not (wire.marks and FINISHES[shown.finish].on_wire):
             sheet.edges(looks.will_mark if wire.marks else looks.clear, wire.edges())
         sheet.curve(styles.get(shown.role, looks.active), wire.points)
         if not wire.marks and wire.along == "EDGES":

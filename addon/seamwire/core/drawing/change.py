@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...terms.choices import FINISHES
+
 if TYPE_CHECKING:
     from ..network.network import Network
     from ..network.wires import Wire
@@ -109,7 +111,7 @@ class Change:
 
     def finishes(self, wire: Wire) -> bool:
         """Whether the seam of a wire is to lie where the wire runs, rather than on the edges beside it."""
-        return wire.id in self.changed and wire.along == "SURFACE" and wire.marks and wire.finish != "SNAP"
+        return wire.id in self.changed and wire.along == "SURFACE" and wire.marks and FINISHES[wire.finish].on_wire
 
 
 def _is_run(part: tuple[int, ...], wire: Wire) -> bool:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...terms.choices import DEFAULT_FINISH
 from ...terms.options import Options
 from ..base import native
 from ..base.messages import NOTHING, Message
@@ -124,11 +125,6 @@ class Drawing:
         seed = self.network.seed
         return None if seed is None else undirected(seed.shown(self.options.along))
 
-    @property
-    def into_faces(self) -> bool:
-        """Whether new wires across the surface are to be cut into the faces."""
-        return self.options.marking and self.options.finish == "CUT"
-
     def as_drawn(self, wire: Wire, like: Wire | None = None) -> Wire:
         """Return a wire with the settings of a new one: marks, mirror, strength, and finish.
 
@@ -146,7 +142,7 @@ class Drawing:
             marks=self.options.marking,
             mirror=self.network.mirror,
             strength=self.strength,
-            finish=self.options.finish if wire.along == "SURFACE" and self.options.marking else "SNAP",
+            finish=self.options.finish if wire.along == "SURFACE" and self.options.marking else DEFAULT_FINISH,
         )
 
     def with_wires(self, *wires: Wire) -> Network:

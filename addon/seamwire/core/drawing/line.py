@@ -64,7 +64,7 @@ class LineGesture(Gesture):
             if drawing.triangles is None:
                 raise Refused("no-triangles")
             place = pick if seed is None else seed.begins("SURFACE")
-            return SurfaceLine(drawing.engines, drawing.points, drawing.triangles, place, drawing.into_faces)
+            return SurfaceLine(drawing.engines, drawing.points, drawing.triangles, place, drawing.options.into_faces)
         vertex = pick if isinstance(pick, int) and not self._apart else None
         before: Edge | None = None
         if seed is not None:

@@ -170,7 +170,7 @@ class LoopGesture(Gesture):
         """
         self.problem = NOTHING
         offers = self.edges if isinstance(pick, tuple) else self.cuts
-        self.cuts.into_faces = self._drawing.into_faces
+        self.cuts.into_faces = self._drawing.options.into_faces
         try:
             return self._with_crest(pick, offers.find(pick, self._drawing.network, kept), kept)
         except ValueError as error:
@@ -268,7 +268,7 @@ class LoopGesture(Gesture):
             raise Refused("no-crest-at", pick=pick)
         points, triangles = self._crests.line(number)
         first = FacePoint.at(points[0], int(triangles[0]), drawing.triangles, drawing.points)
-        begin: Pick = first if drawing.into_faces and drawing.options.along == "SURFACE" else first.vertex
+        begin: Pick = first if drawing.options.into_faces and drawing.options.along == "SURFACE" else first.vertex
         line = LineGesture(drawing, Snap(begin), apart=True)
         line.draw(points, triangles, None)
         line.finish()

@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from ...terms.choices import DEFAULT_FINISH
 from ..network.picks import undirected
 from .line import LineGesture
 from .picture import Choice, Intent, Offered, Picture, Role, ShownWire, shown_seeds
@@ -112,7 +113,7 @@ class Painter:
             *(live(wire, Role.FOLLOWING, options.finish) for wire in following),
             *([] if active is None else [live(active, role, options.finish)]),
             *([] if offer is None else [live(each, Role.OFFER, options.finish) for each in (offer, *offer.beside)]),
-            *([] if extension is None else [live(extension, Role.EXTENSION, "SNAP")]),
+            *([] if extension is None else [live(extension, Role.EXTENSION, DEFAULT_FINISH)]),
         )
 
     def _intent(self, computing: bool) -> Intent:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from enum import Enum, auto
 from typing import TYPE_CHECKING
 
+from ...terms.choices import DEFAULT_FINISH
 from ...terms.options import Options
 from ..base.messages import NOTHING, Message
 from ..network.network import Snap
@@ -110,7 +111,7 @@ class ShownWire:
     wire: Wire
     role: Role
     images: tuple[Edge, ...] = ()
-    finish: Finish = "SNAP"
+    finish: Finish = DEFAULT_FINISH
 
 
 @dataclass(frozen=True)

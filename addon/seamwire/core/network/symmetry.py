@@ -240,7 +240,7 @@ class Symmetry:
 
     def one_sided(self, wire: Wire, axes: tuple[int, ...]) -> bool:
         """Whether part of a wire has no image over the axes or one of their combinations, so that it stays alone."""
-        curves = wire.finish == "CUT"
+        curves = wire.cuts
         return not all(self._is_whole(wire, combination, curves) for combination in _combinations(axes))
 
     def _is_whole(self, wire: Wire, axes: tuple[int, ...], curves: bool) -> bool:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from ...terms.choices import LOOPS, Along, Finish, LoopKind
+from ...terms.choices import DEFAULT_FINISH, FINISHES, LOOPS, Along, Finish, LoopKind
 from ..base.geometry import nearest_on_segments
 from .picks import Edge, Pick, undirected
 
@@ -65,7 +65,7 @@ class Wire:
     strength
         The metric's largest anisotropy when it was found; 0: not known, or it needs none.
     finish
-        Across the surface, what becomes its seam when its chain ends; along edges "CUT" says that it was cut into the faces.
+        Across the surface, what becomes its seam when its chain ends; along edges, a finish that cuts says that it was cut into the faces.
     kind
         The kind of loop that one click on an edge offered, or None if the wire was drawn.
     through
@@ -96,7 +96,7 @@ class Wire:
     follow: int = 0
     alternatives: tuple[Wire, ...] = ()
     strength: float = 0.0
-    finish: Finish = "SNAP"
+    finish: Finish = DEFAULT_FINISH
     kind: LoopKind | None = None
     through: Edge | None = None
     planned: bool = False
@@ -116,9 +116,14 @@ class Wire:
         yield from self.images or ()
 
     @property
+    def cuts(self) -> bool:
+        """Whether its finish cuts faces."""
+        return FINISHES[self.finish].cuts
+
+    @property
     def leaves_trace(self) -> bool:
         """Whether the mesh keeps it: it runs along an edge, or is to be cut into a face."""
-        return len(self.vertices) > 1 or self.finish == "CUT"
+        return len(self.vertices) > 1 or self.cuts
 
     @property
     def last_edge(self) -> Edge:
@@ -128,7 +133,7 @@ class Wire:
     @property
     def is_cut(self) -> bool:
         """Whether it was cut into the faces, and runs along edges for that reason alone."""
-        return self.along == "EDGES" and self.finish == "CUT"
+        return self.along == "EDGES" and self.cuts
 
     def uncut(self) -> Wire:
         """Return a wire that was cut as one across the surface, whose other courses run there; any other as it is."""

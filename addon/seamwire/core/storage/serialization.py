@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...terms.choices import ALONG, FINISHES
+from ...terms.choices import ALONG, DEFAULT_FINISH, FINISHES
 from ..base.messages import Refused
 from ..base.nearest_vertices import NearestVertices
 from ..network.picks import FacePoint, undirected
@@ -249,7 +249,7 @@ def wire_record(wire: Wire, where: Places) -> Record:
     }
     if wire.kind is not None:
         record["kind"], record["through"] = wire.kind, wire.through
-    if wire.finish != "SNAP":
+    if wire.finish != DEFAULT_FINISH:
         record["finish"] = wire.finish
     if wire.planned:
         record["planned"] = True
@@ -275,7 +275,7 @@ def checked_wire(record: Record) -> Record:
         and record["follow"] in range(len(FOLLOWS))
         and np.isfinite(float(record["strength"]))
         and all(axis in (0, 1, 2) for axis in record["mirror"])
-        and record.get("finish", "SNAP") in FINISHES
+        and record.get("finish", DEFAULT_FINISH) in FINISHES
         and type(record.get("planned", False)) is bool
         and (record["heading"] is None or isinstance(pick_of(record["heading"]), tuple))
     )
@@ -348,7 +348,7 @@ def wire_of(record: Record, where: Places, vertices: tuple[int, ...] = ()) -> Wi
         heading=None if record["heading"] is None else pick_of(record["heading"]),
         follow=record["follow"],
         strength=float(record["strength"]),
-        finish=record.get("finish", "SNAP"),
+        finish=record.get("finish", DEFAULT_FINISH),
         kind=record["kind"] if is_loop else None,
         through=undirected(pick_of(record["through"])) if is_loop else None,
         planned=record.get("planned", False),

@@ -22,6 +22,7 @@ from ...core.network.strokes import Stroke, for_library, on_mesh
 from ...core.network.wires import LOOP_KINDS, Wire
 from ...core.solver.solver import LiveMaker, by_number, final
 from ...core.storage.serialization import unpacked
+from ...terms.choices import DEFAULT_FINISH
 from ...terms.options import CLAMP_PERCENTILE, STRENGTHS
 from .network_file import Course, NetworkFile
 from .placing import DOUBTFUL, PLACED, NearestSurface, Placed, Progress, Shape, tell
@@ -348,7 +349,7 @@ class Tracing:
         return Wire(
             record["along"], vertices, np.array(candidate.points), vertices[0], vertices[-1],
             faces=np.array(candidate.faces) if record["along"] == "SURFACE" else None, follow=follow,
-            strength=float(record["strength"]), finish=record.get("finish", "SNAP"), images=(),
+            strength=float(record["strength"]), finish=record.get("finish", DEFAULT_FINISH), images=(),
             planned=record.get("planned", False),
         )  # fmt: skip
 
