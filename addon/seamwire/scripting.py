@@ -33,7 +33,7 @@ from .mesh import edit_mesh, finishes, settings
 from .mesh.object_session import ObjectSession
 from .terms.choices import ALONG, DEFAULT_FINISH, FINISHES, METRICS
 from .terms.options import Options, strength_name
-from .words.reports import HALFWAY, gaps, left_out
+from .words.reports import HALFWAY, not_cut
 from .words.scripted import draw_chain, draw_loop
 
 if TYPE_CHECKING:
@@ -202,9 +202,7 @@ def _cut(mesh: ObjectSession, wires: list[Wire], problems: list[str]) -> Marked:
         # As if the mesh had the wires already: so it keeps the strokes too.
         _, done = finishes.cut(mesh, plan, wires, kept=True)
         edit_mesh.live_unwrap(bpy.context)
-    problems += [gaps(done.uncut)] if done.uncut else []
-    problems += [left_out(done.left_out)] if done.left_out else []
-    return Marked(done.wires, len(done.edges), 0, tuple(problems))
+    return Marked(done.wires, len(done.edges), 0, (*problems, *not_cut(done.uncut, done.left_out)))
 
 
 @contextmanager

@@ -239,26 +239,12 @@ def test_wires_that_cross_meet_in_a_vertex_and_part_the_mesh() -> None:
     cut("0 80; 8 72; 4 44")  # both diagonals, and from the middle of one side to that of another
     crossing = [v for v, count in _counts(seams(obj)).items() if count > 2]
     assert len(crossing) == 2
-    assert islands(obj) == 6
+    assert island_count(obj) == 6
 
 
 def _counts(edges: list[tuple[int, int]]) -> dict[int, int]:
     numbers, counts = np.unique(np.array(edges), return_counts=True)
     return dict(zip(numbers.tolist(), counts.tolist(), strict=True))
-
-
-def islands(obj: bpy.types.Object) -> int:
-    bm = bmesh.from_edit_mesh(obj.data)
-    left, count = set(bm.faces), 0
-    while left:
-        count += 1
-        waiting = [left.pop()]
-        while waiting:
-            face = waiting.pop()
-            new = {other for edge in face.edges if not edge.seam for other in edge.link_faces} & left
-            left -= new
-            waiting += new
-    return count
 
 
 def test_an_object_that_cannot_be_cut_is_named_and_the_others_are_cut(
@@ -502,7 +488,7 @@ def test_all_images_of_a_wire_from_pole_to_pole_are_cut() -> None:
                 v.co *= 2.0  # the way down leads along a corner of the cube
     top, bottom = (vertex_near(obj, (0.0, 0.0, z)) for z in (1.0, -1.0))
     assert cut(f"{top} {bottom}", mirror={"X", "Y"}, strength=1.0)
-    assert islands(obj) == 4
+    assert island_count(obj) == 4
     assert agree(obj)
     assert is_sound(obj)
 
@@ -698,7 +684,7 @@ def test_a_closed_chain_of_places_cuts_an_island_out() -> None:
     corners = ((-0.7, -0.6), (0.7, -0.55), (0.1, 0.8))
     text = " ".join(f"({x} {y} 0)" for x, y in (*corners, corners[0]))
     assert cut(text)
-    assert islands(obj) == 2
+    assert island_count(obj) == 2
     counts = seam_places(obj)
     assert set(counts.values()) == {2}
     assert set(corners) <= set(counts)
@@ -709,7 +695,7 @@ def test_from_corner_to_corner_over_a_place_inside_the_only_face() -> None:
     obj = add_grid(2)
     edit()
     assert cut("0 (0.1 0.4 0) 1")
-    assert islands(obj) == 2
+    assert island_count(obj) == 2
     assert seam_places(obj) == {(-1.0, -1.0): 1, (0.1, 0.4): 2, (1.0, -1.0): 1}
 
 

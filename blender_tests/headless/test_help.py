@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import bpy
 import pytest
 from seamwire.mesh.settings import preferences
-from seamwire.operators import navigation
+from seamwire.operators import keymaps
 from seamwire.ui import menus as panel
 from seamwire.words import first_steps as words
 from seamwire.words.keys import Action, Bindings
@@ -37,7 +37,7 @@ class Layout:
 @pytest.fixture(autouse=True)
 def keys_as_they_come(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let the keymaps be unchanged; other tests may have left them without keys."""
-    monkeypatch.setattr(navigation, "keys", lambda _context: Bindings())
+    monkeypatch.setattr(keymaps, "keys", lambda _context: Bindings())
 
 
 def shown() -> list[object]:
@@ -61,7 +61,7 @@ def test_the_panel_shows_each_action_with_its_keys_below_the_heading_of_its_grou
 
 def test_a_fifth_group_of_keys_has_room(monkeypatch: pytest.MonkeyPatch) -> None:
     groups = {f"Group {number}": [("A", "Act")] for number in range(5)}
-    monkeypatch.setattr(navigation, "keys", lambda _context: SimpleNamespace(groups=lambda: groups))
+    monkeypatch.setattr(keymaps, "keys", lambda _context: SimpleNamespace(groups=lambda: groups))
     assert [text for text in shown() if text in groups] == list(groups)
 
 

@@ -38,14 +38,6 @@ def hide_faces(obj: bpy.types.Object, faces: set[int]) -> None:
                 face.hide_set(True)
 
 
-@pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
-def test_chains_go_on_from_seed_to_seed(along: str) -> None:
-    obj = add_grid(9)
-    edit()
-    mark("0 8 80; 36 38", along)
-    assert seams(obj) == sorted(chain(*range(9)) + chain(*range(8, 81, 9)) + chain(36, 37, 38))
-
-
 def test_edges_are_seeds_and_part_of_the_wire() -> None:
     obj = add_grid(9)
     edit()
@@ -410,14 +402,6 @@ def test_outside_edit_mode_the_operators_cannot_be_called() -> None:
     assert not bpy.ops.mesh.seamwire_draw.poll()
     with pytest.raises(RuntimeError, match=r"poll\(\).*Needs a mesh in Edit Mode"):
         bpy.ops.mesh.seamwire_draw()
-
-
-def test_clearing_takes_seams_away_and_leaves_the_others() -> None:
-    obj = add_grid(9)
-    edit()
-    mark("36 44")
-    assert mark_wires(chains="38 42", clear=True)
-    assert seams(obj) == sorted(chain(36, 37, 38) + chain(42, 43, 44))
 
 
 def test_mirrored_wires_are_marked_as_the_mesh_or_the_operator_says() -> None:

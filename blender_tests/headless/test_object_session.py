@@ -263,19 +263,6 @@ def test_reading_a_mesh_writes_nothing(grid: bpy.types.Object, monkeypatch: pyte
     assert snapshot(grid) == before
 
 
-def test_a_wire_whose_seams_somebody_cleared_is_none(grid: bpy.types.Object) -> None:
-    mesh = session_on(grid)
-    draw(mesh, 36, 40, 44)
-    set_seams(grid, (37, 38), seam=False)
-    assert mesh.refresh(grid)
-    assert [wire.vertices for wire in mesh.session.wires] == [(40, 41, 42, 43, 44)]
-    rest = [(36, 37), (38, 39), (39, 40)]
-    assert sorted(tuple(sorted(edge)) for edge in mesh.plain_seams.tolist()) == rest
-    mesh.write(mesh.plan())
-    assert seams(grid) == sorted(chain(36, 37) + chain(*range(38, 45))), "the rest of it stays"
-    assert (37, 38) not in seams(grid), "what was cleared stays cleared"
-
-
 def test_refreshed_it_keeps_what_was_prepared_where_only_seams_changed(grid: bpy.types.Object) -> None:
     mesh = session_on(grid)
     session = mesh.session

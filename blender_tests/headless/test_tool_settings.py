@@ -9,7 +9,7 @@ import pytest
 from scene import add_grid, edit
 from seamwire.mesh import settings as chosen
 from seamwire.operators import chain_acts
-from seamwire.operators.bindings import HELP_PANEL
+from seamwire.operators.keymaps import HELP_PANEL
 from seamwire.ui import toolbar
 from seamwire.words.keys import Action
 

@@ -10,7 +10,6 @@ import pytest
 from desk import Desk, draw
 from scene import chain, seams
 from seamwire.core.drawing.line import LineGesture
-from seamwire.core.drawing.seed_drag import SeedDrag
 from seamwire.mesh.settings import settings
 from seamwire.operators.chain_acts import act
 from seamwire.operators.chain_events import Given, Sign
@@ -169,25 +168,3 @@ def test_after_a_lost_release_the_next_press_begins_anew(desk: Desk) -> None:
     ui.wait_until(lambda: len(hand.session.wires) == 2)
     assert not hand.holds
     assert hand.session.network.strokes == ()
-
-
-def test_enter_waits_until_a_released_seed_has_its_wires(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
-    hand, ui = Hand(desk, "seed"), desk.ui
-    aim, may_compute = SeedDrag.aim, []
-
-    def slow(drag: SeedDrag, target: object) -> object:
-        message = aim(drag, target)
-        drag.final = bool(may_compute)
-        return message
-
-    monkeypatch.setattr(SeedDrag, "aim", slow)
-    ui.move(desk.at(0))
-    ui.event("LEFTMOUSE", "PRESS", desk.at(0))
-    for vertex in (9, 10, 18):
-        ui.move(desk.at(vertex))
-    ui.event("LEFTMOUSE", "RELEASE", desk.at(18))
-    ui.key("RET")
-    assert desk.running
-    may_compute.append(True)
-    ui.wait_until(lambda: not desk.running)
-    assert 18 in hand.session.seeds(), "the seed stays where it was released"

@@ -66,26 +66,6 @@ def test_a_click_is_a_click_still(desk: Desk) -> None:
     assert seams(desk.obj) == chain(*range(36, 41))
 
 
-def test_escape_and_the_right_button_forget_a_line_and_keep_the_chain(desk: Desk) -> None:
-    session, ui = desk.start(), desk.ui
-    ui.click(desk.at(0))
-    ui.click(desk.at(4))
-    ui.wait_until(lambda: len(session.wires) == 1)
-    for cancel in ("ESC", "RIGHTMOUSE"):
-        press_and_draw(desk, desk.at(36), desk.at(40))
-        assert session.under_way.held
-        assert session.picture.all(Role.FOLLOWING)
-        ui.event(cancel, "PRESS")
-        ui.event(cancel, "RELEASE")
-        assert not session.under_way.held
-        assert session.picture.all(Role.FOLLOWING) == ()
-        ui.event("LEFTMOUSE", "RELEASE")
-        assert len(session.wires) == 1
-        assert session.drawing.seed_place == 4, "the live wire goes on"
-    ui.key("RET")
-    assert seams(desk.obj) == chain(0, 1, 2, 3, 4)
-
-
 def test_a_line_from_the_live_seed_goes_on_with_the_chain(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     session, ui = desk.start(), desk.ui
     ui.click(desk.at(0))

@@ -11,7 +11,7 @@ from desk import Desk, choose, drag, draw, said, undo_steps
 from scene import chain, seams, snapshot
 from seamwire.core.drawing.picture import Role
 from seamwire.mesh.settings import preferences, settings
-from seamwire.operators import bindings
+from seamwire.operators import keymaps
 from seamwire.ui import status_bar
 from seamwire.view.edited_objects import edited
 
@@ -76,17 +76,6 @@ def test_clearing_takes_seams_away_and_breaks_the_wires_there(desk: Desk) -> Non
     desk.start()
     desk.ui.key("S")
     assert not settings().clear, "S turns it round within a chain"
-
-
-def test_enter_waits_for_the_clicks_that_wait(desk: Desk) -> None:
-    session, ui = desk.start(), desk.ui
-    ui.click(desk.at(36))
-    ui.event("LEFTMOUSE", "PRESS", desk.at(44), ticks=1)
-    ui.event("LEFTMOUSE", "RELEASE", desk.at(44), ticks=1)
-    ui.key("RET")
-    ui.wait_until(lambda: not desk.running)
-    assert seams(desk.obj) == chain(*range(36, 45))
-    assert len(session.wires) == 1
 
 
 @pytest.mark.smoke
@@ -173,7 +162,7 @@ def test_v_and_e_switch_settings_that_the_header_shows(desk: Desk) -> None:
 def test_keys_can_be_bound_anew(ui: driver.Ui, desk: Desk) -> None:
     def bind(key: str) -> None:
         # Blender may make the items anew whenever one has changed: none is kept.
-        keys = bindings.user_keymap(bpy.context.window_manager)
+        keys = keymaps.user_keymap(bpy.context.window_manager)
         next(item for item in keys.keymap_items if item.properties.action == "CLOSE").type = key
 
     bind("J")

@@ -12,7 +12,7 @@ import ui as driver
 from desk import Desk, draw
 from scene import seams
 from seamwire.mesh.seam_search import Suggestion
-from seamwire.operators import bindings, steps
+from seamwire.operators import keymaps, steps
 from seamwire.view.edited_objects import edited
 from seamwire.words.keys import Action, Bindings
 
@@ -159,7 +159,7 @@ def test_if_a_part_cannot_be_registered_nothing_is(ui: driver.Ui, monkeypatch: p
 @pytest.mark.smoke
 def test_the_users_keys_are_the_add_ons_in_the_same_order(ui: driver.Ui) -> None:
     ui.wait()
-    of_user, defaults = bindings.of_user(bpy.context.window_manager), Bindings()
+    of_user, defaults = keymaps.of_user(bpy.context.window_manager), Bindings()
     assert of_user.groups() == defaults.groups()
     for action in Action:
         assert of_user.keys_of(action) == defaults.keys_of(action), action
@@ -168,7 +168,7 @@ def test_the_users_keys_are_the_add_ons_in_the_same_order(ui: driver.Ui) -> None
 
 def test_an_actions_number_in_a_users_keys_is_its_own(ui: driver.Ui) -> None:
     ui.wait()
-    items = bindings.items_of(bindings.user_keymap(bpy.context.window_manager), bindings.ACTION_OPERATOR)
+    items = keymaps.items_of(keymaps.user_keymap(bpy.context.window_manager), keymaps.ACTION_OPERATOR)
     for item in items:
         action = Action[item.properties.action]
         assert item.properties["action"] == action.number, "stored as that, wherever it stands in the table"

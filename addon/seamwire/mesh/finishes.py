@@ -17,8 +17,7 @@ from ..core.network.picks import FacePoint, vertices_of
 from ..core.seams.seam_wires import wires_between
 from ..core.seams.slide_plan import plan as plan_slide
 from ..terms.choices import FINISHES
-from ..words.names import count
-from ..words.reports import gaps, left_out
+from ..words.reports import count, not_cut
 from . import cut as mesh_cut
 from . import slide as mesh_slide
 from .cut import CutError
@@ -67,8 +66,7 @@ class Finished:
         if self.cut is not None:
             if self.cut.wires:
                 parts.append(f"{count(self.cut.wires, 'wire')} cut, {count(len(self.cut.edges), 'edge')} marked")
-            parts += [gaps(self.cut.uncut)] if self.cut.uncut else []
-            parts += [left_out(self.cut.left_out)] if self.cut.left_out else []
+            parts += not_cut(self.cut.uncut, self.cut.left_out)
         if self.problem:
             parts.append(f"not cut: {self.problem}")
         if self.taken_back:
@@ -96,7 +94,8 @@ def apply(mesh: ObjectSession, change: Change) -> tuple[ObjectSession | None, Fi
     cuts = [wire for wire in wires if wire.cuts]
     finished = Finished(tuple(reports))
     if not cuts:
-        taken_back = _take_back(mesh, change.before)
+        left = _left_cuts(mesh, change.before)
+        taken_back = mesh_cut.take_back(mesh.cage, left) if left else 0
         return None if taken_back else mesh, replace(finished, taken_back=taken_back)
     try:
         mesh, done = cut(mesh, plan_cut(mesh, cuts), cuts, kept=True, before=change.before)
@@ -243,12 +242,6 @@ def _go_on_with(mesh: ObjectSession, taken: Iterable[TakenCut]) -> None:
     """Let closed cuts that were taken before the mesh was changed be bent on it."""
     own = (each.of(mesh.session.network) for each in taken)
     mesh.session.cursor.loops.cuts.recall(each for each in own if each is not None)
-
-
-def _take_back(mesh: ObjectSession, before: Network) -> int:
-    """Take back the cuts that a network before left behind; return how many edges went."""
-    left = _left_cuts(mesh, before)
-    return mesh_cut.take_back(mesh.cage, left) if left else 0
 
 
 def _left_cuts(mesh: ObjectSession, before: Network) -> list[Edge]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..words.names import count
+from ..words.reports import count
 from .core.network_file import NetworkFile
 from .core.placing import Shape, tell
 from .core.transfer import transfer

@@ -15,7 +15,7 @@ from ..mesh.registration import classes, menu_entry, together
 from ..mesh.settings import settings
 from ..operators.edit_mesh_operator import EditMeshOperator, changing
 from ..operators.steps import Step, Stepwise, end_all
-from ..words.names import DEGREE_NAMES, count
+from ..words.reports import DEGREE_NAMES, count
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
@@ -267,7 +267,6 @@ class MESH_OT_seamwire_repeat(EditMeshOperator, bpy.types.Operator):
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Find matching places on the active object, and add the missing wires."""
-        from ..mesh import edit_mesh
         from .core.repeats import Repeats
 
         mesh = self.open_mesh(context.active_object)
@@ -288,10 +287,7 @@ class MESH_OT_seamwire_repeat(EditMeshOperator, bpy.types.Operator):
             self.report({"INFO"}, "No other unmarked place matches these wires")
             return {"CANCELLED"}
         mesh.add(new)
-        plan = mesh.plan()
-        with changing():
-            marked, _ = mesh.write(plan)
-            edit_mesh.live_unwrap(context)
+        marked = self.write(context, [mesh])
         self.report(
             {"INFO"}, f"Repeated at {count(places, 'place')}: {count(len(new), 'wire')}, {count(marked, 'edge')} marked"
         )

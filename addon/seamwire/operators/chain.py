@@ -12,7 +12,7 @@ from ..mesh import settings as chosen
 from ..view.edited_objects import edited
 from ..words.keys import DoubleClicks
 from ..words.notices import Notices
-from . import navigation
+from . import keymaps
 from .chain_record import ChainRecord
 from .chain_state import TRANSITIONS, Cue, Stage, running, status_makers
 
@@ -55,7 +55,7 @@ class Chain:
 
     def __init__(self, context: bpy.types.Context) -> None:
         self.window, self.workspace, self.manager = context.window, context.workspace, context.window_manager
-        self.keys, self.clicks = navigation.keys(context), DoubleClicks()
+        self.keys, self.clicks = keymaps.keys(context), DoubleClicks()
         self.notices = Notices()
         self.record = ChainRecord(self.notices)
         self.stage = Stage.READY

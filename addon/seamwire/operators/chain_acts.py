@@ -12,11 +12,11 @@ from ..mesh.settings import settings
 from ..terms.options import strength_name
 from ..view.edited_objects import edited
 from ..words.keys import Action, drag_threshold
-from . import chain_events, navigation, undo_steps
-from .bindings import HELP_PANEL
+from . import chain_events, keymaps, undo_steps
 from .chain_events import Given, Sign
 from .chain_state import Cue, Stage
 from .drag_handlers import LineHold, SeedHold, StrokeHold
+from .keymaps import HELP_PANEL
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -68,7 +68,7 @@ def leave(chain: Chain, _given: Given) -> None:
 def zoom(_chain: Chain, given: Given) -> None:
     """Zoom, because the wheel alone swaps candidates."""
     assert given.place is not None
-    navigation.zoom(bpy.context, given.place, given.event)
+    keymaps.zoom(bpy.context, given.place, given.event)
 
 
 def drag(chain: Chain, given: Given) -> None:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from ..mesh import settings as chosen
 from ..view.viewport import place_of
 from ..words.keys import WHEEL, Action, Key
-from . import navigation
+from . import keymaps
 from .drag_handlers import LineHold, StrokeHold
 
 if TYPE_CHECKING:
@@ -82,7 +82,7 @@ def read(chain: Chain, context: bpy.types.Context, event: bpy.types.Event) -> Gi
         return Given(Sign.RELEASE, event, place)
     motion = _motion(event, hold)
     if place is not None:
-        if event.type.endswith("MOUSE") and hold is None and navigation.on_gizmo(place, context.preferences):
+        if event.type.endswith("MOUSE") and hold is None and keymaps.on_gizmo(place, context.preferences):
             return Given(Sign.NOTHING, event)
         return Given(motion or _key(chain, context, event, double), event, place)
     if event.type == "MOUSEMOVE":
@@ -104,11 +104,11 @@ def _key(chain: Chain, context: bpy.types.Context, event: bpy.types.Event, doubl
     """Return what a key, a button or the wheel means."""
     if _turns_wheel(chain, context, event):
         return Sign.ZOOM if event.ctrl else Action.NEXT
-    if navigation.takes(Key.of(event), context):
+    if keymaps.takes(Key.of(event), context):
         return Sign.NOTHING
     action = chain.keys.decode(event, double)
     if action is None:
-        return Sign.OTHER_TOOL if navigation.is_other(event, chain.manager) else Sign.NOTHING
+        return Sign.OTHER_TOOL if keymaps.is_other(event, chain.manager) else Sign.NOTHING
     is_repeat = getattr(event, "is_repeat", False) and action not in {Action.UNDO, Action.REDO}
     return Sign.REPEAT if is_repeat else action
 

@@ -18,7 +18,7 @@ from ..words.keys import Action, Key
 from . import undo_steps
 from .chain_state import Stage, running
 from .edit_mesh_operator import NeedsEditMode
-from .navigation import keys, takes
+from .keymaps import keys, takes
 from .steps import running as steps
 
 if TYPE_CHECKING:

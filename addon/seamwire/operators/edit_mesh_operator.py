@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, TypeVar
 from ..words.reports import HALFWAY
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterable, Iterator
 
     import bpy
 
@@ -137,6 +137,20 @@ class EditMeshOperator(NeedsEditMode):
         mesh = ObjectSession(obj)
         mesh.notices.tell(self.report)
         return mesh
+
+    def write(self, context: bpy.types.Context, meshes: Iterable[ObjectSession], follow: bool = True) -> int:
+        """Write what was drawn on meshes, and return how many edges became seams.
+
+        Everything is planned before the first mesh changes. With `follow`, Blender's Live Unwrap follows.
+        """
+        from ..mesh.edit_mesh import live_unwrap
+
+        plans = {mesh: mesh.plan() for mesh in meshes}
+        with changing():
+            marked = sum(mesh.write(plan)[0] for mesh, plan in plans.items())
+            if follow:
+                live_unwrap(context)
+        return marked
 
     def open_meshes(self, context: bpy.types.Context) -> list[ObjectSession]:
         """Read all objects in Edit Mode as `open_mesh` does. See `for_each_object`."""

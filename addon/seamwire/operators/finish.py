@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..terms.choices import FINISHES, items
-from ..words.names import count
-from ..words.reports import gaps, left_out
+from ..words.reports import count, not_cut
 from .edit_mesh_operator import EditMeshOperator, changing, description_of_item
 
 if TYPE_CHECKING:
@@ -120,12 +119,8 @@ def cut_wires(
         cuts = [finishes.cut(mesh, plan, wires[mesh], kept, crumb=crumb)[1] for mesh, plan in plans.items()]
         if live_unwrap:
             edit_mesh.live_unwrap(context)
-    uncut = sum(cut.uncut for cut in cuts)
-    if uncut:
-        operator.report({"WARNING"}, gaps(uncut))
-    missing = sum(cut.left_out for cut in cuts)
-    if missing:
-        operator.report({"WARNING"}, left_out(missing))
+    for problem in not_cut(sum(cut.uncut for cut in cuts), sum(cut.left_out for cut in cuts)):
+        operator.report({"WARNING"}, problem)
     done = (
         f"{count(sum(cut.wires for cut in cuts), 'wire')} cut",
         f"{count(sum(len(cut.edges) for cut in cuts), 'edge')} marked",

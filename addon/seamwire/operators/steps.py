@@ -15,7 +15,7 @@ import bpy
 
 from .chain_state import running as chains
 from .edit_mesh_operator import EditMeshOperator
-from .navigation import is_harmless, right_click_cancels
+from .keymaps import is_harmless, right_click_cancels
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator, Sequence

@@ -17,7 +17,7 @@ from ..core.seams.seam_plan import PartEdits, edges_of, mean_stretch, turned, tu
 from ..view.plan_preview import Curves, PlanPreview, Pointed
 from ..view.viewport import place_of
 from ..words.search_report import LIVE_HINTS, parts_text
-from .navigation import on_gizmo
+from .keymaps import on_gizmo
 from .steps import Step
 
 if TYPE_CHECKING:

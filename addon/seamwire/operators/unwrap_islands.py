@@ -6,8 +6,7 @@ from __future__ import annotations
 import bpy
 
 from ..mesh.settings import settings
-from ..words.names import count
-from ..words.reports import in_words
+from ..words.reports import count, in_words
 from .edit_mesh_operator import EditMeshOperator
 
 

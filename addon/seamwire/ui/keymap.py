@@ -9,7 +9,7 @@ import bpy
 
 from ..mesh.registration import classes, together
 from ..mesh.settings import TOOL
-from ..operators.bindings import ACTION_OPERATOR, NAME
+from ..operators.keymaps import ACTION_OPERATOR, NAME
 from ..words.keys import KEYS, Action
 
 if TYPE_CHECKING:

@@ -7,9 +7,9 @@ import bpy
 
 from ..mesh.registration import classes, menu_entry, together
 from ..mesh.settings import TOOL, preferences, settings
-from ..operators import navigation
-from ..operators.bindings import HELP_PANEL
-from ..operators.store_islands import ISLAND_ITEMS
+from ..operators import keymaps
+from ..operators.island_operators import ISLAND_ITEMS
+from ..operators.keymaps import HELP_PANEL
 from ..terms.options import SETTINGS
 from ..words.first_steps import STEPS, guide
 from .toolbar import VIEWS
@@ -122,7 +122,7 @@ class VIEW3D_PT_seamwire_help(bpy.types.Panel):
         more.prop(preferences(context), "text")
         if guide():
             more.operator("wm.url_open", text="Open the Guide", icon="URL").url = guide()
-        for number, (heading, rows) in enumerate(navigation.keys(context).groups().items()):
+        for number, (heading, rows) in enumerate(keymaps.keys(context).groups().items()):
             column = _box(left if number < 2 else right, heading)
             for keys, action in rows:
                 row = column.split(factor=0.32 if number < 2 else 0.5)

@@ -7,7 +7,7 @@ import bpy
 
 from ..mesh.registration import classes, together
 from ..mesh.settings import ADDON, SeamwireSettings
-from ..operators import bindings, select_islands
+from ..operators import island_operators, keymaps
 from ..words.keys import Action
 from . import toolbar
 
@@ -68,14 +68,14 @@ def draw_keys(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
     """Show the keys, so that users can change them."""
     box = layout.box()
     box.label(text="Keys of the Tool", icon="MOUSE_LMB")
-    keys = bindings.user_keymap(context.window_manager, toolbar.KEYMAP)
-    for operator, name in ((toolbar.OPERATOR, "first"), (select_islands.OPERATOR, "which")):
-        for item in bindings.items_of(keys, operator):
+    keys = keymaps.user_keymap(context.window_manager, toolbar.KEYMAP)
+    for operator, name in ((toolbar.OPERATOR, "first"), (island_operators.OPERATOR, "which")):
+        for item in keymaps.items_of(keys, operator):
             given = item.properties
             _draw_key(box, keys, item, given.bl_rna.properties[name].enum_items[getattr(given, name)].name)
-    for item in bindings.items_of(keys, "wm.call_panel"):
+    for item in keymaps.items_of(keys, "wm.call_panel"):
         _draw_key(box, keys, item, Action.KEYS.text)
-    keys = bindings.user_keymap(context.window_manager)
+    keys = keymaps.user_keymap(context.window_manager)
     if keys is None:
         box.label(text="No keymaps available")
         return
@@ -83,7 +83,7 @@ def draw_keys(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
     box.label(text="Keys While a Chain Is Drawn", icon="MOUSE_LMB")
     last: Action | None = None
     order = list(Action)
-    items = bindings.items_of(keys, bindings.ACTION_OPERATOR)
+    items = keymaps.items_of(keys, keymaps.ACTION_OPERATOR)
     for item in sorted(items, key=lambda item: order.index(Action[item.properties.action])):
         action = Action[item.properties.action]
         _draw_key(box, keys, item, action.text if action is not last else "")

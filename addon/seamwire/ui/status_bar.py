@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from bl_ui.space_statusbar import STATUSBAR_HT_header
 
 from ..mesh.settings import tool_is_active
-from ..operators import bindings, steps
+from ..operators import keymaps, steps
 from ..operators.chain_state import running, status_makers
 from ..words.hints import Hint, Status, hints, idle_hints
 from . import toolbar
@@ -50,12 +50,12 @@ def draw_idle(header: bpy.types.Header, context: bpy.types.Context) -> None:
         _draw_hints(header, idle_hints(tool_keys(context.window_manager)))
 
 
-def tool_keys(manager: bpy.types.WindowManager) -> dict[str, bindings.Key]:
+def tool_keys(manager: bpy.types.WindowManager) -> dict[str, keymaps.Key]:
     """Return the keys of the tool as the user has set them, by the names of what they begin with."""
-    found: dict[str, bindings.Key] = {}
-    for item in bindings.items_of(bindings.user_keymap(manager, toolbar.KEYMAP), toolbar.OPERATOR):
+    found: dict[str, keymaps.Key] = {}
+    for item in keymaps.items_of(keymaps.user_keymap(manager, toolbar.KEYMAP), toolbar.OPERATOR):
         if item.active:
-            found.setdefault(item.properties.first, bindings.key_of(item))
+            found.setdefault(item.properties.first, keymaps.key_of(item))
     return found
 
 

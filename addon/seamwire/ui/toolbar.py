@@ -10,8 +10,8 @@ import bpy
 
 from ..mesh.registration import classes, together
 from ..mesh.settings import TOOL, settings, tool_is_active
-from ..operators import hover, select_islands, undo_steps
-from ..operators.bindings import HELP_PANEL, NAME
+from ..operators import hover, island_operators, undo_steps
+from ..operators.keymaps import HELP_PANEL, NAME
 from ..terms.choices import ALONG
 from ..terms.options import SETTINGS, strength_name
 from . import keymap
@@ -186,7 +186,7 @@ class SeamwireTool(bpy.types.WorkSpaceTool):
         _key("PEEK", "LEFT_SHIFT", alt=True),
         _key("PEEK", "LEFT_SHIFT", alt=True, shift=True),
         (
-            select_islands.OPERATOR,
+            island_operators.OPERATOR,
             {"type": "W", "value": "PRESS", "shift": True, "ctrl": True},
             {"properties": [("which", "WORST")]},
         ),

@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..terms.choices import KINDS, LOOPS, METRICS, ignores_shape
-from .names import count
+from .reports import count
 
 if TYPE_CHECKING:
     from ..core.drawing.picture import Picture

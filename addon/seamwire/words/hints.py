@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ..terms.choices import LOOPS, ignores_shape
 from .keys import Action, Bindings, Key
-from .names import count
+from .reports import count
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

@@ -1,18 +1,34 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What operators report of wires that became seams, and of UV maps."""
+"""What operators report, with numbers and picks by the names that artists read."""
 
 from __future__ import annotations
 
 import math
 from typing import TYPE_CHECKING
 
-from .names import count
-
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from ..core.drawing.change import Change
     from ..core.islands.map_faults import MapFaults
+    from ..core.network.picks import Pick
+
+
+DEGREE_NAMES = {"SURE": "sure", "LIKELY": "likely", "DOUBTFUL": "doubtful", "LOST": "not placed"}
+"""How sure a transferred seed is."""
+
+
+def count(number: int, what: str, several: str = "") -> str:
+    """Return a number with what it counts."""
+    return f"{number} {what if number == 1 else several or what + 's'}"
+
+
+def pick_name(pick: Pick) -> str:
+    """Return a vertex, an edge or a point of a face as messages call it."""
+    if isinstance(pick, tuple):
+        return f"edge {pick[0]}-{pick[1]}"
+    return "this point" if hasattr(pick, "weights") else f"vertex {pick}"
+
 
 ADJUST_DRAWN = ("Point at a wire to change it:", "swap its path, drag its seeds, or remove it")
 """The text of the panel Adjust Last Operation after something was drawn."""
@@ -38,15 +54,12 @@ def summary(change: Change, marked: int, cleared: int) -> str:
     return ", ".join(text for is_said, text in parts if is_said) or "no edge has changed"
 
 
-def gaps(uncut: int) -> str:
-    """Return the warning for faces that could not be cut."""
-    return f"{count(uncut, 'face')} could not be cut: the seams have gaps there"
-
-
-def left_out(number: int) -> str:
-    """Return the warning for wires or mirror images that were not cut."""
-    why = "it does not run over the mesh" if number == 1 else "they do not run over the mesh"
-    return f"{count(number, 'wire or mirror image', 'wires or mirror images')} not cut: {why}"
+def not_cut(faces: int, wires: int) -> list[str]:
+    """Return the warnings for faces, and for wires or mirror images, that could not be cut."""
+    why = "it does not run over the mesh" if wires == 1 else "they do not run over the mesh"
+    found = [f"{count(faces, 'face')} could not be cut: the seams have gaps there"] if faces else []
+    left_out = [f"{count(wires, 'wire or mirror image', 'wires or mirror images')} not cut: {why}"] if wires else []
+    return found + left_out
 
 
 def in_words(faults: MapFaults) -> list[str]:

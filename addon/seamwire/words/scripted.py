@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from ..core.drawing.picture import Role
 from ..terms.choices import LOOPS
-from .names import pick_name
+from .reports import pick_name
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -8,8 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ..core.islands.map_faults import NO_FAULTS, MapFaults
-from .names import count
-from .reports import in_words, not_reached, percent
+from .reports import count, in_words, not_reached, percent
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -7,7 +7,7 @@ from string import Formatter
 from typing import TYPE_CHECKING
 
 from ..core.base.messages import word_with
-from .names import DEGREE_NAMES, count, pick_name
+from .reports import DEGREE_NAMES, count, pick_name
 
 if TYPE_CHECKING:
     from ..core.base.messages import Message

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Finds out what the user's keymap does with an event: move the view, save, or something that ends a chain."""
+"""What the user's keymaps do: the keys of a chain, and events that move the view, save, or end a chain."""
 
 from __future__ import annotations
 
@@ -7,11 +7,67 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from . import bindings
+from ..words.keys import KEYS, Action, Bindings, Key
 
 if TYPE_CHECKING:
     from ..view.viewport import Place
-    from ..words.keys import Bindings, Key
+
+
+ACTION_OPERATOR = "mesh.seamwire_key"
+"""Stands for what a key does within a chain; it does nothing by itself."""
+NAME = "Seamwire"
+"""The name of the keymap that holds those keys."""
+HELP_PANEL = "VIEW3D_PT_seamwire_help"
+"""The panel with all keys."""
+
+
+def key_of(item: bpy.types.KeyMapItem) -> Key:
+    """Return the key of one of Blender's keymap items."""
+    if item.any:
+        return Key(item.type, item.value, -1, -1, -1, -1)
+    # From 5.0 on a modifier of -1 means either; before, a flag tells.
+    return Key(item.type, item.value, *(int(getattr(item, name)) for name in ("ctrl", "shift", "alt", "oskey")))
+
+
+def user_keymap(manager: bpy.types.WindowManager, name: str = NAME) -> bpy.types.KeyMap | None:
+    """Return a keymap with the user's changes, that of a chain's keys by default; None where there are no keymaps."""
+    configuration = manager.keyconfigs.user
+    return configuration.keymaps.get(name) if configuration is not None else None
+
+
+def items_of(keymap: bpy.types.KeyMap | None, idname: str) -> list[bpy.types.KeyMapItem]:
+    """Return a keymap's items of one operator, as the add-on has them: a chain's in the order of `KEYS`.
+
+    Blender hands the items that add-ons added to the user's keymap on newest first. An action's keys that the user has
+    changed come before its others.
+    """
+    items = [] if keymap is None else [item for item in reversed(keymap.keymap_items) if item.idname == idname]
+    if idname != ACTION_OPERATOR:
+        return items
+    actions = [action.name for action, _ in KEYS]
+    own = {(action.name, key): i for i, (action, key) in enumerate(KEYS)}
+
+    def place(item: bpy.types.KeyMapItem) -> tuple[int, int]:
+        action = item.properties.action
+        return actions.index(action), own.get((action, key_of(item)), -1)
+
+    return sorted((item for item in items if item.properties.action in actions), key=place)
+
+
+def of_user(manager: bpy.types.WindowManager) -> Bindings:
+    """Return what the user has set in Blender's preferences; the defaults where there are no keymaps."""
+    keymap = user_keymap(manager)
+    if keymap is None:
+        return Bindings()
+    items = items_of(keymap, ACTION_OPERATOR)
+    return Bindings(
+        [
+            (Action[item.properties.action], key_of(item))
+            for item in items
+            if item.active and item.key_modifier == "NONE"
+        ]
+    )
+
 
 _KEYMAPS = ("Mesh", "3D View Generic", "3D View", "Object Non-modal", "Frames", "Screen", "Screen Editing", "Window")
 """The keymaps of a 3D view in Edit Mode, in the order in which Blender asks them."""
@@ -67,7 +123,7 @@ def is_harmless(event: bpy.types.Event, manager: bpy.types.WindowManager) -> boo
 
 def right_click_cancels(manager: bpy.types.WindowManager) -> bool:
     """Return whether a right click cancels what runs. It does not if the user's keymap selects or moves the view with it."""
-    keymap = bindings.user_keymap(manager, "3D View")
+    keymap = user_keymap(manager, "3D View")
     return keymap is None or not any(
         item.active
         and item.type == "RIGHTMOUSE"
@@ -81,7 +137,7 @@ def _item_for(event: bpy.types.Event, manager: bpy.types.WindowManager) -> bpy.t
     if event.value not in {"PRESS", "CLICK", "DOUBLE_CLICK", "CLICK_DRAG", "ANY"} or event.type.startswith("TIMER"):
         return None
     for name in _KEYMAPS:
-        keymap = bindings.user_keymap(manager, name)
+        keymap = user_keymap(manager, name)
         item = keymap.keymap_items.match_event(event) if keymap is not None else None
         if item is not None and item.active:
             return item
@@ -106,7 +162,7 @@ def takes(key: Key, context: bpy.types.Context) -> bool:
         by_command = getattr(inputs, "mouse_emulate_3_button_modifier", "ALT") == "OSKEY"
         if (key.oskey if by_command else key.alt) == 1:
             return True
-    keymap = bindings.user_keymap(context.window_manager, "3D View")
+    keymap = user_keymap(context.window_manager, "3D View")
     return keymap is not None and any(
         item.active
         and item.idname.startswith(_NAVIGATION)
@@ -119,7 +175,7 @@ def takes(key: Key, context: bpy.types.Context) -> bool:
 
 def keys(context: bpy.types.Context) -> Bindings:
     """Return the keys of a chain without the buttons that move the view."""
-    return bindings.of_user(context.window_manager).without(lambda key: takes(key, context))
+    return of_user(context.window_manager).without(lambda key: takes(key, context))
 
 
 def _button(item: bpy.types.KeyMapItem, inputs: bpy.types.PreferencesInput) -> str:
