@@ -53,12 +53,12 @@ class Cursor:
     @property
     def target(self) -> Snap | None:
         """The pick under the cursor, or that of the oldest waiting gesture."""
-        return self.live.candidates.target
+        return self.live.target
 
     def next_candidate(self) -> bool:
         """Show the next candidate, or the next offer if offers are shown. Return whether there is one."""
-        offers, candidates, drawing = self.loops.offers, self.live.candidates, self._drawing
-        why = (offers if offers.wanted else candidates).advance()
+        offers, drawing = self.loops.offers, self._drawing
+        why = (offers if offers.wanted else self.live).advance()
         if why:
             return drawing.refuse(why)
         drawing.message = NOTHING
@@ -84,7 +84,7 @@ class Cursor:
         """Start the wires of a seed. If it is refused, the wires are those of the seed before."""
         before = self._drawing.network.seed
         try:
-            self.live.candidates.sow(seed, self._drawing.options.along)
+            self.live.sow(seed, self._drawing.options.along)
         except ValueError as error:
             if before is not None and before != seed:
                 self.sow(before)
@@ -105,16 +105,16 @@ class Cursor:
         is_read
             Whether the caller has just read the progress.
         """
-        candidates, drawing = self.live.candidates, self._drawing
-        same = candidates.is_aimed_at(target, drawing.options.straight) and candidates.final
+        live, drawing = self.live, self._drawing
+        same = live.is_aimed_at(target, drawing.options.straight) and live.final
         if same and not again and self.loops.final:
             return
-        before = (candidates.shown, drawing.message)
+        before = (live.shown, drawing.message)
         if not is_read:
             self.under_way.read_progress()
         drawing.message = self.live.aim(target)
         # Asking again while nothing is ready shows nothing new, and must not cost a redraw each time.
-        drawing.revision += before != (candidates.shown, drawing.message)
+        drawing.revision += before != (live.shown, drawing.message)
         self.show_extension()
 
     def aim_again(self) -> None:
@@ -138,12 +138,12 @@ class Cursor:
 
     def follow(self, options: Options) -> bool:
         """Find wires with other settings from here on. Return False if that ends the chain, see `Session.follow`."""
-        drawing, candidates = self._drawing, self.live.candidates
+        drawing = self._drawing
         before, drawing.options = drawing.options, options
         drawing.revision += 1
         done = options.along == before.along or self._switch()
         if options.straight != before.straight:
-            candidates.reset()
+            self.live.reset()
             self.aim_again()
         if options.computes != before.computes:
             self.compute_anew()
@@ -156,7 +156,7 @@ class Cursor:
     def _switch(self) -> bool:
         """Let the live wire run the other way; if it cannot begin there, end the chain."""
         drawing = self._drawing
-        self.live.candidates.reset()
+        self.live.reset()
         self.loops.cancel()
         seed, why = drawing.network.seed, NOTHING
         if seed is not None and not self.sow(seed):
@@ -172,7 +172,7 @@ class Cursor:
         if self.under_way.drag is not None:
             return
         if options.metric != engines.metric:
-            self.live.candidates.reset()
+            self.live.reset()
         engines.use(options.metric, options.strengths, options.clamp)
         self._drawing.message = NOTHING
         self.loops.offers.clear()
@@ -181,7 +181,7 @@ class Cursor:
 
     def settle(self) -> None:
         """Let the gestures at the cursor follow a new network."""
-        self.live.candidates.chosen = None
+        self.live.chosen = None
         self.loops.offers.clear()
         self.extension.cancel()
         self._drawing.message = NOTHING
@@ -236,7 +236,7 @@ class Cursor:
         if snap is None or drag.ending:
             return False
         before = (drag.target, drag.network, drawing.message)
-        self.live.candidates.target = Snap.of(snap)
+        self.live.target = Snap.of(snap)
         drawing.message = drag.aim(Snap.of(snap))
         self.under_way.read_progress()
         drawing.revision += before != (drag.target, drag.network, drawing.message)
@@ -248,7 +248,7 @@ class Cursor:
         if line is None:
             return self._drawing.refuse("no-line-drawn")
         line.draw(points, triangles, None if snap is None else Snap.of(snap))
-        self.live.candidates.target = line.joined
+        self.live.target = line.joined
         self.under_way.read_progress()
         self._drawing.message = line.message
         self._drawing.revision += 1

@@ -53,18 +53,17 @@ class Extension(Gesture):
         """Show the extended wire while it is asked for. Return whether it runs elsewhere than before."""
         if not self.wanted:
             return False
-        before, self.wire = self.wire, self.find(self._live.candidates.active)
+        before, self.wire = self.wire, self.find(self._live.active)
         if before is None or self.wire is None:
             return before is not self.wire
         return not before.like(self.wire)
 
     def commit(self) -> Committed:
         """Return the network with the extended wire, which ends the chain."""
-        candidates = self._live.candidates
-        if candidates.target is not None and self._live.waits:
+        if self._live.target is not None and self._live.waits:
             self.wanted = False
             return self
-        wire = self.find(candidates.active)
+        wire = self.find(self._live.active)
         if wire is None:
             raise Refused(self.message or Message.of("no-way-on"))
         return replace(self._drawing.with_wires(wire), seed=None)

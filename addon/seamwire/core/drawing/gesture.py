@@ -21,7 +21,7 @@ class Gesture:
     The session, the cursor or the queue aims it. The queue polls it while the library computes, and goes on to its network.
     """
 
-    chosen: int | None = None
+    keeps_active: int | None = None
     """The number of the candidate that stays the active one after the commit; None: the leading one."""
     needs_offers = False
     """Whether it waits for the offers of loops."""

@@ -73,7 +73,7 @@ class GestureQueue:
             return done
         if done is None:
             return True
-        if not self.step(done, gesture.chosen):
+        if not self.step(done, gesture.keeps_active):
             return False
         self._drawing.message = self._drawing.message or gesture.take_warning()
         if gesture is self._cursor.live and target is not None:
@@ -146,7 +146,7 @@ class GestureQueue:
             drawing.message = line.message or drawing.message
         while queue and self._poll_queue():
             pass
-        if not queue and not cursor.live.candidates.final:
+        if not queue and not cursor.live.final:
             cursor.aim(cursor.target, again=True, is_read=True)
         cursor.show_offers(is_read=True)
         cursor.show_extension()
@@ -230,7 +230,7 @@ class GestureQueue:
         warning = drawing.images.warning(drawing.network) or gone
         self._cursor.settle()
         drawing.message = warning or drawing.message or drawing.failure
-        self._cursor.live.candidates.chosen = chosen
+        self._cursor.live.chosen = chosen
         return True
 
     def back(self) -> bool:
@@ -255,7 +255,7 @@ class GestureQueue:
         self._cursor.settle()
         if network.seed is not None and back and back[-1] != "both":
             # As when it was drawn: the wire that a stroke is for is the active one.
-            self._cursor.live.candidates.chosen = FOLLOWS.index(back[-1])
+            self._cursor.live.chosen = FOLLOWS.index(back[-1])
         return True
 
     def adopt(self, network: Network, seams: ArrayLike) -> None:

@@ -11,9 +11,9 @@ import numpy as np
 from ..base.half_edges import among
 from ..base.messages import Message, Refused
 from ..network.picks import vertices_of
-from .candidates import only_vertices
 from .gesture import Gesture
 from .line_wires import EdgeLine, SurfaceLine
+from .wire import only_vertices
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -14,7 +14,7 @@ from ..network.picks import FacePoint
 from ..network.wires import Wire
 from ..seams.seam_wires import wires_along
 from ..solver.solver import by_number, for_live
-from .candidates import across
+from .wire import across
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -108,7 +108,7 @@ class LoopGesture(Gesture):
 
     def poll(self) -> bool:
         """Show the offers at the cursor as soon as they are computed. Return whether they are new."""
-        offers, target = self.offers, self._live.candidates.target
+        offers, target = self.offers, self._live.target
         self.problem = NOTHING
         if target is None:
             return False

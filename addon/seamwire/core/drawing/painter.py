@@ -53,7 +53,7 @@ class Painter:
 
     def _painted(self, work: Work) -> Picture:
         drawing, loops, under_way = self._drawing, self._loops, self._under_way
-        options, live, drag = drawing.options, self._live.candidates, under_way.drag
+        options, live, drag = drawing.options, self._live, under_way.drag
         line = under_way.holds(LineGesture)
         network = drawing.network if drag is None else drag.network
         lines = [gesture for gesture in under_way.gestures if isinstance(gesture, LineGesture)]
@@ -87,18 +87,18 @@ class Painter:
 
     def _wires(self, network: Network, drag: SeedDrag | None, lines: Iterable[LineGesture]) -> tuple[ShownWire, ...]:
         """Return the wires from bottom to top: those of a network, and everything live."""
-        options, candidates = self._drawing.options, self._live.candidates
+        options = self._drawing.options
         moved = () if drag is None else drag.moved
         if self._kept is None or self._kept[0] is not network:
             ids = {wire.id for wire in moved}
             own = (wire for wire in network.wires if wire.id not in ids)
             self._kept = network, tuple(ShownWire(wire, Role.KEPT, tuple(wire.images or ())) for wire in own)
-        target, active = candidates.target, candidates.active
+        target, active = self._live.target, self._live.active
         hovered = None if target is None or target.to != "WIRE" else network.find(target.wire)
         following = [
             replace(wire, marks=options.marking, mirror=network.mirror) for line in lines for wire in line.wires
         ]
-        role = Role.ACTIVE if candidates.active_final else Role.COMPUTING
+        role = Role.ACTIVE if self._live.active_final else Role.COMPUTING
         offer, extension = self._loops.offers.wire, self._extension.wire
 
         def live(wire: Wire, role: Role, finish: Finish) -> ShownWire:
@@ -108,7 +108,7 @@ class Painter:
         return (
             *self._kept[1],
             *([] if hovered is None else [ShownWire(hovered, Role.HOVERED)]),
-            *(ShownWire(wire, Role.OTHER) for wire in reversed(candidates.others)),
+            *(ShownWire(wire, Role.OTHER) for wire in reversed(self._live.others)),
             *(live(wire, Role.MOVED, wire.finish) for wire in moved),
             *(live(wire, Role.FOLLOWING, options.finish) for wire in following),
             *([] if active is None else [live(active, role, options.finish)]),
@@ -118,7 +118,7 @@ class Painter:
 
     def _intent(self, computing: bool) -> Intent:
         """Return the effect of a click."""
-        along, live, seed = self._drawing.options.along, self._live.candidates, self._drawing.network.seed
+        along, live, seed = self._drawing.options.along, self._live, self._drawing.network.seed
         if self._under_way.drag is not None:
             return Intent.MOVE
         if self._under_way.holds(LineGesture) is not None:

@@ -13,8 +13,8 @@ from ..network.network import Network, Snap
 from ..network.picks import FacePoint, undirected, vertices_of
 from ..network.wires import Wire, distinct
 from ..solver.solver import by_number, for_live
-from .candidates import only_vertices
 from .gesture import Gesture
+from .wire import only_vertices
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -110,7 +110,7 @@ class Session:
         if not self.under_way.queue:
             if self.drawing.network.seed is None:
                 return self.start(target)
-            seen = self.cursor.live.candidates.active_final and target == self.cursor.target
+            seen = self.cursor.live.active_final and target == self.cursor.target
             self.cursor.aim(target)
             self.cursor.live.seen = seen
         return self.queue.commit(self.cursor.live, target)
@@ -210,7 +210,7 @@ class Session:
             return
         # This is not a step for undo. Undoing the last wire afterwards makes the chain live again.
         self.drawing.set(replace(self.drawing.network, seed=None))
-        self.cursor.live.candidates.chosen = None
+        self.cursor.live.chosen = None
         self.cursor.aim_again()
 
     # Gestures on kept wires
@@ -286,7 +286,7 @@ class Session:
         rest = tuple(own for own in network.strokes if own.id != stroke.id)
         if len(rest) == len(network.strokes):
             return self.drawing.refuse("stroke-is-gone")
-        return self.queue.step(replace(network, strokes=rest), self.cursor.live.candidates.chosen)
+        return self.queue.step(replace(network, strokes=rest), self.cursor.live.chosen)
 
     # Settings
 

@@ -73,13 +73,13 @@ class StrokeGesture(Gesture):
 
     def commit(self) -> Committed:
         """Return the network with the stroke."""
-        network, candidates, acts_on = self._drawing.network, self._live.candidates, self._meant
+        network, acts_on = self._drawing.network, self._meant
         # The wire that the stroke is for stays the active one, even if another is shorter now.
-        self.chosen = candidates.chosen
-        index = candidates.active_index
+        self.keeps_active = self._live.chosen
+        index = self._live.active_index
         # One that is straight in the view, or closes the chain around a limb, follows no stroke.
-        follows = index < len(FOLLOWS) and not candidates.straight_active
+        follows = index < len(FOLLOWS) and not self._live.straight_active
         if acts_on is None and network.seed is not None and follows:
-            self.chosen, acts_on = index, FOLLOWS[index]
+            self.keeps_active, acts_on = index, FOLLOWS[index]
         stroke = replace(self.stroke, acts_on=acts_on or "both")
         return replace(network, strokes=(*network.strokes, stroke))

@@ -1,37 +1,63 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The wire gesture: a click begins a chain, or keeps the active wire and goes on from its end."""
+"""The live wire: its candidates from the seed to the cursor. A click begins a chain, or keeps the active one and goes on from its end."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from ..base.messages import NOTHING, Message, Refused
+import numpy as np
+
+from ..base import native
+from ..base.messages import NOTHING, Message, Refused, message_of
 from ..network.network import Network
 from ..network.picks import FacePoint
-from .candidates import CandidateWires, only_vertices
+from ..network.wires import Wire, distinct
+from ..solver.solver import by_number, for_live
 from .gesture import Gesture
 from .picture import Intent
+from .ring import RingSearch
 
 if TYPE_CHECKING:
-    from ..network.network import Snap
-    from ..solver.solver import LiveWire
+    from ...terms.choices import Along
+    from ..network.network import Seed, Snap
+    from ..network.picks import Pick
+    from ..solver.solver import Candidate, LiveWire
     from .drawing import Drawing
     from .gesture import Committed
 
+    Direction = tuple[float, float, float]
+
 
 class WireGesture(Gesture):
-    """The live wire from the chain's seed to the cursor.
+    """The live wire from the chain's seed to the cursor: a candidate for each metric.
 
     Parameters
     ----------
     drawing
         The state that gestures share.
+
+    Attributes
+    ----------
+    target
+        The pick under the cursor.
+    wires, finals
+        The candidates, and which of them are computed.
     """
 
     def __init__(self, drawing: Drawing) -> None:
         self._drawing = drawing
-        self.candidates = CandidateWires(drawing.engines, drawing.points, drawing.edges)
+        self.ring = RingSearch(drawing.engines, drawing.points, drawing.edges)
+        self.target: Snap | None = None
+        self.wires: tuple[Wire | None, ...] = ()
+        self.finals: tuple[bool, ...] = ()
+        self.leading = 0
+        """The candidate that is the active one unless the artist brings another forward."""
+        self.settled = True
+        """Whether it is computed, and stays the leading one."""
+        self.chosen: int | None = None
+        """The candidate that the artist brought forward."""
+        self._straight: Wire | None = None
         self._message = NOTHING
         self.seen = False
         """Whether the active wire was shown before the click. The session tells, because waiting clicks show nothing."""
@@ -45,17 +71,187 @@ class WireGesture(Gesture):
 
     def aim(self, target: Snap | None) -> Message:
         """Find the wires to a target."""
-        candidates, network = self.candidates, self._drawing.network
         self.seen = False
-        if self.seedless:
-            network = replace(network, seed=None)
-        self._message = candidates.aim(target, network, self._drawing.options)
+        self._message = self._find(target)
         return self._message
+
+    def _find(self, target: Snap | None) -> Message:
+        """Find the wires from the seed to a target. Return the reason for a failure, otherwise an empty message."""
+        network, options = self._drawing.network, self._drawing.options
+        along = options.along
+        self.target = target
+        self.cancel()
+        seed = None if self.seedless else network.seed
+        if seed is None or target is None or seed.at(target.pick, along):
+            return NOTHING
+        if along == "SURFACE" and isinstance(target.pick, tuple):
+            return only_vertices(target.pick)
+        goal, avoid = _goal(target, network, along)
+        try:
+            found = self._drawing.engines.get(along).wires(for_live(goal, along))
+        except ValueError as error:
+            return message_of(error)
+        wires, self.leading = by_number(found)
+        self.finals = tuple(wire.final for wire in wires)
+        self.settled = found.settled
+        if along == "SURFACE":
+            begin = seed.begins("SURFACE")
+            self.wires = tuple(across(wire, follow, begin, target.pick) for follow, wire in enumerate(wires))
+            if options.straight:
+                self._add_straight(begin, target)
+        else:
+            self.wires = tuple(
+                self._along_edges(wire, follow, seed, target.pick, avoid) for follow, wire in enumerate(wires)
+            )
+        if network.closes(target):
+            self._add_ring(network, target, along)
+        if self.chosen is not None and self.chosen >= len(self.wires):
+            self.chosen = None  # the metric that is used now has no such wire
+        return NOTHING if self._is_reached else Message.of("no-wire-reaches", pick=target.pick)
+
+    @property
+    def final(self) -> bool:
+        """Whether all wires are computed."""
+        return all(self.finals)
+
+    @property
+    def active_index(self) -> int:
+        """Which of them a click would keep."""
+        index = self.leading if self.chosen is None else self.chosen
+        # While that one is not computed and another is, show the one there is.
+        there = (at for at in self._order(index) if self.wires[at] is not None)
+        return next(there, index)
+
+    @property
+    def active(self) -> Wire | None:
+        """The wire that a click would keep."""
+        return self.wires[self.active_index] if self.wires else None
+
+    @property
+    def others(self) -> tuple[Wire, ...]:
+        """The different other wires, in the order in which they follow the active one."""
+        return distinct(self.wires[at] for at in self._order(self.active_index))[1:]
+
+    @property
+    def number(self) -> int:
+        """The place of the active wire among those that run differently, beginning with the leading one, from 0."""
+        active = self.active
+        ways = distinct(self.wires[at] for at in self._order(self.leading))
+        return next((place for place, way in enumerate(ways) if active is not None and way.like(active)), 0)
+
+    @property
+    def active_final(self) -> bool:
+        """Whether the wire that a click would keep is computed."""
+        return self.active is not None and self.finals[self.active_index]
+
+    def _order(self, first: int) -> list[int]:
+        """Return the wires' numbers in the order in which they come forward, from one of them on."""
+        count = len(self.wires)
+        return [(first + step) % count for step in range(count)]
+
+    @property
+    def decided(self) -> bool:
+        """Whether the wire that a click would keep is computed, and will not be another one when the rest is."""
+        index = self.active_index
+        return self.active_final and (self.final or index == self.chosen or (self.settled and index == self.leading))
+
+    @property
+    def shown(self) -> tuple[object, ...]:
+        """What changes when something else is to be seen."""
+        return self.target, self.leading, self.finals, self.wires
+
+    def is_aimed_at(self, target: Snap | None, straight: bool) -> bool:
+        """Whether a target is what is under the cursor already, looked at from where it is now if wires are to be straight there."""
+        if target != self.target:
+            return False
+        return not straight or target is None or target.seen_along == self.target.seen_along
+
+    def reset(self) -> None:
+        """Forget which wires there were: those of another metric, or way of running, are others."""
+        self.cancel()
+        self.chosen, self.leading = None, 0
+
+    def sow(self, seed: Seed, along: Along) -> None:
+        """Let wires that run one way begin at a seed from here on.
+
+        Raises
+        ------
+        ValueError
+            Where the seed is not part of the surface.
+        """
+        begin = for_live(seed.begins(along), along)
+        self._drawing.engines.get(along).seed(begin, forward=seed.forward and along == "EDGES")
+
+    def advance(self) -> Message:
+        """Bring the next wire forward; return why that cannot be, else nothing."""
+        others = self.others
+        if not others:
+            if self.finals and not self._is_reached:
+                return Message.of("no-wire-reaches", pick=self.target.pick)
+            same = self.final and self.active is not None
+            return Message.of("same-edges" if same else "no-next-candidate")
+        self.chosen = next(at for at, wire in enumerate(self.wires) if wire is others[0])
+        return NOTHING
+
+    @property
+    def straight_active(self) -> bool:
+        """Whether the wire that a click would keep is the one that is straight in the view."""
+        return self._straight is not None and self.active is self._straight
+
+    @property
+    def _is_reached(self) -> bool:
+        """Whether a wire leads to the target, or one may still be found."""
+        return not self.final or any(self.wires)
+
+    def _add_straight(self, begin: Pick, target: Snap) -> None:
+        if target.seen_along is None:
+            return
+        live = self._drawing.engines.get("SURFACE")
+        self._straight = straight_wire(live, begin, target.pick, target.seen_along, self.leading)
+        if self._straight is not None:
+            self.wires, self.finals = (*self.wires, self._straight), (*self.finals, True)
+            self.leading, self.settled = len(self.wires) - 1, True
+
+    @property
+    def ring_active(self) -> bool:
+        """Whether the wire that a click would keep closes the chain around the limb."""
+        return self.ring.wire is not None and self.active is self.ring.wire
+
+    def _add_ring(self, network: Network, target: Snap, along: Along) -> None:
+        """Add the wire that closes the chain around the limb, as the leading one."""
+        is_found = self.ring.find(network, target, along)
+        ring = self.ring.wire
+        same = next((at for at, wire in enumerate(self.wires) if ring is not None and wire and wire.like(ring)), None)
+        if ring is None:
+            if not is_found and self.wires:
+                # The leading wire is shown meanwhile, but a click waits.
+                self.finals = (*self.finals[: self.leading], False, *self.finals[self.leading + 1 :])
+                self.settled = False
+            return
+        if same is None:
+            self.wires, self.finals, same = (*self.wires, ring), (*self.finals, is_found), len(self.wires)
+        self.leading, self.settled = same, self.finals[same]
+
+    def _along_edges(
+        self, candidate: Candidate, follow: int, seed: Seed, target: Pick, avoid: int | None
+    ) -> Wire | None:
+        vertices = tuple(int(v) for v in candidate.vertices)
+        if seed.forward:
+            vertices = vertices[1:]  # the edge before the seed belongs to the wire before
+        if avoid in vertices:
+            vertices = vertices[: vertices.index(avoid) + 1]
+        if len(vertices) < 2:
+            return None
+        heading = seed.pick if seed.forward and isinstance(seed.pick, tuple) else None
+        points = self._drawing.points[list(vertices)]
+        return Wire("EDGES", vertices, points, seed.place, target, heading=heading, follow=follow)
+
+    # Clicks
 
     @property
     def computing(self) -> bool:
         """Whether the wires may still change."""
-        return self._drawing.progress < 1.0 or not self.candidates.final
+        return self._drawing.progress < 1.0 or not self.final
 
     @property
     def waits(self) -> bool:
@@ -63,8 +259,7 @@ class WireGesture(Gesture):
 
         It keeps the candidate that was shown. If none was shown yet, it does not keep one merely because that finished first.
         """
-        candidates = self.candidates
-        return not (candidates.decided or (self.seen and candidates.active_final)) and self.computing
+        return not (self.decided or (self.seen and self.active_final)) and self.computing
 
     def begun(self, target: Snap) -> Network:
         """Return the network with a new chain that begins at a target.
@@ -82,8 +277,7 @@ class WireGesture(Gesture):
 
     def commit(self) -> Committed:
         """Return the network with the active wire, or with a new chain if none is drawn."""
-        candidates, network, options = self.candidates, self._drawing.network, self._drawing.options
-        target = candidates.target
+        network, options, target = self._drawing.network, self._drawing.options, self.target
         self._kept = False
         if target is None:
             return None
@@ -91,7 +285,7 @@ class WireGesture(Gesture):
             return self.begun(target)
         if self.waits:
             return self
-        wire = candidates.active
+        wire = self.active
         if wire is None:
             if network.seed.at(target.pick, options.along):
                 raise Refused("ends-where-it-begins")
@@ -101,11 +295,11 @@ class WireGesture(Gesture):
         # The snapped edges of a wire that is cut tell nothing about where it runs.
         if ending is Intent.CLOSE and known.issuperset(wire.edges()) and not isinstance(wire.end, FacePoint):
             raise Refused("way-back-along-chain")
-        wire = replace(self._drawing.as_drawn(wire), alternatives=candidates.others if candidates.final else ())
+        wire = replace(self._drawing.as_drawn(wire), alternatives=self.others if self.final else ())
         if not wire.leaves_trace:
             raise Refused("wire-too-short")
         network = network.joined(target, self._drawing.points).with_drawn(wire, target.pick, ending is not None)
-        for joint in reversed(candidates.ring.joints if candidates.ring_active else ()):
+        for joint in reversed(self.ring.joints if self.ring_active else ()):
             network = network.with_seed_in(wire, joint, self._drawing.points) or network
         self._kept = True
         return network
@@ -122,8 +316,74 @@ class WireGesture(Gesture):
 
     def cancel(self) -> None:
         """Show no wires. The pick under the cursor stays."""
-        self.candidates.clear()
+        self.wires, self.finals, self.settled = (), (), True
+        self._straight = None
 
     def lives(self) -> list[LiveWire]:
         """Return the live wires that compute for it."""
-        return [self._drawing.engines.get(self._drawing.options.along), *self.candidates.ring.lives]
+        return [self._drawing.engines.get(self._drawing.options.along), *self.ring.lives]
+
+
+def across(candidate: Candidate, follow: int, begin: Pick, end: Pick) -> Wire | None:
+    """Return the library's wire across the surface from one pick to another, or None."""
+    vertices = tuple(int(v) for v in candidate.vertices)
+    # Between points of one face there may be no edge to snap to.
+    least = 1 if isinstance(begin, FacePoint) or isinstance(end, FacePoint) else 2
+    if len(vertices) < least or len(candidate.points) < 2:
+        return None
+    points = np.array(candidate.points, dtype=np.float64)
+    return Wire("SURFACE", vertices, points, begin, end, np.array(candidate.faces), follow=follow)
+
+
+def _goal(target: Snap, network: Network, along: Along) -> tuple[Pick, int | None]:
+    """Return where the wires to a target lead, and a vertex where they may end before."""
+    if along == "EDGES" and isinstance(target.pick, tuple) and network.closes(target):
+        # The chain left its first edge over one end: the wire that closes it arrives at the other.
+        for wire, end in network.at(target.pick):
+            if end == "start" and wire.heading is None:
+                return wire.vertices[0], wire.vertices[1]
+    return target.pick, None
+
+
+def only_vertices(edge: Pick) -> Message:
+    """Say that wires across the surface do not end at edges."""
+    return Message.of("no-edge-across", pick=edge)
+
+
+def straight_wire(live: LiveWire, begin: Pick, end: Pick, direction: Direction, follow: int) -> Wire | None:
+    """Return the wire in the plane through two picks and along a direction, or None.
+
+    Parameters
+    ----------
+    live
+        Has the surface.
+    begin, end
+        Vertices, or points of triangles.
+    direction
+        From the viewer to the end, or any other of the plane.
+    follow
+        Which of the library's wires it is when its seeds are moved.
+    """
+    core, surface = native.load(), live.surface
+    if surface is None:
+        return None
+    try:
+        points, faces, _ = core.plane_section(surface, for_live(begin, "SURFACE"), for_live(end, "SURFACE"), direction)
+    except ValueError:
+        return None  # one lies behind the other
+    if len(points) < 2:
+        return None
+    # Each point of the line with a triangle that it lies in.
+    triangles = np.append(faces, faces[-1])
+    ends = [None if isinstance(pick, FacePoint) else pick for pick in (begin, end)]
+    chain = core.fit_chain(surface, points, triangles, *ends)
+    vertices = tuple(int(v) for v in chain.vertices)
+    inside = next((pick for pick in (begin, end) if isinstance(pick, FacePoint)), None)
+    if len(vertices) < 2 and inside is not None:
+        # Between points of one face there may be no edge to snap to.
+        vertices = (next((pick for pick in ends if isinstance(pick, int)), inside.vertex),)
+    elif len(vertices) < 2 or any(
+        pick is not None and pick != vertices[at] for at, pick in zip((0, -1), ends, strict=True)
+    ):
+        return None
+    return Wire("SURFACE", vertices, points, begin, end, faces, follow=follow)

@@ -4,14 +4,12 @@
 from __future__ import annotations
 
 import pytest
-from grid import POINTS, SIZE, Grid, wire
-from seamwire.core.drawing.candidates import CandidateWires
+from grid import SIZE, Grid, wire
 from seamwire.core.drawing.extension import Extension
 from seamwire.core.drawing.retrace import Retrace
 from seamwire.core.drawing.seed_drag import SeedDrag
 from seamwire.core.drawing.wire import WireGesture
 from seamwire.core.network.network import Network, Seed, Snap
-from seamwire.terms.options import Options
 
 CORNER, THREE = wire(0, 1, 7), (True, True, True)
 
@@ -20,9 +18,9 @@ CORNER, THREE = wire(0, 1, 7), (True, True, True)
 
 
 def test_of_three_the_leading_one_is_active_and_the_others_come_forward_in_turn() -> None:
-    candidates = CandidateWires(Grid(ready=THREE).engines, POINTS)
+    candidates = WireGesture(Grid(ready=THREE).drawing(Network(seed=Seed(0))))
     candidates.sow(Seed(0), "EDGES")
-    candidates.aim(Snap(14), Network(seed=Seed(0)), Options())
+    candidates.aim(Snap(14))
     seen = []
     for number in range(3):
         assert candidates.number == number
@@ -36,11 +34,11 @@ def test_of_three_the_leading_one_is_active_and_the_others_come_forward_in_turn(
 
 def test_a_wire_that_another_metric_has_not_is_brought_forward_no_more() -> None:
     grid = Grid(ready=THREE)
-    candidates = CandidateWires(grid.engines, POINTS)
+    candidates = WireGesture(grid.drawing(Network(seed=Seed(0))))
     candidates.sow(Seed(0), "EDGES")
     candidates.chosen = 2
     grid.lives["EDGES"].ready = (True, True)
-    candidates.aim(Snap(14), Network(seed=Seed(0)), Options())
+    candidates.aim(Snap(14))
     assert candidates.chosen is None
     assert candidates.active.follow == 0
 

@@ -206,7 +206,7 @@ def turns_around(session: Session) -> bool:
 def test_two_seeds_on_one_side_of_a_limb_close_around_it_first_and_in_front_after_w(along: Along, second: int) -> None:
     first = AROUND * 20
     session = closing(Alt(limb(), 200.0), first, second, along)
-    others = [{*wire.vertices} for wire in session.cursor.live.candidates.others]
+    others = [{*wire.vertices} for wire in session.cursor.live.others]
     assert session.close()
     session.queue.wait()
     assert turns_around(session)
@@ -226,10 +226,10 @@ def test_a_click_while_the_way_around_a_limb_is_searched_waits_for_it(along: Alo
     alt = Alt(limb(), 200.0)
     session = closing(alt, first, second, along)
     session.hover(None)
-    session.cursor.live.candidates.ring.forget()
+    session.cursor.live.ring.forget()
     session.hover(Snap(first, "SEED"))
     assert session.under_way.computing
-    assert not session.cursor.live.candidates.decided
+    assert not session.cursor.live.decided
     session.click(Snap(first, "SEED"))
     session.queue.wait()
     assert turns_around(session)
@@ -242,7 +242,7 @@ def test_offers_and_the_way_around_a_limb_are_found_at_once(monkeypatch: pytest.
     first, second = AROUND * 80, AROUND * 96 + 24
     session = closing(Alt(limb(), 200.0), first, second, "SURFACE")
     session.hover(None)
-    session.cursor.live.candidates.ring.forget()
+    session.cursor.live.ring.forget()
     session.hover(Snap(first, "SEED"), loop=True)
     for _ in range(100):
         for live in session.under_way.lives():
@@ -251,7 +251,7 @@ def test_offers_and_the_way_around_a_limb_are_found_at_once(monkeypatch: pytest.
         if not session.under_way.computing:
             break
     assert not session.under_way.computing
-    assert session.cursor.live.candidates.ring.wire is not None
+    assert session.cursor.live.ring.wire is not None
     assert session.cursor.loops.offers.offers
 
 

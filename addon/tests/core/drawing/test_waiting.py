@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from fake_live import FakeLive, grid_points, grid_triangles
 from seamwire.core.base.messages import Refused
-from seamwire.core.drawing import candidates
+from seamwire.core.drawing import wire
 from seamwire.core.drawing.session import Session
 from seamwire.core.drawing.under_way import UnderWay
 from seamwire.core.fields.crests import Crests
@@ -147,7 +147,7 @@ def test_a_stroke_is_drawn_while_a_moved_seed_waits(monkeypatch: pytest.MonkeyPa
     def straight(_live: object, begin: int, end: int, _seen: object, _follow: int) -> Wire:
         return Wire("SURFACE", (begin, end), POINTS[[begin, end]], begin, end)
 
-    monkeypatch.setattr(candidates, "straight_wire", straight)
+    monkeypatch.setattr(wire, "straight_wire", straight)
     session = Table("SURFACE", ready=(True,) * 3, fork_ready=(False,) * 3).session
     use(session, straight=True)
     for pick in (0, 14):
@@ -457,9 +457,9 @@ def test_a_stroke_for_a_wire_that_closes_or_is_straight_acts_on_both() -> None:
     session = Table(ready=(True, True)).session
     session.click(0)
     session.hover(14)
-    session.cursor.live.candidates.chosen = None
-    session.cursor.live.candidates.leading = 3  # the wire under the cursor before was straight in the view
-    session.cursor.live.candidates.clear()
+    session.cursor.live.chosen = None
+    session.cursor.live.leading = 3  # the wire under the cursor before was straight in the view
+    session.cursor.live.cancel()
     assert session.draw_stroke(vertices=[27, 28])
     assert session.network.strokes[0].acts_on == "both"
 
