@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 from blender_refusal import BLENDERS
+from seamwire.terms.choices import FINISHES
 from seamwire.words.sentences import SENTENCES
 
 ROOT = Path(__file__).parent.parent / "seamwire"
@@ -139,6 +140,12 @@ def test_the_recipes_name_what_there_is() -> None:
         return re.search(body, code, re.MULTILINE | re.DOTALL) is not None
 
     assert [match[0] for match in words if not exists(*match.groups())] == []
+
+
+def test_a_finish_is_named_by_its_table_and_by_what_carries_it_out_only() -> None:
+    trees = {name_of(path): ast.parse(path.read_text(encoding="utf-8")) for path in modules()}
+    named = {name for name, tree in trees.items() for node in strings(tree) if node.value in FINISHES}
+    assert named == {"terms.choices", "terms.options", "mesh.finishes", "operators.finish"}
 
 
 def test_nothing_of_the_drawing_tool_imports_networks() -> None:

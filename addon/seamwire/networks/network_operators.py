@@ -75,7 +75,6 @@ class _Placing(Stepwise):
 
     def _write(self, context: bpy.types.Context, mesh: ObjectSession, found: Transfer) -> set[str]:
         """Write the wires to the mesh, and report how certain each seed is and what is missing."""
-        from ..mesh import edit_mesh
         from .carry import write
 
         problems = found.problems
@@ -85,9 +84,8 @@ class _Placing(Stepwise):
             self.report({"WARNING"}, f"{len(problems) - _MOST_TOLD} more seeds are doubtful or missing")
         if not found.wires and not found.strokes:
             raise ValueError("No wire could be placed on this mesh")
-        with changing():
+        with changing(context):
             wires, marked = write(mesh, found)
-            edit_mesh.live_unwrap(context)
         parts = [count(wires, "wire")]
         if wires < len(found.wires):
             parts.append(f"{len(found.wires) - wires} already present")

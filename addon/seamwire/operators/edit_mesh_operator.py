@@ -46,10 +46,17 @@ class Halfway(Exception):  # noqa: N818 - reads as a state of the work
 
 
 @contextmanager
-def changing() -> Iterator[None]:
-    """Raise `Halfway` instead of any error. All of an operator that changes meshes must be in this block."""
+def changing(context: bpy.types.Context | None = None) -> Iterator[None]:
+    """Raise `Halfway` instead of any error. All of an operator that changes meshes must be in this block.
+
+    Blender's Live Unwrap follows a block that is given the context, because seams have changed there.
+    """
+    from ..mesh import edit_mesh
+
     try:
         yield
+        if context is not None:
+            edit_mesh.live_unwrap(context)
     except Exception as error:
         raise Halfway(str(error)) from error
 
@@ -143,14 +150,9 @@ class EditMeshOperator(NeedsEditMode):
 
         Everything is planned before the first mesh changes. With `follow`, Blender's Live Unwrap follows.
         """
-        from ..mesh.edit_mesh import live_unwrap
-
         plans = {mesh: mesh.plan() for mesh in meshes}
-        with changing():
-            marked = sum(mesh.write(plan)[0] for mesh, plan in plans.items())
-            if follow:
-                live_unwrap(context)
-        return marked
+        with changing(context if follow else None):
+            return sum(mesh.write(plan)[0] for mesh, plan in plans.items())
 
     def open_meshes(self, context: bpy.types.Context) -> list[ObjectSession]:
         """Read all objects in Edit Mode as `open_mesh` does. See `for_each_object`."""

@@ -37,16 +37,15 @@ class MESH_OT_seamwire_finish(EditMeshOperator, bpy.types.Operator):
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Finish the wires of all objects in Edit Mode."""
-        from ..mesh import edit_mesh, finishes
+        from ..mesh import finishes
 
         wires = _wires_across(self, context)
         if not wires:
             return {"CANCELLED"}
         if FINISHES[self.finish].cuts:
             return cut_wires(self, context, wires, kept=True)
-        with changing():
+        with changing(context):
             moved = sum(finishes.move(mesh, own, self.finish)[1] for mesh, own in wires.items())
-            edit_mesh.live_unwrap(context)
         done = count(sum(map(len, wires.values())), "wire"), count(moved, "vertex", "vertices")
         self.report({"INFO"}, "{}: {} moved".format(*done))
         return {"FINISHED"}
@@ -99,7 +98,7 @@ def cut_wires(
     Halfway
         If an error comes after a mesh has changed.
     """
-    from ..mesh import edit_mesh, finishes
+    from ..mesh import finishes
     from ..mesh.cut import CutError
 
     plans, problems = {}, []
@@ -114,11 +113,9 @@ def cut_wires(
         return {"CANCELLED"}
     for problem in problems:
         operator.report({"WARNING"}, problem if kept else f"{problem}: no wire was added")
-    with changing():
+    with changing(context if live_unwrap else None):
         first()
         cuts = [finishes.cut(mesh, plan, wires[mesh], kept, crumb=crumb)[1] for mesh, plan in plans.items()]
-        if live_unwrap:
-            edit_mesh.live_unwrap(context)
     for problem in not_cut(sum(cut.uncut for cut in cuts), sum(cut.left_out for cut in cuts)):
         operator.report({"WARNING"}, problem)
     done = (
