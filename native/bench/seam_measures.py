@@ -261,8 +261,8 @@ class SeamMeasures:
     """Harmonic mean of `exact` and the share of the artist's edges that are seams."""
     presses: float
     """Presses from these seams to the artist's, over those from nothing."""
-    tolerant: float
-    """The same for an artist who accepts chains near the wanted ones."""
+    tolerant: float | None
+    """The same for an artist who accepts chains near the wanted ones. It exists if `lift` does."""
     islands: int
     islands_ratio: float
     """Islands over the artist's."""
@@ -343,7 +343,7 @@ class Artist:
             exact=float(common / total) if total else 0.0,
             exact_mean=_harmonic_mean(common / total, common / wanted) if total else 0.0,
             presses=strict,
-            tolerant=tolerant,
+            tolerant=None if lift is None else tolerant,
             islands=islands,
             islands_ratio=islands / self.islands,
             crumbs=mesh.crumbs(seams),

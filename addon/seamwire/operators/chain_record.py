@@ -109,9 +109,11 @@ class ChainRecord:
         drawn_on = [] if self.drawn_on is None else [self.drawn_on]
         for view in dict.fromkeys((*drawn_on, *edited.views())):
             view.session.end_chain(wait=not at_once)
-            if view.session.drawing.failure:
-                self._notices.add("WARNING", str(view.session.drawing.failure))
-                view.session.drawing.failure = NOTHING
+            drawing = view.session.drawing
+            for told in dict.fromkeys((drawing.failure, drawing.warning)):
+                if told:
+                    self._notices.add("WARNING", str(told))
+            drawing.failure = drawing.warning = NOTHING
         view = self.drawn_on
         change = None if view is None else Change(self._before, view.session.network)
         title = undo_steps.EDIT if self._titles == {undo_steps.EDIT} else undo_steps.DRAW

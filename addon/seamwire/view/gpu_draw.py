@@ -131,10 +131,10 @@ class Eye:
         return np.full_like(depths, self._pixel) if self.is_orthographic else self._pixel * np.abs(depths)
 
     def on_screen(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Project (n, 3) to (n, 2) pixels; NaN behind the viewer."""
+        """Project (n, 3) to (n, 2) pixels from the lower left corner of the region; NaN behind the viewer."""
         clip = points @ self.to_clip[:, :3].T + self.to_clip[:, 3]
         w = np.where(clip[:, 3] > 1e-9, clip[:, 3], np.nan)[:, None]
-        return clip[:, :2] / w * 0.5 * self.size
+        return (clip[:, :2] / w + 1.0) * 0.5 * self.size
 
     @property
     def key(self) -> bytes:

@@ -30,8 +30,8 @@ def draw_chain(session: Session, seeds: Iterable[Pick]) -> list[str]:
     for pick in seeds:
         done = session.click(pick)
         session.queue.wait()
-        if not done or session.drawing.message:
-            problems.append(str(session.drawing.message))
+        if not done or session.drawing.told:
+            problems.append(str(session.drawing.told))
     session.end_chain()
     return problems
 

@@ -71,7 +71,9 @@ class Drawing:
     history
         The steps for undo.
     message
-        The reason why something was not done, or a warning.
+        The reason why something is not done, until the cursor points at something else.
+    warning
+        What the artist should know about the last step, until the next one. It is shown where there is no `message`.
     failure
         The reason why a gesture that waited was not done, until the next gesture.
     revision
@@ -109,10 +111,16 @@ class Drawing:
         self.history = History()
         self.progress = 0.0
         self.message: Message = NOTHING
+        self.warning: Message = NOTHING
         self.failure: Message = NOTHING
         self.revision = 0
         self.network_revision = 0
         """Grows with every change of the kept wires."""
+
+    @property
+    def told(self) -> Message:
+        """What the artist is told now."""
+        return self.message or self.warning
 
     @property
     def strength(self) -> float:

@@ -75,7 +75,7 @@ class GestureQueue:
             return True
         if not self.step(done, gesture.keeps_active):
             return False
-        self._drawing.message = self._drawing.message or gesture.take_warning()
+        self._drawing.warning = self._drawing.warning or gesture.take_warning()
         if gesture is self._cursor.live and target is not None:
             self.remember_click(target)
         return True
@@ -227,9 +227,8 @@ class GestureQueue:
         lasting = network.lasting()
         drawing.set(drawing.images.complete(lasting))
         gone = Message.of("wire-went") if lasting is not network else NOTHING
-        warning = drawing.images.warning(drawing.network) or gone
+        drawing.warning = drawing.images.warning(drawing.network) or gone or drawing.failure
         self._cursor.settle()
-        drawing.message = warning or drawing.message or drawing.failure
         self._cursor.live.chosen = chosen
         return True
 
@@ -250,6 +249,7 @@ class GestureQueue:
             self._cursor.sow(network.seed)
         back = [stroke.acts_on for stroke in network.strokes if stroke not in now.strokes]
         self._drawing.set(replace(network, mirror=self._drawing.options.mirror))
+        self._drawing.warning = NOTHING
         self.last_click = None
         self._cursor.loops.forget_crest()
         self._cursor.settle()
@@ -279,6 +279,7 @@ class GestureQueue:
         if seed is not None and seed != drawing.network.seed and not self._cursor.sow(seed):
             seed = None
         drawing.set(replace(network, seed=seed, mirror=drawing.network.mirror))
+        drawing.warning = NOTHING
         self._cursor.loops.edges.forget()
         self._cursor.settle()
 

@@ -46,7 +46,7 @@ class Painter:
 
     def picture(self, work: Work) -> Picture:
         """Return a picture with the running computation."""
-        key = (self._drawing.revision, self._drawing.network_revision, self._drawing.message, work)
+        key = (self._drawing.revision, self._drawing.network_revision, self._drawing.told, work)
         if self._last is None or self._last[0] != key:
             self._last = (key, self._painted(work))
         return self._last[1]
@@ -82,7 +82,7 @@ class Painter:
             can_redo=drawing.history.can_redo,
             strength=drawing.strength,
             work=work,
-            message=drawing.message,
+            message=drawing.told,
         )
 
     def _wires(self, network: Network, drag: SeedDrag | None, lines: Iterable[LineGesture]) -> tuple[ShownWire, ...]:

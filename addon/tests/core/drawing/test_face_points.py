@@ -101,9 +101,9 @@ def test_where_it_is_not_to_be_cut_a_wire_that_meets_no_edge_is_not_kept() -> No
     on.queue.wait()
     assert on.queue.drag_end()
     assert on.wires == (), "the mesh would not know of it"
-    assert "A wire was removed" in str(on.drawing.message)
+    assert "A wire was removed" in str(on.drawing.told)
     assert on.undo()
-    assert str(on.drawing.message) == ""
+    assert str(on.drawing.told) == ""
     assert [wire.vertices for wire in on.wires] == [(0, 1, 2)]
 
 

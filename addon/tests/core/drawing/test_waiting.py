@@ -89,7 +89,10 @@ def test_after_a_ridge_the_triangles_are_told_of_that_its_wires_lead_around() ->
     session = with_ridge("SURFACE", holes=(2, 1)).session
     session.hover(7, loop=True)
     session.click(7)
-    assert session.drawing.message.code == "invalid-triangles"
+    assert session.drawing.warning.code == "invalid-triangles"
+    session.hover(None)
+    session.hover(7)
+    assert session.picture.message.code == "invalid-triangles", "a click makes the cursor point at something else"
 
 
 def test_a_waiting_click_that_begins_a_chain_does_not_use_up_the_warning() -> None:
@@ -98,10 +101,10 @@ def test_a_waiting_click_that_begins_a_chain_does_not_use_up_the_warning() -> No
     session.loop(0)
     session.click(35)
     session.queue.wait()
-    assert session.drawing.message.code != "invalid-triangles"
+    assert session.drawing.told.code != "invalid-triangles"
     session.click(7)
     session.queue.wait()
-    assert session.drawing.message.code == "invalid-triangles"
+    assert session.drawing.warning.code == "invalid-triangles"
 
 
 def test_a_loop_that_was_given_up_leaves_nothing_to_compute() -> None:
@@ -384,7 +387,7 @@ def test_a_failure_is_forgotten_when_something_else_is_drawn(monkeypatch: pytest
     session = table.session
     never(monkeypatch)
     session.start(30)
-    assert session.drawing.message.code == "no-result"
+    assert session.drawing.told.code == "no-result"
     table.compute()
     session.hover(32)
     session.click(32)
