@@ -212,4 +212,4 @@ def test_mirror_images_slide_too() -> None:
 
 
 def test_each_finish_has_a_function() -> None:
-    assert [name for name, row in FINISHES.items() if row.on_wire and not row.cuts] == list(FINISHERS)
+    assert [name for name, row in FINISHES.items() if row.edits and not row.cuts] == list(FINISHERS)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ..core.network.wires import Wire
     from ..mesh.object_session import ObjectSession
 
-_ITEMS = tuple(item for item in items(FINISHES) if FINISHES[item[0]].on_wire)
+_ITEMS = tuple(item for item in items(FINISHES) if FINISHES[item[0]].edits)
 
 
 class MESH_OT_seamwire_finish(EditMeshOperator, bpy.types.Operator):

@@ -26,6 +26,8 @@ class Finishing(NamedTuple):
     ----------
     on_wire
         Whether the seam lies where the wire runs, instead of on the nearest edges.
+    edits
+        Whether it changes the mesh, and does not only mark seams. Otherwise nothing is done when a chain ends.
     cuts
         Whether it adds vertices. Otherwise it may move vertices, and keeps their numbers.
     """
@@ -33,6 +35,7 @@ class Finishing(NamedTuple):
     name: str
     tooltip: str
     on_wire: bool = True
+    edits: bool = True
     cuts: bool = False
 
 
@@ -56,7 +59,7 @@ AUTO_ALONG = "Along the edges that an artist placed, across the surface of scans
 Finish = str
 """A row of `FINISHES`: what becomes the seam of a wire across the surface."""
 FINISHES: Mapping[Finish, Finishing] = {
-    "SNAP": Finishing("Snap", "Mark the nearest edges", on_wire=False),
+    "SNAP": Finishing("Snap", "Mark the nearest edges", on_wire=False, edits=False),
     "SLIDE": Finishing("Slide", "Mark the nearest edges, and slide their vertices onto the wire"),
     "CUT": Finishing("Cut", "Cut the wire into the faces", cuts=True),
 }

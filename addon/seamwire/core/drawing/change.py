@@ -110,8 +110,8 @@ class Change:
         return any(_is_run(wire.vertices, own) for own in self._gone)
 
     def finishes(self, wire: Wire) -> bool:
-        """Whether the seam of a wire is to lie where the wire runs, rather than on the edges beside it."""
-        return wire.id in self.changed and wire.along == "SURFACE" and wire.marks and FINISHES[wire.finish].on_wire
+        """Whether a wire has a finish that edits the mesh, and has changed."""
+        return wire.id in self.changed and wire.along == "SURFACE" and wire.marks and FINISHES[wire.finish].edits
 
 
 def _is_run(part: tuple[int, ...], wire: Wire) -> bool:
