@@ -65,7 +65,7 @@ class Chain:
         self._cursor = ""
         self._shown: tuple[tuple[object, ...], tuple[object, ...]] | None = None
         self._cleanup = ExitStack()
-        edited.chain = True
+        edited.chain = self._wake
         self._cleanup.callback(_leave_objects)
         self._cleanup.callback(self._leave_window)
         chosen.listeners.append(self._on_settings)
@@ -252,6 +252,10 @@ class Chain:
             timer, self._timer = self._timer, None
             self.manager.event_timer_remove(timer)
 
+    def _wake(self) -> None:
+        """Let Blender send an event, because a mesh has changed. Nobody may move the mouse."""
+        self._set_timer(True)
+
     def show(self) -> None:
         """Show the sessions as they are now."""
         session = self.session
@@ -283,7 +287,7 @@ class Chain:
 
 
 def _leave_objects() -> None:
-    edited.chain = False
+    edited.chain = None
     edited.watch()
     edited.redraw()
     for view in edited.views():

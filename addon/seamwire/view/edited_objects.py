@@ -20,7 +20,7 @@ from .failures import failures
 from .object_view import ObjectView, in_bounds, let_blender_tell
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
     from ..core.network.network import Snap
     from ..terms.choices import Along
@@ -42,7 +42,8 @@ class EditedObjects:
     front
         The one that was pointed at last; None: none yet.
     chain
-        Whether a chain is being drawn. The chain then updates the objects, and they are drawn with every tool.
+        Lets the chain that is being drawn look at a changed mesh; None: no chain is drawn. A chain updates the objects, and they are
+        drawn with every tool.
     covered
         Whether something else is drawn in place of the objects.
     timer
@@ -56,7 +57,7 @@ class EditedObjects:
         self._states: dict[int, tuple[str, bool]] = {}  # the mode of each window, and whether it shows the tool
         self.front: ObjectView | None = None
         self.timer = Timer(self.tick)
-        self.chain = False
+        self.chain: Callable[[], None] | None = None
         self.covered = False
 
     # What there is
@@ -144,7 +145,7 @@ class EditedObjects:
         self._waits = False
         self._states.clear()
         self.timer.stop()
-        self.chain = self.covered = False
+        self.chain, self.covered = None, False
         failures.clear()
 
     # Pointing
@@ -263,7 +264,9 @@ class EditedObjects:
             if not view.stale:
                 view.stale = True
                 self._stale_since = now
-        if not self.chain:
+        if self.chain:
+            self.chain()
+        else:
             self._changed = now
             self.watch()
 
@@ -275,7 +278,7 @@ class EditedObjects:
         """Take note that objects may be in another pose, and follow it if they are shown. A render works in another thread."""
         for view in views:
             view.has_moved()
-        is_shown = self.chain or any(has_tool for _, has_tool in self._states.values())
+        is_shown = self.chain is not None or any(has_tool for _, has_tool in self._states.values())
         if is_shown and depsgraph.mode == "VIEWPORT":
             self._follow_poses()
 
