@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
+from ..core.network.network import Snap
 from ..mesh import settings as chosen
 from ..view.edited_objects import edited
 from ..words.keys import DoubleClicks
@@ -292,5 +293,6 @@ def _leave_objects() -> None:
     edited.redraw()
     for view in edited.views():
         view.stroke = None
-        view.session.hover(None)
+        turned = None if view.turned is None else view.turned_at(view.turned[1])
+        view.session.hover(None if turned is None else Snap(turned.start, "WIRE", turned))  # the next key acts on it
     edited.show()

@@ -201,8 +201,9 @@ class EditedObjects:
         self.show()
 
     def point_at(self, view: ObjectView | None, place: Place | None) -> None:
-        """Let the overlay name the island under the mouse, which is on that object if anywhere."""
+        """Take note where the mouse is. The overlay names the island there, which is on that object if anywhere."""
         for each in self.views():
+            each.turned_at(place)
             hit = each.surface_at(place.view, place.cursor) if each is view and place is not None else None
             each.islands.pointed = None if hit is None else hit[1]
 
