@@ -213,7 +213,7 @@ class ObjectSession:
         self.obj = obj
         self.cage = edit_mesh.Cage(obj)
         self._renumbered = self._outdated = False
-        labels = self.cage.labels()
+        labels = self.cage.labels(was_read=True)
         same = labels.same_as(self._labels) and np.array_equal(arrays.seams, self.arrays.seams)
         if not same:
             self._adopt(labels, arrays.seams)
