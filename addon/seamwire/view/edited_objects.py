@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
+from ..core.network.network import Snap
 from ..mesh import settings as chosen
 from ..mesh.registration import Timer
 from ..mesh.settings import redraw_views
@@ -22,7 +23,6 @@ from .object_view import ObjectView, in_bounds, let_blender_tell
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from ..core.network.network import Snap
     from ..terms.choices import Along
     from .viewport import Place
 
@@ -192,6 +192,10 @@ class EditedObjects:
     def _hover(self, place: Place | None) -> None:
         view, snap = (None, None) if place is None else self.find(place)
         self.point_at(view, place)
+        for each in self.views():  # Blender may ask again although the mouse rests
+            wire = each.turned_at(place)
+            if wire is not None and (snap is None or snap.to != "WIRE"):
+                view, snap = each, Snap(wire.start, "WIRE", wire)
         if self.front is not None and view is not self.front:
             self.front.session.hover(None)
         if view is not None:
