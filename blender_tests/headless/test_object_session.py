@@ -425,3 +425,14 @@ def test_strokes_stay_with_the_mesh_and_go_when_removed(
     assert session_on(grid).session.network.strokes == ()
     assert not has_labels(grid)
     assert grid.data.seamwire_wires == ""
+
+
+@pytest.mark.every_blender
+def test_after_reading_the_mesh_tells_which_edges_have_a_label() -> None:
+    obj = add_grid(9)
+    edit()
+    mark_wires("36 44; 4 76")
+    mesh = ObjectSession(obj)
+    found = mesh.cage.labels(was_read=True)
+    assert len(found.labels) == 16
+    assert found.same_as(mesh.cage.labels())

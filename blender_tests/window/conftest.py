@@ -7,6 +7,7 @@ import desk as desks
 import pytest
 import ui as driver
 from seamwire.mesh.settings import preferences
+from seamwire.words.notices import Notice, Notices
 
 
 def watched(hand: driver.Ui) -> Iterator[driver.Ui]:
@@ -43,3 +44,12 @@ def cone(ui: driver.Ui) -> Iterator[desks.Desk]:
     """Half a cone to draw on: the two wires from 20 to 61 differ."""
     yield desks.half_cone(ui)
     desks.leave(ui)
+
+
+@pytest.fixture
+def reports(monkeypatch: pytest.MonkeyPatch) -> list[Notice]:
+    """Return what is reported when chains end."""
+    found: list[Notice] = []
+    take = Notices.take
+    monkeypatch.setattr(Notices, "take", lambda own: found.extend(taken := take(own)) or taken)
+    return found

@@ -20,7 +20,7 @@ from seamwire.mesh.settings import settings
 from seamwire.operators.chain_state import Stage
 from seamwire.operators.draw import MESH_OT_seamwire_draw
 from seamwire.view.edited_objects import edited
-from seamwire.words.notices import Notice, Notices
+from seamwire.words.notices import Notice
 
 ROW, LONG_ROW = chain(*range(36, 41)), chain(*range(36, 45))
 
@@ -226,15 +226,6 @@ def test_blender_stops_a_chain_at_once(desk: Desk, slow: Slow, monkeypatch: pyte
     assert waits == []
     assert session.under_way.waiting == 0
     assert seams(desk.obj) == ROW
-
-
-@pytest.fixture
-def reports(monkeypatch: pytest.MonkeyPatch) -> list[Notice]:
-    """Return what is reported when chains end."""
-    found: list[Notice] = []
-    take = Notices.take
-    monkeypatch.setattr(Notices, "take", lambda own: found.extend(taken := take(own)) or taken)
-    return found
 
 
 def test_a_click_without_a_result_is_reported_when_the_chain_ends(

@@ -325,3 +325,57 @@ def test_gaps_in_seams_are_shown_until_they_are_closed(desk: Desk) -> None:
     desk.ui.wait_until(lambda: edited.front.islands.newest.count == 3)
     assert edited.front.islands.newest.gaps == ()
     assert np.abs(desk.ui.pixels() - before).max() > 0.2
+
+
+def asked_to_delete(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Return what grows when Blender opens its menu of what to delete."""
+    asked: list[int] = []
+    monkeypatch.setattr(
+        bpy.types.VIEW3D_MT_edit_mesh_delete,
+        "draw",
+        lambda self, _context: (asked.append(1), self.layout.label(text="Delete"))[0],
+    )
+    return asked
+
+
+@pytest.mark.every_blender
+def test_w_and_x_act_on_a_wire_that_w_moved_away_until_the_mouse_moves(
+    cone: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked = asked_to_delete(monkeypatch)
+    cone.choose()
+    session, ui = draw(cone, 20, 61), cone.ui
+    ways = [session.wires[0].vertices]
+    middle = ways[0][len(ways[0]) // 2]
+    ui.move(cone.at(middle))
+    for _ in range(3):
+        ui.key("W")
+        ui.wait_until(lambda: not cone.running)
+        ways.append(session.wires[0].vertices)
+        assert session.picture.one(Role.HOVERED).vertices == ways[-1], "it is highlighted"
+    assert middle not in ways[1], "the wire is elsewhere"
+    assert ways[2] == ways[0], "the second W acts on the same wire"
+    assert ways[3] == ways[1]
+    ui.key("X")
+    ui.wait_until(lambda: not cone.running)
+    assert session.wires == ()
+    assert seams(cone.obj) == []
+    ui.wait(10, redraw=True)
+    assert asked == []
+
+
+def test_where_the_mouse_has_moved_since_x_is_blenders(cone: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = asked_to_delete(monkeypatch)
+    cone.choose()
+    session, ui = draw(cone, 20, 61), cone.ui
+    way = session.wires[0].vertices
+    place = cone.at(way[len(way) // 2])
+    ui.move(place)
+    ui.key("W")
+    ui.wait_until(lambda: not cone.running)
+    ui.move((place[0] + 60.0, place[1]))
+    ui.move(place)
+    ui.key("X")
+    ui.wait_until(lambda: bool(asked))
+    ui.key("ESC")
+    assert len(session.wires) == 1

@@ -108,10 +108,10 @@ class Cage:
         edge = _edge(self.bm, pair)
         return edge is not None and edge.seam
 
-    def labels(self, among: Iterable[tuple[int, int]] | None = None) -> EdgeLabels:
+    def labels(self, among: Iterable[tuple[int, int]] | None = None, was_read: bool = False) -> EdgeLabels:
         """Return the edges that have a label, in the order of their numbers.
 
-        If edges are given that include all with a label, only these are looked at.
+        If edges are given that include all with a label, only these are looked at. After `read`, the mesh can tell which edges have one.
         """
         bm = self.bm
         layer = bm.edges.layers.int.get(LABELS)
@@ -121,6 +121,8 @@ class Cage:
         if among is not None:
             there = {edge.index: edge for pair in among if (edge := _edge(bm, pair)) is not None}
             edges = [there[number] for number in sorted(there)]
+        elif was_read and not IS_OLD:
+            edges = [edges[row] for row in _labelled_rows(self.mesh)]
         found = [(label, edge) for edge in edges if (label := edge[layer])]
         return EdgeLabels(
             np.array([[v.index for v in edge.verts] for _, edge in found], dtype=np.int64).reshape(-1, 2),
@@ -169,6 +171,16 @@ class Cage:
                 raise ValueError(f"There is no edge {pair[0]}-{pair[1]} to mark")
             found.append(edge)
         return found
+
+
+def _labelled_rows(mesh: bpy.types.Mesh) -> list[int]:
+    """Return the numbers of the edges that have a label in a mesh in edit mode, as it was stored last."""
+    shared = mesh.copy()  # as in `read`
+    try:
+        attribute = shared.attributes.get(LABELS)
+        return [] if attribute is None else np.flatnonzero(column(attribute.data, "value", np.int32)).tolist()
+    finally:
+        bpy.data.meshes.remove(shared)
 
 
 def _edge(bm: bmesh.types.BMesh, pair: tuple[int, int]) -> bmesh.types.BMEdge | None:

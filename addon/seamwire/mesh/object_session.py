@@ -131,7 +131,7 @@ class ObjectSession:
         self._found = Found()
         self._newer = False
         self._damaged = False
-        self._renumbered = False
+        self._renumbered = self._outdated = False
         self._unstored = False
         self._adopt(self.cage.labels(), self.arrays.seams)
 
@@ -195,9 +195,10 @@ class ObjectSession:
         return Places(self.arrays.points, self.arrays.to_object)
 
     def alive(self) -> bool:
-        """Whether the edit mesh that was read is still there, with as many vertices, edges and faces."""
+        """Whether the edit mesh that was read is still there, and can be drawn on with the numbers it was read with."""
         try:
-            return self.obj.mode == "EDIT" and self.obj.data == self.cage.mesh and self.cage.intact()
+            is_edited = self.obj.mode == "EDIT" and self.obj.data == self.cage.mesh
+            return is_edited and not self._outdated and self.cage.intact()
         except ReferenceError:
             return False
 
@@ -211,8 +212,8 @@ class ObjectSession:
             return False
         self.obj = obj
         self.cage = edit_mesh.Cage(obj)
-        self._renumbered = False
-        labels = self.cage.labels()
+        self._renumbered = self._outdated = False
+        labels = self.cage.labels(was_read=True)
         same = labels.same_as(self._labels) and np.array_equal(arrays.seams, self.arrays.seams)
         if not same:
             self._adopt(labels, arrays.seams)
@@ -227,14 +228,16 @@ class ObjectSession:
 
         `before` is the network that the mesh has; what differs from it was drawn or changed since. Returns `before`, or the other network
         that the mesh has now if Blender's undo has changed its wires. Returns None where wires would run on it in another way, or it has
-        left edit mode. They can be written even then, as far as vertices have the numbers that they had.
+        left edit mode. They can be written even then, if their vertices have the numbers that they had. Then the mesh is read anew.
         """
         self.obj = obj
         editing = obj.mode == "EDIT"
         self.cage = edit_mesh.Cage(obj) if editing else edit_mesh.StoredMesh(obj.data)
-        self._renumbered = self.cage.vertex_count != len(self.arrays.points)
+        has_others = self.cage.vertex_count != len(self.arrays.points)
+        self._renumbered = has_others and not self._has_same_numbers()
         known, self._labels = self._labels, self.cage.labels()
-        if not editing or self._renumbered:
+        self._outdated = True
+        if not editing or has_others:
             return None
         try:
             arrays = edit_mesh.read(obj)
@@ -242,6 +245,7 @@ class ObjectSession:
             return None
         if not arrays.same_as(self.arrays):
             return None
+        self._outdated = False
         if all(np.array_equal(getattr(self._labels, name), getattr(known, name)) for name in ("pairs", "labels")):
             self._set_seams(arrays.seams, self._labels)
             return before
@@ -251,6 +255,18 @@ class ObjectSession:
         found = self.session.network
         self.session.queue.adopt(change.on(found), self.plain_seams)
         return found
+
+    def _has_same_numbers(self) -> bool:
+        """Return whether what is drawn finds its vertices where they were, in an edit mesh with more or fewer vertices."""
+        network = self.session.network
+        of_wires = (vertex for wire in network.wires for edge in wire.claims() for vertex in edge)
+        of_strokes = (vertex for stroke in network.strokes for vertex in stroke.corners.reshape(-1).tolist())
+        used = sorted({*of_wires, *of_strokes})
+        if not isinstance(self.cage, edit_mesh.Cage) or (used and used[-1] >= self.cage.vertex_count):
+            return False
+        verts = self.cage.bm.verts
+        moved = np.array([verts[vertex].co for vertex in used]).reshape(-1, 3) - self.arrays.in_object[used]
+        return bool(np.abs(moved).max(initial=0.0) <= self.places.tolerance)
 
     def _adopt(self, labels: EdgeLabels, seams: NDArray[np.int32]) -> None:
         """Go on with the network that labels tell of, and the seams of the mesh."""
@@ -312,7 +328,12 @@ class ObjectSession:
             self._store()
 
     def plan(self) -> wire_labels.Plan:
-        """Return what the mesh's edges must be for the session's network."""
+        """Return what the mesh's edges must be for the session's network.
+
+        Raises ValueError if the vertices have other numbers now.
+        """
+        if self._renumbered:
+            raise ValueError("The mesh has other vertices now")
         return wire_labels.plan(
             self.session.drawing.network,
             self._labels,
@@ -329,8 +350,6 @@ class ObjectSession:
         If the session is to `adopt` the network, the drawing ends with that: what was done before is Blender's to undo then. Raises
         ValueError where an edge is not there any more; then nothing is changed.
         """
-        if self._renumbered:
-            raise ValueError("The mesh has other vertices now")
         labels = {} if self._newer else plan.labels
         written = self.cage.write(plan.mark, plan.clear, labels)
         # Any other edge has no label, as before.

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
+from ..core.network.network import Snap
 from ..mesh import settings as chosen
 from ..view.edited_objects import edited
 from ..words.keys import DoubleClicks
@@ -65,7 +66,7 @@ class Chain:
         self._cursor = ""
         self._shown: tuple[tuple[object, ...], tuple[object, ...]] | None = None
         self._cleanup = ExitStack()
-        edited.chain = True
+        edited.chain = self._wake
         self._cleanup.callback(_leave_objects)
         self._cleanup.callback(self._leave_window)
         chosen.listeners.append(self._on_settings)
@@ -252,6 +253,10 @@ class Chain:
             timer, self._timer = self._timer, None
             self.manager.event_timer_remove(timer)
 
+    def _wake(self) -> None:
+        """Let Blender send an event, because a mesh has changed. Nobody may move the mouse."""
+        self._set_timer(True)
+
     def show(self) -> None:
         """Show the sessions as they are now."""
         session = self.session
@@ -283,10 +288,11 @@ class Chain:
 
 
 def _leave_objects() -> None:
-    edited.chain = False
+    edited.chain = None
     edited.watch()
     edited.redraw()
     for view in edited.views():
         view.stroke = None
-        view.session.hover(None)
+        turned = None if view.turned is None else view.turned_at(view.turned[1])
+        view.session.hover(None if turned is None else Snap(turned.start, "WIRE", turned))  # the next key acts on it
     edited.show()

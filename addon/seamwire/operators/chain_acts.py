@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..core.drawing.picture import Role
+from ..core.network.network import Snap
 from ..mesh.settings import settings
 from ..terms.options import strength_name
 from ..view.edited_objects import edited
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from ..core.drawing.session import Session
-    from ..core.network.network import Snap
     from ..core.network.strokes import Stroke
     from ..core.network.wires import Wire
     from ..view.object_view import ObjectView
@@ -193,12 +193,19 @@ def has_target(given: Given, keys: Bindings) -> bool:
 
 
 def _drawn_at(given: Given) -> tuple[ObjectView | None, Wire | None, Stroke | None]:
-    """Return the object under the mouse, and the kept wire there, or else the stroke."""
+    """Return the object under the mouse, and the kept wire there, or else the stroke.
+
+    A wire that was just given another path counts as there until the mouse moves.
+    """
     assert given.place is not None
     view, snap = edited.find(given.place)
-    if view is None or (snap is not None and snap.to == "WIRE"):
-        return view, None if snap is None else snap.wire, None
-    return view, None, view.stroke_at(given.place.view, given.place.cursor)
+    if snap is not None and snap.to == "WIRE":
+        return view, snap.wire, None
+    for each in edited.views():
+        wire = each.turned_at(given.place)
+        if wire is not None:
+            return each, wire, None
+    return view, None, None if view is None else view.stroke_at(given.place.view, given.place.cursor)
 
 
 def remove(chain: Chain, given: Given) -> bool:
@@ -220,12 +227,13 @@ def remove(chain: Chain, given: Given) -> bool:
 def retrace(chain: Chain, given: Given) -> bool:
     """Let the wire under the mouse take its other path, and return whether there was one."""
     assert given.place is not None
-    view, snap = edited.find(given.place)
-    if view is None or snap is None or snap.to != "WIRE" or snap.wire is None:
+    view, wire, _ = _drawn_at(given)
+    if view is None or wire is None:
         return False
     chain.draw_on(view)
-    view.session.hover(snap)
-    view.session.retrace(snap.wire)
+    view.session.hover(Snap(wire.start, "WIRE", wire))
+    view.session.retrace(wire)
+    view.turned = wire, given.place
     chain.record.note(undo_steps.EDIT)
     return True
 
@@ -233,13 +241,14 @@ def retrace(chain: Chain, given: Given) -> bool:
 # Keys
 
 
-def swap(chain: Chain, _given: Given) -> None:
+def swap(chain: Chain, given: Given) -> None:
     """Take the next candidate, or the other path of the kept wire under the mouse."""
     chain.draw_on(edited.front)
     session = chain.session
     hovered = session.picture.one(Role.HOVERED)
     if session.seed is None and hovered is not None:
         session.retrace(hovered)
+        edited.front.turned = None if given.place is None else (hovered, given.place)
     else:
         session.cursor.next_candidate()
 

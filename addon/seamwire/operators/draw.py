@@ -141,7 +141,7 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
         try:
             trouble = chain.trouble(context)
             if trouble:
-                self.report({"WARNING"}, f"{trouble}: the chain has ended")
+                chain.notices.add("WARNING", f"{trouble}: the chain has ended")
                 return self._finish(context) | {"PASS_THROUGH"}
             passes = handle(chain, context, event)
             if chain.stage is Stage.OVER:
@@ -166,8 +166,8 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
             has_kept = self._chain.finish()
         except ValueError as error:
             self._chain.drop()
-            self.report({"WARNING"}, f"{error}: the wires of this chain were not kept")
-            return {"CANCELLED"}
+            has_kept = False
+            self._chain.notices.add("WARNING", f"{error}: the wires of this chain were not kept")
         self._chain.notices.tell(self.report)
         if has_kept and next(_kept) >= _ENOUGH and preferences(context).text == "STEPS":
             preferences(context).text = "INFORMATION"

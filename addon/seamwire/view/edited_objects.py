@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
+from ..core.network.network import Snap
 from ..mesh import settings as chosen
 from ..mesh.registration import Timer
 from ..mesh.settings import redraw_views
@@ -20,9 +21,8 @@ from .failures import failures
 from .object_view import ObjectView, in_bounds, let_blender_tell
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
-    from ..core.network.network import Snap
     from ..terms.choices import Along
     from .viewport import Place
 
@@ -42,7 +42,8 @@ class EditedObjects:
     front
         The one that was pointed at last; None: none yet.
     chain
-        Whether a chain is being drawn. The chain then updates the objects, and they are drawn with every tool.
+        Lets the chain that is being drawn look at a changed mesh; None: no chain is drawn. A chain updates the objects, and they are
+        drawn with every tool.
     covered
         Whether something else is drawn in place of the objects.
     timer
@@ -56,7 +57,7 @@ class EditedObjects:
         self._states: dict[int, tuple[str, bool]] = {}  # the mode of each window, and whether it shows the tool
         self.front: ObjectView | None = None
         self.timer = Timer(self.tick)
-        self.chain = False
+        self.chain: Callable[[], None] | None = None
         self.covered = False
 
     # What there is
@@ -144,7 +145,7 @@ class EditedObjects:
         self._waits = False
         self._states.clear()
         self.timer.stop()
-        self.chain = self.covered = False
+        self.chain, self.covered = None, False
         failures.clear()
 
     # Pointing
@@ -191,6 +192,10 @@ class EditedObjects:
     def _hover(self, place: Place | None) -> None:
         view, snap = (None, None) if place is None else self.find(place)
         self.point_at(view, place)
+        for each in self.views():  # Blender may ask again although the mouse rests
+            wire = each.turned_at(place)
+            if wire is not None and (snap is None or snap.to != "WIRE"):
+                view, snap = each, Snap(wire.start, "WIRE", wire)
         if self.front is not None and view is not self.front:
             self.front.session.hover(None)
         if view is not None:
@@ -200,8 +205,9 @@ class EditedObjects:
         self.show()
 
     def point_at(self, view: ObjectView | None, place: Place | None) -> None:
-        """Let the overlay name the island under the mouse, which is on that object if anywhere."""
+        """Take note where the mouse is. The overlay names the island there, which is on that object if anywhere."""
         for each in self.views():
+            each.turned_at(place)
             hit = each.surface_at(place.view, place.cursor) if each is view and place is not None else None
             each.islands.pointed = None if hit is None else hit[1]
 
@@ -263,7 +269,9 @@ class EditedObjects:
             if not view.stale:
                 view.stale = True
                 self._stale_since = now
-        if not self.chain:
+        if self.chain:
+            self.chain()
+        else:
             self._changed = now
             self.watch()
 
@@ -275,7 +283,7 @@ class EditedObjects:
         """Take note that objects may be in another pose, and follow it if they are shown. A render works in another thread."""
         for view in views:
             view.has_moved()
-        is_shown = self.chain or any(has_tool for _, has_tool in self._states.values())
+        is_shown = self.chain is not None or any(has_tool for _, has_tool in self._states.values())
         if is_shown and depsgraph.mode == "VIEWPORT":
             self._follow_poses()
 

@@ -41,10 +41,12 @@ if TYPE_CHECKING:
     from ..core.network.network import Snap
     from ..core.network.picks import Pick
     from ..core.network.strokes import Stroke
+    from ..core.network.wires import Wire
     from ..core.picking.camera import Camera
     from ..core.solver.solver import End
     from ..terms.options import Options
     from .layers import Layer
+    from .viewport import Place
 
 
 class ShownIslands:
@@ -169,6 +171,9 @@ class ObjectView:
         The stroke that is being drawn: its points, (k, 3), as the session has them, and whether wires will follow it.
     stale
         Whether Blender told of a change of the mesh since it was read.
+    turned
+        The wire that was given another path last, and where the mouse was; None: the mouse has moved since. Keys still act on this wire,
+        though it may run elsewhere now.
 
     Raises
     ------
@@ -188,6 +193,7 @@ class ObjectView:
         self.crest_view = CrestView(native.load(), self.mesh.make_live.wait, self.pose)
         self.heat = StretchHeat(arrays, self._islands, self.pose)
         self._layers: list[Layer] = []
+        self.turned: tuple[Wire, Place] | None = None
         self._has_moved = True
         self._posed_picker: Picker | None = None
         self.islands = ShownIslands(self._islands, self.session, arrays.seams)
@@ -424,6 +430,12 @@ class ObjectView:
         scale = bpy.context.preferences.system.ui_scale
         matrix, strokes = self.obj.matrix_world, self.session.picture.strokes
         return self._follow_picker().stroke_at(strokes, view, matrix, cursor, xray=self.options.xray, scale=scale)
+
+    def turned_at(self, place: Place | None) -> Wire | None:
+        """Return the wire that was given another path here, as it runs now, or None. Forget it if the mouse is elsewhere."""
+        if self.turned is not None and (place is None or not place.is_as(self.turned[1])):
+            self.turned = None
+        return None if self.turned is None else self.session.network.find(self.turned[0])
 
     def show(self, front: bool) -> bool:
         """Let the overlay follow, and ask for the islands. Return whether islands are new."""

@@ -15,6 +15,10 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
+_REST = 3
+"""Pixels that a hand moves the mouse while it presses a key."""
+
+
 def clipping_planes(region_3d: bpy.types.RegionView3D) -> NDArray[np.float64]:
     """Return the planes, (k, 4), of a view's clipping border (Alt+B); none where it is not clipped."""
     if not region_3d.use_clip_planes:
@@ -49,6 +53,10 @@ class Place:
     def away(self, other: Place) -> int:
         """Return how far another place is, as Blender measures when a press becomes a drag."""
         return max(abs(self.x - other.x), abs(self.y - other.y))
+
+    def is_as(self, other: Place) -> bool:
+        """Whether a hand that rests has not left another place, and the view is the same."""
+        return self.away(other) <= _REST and np.array_equal(self.view.perspective, other.view.perspective)
 
 
 def place_of(window: bpy.types.Window, event: bpy.types.Event) -> Place | None:

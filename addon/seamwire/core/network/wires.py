@@ -9,6 +9,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -107,12 +108,16 @@ class Wire:
 
     def edges(self) -> list[Edge]:
         """Return the edges it marks or clears, in order along the wire."""
+        return list(self._edges)
+
+    @cached_property
+    def _edges(self) -> tuple[Edge, ...]:
         following = self.vertices[1:] + (self.vertices[:1] if self.closed else ())
-        return [(min(a, b), max(a, b)) for a, b in zip(self.vertices, following, strict=False)]
+        return tuple((min(a, b), max(a, b)) for a, b in zip(self.vertices, following, strict=False))
 
     def claims(self) -> Iterator[Edge]:
         """Yield the edges that it and its images mark or clear."""
-        yield from self.edges()
+        yield from self._edges
         yield from self.images or ()
 
     @property

@@ -35,6 +35,13 @@ _IN_PLANE = float(np.cos(np.radians(1.0)))
 """Two faces lie in a plane if the cosine between their normals is at least this."""
 _LARGEST = 50_000
 """Triangles of a flat face: around larger ones nobody needs help."""
+_LARGEST_WALL = 10_000
+"""Triangles of the wall of a tube."""
+_LID_CORNERS = 8
+"""A flat fan of at least so many faces is a lid."""
+_MOST_LIDS = 16
+_SHARP = float(np.cos(np.radians(65.0)))
+"""Two faces meet at a rim if the cosine between their normals is below this. The sides of a tube with six corners meet at 60 degrees."""
 
 
 class PartBorders:
@@ -80,6 +87,10 @@ class PartBorders:
         self._working = threading.Lock()
         self._is_prepared = False
         self.is_complete = False
+        self._wall_of = np.zeros(
+            len(triangles), dtype=np.int32
+        )  # the number of the wall of each triangle, 0: not known
+        self._rims_of_walls: list[tuple[VertexChain, ...]] = [()]
 
     def ready(self) -> bool:
         """Whether flat faces can be found. This begins to prepare them, and then to find the parts, on a thread that `stop` stops."""
@@ -140,12 +151,56 @@ class PartBorders:
             yield parts.borders(triangle)
 
     def rims(self, edge: Edge) -> tuple[VertexChain, ...]:
-        """Return both rims of the tube inside of which an edge lies, or nothing. The tube is a part, or an open piece."""
+        """Return both rims of the tube inside of which an edge lies, or nothing.
+
+        The tube is a part, an open piece, or in an undivided piece the wall up to sharp edges, lids and the boundary.
+        """
         sides = [side // 3 for side in self.half_edges.of(edge)]
         parts = self._steps[0] if self._steps and sides else None
         if parts is None or len({int(parts.labels[side]) for side in sides}) > 1 or len(sides) != 2:
             return ()
-        return parts.rims(sides[0])
+        own, other = sides
+        if parts.rims(own) or parts.borders(own) or self._wall(own) != self._wall(other):
+            return parts.rims(own)
+        return self._rims_of_walls[self._wall(own)]
+
+    def _wall(self, triangle: int) -> int:
+        """Return the number of the wall of a triangle: the faces around it up to sharp edges, lids and the boundary."""
+        if not self._wall_of[triangle]:
+            found, rims = self._find_wall(triangle)
+            self._wall_of[found & (self._wall_of == 0)] = len(self._rims_of_walls)
+            self._rims_of_walls.append(rims)
+        return int(self._wall_of[triangle])
+
+    def _find_wall(self, triangle: int) -> tuple[NDArray[np.bool_], tuple[VertexChain, ...]]:
+        """Return which triangles, (m,), are part of a triangle's wall, and both rims of the wall if it is a tube."""
+        normals, visible = self.half_edges.normals, self.half_edges.visible
+
+        def is_smooth(own: NDArray[np.int64], beside: NDArray[np.int64]) -> NDArray[np.bool_]:
+            return (np.einsum("ij,ij->i", normals[own // 3], normals[beside]) >= _SHARP) | ~visible[own]
+
+        def rims(found: NDArray[np.bool_]) -> tuple[VertexChain, ...]:
+            return _Parts(self.half_edges, found.astype(np.int32)).rims(triangle)
+
+        found, is_whole = self._around(triangle, is_smooth, _LARGEST_WALL)
+        if not is_whole or rims(found):
+            return found, rims(found) if is_whole else ()
+        lids = self._lids(found)
+        if lids[triangle]:
+            return lids, ()
+        found, _ = self._around(triangle, lambda own, beside: is_smooth(own, beside) & ~lids[beside], _LARGEST_WALL)
+        return found, rims(found)
+
+    def _lids(self, region: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """Return which triangles, (m,), lie on flat faces with a fan of many triangles in a region, (m,)."""
+        tails, normals = self.half_edges.tails.reshape(-1, 3), self.half_edges.normals
+        corners = tails[region]
+        lids = np.zeros_like(region)
+        for hub in np.flatnonzero(np.bincount(corners.reshape(-1)) >= _LID_CORNERS)[:_MOST_LIDS]:
+            fan = np.flatnonzero(region)[(corners == hub).any(axis=1)]
+            if (normals[fan] @ normals[fan[0]] >= _IN_PLANE).all():
+                lids |= self._plane_around(int(fan[0]))
+        return lids
 
     def beside(self, edge: Edge) -> Iterator[Edge]:
         """Yield the edges that meet an edge inside of the same tube."""
@@ -176,21 +231,35 @@ class PartBorders:
 
     def _plane_around(self, triangle: int) -> NDArray[np.bool_]:
         """Return which triangles, (m,), are part of a triangle's flat face; none if these are too many."""
-        sides = self.half_edges
-        is_in_face = np.zeros(len(self._triangles), dtype=np.bool_)
+        normals, visible = self.half_edges.normals, self.half_edges.visible
+
+        def is_flat(own: NDArray[np.int64], beside: NDArray[np.int64]) -> NDArray[np.bool_]:
+            return (normals[beside] @ normals[triangle] >= _IN_PLANE) | ~visible[own]
+
+        found, is_whole = self._around(triangle, is_flat, _LARGEST)
+        return found if is_whole else np.zeros_like(found)
+
+    def _around(
+        self, triangle: int, joins: Callable[[NDArray[np.int64], NDArray[np.int64]], NDArray[np.bool_]], most: int
+    ) -> tuple[NDArray[np.bool_], bool]:
+        """Return which triangles, (m,), are connected with one, and whether these are all, because they are not more than `most`.
+
+        `joins` returns whether half-edges, (k,), connect their triangles with those beside them, (k,).
+        """
+        twins = self.half_edges.twins
+        found = np.zeros(len(self._triangles), dtype=np.bool_)
         new = np.array([triangle])
         count = 0
         while len(new):
-            is_in_face[new] = True
+            found[new] = True
             count += len(new)
-            if count > _LARGEST:
-                return np.zeros_like(is_in_face)
+            if count > most:
+                return found, False
             own = (3 * new[:, None] + np.arange(3)).reshape(-1)
-            own = own[sides.twins[own] >= 0]
-            beside = sides.twins[own] // 3
-            is_flat = sides.normals[beside] @ sides.normals[triangle] >= _IN_PLANE
-            new = np.unique(beside[(is_flat | ~sides.visible[own]) & ~is_in_face[beside]])
-        return is_in_face
+            own = own[twins[own] >= 0]
+            beside = twins[own] // 3
+            new = np.unique(beside[joins(own, beside) & ~found[beside]])
+        return found, True
 
     def _length(self, chain: VertexChain) -> float:
         return length_of(self._points[[*chain, chain[0]]])

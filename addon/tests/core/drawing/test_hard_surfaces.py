@@ -266,6 +266,30 @@ def test_over_an_upright_edge_of_a_wall_the_slit_between_the_rims_comes_first(ro
     assert found[:2] == [("CLOSED", ring_of(rows - 1, 16)), ("CROSSING", slit)]
 
 
+def trunk(sides: int) -> tuple[NDArray[np.float64], Polygons]:
+    """Return a log that is open below. Its lid is a fan with a round rim; vertex row * sides + i."""
+    profile = [(1.0, 0.0), (1.0, 0.9), (1.0, 1.8), (1.0, 2.7), (1.01, 3.54), (1.06, 3.8), (1.05, 3.89), (1.0, 3.96)]
+    profile.append((0.88, 4.0))
+    rows = len(profile) - 1
+    points, polygons = with_fans(*prism(circle(sides), 4.0, rows), rows)
+    points[:-2] = np.concatenate([circle(sides) * radius + np.array([0.0, 0.0, z]) for radius, z in profile])
+    lower = len(points) - 2
+    points[lower] = points[lower + 1]
+    kept = [polygon for polygon in polygons if lower not in polygon]
+    return points[:-1], [tuple(min(vertex, lower) for vertex in polygon) for polygon in kept]
+
+
+@pytest.mark.parametrize("sides", [16, 32])
+def test_on_the_wall_of_a_trunk_the_slit_comes_before_the_strip_over_the_lid(sides: int) -> None:
+    session, _ = session_of(*trunk(sides))
+    lower = 2 * sides + 2
+    found = offers(session, Snap((lower, lower + sides)))
+    assert found[0] == ("STRIP", upright(2, 0, 8, sides))
+    assert found[1][0] == "PAST"
+    assert offers(session, Snap((lower, lower + 1)))[0] == ("CLOSED", ring_of(2, sides))
+    assert len(offers(session, Snap((8 * sides + 2, 9 * sides)))[0][1]) > 8, "on the lid there is no slit"
+
+
 @pytest.mark.parametrize("rows", [1, 4])
 def test_inside_a_face_of_a_wall_the_nearest_rim_comes_first_and_the_slit_second(rows: int) -> None:
     session, arrays = session_of(*prism(circle(16), 2.0, rows))
