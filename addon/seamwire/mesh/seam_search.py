@@ -135,8 +135,8 @@ class Suggestion:
         self._core = native.load()
         self.mesh = ObjectSession(obj)
         arrays = self.mesh.arrays
-        self.along: Along = options.along or self.mesh.auto.along
-        self.finish: Finish = options.finish or self.mesh.auto.finish
+        self.along: Along = options.along or self.mesh.find_auto().along
+        self.finish: Finish = options.finish or self.mesh.find_auto().finish
         self._symmetric = options.symmetric
         self._front = None if options.front is None else self._in_object(options.front)
         self._within, self.others = self._islands_with(faces)

@@ -305,7 +305,9 @@ class MESH_OT_seamwire_repeat(EditMeshOperator, bpy.types.Operator):
         wanted = wires
         if self.selected:
             chosen = {
-                tuple(sorted(vertex.index for vertex in edge.verts)) for edge in mesh.cage.bm.edges if edge.select
+                tuple(sorted(vertex.index for vertex in edge.verts))
+                for edge in mesh.cage.number_bmesh().edges
+                if edge.select
             }
             wanted = [wire for wire in wires if not chosen.isdisjoint(wire.edges())]
         return connected_groups(wanted, wires)
