@@ -119,7 +119,7 @@ class StretchHeat(Layer):
 
     @property
     def summary(self) -> _Summary | None:
-        """What the last call of `poll` found to say of the islands; None if nothing was found yet, or no heat is shown."""
+        """The mean and the worst stretch, as the last call of `poll` found them. None if they are not known, or no heat is shown."""
         return self._summary[1] if self.shown else None
 
     @property
