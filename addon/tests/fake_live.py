@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
+import pytest
 from numpy.typing import NDArray
 
 
@@ -100,6 +102,15 @@ def grid_triangles(size: int) -> NDArray[np.int32]:
 def grid_points(size: int) -> NDArray[np.float64]:
     """Return size x size points; vertex y * size + x lies at (x, y, 0)."""
     return np.array([[x, y, 0.0] for y in range(size) for x in range(size)], dtype=np.float64)
+
+
+@functools.cache
+def _library_wires(size: int) -> object:
+    """Return the library's live wires along the edges of that grid, ready to answer."""
+    core = pytest.importorskip("seamwire_core")
+    live = core.LiveWire(grid_points(size), grid_triangles(size), grid_edges(size), along="edges")
+    live.wait()
+    return live
 
 
 @dataclass
@@ -255,41 +266,19 @@ class FakeLive:
             return at + dx + self.size * dy
         return None
 
-    def _straight(self, edge: tuple[int, int], stops: Iterable[int]) -> list[int]:
-        """Return the way on in one direction; an edge loop ends at the corners of the grid."""
-        way = [edge[1]]
-        dx, dy = edge[1] % self.size - edge[0] % self.size, edge[1] // self.size - edge[0] // self.size
-        while way[-1] not in stops:
-            x, y = way[-1] % self.size + dx, way[-1] // self.size + dy
-            if not (0 <= x < self.size and 0 <= y < self.size):
-                break
-            way.append(y * self.size + x)
-        return way
-
-    def edge_loop(self, edge: tuple[int, int], stops: Iterable[int] = ()) -> FakeChain:
+    def edge_loop(self, edge: tuple[int, int], stops: Iterable[int] = ()) -> object:
+        """Return the library's own edge loop on the grid, as soon as this is ready."""
         if not any(self.ready):
             return FakeChain(np.empty(0, dtype=np.int32))
-        ways = [self._straight(one, stops) for one in (edge, edge[::-1])]
-        return FakeChain(np.array([*ways[1][::-1], *ways[0]], dtype=np.int32))
+        return _library_wires(self.size).edge_loop(edge, stops)
 
     def fit_chain(
         self, points: NDArray[np.float64], faces: NDArray[np.int32], begin: int | None = None, end: int | None = None
-    ) -> FakeChain:
-        """Return the vertices that the points of a line are nearest to."""
-        assert len(points) == len(faces)
-        chain: list[int] = [] if begin is None else [begin]
-        places: list[float] = [0.0] * len(chain)
-        for number, (x, y, _) in enumerate(points.tolist()):
-            vertex = round(y) * self.size + round(x)
-            if vertex in chain[-2:-1]:
-                chain.pop(), places.pop()
-            elif chain[-1:] != [vertex]:
-                chain.append(vertex), places.append(float(number))
-        if end is not None and chain[-1] != end:
-            chain.append(end), places.append(len(points) - 1.0)
-        if not any(self.ready) or len(chain) < 2:
+    ) -> object:
+        """Return the library's own chain along a line on the grid, as soon as this is ready."""
+        if not any(self.ready):
             return FakeChain(np.empty(0, dtype=np.int32))
-        return FakeChain(np.array(chain, dtype=np.int32), places=np.array(places))
+        return _library_wires(self.size).fit_chain(points, faces, begin, end)
 
     def fork(self) -> FakeLive:
         ready = self.fork_ready or (True,) * len(self.ready)

@@ -35,7 +35,6 @@ if TYPE_CHECKING:
     import numpy as np
     from seamwire.mesh.object_session import ObjectSession
     from seamwire.networks.carry import Source
-    from seamwire.networks.core.network_file import NetworkFile
 
 
 def limit_memory(megabytes: int) -> None:
@@ -158,33 +157,18 @@ class Run:
 
     def source(self) -> dict[str, Any]:
         """Write the networks of a source asset, one file for each object that has seams, and return their names."""
-        import numpy as np
-
         from seamwire_batch.assets import AssetError, mesh_objects, open_asset
 
         open_asset(Path(self._job["asset"]))
         from seamwire.mesh.object_session import ObjectSession
-        from seamwire.networks.carry import group_middles
 
         made: dict[str, str] = {}
         for obj in mesh_objects():
-            mesh = ObjectSession(obj)
-            network = _network_of(mesh)
-            if not network.courses:
+            source = _network_of(ObjectSession(obj))
+            if not source.network.courses:
                 continue
             stem = f"source-{len(made)}"
-            (self._folder / f"{stem}.json").write_text(network.text(), encoding="utf-8")
-            groups = group_middles(obj)
-            arrays = mesh.arrays
-            np.savez(
-                self._folder / f"{stem}.npz",
-                points=arrays.points,
-                triangles=arrays.triangles,
-                edges=arrays.edges,
-                to_object=arrays.to_object,
-                groups=np.array(list(groups)),
-                middles=np.array(list(groups.values()), dtype=np.int64),
-            )
+            source.save(self._folder / f"{stem}.json")
             made[obj.name] = stem
         if not made:
             raise AssetError("The source has no seams")
@@ -274,18 +258,11 @@ class Run:
 
     def _source(self, obj: bpy.types.Object) -> Source:
         """Return the network for an object, from a file or from the source asset."""
-        import numpy as np
         from seamwire.networks.carry import Source
-        from seamwire.networks.core.network_file import NetworkFile
-        from seamwire.networks.core.placing import Shape
 
         if self._job["way"] == "network":
-            return Source(NetworkFile.parse(Path(self._job["network"]).read_text(encoding="utf-8")))
-        stem = self._stem_of(obj)
-        with np.load(f"{stem}.npz") as data:
-            shape = Shape(data["points"], data["triangles"], data["edges"], data["to_object"])
-            groups = dict(zip(data["groups"].tolist(), data["middles"].tolist(), strict=True))
-        return Source(NetworkFile.parse(Path(f"{stem}.json").read_text(encoding="utf-8")), shape, groups)
+            return Source.load(Path(self._job["network"]))
+        return Source.load(Path(f"{self._stem_of(obj)}.json"), with_mesh=True)
 
     def _stem_of(self, obj: bpy.types.Object) -> str:
         from seamwire_batch.assets import AssetError
@@ -373,7 +350,7 @@ class Run:
         for number, obj in enumerate(objects):
             with _editing(obj):
                 try:
-                    network = _network_of(ObjectSession(obj))
+                    network = _network_of(ObjectSession(obj)).network
                 except ValueError:
                     continue
             if not network.courses:
@@ -408,12 +385,12 @@ class Run:
             self.warnings.append(f"No picture: {str(error).strip()}")
 
 
-def _network_of(mesh: ObjectSession) -> NetworkFile:
-    """Return the wires of an object, and wires along its other seams."""
+def _network_of(mesh: ObjectSession) -> Source:
+    """Return the wires of an object and wires along its other seams, with all that is known of its mesh."""
     from seamwire.mesh.settings import settings
-    from seamwire.networks.carry import network_of, seam_wires
+    from seamwire.networks.carry import Source, seam_wires
 
-    return network_of(mesh, settings(), seam_wires(mesh))
+    return Source.of(mesh, settings(), seam_wires(mesh))
 
 
 def _plain(name: str) -> str:

@@ -27,13 +27,15 @@ def test_without_the_compiled_part_the_operator_says_so(monkeypatch: pytest.Monk
     assert seams(obj) == []
 
 
-def test_enabling_reads_neither_numpy_nor_the_compiled_part() -> None:
+def test_enabling_and_drawing_the_header_read_neither_numpy_nor_the_compiled_part() -> None:
     if not bpy.app.binary_path:
         pytest.skip("Blender as a Python module cannot be started again")
     code = f"""
-import sys, addon_utils
+import sys, addon_utils, bpy
 before = set(sys.modules)
 assert addon_utils.enable({ADDON!r}) is not None
+assert sys.modules[{ADDON!r} + ".mesh.settings"].settings().along == "AUTO"
+assert sys.modules[{ADDON!r} + ".ui.toolbar"].along_of(bpy.context) == "EDGES"
 print("Read:", sorted(dict.fromkeys(name.split(".")[0] for name in set(sys.modules) - before)))
 """
     command = [

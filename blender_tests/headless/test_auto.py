@@ -25,7 +25,7 @@ def scan() -> bpy.types.Object:
 
 def auto(obj: bpy.types.Object) -> Auto:
     edit()
-    return ObjectSession(obj).auto
+    return ObjectSession(obj).find_auto()
 
 
 def add_keys(obj: bpy.types.Object) -> None:

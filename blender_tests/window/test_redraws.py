@@ -13,6 +13,7 @@ from seamwire.core.drawing.gesture_queue import GestureQueue
 from seamwire.core.drawing.session import Session
 from seamwire.core.islands import islands
 from seamwire.core.islands.islands import IslandMaker
+from seamwire.core.islands.stretch import Stretch
 from seamwire.core.solver.solver import LiveMaker
 from seamwire.mesh import edit_mesh
 from seamwire.mesh.object_session import ObjectSession
@@ -153,6 +154,7 @@ def test_a_picture_reads_no_mesh_and_computes_nothing(
         (LiveMaker, "__call__"),
         (IslandMaker, "want"),
         (StretchHeat, "read"),
+        (Stretch, "islands"),
         (CrestView, "poll"),
         *((Session, name) for name in ("follow", "hover")),
         *((GestureQueue, name) for name in ("poll", "adopt")),
@@ -171,6 +173,7 @@ def test_a_picture_reads_no_mesh_and_computes_nothing(
         lambda: edited.front.has_moved(),
         lambda: setattr(edited.front, "stale", True),
         lambda: setattr(settings(), "show_crests", True),
+        lambda: setattr(settings(), "heat", "ANGLE"),
         *([] if in_chain else [edited.clear]),
     ):
         make_due()

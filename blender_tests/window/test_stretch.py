@@ -124,7 +124,7 @@ def test_a_map_that_changes_is_measured_once_and_only_where_it_changed(
         desk.ui.move((200.0 + 5 * step, 200.0))
         desk.ui.wait(redraw=True)
     assert measured == [64]
-    summary = heat().summary()
+    summary = heat().summary
     assert summary.count == 2
     assert summary.value == pytest.approx(1.0, abs=1e-4)
     assert summary.triangles.sum() == 64

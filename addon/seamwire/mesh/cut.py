@@ -81,7 +81,7 @@ class PickedPlaces:
     """
 
     def __init__(self, cage: Cage, picks: Iterable[Pick]) -> None:
-        bm = cage.bm
+        bm = cage.number_bmesh()
         # First of all: a new layer makes what was found before invalid.
         _add_unwrapped(bm)
         of_verts, _ = cut_layers(bm)
@@ -132,7 +132,7 @@ def rehearse(cage: Cage, what: CutPlan) -> None:
 
     Taking cuts back, joining small islands and storing wires are not tried. The copy takes about 1 s for a million triangles.
     """
-    bm = cage.bm.copy()
+    bm = cage.number_bmesh().copy()
     try:
         _carry_out(bm, what, [])
     finally:
@@ -145,7 +145,7 @@ def carry_out(cage: Cage, what: CutPlan, seeds: Iterable[int | FacePoint] = (), 
     The numbers of `seeds`, vertices and points, are returned; of points, only those that the cuts go through have any. An island beside the
     cuts with less than the part `crumb` of the mesh's area becomes part of a larger one.
     """
-    bm = cage.bm
+    bm = cage.number_bmesh()
     before = len(bm.verts)
     with _changing(cage):
         seams, seed_verts, uncut = _carry_out(bm, what, list(seeds))
@@ -157,7 +157,7 @@ def carry_out(cage: Cage, what: CutPlan, seeds: Iterable[int | FacePoint] = (), 
         if crumb > 0.0:
             join(bm, _crumb_borders(bm, new, crumb * sum(face.calc_area() for face in bm.faces)))
             seams = [edge for edge in seams if edge.is_valid and edge.seam]
-    bm = cage.bm
+    bm = cage.number_bmesh()
     pairs = {(min(pair), max(pair)) for pair in ((edge.verts[0].index, edge.verts[1].index) for edge in seams)}
     # Those inside a face that could not be cut went.
     numbers = {seed: vert.index for seed, vert in seed_verts.items() if vert.is_valid}
@@ -171,7 +171,7 @@ def _changing(cage: Cage) -> Iterator[None]:
         yield
     finally:
         # Blender's update keeps the normals, and a face that was split while it was drawn as a regular polygon has the wrong one.
-        cage.bm.normal_update()
+        cage.number_bmesh().normal_update()
         bmesh.update_edit_mesh(cage.mesh, loop_triangles=True, destructive=True)
 
 
@@ -268,7 +268,7 @@ def _add_unwrapped(bm: bmesh.types.BMesh) -> None:
 
 def left_behind(cage: Cage, edges: Iterable[Edge]) -> list[Edge]:
     """Return those among some edges where a cut can be taken back, see `cut_joins.is_left_behind`."""
-    bm = cage.bm
+    bm = cage.number_bmesh()
     found = ((pair, bm.edges.get((bm.verts[pair[0]], bm.verts[pair[1]]))) for pair in edges)
     return [pair for pair, edge in found if edge is not None and is_left_behind(bm, edge)]
 
@@ -278,7 +278,7 @@ def take_back(cage: Cage, edges: Iterable[Edge]) -> int:
 
     Edges that hold ends of these cuts go too. Vertices, edges and faces have other numbers then.
     """
-    bm = cage.bm
+    bm = cage.number_bmesh()
     with _changing(cage):
         _add_unwrapped(bm)
         cut_layers(bm)

@@ -62,9 +62,8 @@ class Cage:
         self._bm = edit_bmesh(obj.data)
         self._counts = self._count()
 
-    @property
-    def bm(self) -> bmesh.types.BMesh:
-        """The edit mesh, each item with its number, see `edit_bmesh`. Read this property again after each of Blender's operators."""
+    def number_bmesh(self) -> bmesh.types.BMesh:
+        """Return the edit mesh, each item with its number, see `edit_bmesh`. Call this again after each of Blender's operators."""
         return _numbered(self._bm)
 
     def _count(self) -> tuple[int, int, int]:
@@ -81,7 +80,7 @@ class Cage:
 
     def problem_with(self, picks: Iterable[Pick]) -> str:
         """Say in words what keeps picks from being seeds; an empty string where nothing does."""
-        count, bm = self._counts[0], self.bm
+        count, bm = self._counts[0], self.number_bmesh()
         for pick in picks:
             for vertex in vertices_of(pick):
                 if not 0 <= vertex < count:
@@ -98,14 +97,14 @@ class Cage:
 
     def active_vertex(self) -> int | None:
         """Return the vertex that was selected last; None where it was none, or is hidden."""
-        active = self.bm.select_history.active
+        active = self.number_bmesh().select_history.active
         if not isinstance(active, bmesh.types.BMVert) or active.hide:
             return None
         return active.index
 
     def is_seam(self, pair: tuple[int, int]) -> bool:
         """Whether there is such an edge, and it is a seam."""
-        edge = _edge(self.bm, pair)
+        edge = _edge(self.number_bmesh(), pair)
         return edge is not None and edge.seam
 
     def labels(self, among: Iterable[tuple[int, int]] | None = None, was_read: bool = False) -> EdgeLabels:
@@ -113,7 +112,7 @@ class Cage:
 
         If edges are given that include all with a label, only these are looked at. After `read`, the mesh can tell which edges have one.
         """
-        bm = self.bm
+        bm = self.number_bmesh()
         layer = bm.edges.layers.int.get(LABELS)
         if layer is None:
             return EdgeLabels.none()
@@ -145,7 +144,7 @@ class Cage:
         # Looked up twice: a new layer makes what was found before invalid.
         for pairs in (mark := list(mark), clear := list(clear), labels):
             self._found(pairs)
-        layers = self.bm.edges.layers.int
+        layers = self.number_bmesh().edges.layers.int
         layer = layers.get(LABELS) or (layers.new(LABELS) if any(labels.values()) else None)
         new = [edge for edge in self._found(mark) if not edge.seam]
         old = [edge for edge in self._found(clear) if edge.seam]
@@ -156,15 +155,15 @@ class Cage:
         if layer is not None:
             for edge, label in zip(self._found(labels), labels.values(), strict=True):
                 edge[layer] = label
-            if labels and not any(labels.values()) and not any(edge[layer] for edge in self.bm.edges):
-                self.bm.edges.layers.int.remove(layer)
+            if labels and not any(labels.values()) and not any(edge[layer] for edge in self.number_bmesh().edges):
+                self.number_bmesh().edges.layers.int.remove(layer)
         if new or old or labels:
             _numbered(self._bm)  # a layer that comes or goes takes the numbers away
             bmesh.update_edit_mesh(self.mesh, loop_triangles=False, destructive=False)
         return len(new), len(old)
 
     def _found(self, pairs: Iterable[tuple[int, int]]) -> list[bmesh.types.BMEdge]:
-        found, bm = [], self.bm
+        found, bm = [], self.number_bmesh()
         for pair in pairs:
             edge = _edge(bm, pair)
             if edge is None:

@@ -124,6 +124,7 @@ class ObjectSession:
         self.notices = Notices()
         self.plain_seams: NDArray[np.int32] = self.arrays.seams
         self.symmetric: tuple[int, ...] | None = None
+        self._auto: Auto | None = None
         self._symmetry_error: Exception | None = None
         self._looking: threading.Thread | None = None
         self._archive = _archive
@@ -180,12 +181,13 @@ class ObjectSession:
 
     def options(self, settings: SeamwireSettings) -> Options:
         """Return the settings as they are now, for this object."""
-        return snapshot(settings, self.cage.mesh, self.auto)
+        return snapshot(settings, self.cage.mesh, self.find_auto())
 
-    @functools.cached_property
-    def auto(self) -> Auto:
-        """The values that Auto stands for here."""
-        return auto_for(self.obj, self.arrays)
+    def find_auto(self) -> Auto:
+        """Return the values that Auto stands for here. The first call reads the mesh."""
+        if self._auto is None:
+            self._auto = auto_for(self.obj, self.arrays)
+        return self._auto
 
     # The network and the mesh
 
@@ -264,7 +266,7 @@ class ObjectSession:
         used = sorted({*of_wires, *of_strokes})
         if not isinstance(self.cage, edit_mesh.Cage) or (used and used[-1] >= self.cage.vertex_count):
             return False
-        verts = self.cage.bm.verts
+        verts = self.cage.number_bmesh().verts
         moved = np.array([verts[vertex].co for vertex in used]).reshape(-1, 3) - self.arrays.in_object[used]
         return bool(np.abs(moved).max(initial=0.0) <= self.places.tolerance)
 

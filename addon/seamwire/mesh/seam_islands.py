@@ -19,7 +19,6 @@ from ..core.islands.stretch import Stretch
 from . import edit_mesh, uv_map
 
 if TYPE_CHECKING:
-    import seamwire_core
     from numpy.typing import NDArray
 
     from ..core.base.mesh_arrays import Arrays
@@ -38,19 +37,13 @@ def read(obj: bpy.types.Object) -> Arrays:
 
 def labels_of(arrays: Arrays) -> NDArray[np.int32]:
     """Return the island of each triangle, (m,): 0, 1, ..., largest first."""
-    return _labelled(arrays)[0]
-
-
-def _labelled(arrays: Arrays) -> tuple[NDArray[np.int32], seamwire_core.Surface]:
-    core = native.load()
-    surface = core.Surface(arrays.points, arrays.triangles, arrays.edges)
-    return np.asarray(core.face_segments(surface, arrays.seams)), surface
+    return np.asarray(native.load().face_segments(arrays.surface, arrays.seams))
 
 
 def _missing_cuts(arrays: Arrays) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Return the island of each triangle, (m,), and how many more cuts each island needs to become a disc, (count,)."""
-    labels, surface = _labelled(arrays)
-    return labels, np.asarray(native.load().missing_cuts(surface, arrays.seams, labels))
+    labels = labels_of(arrays)
+    return labels, np.asarray(native.load().missing_cuts(arrays.surface, arrays.seams, labels))
 
 
 def missing_cuts(obj: bpy.types.Object) -> NDArray[np.int32]:

@@ -135,8 +135,8 @@ class Suggestion:
         self._core = native.load()
         self.mesh = ObjectSession(obj)
         arrays = self.mesh.arrays
-        self.along: Along = options.along or self.mesh.auto.along
-        self.finish: Finish = options.finish or self.mesh.auto.finish
+        self.along: Along = options.along or self.mesh.find_auto().along
+        self.finish: Finish = options.finish or self.mesh.find_auto().finish
         self._symmetric = options.symmetric
         self._front = None if options.front is None else self._in_object(options.front)
         self._within, self.others = self._islands_with(faces)
@@ -176,10 +176,9 @@ class Suggestion:
     def measure(self, progress: Progress) -> None:
         """Measure the mesh for parts; any thread may. `seamwire_core.Cancelled` is raised where `progress` returns False."""
         arrays = self.mesh.arrays
-        self._surface = self._core.Surface(arrays.in_object, arrays.triangles, arrays.edges)
         self._axis = self._mirror()
         self._finder = self._core.PartFinder(
-            self._surface, mirror=self._axis, marked=arrays.marked, seams=arrays.seams, progress=progress
+            arrays.surface, mirror=self._axis, marked=arrays.marked, seams=arrays.seams, progress=progress
         )
 
     def count(self, amount: float, edits: PartEdits, progress: Callable[[float], bool]) -> int:
@@ -265,7 +264,7 @@ class Suggestion:
         """
         # Other parts may be chosen meanwhile, which drops the planner.
         self._planner = planner = self._core.SeamPlanner(
-            self._surface,
+            self.mesh.arrays.surface,
             along=self.along.lower(),
             max_anisotropy=STRENGTHS[self.along],
             clamp_percentile=CLAMP_PERCENTILE,

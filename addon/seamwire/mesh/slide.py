@@ -35,7 +35,7 @@ class CageFaces:
     def __init__(self, cage: Cage, arrays: Arrays) -> None:
         self.points, self.triangles = arrays.points, arrays.triangles
         self._polygons = arrays.polygons
-        self._bm = cage.bm
+        self._bm = cage.number_bmesh()
 
     def polygons_at(self, vertex: int) -> Sequence[int]:
         """Return the visible faces around a vertex."""
@@ -54,7 +54,7 @@ class CageFaces:
 
 def stiff_vertices(cage: Cage, vertices: Iterable[int], seams: Collection[Edge]) -> set[int]:
     """Return those of some vertices that must stay: on sharp and creased edges, between materials, on seams other than those given."""
-    bm = cage.bm
+    bm = cage.number_bmesh()
     layers = bm.edges.layers
     crease = layers.crease.active if IS_OLD else layers.float.get("crease_edge")
 
@@ -72,7 +72,7 @@ def stiff_vertices(cage: Cage, vertices: Iterable[int], seams: Collection[Edge])
 
 def carry_out(obj: bpy.types.Object, cage: Cage, moves: Mapping[int, Move]) -> None:
     """Move vertices. What corners of faces hold follows as with Blender's own sliding: UVs, colors and other numbers."""
-    bm = cage.bm
+    bm = cage.number_bmesh()
     spans = {vertex: ([bm.verts[corner] for corner in move.corners], move.weights) for vertex, move in moves.items()}
     # All is read before anything is written: neighbors move as well.
     places = {vertex: _mean([corner.co for corner in corners], weights) for vertex, (corners, weights) in spans.items()}

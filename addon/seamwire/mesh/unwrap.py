@@ -124,9 +124,8 @@ class _Map:
         self._are_straight = np.zeros(self.count, dtype=bool)
         self.stacked = np.empty(0, dtype=np.int64)
 
-    @property
-    def bm(self) -> bmesh.types.BMesh:
-        """The edit mesh, by its numbers."""
+    def number_bmesh(self) -> bmesh.types.BMesh:
+        """Return the edit mesh, each item with its number."""
         return edit_mesh.edit_bmesh(self.obj.data)
 
     @property
@@ -136,7 +135,7 @@ class _Map:
 
     def _drawn(self) -> NDArray[np.int64]:
         """Return the corners of the triangles that Blender draws in edit mode, (t, 3), hidden ones included."""
-        bm = self.bm  # kept, because its loops live as long
+        bm = self.number_bmesh()  # kept, because its loops live as long
         found = (
             number
             for a, b, c in bm.calc_loop_triangles()
@@ -301,7 +300,7 @@ class _Map:
 
     def write(self, corners: NDArray[np.int64], uvs: NDArray[np.float64]) -> None:
         """Give corners, (c,) ascending, their places in the map, (c, 2)."""
-        bm = self.bm
+        bm = self.number_bmesh()
         layer = bm.loops.layers.uv.active
         places = iter(zip(corners.tolist(), uvs.tolist(), strict=True))
         faces, starts = np.unique(self.corners.faces, return_index=True)
@@ -349,10 +348,10 @@ class _Map:
 
     def remember(self) -> None:
         """Let visible edges hold whether they were seams when they were unwrapped last."""
-        bm = self.bm
+        bm = self.number_bmesh()
         layer = bm.edges.layers.int.get(UNWRAPPED) or bm.edges.layers.int.new(UNWRAPPED)
         plain, seam = self._signs(np.array([False, True])).tolist()
-        for edge in self.bm.edges:
+        for edge in bm.edges:
             if not edge.hide:
                 edge[layer] = seam if edge.seam else plain
         bmesh.update_edit_mesh(self.obj.data, loop_triangles=False, destructive=False)
@@ -565,7 +564,7 @@ def _only_selected(context: bpy.types.Context, faces: Mapping[_Map, NDArray[np.i
     try:
         bpy.ops.mesh.select_all(action="DESELECT")
         for found, numbers in faces.items():
-            bm = found.bm
+            bm = found.number_bmesh()
             for face in numbers.tolist():
                 bm.faces[face].select = True
         with context.temp_override(area=None, region=None):

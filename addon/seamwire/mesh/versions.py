@@ -10,7 +10,7 @@ OLD = (3, 4)
 NEW = (4, 2)
 """The oldest supported version that has extensions."""
 IS_OLD = bpy.app.version[:2] < NEW
-"""Whether this Blender is `OLD`. All code that differs between the two asks this."""
+"""Whether this Blender is `OLD`. Where the two differ only in the name or the presence of a property, code asks for the property."""
 
 
 def check(version: tuple[int, ...] = bpy.app.version) -> None:

@@ -16,6 +16,7 @@ from .core.transfer import transfer
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping, Sequence
+    from pathlib import Path
 
     import bpy
 
@@ -26,6 +27,9 @@ if TYPE_CHECKING:
     from .core.placing import Progress
     from .core.tracing import Transfer
     from .core.transfer import Place
+
+_SHAPE = ("points", "triangles", "edges", "to_object")
+"""What describes a `Shape`, in the order of its parameters."""
 
 
 @dataclass(frozen=True)
@@ -45,6 +49,34 @@ class Source:
     network: NetworkFile
     shape: Shape | None = None
     groups: Mapping[str, int] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, mesh: ObjectSession, settings: SeamwireSettings, more: Iterable[Wire] = ()) -> Source:
+        """Return the network of an object and more wires, with all that is known of its mesh."""
+        return cls(network_of(mesh, settings, more), shape_of(mesh), group_middles(mesh.obj))
+
+    @classmethod
+    def load(cls, path: Path, with_mesh: bool = False) -> Source:
+        """Read a network from a file, `with_mesh` also what `save` has written beside it. Raises ValueError."""
+        try:
+            network = NetworkFile.parse(path.read_text(encoding="utf-8"))
+        except (OSError, UnicodeDecodeError) as error:
+            raise ValueError(f"Cannot read the file: {error}") from error
+        if not with_mesh:
+            return cls(network)
+        with np.load(path.with_suffix(".npz")) as data:
+            shape = Shape(*(data[name] for name in _SHAPE))
+            return cls(network, shape, dict(zip(data["groups"].tolist(), data["middles"].tolist(), strict=True)))
+
+    def save(self, path: Path) -> None:
+        """Write the network to a JSON file, and what is known of the mesh to a file beside it that NumPy reads."""
+        path.write_text(self.network.text(), encoding="utf-8")
+        np.savez(
+            path.with_suffix(".npz"),
+            groups=np.array(list(self.groups)),
+            middles=np.array(list(self.groups.values()), dtype=np.int64),
+            **{name: getattr(self.shape, name) for name in _SHAPE},
+        )
 
 
 def shape_of(mesh: ObjectSession) -> Shape:

@@ -159,15 +159,15 @@ class MESH_OT_seamwire_transfer(_Placing, bpy.types.Operator):
 
     def source_steps(self, context: bpy.types.Context) -> Generator[Step, None, Source]:
         """Read the wires and the seams of the other object."""
-        from .carry import Source, group_middles, network_of, seam_wires, shape_of
+        from .carry import Source, seam_wires
 
         obj = self._object(context)
         mesh = self.open_mesh(obj)
         wires = yield from _done("Reading seams", partial(seam_wires, mesh))
-        network = network_of(mesh, settings(context), wires)
-        if not network.courses:
+        source = Source.of(mesh, settings(context), wires)
+        if not source.network.courses:
             raise ValueError(f"{obj.name} has no seams")
-        return Source(network, shape_of(mesh), group_middles(obj))
+        return source
 
     def _object(self, context: bpy.types.Context) -> bpy.types.Object:
         """Return the object with the seams. Raise ValueError if it is ambiguous."""
@@ -210,14 +210,9 @@ class MESH_OT_seamwire_load_network(_Placing, bpy.types.Operator, ImportHelper):
     def source_steps(self, _context: bpy.types.Context) -> Generator[Step, None, Source]:
         """Read the file."""
         from .carry import Source
-        from .core.network_file import NetworkFile
 
         yield Step("Reading the file")
-        try:
-            text = Path(bpy.path.abspath(self.filepath)).read_text(encoding="utf-8")
-        except (OSError, UnicodeDecodeError) as error:
-            raise ValueError(f"Cannot read the file: {error}") from error
-        return Source(NetworkFile.parse(text))
+        return Source.load(Path(bpy.path.abspath(self.filepath)))
 
 
 class MESH_OT_seamwire_save_network(EditMeshOperator, bpy.types.Operator, ExportHelper):
@@ -299,7 +294,9 @@ class MESH_OT_seamwire_repeat(EditMeshOperator, bpy.types.Operator):
         wanted = wires
         if self.selected:
             chosen = {
-                tuple(sorted(vertex.index for vertex in edge.verts)) for edge in mesh.cage.bm.edges if edge.select
+                tuple(sorted(vertex.index for vertex in edge.verts))
+                for edge in mesh.cage.number_bmesh().edges
+                if edge.select
             }
             wanted = [wire for wire in wires if not chosen.isdisjoint(wire.edges())]
         return connected_groups(wanted, wires)

@@ -109,7 +109,7 @@ def _key(chain: Chain, context: bpy.types.Context, event: bpy.types.Event, doubl
     action = chain.keys.decode(event, double)
     if action is None:
         return Sign.OTHER_TOOL if keymaps.is_other(event, chain.manager) else Sign.NOTHING
-    is_repeat = getattr(event, "is_repeat", False) and action not in {Action.UNDO, Action.REDO}
+    is_repeat = event.is_repeat and action not in {Action.UNDO, Action.REDO}
     return Sign.REPEAT if is_repeat else action
 
 

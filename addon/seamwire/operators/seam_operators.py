@@ -38,7 +38,7 @@ class MESH_OT_seamwire_take_over(EditMeshOperator, bpy.types.Operator):
         for mesh in meshes:
             seams = mesh.plain_seams
             if self.selected:
-                bm = mesh.cage.bm
+                bm = mesh.cage.number_bmesh()
                 seams = seams[[bm.edges.get([bm.verts[v] for v in pair]).select for pair in seams.tolist()]]
             if len(seams):
                 found[mesh] = self._wires(context, mesh, seams)

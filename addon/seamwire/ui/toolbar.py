@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -26,6 +27,7 @@ GROUPS = tuple(dict.fromkeys(setting.group for setting in SETTINGS.values() if s
 _STRENGTHS = {strength_name(along) for along in ALONG}
 _SHORT_ALONG = (("AUTO", "Auto"), ("EDGES", "Edges"), ("SURFACE", "Surface"))
 """How the header names the choices of *Along*, so that Blender's controls have room beside ours."""
+_OBJECTS = f"{__package__.rpartition('.')[0]}.view.edited_objects"
 
 
 def draw_header(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
@@ -55,10 +57,9 @@ def along_of(context: bpy.types.Context) -> Along:
     along = settings(context).along
     if along != "AUTO":
         return along
-    # Imported only when the tool is used, so that Blender's start does not wait for NumPy.
-    from ..view.edited_objects import edited
-
-    return edited.best_along(context.edit_object)
+    # Drawing the header must not wait for an import of NumPy. Without it, no object is read yet.
+    objects = sys.modules.get(_OBJECTS)
+    return "EDGES" if objects is None else objects.edited.best_along(context.edit_object)
 
 
 def draw_group(context: bpy.types.Context, layout: bpy.types.UILayout, group: str) -> None:

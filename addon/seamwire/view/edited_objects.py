@@ -87,7 +87,7 @@ class EditedObjects:
     def best_along(self, obj: bpy.types.Object | None) -> Along:
         """Return how wires run on an object if the mesh decides: along edges as long as it is not read."""
         view = None if obj is None else self._views.get(obj.name_full)
-        return "EDGES" if view is None else view.mesh.auto.along
+        return "EDGES" if view is None else view.mesh.find_auto().along
 
     def _is_current(self, view: ObjectView, obj: bpy.types.Object) -> bool:
         """Whether what is prepared for an object's mesh holds, having read it anew where it has changed."""

@@ -50,26 +50,34 @@ class Legend:
     swatches: tuple[tuple[Color, str], ...] = ()
 
 
-def draw_legends(legends: Sequence[Legend], room: tuple[float, float, float, float], scale: float) -> None:
-    """Draw legends above each other from the lower right corner of a room: left, bottom, width, height."""
+def draw_legends(
+    legends: Sequence[Legend], room: tuple[float, float, float, float], scale: float, on_left: bool = False
+) -> None:
+    """Draw legends above each other from the lower right or left corner of a room: left, bottom, width, height."""
     left, bottom, width, height = room
     size = gpu_draw.text_size(scale)
     gpu_draw.set_text(size)
     low, right = bottom + 1.1 * size, left + width - 1.2 * size
     for legend in legends:
-        high = _draw_legend(legend, right, low, size, scale)
+        wide = _width(legend, size)
+        # At the left, the text is aligned with text that has no ground.
+        high = _draw_legend(legend, left + 0.7 * size if on_left else right - wide - size, wide, low, size, scale)
         low = high + 0.5 * size
         if low > bottom + height:
             return
 
 
-def _draw_legend(legend: Legend, right: float, low: float, size: float, scale: float) -> float:
-    """Draw one with its lower right corner at a place; return where its upper side is."""
+def _width(legend: Legend, size: float) -> float:
+    """Return the width of what a legend holds."""
     texts = [*legend.lines, *(f"      {text}" for _, text in legend.swatches)]
-    wide = max(14.0 * size, *(gpu_draw.text_width(text) for text in texts))
+    return max(14.0 * size, *(gpu_draw.text_width(text) for text in texts))
+
+
+def _draw_legend(legend: Legend, x: float, wide: float, low: float, size: float, scale: float) -> float:
+    """Draw a legend with its lower left corner at (x, low), and return the height of its upper side."""
     bar = 2.6 * size if len(legend.colors) else 0.0
-    x, high = right - wide - size, low + bar + 1.5 * size * len(texts) + 0.6 * size
-    gpu_draw.draw_rectangle((x, low), (right, high), _GROUND, 4.0 * scale)
+    high = low + bar + 1.5 * size * (len(legend.lines) + len(legend.swatches)) + 0.6 * size
+    gpu_draw.draw_rectangle((x, low), (x + wide + size, high), _GROUND, 4.0 * scale)
     x += 0.5 * size
     if bar:
         step = wide / len(legend.colors)

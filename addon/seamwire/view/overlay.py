@@ -18,7 +18,7 @@ from ..words import corner
 from ..words.first_steps import FIRST_LINES
 from .failures import failures
 from .gpu_draw import ColoredFaces, Eye, Lines, blended, draw_dots, draw_text, set_text, text_size
-from .layers import draw_legends
+from .layers import Legend, draw_legends
 from .theme import Looks, Style, hue_colors, looks_of
 
 if TYPE_CHECKING:
@@ -174,7 +174,11 @@ class Overlay:
         scale = bpy.context.preferences.system.ui_scale
         with blended("NONE"):
             lines = () if self._looks.text == "NONE" else corner.lines(picture)
-            _draw_corner([*(FIRST_LINES if self._looks.text == "STEPS" else ()), *lines], room[:2], scale)
+            high = _draw_corner(lines, room[:2], scale)
+            if self._looks.text == "STEPS":
+                left, bottom, width, height = room
+                above = (left, high, width, height - (high - bottom))
+                draw_legends([Legend(FIRST_LINES)], above, scale, on_left=True)
             draw_legends([box for boxes in self._ask_layers("legends") for box in boxes or ()], room, scale)
 
     # What there is to draw
@@ -286,8 +290,8 @@ def _draw_dots(sheet: _Sheet, eye: Eye, hidden: bool, xray: bool) -> None:
             draw_dots(style, shown, eye, style.hidden if hidden and not xray else 1.0, rim=xray or not hidden)
 
 
-def _draw_corner(lines: Sequence[str], at: tuple[float, float], scale: float) -> None:
-    """Draw lines of text above the lower left corner of the free room, top line first."""
+def _draw_corner(lines: Sequence[str], at: tuple[float, float], scale: float) -> float:
+    """Draw lines of text above the lower left corner of the free room, top line first. Return the height where the room above begins."""
     size = text_size(scale)
     set_text(size)
     x, y = at[0] + 1.2 * size, at[1] + 1.1 * size
@@ -295,6 +299,7 @@ def _draw_corner(lines: Sequence[str], at: tuple[float, float], scale: float) ->
     for line in reversed(lines):
         draw_text(line, (x, y), color)
         y += 1.5 * size
+    return y - 1.1 * size
 
 
 def free_room(area: bpy.types.Area, region: bpy.types.Region) -> tuple[float, float, float, float]:

@@ -165,8 +165,7 @@ class _ObjectPreview:
         self._pose = Pose(self._arrays)
         self._pose.follow(obj)
         self._surface = self._posed_surface()  # threads prepare it
-        surface = core.Surface(arrays.in_object, arrays.triangles, arrays.edges)
-        self._islands = IslandMaker(arrays.triangles, lambda cuts: np.asarray(core.face_segments(surface, cuts)))
+        self._islands = IslandMaker(arrays.triangles, lambda cuts: np.asarray(core.face_segments(arrays.surface, cuts)))
         self._rest, self._curves = Curves(), Curves()  # on the mesh without modifiers, and as they are seen
         self._lines: list[Lines] | None = None
         self._faces: ColoredFaces | None = None

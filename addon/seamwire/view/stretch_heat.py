@@ -117,19 +117,32 @@ class StretchHeat(Layer):
         assert self._stretch is not None
         return self._stretch.values(self._kind)
 
+    @property
     def summary(self) -> _Summary | None:
-        """Return what there is to say of the islands; None where that is not known yet."""
+        """The mean and the worst stretch, as the last call of `poll` found them. None if they are not known, or no heat is shown."""
+        return self._summary[1] if self.shown else None
+
+    @property
+    def busy(self) -> bool:
+        """Whether `poll` must be called, because the summary is of other islands or another map."""
+        return self._key() not in (None, self._summary[0])
+
+    def _key(self) -> tuple[object, int] | None:
+        """Return what the summary depends on, or None if there is nothing to say."""
         found = self._islands.answer
-        if not self.shown or found is None or not found.count:
-            return None
-        key = (found.key, self._revision)
-        if self._summary[0] != key:
-            values, areas = self._stretch.islands(found.labels, self._kind)
-            mean = float(np.average(values, weights=areas)) if areas.any() else 0.0
-            worst = int(values.argmax())
-            part = (found.labels == worst) & (found.count > 1 and values[worst] > 0.0)
-            self._summary = key, _Summary(mean, float(values[worst]), found.count, part)
-        return self._summary[1]
+        return (found.key, self._revision) if self.shown and found is not None and found.count else None
+
+    def poll(self) -> bool:
+        """Find what there is to say of the islands, so that drawing does not. Return whether that is new."""
+        found, key = self._islands.answer, self._key()
+        if key is None or key == self._summary[0]:
+            return False
+        values, areas = self._stretch.islands(found.labels, self._kind)
+        mean = float(np.average(values, weights=areas)) if areas.any() else 0.0
+        worst = int(values.argmax())
+        part = (found.labels == worst) & (found.count > 1 and values[worst] > 0.0)
+        self._summary = key, _Summary(mean, float(values[worst]), found.count, part)
+        return True
 
     # Drawing
 
@@ -147,7 +160,7 @@ class StretchHeat(Layer):
             self._drawn = self._revision
             self._fill(self._faces)
         self._faces.draw_over(eye, heat_colors(_OPACITY))
-        lines = self._outline_of(self.summary())
+        lines = self._outline_of(self.summary)
         if lines is not None:
             with gpu_draw.blended("LESS_EQUAL"):
                 lines.draw(eye)
@@ -176,7 +189,7 @@ class StretchHeat(Layer):
             return []
         if self._missing:
             return [Legend(("No UV map: unwrap to see its stretch",))]
-        lines, summary = [_NAMES[self._kind]], self.summary()
+        lines, summary = [_NAMES[self._kind]], self.summary
         if summary is not None:
             lines.append(f"Mean {times(summary.mean)}")
             if summary.triangles.any():

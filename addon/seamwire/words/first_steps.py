@@ -13,7 +13,7 @@ STEPS = (
     ("MOUSE_LMB_DRAG", "Hold Shift and drag to guide the wires"),
 )
 """Blender's icon of each gesture, and what it does."""
-FIRST_LINES = (*(text for _, text in STEPS), "Press F1 for all keys, and to hide these lines", "")
+FIRST_LINES = (*(text for _, text in STEPS), "Press F1 for all keys, and to hide these lines")
 """The lines in the corner of the view for newcomers."""
 
 _PLACES = ("guide/index.md", "../../docs/guide/index.md")

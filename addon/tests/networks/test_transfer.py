@@ -14,7 +14,7 @@ from seamwire.core.network.network import Network
 from seamwire.core.network.strokes import Stroke
 from seamwire.core.network.wires import Wire
 from seamwire.networks.core.network_file import NetworkFile, NetworkFileError
-from seamwire.networks.core.placing import Landmarks, NearestSurface, Shape, Similarity, doubt_between
+from seamwire.networks.core.placing import PLACED, Landmarks, NearestSurface, Shape, Similarity, doubt_between
 from seamwire.networks.core.tracing import Transfer
 from seamwire.networks.core.transfer import transfer
 
@@ -346,6 +346,35 @@ def test_a_transfer_tells_its_progress_and_can_be_stopped(file: NetworkFile, pla
     assert seen[0] == 0.0 and 0.5 < seen[-1] < 1.0
     with pytest.raises(native.load().Cancelled):
         transfer(file, target, place=place, source=SOURCE, pairs=pairs, progress=lambda fraction: fraction < 0.5)
+
+
+def test_measuring_distances_can_be_stopped_at_each_step(file: NetworkFile) -> None:
+    pairs = [(0, 0), (4, 6), (8, 12), (40 * 16, 59 * 23)]
+    for least in (0.01, 0.1, 0.2, 0.25):
+        seen: list[float] = []
+
+        def stop(fraction: float, least: float = least, seen: list[float] = seen) -> bool:
+            seen.append(fraction)
+            return fraction < least
+
+        with pytest.raises(native.load().Cancelled):
+            transfer(file, tube(23, 60), place="PAIRS", source=SOURCE, pairs=pairs, progress=stop)
+        assert seen[-1] >= least > seen[-2]
+        assert seen[-1] < PLACED
+
+
+@pytest.mark.parametrize("work", ["__init__", "find"])
+def test_a_search_for_the_nearest_point_can_be_stopped(work: str) -> None:
+    asked: list[bool] = []
+
+    def stop(_fraction: float) -> bool:
+        asked.append(True)
+        return work == "find" and len(asked) < 2
+
+    surface = NearestSurface(SOURCE, stop)
+    with pytest.raises(native.load().Cancelled):
+        surface.nearest(np.tile(SOURCE.places, (100, 1)))
+    assert len(asked) == (2 if work == "find" else 1)
 
 
 def test_choices_that_do_not_fit_are_refused(file: NetworkFile) -> None:

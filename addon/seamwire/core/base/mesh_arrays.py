@@ -4,11 +4,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from . import native
+
 if TYPE_CHECKING:
+    import seamwire_core
     from numpy.typing import NDArray
 
 
@@ -49,6 +53,11 @@ class Arrays:
     def in_object(self) -> NDArray[np.float64]:
         """(n, 3) vertices in object coordinates, without the object's scale: those that Blender unwraps."""
         return self.points @ self.to_object.T
+
+    @cached_property
+    def surface(self) -> seamwire_core.Surface:
+        """The library's surface of the mesh in object coordinates, without the object's scale. It is made once, and any thread may ask."""
+        return native.load().Surface(self.in_object, self.triangles, self.edges)
 
     def same_as(self, other: Arrays) -> bool:
         """Whether wires run on another mesh as they do on this one; its seams may be others."""

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
@@ -50,6 +51,11 @@ def tell(progress: Progress, fraction: float) -> None:
     """Tell the finished fraction. Raise `seamwire_core.Cancelled` if the work is to stop."""
     if not progress(fraction):
         raise native.load().Cancelled
+
+
+def within(progress: Progress, begin: float, end: float) -> Progress:
+    """Return the progress of a part of the work, which is finished from one fraction of the whole to another."""
+    return lambda fraction: progress(begin + (end - begin) * fraction)
 
 
 @dataclass(frozen=True)
@@ -223,6 +229,8 @@ class NearestSurface:
     ----------
     shape
         The mesh, with a triangle at least.
+    go_on
+        Is asked again and again, with any fraction, whether to continue. Where it returns False, `seamwire_core.Cancelled` is raised.
 
     Raises
     ------
@@ -230,10 +238,10 @@ class NearestSurface:
         Where it has none.
     """
 
-    def __init__(self, shape: Shape) -> None:
+    def __init__(self, shape: Shape, go_on: Progress = lambda _: True) -> None:
         if not len(shape.triangles):
             raise Refused("no-visible-faces")
-        self._shape = shape
+        self._shape, self._go_on = shape, go_on
         self._trees: dict[int | None, tuple[NDArray[np.int64], NearestPoints]] = {}
         self._normals = triangle_normals(shape.places, shape.triangles)
 
@@ -241,7 +249,7 @@ class NearestSurface:
     def parts(self) -> NDArray[np.int32]:
         """(m,) which of the parts that hang together each triangle belongs to."""
         shape, core = self._shape, native.load()
-        whole = core.Surface(shape.places, shape.triangles, shape.edges)
+        whole = core.Surface(shape.places, shape.triangles, shape.edges, progress=self._go_on)
         return np.asarray(core.face_segments(whole, np.empty((0, 2), dtype=np.int32)))
 
     def nearest(
@@ -254,10 +262,10 @@ class NearestSurface:
         """
         if part not in self._trees:
             rows = np.arange(len(self._shape.triangles)) if part is None else np.flatnonzero(self.parts == part)
-            tree = native.load().NearestPoints(self._shape.places, self._shape.triangles[rows])
+            tree = native.load().NearestPoints(self._shape.places, self._shape.triangles[rows], progress=self._go_on)
             self._trees[part] = rows, tree
         rows, tree = self._trees[part]
-        triangles, points, gaps = tree.find(places, normals)
+        triangles, points, gaps = tree.find(places, normals, progress=self._go_on)
         return rows[triangles], points, gaps
 
     def align(
@@ -364,6 +372,8 @@ class Landmarks:
         The meshes.
     pairs
         (k, 2) a vertex of each that are the same point of the shape, three pairs at least.
+    progress
+        Is told the fraction done of measuring distances. Later it is asked whether to continue. See `transfer`.
 
     Raises
     ------
@@ -378,7 +388,7 @@ class Landmarks:
     _TIE = 1.0
     """How much where the aligned place is counts beside distances."""
 
-    def __init__(self, source: Shape, target: Shape, pairs: ArrayLike) -> None:
+    def __init__(self, source: Shape, target: Shape, pairs: ArrayLike, progress: Progress = lambda _: True) -> None:
         numbers = np.array(pairs, dtype=np.int64).reshape(-1, 2)
         if len(numbers) < 3:
             raise Refused("too-few-pairs", count=len(numbers))
@@ -387,7 +397,9 @@ class Landmarks:
             if len(outside):
                 raise Refused("pair-off-mesh", vertex=outside[0], what=what)
         self._source, self._target = source, target
-        self._here, self._there = _distances(source, numbers[:, 0]), _distances(target, numbers[:, 1])
+        self._go_on = within(progress, 1.0, 1.0)
+        self._here = _distances(source, numbers[:, 0], within(progress, 0.0, 0.5))
+        self._there = _distances(target, numbers[:, 1], within(progress, 0.5, 1.0))
         one, other = self._here[numbers[:, 0]], self._there[numbers[:, 1]]
         both = np.isfinite(one) & np.isfinite(other) & (one > 0.0)
         square = float((one[both] ** 2).sum())
@@ -409,6 +421,7 @@ class Landmarks:
         best = np.empty(len(vertices), dtype=np.int64)
         confidence = np.zeros(len(vertices))
         for row, vertex in enumerate(vertices.tolist()):
+            tell(self._go_on, 0.0)
             wanted = self._scale * self._here[vertex]
             known = np.isfinite(wanted)
             if not known.any():
@@ -440,11 +453,14 @@ def _landmark_confidence(off: float, rival: float) -> float:
     return float((0.2 + 0.8 * apart) / (1.0 + off**2))
 
 
-def _distances(shape: Shape, vertices: NDArray[np.int64]) -> NDArray[np.float64]:
+def _distances(shape: Shape, vertices: NDArray[np.int64], progress: Progress) -> NDArray[np.float64]:
     """Return the distances along the surface from all vertices to some, (n, k), in object coordinates; inf: there is no way."""
     core = native.load()
-    surface = core.Surface(shape.places, shape.triangles, shape.edges)
-    flat = core.embed(surface, core.euclidean_metric(surface, core.principal_curvatures(surface)))
+    steps = np.linspace(0.0, 1.0, 5 + len(vertices)).tolist()
+    parts = iter([within(progress, *step) for step in itertools.pairwise(steps)])
+    surface = core.Surface(shape.places, shape.triangles, shape.edges, progress=next(parts))
+    curvatures = core.principal_curvatures(surface, progress=next(parts))
+    flat = core.embed(surface, core.euclidean_metric(surface, curvatures, progress=next(parts)), progress=next(parts))
     # Several pairs at one vertex, and pairs on separate parts, each count.
-    columns = [core.distance_field(flat, int(vertex)).distances / surface.scale for vertex in vertices]
-    return np.stack(columns, axis=1)
+    fields = [core.distance_field(flat, int(vertex), progress=next(parts)) for vertex in vertices]
+    return np.stack([field.distances / surface.scale for field in fields], axis=1)

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...core.network.picks import Edge
-    from ...core.solver.solver import Candidate, LiveWire
+    from ...core.solver.solver import Answer, Candidate, LiveWire
     from ...terms.choices import Along
 
 STRAY = 1.0
@@ -40,6 +40,8 @@ STRAY = 1.0
 _MOST_LOST = 0.3
 """The part of a wire's course that may have no place."""
 
+_SLICE = 0.05
+"""Seconds for which live wires are waited for before the progress is told again."""
 
 DEGREES = ((0.9, "SURE"), (0.6, "LIKELY"), (DOUBTFUL, "DOUBTFUL"), (0.0, "LOST"))
 """The least confidence of each degree of a seed."""
@@ -331,9 +333,18 @@ class Tracing:
                 return [*first, *second]
         return [self._wire(piece, candidate, follow)]
 
+    def _final(self, live: LiveWire, ask: Callable[[], Answer]) -> Answer:
+        """Return the final answer of live wires. Raise `seamwire_core.Cancelled` if the work is to stop meanwhile."""
+
+        def ask_unless_stopped() -> Answer:
+            tell(self._progress, self._done)
+            return ask()
+
+        return final(live, ask_unless_stopped)
+
     def _best(self, live: LiveWire, end: int, places: NDArray[np.float64]) -> tuple[int, Candidate, float, int] | None:
         """Return which of both wires runs nearer to a course, it, how far it strays, and from which place most."""
-        found = final(live, lambda: live.wires(end))
+        found = self._final(live, lambda: live.wires(end))
         best = None
         for follow, candidate in enumerate(by_number(found)[0]):
             if len(candidate.vertices) < 2:
@@ -381,10 +392,11 @@ class Tracing:
         if edge is None:
             return None
         if record["kind"] == "CLOSED":
-            loop = final(live, lambda: live.loop(edge))
+            loop = self._final(live, lambda: live.loop(edge))
             closed = len(loop.vertices) > 2
         else:
-            live.wait()
+            while not live.wait(_SLICE):
+                tell(self._progress, self._done)
             loop = live.edge_loop(edge, ())
             closed = loop.closed
         if not closed:

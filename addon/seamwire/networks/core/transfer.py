@@ -3,22 +3,25 @@
 
 from __future__ import annotations
 
+import functools
 from dataclasses import replace
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from ...core.base import native
 from ...core.base.geometry import Moments
 from ...core.base.messages import NOTHING, Refused
 from ...core.network.network import Network
 from ...core.network.symmetry import MirrorImages, Symmetry
 from ...core.solver.solver import LiveMaker
 from .network_file import Course, NetworkFile, NetworkFileError
-from .placing import PLACED, Landmarks, NearestSurface, Placed, Progress, Shape, Similarity, tell
+from .placing import PLACED, Landmarks, NearestSurface, Placed, Progress, Shape, Similarity, tell, within
 from .tracing import STRAY, PlacedSeed, Tracing, Transfer
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
+    from seamwire_core import NearestPoints
 
 Place = Literal["AUTO", "NUMBERS", "SURFACE", "PAIRS"]
 """How seeds are placed: by vertex numbers, on the nearest surface, or by distances to pairs of vertices. AUTO takes numbers if the topology
@@ -78,6 +81,7 @@ def transfer(
         same = mirror is None and not file.problem_with(target)
         by_pairs = len(pairs) and source is not None and mirror is None
         place = "NUMBERS" if same else "PAIRS" if by_pairs else "SURFACE"
+    progress = _Told(progress)
     tell(progress, 0.0)
     if place == "NUMBERS":
         return _by_numbers(file, target, topology)
@@ -87,6 +91,22 @@ def transfer(
     if source is None:
         raise Refused("pairs-without-source")
     return _by_pairs(file, source, target, pairs, live, progress)
+
+
+class _Told:
+    """A progress that remembers which fraction it was told last."""
+
+    def __init__(self, progress: Progress) -> None:
+        self._progress, self._done = progress, 0.0
+
+    def __call__(self, fraction: float) -> bool:
+        """Tell the finished fraction of the whole work, and return whether to continue."""
+        self._done = fraction
+        return self._progress(fraction)
+
+    def go_on(self, _fraction: float) -> bool:
+        """Return whether to continue, while work goes on whose part of the whole is not known."""
+        return self._progress(self._done)
 
 
 def _check(file: NetworkFile, mesh: Shape) -> None:
@@ -110,10 +130,10 @@ def _by_numbers(file: NetworkFile, target: Shape, topology: bool) -> Transfer:
 
 
 def _by_surface(
-    file: NetworkFile, target: Shape, mirror: int | None, align: bool, live: LiveMaker, progress: Progress
+    file: NetworkFile, target: Shape, mirror: int | None, align: bool, live: LiveMaker, progress: _Told
 ) -> Transfer:
     """Return a network on a mesh with about the same shape and any topology."""
-    surface, doubt = NearestSurface(target), NOTHING
+    surface, doubt = NearestSurface(target, progress.go_on), NOTHING
     way = Similarity.mirroring(*(() if mirror is None else (mirror,)))
     if align and file.courses:
         points = way.of(np.concatenate([course.places for course in file.courses]))
@@ -138,16 +158,22 @@ def _by_surface(
 
 
 def _by_pairs(
-    file: NetworkFile, source: Shape, target: Shape, pairs: NDArray[np.int64], live: LiveMaker, progress: Progress
+    file: NetworkFile, source: Shape, target: Shape, pairs: NDArray[np.int64], live: LiveMaker, progress: _Told
 ) -> Transfer:
     """Return a network on a mesh with another pose or proportion and any topology."""
     _check(file, source)
-    surface = NearestSurface(target)
-    landmarks = Landmarks(source, target, pairs)
+    surface = NearestSurface(target, progress.go_on)
+    landmarks = Landmarks(source, target, pairs, within(progress, 0.0, PLACED))
     tell(progress, PLACED)
 
+    @functools.cache
+    def vertices() -> NearestPoints:
+        # Triangles without area, so that vertices without faces are found as well.
+        triangles = np.repeat(np.arange(len(source.places)), 3).reshape(-1, 3)
+        return native.load().NearestPoints(source.places, triangles, progress=progress.go_on)
+
     def nearest(points: NDArray[np.float64]) -> NDArray[np.int64]:
-        return ((source.places[None] - points[:, None]) ** 2).sum(axis=2).argmin(axis=1)
+        return vertices().find(points, progress=progress.go_on)[0].astype(np.int64)
 
     def place(course: Course, axes: tuple[int, ...]) -> Placed:
         if axes:

@@ -281,13 +281,13 @@ def test_a_line_drawn_before_the_mesh_is_known_is_fitted_when_it_is() -> None:
 def test_clicks_and_lines_wait_for_a_line_that_is_not_computed_yet() -> None:
     table = Table(fork_ready=(False, False))
     drawing = table.session
-    three = np.zeros(3, dtype=np.int32)
+    three = np.array([0, 2, 4], dtype=np.int32)
     drawing.line_begin(0)
     drawing.cursor.line_to(np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0]]), three, None)
     end_line(drawing)
     table.lives["EDGES"].fork_ready = (True, True)  # the second is computed, and comes second all the same
     drawing.line_begin(12)
-    drawing.cursor.line_to(np.array([[0.0, 2, 0], [1, 2, 0], [2, 2, 0]]), three, None)
+    drawing.cursor.line_to(np.array([[0.0, 2, 0], [1, 2, 0], [2, 2, 0]]), three + 20, None)
     end_line(drawing)
     drawing.click(20)
     assert drawing.under_way.waiting == 3

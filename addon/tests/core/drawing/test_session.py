@@ -9,8 +9,11 @@ import pkgutil
 
 import pytest
 from blender_refusal import BlenderRefusal
+from fake_live import FakeLive, FakeWires
 from seamwire import core
 from seamwire.core.drawing.picture import Role
+from seamwire.core.network.network import Snap
+from seamwire.terms.choices import Along
 from setting import use
 from table import Table
 
@@ -304,3 +307,26 @@ def test_every_change_of_what_is_seen_counts_the_revision_up() -> None:
     session.hover(None)
     session.hover(None)
     assert session.drawing.revision <= before + 1
+
+
+@pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
+def test_a_click_asks_the_library_for_no_wires_and_a_motion_asks_once(
+    along: Along, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[object] = []
+    wires = FakeLive.wires
+
+    def counting(live: FakeLive, target: object) -> FakeWires:
+        asked.append(target)
+        return wires(live, target)
+
+    monkeypatch.setattr(FakeLive, "wires", counting)
+    session = Table(along).session
+    for pick, asks in ((0, 0), (3, 1), (21, 1)):
+        session.hover(pick)
+        session.hover(pick)
+        assert len(asked) == asks
+        session.click(pick)
+        session.hover(Snap(pick, "SEED"))  # what is under the mouse after the click
+        assert len(asked) == asks
+        asked.clear()

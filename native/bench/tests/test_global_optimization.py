@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parents[3] / "native/bench"))
+sys.path.insert(0, str(Path(__file__).parents[1]))
 from global_optimization import optimized
 
 

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-sys.path.insert(0, str(Path(__file__).parents[3] / "native/bench"))
+sys.path.insert(0, str(Path(__file__).parents[1]))
 import parts_report as report
 from many_boxes import boxes
 from seam_measures import Artist, SeamMeasures, SeamMesh
