@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <map>
 #include <set>
 #include <utility>
 
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
+#include "seams/wire_touches.hpp"
+#include "surface/real_edges.hpp"
 #include "tuning/constants.hpp"
 
 namespace seamwire::detail {
@@ -45,6 +48,46 @@ std::pair<Chain, Chain> split(const Chain& chain, std::size_t at) {
   return {Chain(chain.begin(), middle + 1), Chain(middle, chain.end())};
 }
 
+/// A slit that gets a wire across the surface.
+struct Open {
+  Chain chain;
+  double most_away;  // how far the wire may be from the chain
+};
+
+/// A slit with its wire.
+struct Laid {
+  Open slit;
+  PlannedWire wire;
+  double away;
+};
+
+void add_split(const Open& slit, std::size_t at, std::vector<Open>& parts) {
+  auto [first, second] = split(slit.chain, at);
+  parts.push_back({std::move(first), slit.most_away});
+  parts.push_back({std::move(second), slit.most_away});
+}
+
+/// Takes out wires that touch others or the rim. Returns their slits, split where they touch.
+std::vector<Open> take_touching(const PlanMesh& mesh, const Surface& surface, std::span<const Edge> rim,
+                                std::span<const PlannedWire> others, std::vector<Laid>& laid) {
+  std::vector<MarkedChain> marked;
+  marked.reserve(laid.size() + others.size());
+  for (const Laid& one : laid) marked.push_back({one.wire.vertices, one.away});
+  for (const PlannedWire& wire : others) marked.push_back({wire.vertices, 0.0});
+  std::vector<Open> parts;
+  for (const auto& [wire, vertex] : find_touches(marked, rim)) {
+    if (wire >= laid.size() || laid[wire].slit.chain.size() < 3) continue;
+    const Chain& chain = laid[wire].slit.chain;
+    const Vector point = mesh.scale * surface.points()[vertex];
+    const auto away = [&](std::int32_t v) { return (mesh.points[v] - point).norm(); };
+    const auto at = std::ranges::min_element(chain.begin() + 1, chain.end() - 1, {}, away);
+    add_split(laid[wire].slit, static_cast<std::size_t>(at - chain.begin()), parts);
+    laid[wire].slit.chain.clear();
+  }
+  std::erase_if(laid, [](const Laid& one) { return one.slit.chain.empty(); });
+  return parts;
+}
+
 /// Splits a chain where it bends away from the straight line between its ends (Douglas and Peucker 1973).
 void add_straight(const PlanMesh& mesh, const Chain& chain, double most_away, std::vector<Chain>& found) {
   const std::vector<Vector> line = {mesh.points[chain.front()], mesh.points[chain.back()]};
@@ -61,28 +104,39 @@ void add_straight(const PlanMesh& mesh, const Chain& chain, double most_away, st
 }  // namespace
 
 SlitChains::SlitChains(std::span<const Slit> slits) {
-  std::set<std::int32_t> starts;
+  std::set<Edge> edges;
+  std::map<std::int32_t, int> edges_at;
   std::vector<const Chain*> whole;
   for (const Slit& slit : slits) {
     for (const Chain* chain : {&slit.path, &slit.image}) {
       if (chain->size() < 2) continue;
-      starts.insert(chain->front());
       whole.push_back(chain);
+      for (std::size_t i = 1; i < chain->size(); ++i) {
+        const std::int32_t a = (*chain)[i - 1], b = (*chain)[i];
+        if (!edges.insert(ascending(a, b)).second) continue;
+        ++edges_at[a];
+        ++edges_at[b];
+      }
     }
   }
+  std::set<Chain> known;
   for (const Chain* chain : whole) {
     std::size_t begin = 0;
     for (std::size_t i = 1; i < chain->size(); ++i) {
-      if (i + 1 < chain->size() && !starts.contains((*chain)[i])) continue;
-      chains.emplace_back(chain->begin() + static_cast<std::ptrdiff_t>(begin),
-                          chain->begin() + static_cast<std::ptrdiff_t>(i) + 1);
+      if (i + 1 < chain->size() && edges_at[(*chain)[i]] == 2) continue;
+      Chain one(chain->begin() + static_cast<std::ptrdiff_t>(begin),
+                chain->begin() + static_cast<std::ptrdiff_t>(i) + 1);
       begin = i;
+      // Slits may share a part of their way.
+      if (!known.insert(one.front() < one.back() ? one : Chain(one.rbegin(), one.rend())).second) continue;
+      chains.push_back(std::move(one));
     }
   }
 }
 
-PlannedWires::PlannedWires(const SurfaceContext& context, Along along, const Strength& strength, const Task& task)
-    : surface_(context.surface(task)) {
+PlannedWires::PlannedWires(const SurfaceContext& context, Along along, const Strength& strength, std::vector<Edge> rim,
+                           const Task& task)
+    : surface_(context.surface(task)), rim_(std::move(rim)) {
   if (along == Along::kSurface) across_ = std::make_unique<const CandidateWires>(context, strength, task);
 }
 
@@ -111,10 +165,6 @@ std::vector<PlannedWire> PlannedWires::along_edges(const PlanMesh& mesh, const S
 
 std::vector<PlannedWire> PlannedWires::along(const PlanMesh& mesh, std::span<const SlitChains> slits,
                                              const Task& task) const {
-  struct Open {
-    Chain chain;
-    double most_away;
-  };
   std::vector<PlannedWire> wires;
   std::vector<Open> open;
   for (const SlitChains& own : slits) {
@@ -124,6 +174,7 @@ std::vector<PlannedWire> PlannedWires::along(const PlanMesh& mesh, std::span<con
     }
     for (const Chain& chain : own.chains) open.push_back({chain, tuning::kNearSlit[index(own.closeness)] * own.size});
   }
+  std::vector<Laid> laid;
   while (!open.empty()) {
     std::vector<CandidateWires::Ends> ends;
     ends.reserve(open.size());
@@ -131,31 +182,28 @@ std::vector<PlannedWire> PlannedWires::along(const PlanMesh& mesh, std::span<con
     std::vector<CandidateWire> found = across_->find(ends, task);
     std::vector<Open> again;
     for (std::size_t i = 0; i < open.size(); ++i) {
-      const auto& [chain, most_away] = open[i];
+      const Chain& chain = open[i].chain;
       CandidateWire& one = found[i];
       std::vector<Vector> line;
       line.reserve(one.points.size());
       for (const Vector& point : one.points) line.push_back(mesh.scale * point);
-      const auto [at, distance] = farthest_from(mesh, chain, line);
-      if (chain.size() > 2 && (one.vertices.empty() || distance > most_away)) {
-        auto [first, second] = split(chain, at > 0 ? at : chain.size() / 2);
-        again.push_back({std::move(first), most_away});
-        again.push_back({std::move(second), most_away});
+      const auto [at, away] = farthest_from(mesh, chain, line);
+      if (chain.size() > 2 && (one.vertices.empty() || away > open[i].most_away)) {
+        add_split(open[i], at > 0 ? at : chain.size() / 2, again);
         continue;
       }
-      if (one.vertices.empty()) {
-        wires.push_back(along_edges(mesh, chain));
-        continue;
-      }
-      wires.push_back({.from = ends[i].from,
-                       .to = ends[i].to,
-                       .follow = one.follow,
-                       .vertices = std::move(one.vertices),
-                       .points = std::move(one.points),
-                       .faces = std::move(one.faces)});
+      PlannedWire wire = one.vertices.empty() ? along_edges(mesh, chain)
+                                              : PlannedWire{.from = ends[i].from,
+                                                            .to = ends[i].to,
+                                                            .follow = one.follow,
+                                                            .vertices = std::move(one.vertices),
+                                                            .points = std::move(one.points),
+                                                            .faces = std::move(one.faces)};
+      laid.push_back({std::move(open[i]), std::move(wire), away});
     }
-    open = std::move(again);
+    open = again.empty() ? take_touching(mesh, *surface_, rim_, wires, laid) : std::move(again);
   }
+  for (Laid& one : laid) wires.push_back(std::move(one.wire));
   return wires;
 }
 

@@ -13,6 +13,7 @@
 #include "prices/visibility.hpp"
 #include "seams/piece_groups.hpp"
 #include "simplified/decimation.hpp"
+#include "surface/real_edges.hpp"
 #include "tuning/constants.hpp"
 
 namespace seamwire::detail {
@@ -26,6 +27,19 @@ Visibility at_places(const Visibility& from, std::span<const std::int32_t> verti
     if (!from.front.empty()) found.front.push_back(v < 0 ? 0.0 : from.front[v]);
   }
   return found;
+}
+
+/// The edges on the boundary and along seams, vertices of the surface, sorted.
+std::vector<Edge> rim_of(const PlanMesh& mesh, const std::vector<Edge>& seams) {
+  const std::vector<std::uint8_t> is_seam = marked_edges(mesh, seams);
+  std::vector<Edge> rim;
+  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    const std::int32_t h = mesh.half_edge_of[e];
+    if (is_seam[e] != 0 || mesh.is_boundary(e))
+      rim.push_back(ascending(mesh.sources[mesh.tail(h)], mesh.sources[mesh.tip(h)]));
+  }
+  std::ranges::sort(rim);
+  return rim;
 }
 
 }  // namespace
@@ -50,7 +64,7 @@ PreparedSurface::PreparedSurface(const SurfaceContext& context, SeamPlannerOptio
   find_meshes(part_of(task, 0.0, meshes_end));
   find_prices_of_all(visibility_of_all(part_of(task, meshes_end, 2.0 * meshes_end)));
   join_copies();
-  wires = std::make_unique<const PlannedWires>(context, options.along, options.strength,
+  wires = std::make_unique<const PlannedWires>(context, options.along, options.strength, rim_of(mesh(), options.seams),
                                                part_of(task, 2.0 * meshes_end, 1.0));
 }
 

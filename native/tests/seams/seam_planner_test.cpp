@@ -359,6 +359,17 @@ TEST(SeamPlanner, WiresAcrossTheSurfaceStayNearTheSlits) {
   expect_map(*surface, across);
 }
 
+TEST(SeamPlanner, WiresAcrossHandlesDoNotFallBackToEdges) {
+  const auto surface = shared(shapes::bumpy(shapes::torus(sized(40, 24), sized(20, 12)), 0.01));
+  const SeamPlan plan = SeamPlanner(surface).plan({.distortion = 4.5, .steps = 300});
+  expect_discs(*surface, plan);
+  expect_map(*surface, plan);
+  EXPECT_EQ(plan.island_count, 1U);
+  std::size_t smooth = 0;
+  for (const PlannedWire& wire : plan.wires) smooth += wire.points.size() != wire.vertices.size() ? 1 : 0;
+  EXPECT_GT(2 * smooth, plan.wires.size());
+}
+
 TEST(SeamPlanner, TheMapIsCutWhereTheWiresAre) {
   const Surfaces surfaces = {shared(shapes::bumpy(shapes::dumbbell(16, 24), 0.01)),
                              shared(shapes::bumpy(shapes::grid(24), 0.02))};

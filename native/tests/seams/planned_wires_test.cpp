@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "seams/planned_wires.hpp"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+#include <vector>
+
+#include "seams/wire_touches.hpp"
+
+namespace seamwire::detail {
+namespace {
+
+using Chain = SlitChains::Chain;
+using Chains = std::vector<Chain>;
+
+std::vector<Slit> slits(const Chains& paths) {
+  std::vector<Slit> slits;
+  for (const Chain& path : paths) slits.push_back({.path = path, .image = {}});
+  return slits;
+}
+
+TEST(SlitChains, MeetWhereASlitStartsOrEndsOnAnotherOne) {
+  EXPECT_EQ(SlitChains(slits({{0, 1, 2, 3, 4}, {1, 5, 6, 3}})).chains,
+            (Chains{{0, 1}, {1, 2, 3}, {3, 4}, {1, 5, 6, 3}}));
+}
+
+TEST(SlitChains, MeetWhereSlitsCross) {
+  EXPECT_EQ(SlitChains(slits({{0, 1, 2}, {3, 1, 4}})).chains, (Chains{{0, 1}, {1, 2}, {3, 1}, {1, 4}}));
+}
+
+TEST(SlitChains, HaveSharedEdgesOnce) {
+  EXPECT_EQ(SlitChains(slits({{0, 1, 2, 3}, {4, 2, 1, 5}})).chains, (Chains{{0, 1}, {1, 2}, {2, 3}, {4, 2}, {1, 5}}));
+}
+
+TEST(SlitChains, KeepALoopWhole) { EXPECT_EQ(SlitChains(slits({{0, 1, 2, 0}})).chains, (Chains{{0, 1, 2, 0}})); }
+
+/// The numbers of wires that touch, and where.
+std::vector<std::pair<std::size_t, std::int32_t>> touches(const Chains& chains, const std::vector<double>& away,
+                                                          const std::vector<Edge>& rim = {}) {
+  std::vector<MarkedChain> wires;
+  for (std::size_t i = 0; i < chains.size(); ++i) wires.push_back({chains[i], away[i]});
+  std::vector<std::pair<std::size_t, std::int32_t>> found;
+  for (const WireTouch& touch : find_touches(wires, rim)) found.emplace_back(touch.wire, touch.vertex);
+  return found;
+}
+using Touches = std::vector<std::pair<std::size_t, std::int32_t>>;
+
+TEST(WireTouches, WiresMayMeetAtTheirEnds) {
+  EXPECT_EQ(touches({{0, 1, 2}, {2, 3, 4}, {2, 5, 0}}, {0.1, 0.2, 0.3}), Touches());
+}
+
+TEST(WireTouches, TheWireFartherFromItsSlitIsAtFault) {
+  EXPECT_EQ(touches({{0, 1, 2, 3}, {4, 2, 5}}, {0.1, 0.2}), (Touches{{1, 2}}));
+  EXPECT_EQ(touches({{0, 1, 2, 3}, {4, 2, 5}}, {0.2, 0.1}), (Touches{{0, 2}}));
+  EXPECT_EQ(touches({{0, 1, 2, 3}, {4, 5, 2}}, {0.1, 0.2}), (Touches{{0, 2}})) << "an end is on its slit";
+}
+
+TEST(WireTouches, WiresMayShareEdgesFromACommonEnd) {
+  EXPECT_EQ(touches({{0, 1, 2, 3}, {4, 2, 1, 0}}, {0.1, 0.2}), Touches());
+  EXPECT_EQ(touches({{0, 1, 2, 3}, {0, 1, 2}}, {0.1, 0.2}), Touches());
+  EXPECT_EQ(touches({{0, 1, 2, 3, 4, 5}, {0, 1, 6, 4, 7}}, {0.1, 0.2}), (Touches{{1, 4}})) << "but not meet again";
+  EXPECT_EQ(touches({{0, 1, 2, 3}, {3, 2, 1, 0}}, {0.1, 0.2}), (Touches{{1, 2}})) << "nor all edges";
+}
+
+TEST(WireTouches, WiresMayRunAlongTheRimOnlyWhereTheyLeaveIt) {
+  const std::vector<Edge> rim = {{0, 1}, {1, 2}, {2, 3}, {3, 4}};
+  EXPECT_EQ(touches({{0, 1, 5, 6}}, {0.1}, rim), Touches());
+  EXPECT_EQ(touches({{6, 5, 3, 4}}, {0.1}, rim), Touches());
+  EXPECT_EQ(touches({{0, 5, 2, 6}}, {0.1}, rim), (Touches{{0, 2}}));
+  EXPECT_EQ(touches({{0, 1, 2}}, {0.1}, rim), (Touches{{0, 1}})) << "it would cut nothing";
+}
+
+TEST(WireTouches, AWireDoesNotTouchItself) { EXPECT_EQ(touches({{0, 1, 2, 3, 1, 4}}, {0.1}), (Touches{{0, 1}})); }
+
+}  // namespace
+}  // namespace seamwire::detail
