@@ -51,7 +51,8 @@ MetricSet::MetricSet(LiveMetrics of, std::vector<Scribble> after, const MetricSe
     // In this order: what is former is forgotten only when the metric is prepared.
     std::shared_ptr<const Prepared> from = former.former(at);
     if (std::shared_ptr<const Prepared> made = former.peek(at)) from = std::move(made);
-    if (are_same_for(spec.kind(), scribbles, former.scribbles)) {
+    const bool may_share = at <= i || former.peek(at) != nullptr;
+    if (may_share && are_same_for(spec.kind(), scribbles, former.scribbles)) {
       prepared[i] = former.prepared[at];
       fractions[i] = former.fractions[at];
     }
@@ -89,7 +90,7 @@ void MetricSet::forget_former(std::size_t metric) {
 }
 
 Prepared prepare(const SurfaceContext& context, Along along, MetricSet& metrics, std::size_t which,
-                 const std::stop_token& stop, const PreparationStep& on_step) {
+                 const std::stop_token& stop, const PreparationSteps& steps) {
   const MetricSpec& spec = metrics.metrics.wires[which];
   const bool on_surface = along == Along::kSurface;
   const Task silent{.stop = stop, .progress = {}};
@@ -118,15 +119,16 @@ Prepared prepare(const SurfaceContext& context, Along along, MetricSet& metrics,
     return prepared;
   }
   std::shared_ptr<const Metric> from_scratch;  // a former embedding is changed at once
-  const auto step = [&](double) {
-    on_step(prepared, from_scratch);
+  const auto preview = [&](double) {
+    if (from_scratch) steps.preview(prepared, from_scratch);
     return true;
   };
   const Task task{.stop = stop, .progress = [&](double done) {
                     fraction = (kEmbedBegins + (kSolveBegins - kEmbedBegins) * done) / kSolveBegins;
-                    return step(done);
+                    steps.make_way();
+                    return preview(done);
                   }};
-  step(0.0);
+  steps.make_way();
   Metric own = make_metric(context, spec, silent);
   if (scribbled) own = apply_scribbles(*surface, own, metrics.scribbles, spec.kind(), silent);
   if (!on_surface) {
@@ -136,8 +138,9 @@ Prepared prepare(const SurfaceContext& context, Along along, MetricSet& metrics,
   const auto metric = std::make_shared<const Metric>(std::move(own));
   const std::shared_ptr<const Prepared> former = metrics.former(which);
   if (!former) from_scratch = metric;
-  step(0.0);
-  std::optional<EmbeddedSurface> embedded;  // a step gets the rest meanwhile
+  steps.make_way();
+  preview(0.0);
+  std::optional<EmbeddedSurface> embedded;  // previews get the rest meanwhile
   if (former) {
     embedded = former->embedded->with_metric(metric, task);
   } else if (scribbled) {
@@ -146,7 +149,8 @@ Prepared prepare(const SurfaceContext& context, Along along, MetricSet& metrics,
     embedded.emplace(context, spec, metric, options, task);
   }
   embedded->points();
-  embedded->geodesics({.stop = stop, .progress = step});
+  // Whoever finds the embedding waits for its geodesics.
+  embedded->geodesics({.stop = stop, .progress = preview});
   prepared.embedded = std::move(embedded);
   return prepared;
 }

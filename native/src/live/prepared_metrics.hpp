@@ -35,7 +35,10 @@ struct Prepared {
 class MetricSet {
  public:
   MetricSet(LiveMetrics of, std::vector<Scribble> after);
-  /// The same in place of `former`: a metric that is in both, and for which the scribbles are the same, is shared.
+  /// The same in place of `former`: a metric that is in both, and for which the scribbles are the same, is shared. If
+  /// it comes earlier than in `former`, it is shared only if it is prepared: a thread that comes later may make way for
+  /// the one that would wait for it.
+  ///
   /// Embeddings of a metric with other scribbles are made from those of `former`, or, where these are not there yet,
   /// from what they would have been made from: scribbles change little.
   MetricSet(LiveMetrics of, std::vector<Scribble> after, const MetricSet& former);
@@ -64,14 +67,18 @@ class MetricSet {
   std::vector<std::shared_ptr<const Prepared>> former_ SEAMWIRE_GUARDED_BY(mutex_);
 };
 
-/// A function that prepare() calls now and then, and that may take its time. It receives the data so far, without
-/// `embedded`, and the metric that is being embedded from scratch, or null.
-using PreparationStep = std::function<void(const Prepared&, const std::shared_ptr<const Metric>&)>;
+/// Functions that prepare() calls now and then, and that may take their time.
+struct PreparationSteps {
+  /// Lets another thread go first. It is never called during a part that other live wires of the surface may wait for.
+  std::function<void()> make_way = [] {};
+  /// Shows what can be seen before the metric is prepared. It receives the data so far, without `embedded`, and the
+  /// metric that is being embedded from scratch.
+  std::function<void(const Prepared&, const std::shared_ptr<const Metric>&)> preview = [](const auto&, const auto&) {};
+};
 
 /// Makes what one of the metrics needs; throws Cancelled where `stop` tells it to. The metric's fractions of
 /// progress are told to `metrics`.
-Prepared prepare(
-    const SurfaceContext& context, Along along, MetricSet& metrics, std::size_t which, const std::stop_token& stop,
-    const PreparationStep& on_step = [](const auto&, const auto&) {});
+Prepared prepare(const SurfaceContext& context, Along along, MetricSet& metrics, std::size_t which,
+                 const std::stop_token& stop, const PreparationSteps& steps = {});
 
 }  // namespace seamwire::detail

@@ -65,10 +65,11 @@ std::shared_ptr<const SeedSolution> SeedSolver::solve(const SeedBox::Job& job,
       metrics.prepared[metric_]->get({.stop = preparing, .progress = {}}, [&](const Task&) {
         Nearby nearby;
         return prepare(context_, settings_.along, metrics, metric_, preparing,
-                       [&](const Prepared& so_far, const std::shared_ptr<const Metric>& from_scratch) {
-                         make_way(preparing);
-                         if (from_scratch) make_nearby_preview(seeds, so_far, from_scratch, preparing, nearby);
-                       });
+                       {.make_way = [&] { make_way(preparing); },
+                        .preview =
+                            [&](const Prepared& so_far, const std::shared_ptr<const Metric>& metric) {
+                              make_nearby_preview(seeds, so_far, metric, preparing, nearby);
+                            }});
       });
   metrics.forget_former(metric_);
   if (former && former->field && former->prepared == prepared) return former;  // only the other metrics have changed

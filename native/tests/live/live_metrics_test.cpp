@@ -4,13 +4,19 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <random>
+#include <thread>
 #include <vector>
 
+#include "context/interactive_embedding.hpp"
 #include "live/live_wires.hpp"
 #include "live/prepared_metrics.hpp"
+#include "seamwire/context/embedded_surface.hpp"
+#include "seamwire/context/surface_context.hpp"
 #include "seamwire/edges/edge_wires.hpp"
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
@@ -32,11 +38,46 @@ TEST(LiveWire, MetricsThatStayKeepTheirProgress) {
   *former.fractions[1] = 0.75;
   const MetricSet later({.wires = {specs[1], MetricSpec::feature(Follow::kMin, {.parameter = 0.1}), specs[0]}}, {},
                         former);
-  EXPECT_EQ(later.fraction(0), 0.75);
+  EXPECT_EQ(later.fraction(0), 0.0) << "the thread that prepares it may make way for the one that would wait";
+  EXPECT_NE(later.prepared[0], former.prepared[1]);
   EXPECT_EQ(later.fraction(1), 0.0);
   EXPECT_EQ(later.fraction(2), 0.25);
-  *later.fractions[0] = 0.875;
-  EXPECT_EQ(former.fraction(1), 0.875) << "the work is that of both";
+  *later.fractions[2] = 0.875;
+  EXPECT_EQ(former.fraction(0), 0.875) << "the work is that of both";
+}
+
+bool is_embedded(const SurfaceContext& context, const MetricSpec& spec) {
+  return EmbeddedSurface::find(context, spec, interactive_options(*context.surface())).has_value();
+}
+
+TEST(LiveWire, AThreadNeverMakesWayWhileOthersMayWaitForIt) {
+  const SurfaceContext context(shared(shapes::bumpy(shapes::torus(32, 20), 0.02)));
+  const MetricSpec spec = MetricSpec::euclidean();
+  MetricSet metrics({.wires = {spec}}, {});
+  int made_way = 0, shown = 0;
+  const PreparationSteps steps{.make_way =
+                                   [&] {
+                                     ++made_way;
+                                     EXPECT_FALSE(is_embedded(context, spec)) << "others wait for its geodesics";
+                                   },
+                               .preview = [&](const auto&, const auto&) { shown += is_embedded(context, spec); }};
+  prepare(context, Along::kSurface, metrics, 0, {}, steps);
+  EXPECT_GT(made_way, 0);
+  EXPECT_GT(shown, 0) << "no step of the geodesics was seen";
+}
+
+TEST(LiveWire, AMetricThatComesFirstAsWellIsPrepared) {
+  const std::size_t last = std::max(2U, std::thread::hardware_concurrency());  // the first thread that makes way
+  std::vector<MetricSpec> specs;
+  for (std::size_t i = 0; i <= last; ++i)
+    specs.push_back(MetricSpec::concave({.parameter = 0.5 + 0.1 * static_cast<double>(i)}));
+  LiveWire live(shared(shapes::bumpy(shapes::torus(90, 60), 0.02)), kConcave);
+  live.set_metrics({.wires = specs});
+  live.seed({7});
+  live.wait(1e-3);
+  specs.front() = specs.back();
+  live.set_metrics({.wires = specs});
+  EXPECT_TRUE(live.wait(60.0)) << "two threads wait for each other";
 }
 
 TEST(LiveWire, AnotherMetricIsThatOfALiveWireMadeWithIt) {
@@ -218,6 +259,13 @@ TEST(LiveWire, AStrokeForOneMetricLeavesWhatIsPreparedForTheOther) {
 TEST(LiveWire, MetricsThatStayAreNotPreparedAgain) {
   const LiveMetrics metrics{.wires = {MetricSpec::concave(), MetricSpec::euclidean()}};
   const MetricSet before(metrics, {});
+  before.prepared[1]->get({}, [&](const Task&) {
+    return Prepared{.spec = metrics.wires[1],
+                    .surface = nullptr,
+                    .embedded = std::nullopt,
+                    .snap_graph = nullptr,
+                    .graph = nullptr};
+  });
   const MetricSet changed({.wires = {MetricSpec::euclidean(), MetricSpec::concave({.parameter = 0.5})}}, {}, before);
   EXPECT_EQ(changed.prepared[0], before.prepared[1]);
   EXPECT_NE(changed.prepared[1], before.prepared[0]);
