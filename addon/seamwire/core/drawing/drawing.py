@@ -73,7 +73,7 @@ class Drawing:
     message
         The reason why something is not done, until the cursor points at something else.
     warning
-        What the artist should know about the last step, until the next one. It is shown where there is no `message`.
+        A warning about the last step, until the next one. It is shown where there is no `message`.
     failure
         The reason why a gesture that waited was not done, until the next gesture.
     revision
@@ -119,7 +119,7 @@ class Drawing:
 
     @property
     def told(self) -> Message:
-        """What the artist is told now."""
+        """The message or warning that the artist sees now."""
         return self.message or self.warning
 
     @property
