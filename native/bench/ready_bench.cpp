@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Measures how long it takes from arrays to the first wires, where the artist clicks at once, and how much memory:
-//   ready_bench [--loop LEVELS] [--anisotropy A] [--repeats N] [--seeds N] MESH...
-// A mesh is a file, or "torus": a bumpy torus of a million triangles. A LiveWire across the surface is made and seeded
-// at vertex 0. Then its wires to a vertex near the seed, a twelfth of the diagonal away, are requested every 2 ms.
+//   ready_bench [--loop LEVELS] [--noise SHARE] [--anisotropy A] [--repeats N] [--seeds N] MESH...
+// A mesh is a file, or "torus": a bumpy torus of a million triangles. With noise it is like a scan: each coordinate of
+// a vertex moves by a normal deviate times SHARE of the mean edge length. A LiveWire across the surface is made and
+// seeded at vertex 0. Then its wires to a vertex near the seed, a twelfth of the diagonal away, are requested every 2
+// ms.
 //
 // Prints a line for each run:
 // - For each wire, the time until it is first seen, and the processor time of all threads until then. In parentheses,
@@ -31,6 +33,7 @@ using Clock = std::chrono::steady_clock;
 
 struct Options {
   int loop = 0, repeats = 2, seeds = 20;
+  double noise = 0.0;
   double anisotropy = 20.0;
 };
 
@@ -68,6 +71,18 @@ Surface bumpy_torus() {
     }
   }
   return {std::move(points), std::move(triangles)};
+}
+
+Surface with_noise(const Surface& surface, double noise) {
+  std::vector<Vector> points = surface.points();
+  double sum = 0.0;
+  for (const auto& [a, b] : surface.edges()) sum += (points[a] - points[b]).norm();
+  std::mt19937 random(1);
+  std::normal_distribution<double> moved(0.0, noise * sum / static_cast<double>(surface.edges().size()));
+  for (Vector& point : points) {
+    for (double& coordinate : point) coordinate += moved(random);
+  }
+  return {std::move(points), surface.triangles()};
 }
 
 std::int32_t vertex_near(const Surface& surface, std::int32_t seed) {
@@ -136,7 +151,8 @@ void measure(const Surface& surface, const Options& options, bool with_seeds) {
 }
 
 void measure_mesh(const std::string& mesh, const Options& options) {
-  const Surface surface = mesh == "torus" ? bumpy_torus() : read_surface(mesh, options.loop);
+  Surface surface = mesh == "torus" ? bumpy_torus() : read_surface(mesh, options.loop);
+  if (options.noise > 0) surface = with_noise(surface, options.noise);
   std::printf("%s  %zu faces; times: clock / processor of all threads\n", mesh_name(mesh, options.loop).c_str(),
               surface.face_count());
   for (int i = 0; i < options.repeats; ++i) measure(surface, options, i == 0);
@@ -148,6 +164,7 @@ int measure_all(int argc, char** argv) {
              {{"--loop", set_count(options.loop, 0)},
               {"--repeats", set_count(options.repeats, 1)},
               {"--seeds", set_count(options.seeds, 0)},
+              {"--noise", set_number(options.noise)},
               {"--anisotropy", set_number(options.anisotropy)}},
              [&](const std::string& mesh) { measure_mesh(mesh, options); });
 }

@@ -8,18 +8,10 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
-#include <stop_token>
-#include <thread>
 #include <vector>
 
-#include "detail/deadline.hpp"
-#include "live/event_count.hpp"
-#include "live/right_of_way.hpp"
-#include "live/seed_solver.hpp"
-#include "seamwire/context/surface_context.hpp"
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
-#include "seamwire/live/livewire.hpp"
 #include "seamwire/metric/curvature.hpp"
 #include "shapes.hpp"
 
@@ -118,61 +110,6 @@ TEST(NearbyWires, StopWhileFacesAreEmbedded) {
   int looks = 0;
   const Task task{.stop = {}, .progress = [&](double) { return ++looks <= 4; }};  // faces are chosen in two looks
   EXPECT_THROW(wires.wire(SurfacePoint::at_vertex(near(0)), task), Cancelled);
-}
-
-TEST(NearbyWires, LetTheThreadWithTheRightOfWayGoFirst) {
-  constexpr int kSide = 330;
-  const auto surface = bumpy_torus(kSide, kSide);
-  const std::size_t metric = std::max(1U, std::thread::hardware_concurrency());
-  const SurfaceContext context(surface);
-  context.curvature({});
-  context.snap_graph({});
-  const auto right_of_way = std::make_shared<RightOfWay>();
-  right_of_way->update([] { return true; });
-  EventCount events;
-  SeedBox seeds(events);
-  TargetBox targets(events);
-  const LiveSettings settings{.along = Along::kSurface, .turning = 0.0, .loop_turning = {}, .max_error = 0.0};
-  SeedSolver solver(metric, context, settings, right_of_way, targets);
-  const LiveMetrics metrics{.wires = std::vector(metric + 1, MetricSpec::euclidean())};
-  seeds.post(
-      {.metrics = std::make_shared<MetricSet>(metrics, std::vector<Scribble>()), .preparing = {}, .seed = Pick{0}});
-  targets.post(Pick{20 * kSide + 20});
-  const SeedBox::Job job = seeds.take().value();
-  const std::uint64_t seen = events.count();
-  const std::jthread thread([&] { seeds.answer(job, [&] { return solver.solve(job, nullptr, seeds); }); });
-  EXPECT_FALSE(events.wait_beyond(seen, deadline_after(1.0))) << "no preview is shown";
-  right_of_way->update([] { return false; });
-  events.wait_beyond(seen);
-  EXPECT_TRUE(targets.read().answer) << "now it is";
-  std::stop_source preparing = job.request->preparing;
-  preparing.request_stop();
-  seeds.close();
-}
-
-TEST(NearbyWires, AreSeenBeforeTheSurfaceIsEmbedded) {
-  constexpr int kSide = 330;
-  const auto surface = bumpy_torus(kSide, kSide);
-  LiveWire live(surface, LiveWireOptions{.max_error = 0.0});
-  live.seed({0});
-  const std::int32_t target = 20 * kSide + 20;
-  std::vector<double> first(live.wires({target}).wires.size(), 0.0);
-  LiveWires found;
-  do {
-    found = live.wires({target});
-    const auto embeddings = live.embeddings();
-    for (std::size_t i = 0; i < first.size(); ++i) {
-      if (!found.wires[i].points.empty() && !embeddings[i] && first[i] == 0) {
-        EXPECT_FALSE(found.wires[i].final);
-        first[i] = found.wires[i].length;
-      }
-    }
-    live.wait(1e-3);
-  } while (!found.final());
-  if (std::ranges::count(first, 0.0) > 0) GTEST_SKIP() << "this thread was kept away for too long";
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    EXPECT_NEAR(first[i], found.wires[i].length, 0.2 * found.wires[i].length) << i;
-  }
 }
 
 }  // namespace

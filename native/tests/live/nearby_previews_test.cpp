@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// Previews on the faces around a seed, on the threads of live wires.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <stop_token>
+#include <thread>
+#include <vector>
+
+#include "detail/deadline.hpp"
+#include "live/event_count.hpp"
+#include "live/live_wires.hpp"
+#include "live/right_of_way.hpp"
+#include "live/seed_solver.hpp"
+#include "seamwire/context/surface_context.hpp"
+#include "seamwire/live/livewire.hpp"
+#include "shapes.hpp"
+
+namespace seamwire {
+
+using namespace detail;
+
+namespace {
+
+constexpr int kSide = 330;
+/// Near vertex 0, and halfway to it.
+constexpr std::int32_t kTarget = 20 * kSide + 20, kHalfway = 10 * kSide + 10;
+
+/// With enough faces for these previews.
+std::shared_ptr<const Surface> large_torus() {
+  return live_wires::shared(shapes::bumpy(shapes::torus(kSide, kSide), 0.01));
+}
+
+TEST(NearbyPreviews, LetTheThreadWithTheRightOfWayGoFirst) {
+  const auto surface = large_torus();
+  const std::size_t metric = std::max(1U, std::thread::hardware_concurrency());
+  const SurfaceContext context(surface);
+  context.curvature({});
+  context.snap_graph({});
+  const auto right_of_way = std::make_shared<RightOfWay>();
+  right_of_way->update([] { return true; });
+  EventCount events;
+  SeedBox seeds(events);
+  TargetBox targets(events);
+  const LiveSettings settings{.along = Along::kSurface, .turning = 0.0, .loop_turning = {}, .max_error = 0.0};
+  SeedSolver solver(metric, context, settings, right_of_way, targets);
+  const LiveMetrics metrics{.wires = std::vector(metric + 1, MetricSpec::euclidean())};
+  seeds.post(
+      {.metrics = std::make_shared<MetricSet>(metrics, std::vector<Scribble>()), .preparing = {}, .seed = Pick{0}});
+  targets.post(Pick{kTarget});
+  const SeedBox::Job job = seeds.take().value();
+  const std::uint64_t seen = events.count();
+  const std::jthread thread([&] { seeds.answer(job, [&] { return solver.solve(job, nullptr, seeds); }); });
+  EXPECT_FALSE(events.wait_beyond(seen, deadline_after(1.0))) << "no preview is shown";
+  right_of_way->update([] { return false; });
+  events.wait_beyond(seen);
+  EXPECT_TRUE(targets.read().answer) << "now it is";
+  std::stop_source preparing = job.request->preparing;
+  preparing.request_stop();
+  seeds.close();
+}
+
+bool shows_any(const LiveWires& found) {
+  return std::ranges::any_of(found.wires, [](const LiveCandidate& wire) { return !wire.points.empty(); });
+}
+
+TEST(NearbyPreviews, OfTheNewestSeedAreSeenBeforeTheSurfaceIsEmbedded) {
+  LiveWire live(large_torus(), LiveWireOptions{.max_error = 0.0});
+  live.seed({kHalfway});
+  while (!shows_any(live.wires({kTarget}))) live.wait(1e-3);
+  live.seed({0});  // while other threads are at their previews
+  std::vector<double> first(live.wires({kTarget}).wires.size(), 0.0);
+  LiveWires found;
+  do {
+    found = live.wires({kTarget});
+    const auto embeddings = live.embeddings();
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      if (!found.wires[i].points.empty() && !embeddings[i] && first[i] == 0) {
+        EXPECT_FALSE(found.wires[i].final);
+        first[i] = found.wires[i].length;
+      }
+    }
+    live.wait(1e-3);
+  } while (!found.final());
+  if (std::ranges::count(first, 0.0) == std::ssize(first)) GTEST_SKIP() << "this thread was kept away for too long";
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    if (first[i] == 0) continue;  // its embedding was quicker
+    EXPECT_NEAR(first[i], found.wires[i].length, 0.2 * found.wires[i].length) << i;
+  }
+}
+
+}  // namespace
+}  // namespace seamwire
