@@ -107,7 +107,7 @@ def all_work() -> dict[str, tuple[Callable[[int], Work], float]]:
     def stacked(n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         points = np.tile([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)], (n // 2, 1))
         first = 4 * np.arange(n // 2)[:, None, None]
-        triangles = (first + [(0, 1, 2), (0, 2, 3)]).reshape(-1, 3).astype(np.int32)
+        triangles = (first + np.array([(0, 1, 2), (0, 2, 3)])).reshape(-1, 3).astype(np.int32)
         points[:, 2] = np.arange(n // 2).repeat(4)
         return points, triangles, points[triangles][:, :, :2]
 
