@@ -104,6 +104,13 @@ def all_work() -> dict[str, tuple[Callable[[int], Work], float]]:
         points, triangles = torus(n)
         return points, triangles, sw.flatten(points, triangles, ring(n)).uvs
 
+    def stacked(n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        points = np.tile([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)], (n // 2, 1))
+        first = 4 * np.arange(n // 2)[:, None, None]
+        triangles = (first + np.array([(0, 1, 2), (0, 2, 3)])).reshape(-1, 3).astype(np.int32)
+        points[:, 2] = np.arange(n // 2).repeat(4)
+        return points, triangles, points[triangles][:, :, :2]
+
     def field(n: int) -> tuple[sw.DistanceField, int]:
         return sw.distance_field(embedded(n), 0), far(n)
 
@@ -179,6 +186,7 @@ def all_work() -> dict[str, tuple[Callable[[int], Work], float]]:
         "NearestPoints.find": after(places, lambda tree, near: tree.find(near)),
         "flatten": after(lambda n: (*torus(n), ring(n)), sw.flatten),
         "measure_map": after(flat, sw.measure_map),
+        "measure_map, stacked islands": after(stacked, sw.measure_map),
         "PartFinder": after(surface, sw.PartFinder),
         "PartFinder.find": after(lambda n: sw.PartFinder(surface(n)), lambda finder: finder.find(0.5)),
         "SeamPlanner.plan": seam_plan(torus),

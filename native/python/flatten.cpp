@@ -173,21 +173,31 @@ Cancelled
 )");
 }
 
+/// Calls `measure(surface, uvs, islands, task)` for the arguments of measure_map() and map_energy().
+template <class Measure>
+auto measured(const py::object& points, const py::object& triangles, const py::object& uvs, const py::object& islands,
+              const py::object& edges, const py::object& progress, const Measure& measure) {
+  auto own_points = points_from(points, "points");
+  auto own_triangles = triangles_from(triangles, "triangles");
+  const CornerUvs own_uvs = corner_uvs_from(uvs, "uvs");
+  const auto numbers = islands.is_none() ? std::vector<std::int32_t>{} : numbers_from(islands, "islands");
+  auto own_edges = real_edges_from(edges);
+  return Watch(progress).run([&](const Task& task) {
+    const Surface surface(std::move(own_points), std::move(own_triangles), std::move(own_edges),
+                          part_of(task, 0.0, 0.2));
+    return measure(surface, own_uvs, numbers, part_of(task, 0.2, 0.8));
+  });
+}
+
 void bind_measure_map(py::module_& module) {
   module.def(
       "measure_map",
       [](const py::object& points, const py::object& triangles, const py::object& uvs, const py::object& islands,
          const py::object& edges, const py::object& progress) {
-        auto own_points = points_from(points, "points");
-        auto own_triangles = triangles_from(triangles, "triangles");
-        const CornerUvs own_uvs = corner_uvs_from(uvs, "uvs");
-        const auto numbers = islands.is_none() ? std::vector<std::int32_t>{} : numbers_from(islands, "islands");
-        auto own_edges = real_edges_from(edges);
-        return Watch(progress).run([&](const Task& task) {
-          const Surface surface(std::move(own_points), std::move(own_triangles), std::move(own_edges),
-                                part_of(task, 0.0, 0.2));
-          return make_held<MapReport>(measure_map(surface, own_uvs, numbers, part_of(task, 0.2, 0.8)));
-        });
+        return measured(points, triangles, uvs, islands, edges, progress,
+                        [](const auto& surface, const auto& own_uvs, const auto& numbers, const Task& task) {
+                          return make_held<MapReport>(measure_map(surface, own_uvs, numbers, task));
+                        });
       },
       py::arg("points"), py::arg("triangles"), py::arg("uvs"), py::arg("islands") = py::none(), py::kw_only(),
       py::arg("edges") = py::none(), py::arg("progress") = py::none(),
@@ -221,6 +231,48 @@ Cancelled
 )");
 }
 
+void bind_map_energy(py::module_& module) {
+  module.def(
+      "map_energy",
+      [](const py::object& points, const py::object& triangles, const py::object& uvs, const py::object& islands,
+         const py::object& edges, const py::object& progress) {
+        return measured(points, triangles, uvs, islands, edges, progress,
+                        [](const auto& surface, const auto& own_uvs, const auto& numbers, const Task& task) {
+                          return map_energy(surface, own_uvs, numbers, task);
+                        });
+      },
+      py::arg("points"), py::arg("triangles"), py::arg("uvs"), py::arg("islands") = py::none(), py::kw_only(),
+      py::arg("edges") = py::none(), py::arg("progress") = py::none(),
+      R"(Compute `MapReport.energy` of any UV map of a surface alone, in less time than `measure_map`.
+
+Parameters
+----------
+points : (n, 3) array_like of float
+    Finite coordinates.
+triangles : (m, 3) array_like of int
+    Vertex numbers.
+uvs : (m, 3, 2) array_like of float
+    The UVs of each triangle's corners.
+islands : (m,) array_like of int, optional
+    As in `measure_map`.
+edges : (e, 2) array_like of int, optional
+    As in `measure_map`.
+progress : callable, optional
+    Called repeatedly with the fraction done. Returning False cancels.
+
+Returns
+-------
+float
+    The energy: 4 for an isometry, infinite if no triangle remains.
+
+Raises
+------
+ValueError
+    If an array has the wrong shape or type, a number is not finite, or a vertex or an island is out of range.
+Cancelled
+)");
+}
+
 }  // namespace
 
 void bind_flatten(py::module_& module) {
@@ -228,6 +280,7 @@ void bind_flatten(py::module_& module) {
   bind_map_report(module);
   bind_flatten_function(module);
   bind_measure_map(module);
+  bind_map_energy(module);
 }
 
 }  // namespace seamwire::python

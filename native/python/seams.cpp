@@ -96,8 +96,11 @@ void bind_seam_plan(py::module_& module) {
                              "(m,) int32: the island of each triangle, numbered as by `face_segments`.")
       .def_readonly("island_count", &SeamPlan::island_count, "int: how many islands there are.")
       .def_readonly("not_discs", &SeamPlan::not_discs, "int: how many islands are not discs.")
-      .def_readonly("cost", &SeamPlan::cost,
-                    "float: length times visibility of all wires, for a surface of area 1. Lower is better.")
+      .def_readonly(
+          "cost", &SeamPlan::cost,
+          "float: the price of the slits that the search worked on, for a surface of area 1. Lower is better. Each "
+          "slit costs its length times the price of its place, and a fixed share more unless the island "
+          "needs it to become a disc. Wires across the surface are not priced again.")
       .def_readonly("energy", &SeamPlan::energy,
                     "float: the symmetric Dirichlet energy of the planned map, mean over the area. 4 for an isometry.")
       .def_readonly("is_reached", &SeamPlan::is_reached,

@@ -96,6 +96,21 @@ def test_measures_maps_that_others_made() -> None:
     assert sw.measure_map(points, triangles, 5 * points[triangles][:, :, :2]).energy == pytest.approx(4)
 
 
+def test_the_energy_of_a_map_is_that_of_its_report() -> None:
+    points, triangles = meshes.grid(4)
+    uvs = points[triangles][:, :, :2] * (1, 3)
+    uvs[3] = uvs[3, ::-1]
+    islands = np.zeros(len(triangles), np.int64)
+    energy = sw.map_energy(points, triangles, uvs, islands)
+    assert energy == sw.measure_map(points, triangles, uvs, islands).energy
+    # A stretch of 3 has 3 + 1/3 for each axis at the best scale.
+    assert energy == pytest.approx(2 * (3 + 1 / 3))
+    with pytest.raises(ValueError, match="uvs has 1 items: there are 32 triangles"):
+        sw.map_energy(points, triangles, uvs[:1])
+    with pytest.raises(sw.Cancelled):
+        sw.map_energy(points, triangles, uvs, progress=lambda _: False)
+
+
 @pytest.mark.parametrize(
     ("change", "message"),
     [

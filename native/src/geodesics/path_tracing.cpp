@@ -28,10 +28,12 @@ constexpr double kSnapWidth = 1e-7;
 /// ... if the distances say so, up to this part of the whole. The other side of such a vertex would be a guess.
 constexpr double kSnapDistance = 1e-11;
 /// How far (in parts of the triangle's longest side) unfolding may have moved the source from its vertex.
-constexpr double kSameVertex = 1e-6;  /// A vertex is as near to a source as another one up to this factor.
+constexpr double kSameVertex = 1e-6;
+/// A vertex is as near to a source as another one up to this factor.
 constexpr double kAsNear = 1.0 + 1e-6;
 
-/// Triangles that a path crosses between two looks at the task: a fraction of a millisecond. Most paths are shorter.
+/// Triangles that a path crosses, or vertices that a detour reaches, between two looks at the task: about a millisecond
+/// at most. Most paths are shorter.
 constexpr std::size_t kCrossingsBetweenChecks = 4096;
 
 Point2 to_twin(const HalfEdge& h, const Point2& p) { return {h.length - p.x, -p.y}; }
@@ -286,6 +288,7 @@ class Tracer {
     queue.emplace(at(vertex), vertex);
     std::int32_t next = -1;
     while (next < 0) {
+      look_at_task();
       if (queue.empty()) throw std::logic_error("no edges lead to where a path comes from");
       const auto [whole, v] = queue.top();
       queue.pop();

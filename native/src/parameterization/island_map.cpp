@@ -123,16 +123,20 @@ class Problem {
     const std::vector<double> other = embed();
     return mean_logarithm(other) < mean_logarithm(map) ? other : map;
   }
-  /// The mean of the centers of a vertex's triangles.
-  Point2 middle_around(std::int32_t vertex, std::span<const double> map) const {
-    Point2 sum = Point2::Zero();
-    double count = 0.0;
+  /// The mean of the centers of each vertex's triangles.
+  std::vector<Point2> middles_around(std::span<const double> map) const {
+    std::vector<Point2> middles(vertex_count(), Point2::Zero());
+    std::vector<double> counts(vertex_count(), 0.0);
     for (const Triangle& t : island_.triangles) {
-      if (std::ranges::find(t, vertex) == t.end()) continue;
-      for (const std::int32_t v : t) sum += Point2(map[2 * index(v)], map[2 * index(v) + 1]) / 3.0;
-      count += 1.0;
+      Point2 center = Point2::Zero();
+      for (const std::int32_t v : t) center += Point2(map[2 * index(v)], map[2 * index(v) + 1]) / 3.0;
+      for (const std::int32_t v : t) {
+        middles[index(v)] += center;
+        counts[index(v)] += 1.0;
+      }
     }
-    return sum / count;
+    for (std::size_t v = 0; v < middles.size(); ++v) middles[v] /= counts[v];
+    return middles;
   }
   /// Makes room in the matrix for the pairs.
   void make_room_for(const std::vector<Outline::Pair>& pairs, const Task& task) {
@@ -386,8 +390,9 @@ struct MeasuredMap {
 /// triangles, so that the two sides of a slit part. Returns nothing if that is not enough.
 std::vector<double> parted(Problem& problem, const std::vector<double>& start, const Task& task) {
   std::vector<double> map = start;
+  const std::vector<Point2> middles = problem.middles_around(start);
   for (const Outline::Pair& pair : problem.outline().close_pairs(start, kTouchingPart)) {
-    const Eigen::Vector2d middle = problem.middle_around(pair.vertex, start);
+    const Point2& middle = middles[index(pair.vertex)];
     for (std::size_t k = 0; k < 2; ++k) {
       const std::size_t at = 2 * index(pair.vertex) + k;
       map[at] = start[at] + kPartedBy * (middle[static_cast<Eigen::Index>(k)] - start[at]);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <string>
@@ -217,17 +218,17 @@ class OverlapTest {
   }
 
   std::vector<std::int32_t> colliding() const {
-    std::vector<const IslandOutline*> outlines;
-    std::vector<Box> boxes;
     double largest = 0.0;
     for (const IslandOutline& outline : outlines_) {
       if (outline.sides.empty()) continue;
-      outlines.push_back(&outline);
-      boxes.push_back(outline.box);
       for (std::size_t k = 0; k < 2; ++k) {
         largest = std::max({largest, std::abs(outline.box.low[k]), std::abs(outline.box.high[k])});
       }
     }
+    std::vector<std::uint8_t> is_colliding(outlines_.size(), 0);
+    const std::vector<const IslandOutline*> outlines = without_stacked(kTouching * largest, is_colliding);
+    std::vector<Box> boxes;
+    for (const IslandOutline* outline : outlines) boxes.push_back(outline->box);
     // Only islands whose boxes meet can collide.
     std::vector<OutlineSide> sides;
     std::vector<InnerPoint> inner;
@@ -240,7 +241,6 @@ class OverlapTest {
       inner.insert(inner.end(), outlines[i]->inner.begin(), outlines[i]->inner.end());
       sides.insert(sides.end(), outlines[i]->sides.begin(), outlines[i]->sides.end());
     }
-    std::vector<std::uint8_t> is_colliding(outlines_.size(), 0);
     if (!sides.empty()) {
       Coverage(std::move(sides), std::move(inner), kTouching * largest, task_).mark_colliding(is_colliding);
     }
@@ -258,6 +258,36 @@ class OverlapTest {
     Box box;
     bool is_wound = false;  // closed, or around an inner vertex twice
   };
+
+  /// The outlines of islands, of those that lie exactly on each other the first. Islands that lie on each other collide
+  /// if they hold a point farther than the tolerance from their sides. Comparing all their sides with each other would
+  /// take long.
+  std::vector<const IslandOutline*> without_stacked(double tolerance, std::vector<std::uint8_t>& is_colliding) const {
+    std::vector<const IslandOutline*> outlines;
+    std::map<std::vector<std::array<double, 4>>, std::size_t> firsts;
+    for (std::size_t i = 0; i < outlines_.size(); ++i) {
+      poll_.next();
+      const IslandOutline& outline = outlines_[i];
+      if (outline.sides.empty()) continue;
+      const bool has_inside =
+          std::ranges::any_of(outline.inner, [&](const InnerPoint& inner) { return inner.reach > tolerance; });
+      if (has_inside) {
+        std::vector<std::array<double, 4>> places;
+        places.reserve(outline.sides.size());
+        for (const auto& side : outline.sides) {
+          places.push_back({side.from.x(), side.from.y(), side.to.x(), side.to.y()});
+        }
+        std::ranges::sort(places);
+        const auto [first, is_new] = firsts.try_emplace(std::move(places), i);
+        if (!is_new) {
+          is_colliding[first->second] = is_colliding[i] = 1;
+          continue;
+        }
+      }
+      outlines.push_back(&outline);
+    }
+    return outlines;
+  }
 
   /// `first`: the number of the piece's first vertex.
   void add_piece(const Island& piece, std::int32_t first) {

@@ -54,11 +54,10 @@ void check_points(const std::vector<Vector>& points, const Task& task) {
   const Poll poll(task, 0.0, 0.0, points.size());
   for (std::size_t v = 0; v < points.size(); ++v) {
     poll.at(v);
-    const std::string name = "vertex " + std::to_string(v);
-    if (!points[v].allFinite()) throw InvalidInput(name + " has a coordinate that is not finite");
-    if (points[v].cwiseAbs().maxCoeff() > kLargestCoordinate) {
-      throw InvalidInput(name + " has a coordinate above 1e150 in size");
-    }
+    const bool is_finite = points[v].allFinite();
+    if (is_finite && points[v].cwiseAbs().maxCoeff() <= kLargestCoordinate) continue;
+    throw InvalidInput("vertex " + std::to_string(v) + " has a coordinate " +
+                       (is_finite ? "above 1e150 in size" : "that is not finite"));
   }
 }
 

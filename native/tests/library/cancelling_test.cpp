@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "detail/poll.hpp"
+#include "geodesics/path_tracing.hpp"
+#include "intrinsic.hpp"
 #include "seamwire/edges/edge_graph.hpp"
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/geodesics/corridor_paths.hpp"
@@ -166,6 +168,31 @@ TEST_F(Cancelling, APathAtOnce) {
   const auto target = static_cast<std::int32_t>(vertices / 2);
   const GeodesicCounters counters = geodesics.solve(0).counters();
   expect_stops(counters.windows / 4, [&](const Task& task) { CorridorPaths(geodesics, 0, all).path(target, task); });
+}
+
+TEST_F(Cancelling, ADetourOfATracedPath) {
+  const GeodesicMesh plane(shapes::intrinsic(shapes::grid(100)));
+  std::int32_t border = 0;
+  while (plane.twin(border) >= 0) ++border;
+  // The line from the target leaves the mesh, and the only nearer vertex is far away.
+  const auto last = static_cast<std::int32_t>(plane.vertex_count()) - 1;
+  const std::int32_t target = plane.half_edge(border).apex;
+  const std::int32_t seed = plane.external_vertex(target) < last / 2 ? last : 0;
+  std::vector<double> distances(plane.vertex_count(), 2.0);
+  std::vector<TraceRecord> records(plane.vertex_count(), {.half_edge = TraceRecord::kLooseEdge});
+  distances[plane.external_vertex(target)] = 1.0;
+  records[target] = {.x = 0.0, .y = -1.0, .half_edge = border, .source = plane.half_edge(border).tail};
+  for (std::int32_t v = 0; v <= last; ++v) {
+    if (plane.external_vertex(v) != seed) continue;
+    distances[seed] = 0.0;
+    records[v] = {};
+  }
+  const SourcePoints sources;
+  const auto trace = [&](const Task& task) {
+    return trace_records({plane, distances, sources}, records, {}, PlacedPoint::at_vertex(target), task);
+  };
+  EXPECT_EQ(plane.external_vertex(trace({}).points.front().vertex), seed);
+  EXPECT_THROW(trace({.stop = {}, .progress = [](double) { return false; }}), Cancelled);
 }
 
 TEST_F(Cancelling, TheEdgesAroundEachVertexAndTheirLengths) {

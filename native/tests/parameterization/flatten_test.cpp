@@ -457,6 +457,24 @@ TEST(MeasureMap, FindsIslandsOnOthers) {
   }
 }
 
+TEST(MeasureMap, IslandsStackedExactlyTakeTimeInProportion) {
+  const auto looks_at = [](std::size_t count) {
+    std::vector<Eigen::Vector2d> places(count, Eigen::Vector2d(0.25, 0.0));
+    places.emplace_back(0.5, 0.5);  // in the stack
+    places.emplace_back(3.0, 0.0);
+    const Squares squares = squares_at(places);
+    std::vector<std::int32_t> islands, colliding;
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(places.size()); ++i) islands.insert(islands.end(), {i, i});
+    for (std::int32_t i = 0; i <= static_cast<std::int32_t>(count); ++i) colliding.push_back(i);
+    std::size_t looks = 0;
+    const Task task{.stop = {}, .progress = [&](double) { return ++looks > 0; }};
+    EXPECT_EQ(measure_map(squares.surface, squares.uvs, islands, task).colliding, colliding);
+    return looks;
+  };
+  // It looks at the task after each 4096 pairs of sides.
+  EXPECT_LE(looks_at(4000), 5 * looks_at(1000));
+}
+
 TEST(MeasureMap, AHundredThousandPiecesAreMeasuredAndCanBeCancelled) {
   std::vector<Eigen::Vector2d> places;
   for (int i = 0; i < 316; ++i) {

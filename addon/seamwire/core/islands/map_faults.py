@@ -93,25 +93,30 @@ class MappedSurface:
 
         `aspect` is the width over the height of the image that the UVs lie on.
         """
-        _, report = self.measured(aspect)
-        return np.inf if report is None else float(report.energy)
+        rows = np.flatnonzero(np.isfinite(self.uvs).all(axis=(1, 2)))
+        if not len(rows):
+            return np.inf
+        points, triangles, uvs, islands, edges = self._arguments(rows)
+        return native.load().map_energy(points, triangles, uvs * (aspect, 1.0), islands=islands, edges=edges)
 
-    def measured(
-        self, aspect: float = 1.0, shown: NDArray[np.bool_] | None = None
-    ) -> tuple[NDArray[np.int64], seamwire_core.MapReport | None]:
+    def measured(self, shown: NDArray[np.bool_]) -> tuple[NDArray[np.int64], seamwire_core.MapReport | None]:
         """Return the triangles whose UVs are numbers, and the library's report on them; None if there are no such triangles.
 
-        The report numbers these triangles and their islands from 0. `shown`, (m,), leaves out triangles; None: all are measured.
+        The report numbers these triangles and their islands from 0. Triangles that are not `shown`, (m,), are left out.
         """
-        are_numbers = np.isfinite(self.uvs).all(axis=(1, 2))
-        rows = np.flatnonzero(are_numbers if shown is None else are_numbers & shown)
+        rows = np.flatnonzero(np.isfinite(self.uvs).all(axis=(1, 2)) & shown)
         if not len(rows):
             return rows, None
-        uvs = self.uvs[rows].astype(np.float64) * (aspect, 1.0)
+        points, triangles, uvs, islands, edges = self._arguments(rows)
+        return rows, native.load().measure_map(points, triangles, uvs, islands=islands, edges=edges)
+
+    def _arguments(
+        self, rows: NDArray[np.int64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.int32], NDArray[np.float64], NDArray[np.int32], NDArray[np.int32]]:
+        """Return points, triangles, UVs, islands and edges of some triangles, as the library takes them."""
         numbers = np.unique(self.labels[rows], return_inverse=True)[1].astype(np.int32)
         points, triangles, edges = _with_doubles(self.points, self.triangles[rows], self.edges)
-        report = native.load().measure_map(points, triangles, uvs, islands=numbers, edges=edges)
-        return rows, report
+        return points, triangles, self.uvs[rows].astype(np.float64), numbers, edges
 
 
 def _with_doubles(
@@ -174,7 +179,7 @@ def find_faults(
     # A triangle whose corners lie in one place has no shape that its UVs could keep.
     has_size = np.ptp(surface.points[surface.triangles], axis=1).max(axis=1) > 0.0
     is_under = np.isin(surface.labels, list(under))
-    rows, report = surface.measured(shown=has_size & ~is_under)
+    rows, report = surface.measured(has_size & ~is_under)
     is_bad = ~np.isfinite(surface.uvs).all(axis=(1, 2))
     if under:
         is_bad |= has_size & is_under & _turned_over(surface)
