@@ -60,21 +60,17 @@ void mark_rims(const SlitProblem& problem, std::span<const std::int32_t> pieces,
         if (is_smooth || problem.prices.of_edge[edge] == kInfinity) regions.join(f, twin / 3);
       }
     }
-    std::vector<double> areas(mesh.face_count(), 0.0);
     std::vector<std::size_t> corners(mesh.face_count(), 0);
-    for (const std::int32_t f : piece.faces) areas[regions.find(f)] += problem.areas[f];
     for (const std::int32_t h : inner) {
       const std::int32_t one = regions.find(h / 3), other = regions.find(mesh.twins[h] / 3);
       if (one == other) continue;
       ++corners[one];
       ++corners[other];
     }
-    const auto is_large = [&](std::int32_t region) {
-      return corners[region] >= tuning::kManyCorners && areas[region] >= tuning::kLeastRimmed * piece.area;
-    };
+    const auto has_many = [&](std::int32_t region) { return corners[region] >= tuning::kManyCorners; };
     for (const std::int32_t h : inner) {
       const std::int32_t one = regions.find(h / 3), other = regions.find(mesh.twins[h] / 3);
-      if (one != other && (is_large(one) || is_large(other))) is_marked[mesh.edge_of[h]] = 1;
+      if (one != other && (has_many(one) || has_many(other))) is_marked[mesh.edge_of[h]] = 1;
     }
   }
 }
@@ -83,7 +79,7 @@ void mark_rims(const SlitProblem& problem, std::span<const std::int32_t> pieces,
 
 std::vector<Slit> rim_cuts(const SlitProblem& problem, std::span<const std::int32_t> pieces) {
   std::vector<std::uint8_t> is_marked(problem.mesh.edge_count(), 0);
-  for (const double degrees : {tuning::kFlatBelow, tuning::kSharpAbove}) mark_rims(problem, pieces, degrees, is_marked);
+  for (const double degrees : {tuning::kFlatBelow, tuning::kHardSharp}) mark_rims(problem, pieces, degrees, is_marked);
   return slits_along(problem.mesh, is_marked);
 }
 

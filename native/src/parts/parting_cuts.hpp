@@ -11,7 +11,7 @@
 
 namespace seamwire::detail {
 
-/// Cuts along the rims of large regions that are flat, or that sharp edges surround, such as the ends of a cylinder. A
+/// Cuts along the rims of regions that are flat, or that sharp edges surround, such as the ends of a cylinder. A
 /// rim with many corners needs this: a slit to each corner would be too many. `pieces`: the pieces in which to look.
 std::vector<Slit> rim_cuts(const SlitProblem& problem, std::span<const std::int32_t> pieces);
 

@@ -20,7 +20,7 @@ std::vector<double> excess_at_vertices(const SlitProblem& problem, const SlitPla
     if (!map) continue;
     for (std::size_t k = 0; k < map->energies.size(); ++k) {
       const std::int32_t f = map->island.faces[k];
-      const double above = std::clamp(map->energies[k] - 4.0, 0.0, tuning::kMostExcess);
+      const double above = std::max(map->energies[k] - 4.0, 0.0);
       for (const std::int32_t v : mesh.triangles[f]) excess[v] += problem.areas[f] / 3.0 * above;
     }
   }
@@ -128,7 +128,7 @@ std::vector<std::int32_t> spread_vertices(const SlitProblem& problem, std::span<
   std::vector<std::int32_t> chosen;
   while (chosen.size() < count) {
     const auto farthest = std::ranges::max_element(away);
-    if (farthest == away.end() || *farthest <= tuning::kSpreadStep) break;
+    if (farthest == away.end() || !(*farthest > 0.0)) break;
     chosen.push_back(static_cast<std::int32_t>(farthest - away.begin()));
     const std::vector<double> from_it = edge_distances(problem.mesh, {&chosen.back(), 1});
     for (std::size_t v = 0; v < away.size(); ++v) away[v] = std::min(away[v], from_it[v]);
