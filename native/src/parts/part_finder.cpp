@@ -35,8 +35,8 @@ constexpr double kJoined = 0.3, kParted = 0.9;  // of the work of find()
 
 /// The constant that an amount of parts adds to all log odds.
 double bias_of(double amount) {
-  if (amount >= 0.5) return tuning::kMiddleBias + 2.0 * (amount - 0.5) * tuning::kBiasToSharp;
-  return tuning::kMiddleBias + tuning::kBiasToOne * std::log(amount / (1.0 - amount));
+  if (amount >= 0.5) return 2.0 * (amount - 0.5) * tuning::kBiasToSharp;
+  return tuning::kBiasToOne * std::log(amount / (1.0 - amount));
 }
 
 /// Sorts vertex pairs, the smaller vertex first.
@@ -130,8 +130,7 @@ void PartFinder::Impl::prepare(const Task& task) {
   polygons = find_polygons(mesh, frames, is_border);
   task.check(0.85);
   bends = bends_over_edges(mesh, frames, polygons, sizes);
-  odds =
-      border_odds(mesh, polygons, sizes, bends, visibility.ambient, is_marked, problem.mirror(), tuning::kPartOnPlane);
+  odds = border_odds(mesh, polygons, sizes, bends, visibility.ambient, is_marked, problem.mirror());
   task.check(0.95);
   regions.resize(polygons.count);
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {

@@ -83,7 +83,7 @@ void mark_rims(const SlitProblem& problem, std::span<const std::int32_t> pieces,
 
 std::vector<Slit> rim_cuts(const SlitProblem& problem, std::span<const std::int32_t> pieces) {
   std::vector<std::uint8_t> is_marked(problem.mesh.edge_count(), 0);
-  for (const double degrees : {tuning::kFlatBelow, tuning::kSharpAbove}) mark_rims(problem, pieces, degrees, is_marked);
+  for (const double degrees : {tuning::kFlatBelow, tuning::kHardSharp}) mark_rims(problem, pieces, degrees, is_marked);
   return slits_along(problem.mesh, is_marked);
 }
 

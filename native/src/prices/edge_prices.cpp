@@ -48,7 +48,7 @@ std::vector<double> openness(const PlanMesh& mesh, const Visibility& visibility,
 
 /// The price of a place, by its visibility.
 double price_at(double open) {
-  const double seen = tuning::kHidden + (1.0 - tuning::kHidden) * std::pow(std::min(open, tuning::kMostOpen), 3);
+  const double seen = tuning::kHidden + (1.0 - tuning::kHidden) * std::pow(open, 3);
   const double face = ramp(open, tuning::kFace, tuning::kFaceWidth);
   return seen * (1.0 + tuning::kFacePrice * face * face);
 }
@@ -99,7 +99,7 @@ EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const
   const std::vector<double> even(mesh.vertex_count(), 1.0);
   const std::vector<std::uint8_t> none(mesh.edge_count(), 0);
   const std::vector<double> odds =
-      border_odds(mesh, polygons, sizes, bends, even, none, reflection ? &*reflection : nullptr, tuning::kSlitOnPlane);
+      border_odds(mesh, polygons, sizes, bends, even, none, reflection ? &*reflection : nullptr);
   const std::vector<double> shapes = shape_prices(mesh, bends, odds);
   // On machine parts sharp edges hide seams on every side, and nothing is a face.
   const double hard = hardness(mesh, bends.own);

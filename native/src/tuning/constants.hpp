@@ -25,8 +25,6 @@ inline constexpr double kFrontShare = 0.7;
 /// Price of a place that nobody sees, in that of an average place. With 0.12, seams were longer and crossed the
 /// middle of wings.
 inline constexpr double kHidden = 0.25;
-/// Visibility above this counts as this. Otherwise the third power would make exposed tips too expensive.
-inline constexpr double kMostOpen = 2.0;
 /// Visibility from which a place counts as part of a face: a little above the mean, where eyes, nose and lips are.
 inline constexpr double kFace = 1.1;
 /// By how much more visibility a place counts fully as part of a face.
@@ -40,11 +38,8 @@ inline constexpr double kFacePrice = 8.0;
 inline constexpr double kRidgeCurvature = 30.0;
 /// Share of the price that such a rim saves. Artists cut thin parts along their rims.
 inline constexpr double kRidgeSaving = 0.75;
-/// Log odds for edges on the mirror plane. This is half of kPartOnPlane, because paths on the plane pay half
-/// already.
-inline constexpr double kSlitOnPlane = 1.0;
 /// Log odds up to which an edge costs as in a flat place.
-inline constexpr double kFlatOdds = -2.0;
+inline constexpr double kFlatOdds = -1.9;
 /// Degrees from which an edge of a machine part counts as sharp, so that it hides a seam on every side.
 inline constexpr double kSharpFrom = 25.0;
 /// By how many more degrees it counts fully as sharp.
@@ -65,7 +60,7 @@ inline constexpr double kTurnPrice = 1.5;
 
 // Machine parts: surfaces whose bending is mostly in sharp edges, and whose other edges hardly bend.
 
-/// Degrees above which the bend of an edge counts as sharp.
+/// Degrees above which the bend of an edge counts as sharp. Rims of regions with sharp edges are such edges too.
 inline constexpr double kHardSharp = 30.0;
 /// Degrees below which an edge counts as hardly bent.
 inline constexpr double kHardFlat = 15.0;
@@ -94,7 +89,7 @@ inline constexpr double kWideShare = 0.8;
 inline constexpr double kMostSteps = 1.5;
 /// Bend at which a border is as likely as not, apart from what follows. On hard surfaces, edges above 45 degrees agreed
 /// best with artists' seams, but seams are only 6 % of the length of all edges.
-inline constexpr double kEvenDegrees = 64.4;
+inline constexpr double kEvenDegrees = 62.6;
 /// Degrees that add 1 to the log odds.
 inline constexpr double kDegreesOfOdds = 18.0;
 /// Taken off for each unit of openness above the mean, because artists hide borders.
@@ -107,14 +102,14 @@ inline constexpr double kSharperBy = 5.0;
 inline constexpr double kConcave = 1.0;
 /// Degrees from which a concave edge is a crease.
 inline constexpr double kConcaveDegrees = 20.0;
+/// Added on the mirror plane. It was the strongest feature of a learned model.
+inline constexpr double kOnPlane = 2.0;
 /// Degrees from which an edge on the mirror plane gets more log odds. A flat place has no border there.
 inline constexpr double kOnPlaneDegrees = 10.0;
 /// Added where an artist expects a border. It is enough to make a border of a flat edge.
 inline constexpr double kMarked = 6.0;
 /// Price of a cut along an edge that is a border for sure. Without it, any detour along such edges is free.
 inline constexpr double kLeastPrice = 0.05;
-/// Added to all log odds in the middle of the scale of parts.
-inline constexpr double kMiddleBias = 0.1;
 /// Log odds are clamped to this, so that no edge alone decides. A clamp at 2 gave the same agreement with artists.
 inline constexpr double kMostOdds = 4.0;
 
@@ -135,8 +130,6 @@ inline constexpr double kMostTurn = 50.0;
 inline constexpr double kBiasToOne = 1.2;
 /// Log odds that are added from the middle of the scale to its other end, where all sharp edges are borders.
 inline constexpr double kBiasToSharp = 2.2;
-/// Log odds for edges on the mirror plane. It was the strongest feature of a learned model.
-inline constexpr double kPartOnPlane = 2.0;
 /// Price of a part, in diagonals of its piece. A lower price gives more parts.
 inline constexpr double kPartPrice = 0.2;
 /// Share of the area of its piece below which a part joins a neighbor. Without it, characters get crumbs at ears
@@ -174,8 +167,6 @@ inline constexpr std::size_t kManyCorners = 16;
 inline constexpr double kLeastRimmed = 2e-3;
 /// Degrees below which the bend of an edge is inside a flat region.
 inline constexpr double kFlatBelow = 1.5;
-/// Degrees above which an edge is on the rim of a region with sharp edges.
-inline constexpr double kSharpAbove = 30.0;
 
 // The first tree of slits. Lengths are in roots of the area of a piece.
 
@@ -259,8 +250,6 @@ inline constexpr std::array<double, 3> kShorterShares{0.0, 0.6, 0.85};
 
 /// Newton steps on the whole surface that a search takes at most.
 inline constexpr double kBudget = 4000.0;
-/// Bound on the energy below which faces may be cut. At 4.1, one head needed a slit from the throat to the lip.
-inline constexpr double kLowStretch = 4.15;
 /// Triangles above which a surface is planned on simplified meshes. A Newton step on 28,000 triangles takes 40 ms.
 inline constexpr std::size_t kMostTriangles = 9000;
 /// Triangles that all simplified meshes have together, about.
