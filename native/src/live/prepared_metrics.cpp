@@ -128,6 +128,7 @@ Prepared prepare(const SurfaceContext& context, Along along, MetricSet& metrics,
                     steps.make_way();
                     return preview(done);
                   }};
+  steps.make_way();
   Metric own = make_metric(context, spec, silent);
   if (scribbled) own = apply_scribbles(*surface, own, metrics.scribbles, spec.kind(), silent);
   if (!on_surface) {
@@ -137,8 +138,8 @@ Prepared prepare(const SurfaceContext& context, Along along, MetricSet& metrics,
   const auto metric = std::make_shared<const Metric>(std::move(own));
   const std::shared_ptr<const Prepared> former = metrics.former(which);
   if (!former) from_scratch = metric;
-  preview(0.0);  // before the thread makes way, or its wire would be shown only after those of others are final
   steps.make_way();
+  preview(0.0);
   std::optional<EmbeddedSurface> embedded;  // previews get the rest meanwhile
   if (former) {
     embedded = former->embedded->with_metric(metric, task);

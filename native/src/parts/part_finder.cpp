@@ -130,7 +130,8 @@ void PartFinder::Impl::prepare(const Task& task) {
   polygons = find_polygons(mesh, frames, is_border);
   task.check(0.85);
   bends = bends_over_edges(mesh, frames, polygons, sizes);
-  odds = border_odds(mesh, polygons, sizes, bends, visibility.ambient, is_marked, problem.mirror());
+  odds =
+      border_odds(mesh, polygons, sizes, bends, visibility.ambient, is_marked, problem.mirror(), tuning::kPartOnPlane);
   task.check(0.95);
   regions.resize(polygons.count);
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {

@@ -199,7 +199,8 @@ EdgeBends bends_over_edges(const PlanMesh& mesh, std::span<const FaceFrame> fram
 
 std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, const PieceSizes& sizes,
                                 const EdgeBends& bends, std::span<const double> ambient,
-                                std::span<const std::uint8_t> is_marked, const Reflection* reflection) {
+                                std::span<const std::uint8_t> is_marked, const Reflection* reflection,
+                                double on_plane) {
   std::vector<double> sharp;
   for (const double bend : bends.own) sharp.push_back(std::abs(bend));
   const std::vector<double> on_line = means_along(mesh, find_lines(mesh, polygons), sharp);
@@ -219,7 +220,7 @@ std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, 
     odds[e] = (bend - tuning::kEvenDegrees) / tuning::kDegreesOfOdds - tuning::kOpenness * openness[e];
     if (sharp[e] < beside[e] - tuning::kSharperBy) odds[e] -= tuning::kBesideSharper;
     if (bends.own[e] < -tuning::kConcaveDegrees) odds[e] += tuning::kConcave;
-    if (is_on_plane(e) && sharp[e] > tuning::kOnPlaneDegrees) odds[e] += tuning::kOnPlane;
+    if (is_on_plane(e) && sharp[e] > tuning::kOnPlaneDegrees) odds[e] += on_plane;
     if (is_marked[e] != 0) odds[e] += tuning::kMarked;
   }
   if (reflection != nullptr && reflection->is_exact) make_symmetric(mesh, polygons, *reflection, odds);

@@ -41,7 +41,7 @@ EdgeBends bends_over_edges(const PlanMesh& mesh, std::span<const FaceFrame> fram
 /// `reflection`: null if the mesh is not symmetric. `on_plane`: added where the surface bends over the mirror plane.
 std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, const PieceSizes& sizes,
                                 const EdgeBends& bends, std::span<const double> ambient,
-                                std::span<const std::uint8_t> is_marked, const Reflection* reflection);
+                                std::span<const std::uint8_t> is_marked, const Reflection* reflection, double on_plane);
 
 /// Returns the price of a cut along an edge with these log odds, for each unit of length. It is minus the logarithm of
 /// the probability that the edge is a border, and a little more. Edges inside polygons cost the most.

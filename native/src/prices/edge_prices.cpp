@@ -99,7 +99,7 @@ EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const
   const std::vector<double> even(mesh.vertex_count(), 1.0);
   const std::vector<std::uint8_t> none(mesh.edge_count(), 0);
   const std::vector<double> odds =
-      border_odds(mesh, polygons, sizes, bends, even, none, reflection ? &*reflection : nullptr);
+      border_odds(mesh, polygons, sizes, bends, even, none, reflection ? &*reflection : nullptr, tuning::kSlitOnPlane);
   const std::vector<double> shapes = shape_prices(mesh, bends, odds);
   // On machine parts sharp edges hide seams on every side, and nothing is a face.
   const double hard = hardness(mesh, bends.own);

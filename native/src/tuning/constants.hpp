@@ -38,6 +38,9 @@ inline constexpr double kFacePrice = 8.0;
 inline constexpr double kRidgeCurvature = 30.0;
 /// Share of the price that such a rim saves. Artists cut thin parts along their rims.
 inline constexpr double kRidgeSaving = 0.75;
+/// Log odds for edges on the mirror plane. This is half of kPartOnPlane, because paths on the plane pay half
+/// already.
+inline constexpr double kSlitOnPlane = 1.0;
 /// Log odds up to which an edge costs as in a flat place.
 inline constexpr double kFlatOdds = -1.9;
 /// Degrees from which an edge of a machine part counts as sharp, so that it hides a seam on every side.
@@ -102,8 +105,6 @@ inline constexpr double kSharperBy = 5.0;
 inline constexpr double kConcave = 1.0;
 /// Degrees from which a concave edge is a crease.
 inline constexpr double kConcaveDegrees = 20.0;
-/// Added on the mirror plane. It was the strongest feature of a learned model.
-inline constexpr double kOnPlane = 2.0;
 /// Degrees from which an edge on the mirror plane gets more log odds. A flat place has no border there.
 inline constexpr double kOnPlaneDegrees = 10.0;
 /// Added where an artist expects a border. It is enough to make a border of a flat edge.
@@ -130,6 +131,8 @@ inline constexpr double kMostTurn = 50.0;
 inline constexpr double kBiasToOne = 1.2;
 /// Log odds that are added from the middle of the scale to its other end, where all sharp edges are borders.
 inline constexpr double kBiasToSharp = 2.2;
+/// Log odds for edges on the mirror plane. It was the strongest feature of a learned model.
+inline constexpr double kPartOnPlane = 2.0;
 /// Price of a part, in diagonals of its piece. A lower price gives more parts.
 inline constexpr double kPartPrice = 0.2;
 /// Share of the area of its piece below which a part joins a neighbor. Without it, characters get crumbs at ears
