@@ -346,11 +346,14 @@ class Run:
     def _save_networks(self, objects: list[bpy.types.Object]) -> None:
         """Write the seams of each object as a network beside the asset: few formats keep seams."""
         from seamwire.mesh.object_session import ObjectSession
+        from seamwire.mesh.settings import settings
+        from seamwire.networks.carry import network_of, seam_wires
 
         for number, obj in enumerate(objects):
             with _editing(obj):
                 try:
-                    network = _network_of(ObjectSession(obj)).network
+                    mesh = ObjectSession(obj)
+                    network = network_of(mesh, settings(), seam_wires(mesh))
                 except ValueError:
                     continue
             if not network.courses:

@@ -198,13 +198,9 @@ def _drawn_at(given: Given) -> tuple[ObjectView | None, Wire | None, Stroke | No
     A wire that was just given another path counts as there until the mouse moves.
     """
     assert given.place is not None
-    view, snap = edited.find(given.place)
+    view, snap = edited.find_or_turned(given.place)
     if snap is not None and snap.to == "WIRE":
         return view, snap.wire, None
-    for each in edited.views():
-        wire = each.turned_at(given.place)
-        if wire is not None:
-            return each, wire, None
     return view, None, None if view is None else view.stroke_at(given.place.view, given.place.cursor)
 
 

@@ -15,7 +15,7 @@ from ..core.network.network import Network
 from ..mesh import finishes
 from ..view.edited_objects import edited
 from ..view.object_view import let_blender_tell
-from ..words.reports import summary
+from ..words.reports import count, summary
 from . import undo_steps
 from .unwrap_islands import unwrap_after_chain
 
@@ -110,7 +110,7 @@ class ChainRecord:
         for view in dict.fromkeys((*drawn_on, *edited.views())):
             view.session.end_chain(wait=not at_once)
             drawing = view.session.drawing
-            for told in dict.fromkeys((drawing.failure, drawing.warning)):
+            for told in (drawing.failure, drawing.warning):
                 if told:
                     self._notices.add("WARNING", str(told))
             drawing.failure = drawing.warning = NOTHING
@@ -179,7 +179,8 @@ def _write(view: ObjectView, adopt: bool) -> None:
 def _apply(view: ObjectView, change: Change) -> str:
     """Let the mesh do what a change asks, and return what was done, in words."""
     if not view.mesh.alive():
-        return ""
+        left = sum(map(change.finishes, change.after.wires))
+        return f"{count(left, 'wire')} kept along edges, because the mesh was changed meanwhile" if left else ""
     _, done = finishes.apply(view.mesh, change)
     if done.text:
         edited.forget(view)

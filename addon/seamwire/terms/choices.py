@@ -20,14 +20,14 @@ class Term(NamedTuple):
 
 
 class Finishing(NamedTuple):
-    """The name of a finish, its tooltip, and what it does. All code asks this row, and none asks for a name.
+    """The name of a finish, its tooltip, and what it does. Code asks this row, and does not compare names.
 
     Parameters
     ----------
     on_wire
         Whether the seam lies where the wire runs, instead of on the nearest edges.
     edits
-        Whether it changes the mesh, and does not only mark seams. Otherwise nothing is done when a chain ends.
+        Whether it does more to the mesh than marking seams.
     cuts
         Whether it adds vertices. Otherwise it may move vertices, and keeps their numbers.
     """

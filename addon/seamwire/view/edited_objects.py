@@ -166,6 +166,14 @@ class EditedObjects:
                 return view, snap
         return (found[0], None) if found else (None, None)
 
+    def find_or_turned(self, place: Place) -> tuple[ObjectView | None, Snap | None]:
+        """Return what `find` does, or the wire that was just given another path there."""
+        for view in self.views():
+            wire = view.turned_at(place)
+            if wire is not None:
+                return view, Snap(wire.start, "WIRE", wire)
+        return self.find(place)
+
     def _at(self, obj: bpy.types.Object, place: Place) -> ObjectView | None:
         """Return an object that may be under the mouse: those that were read always, others where there is room."""
         if obj.name_full not in self._views and not in_bounds(obj, place.view, place.cursor):
@@ -190,12 +198,9 @@ class EditedObjects:
         failures.attempt(("hover",), partial(self._hover, place))
 
     def _hover(self, place: Place | None) -> None:
-        view, snap = (None, None) if place is None else self.find(place)
+        # Blender may ask again although the mouse rests.
+        view, snap = (None, None) if place is None else self.find_or_turned(place)
         self.point_at(view, place)
-        for each in self.views():  # Blender may ask again although the mouse rests
-            wire = each.turned_at(place)
-            if wire is not None and (snap is None or snap.to != "WIRE"):
-                view, snap = each, Snap(wire.start, "WIRE", wire)
         if self.front is not None and view is not self.front:
             self.front.session.hover(None)
         if view is not None:
@@ -270,7 +275,8 @@ class EditedObjects:
                 view.stale = True
                 self._stale_since = now
         if self.chain:
-            self.chain()
+            if depsgraph.mode == "VIEWPORT":  # a render works in another thread
+                self.chain()
         else:
             self._changed = now
             self.watch()

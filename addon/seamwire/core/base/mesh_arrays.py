@@ -56,7 +56,7 @@ class Arrays:
 
     @cached_property
     def surface(self) -> seamwire_core.Surface:
-        """The library's surface of the mesh in object coordinates, without the object's scale. It is made once, and any thread may ask."""
+        """The library's surface of the mesh in object coordinates, without the object's scale. Any thread may ask."""
         return native.load().Surface(self.in_object, self.triangles, self.edges)
 
     def same_as(self, other: Arrays) -> bool:

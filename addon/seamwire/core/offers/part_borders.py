@@ -183,8 +183,9 @@ class PartBorders:
             return _Parts(self.half_edges, found.astype(np.int32)).rims(triangle)
 
         found, is_whole = self._around(triangle, is_smooth, _LARGEST_WALL)
-        if not is_whole or rims(found):
-            return found, rims(found) if is_whole else ()
+        own_rims = rims(found) if is_whole else ()
+        if own_rims or not is_whole:
+            return found, own_rims
         lids = self._lids(found)
         if lids[triangle]:
             return lids, ()
@@ -196,7 +197,9 @@ class PartBorders:
         tails, normals = self.half_edges.tails.reshape(-1, 3), self.half_edges.normals
         corners = tails[region]
         lids = np.zeros_like(region)
-        for hub in np.flatnonzero(np.bincount(corners.reshape(-1)) >= _LID_CORNERS)[:_MOST_LIDS]:
+        counts = np.bincount(corners.reshape(-1))
+        # A lid's fan has the most triangles. Vertices of walls may have many, too.
+        for hub in np.argsort(-counts, kind="stable")[: min(_MOST_LIDS, (counts >= _LID_CORNERS).sum())]:
             fan = np.flatnonzero(region)[(corners == hub).any(axis=1)]
             if (normals[fan] @ normals[fan[0]] >= _IN_PLANE).all():
                 lids |= self._plane_around(int(fan[0]))
