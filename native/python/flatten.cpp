@@ -243,7 +243,7 @@ void bind_map_energy(py::module_& module) {
       },
       py::arg("points"), py::arg("triangles"), py::arg("uvs"), py::arg("islands") = py::none(), py::kw_only(),
       py::arg("edges") = py::none(), py::arg("progress") = py::none(),
-      R"(Compute `MapReport.energy` of any UV map of a surface alone, in less time than `measure_map`.
+      R"(Compute only `MapReport.energy` of any UV map of a surface, in less time than `measure_map`.
 
 Parameters
 ----------

@@ -99,8 +99,8 @@ void bind_seam_plan(py::module_& module) {
       .def_readonly(
           "cost", &SeamPlan::cost,
           "float: the price of the slits that the search worked on, for a surface of area 1. Lower is better. Each "
-          "slit costs its length times the price of its place, and a fixed share more unless the island "
-          "needs it to become a disc. Wires across the surface are not priced again.")
+          "slit costs the prices of its edges, plus a fixed amount unless the island needs it to become a disc. Wires "
+          "across the surface may run beside their slits, and are not priced again.")
       .def_readonly("energy", &SeamPlan::energy,
                     "float: the symmetric Dirichlet energy of the planned map, mean over the area. 4 for an isometry.")
       .def_readonly("is_reached", &SeamPlan::is_reached,

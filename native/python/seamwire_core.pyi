@@ -1985,7 +1985,7 @@ def map_energy(
     edges: ArrayLike | None = None,
     progress: Callable[[float], bool | None] | None = None,
 ) -> float:
-    """Compute `MapReport.energy` of any UV map of a surface alone, in less time than `measure_map`.
+    """Compute only `MapReport.energy` of any UV map of a surface, in less time than `measure_map`.
 
     Parameters
     ----------
@@ -2040,7 +2040,7 @@ class SeamPlan:
     not_discs: int
     """int: how many islands are not discs."""
     cost: float
-    """float: the price of the slits that the search worked on, for a surface of area 1. Lower is better. Each slit costs its length times the price of its place, and a fixed share more unless the island needs it to become a disc. Wires across the surface are not priced again."""
+    """float: the price of the slits that the search worked on, for a surface of area 1. Lower is better. Each slit costs the prices of its edges, plus a fixed amount unless the island needs it to become a disc. Wires across the surface may run beside their slits, and are not priced again."""
     energy: float
     """float: the symmetric Dirichlet energy of the planned map, mean over the area. 4 for an isometry."""
     is_reached: bool

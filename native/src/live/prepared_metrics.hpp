@@ -36,8 +36,8 @@ class MetricSet {
  public:
   MetricSet(LiveMetrics of, std::vector<Scribble> after);
   /// The same in place of `former`: a metric that is in both, and for which the scribbles are the same, is shared. If
-  /// it comes earlier than in `former`, it is shared only if it is prepared: a thread that comes later may make way for
-  /// the one that would wait for it.
+  /// it comes earlier than in `former`, it is shared only if it is prepared. Otherwise two threads could wait for each
+  /// other.
   ///
   /// Embeddings of a metric with other scribbles are made from those of `former`, or, where these are not there yet,
   /// from what they would have been made from: scribbles change little.
@@ -69,7 +69,8 @@ class MetricSet {
 
 /// Functions that prepare() calls now and then, and that may take their time.
 struct PreparationSteps {
-  /// Lets another thread go first. It is never called during a part that other live wires of the surface may wait for.
+  /// Lets another thread go first. It is not called while the geodesics are built, which other live wires of the
+  /// surface may find.
   std::function<void()> make_way = [] {};
   /// Shows what can be seen before the metric is prepared. It receives the data so far, without `embedded`, and the
   /// metric that is being embedded from scratch.

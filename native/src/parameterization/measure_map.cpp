@@ -259,9 +259,9 @@ class OverlapTest {
     bool is_wound = false;  // closed, or around an inner vertex twice
   };
 
-  /// The outlines of islands, of those that lie exactly on each other the first. Islands that lie on each other collide
-  /// if they hold a point farther than the tolerance from their sides. Comparing all their sides with each other would
-  /// take long.
+  /// The outlines of islands. The first one stands for those that lie exactly on each other. Islands that lie on each
+  /// other collide if they hold a point farther than the tolerance from their sides. Comparing all their sides with
+  /// each other would take long.
   std::vector<const IslandOutline*> without_stacked(double tolerance, std::vector<std::uint8_t>& is_colliding) const {
     std::vector<const IslandOutline*> outlines;
     std::map<std::vector<std::array<double, 4>>, std::size_t> firsts;

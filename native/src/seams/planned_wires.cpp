@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <set>
@@ -67,17 +68,26 @@ void add_split(const Open& slit, std::size_t at, std::vector<Open>& parts) {
   parts.push_back({std::move(second), slit.most_away});
 }
 
-/// Takes out wires that touch others or the rim. Returns their slits, split where they touch.
+/// Takes out wires that touch others or the rim. Returns their slits, split where they touch. A slit of a single edge
+/// cannot be split: its wire is laid by `along_edges`.
 std::vector<Open> take_touching(const PlanMesh& mesh, const Surface& surface, std::span<const Edge> rim,
-                                std::span<const PlannedWire> others, std::vector<Laid>& laid) {
+                                std::span<const PlannedWire> others, std::vector<Laid>& laid,
+                                const std::function<PlannedWire(const Chain&)>& along_edges) {
   std::vector<MarkedChain> marked;
   marked.reserve(laid.size() + others.size());
   for (const Laid& one : laid) marked.push_back({one.wire.vertices, one.away});
   for (const PlannedWire& wire : others) marked.push_back({wire.vertices, 0.0});
   std::vector<Open> parts;
+  bool is_again = false;
   for (const auto& [wire, vertex] : find_touches(marked, rim)) {
-    if (wire >= laid.size() || laid[wire].slit.chain.size() < 3) continue;
+    if (wire >= laid.size()) continue;
     const Chain& chain = laid[wire].slit.chain;
+    if (chain.size() < 3) {
+      if (laid[wire].wire.vertices.size() < 3) continue;
+      laid[wire].wire = along_edges(chain);
+      is_again = true;
+      continue;
+    }
     const Vector point = mesh.scale * surface.points()[vertex];
     const auto away = [&](std::int32_t v) { return (mesh.points[v] - point).norm(); };
     const auto at = std::ranges::min_element(chain.begin() + 1, chain.end() - 1, {}, away);
@@ -85,6 +95,7 @@ std::vector<Open> take_touching(const PlanMesh& mesh, const Surface& surface, st
     laid[wire].slit.chain.clear();
   }
   std::erase_if(laid, [](const Laid& one) { return one.slit.chain.empty(); });
+  if (parts.empty() && is_again) return take_touching(mesh, surface, rim, others, laid, along_edges);
   return parts;
 }
 
@@ -201,7 +212,8 @@ std::vector<PlannedWire> PlannedWires::along(const PlanMesh& mesh, std::span<con
                                                             .faces = std::move(one.faces)};
       laid.push_back({std::move(open[i]), std::move(wire), away});
     }
-    open = again.empty() ? take_touching(mesh, *surface_, rim_, wires, laid) : std::move(again);
+    const auto on_edges = [&](const Chain& chain) { return along_edges(mesh, chain); };
+    open = again.empty() ? take_touching(mesh, *surface_, rim_, wires, laid, on_edges) : std::move(again);
   }
   for (Laid& one : laid) wires.push_back(std::move(one.wire));
   return wires;

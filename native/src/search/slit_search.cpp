@@ -63,8 +63,8 @@ class Search {
       grow_finer(plan);
       // Faces are cut only if the bound is out of reach otherwise.
       const bool has_faces = std::ranges::any_of(problem_.prices.is_face, [](std::uint8_t face) { return face != 0; });
-      if (!is_within(plan) && has_faces) {
-        may_cross_faces_ = true;
+      if (!is_within(plan) && !goal_.may_cross_faces && has_faces) {
+        goal_.may_cross_faces = true;
         grow_finer(plan);
       }
       shrink(plan);
@@ -131,7 +131,6 @@ class Search {
   std::vector<Slit> tails_;  // what was cut off slits
   double steps_ = 0.0;
   double least_gain_ = tuning::kLeastGain;
-  bool may_cross_faces_ = false;
 };
 
 /// Slits that might be added.
@@ -157,7 +156,7 @@ std::vector<Slit> Search::candidates(const SlitPlan& plan, bool is_thorough) con
   for (const std::int32_t v : ends) {
     for (const SlitFinder* finder : {&cheap, &direct}) {
       std::optional<Slit> slit = finder->slit_to(v);
-      const bool is_new = slit && (may_cross_faces_ || !crosses_face(problem_, *slit)) &&
+      const bool is_new = slit && (goal_.may_cross_faces || !crosses_face(problem_, *slit)) &&
                           std::ranges::none_of(found, [&](const Slit& one) { return one.path == slit->path; });
       if (is_new) found.push_back(std::move(*slit));
     }

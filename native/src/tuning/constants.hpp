@@ -253,6 +253,8 @@ inline constexpr std::array<double, 3> kShorterShares{0.0, 0.6, 0.85};
 
 /// Newton steps on the whole surface that a search takes at most.
 inline constexpr double kBudget = 4000.0;
+/// Bound on the energy below which faces may be cut. At 4.1, one head needed a slit from the throat to the lip.
+inline constexpr double kLowStretch = 4.15;
 /// Triangles above which a surface is planned on simplified meshes. A Newton step on 28,000 triangles takes 40 ms.
 inline constexpr std::size_t kMostTriangles = 9000;
 /// Triangles that all simplified meshes have together, about.

@@ -73,9 +73,9 @@ struct SeamPlan {
   std::vector<std::int32_t> islands;  ///< the island of each of the caller's triangles, numbered as in face_segments()
   std::size_t island_count = 0;       ///< number of islands
   std::size_t not_discs = 0;          ///< number of islands that are not discs, see missing_cuts()
-  /// The price of the slits that the search worked on, for a surface of area 1. Lower is better. Each slit costs its
-  /// length times the price of its place, and a fixed share more unless the island needs it to become a disc. Wires
-  /// across the surface may run beside their slits, and are not priced again.
+  /// The price of the slits that the search worked on, for a surface of area 1. Lower is better. Each slit costs the
+  /// prices of its edges, plus a fixed amount unless the island needs it to become a disc. Wires across the surface may
+  /// run beside their slits, and are not priced again.
   double cost = 0.0;
   /// E_d of the planned map, mean over the area; infinite if an island has no map. Pieces in which no seam may run do
   /// not count.
