@@ -290,6 +290,20 @@ def test_on_the_wall_of_a_trunk_the_slit_comes_before_the_strip_over_the_lid(sid
     assert len(offers(session, Snap((8 * sides + 2, 9 * sides)))[0][1]) > 8, "on the lid there is no slit"
 
 
+def test_fans_of_a_triangulated_wall_are_no_lids() -> None:
+    points, polygons = trunk(32)
+    split = []
+    for number, corners in enumerate(polygons):
+        turned = (
+            *corners[number % 2 :],
+            *corners[: number % 2],
+        )  # so that diagonals alternate, and vertices of the wall have 8 triangles
+        split += [turned] if len(corners) == 3 else [turned[:3], (turned[0], turned[2], turned[3])]
+    session, _ = session_of(points, split)
+    found = offers(session, Snap((66, 98)))
+    assert found[0] == ("STRIP", upright(2, 0, 8, 32))
+
+
 @pytest.mark.parametrize("rows", [1, 4])
 def test_inside_a_face_of_a_wall_the_nearest_rim_comes_first_and_the_slit_second(rows: int) -> None:
     session, arrays = session_of(*prism(circle(16), 2.0, rows))
