@@ -18,6 +18,7 @@ import numpy as np
 import seamwire_core as sw
 from seam_planning import cut_edges, triangulated
 from uv_maps import Model, UvMap
+from uv_pictures import arranged
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "addon"))
 from seamwire.core.network.symmetry import Symmetry  # this knows no Blender
@@ -158,14 +159,14 @@ def xatlas(model: Model) -> Seams:
 
 
 def flattened(model: Model, seams: Seams) -> tuple[UvMap, Integers]:
-    """Return the map of a model that is cut along seams, and the island of each triangle.
+    """Return the map of a model that is cut along seams, with islands side by side, and the island of each triangle.
 
     Raises ValueError if an island cannot be mapped.
     """
     triangles = triangulated(model)
     edges = None if seams.of_triangles else model.edges.astype(np.int32)
     flat = sw.flatten(model.points, triangles.astype(np.int32), seams.pairs.astype(np.int32), edges=edges)
-    return UvMap(model.points, triangles, flat.uvs), np.asarray(flat.islands, dtype=np.int64)
+    return arranged(UvMap(model.points, triangles, flat.uvs)), np.asarray(flat.islands, dtype=np.int64)
 
 
 def map_measures(model: Model, seams: Seams) -> dict[str, float | None]:
