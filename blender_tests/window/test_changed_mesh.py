@@ -9,6 +9,7 @@ import bmesh
 import pytest
 from desk import RED, Desk, draw, shows
 from scene import chain, changing, seams
+from seamwire.mesh.settings import settings
 from seamwire.words.notices import Notice
 
 FIRST = chain(*range(18, 27))
@@ -90,3 +91,19 @@ def test_wires_that_cannot_be_kept_are_told_of_and_all_others_are_seen(
     ui.move(desk.at(60))
     ui.wait_until(lambda: len(desk.session.wires) == 1)
     assert shows(ui.pixels(), desk.at(*desk.session.wires[0].vertices[:2]), RED)
+
+
+def test_wires_that_are_not_finished_are_told_of(desk: Desk, reports: list[Notice]) -> None:
+    settings().along, settings().finish = "SURFACE", "CUT"
+    desk.choose()
+    ui, session = desk.ui, desk.session
+    ui.click(desk.at(36))
+    ui.click(desk.at(44))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    assert desk.running
+    move_apart(desk)
+    settled(desk)
+    assert any(
+        notice.text.endswith("1 wire kept along edges, because the mesh was changed meanwhile") for notice in reports
+    )
+    assert seams(desk.obj) == sorted(ROW)

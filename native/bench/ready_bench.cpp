@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Measures how long it takes from arrays to the first wires, where the artist clicks at once, and how much memory:
+// Measures time and memory from arrays to the first wires, for an artist who clicks at once.
+//
 //   ready_bench [--loop LEVELS] [--noise SHARE] [--anisotropy A] [--repeats N] [--seeds N] MESH...
 // A mesh is a file, or "torus": a bumpy torus of a million triangles. With noise it is like a scan: each coordinate of
 // a vertex moves by a normal deviate times SHARE of the mean edge length. A LiveWire across the surface is made and

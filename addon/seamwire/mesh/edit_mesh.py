@@ -173,8 +173,8 @@ class Cage:
 
 
 def _labelled_rows(mesh: bpy.types.Mesh) -> list[int]:
-    """Return the numbers of the edges that have a label in a mesh in edit mode, as it was stored last."""
-    shared = mesh.copy()  # as in `read`
+    """Return the numbers of the edges that have a label in what Blender stored last of a mesh in edit mode."""
+    shared = mesh.copy()  # see `read`
     try:
         attribute = shared.attributes.get(LABELS)
         return [] if attribute is None else np.flatnonzero(column(attribute.data, "value", np.int32)).tolist()

@@ -230,7 +230,7 @@ class ObjectSession:
 
         `before` is the network that the mesh has; what differs from it was drawn or changed since. Returns `before`, or the other network
         that the mesh has now if Blender's undo has changed its wires. Returns None where wires would run on it in another way, or it has
-        left edit mode. They can be written even then, if their vertices have the numbers that they had. Then the mesh is read anew.
+        left edit mode. They can be written even then, if their vertices have the same numbers. Afterwards the mesh is read anew.
         """
         self.obj = obj
         editing = obj.mode == "EDIT"

@@ -42,8 +42,8 @@ class EditedObjects:
     front
         The one that was pointed at last; None: none yet.
     chain
-        Lets the chain that is being drawn look at a changed mesh; None: no chain is drawn. A chain updates the objects, and they are
-        drawn with every tool.
+        Lets the chain that is being drawn look at a changed mesh; None if no chain is drawn. While there is a chain, it updates the
+        objects, and they are drawn with every tool.
     covered
         Whether something else is drawn in place of the objects.
     timer

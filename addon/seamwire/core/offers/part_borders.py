@@ -87,9 +87,8 @@ class PartBorders:
         self._working = threading.Lock()
         self._is_prepared = False
         self.is_complete = False
-        self._wall_of = np.zeros(
-            len(triangles), dtype=np.int32
-        )  # the number of the wall of each triangle, 0: not known
+        # The number of the wall of each triangle; 0: not known.
+        self._wall_of = np.zeros(len(triangles), dtype=np.int32)
         self._rims_of_walls: list[tuple[VertexChain, ...]] = [()]
 
     def ready(self) -> bool:
