@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import bmesh
 import bpy
@@ -12,11 +13,12 @@ import pytest
 import ui as driver
 from desk import Desk, draw, grid, leave, near, undo_steps
 from mathutils import Vector
-from scene import changing
+from scene import chain, changing, seams
 from seamwire.core.islands.stretch import Stretch
 from seamwire.mesh.settings import settings
 from seamwire.view.edited_objects import edited
 from seamwire.view.stretch_heat import HOT, StretchHeat, heat_colors
+from seamwire.words.notices import Notice
 
 LEFT, RIGHT = (20, 30), (24, 34)
 """Two corners of a face in the left half of the grid, and of one in the right half."""
@@ -165,6 +167,24 @@ def test_a_chain_unwraps_what_it_changed_in_its_own_step_of_undo(desk: Desk, cap
         bpy.ops.ed.undo()
     desk.ui.wait()
     assert np.array_equal(uvs(desk), before)
+
+
+@pytest.mark.smoke
+def test_saving_within_a_chain_takes_nothing_from_its_end(desk: Desk, tmp_path: Path, reports: list[Notice]) -> None:
+    settings().unwrap = True
+    settings().heat = "ANGLE"
+    desk.choose()
+    before, session = uvs(desk), desk.start()
+    desk.ui.click(desk.at(36))
+    desk.ui.click(desk.at(44))
+    desk.ui.wait_until(lambda: len(session.wires) == 1)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "saved.blend"), copy=True)
+    assert seams(desk.obj) == chain(*range(36, 45)), "saving marks them"
+    assert np.array_equal(uvs(desk), before)
+    desk.ui.click(desk.at(44), button="RIGHTMOUSE")
+    desk.ui.wait_until(lambda: not desk.running)
+    assert not np.array_equal(uvs(desk), before), "the end unwraps"
+    assert [notice.text for notice in reports] == ["Draw Seamwires: 1 wire, 8 edges marked"]
 
 
 @pytest.mark.smoke

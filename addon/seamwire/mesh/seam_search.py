@@ -337,7 +337,7 @@ class Suggestion:
 
     def map(self) -> NDArray[np.float64] | None:
         """Return the map of the plan, (m, 3, 2), in the object's units; None if it has none, or the mesh is another one with the wires."""
-        is_same = not self.slits or self.along == "EDGES" or not FINISHES[self.finish].on_wire
+        is_same = not self.slits or self.along == "EDGES" or not FINISHES[self.finish].edits
         return self.best.uvs if is_same and self.best is not None else None
 
     def length_of(self, plan: seamwire_core.SeamPlan) -> float:

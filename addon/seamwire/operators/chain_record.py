@@ -8,10 +8,11 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, TypeVar
 
 import bpy
+import numpy as np
 
 from ..core.base.messages import NOTHING
 from ..core.drawing.change import Change
-from ..core.network.network import Network
+from ..core.network.network import Network, edges_after
 from ..mesh import finishes
 from ..view.edited_objects import edited
 from ..view.object_view import let_blender_tell
@@ -21,6 +22,8 @@ from .unwrap_islands import unwrap_after_chain
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from numpy.typing import NDArray
 
     from ..view.object_view import ObjectView
     from ..words.notices import Notices
@@ -47,6 +50,7 @@ class ChainRecord:
     def __init__(self, notices: Notices) -> None:
         self._notices = notices
         self._before = Network()
+        self._seams = np.empty((0, 2), dtype=np.int32)
         self._titles: set[str] = set()
         self._is_saved = False
         self.drawn_on: ObjectView | None = None
@@ -55,6 +59,7 @@ class ChainRecord:
     def begin(self, view: ObjectView) -> None:
         """Draw on an object from now on."""
         self.drawn_on, self._before = view, view.session.network
+        self._seams = view.mesh.arrays.seams
 
     def note(self, title: str) -> None:
         """Note what was done, by a title of `undo_steps`."""
@@ -122,19 +127,21 @@ class ChainRecord:
             self.drawn_on = None
             return
         try:
-            marked, cleared = view.mesh.write(view.mesh.plan())
+            view.mesh.write(view.mesh.plan())
         except ValueError:
             raise
         except Exception:
             self._is_saved = True  # the mesh may have a part of the wires: dropping the chain writes the former ones
             raise
         self.drawn_on, self._is_saved = None, False
+        # Saving within the chain may have marked some of them already.
+        marked, cleared = (len(each) for each in _changed(self._seams, view.mesh.arrays.seams))
         # The wires are in the mesh by now. Whatever fails, a step of undo must lead back.
         self._try("drawing them", view, view.renew)
         done = self._try("finishing them", view, lambda: _apply(view, change)) or ""
         problem = ""
         if not at_once:
-            if (marked or cleared) and context.mode == "EDIT_MESH":
+            if (marked or cleared or done) and context.mode == "EDIT_MESH":
                 problem = self._try("unwrapping", view, lambda: unwrap_after_chain(context)) or ""
             undo_steps.push(title)
         self.has_kept = True
@@ -169,6 +176,11 @@ class ChainRecord:
             view.mesh.drop_changes(self._before)
             if self._is_saved:
                 _write(view, adopt=True)
+
+
+def _changed(before: NDArray[np.int32], after: NDArray[np.int32]) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
+    """Return the edges, each (k, 2), that are seams only after a change, and those that were seams only before."""
+    return edges_after(after, (), before), edges_after(before, (), after)
 
 
 def _write(view: ObjectView, adopt: bool) -> None:

@@ -42,14 +42,15 @@ HALFWAY = "Stopped halfway"
 def summary(change: Change, marked: int, cleared: int) -> str:
     """Return a report of what was drawn, changed and removed, and of the numbers of edges that this marked and cleared."""
     drawn_strokes, removed_strokes = change.strokes
+    marks = any(wire.marks for wire in change.after.wires if wire.id in change.changed)
     parts = [
         (change.drawn, count(change.drawn, "wire")),
         (change.rerouted, f"{count(change.rerouted, 'wire')} changed"),
         (change.removed, f"{count(change.removed, 'wire')} removed"),
         (drawn_strokes, count(drawn_strokes, "stroke")),
         (removed_strokes, f"{count(removed_strokes, 'stroke')} removed"),
-        (marked or (change.drawn and not cleared), f"{count(marked, 'edge')} marked"),
-        (cleared, f"{count(cleared, 'edge')} cleared"),
+        (marked or (change.drawn and marks and not cleared), f"{count(marked, 'edge')} marked"),
+        (cleared or (change.drawn and not marks), f"{count(cleared, 'edge')} cleared"),
     ]
     return ", ".join(text for is_said, text in parts if is_said) or "no edge has changed"
 

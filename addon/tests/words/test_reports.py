@@ -28,6 +28,8 @@ def test_drawn_wires_are_counted_with_their_edges() -> None:
     assert summary(change, 4, 0) == "2 wires, 4 edges marked"
     assert summary(change, 0, 0) == "2 wires, 0 edges marked", "all of them were seams already"
     assert summary(change, 0, 3) == "2 wires, 3 edges cleared"
+    clearing = Change(Network(), replace(network, wires=tuple(replace(wire, marks=False) for wire in network.wires)))
+    assert summary(clearing, 0, 0) == "2 wires, 0 edges cleared"
 
 
 def test_a_wire_with_another_path_is_changed_and_not_drawn() -> None:
