@@ -14,7 +14,7 @@ from seamwire.words.sentences import SENTENCES
 ROOT = Path(__file__).parents[2] / "seamwire"
 SENDERS = {
     "of",
-    "_refuse",
+    "refuse",
     "_lose",
     "Refused",
     "NetworkFileError",

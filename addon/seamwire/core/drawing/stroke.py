@@ -78,7 +78,7 @@ class StrokeGesture(Gesture):
         self.keeps_active = self._live.chosen
         index = self._live.active_index
         # One that is straight in the view, or closes the chain around a limb, follows no stroke.
-        follows = index < len(FOLLOWS) and not self._live.straight_active
+        follows = index < len(FOLLOWS) and not (self._live.straight_active or self._live.ring_active)
         if acts_on is None and network.seed is not None and follows:
             self.keeps_active, acts_on = index, FOLLOWS[index]
         stroke = replace(self.stroke, acts_on=acts_on or "both")

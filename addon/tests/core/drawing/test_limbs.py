@@ -235,6 +235,15 @@ def test_a_click_while_the_way_around_a_limb_is_searched_waits_for_it(along: Alo
     assert turns_around(session)
 
 
+@pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
+def test_a_stroke_while_the_way_around_a_limb_is_active_is_for_all_wires(along: Along) -> None:
+    first = AROUND * 20
+    session = closing(Alt(limb(), 200.0), first, AROUND * 24 + 4, along)
+    assert session.cursor.live.ring_active
+    assert session.draw_stroke(vertices=[first + 2, first + 3])
+    assert session.network.strokes[-1].acts_on == "both"
+
+
 def test_offers_and_the_way_around_a_limb_are_found_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     # So large that neither is computed before the other is asked for.
     monkeypatch.setitem(globals(), "AROUND", 96)
