@@ -46,7 +46,7 @@ def hover(chain: Chain, given: Given) -> None:
     if view is not None and view is not edited.front:
         chain.session.hover(None)
         # A live wire stays with its object until there is a click on another.
-        if chain.session.seed is None and not chain.session.under_way.waiting:
+        if chain.session.seed is None and not chain.session.cursor.waiting:
             edited.front = view
         else:
             snap = None
@@ -146,7 +146,7 @@ def click(chain: Chain, given: Given) -> None:
     elif action is Action.LOOP and _is_loop(chain, session, snap, event):
         session.loop(snap)
         chain.record.note(undo_steps.DRAW)
-    elif not session.under_way.will_be_live and snap.to in {"SEED", "WIRE"}:
+    elif not session.cursor.will_be_live and snap.to in {"SEED", "WIRE"}:
         # Whether it is a click or the beginning of a drag is known when the button or the mouse has moved.
         session.hover(snap)
         chain.go(Cue.PRESS, SeedHold(event.type, view, place, snap))
@@ -171,7 +171,7 @@ def begin_stroke(chain: Chain, given: Given) -> None:
     if chain.stage is Stage.ENDING:
         chain.begin_anew()
     found, _ = edited.find(given.place)
-    is_live = chain.session.seed is not None or chain.session.under_way.waiting
+    is_live = chain.session.seed is not None or chain.session.cursor.waiting
     view = edited.front if is_live or found is None else found
     chain.draw_on(view)
     hold = StrokeHold(given.event.type, view, given.place)
@@ -254,7 +254,7 @@ def change_strength(chain: Chain, given: Given) -> None:
     session, chosen = chain.session, settings()
     is_more = given.what is Action.STRONGER
     name, strength = strength_name(session.options.along), session.options.stepped(1 if is_more else -1).strength
-    if session.under_way.drag:
+    if session.cursor.drag:
         chain.say("Finish moving the seed first")
     elif strength == session.options.strength:
         chain.say(f"The strength is {strength:g} already, the {'most' if is_more else 'least'} there is")

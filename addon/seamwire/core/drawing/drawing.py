@@ -79,7 +79,7 @@ class Drawing:
     revision
         Grows with every change of the picture.
     progress
-        The finished fraction of the running work. `UnderWay` reads it before wires are asked for.
+        The finished fraction of the running work. `Cursor.read_progress` reads it before wires are asked for.
     """
 
     def __init__(

@@ -194,7 +194,7 @@ class DrawnPicker:
 
     def _drawn_now(self, session: Session) -> _Drawn:
         """Return what can be found of a session's network. A held seed and its wires cannot, because they follow the mouse."""
-        network, along, moving = session.network, session.options.along, session.under_way.moved
+        network, along, moving = session.network, session.options.along, session.cursor.moved
         of = network, along, moving
         if self._drawn is not None and self._drawn_of == of:
             return self._drawn
