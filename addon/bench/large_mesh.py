@@ -72,7 +72,7 @@ class Holds:
 
         self.watch(Chain, "__init__", "start")
         self.watch(chain_acts, "act_first", "start")
-        self.watch(chain_acts, "handle", "event")
+        self.watch(chain_acts, "act", "event")
         for name in ("trouble", "finish"):
             self.watch(Chain, name, "event")
         for name in ("hover", "on_update", "tick"):

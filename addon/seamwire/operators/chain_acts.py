@@ -13,7 +13,7 @@ from ..mesh.settings import settings
 from ..terms.options import strength_name
 from ..view.edited_objects import edited
 from ..words.keys import Action, drag_threshold
-from . import chain_events, keymaps, undo_steps
+from . import keymaps, undo_steps
 from .chain_events import Given, Sign
 from .chain_state import Cue, Stage
 from .drag_handlers import LineHold, SeedHold, StrokeHold
@@ -418,7 +418,9 @@ _UNSEEN = frozenset({Sign.NOTHING, Sign.TRACE, Sign.REPEAT})
 
 
 def act(chain: Chain, given: Given) -> bool:
-    """Do what an event asks for, and return whether Blender is to have it too."""
+    """Do what an event asks for, show it, and return whether Blender is to have the event too."""
+    if given.what not in {Sign.TICK, Sign.RELEASE}:
+        chain.set_cursor("CROSSHAIR" if given.place else "")
     if isinstance(given.what, Action):
         chain.say("")
         if chain.stage is Stage.PEEKING and given.what is not Action.NEXT:
@@ -426,6 +428,8 @@ def act(chain: Chain, given: Given) -> bool:
     is_held = chain.stage is Stage.HOLDING
     passes = bool((WHILE_HELD if is_held else ACTS)[given.what](chain, given))
     chain.settle()
+    if given.what not in _UNSEEN:
+        chain.show()
     return passes or (given.what in _BLENDERS and not (is_held and given.what is Sign.OTHER_TOOL))
 
 
@@ -439,21 +443,3 @@ def act_first(chain: Chain, given: Given) -> None:
         _FIRST[given.what](chain, given)
     chain.settle()
     chain.show()
-
-
-def handle(chain: Chain, context: bpy.types.Context, event: bpy.types.Event) -> bool:
-    """Do what Blender's event asks for, show it, and return whether Blender is to have the event too."""
-    chain.find_front()
-    is_released = event.type == chain.peek and event.value == "RELEASE"
-    if chain.stage is Stage.PEEKING and (is_released or event.type == "WINDOW_DEACTIVATE"):
-        chain.go(Cue.UNPEEK)
-    is_press = event.value != "RELEASE" and not event.is_repeat
-    if chain.hold is not None and event.type == chain.hold.button and is_press:
-        chain.let_go()  # another window has received the release, and this press is not a drag's
-    given = chain_events.read(chain, context, event)
-    if given.what not in {Sign.TICK, Sign.RELEASE}:
-        chain.set_cursor("CROSSHAIR" if given.place else "")
-    passes = act(chain, given)
-    if given.what not in _UNSEEN:
-        chain.show()
-    return passes
