@@ -76,15 +76,7 @@ def barycentric(
 
 
 def triangle_areas(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:
-    """Return the areas of triangles, (m,).
-
-    Parameters
-    ----------
-    points
-        (n, 3)
-    triangles
-        (m, 3)
-    """
+    """Return the areas, (m,), of (m, 3) triangles of (n, 3) points."""
     return 0.5 * np.linalg.norm(area_normals(points, triangles), axis=1)
 
 
@@ -102,15 +94,7 @@ def relative_heights(corners: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def vertex_normals(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:
-    """Return unit normals of vertices, (n, 3), weighted by the areas of their triangles. Vertices without triangles have zero.
-
-    Parameters
-    ----------
-    points
-        (n, 3)
-    triangles
-        (m, 3)
-    """
+    """Return unit normals of (n, 3) vertices, weighted by the areas of their (m, 3) triangles. Vertices without triangles have zero."""
     rows, normals = triangles.reshape(-1), area_normals(points, triangles)
     return units(np.stack([np.bincount(rows, np.repeat(column, 3), len(points)) for column in normals.T], axis=1))
 
@@ -128,15 +112,7 @@ def units(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def creases(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:
-    """Return the largest angle, in degrees, between two triangles that share a side at each vertex, (n,).
-
-    Parameters
-    ----------
-    points
-        (n, 3)
-    triangles
-        (m, 3)
-    """
+    """Return the largest angle, in degrees, between two triangles that share a side at each vertex, (n,)."""
     normals = triangle_normals(points, triangles)
     sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).astype(np.int64), axis=1)
     order = np.lexsort((sides[:, 1], sides[:, 0]))

@@ -158,17 +158,7 @@ class Cursor:
         return True
 
     def aim(self, target: Snap | None, again: bool = False, is_read: bool = False) -> None:
-        """Find the wires to a target.
-
-        Parameters
-        ----------
-        target
-            The pick under the cursor, or None.
-        again
-            Whether to find them also if the target is the same as before.
-        is_read
-            Whether the caller has just read the progress.
-        """
+        """Find the wires to a target; `again` if it is the same as before, too. `is_read`: the caller has just read the progress."""
         live, drawing = self.live, self._drawing
         same = live.is_aimed_at(target, drawing.options.straight) and live.final
         if same and not again and self.loops.final:
@@ -240,14 +230,9 @@ class Cursor:
         return True
 
     def let_go(self, kind: type[Gesture] = Gesture, again: bool = True) -> bool:
-        """Cancel the held gesture if it is of a kind: a dragged seed goes back, a line vanishes. Return whether it was held.
+        """Cancel the held gesture if it is of a kind, and find the live wire `again`. Return whether it was held.
 
-        Parameters
-        ----------
-        kind
-            A class of gestures.
-        again
-            Whether to find the live wire again.
+        A dragged seed goes back, and a line vanishes.
         """
         drawing = self._drawing
         if self.holds(kind) is None:

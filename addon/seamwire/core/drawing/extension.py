@@ -23,15 +23,7 @@ if TYPE_CHECKING:
 
 
 class Extension(Gesture):
-    """The live wire with its way to the end. Along edges only.
-
-    Parameters
-    ----------
-    drawing
-        The state that gestures share.
-    live
-        Has the live wire.
-    """
+    """The live wire with its way to the end. Along edges only."""
 
     def __init__(self, drawing: Drawing, live: WireGesture) -> None:
         self._drawing = drawing
@@ -77,13 +69,7 @@ class Extension(Gesture):
         self.wanted, self.wire = False, None
 
     def find(self, active: Wire | None) -> Wire | None:
-        """Return a live wire with its way to the end, or None if there is no way or no direction.
-
-        Parameters
-        ----------
-        active
-            The live wire. If None, the way begins at the seed.
-        """
+        """Return a live wire, or the seed, with its way to the end, or None if there is no way or no direction."""
         drawing = self._drawing
         network, seed = drawing.network, drawing.network.seed
         self.message = NOTHING
@@ -111,18 +97,7 @@ def extended(
 ) -> Wire | None:
     """Return the way to the end from a directed edge, or None.
 
-    Parameters
-    ----------
-    live
-        Of the way along edges.
-    seed
-        Where the wire begins.
-    active
-        The live wire, which `edge` is the last one of; None: the wire begins with the seed, which is that edge.
-    stops
-        The vertices where it ends, without the edge's second one.
-    points
-        (n, 3) vertices of the mesh.
+    The edge is the last one of the live wire. Without a live wire, it is the seed. The wire ends at `stops`.
 
     Raises
     ------

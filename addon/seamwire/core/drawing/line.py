@@ -31,8 +31,6 @@ class LineGesture(Gesture):
 
     Parameters
     ----------
-    drawing
-        The state that gestures share.
     begin
         The pick under the cursor at its beginning.
     goes_on
@@ -92,17 +90,7 @@ class LineGesture(Gesture):
         return self._line.wires
 
     def draw(self, points: NDArray[np.float64], triangles: NDArray[np.int32], target: Snap | None) -> None:
-        """Draw the line on.
-
-        Parameters
-        ----------
-        points
-            (k, 3) all of it, from its beginning.
-        triangles
-            (k,) the triangle that each point lies in.
-        target
-            The pick under the cursor.
-        """
+        """Draw the line on: all its points, (k, 3), the triangle of each, (k,), and the pick under the cursor."""
         self.end = target
         if len(points):
             end = None if self.joined is None else self.joined.pick

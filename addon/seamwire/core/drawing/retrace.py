@@ -19,14 +19,7 @@ if TYPE_CHECKING:
 
 
 class Retrace(Gesture):
-    """A kept wire that takes its next way, that of another metric, as soon as it is computed.
-
-    Parameters
-    ----------
-    drawing
-        The state that gestures share.
-    wire
-        A wire of the network; not a loop.
+    """A kept wire, no loop, that takes its next way, that of another metric, as soon as it is computed.
 
     Raises
     ------
@@ -54,16 +47,7 @@ class Retrace(Gesture):
 
 
 def retraced(network: Network, own: Wire, others: tuple[Wire, ...]) -> Network:
-    """Return a network where a wire runs the next other way.
-
-    Parameters
-    ----------
-    network
-        Has the wire.
-    own
-        The wire.
-    others
-        The other ways, the next one first.
+    """Return a network where its own wire runs the next other way, the first of `others`.
 
     Raises
     ------

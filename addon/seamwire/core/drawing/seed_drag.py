@@ -50,20 +50,9 @@ class Courses:
 
 
 class Leg:
-    """Finds new courses for one wire with separate live wires, from the end that stays.
+    """Finds new courses for one wire, no loop, from the end that stays.
 
-    Parameters
-    ----------
-    live
-        Made for this leg alone.
-    network
-        The network that the wire is part of: where it joins others, it leaves and arrives as they do.
-    wire
-        Not a loop.
-    moving
-        The end that moves.
-    points
-        (n, 3) vertices of the mesh.
+    Where the wire joins others of the network, it leaves and arrives as they do.
 
     Raises
     ------
@@ -81,16 +70,7 @@ class Leg:
         live.seed(for_live(seed, wire.along), forward=forward)
 
     def trace(self, target: Pick, place: Pick, avoid: int | None = None) -> Courses:
-        """Return the courses to a target.
-
-        Parameters
-        ----------
-        target
-            Where they lead.
-        place
-            The seed that they have there.
-        avoid
-            A vertex where they end as soon as they pass it.
+        """Return the courses to a target, where they have a seed at `place`. They end as soon as they pass the vertex `avoid`.
 
         Raises
         ------
@@ -136,14 +116,7 @@ def _fixed_seed(network: Network, wire: Wire, moving: End) -> tuple[Pick, bool, 
 
 
 class SeedDrag(Gesture):
-    """A seed of the network that is dragged, and the wires that follow it.
-
-    Parameters
-    ----------
-    drawing
-        The state that gestures share.
-    grip
-        The seed. On a wire, a seed is put there first, in the same step for undo.
+    """A seed of the network that is dragged, and the wires that follow it. On a wire, a seed is put there first, in the same step for undo.
 
     Raises
     ------

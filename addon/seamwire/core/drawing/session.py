@@ -65,12 +65,10 @@ class Session:
     # Gestures at the cursor
 
     def hover(self, snap: Snap | Pick | None, loop: bool = False, bend: bool = False) -> None:
-        """Move the free end of the live wire.
+        """Move the free end of the live wire to a pick, or to nothing. A pick alone stands for a snap on the plain mesh.
 
         Parameters
         ----------
-        snap
-            The pick under the cursor, or None. A pick alone stands for one on the plain mesh.
         loop
             Whether to show the loop through it instead: along edges through an edge, across the surface through a point.
         bend
@@ -164,10 +162,7 @@ class Session:
     def run_to_end(self, preview: bool = False) -> bool:
         """Let the live wire run straight on until it meets a seam, a wire, the boundary, the mirror or itself.
 
-        Parameters
-        ----------
-        preview
-            Whether to show it first, wherever the cursor goes. A click keeps it, `Cursor.stop_preview` hides it.
+        A `preview` only shows it, wherever the cursor goes. A click keeps it, and `Cursor.stop_preview` hides it.
         """
         extension, target = self.cursor.extension, self.cursor.target
         why = extension.aim(target)
@@ -188,13 +183,7 @@ class Session:
         return self.commit(extension, target)
 
     def end_chain(self, wait: bool = True) -> None:
-        """Let go of the live wire, or of a held seed. The kept wires stay.
-
-        Parameters
-        ----------
-        wait
-            Whether gestures that wait are done first. Otherwise they are forgotten.
-        """
+        """Let go of the live wire, or of a held seed. The kept wires stay. Gestures that wait are done first, or forgotten."""
         if not wait:
             self.cursor.retraces.clear()
         elif self.cursor.waiting:
@@ -436,14 +425,9 @@ class Session:
             self.drawing.failure = self.drawing.message
 
     def wait(self, until_committed: bool = False) -> None:
-        """Wait until everything is computed and every waiting gesture is committed.
+        """Wait until everything is computed, or only until every waiting gesture is committed.
 
         If the library has done all its work and a gesture still waits, the gesture is dropped, and the message says so.
-
-        Parameters
-        ----------
-        until_committed
-            Whether to stop as soon as every waiting gesture is committed.
         """
         drawing, cursor = self.drawing, self.cursor
         rounds, before = 0, None
@@ -551,14 +535,9 @@ class Session:
         return True
 
     def adopt(self, network: Network, seams: ArrayLike) -> None:
-        """Go on with a network that the mesh has now. `Session.undo` does not lead back behind it.
+        """Go on with a network that the mesh has now, but with the mirror as it is. `undo` does not lead back behind it.
 
-        Parameters
-        ----------
-        network
-            The wires and strokes. The mirror stays; the live wire begins at the network's seed.
-        seams
-            (k, 2) the edges that are seams but no wires.
+        `seams`, (k, 2), are the edges that are seams but no wires.
         """
         drawing = self.drawing
         self.calm()

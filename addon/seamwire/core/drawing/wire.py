@@ -32,11 +32,6 @@ if TYPE_CHECKING:
 class WireGesture(Gesture):
     """The live wire from the chain's seed to the cursor: a candidate for each metric.
 
-    Parameters
-    ----------
-    drawing
-        The state that gestures share.
-
     Attributes
     ----------
     target
@@ -351,16 +346,12 @@ def only_vertices(edge: Pick) -> Message:
 
 
 def straight_wire(live: LiveWire, begin: Pick, end: Pick, direction: Direction, follow: int) -> Wire | None:
-    """Return the wire in the plane through two picks and along a direction, or None.
+    """Return the wire in the plane through two picks and along a direction, such as that from the viewer, or None.
 
     Parameters
     ----------
-    live
-        Has the surface.
     begin, end
         Vertices, or points of triangles.
-    direction
-        From the viewer to the end, or any other of the plane.
     follow
         Which of the library's wires it is when its seeds are moved.
     """

@@ -53,22 +53,9 @@ NO_FAULTS = MapFaults()
 
 @dataclass(frozen=True)
 class MappedSurface:
-    """The visible faces of a mesh with their UVs.
+    """The visible faces of a mesh with the UVs of the triangles' corners, (m, 3, 2).
 
-    Parameters
-    ----------
-    points
-        (n, 3) vertices.
-    triangles
-        (m, 3) what the faces are cut into.
-    polygons
-        (m,) the face that each triangle is part of.
-    labels
-        (m,) the island of each triangle, numbered from 0.
-    uvs
-        (m, 3, 2) the UVs of the triangles' corners.
-    edges
-        (e, 2) the edges of the faces, without the diagonals that cut these into triangles.
+    Edges are those of faces, without the diagonals that cut these into triangles. Labels are islands, numbered from 0.
     """
 
     points: NDArray[np.float64]

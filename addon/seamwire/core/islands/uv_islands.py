@@ -210,15 +210,7 @@ def _fitted(island: NewIsland) -> NDArray[np.float64]:
 
 
 class _Square:
-    """One unit square of the UV plane, cell by cell.
-
-    Parameters
-    ----------
-    low
-        Its low corner.
-    taken
-        (b, 4) bounds of what lies in it, and elsewhere.
-    """
+    """One unit square of the UV plane, cell by cell. `taken`, (b, 4), are bounds of what lies in it, and elsewhere."""
 
     def __init__(self, low: NDArray[np.float64], taken: NDArray[np.float64]) -> None:
         self._low = low

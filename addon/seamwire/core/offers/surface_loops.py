@@ -159,12 +159,7 @@ class CutMemory:
 class SurfaceLoops(Offers):
     """The closed cuts through the point under the cursor, while they are asked for; or, to be bent, the one taken last through it too.
 
-    Parameters
-    ----------
-    engines
-        Find them.
-    triangles
-        (m, 3) those of the surface; None: nothing is offered.
+    Without triangles, nothing is offered.
     """
 
     SINGLE = Message.of("nothing-else-here")

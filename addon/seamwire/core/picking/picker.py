@@ -225,16 +225,7 @@ class Picker:
     """Finds what is under the cursor on one edit mesh.
 
     In all methods, `matrix` is the object's (4, 4) matrix, which may rotate, scale and shear. `cursor` is in pixels from the region's
-    bottom left.
-
-    Parameters
-    ----------
-    arrays
-        The edit mesh.
-    seams
-        (s, 2) the edges that are seams and that no wire runs along.
-    bend
-        As in `VisibleSurface`.
+    bottom left. `seams`, (s, 2), are those that no wire runs along, and `bend` is as in `VisibleSurface`.
     """
 
     def __init__(self, arrays: Arrays, seams: ArrayLike = (), bend: Bend | None = None) -> None:

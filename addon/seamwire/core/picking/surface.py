@@ -29,15 +29,11 @@ class VisibleSurface:
 
     Parameters
     ----------
-    arrays
-        The edit mesh.
     bend
         Takes the points of a curve on the mesh, (k, 3), to where they are seen on the surface. None: they are seen where they are.
 
     Attributes
     ----------
-    points, edges, triangles, polygons, to_object
-        As in the arrays.
     to_points
         (3, 3) takes object coordinates to those of the points.
     triangles_at, edges_at

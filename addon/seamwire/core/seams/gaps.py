@@ -52,19 +52,7 @@ class Gap:
 
 
 class GapFinder:
-    """Finds the gaps of a mesh's seams.
-
-    Parameters
-    ----------
-    points
-        (n, 3) vertices.
-    triangles
-        (m, 3) what the polygons are divided into.
-    edges
-        (e, 2) edges of the polygons.
-    partly_hidden
-        (h, 2) those beside which there is more of the mesh: cuts may lead on there, and have not met the border.
-    """
+    """Finds the gaps of a mesh's seams. Beside edges that are `partly_hidden`, cuts may lead on, and have not met the border."""
 
     def __init__(
         self,
