@@ -148,10 +148,7 @@ class Drawing:
     def wires_along(self, seams: NDArray[np.int32]) -> Iterator[Wire]:
         """Yield wires that run along seams, (k, 2), as few as possible. None of them is kept.
 
-        Raises
-        ------
-        ValueError
-            If an edge is not part of the surface.
+        Raises ValueError if an edge is not part of the surface.
         """
         live = self.engines.get("EDGES").fork()
         for chain in seam_chains(seams):

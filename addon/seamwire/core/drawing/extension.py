@@ -99,10 +99,7 @@ def extended(
 
     The edge is the last one of the live wire. Without a live wire, it is the seed. The wire ends at `stops`.
 
-    Raises
-    ------
-    ValueError
-        Where the edge is not part of the surface.
+    Raises ValueError where the edge is not part of the surface.
     """
     way = tuple(int(v) for v in live.extend_straight(edge, stops[stops != edge[1]]).vertices)
     if len(way) < 2:

@@ -39,13 +39,7 @@ class Gesture:
         return False
 
     def commit(self) -> Committed:
-        """Return the network with what the gesture does.
-
-        Raises
-        ------
-        ValueError
-            If it cannot be done.
-        """
+        """Return the network with what the gesture does. Raises ValueError if it cannot be done."""
         raise NotImplementedError
 
     def leaves_live(self, live: bool, target: Snap | None) -> bool:

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 class LineGesture(Gesture):
-    """A line on the surface, and the wires that follow it.
+    """A line on the surface, and the wires that follow it. Raises Refused if no line across the surface can begin there.
 
     Parameters
     ----------
@@ -37,11 +37,6 @@ class LineGesture(Gesture):
         Whether it continues the chain from the live wire's seed.
     apart
         Whether its wires belong to no chain, and leave the chain that is drawn unchanged.
-
-    Raises
-    ------
-    Refused
-        If no line across the surface can begin there.
     """
 
     def __init__(self, drawing: Drawing, begin: Snap, goes_on: bool = False, apart: bool = False) -> None:

@@ -21,10 +21,7 @@ if TYPE_CHECKING:
 class Retrace(Gesture):
     """A kept wire, no loop, that takes its next way, that of another metric, as soon as it is computed.
 
-    Raises
-    ------
-    ValueError
-        If its start is not part of the surface.
+    Raises ValueError if its start is not part of the surface.
     """
 
     def __init__(self, drawing: Drawing, wire: Wire) -> None:
@@ -47,13 +44,7 @@ class Retrace(Gesture):
 
 
 def retraced(network: Network, own: Wire, others: tuple[Wire, ...]) -> Network:
-    """Return a network where its own wire runs the next other way, the first of `others`.
-
-    Raises
-    ------
-    Refused
-        Where no way is left.
-    """
+    """Return a network where its own wire runs the next other way, the first of `others`. Raises Refused where no way is left."""
     if not others:
         raise Refused("same-edges")
     other, *rest = others

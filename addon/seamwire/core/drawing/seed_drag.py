@@ -54,10 +54,7 @@ class Leg:
 
     Where the wire joins others of the network, it leaves and arrives as they do.
 
-    Raises
-    ------
-    ValueError
-        Where the end that stays is not part of the surface.
+    Raises ValueError where the end that stays is not part of the surface.
     """
 
     def __init__(self, live: LiveWire, network: Network, wire: Wire, moving: End, points: NDArray[np.float64]) -> None:
@@ -72,10 +69,7 @@ class Leg:
     def trace(self, target: Pick, place: Pick, avoid: int | None = None) -> Courses:
         """Return the courses to a target, where they have a seed at `place`. They end as soon as they pass the vertex `avoid`.
 
-        Raises
-        ------
-        ValueError
-            Where the target is not part of the surface.
+        Raises ValueError where the target is not part of the surface.
         """
         found = self.live.wires(for_live(target, self.wire.along))
         wires, leading = by_number(found)
@@ -118,10 +112,7 @@ def _fixed_seed(network: Network, wire: Wire, moving: End) -> tuple[Pick, bool, 
 class SeedDrag(Gesture):
     """A seed of the network that is dragged, and the wires that follow it. On a wire, a seed is put there first, in the same step for undo.
 
-    Raises
-    ------
-    ValueError
-        If there is no seed, or if a wire's other end is not part of the surface.
+    Raises ValueError if there is no seed, or if a wire's other end is not part of the surface.
     """
 
     def __init__(self, drawing: Drawing, grip: Snap) -> None:

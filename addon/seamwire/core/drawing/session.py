@@ -38,17 +38,8 @@ if TYPE_CHECKING:
 
 
 class Session:
-    """A drawing session on one mesh.
+    """A drawing session on one mesh. `cursor` has the gestures that are not done, and `drawing` everything else.
 
-    Attributes
-    ----------
-    drawing
-        The network with its history, the mesh, and the settings.
-    cursor
-        The gestures that are not done.
-
-    Notes
-    -----
     A method that changes something returns whether it was done; if not, the message of the drawing says why. A gesture that is not computed
     yet counts as done: it waits, and `poll` commits it. Gestures are committed in their order.
     """
@@ -361,13 +352,7 @@ class Session:
         self.cursor.stop_preview()
 
     def poll(self) -> bool:
-        """Take in what the library has computed, and commit the gestures that waited for it.
-
-        Returns
-        -------
-        bool
-            Whether the picture has changed.
-        """
+        """Take in what the library has computed, commit the gestures that waited for it, and return whether the picture has changed."""
         drawing, cursor = self.drawing, self.cursor
         drag, line, queue = cursor.drag, cursor.holds(LineGesture), cursor.queue
         if line is None and not cursor.computing and not queue and not cursor.retraces:

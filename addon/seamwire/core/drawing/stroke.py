@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 class StrokeGesture(Gesture):
     """A stroke that live wires follow or avoid. Kept wires stay as they are.
 
+    Raises OffMeshError if the stroke does not lie on the mesh.
+
     Parameters
     ----------
     points, faces
@@ -32,11 +34,6 @@ class StrokeGesture(Gesture):
         The wires that it is meant for. If None, the active one while a wire is live, otherwise both.
     radius
         How far it reaches, in the points' units. If None, ten rings of vertices.
-
-    Raises
-    ------
-    OffMeshError
-        If the stroke does not lie on the mesh.
     """
 
     def __init__(

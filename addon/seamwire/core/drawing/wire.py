@@ -167,13 +167,7 @@ class WireGesture(Gesture):
         self.chosen, self.leading = None, 0
 
     def sow(self, seed: Seed, along: Along) -> None:
-        """Let wires that run one way begin at a seed from here on.
-
-        Raises
-        ------
-        ValueError
-            Where the seed is not part of the surface.
-        """
+        """Let wires that run one way begin at a seed from here on. Raises ValueError where the seed is not part of the surface."""
         begin = for_live(seed.begins(along), along)
         self._drawing.engines.get(along).seed(begin, forward=seed.forward and along == "EDGES")
 
@@ -257,13 +251,7 @@ class WireGesture(Gesture):
         return not (self.decided or (self.seen and self.active_final)) and self.computing
 
     def begun(self, target: Snap) -> Network:
-        """Return the network with a new chain that begins at a target.
-
-        Raises
-        ------
-        Refused
-            If wires across the surface cannot begin there.
-        """
+        """Return the network with a new chain that begins at a target. Raises Refused if wires across the surface cannot begin there."""
         along = self._drawing.options.along
         if along == "SURFACE" and isinstance(target.pick, tuple):
             raise Refused(only_vertices(target.pick))

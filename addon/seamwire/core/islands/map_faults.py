@@ -28,16 +28,10 @@ _ON_BORDER = 1e-5
 
 @dataclass(frozen=True)
 class MapFaults:
-    """The faults of some islands of a UV map.
+    """The numbers of faults of some islands of a UV map.
 
-    Parameters
-    ----------
-    flipped
-        The number of faces that are turned over against their island, or have no area in the map.
-    overlapping
-        The number of islands that cover a part of themselves or of another island.
-    outside
-        The number of islands that lie neither in the UV square nor in the tile that they had before.
+    Faces are flipped if they are turned over against their island, or have no area in the map. Islands overlap that cover a part of
+    themselves or of another island. Islands are outside that lie neither in the UV square nor in the tile that they had before.
     """
 
     flipped: int = 0

@@ -25,17 +25,7 @@ _GAP = 1.0 / _CELLS
 
 @dataclass(frozen=True)
 class Corners:
-    """The corners of a mesh's faces, face by face, hidden ones included.
-
-    Parameters
-    ----------
-    vertices, edges
-        (c,) the vertex of each, and the edge to the next corner of its face.
-    faces
-        (c,) the face that each belongs to, ascending.
-    following
-        (c,) the next corner of its face.
-    """
+    """The corners of a mesh's faces, face by face, hidden ones included. Each has the edge to the next corner of its face."""
 
     vertices: NDArray[np.int32]
     edges: NDArray[np.int32]

@@ -43,14 +43,12 @@ _MOST_BYTES = 16_000_000
 class TakenCut:
     """A closed cut that is kept, and where it came from: what it takes to bend it.
 
-    Parameters
+    Attributes
     ----------
     through
         The point that it was taken at.
     course
         (k, 3) its course when it was added, from that point around. Bending does not change it.
-    wires
-        The wires that it consists of.
     id
         The library's number among the cuts through that point, or None if it was added on another mesh.
     metric

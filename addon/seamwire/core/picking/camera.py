@@ -19,12 +19,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Camera:
-    """How a region sees the world.
+    """How a region sees the world. Its size is in pixels.
 
-    Parameters
+    Attributes
     ----------
-    width, height
-        Size in pixels.
     perspective
         (4, 4), takes world coordinates to clip space.
     clipped

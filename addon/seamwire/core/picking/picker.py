@@ -262,8 +262,6 @@ class Picker:
 
         Parameters
         ----------
-        camera, matrix, cursor
-            The camera of the view, the object and the pixel.
         vertices_only, edges_only
             Find vertices of the mesh alone, or edges.
         anywhere
@@ -279,8 +277,6 @@ class Picker:
             strongest feature nearby.
         crests
             Ridges and valleys. What lies on one nearby is taken before anything else of the plain mesh.
-        scale
-            Of the display.
         """
         sight = Sight.of(camera, matrix, cursor, scale, xray)
         if sight is None:
