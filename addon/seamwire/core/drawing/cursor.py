@@ -269,7 +269,7 @@ class Cursor:
         line.draw(points, triangles, None if snap is None else Snap.of(snap))
         self.live.target = line.joined
         self.read_progress()
-        self._drawing.message = line.message
+        self._drawing.message = line.line.message
         self._drawing.revision += 1
         return True
 

@@ -11,12 +11,7 @@ from ..network.wires import Wire
 from .gesture import Gesture
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    from ..network.network import Seed, Snap
-    from ..network.picks import Edge
-    from ..solver.solver import LiveWire
+    from ..network.network import Snap
     from .drawing import Drawing
     from .gesture import Committed
     from .wire import WireGesture
@@ -84,26 +79,23 @@ class Extension(Gesture):
             return None
         stops = drawing.stops.of(network, active, edge[1:])
         try:
-            wire = extended(drawing.engines.get("EDGES"), seed, active, edge, stops, drawing.points)
+            way = drawing.engines.get("EDGES").extend_straight(edge, stops[stops != edge[1]])
         except ValueError as error:  # the edge is not part of the surface
             self.message = message_of(error)
             return None
-        strength = drawing.engines.strengths["EDGES"]
-        return wire and replace(wire, marks=drawing.options.marking, mirror=network.mirror, strength=strength)
-
-
-def extended(
-    live: LiveWire, seed: Seed, active: Wire | None, edge: Edge, stops: NDArray[np.int64], points: NDArray[np.float64]
-) -> Wire | None:
-    """Return the way to the end from a directed edge, or None.
-
-    The edge is the last one of the live wire. Without a live wire, it is the seed. The wire ends at `stops`.
-
-    Raises ValueError where the edge is not part of the surface.
-    """
-    way = tuple(int(v) for v in live.extend_straight(edge, stops[stops != edge[1]]).vertices)
-    if len(way) < 2:
-        return None
-    vertices = way if active is None else active.vertices + way[1:]
-    heading = active.heading if active is not None else edge
-    return Wire("EDGES", vertices, points[list(vertices)], seed.place, vertices[-1], heading=heading)
+        vertices, heading = tuple(int(vertex) for vertex in way.vertices), edge
+        if len(vertices) < 2:
+            return None
+        if active is not None:
+            vertices, heading = active.vertices + vertices[1:], active.heading
+        return Wire(
+            "EDGES",
+            vertices,
+            drawing.points[list(vertices)],
+            seed.place,
+            vertices[-1],
+            marks=drawing.options.marking,
+            mirror=network.mirror,
+            heading=heading,
+            strength=drawing.engines.strengths["EDGES"],
+        )

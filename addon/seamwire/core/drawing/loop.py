@@ -239,7 +239,7 @@ class LoopGesture(Gesture):
         begin: Pick = first if drawing.options.into_faces and drawing.options.along == "SURFACE" else first.vertex
         line = LineGesture(drawing, Snap(begin), apart=True)
         line.draw(points, triangles, None)
-        line.finish()
+        line.line.finish()
         self.cuts.was_taken(pick)
         self.edges.wanted = False
         self._crest_taken = undirected(pick)

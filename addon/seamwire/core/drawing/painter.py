@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from ..network.wires import Wire
     from .cursor import Cursor
     from .drawing import Drawing
+    from .line_wires import EdgeLine, SurfaceLine
     from .seed_drag import SeedDrag
 
 
@@ -46,7 +47,7 @@ class Painter:
         options, live, drag = drawing.options, cursor.live, cursor.drag
         line = cursor.holds(LineGesture)
         network = drawing.network if drag is None else drag.network
-        lines = [gesture for gesture in cursor.gestures if isinstance(gesture, LineGesture)]
+        lines = [gesture.line for gesture in cursor.gestures if isinstance(gesture, LineGesture)]
         offers, target = loops.offers, live.target
         seed = drawing.network.seed
         closing = drawing.network.closing_point
@@ -60,7 +61,7 @@ class Painter:
             wires=self._wires(network, drag, lines),
             seeds=shown_seeds(drawing.seeds(network), drawing.seed_place, closing, hovered, begins),
             strokes=(*network.strokes, *(one.stroke for one in cursor.gestures if isinstance(one, StrokeGesture))),
-            line=None if line is None else line.points,
+            line=None if line is None else line.line.points,
             target=target,
             seed=None if seed is None else seed.begins(options.along),
             choice=Choice(live.number, 1 + len(live.others), live.straight_active, live.ring_active),
@@ -75,7 +76,9 @@ class Painter:
             message=drawing.told,
         )
 
-    def _wires(self, network: Network, drag: SeedDrag | None, lines: Iterable[LineGesture]) -> tuple[ShownWire, ...]:
+    def _wires(
+        self, network: Network, drag: SeedDrag | None, lines: Iterable[EdgeLine | SurfaceLine]
+    ) -> tuple[ShownWire, ...]:
         """Return the wires from bottom to top: those of a network, and everything live."""
         options, cursor = self._drawing.options, self._cursor
         moved = () if drag is None else drag.moved

@@ -256,7 +256,7 @@ class Session:
 
     def line_keep(self, line: LineGesture) -> bool:
         """Keep the wires that follow a released line, as soon as they are computed; one step for undo."""
-        line.finish()
+        line.line.finish()
         self.cursor.read_progress()
         self.drawing.revision += 1
         return self.commit(line, line.end or line.begin)
@@ -367,7 +367,7 @@ class Session:
                 self._told(self.drag_end())
         if line is not None:
             drawing.revision += line.poll()
-            drawing.message = line.message or drawing.message
+            drawing.message = line.line.message or drawing.message
         while queue and self._poll_queue():
             pass
         if not queue and not cursor.live.final:

@@ -152,7 +152,7 @@ class Symmetry:
         if self._triangles is None:
             return self._by_place(axes)
         if len(axes) == 1:
-            return self._by_topology(axes)
+            return grown_partners(self._triangles, np.asarray(self._edges), self._by_place(axes))
         first, rest = self.partners(axes[:1]), self.partners(axes[1:])
         return np.where(rest >= 0, first[rest], -1)
 
@@ -174,10 +174,6 @@ class Symmetry:
             at = np.minimum(np.searchsorted(keys, wanted), len(keys) - 1)
             partners[rows] = np.where(keys[at] == wanted, rows[at], -1)
         return partners
-
-    def _by_topology(self, axes: tuple[int, ...]) -> NDArray[np.int64]:
-        assert self._triangles is not None
-        return grown_partners(self._triangles, np.asarray(self._edges), self._by_place(axes))
 
     def _partners_of(self, vertices: NDArray[np.int64], axes: tuple[int, ...]) -> NDArray[np.int64]:
         """Return what a few vertices are mirrored to; of a large mesh not all are looked for because of them."""
