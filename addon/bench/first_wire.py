@@ -67,18 +67,18 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
     wires = session.Session(drawing.Drawing(LiveMaker(arrays), arrays.points, Options(along=along)))
     Picker(arrays).depth(Camera(1.0, 1.0, np.eye(4)), obj.matrix_world, (0.5, 0.5))
     steps["begun"] = watch.lap()
-    wires.queue.wait()
+    wires.wait()
     steps["ready"] = watch.lap()
     top, bottom = (int(at(arrays.points[:, 2])) for at in (np.argmax, np.argmin))
     beside = next(int(v) for v in arrays.triangles[(arrays.triangles == bottom).any(axis=1)][0] if v != bottom)
     watch.lap()
     wires.start(top)
     wires.hover(bottom)
-    while wires.picture.active is None and wires.under_way.computing:
+    while wires.picture.active is None and wires.cursor.computing:
         time.sleep(TICK)  # as the tool waits
-        wires.queue.poll()
+        wires.poll()
     steps["shown"] = watch.lap()
-    wires.queue.wait()
+    wires.wait()
     steps["final"] = watch.lap()
     wires.hover(beside)
     steps["next"] = watch.lap()

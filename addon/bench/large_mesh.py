@@ -72,7 +72,7 @@ class Holds:
 
         self.watch(Chain, "__init__", "start")
         self.watch(chain_acts, "act_first", "start")
-        self.watch(chain_acts, "handle", "event")
+        self.watch(chain_acts, "act", "event")
         for name in ("trouble", "finish"):
             self.watch(Chain, name, "event")
         for name in ("hover", "on_update", "tick"):
@@ -120,7 +120,7 @@ def count_lives() -> None:
 
 def settle(ui: driver.Ui) -> None:
     """Wait until nothing is computed and Blender has drawn its last picture."""
-    ui.wait_until(lambda: not (session() is not None and session().under_way.computing) and not overlay_busy(), SECONDS)
+    ui.wait_until(lambda: not (session() is not None and session().cursor.computing) and not overlay_busy(), SECONDS)
     ui.wait(SAMPLES)
 
 
@@ -251,7 +251,7 @@ def measure_first_chain(
         found["first wire shown"] = time.perf_counter() - start
         ui.wait_until(lambda: session().cursor.live.active_final, SECONDS)
         found["first wire final"] = time.perf_counter() - start
-        ui.wait_until(lambda: not session().under_way.computing, SECONDS)
+        ui.wait_until(lambda: not session().cursor.computing, SECONDS)
         found["both wires"] = time.perf_counter() - start
 
 

@@ -37,7 +37,7 @@ class ShownSession:
 
     placed: tuple[int, ...]
     wires: tuple[Wire, ...]
-    under_way: SimpleNamespace = field(default_factory=lambda: SimpleNamespace(moved=()))
+    cursor: SimpleNamespace = field(default_factory=lambda: SimpleNamespace(moved=()))
     options: Options = field(default_factory=Options)
 
     @property

@@ -106,7 +106,7 @@ class PaperMesh:
         self.archive = Archive() if archive is None else archive
         self.found = found = self.read(self.archive)
         strokes = tuple(on_mesh(one, self.points, self.triangles) for one in found.network.strokes)
-        session.queue.adopt(replace(found.network, strokes=strokes), sorted(self.plain_seams()))
+        session.adopt(replace(found.network, strokes=strokes), sorted(self.plain_seams()))
         return found
 
     def write(self, session: Session | Network, adopt: bool = False) -> Plan:
@@ -127,7 +127,7 @@ class PaperMesh:
         self.text = self.archive.text(self.labels.values())
         self.found = Found(plan.network, plan.known)
         if adopt and isinstance(session, Session):
-            session.queue.adopt(replace(plan.network, seed=None), sorted(self.plain_seams()))
+            session.adopt(replace(plan.network, seed=None), sorted(self.plain_seams()))
         return plan
 
     # What Blender does to it

@@ -23,9 +23,9 @@ def stronger(session: Session, steps: int) -> bool:
 
 def insert(session: Session, wire: Wire, pick: Pick) -> bool:
     """Put a seed into a kept wire, as a chain that begins there does; return whether that was done."""
-    session.queue.calm()
+    session.calm()
     network = session.drawing.network.with_seed_in(wire, pick, session.drawing.points)
-    return network is not None and session.queue.step(network)
+    return network is not None and session.step(network)
 
 
 def end_line(session: Session) -> bool:

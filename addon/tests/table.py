@@ -47,7 +47,7 @@ class Table:
         for live in self.lives.values():
             for one in (live, *live.forks):
                 one.ready = (True,) * len(one.ready)
-        self.session.queue.poll()
+        self.session.poll()
 
 
 def paper(centred: bool = False, **options: object) -> PaperMesh:

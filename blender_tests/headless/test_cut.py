@@ -531,7 +531,7 @@ def test_the_tool_tells_of_a_wire_that_is_not_cut() -> None:
     before = mesh.session.network
     wires = [replace(wire, finish="CUT", stored=0) for wire in before.wires]
     wires[0] = replace(wires[0], points=wires[0].points * 3.0)
-    mesh.session.queue.adopt(replace(before, wires=tuple(wires)), mesh.plain_seams)
+    mesh.session.adopt(replace(before, wires=tuple(wires)), mesh.plain_seams)
     _, done = finishes.apply(mesh, Change(before, mesh.session.network))
     assert (done.cut.wires, done.cut.left_out, done.problem) == (1, 1, "")
     assert 79 in joined(obj, 64) and 16 in joined(obj, 0), "the other stays snapped"
@@ -602,7 +602,7 @@ def with_a_cut_to_take_back() -> tuple[ObjectSession, Change]:
             mesh.session.drop(wire)
     drawn = mesh.session.network
     wires = [replace(wire, finish="CUT", stored=0) for wire in drawn.wires]
-    mesh.session.queue.adopt(replace(drawn, wires=tuple(wires)), mesh.plain_seams)
+    mesh.session.adopt(replace(drawn, wires=tuple(wires)), mesh.plain_seams)
     write(mesh)
     return mesh, Change(before, mesh.session.network)
 
@@ -756,9 +756,9 @@ def drag(obj: bpy.types.Object, seed: int, to: int) -> None:
     session, before = mesh.session, mesh.session.network
     assert session.drag(seed)
     session.cursor.drag_to(to)
-    session.queue.wait()
+    session.wait()
     session.cursor.drag_to(to)
-    assert session.queue.drag_end()
+    assert session.drag_end()
     _finish(mesh, before)
 
 

@@ -70,7 +70,7 @@ def session() -> Session:
     edit()
     arrays = edit_mesh.read(obj)
     session = Session(Drawing(LiveMaker(arrays), arrays.points))
-    session.queue.wait()
+    session.wait()
     return session
 
 
@@ -78,7 +78,7 @@ def test_every_icon_is_one_of_blenders(session: Session) -> None:
     icons = bpy.types.UILayout.bl_rna.functions["label"].parameters["icon"].enum_items
     session.click(0)
     session.click(4)
-    session.queue.wait()
+    session.wait()
     session.hover(40)
     session.click(4)  # refused, and said
     shown = [icon for icon, _ in hints(Status(session.picture, Bindings(), message="A message"))]

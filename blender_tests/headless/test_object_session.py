@@ -40,7 +40,7 @@ def grid() -> bpy.types.Object:
 def draw(mesh: ObjectSession, *picks: int) -> None:
     for pick in picks:
         assert mesh.session.click(pick), str(mesh.session.drawing.message)
-        mesh.session.queue.wait()
+        mesh.session.wait()
     write(mesh)
 
 
@@ -234,9 +234,9 @@ def test_wires_drawn_moved_and_removed_change_seams_and_nothing_else(grid: bpy.t
     assert snapshot(grid, with_seams=False) == rest, "drawn"
     assert mesh.session.drag(40)
     mesh.session.cursor.drag_to(49)
-    mesh.session.queue.wait()
-    mesh.session.queue.drag_end()
-    mesh.session.queue.wait()
+    mesh.session.wait()
+    mesh.session.drag_end()
+    mesh.session.wait()
     write(mesh)
     assert agree(grid)
     assert 49 in {vertex for edge in seams(grid) for vertex in edge}
@@ -296,9 +296,9 @@ def test_after_a_scripts_undo_moved_split_and_removed_wires_stay_so(grid: bpy.ty
     for grip, place in ((40, 49), (67, 58)):
         assert session.drag(Snap(grip, "WIRE", split) if grip == 67 else grip)
         session.cursor.drag_to(place)
-        session.queue.wait()
-        session.queue.drag_end()
-        session.queue.wait()
+        session.wait()
+        session.drag_end()
+        session.wait()
     session.drop(removed)
     session.erase(before.strokes[0])
     done = sorted(wire.vertices for wire in session.wires)
@@ -332,7 +332,7 @@ def test_what_is_drawn_is_written_after_edit_mode_was_left_too(grid: bpy.types.O
     mesh = session_on(grid)
     for pick in (36, 44):
         mesh.session.click(pick)
-        mesh.session.queue.wait()
+        mesh.session.wait()
     mesh.session.end_chain()
     bpy.ops.object.mode_set(mode="OBJECT")
     assert mesh.follow_change(grid, mesh.session.network) is None

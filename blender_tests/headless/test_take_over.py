@@ -38,11 +38,11 @@ def test_a_wire_that_is_dropped_or_moved_takes_its_seam_with_it(seamed: bpy.type
     assert seams(seamed) == ROW
     mesh = session_on(seamed)
     assert mesh.session.drag(44)
-    mesh.session.queue.wait()
+    mesh.session.wait()
     mesh.session.cursor.drag_to(53)
-    mesh.session.queue.wait()
-    mesh.session.queue.drag_end()
-    mesh.session.queue.wait()
+    mesh.session.wait()
+    mesh.session.drag_end()
+    mesh.session.wait()
     write(mesh)
     assert ends(seams(seamed)) == [36, 53]
     assert agree(seamed)

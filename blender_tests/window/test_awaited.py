@@ -12,7 +12,6 @@ import pytest
 import ui as driver
 from desk import Desk, choose, draw, leave, reset_settings
 from scene import add_grid, chain, edit, seams
-from seamwire.core.drawing.gesture_queue import GestureQueue
 from seamwire.core.drawing.seed_drag import SeedDrag
 from seamwire.core.drawing.session import Session
 from seamwire.core.drawing.wire import WireGesture
@@ -36,20 +35,20 @@ class Slow:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.is_slow = False
-        waits, aim, wait = WireGesture.waits.fget, SeedDrag.aim, GestureQueue.wait
+        waits, aim, wait = WireGesture.waits.fget, SeedDrag.aim, Session.wait
 
         def slow_aim(drag: SeedDrag, target: object) -> object:
             message = aim(drag, target)
             drag.final &= not self.is_slow
             return message
 
-        def waited(queue: GestureQueue, **how: bool) -> None:
+        def waited(session: Session, **how: bool) -> None:
             self.is_slow = False
-            wait(queue, **how)
+            wait(session, **how)
 
         monkeypatch.setattr(WireGesture, "waits", property(lambda wire: self.is_slow or waits(wire)))
         monkeypatch.setattr(SeedDrag, "aim", slow_aim)
-        monkeypatch.setattr(GestureQueue, "wait", waited)
+        monkeypatch.setattr(Session, "wait", waited)
         monkeypatch.setattr(bpy.context.preferences.inputs, "mouse_double_click_time", 1)
 
 
@@ -63,11 +62,11 @@ def click_ahead(desk: Desk, slow: Slow) -> Session:
     session, ui = desk.start(), desk.ui
     ui.click(desk.at(36))
     ui.click(desk.at(40))
-    ui.wait_until(lambda: len(session.wires) == 1 and not session.under_way.computing)
+    ui.wait_until(lambda: len(session.wires) == 1 and not session.cursor.computing)
     ui.move(desk.at(44))
     slow.is_slow = True
     ui.click(desk.at(44))
-    assert session.under_way.waiting == 1
+    assert session.cursor.waiting == 1
     return session
 
 
@@ -87,7 +86,7 @@ def release_ahead(desk: Desk, slow: Slow) -> Session:
     ui.event("LEFTMOUSE", "PRESS", desk.at(44))
     pull(desk, 44, 53)
     ui.event("LEFTMOUSE", "RELEASE", desk.at(53))
-    assert session.under_way.waiting == 1
+    assert session.cursor.waiting == 1
     return session
 
 
@@ -107,7 +106,7 @@ def test_a_press_outside_after_a_lost_release_ends_the_chain_and_keeps_its_wires
     session, ui = desk.start(), desk.ui
     ui.click(desk.at(36))
     ui.click(desk.at(40))
-    ui.wait_until(lambda: len(session.wires) == 1 and not session.under_way.computing)
+    ui.wait_until(lambda: len(session.wires) == 1 and not session.cursor.computing)
     ui.event("LEFTMOUSE", "PRESS", desk.at(58))
     ui.move(outside(ui))
     ui.event("LEFTMOUSE", "PRESS", outside(ui))  # another window has received the release
@@ -122,7 +121,7 @@ def test_presses_that_change_no_mesh_leave_the_chain_as_it_is(desk: Desk, slow: 
     ui.move(outside(ui))
     ui.event(press, "PRESS", outside(ui))
     assert desk.chain.stage is Stage.DRAWING
-    assert session.under_way.waiting == 1
+    assert session.cursor.waiting == 1
     slow.is_slow = False
     end(desk)
     assert seams(desk.obj) == LONG_ROW
@@ -210,7 +209,7 @@ def test_a_seed_that_a_chain_ends_with_is_grabbed_there(desk: Desk, slow: Slow) 
     ui.event("LEFTMOUSE", "PRESS", desk.at(44))
     pull(desk, 44, 53)
     ui.event("LEFTMOUSE", "RELEASE", desk.at(53))
-    ui.wait_until(lambda: not session.under_way.computing)
+    ui.wait_until(lambda: not session.cursor.computing)
     end(desk)
     assert 53 in session.seeds()
     assert 44 not in session.seeds()
@@ -219,12 +218,12 @@ def test_a_seed_that_a_chain_ends_with_is_grabbed_there(desk: Desk, slow: Slow) 
 def test_blender_stops_a_chain_at_once(desk: Desk, slow: Slow, monkeypatch: pytest.MonkeyPatch) -> None:
     session = click_ahead(desk, slow)
     waits = []
-    monkeypatch.setattr(GestureQueue, "wait", lambda _own, **_how: waits.append(1))
+    monkeypatch.setattr(Session, "wait", lambda _own, **_how: waits.append(1))
     MESH_OT_seamwire_draw.cancel(SimpleNamespace(_chain=desk.chain), bpy.context)
     desk.ui.wait(4)
     assert desk.left_clean()
     assert waits == []
-    assert session.under_way.waiting == 0
+    assert session.cursor.waiting == 0
     assert seams(desk.obj) == ROW
 
 
@@ -284,12 +283,12 @@ def test_a_seam_that_a_script_marks_leaves_the_second_chain_as_it_is(desk: Desk)
 def test_x_removes_a_stroke_that_waits(desk: Desk, slow: Slow) -> None:
     session = click_ahead(desk, slow)
     stroke(desk)
-    assert session.under_way.waiting == 2
+    assert session.cursor.waiting == 2
     assert session.network.strokes == ()
     desk.ui.move(desk.at(12))
     desk.ui.key("X")
     assert desk.running
-    assert session.under_way.waiting == 0
+    assert session.cursor.waiting == 0
     assert session.network.strokes == ()
     assert session.picture.strokes == ()
     end(desk)
@@ -323,11 +322,11 @@ def test_a_click_on_another_object_awaits_the_wire_on_the_first(halves: driver.U
     ui = halves
     ui.click(place(ui, "Left", 10))
     session = edited.front.session
-    ui.wait_until(lambda: not session.under_way.computing)
+    ui.wait_until(lambda: not session.cursor.computing)
     ui.move(place(ui, "Left", 14))
     slow.is_slow = True
     ui.click(place(ui, "Left", 14))
-    assert session.under_way.waiting == 1
+    assert session.cursor.waiting == 1
     ui.click(place(ui, "Right", 10))
     assert edited.front.name == "Right"
     assert seams(bpy.data.objects["Left"]) == chain(*range(10, 15))
@@ -410,10 +409,10 @@ def test_a_second_seed_is_grabbed_while_the_first_one_waits(desk: Desk, slow: Sl
     ui.move(desk.at(begin))
     ui.event("LEFTMOUSE", "PRESS", desk.at(begin))
     pull(desk, begin, goal)
-    assert session.under_way.drag
+    assert session.cursor.drag
     ui.event("LEFTMOUSE", "RELEASE", desk.at(goal))
     slow.is_slow = False
-    ui.wait_until(lambda: not session.under_way.waiting)
+    ui.wait_until(lambda: not session.cursor.waiting)
     end(desk)
     assert len(session.wires) == 1
     assert set(session.seeds()) == {36, 44, 53} - {44, begin} | {goal}
@@ -434,7 +433,7 @@ def test_a_line_that_the_cut_mesh_does_not_take_is_told_of(desk: Desk, reports: 
     session, ui = desk.start(), desk.ui
     ui.click(desk.at(0))
     ui.click(desk.at(23))
-    ui.wait_until(lambda: len(session.wires) == 1 and not session.under_way.computing)
+    ui.wait_until(lambda: len(session.wires) == 1 and not session.cursor.computing)
     ui.event("LEFTMOUSE", "PRESS", desk.at(54))
     for vertex in (55, 56, 57):
         ui.move(desk.at(vertex))

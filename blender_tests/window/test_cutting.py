@@ -89,7 +89,7 @@ def test_drawing_goes_on_after_a_cut_on_the_mesh_as_it_is(cutting: Desk) -> None
     ui.click(cutting.at(72), ctrl=True)  # another chain: the first one is cut
     assert length(cutting) > 0
     ui.click(cutting.at(80))
-    ui.wait_until(lambda: not cutting.session.under_way.waiting and len(cutting.session.wires) == 2)
+    ui.wait_until(lambda: not cutting.session.cursor.waiting and len(cutting.session.wires) == 2)
     ui.key("RET")
     assert cutting.left_clean()
     assert agree(cutting.obj)
@@ -258,7 +258,7 @@ def test_a_drag_of_a_cut_wire_that_is_given_up_changes_nothing(cutting: Desk) ->
     ui.move(cutting.at(44))
     ui.event("LEFTMOUSE", "PRESS", cutting.at(44))
     ui.move(cutting.at(61))
-    ui.wait_until(lambda: any(wire.along == "SURFACE" for wire in cutting.session.under_way.moved))
+    ui.wait_until(lambda: any(wire.along == "SURFACE" for wire in cutting.session.cursor.moved))
     ui.key("ESC")
     ui.event("LEFTMOUSE", "RELEASE", cutting.at(61))
     assert cutting.left_clean()

@@ -49,14 +49,14 @@ class Hand:
             self.session = desk.start()
             self.ui.click(desk.at(0))
             self.ui.click(desk.at(4))
-        self.ui.wait_until(lambda: len(self.session.wires) == 1 and not self.session.under_way.computing)
+        self.ui.wait_until(lambda: len(self.session.wires) == 1 and not self.session.cursor.computing)
 
     def press(self) -> None:
         """Press the button and move."""
         start = {"line that goes on": 4, "seed": 0}.get(self.what, 36)
         desk, ui = self.desk, self.ui
         shift, ctrl = self.what.endswith("stroke"), self.what == "avoid stroke"
-        ui.wait_until(lambda: not self.session.under_way.computing)
+        ui.wait_until(lambda: not self.session.cursor.computing)
         ui.event("LEFTMOUSE", "PRESS", desk.at(start), shift=shift, ctrl=ctrl)
         for step in (1, 2, 3):
             ui.move((desk.at(start)[0] + 12.0 * step, desk.at(start)[1] + 12.0 * step), shift=shift, ctrl=ctrl)
@@ -68,8 +68,8 @@ class Hand:
         """Whether something is dragged."""
         shown = (
             edited.front.stroke is not None
-            or isinstance(self.session.under_way.held, LineGesture)
-            or self.session.under_way.drag is not None
+            or isinstance(self.session.cursor.held, LineGesture)
+            or self.session.cursor.drag is not None
         )
         assert shown == (self.desk.running and self.desk.chain.hold is not None)
         return shown
@@ -82,7 +82,7 @@ class Hand:
             [wire.vertices for wire in kept.wires],
             kept.strokes,
             self.session.seed,
-            self.session.under_way.waiting,
+            self.session.cursor.waiting,
             self.session.options.mirror,
             *(getattr(settings(), name) for name in names),
             seams(self.desk.obj),

@@ -14,11 +14,11 @@ def offer(desk: Desk, *edge: int) -> tuple[float, float]:
     place = desk.at(*edge)
     desk.choose()
     session = desk.session
-    desk.ui.wait_until(lambda: not session.under_way.computing)
+    desk.ui.wait_until(lambda: not session.cursor.computing)
     desk.ui.move(place)
     desk.ui.event("LEFT_ALT", "PRESS", place, alt=True)
     # The first offers are there at once. The others come when the wires are computed.
-    desk.ui.wait_until(lambda: session.picture.one(Role.OFFER) is not None and not session.under_way.computing)
+    desk.ui.wait_until(lambda: session.picture.one(Role.OFFER) is not None and not session.cursor.computing)
     return place
 
 

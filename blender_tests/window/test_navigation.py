@@ -10,7 +10,8 @@ import ui as driver
 from desk import Desk, choose
 from keymaps import KEYMAPS, Gesture, as_event, gestures, using
 from scene import chain, seams
-from seamwire.operators.chain_acts import handle
+from seamwire.operators.chain_acts import act
+from seamwire.operators.chain_events import read
 from seamwire.operators.chain_state import Stage
 from seamwire.words.keys import KEYS, Key
 
@@ -102,7 +103,7 @@ def test_what_cannot_be_simulated_is_let_through(desk: Desk, kind: str) -> None:
     handed = event(desk, kind)
     before = desk.session.drawing.revision
     with desk.ui.override():
-        assert handle(desk.chain, bpy.context, handed)
+        assert act(desk.chain, read(desk.chain, bpy.context, handed))
     assert desk.session.drawing.revision == before
     assert desk.chain.stage is not Stage.OVER
     finish(desk)

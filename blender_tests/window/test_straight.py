@@ -56,7 +56,7 @@ def aim(desk: Desk) -> None:
     """Place a seed, and point at another vertex."""
     desk.ui.click(desk.at(START))
     desk.ui.move(desk.at(END))
-    desk.ui.wait_until(lambda: not desk.session.under_way.computing and desk.session.picture.active is not None)
+    desk.ui.wait_until(lambda: not desk.session.cursor.computing and desk.session.picture.active is not None)
 
 
 @pytest.mark.smoke
@@ -87,7 +87,7 @@ def test_where_the_view_has_turned_it_is_straight_in_that(desk: Desk) -> None:
     place = desk.at(END)
     ui.move((place[0] + 1.0, place[1]))
     ui.move(place)
-    ui.wait_until(lambda: not desk.session.under_way.computing)
+    ui.wait_until(lambda: not desk.session.cursor.computing)
     assert desk.session.picture.choice.straight
     assert bend_on_screen(desk, desk.session.picture.active) < 0.05
 

@@ -50,7 +50,7 @@ def draw(desk: Desk, corners: list[tuple[float, float]], **more: bool) -> None:
 
 
 def computed(desk: Desk) -> None:
-    desk.ui.wait_until(lambda: not desk.session.under_way.computing)
+    desk.ui.wait_until(lambda: not desk.session.cursor.computing)
     desk.ui.wait(2)
 
 

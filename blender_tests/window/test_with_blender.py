@@ -14,7 +14,6 @@ import stored
 import ui as driver
 from desk import ORANGE, Desk, choose, dismiss, draw, second_window, shows, undo_steps
 from scene import chain, changing, edit, fail, mark_wires, seams, set_seams
-from seamwire.core.drawing.gesture_queue import GestureQueue
 from seamwire.core.drawing.picture import Role, SeedRole, ShownSeed
 from seamwire.core.drawing.session import Session
 from seamwire.core.storage.serialization import Archive
@@ -236,7 +235,7 @@ def test_a_line_is_kept_though_edit_mode_is_left_before_its_wires_are_computed(d
 
 def test_escape_while_a_chain_waits_for_its_end_waits_for_nothing(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     waited = []
-    monkeypatch.setattr(GestureQueue, "wait", lambda _: waited.append(1))
+    monkeypatch.setattr(Session, "wait", lambda _: waited.append(1))
     desk.choose()
     ui = desk.ui
     ui.move(desk.at(37))

@@ -125,7 +125,7 @@ def slide(mesh: ObjectSession, wires: Collection[Wire]) -> tuple[ObjectSession, 
         wire.changed(points=curve_of[wire.vertices], faces=None) if wire.vertices in curve_of else wire
         for wire in network.wires
     ]
-    after.session.queue.adopt(replace(network, wires=tuple(kept)), after.plain_seams)
+    after.session.adopt(replace(network, wires=tuple(kept)), after.plain_seams)
     _go_on_with(after, mesh.session.cursor.loops.cuts.taken(mesh.session.drawing.network))
     after.write(after.plan())
     return after, len(moves)
@@ -279,7 +279,7 @@ def _draw_again(mesh: ObjectSession, wires: Collection[Wire]) -> None:
         session.follow(replace(options, strength_surface=wire.strength) if wire.strength else options)
         for seed in (wire.start, wire.end):
             session.click(seed)
-            session.queue.wait()
+            session.wait()
         session.end_chain()
     mesh.write(mesh.plan())
 

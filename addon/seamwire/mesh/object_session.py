@@ -171,7 +171,7 @@ class ObjectSession:
     def busy(self) -> bool:
         """Whether something is being computed."""
         looking = self._looking is not None and self._looking.is_alive()
-        return self.session.under_way.computing or self.session.under_way.waiting > 0 or looking or self._unstored
+        return self.session.cursor.computing or self.session.cursor.waiting > 0 or looking or self._unstored
 
     # Settings
 
@@ -255,7 +255,7 @@ class ObjectSession:
         change = Change(before, self.session.network)
         self._adopt(self._labels, arrays.seams)
         found = self.session.network
-        self.session.queue.adopt(change.on(found), self.plain_seams)
+        self.session.adopt(change.on(found), self.plain_seams)
         return found
 
     def _has_same_numbers(self) -> bool:
@@ -278,7 +278,7 @@ class ObjectSession:
         network = self._found.network
         strokes = tuple(on_mesh(one, self.arrays.points, self.arrays.triangles) for one in network.strokes)
         self._set_seams(seams, labels)
-        self.session.queue.adopt(replace(network, strokes=strokes), self.plain_seams)
+        self.session.adopt(replace(network, strokes=strokes), self.plain_seams)
         if not self._damaged:
             self._store()
         self.session.cursor.loops.cuts.recall(_taken_cuts.recall(self.session.network, self.places))
@@ -361,7 +361,7 @@ class ObjectSession:
         self._set_seams(seams, self._labels)
         self._store()
         if adopt:
-            self.session.queue.adopt(replace(plan.network, seed=None), self.plain_seams)
+            self.session.adopt(replace(plan.network, seed=None), self.plain_seams)
             _taken_cuts.keep(
                 self.session.cursor.loops.cuts.taken(self.session.drawing.network), self.session.network, self.places
             )
@@ -375,7 +375,7 @@ class ObjectSession:
             *session.network.strokes,
             *(on_mesh(one, self.arrays.points, self.arrays.triangles) for one in strokes),
         )
-        session.queue.adopt(replace(session.network, wires=drawn, strokes=strokes, seed=None), self.plain_seams)
+        session.adopt(replace(session.network, wires=drawn, strokes=strokes, seed=None), self.plain_seams)
 
     def take_over(self, wires: Iterable[Wire]) -> None:
         """Go on with wires along seams of the mesh: `write` makes these edges theirs, so that they go where the wires go."""
@@ -384,7 +384,7 @@ class ObjectSession:
         taken = {edge for wire in network.wires for edge in wire.edges()}
         rest = [pair for pair in self.plain_seams.tolist() if (min(pair), max(pair)) not in taken]
         self.plain_seams = np.array(rest, dtype=np.int32).reshape(-1, 2)
-        session.queue.adopt(network, self.plain_seams)
+        session.adopt(network, self.plain_seams)
         self._found = replace(self._found, network=session.network)
 
     def finder(self, faces: Collection[int] = ()) -> Callable[[Sequence[float]], FacePoint]:
@@ -414,4 +414,4 @@ class ObjectSession:
 
     def drop_changes(self, network: Network) -> None:
         """Go back to a network that the session had, whatever was drawn since."""
-        self.session.queue.adopt(replace(network, seed=None), self.plain_seams)
+        self.session.adopt(replace(network, seed=None), self.plain_seams)

@@ -124,7 +124,7 @@ class Chain:
     @property
     def waits(self) -> bool:
         """Whether a click waits for its wire."""
-        return any(view.session.under_way.waiting for view in edited.views())
+        return any(view.session.cursor.waiting for view in edited.views())
 
     def cancel(self) -> None:
         """Cancel what is dragged. If nothing is, forget the clicks that wait, and end."""
@@ -158,7 +158,7 @@ class Chain:
             self.end()
         elif self.stage is Stage.DRAWING:
             sessions = [view.session for view in edited.views()]
-            if not any(one.seed is not None or one.under_way.waiting or one.under_way.drag for one in sessions):
+            if not any(one.seed is not None or one.cursor.waiting or one.cursor.drag for one in sessions):
                 self.go(Cue.SETTLE)
 
     # The objects
@@ -266,8 +266,8 @@ class Chain:
         )
         words = (
             round(100.0 * session.drawing.progress),
-            session.under_way.computing,
-            session.under_way.waiting,
+            session.cursor.computing,
+            session.cursor.waiting,
             edited.front.mesh.symmetric,
             self.notices.hint,
         )

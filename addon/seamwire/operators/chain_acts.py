@@ -13,7 +13,7 @@ from ..mesh.settings import settings
 from ..terms.options import strength_name
 from ..view.edited_objects import edited
 from ..words.keys import Action, drag_threshold
-from . import chain_events, keymaps, undo_steps
+from . import keymaps, undo_steps
 from .chain_events import Given, Sign
 from .chain_state import Cue, Stage
 from .drag_handlers import LineHold, SeedHold, StrokeHold
@@ -46,7 +46,7 @@ def hover(chain: Chain, given: Given) -> None:
     if view is not None and view is not edited.front:
         chain.session.hover(None)
         # A live wire stays with its object until there is a click on another.
-        if chain.session.seed is None and not chain.session.under_way.waiting:
+        if chain.session.seed is None and not chain.session.cursor.waiting:
             edited.front = view
         else:
             snap = None
@@ -146,7 +146,7 @@ def click(chain: Chain, given: Given) -> None:
     elif action is Action.LOOP and _is_loop(chain, session, snap, event):
         session.loop(snap)
         chain.record.note(undo_steps.DRAW)
-    elif not session.under_way.will_be_live and snap.to in {"SEED", "WIRE"}:
+    elif not session.cursor.will_be_live and snap.to in {"SEED", "WIRE"}:
         # Whether it is a click or the beginning of a drag is known when the button or the mouse has moved.
         session.hover(snap)
         chain.go(Cue.PRESS, SeedHold(event.type, view, place, snap))
@@ -171,7 +171,7 @@ def begin_stroke(chain: Chain, given: Given) -> None:
     if chain.stage is Stage.ENDING:
         chain.begin_anew()
     found, _ = edited.find(given.place)
-    is_live = chain.session.seed is not None or chain.session.under_way.waiting
+    is_live = chain.session.seed is not None or chain.session.cursor.waiting
     view = edited.front if is_live or found is None else found
     chain.draw_on(view)
     hold = StrokeHold(given.event.type, view, given.place)
@@ -254,7 +254,7 @@ def change_strength(chain: Chain, given: Given) -> None:
     session, chosen = chain.session, settings()
     is_more = given.what is Action.STRONGER
     name, strength = strength_name(session.options.along), session.options.stepped(1 if is_more else -1).strength
-    if session.under_way.drag:
+    if session.cursor.drag:
         chain.say("Finish moving the seed first")
     elif strength == session.options.strength:
         chain.say(f"The strength is {strength:g} already, the {'most' if is_more else 'least'} there is")
@@ -418,7 +418,9 @@ _UNSEEN = frozenset({Sign.NOTHING, Sign.TRACE, Sign.REPEAT})
 
 
 def act(chain: Chain, given: Given) -> bool:
-    """Do what an event asks for, and return whether Blender is to have it too."""
+    """Do what an event asks for, show it, and return whether Blender is to have the event too."""
+    if given.what not in {Sign.TICK, Sign.RELEASE}:
+        chain.set_cursor("CROSSHAIR" if given.place else "")
     if isinstance(given.what, Action):
         chain.say("")
         if chain.stage is Stage.PEEKING and given.what is not Action.NEXT:
@@ -426,6 +428,8 @@ def act(chain: Chain, given: Given) -> bool:
     is_held = chain.stage is Stage.HOLDING
     passes = bool((WHILE_HELD if is_held else ACTS)[given.what](chain, given))
     chain.settle()
+    if given.what not in _UNSEEN:
+        chain.show()
     return passes or (given.what in _BLENDERS and not (is_held and given.what is Sign.OTHER_TOOL))
 
 
@@ -439,21 +443,3 @@ def act_first(chain: Chain, given: Given) -> None:
         _FIRST[given.what](chain, given)
     chain.settle()
     chain.show()
-
-
-def handle(chain: Chain, context: bpy.types.Context, event: bpy.types.Event) -> bool:
-    """Do what Blender's event asks for, show it, and return whether Blender is to have the event too."""
-    chain.find_front()
-    is_released = event.type == chain.peek and event.value == "RELEASE"
-    if chain.stage is Stage.PEEKING and (is_released or event.type == "WINDOW_DEACTIVATE"):
-        chain.go(Cue.UNPEEK)
-    is_press = event.value != "RELEASE" and not event.is_repeat
-    if chain.hold is not None and event.type == chain.hold.button and is_press:
-        chain.let_go()  # another window has received the release, and this press is not a drag's
-    given = chain_events.read(chain, context, event)
-    if given.what not in {Sign.TICK, Sign.RELEASE}:
-        chain.set_cursor("CROSSHAIR" if given.place else "")
-    passes = act(chain, given)
-    if given.what not in _UNSEEN:
-        chain.show()
-    return passes

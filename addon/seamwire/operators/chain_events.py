@@ -12,6 +12,7 @@ from ..mesh import settings as chosen
 from ..view.viewport import place_of
 from ..words.keys import WHEEL, Action, Key
 from . import keymaps
+from .chain_state import Cue, Stage
 from .drag_handlers import LineHold, StrokeHold
 
 if TYPE_CHECKING:
@@ -72,7 +73,16 @@ class Given:
 
 
 def read(chain: Chain, context: bpy.types.Context, event: bpy.types.Event) -> Given:
-    """Return what an event means in the chain's state."""
+    """Return what an event means in the chain's state.
+
+    The state changes first if the event ends what a key or a button holds without being a release for the chain.
+    """
+    is_released = event.type == chain.peek and event.value == "RELEASE"
+    if chain.stage is Stage.PEEKING and (is_released or event.type == "WINDOW_DEACTIVATE"):
+        chain.go(Cue.UNPEEK)
+    is_press = event.value != "RELEASE" and not event.is_repeat
+    if chain.hold is not None and event.type == chain.hold.button and is_press:
+        chain.let_go()  # another window has received the release, and this press is not a drag's
     if event.type == "TIMER":
         return Given(Sign.TICK, event)
     place = place_of(chain.window, event)

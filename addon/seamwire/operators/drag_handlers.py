@@ -97,7 +97,7 @@ class SeedHold(Hold):
 
     def end(self) -> str:
         """Leave the seed there."""
-        self._session.queue.drag_end()
+        self._session.drag_end()
         return undo_steps.EDIT
 
     def cancel(self) -> None:
@@ -183,7 +183,7 @@ class LineHold(Hold):
         trail = self._trail
         assert trail is not None
         trail.to(place)
-        if self._session.under_way.held is None:
+        if self._session.cursor.held is None:
             return False  # a key has ended the line in the meantime
         points, triangles = np.array(trail.points).reshape(-1, 3), np.array(trail.triangles, dtype=np.int32)
         return self._session.cursor.line_to(points, triangles, self._view.snap(place.view, place.cursor))
@@ -192,7 +192,7 @@ class LineHold(Hold):
         """Take the line out of the session. Return whether the live wires are a separate chain, which is kept before the line."""
         session = self._session
         self._line = session.cursor.line_release()
-        live = session.seed is not None and not session.under_way.waiting
+        live = session.seed is not None and not session.cursor.waiting
         return self._line is not None and live and not session.goes_on_from(self.snap)
 
     def end(self) -> str:

@@ -133,7 +133,8 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Pass an event to the chain, and finish when the chain has ended."""
-        from .chain_acts import handle
+        from .chain_acts import act
+        from .chain_events import read
 
         chain = self._chain
         if chain.stage is Stage.CLOSED:
@@ -143,7 +144,8 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
             if trouble:
                 chain.notices.add("WARNING", f"{trouble}: the chain has ended")
                 return self._finish(context) | {"PASS_THROUGH"}
-            passes = handle(chain, context, event)
+            chain.find_front()
+            passes = act(chain, read(chain, context, event))
             if chain.stage is Stage.OVER:
                 result = self._finish(context)
                 return result | {"PASS_THROUGH"} if passes else result

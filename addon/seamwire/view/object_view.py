@@ -348,7 +348,7 @@ class ObjectView:
         self.session.cursor.use_crests(self.crest_view.crests, self.options.show_crests)
         # Progress is told by the status bar: the picture stays.
         seen = self.session.drawing.revision
-        self.session.queue.poll()
+        self.session.poll()
         return any((self.session.drawing.revision != seen, self.islands.poll(), told))
 
     def _working_layers(self) -> Iterator[tuple[tuple[Hashable, ...], Layer]]:

@@ -29,7 +29,7 @@ def draw_chain(session: Session, seeds: Iterable[Pick]) -> list[str]:
     session.end_chain()
     for pick in seeds:
         done = session.click(pick)
-        session.queue.wait()
+        session.wait()
         if not done or session.drawing.told:
             problems.append(str(session.drawing.told))
     session.end_chain()
@@ -57,7 +57,7 @@ def draw_loop(session: Session, pick: Pick, kind: LoopKind | None = None) -> str
     if kind is not None and isinstance(pick, tuple) and not _turn_to(session, pick, kind):
         return f"No {LOOPS[kind]} runs through {pick_name(pick)}"
     done = session.loop(pick)
-    session.queue.wait()
+    session.wait()
     if done and session.wires != before:
         return ""
     # The shape may suggest no cut at a place.
@@ -70,7 +70,7 @@ def _turn_to(session: Session, edge: Edge, kind: LoopKind) -> bool:
     No two offers are alike: what runs as one before it does is not offered by its own name.
     """
     session.hover(edge, loop=True)
-    session.queue.wait()
+    session.wait()
     edges: dict[LoopKind, set[Edge]] = {}
     for _ in session.picture.offered.kinds:
         offer, shown = session.picture.one(Role.OFFER), session.picture.offered.kind

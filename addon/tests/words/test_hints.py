@@ -22,7 +22,7 @@ def session() -> Session:
     """A session on a grid; vertex y * 9 + x is column x of row y."""
     arrays = arrays_of(grid_places(9), grid_polygons(9))
     session = Session(Drawing(LiveMaker(arrays), arrays.points))
-    session.queue.wait()
+    session.wait()
     return session
 
 
@@ -40,14 +40,14 @@ def test_the_hints_follow_what_is_going_on(session: Session) -> None:
     assert "Add Seed" in said(session)
     assert "Keep Wire" not in said(session)
     session.click(36)
-    session.queue.wait()
+    session.wait()
     session.hover(44)
     assert "Keep Wire" in said(session)
     assert "End Chain" in said(session)
     assert "Undo" in said(session)
     assert "Loop" not in said(session)
     session.click(44)
-    session.queue.wait()
+    session.wait()
     session.hover(76)
     assert "Close" in said(session)
     session.end_chain()
@@ -66,7 +66,7 @@ def test_the_hints_follow_what_is_going_on(session: Session) -> None:
     session.hover(None)
     assert "Across Surface" in said(session)
     use(session, along="SURFACE")
-    session.queue.wait()
+    session.wait()
     assert "Along Edges" in said(session)
     assert "Loop" not in said(session)
 
@@ -84,9 +84,9 @@ def test_the_mirror_is_offered_and_told(session: Session) -> None:
 
 def test_there_are_at_most_eight_hints_and_the_mirror_is_offered_among_them(session: Session) -> None:
     session.click(36)
-    session.queue.wait()
+    session.wait()
     session.click(44)
-    session.queue.wait()
+    session.wait()
     session.hover(76)
     shown = first(session, mirror_offer="X", message="Something was done")
     assert len(shown) == MOST == 8
@@ -127,13 +127,13 @@ def test_what_a_click_does_comes_first_then_the_way_out_and_the_keys(session: Se
     session.hover((36, 37))
     assert first(session, 3) == ["Add Seed, Drag: Draw Line", "End Chain", "Keys"]
     session.click(36)
-    session.queue.wait()
+    session.wait()
     session.hover(44)
     assert first(session, 3) == ["Keep Wire", "End Chain", "Keys"]
     assert first(session, 2, message="Something was done") == ["Something was done", "Keep Wire"]
     session.end_chain()
     session.hover((40, 49), loop=True)
-    session.queue.wait()
+    session.wait()
     assert len(session.picture.offered.kinds) > 1
     said_first = first(session, 4)
     assert said_first[0].startswith("Alt: Add ")

@@ -20,21 +20,9 @@ def length_of(curve: ArrayLike) -> float:
 def nearest_on_segments(
     point: ArrayLike, starts: NDArray[np.float64], ends: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Find the nearest place to a point on each of some segments, in the plane or in space.
+    """Find the nearest place to a point, (d,), on each of some segments, (k, d), which may be points.
 
-    Parameters
-    ----------
-    point
-        (d,)
-    starts, ends
-        (k, d); a segment may be a point.
-
-    Returns
-    -------
-    part
-        (k, 1) how far along each segment that place lies, from 0 to 1.
-    gap
-        (k,) how far from the point it is; NaN where an end is.
+    Returns how far along each segment that place lies, (k, 1), from 0 to 1, and how far from the point, (k,): NaN where an end is.
     """
     along = ends - starts
     square = np.einsum("ij,ij->i", along, along)
@@ -46,14 +34,7 @@ def nearest_on_segments(
 def barycentric(
     corners: NDArray[np.float64], point: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Find a point in triangles, or a point in each.
-
-    Parameters
-    ----------
-    corners
-        (k, 3, d) the triangles.
-    point
-        (d,), or (k, d).
+    """Find a point, (d,), in triangles, (k, 3, d), or a point in each, (k, d).
 
     Returns
     -------
@@ -76,15 +57,7 @@ def barycentric(
 
 
 def triangle_areas(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:
-    """Return the areas of triangles, (m,).
-
-    Parameters
-    ----------
-    points
-        (n, 3)
-    triangles
-        (m, 3)
-    """
+    """Return the areas, (m,), of (m, 3) triangles of (n, 3) points."""
     return 0.5 * np.linalg.norm(area_normals(points, triangles), axis=1)
 
 
@@ -102,15 +75,7 @@ def relative_heights(corners: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def vertex_normals(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:
-    """Return unit normals of vertices, (n, 3), weighted by the areas of their triangles. Vertices without triangles have zero.
-
-    Parameters
-    ----------
-    points
-        (n, 3)
-    triangles
-        (m, 3)
-    """
+    """Return unit normals of (n, 3) vertices, weighted by the areas of their (m, 3) triangles. Vertices without triangles have zero."""
     rows, normals = triangles.reshape(-1), area_normals(points, triangles)
     return units(np.stack([np.bincount(rows, np.repeat(column, 3), len(points)) for column in normals.T], axis=1))
 
@@ -128,15 +93,7 @@ def units(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def creases(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:
-    """Return the largest angle, in degrees, between two triangles that share a side at each vertex, (n,).
-
-    Parameters
-    ----------
-    points
-        (n, 3)
-    triangles
-        (m, 3)
-    """
+    """Return the largest angle, in degrees, between two triangles that share a side at each vertex, (n,)."""
     normals = triangle_normals(points, triangles)
     sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).astype(np.int64), axis=1)
     order = np.lexsort((sides[:, 1], sides[:, 0]))
@@ -152,14 +109,9 @@ def creases(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArra
 
 @dataclass(frozen=True)
 class Moments:
-    """Where a surface lies, whatever its triangles are.
+    """Where a surface lies, whatever its triangles are: its center of area, (3,), and its principal axes, (3, 3).
 
-    Parameters
-    ----------
-    middle
-        (3,) its center of area.
-    axes
-        (3, 3) its principal axes, the longest first, each as long as the standard deviation along it.
+    The longest axis comes first. Each is as long as the standard deviation along it.
     """
 
     middle: NDArray[np.float64]

@@ -15,19 +15,7 @@ if TYPE_CHECKING:
 class HalfEdges:
     """The half-edges of triangles: half-edge 3 t + i leads from corner i of triangle t to the next one.
 
-    Parameters
-    ----------
-    triangles
-        (m, 3) what the polygons of a mesh are divided into.
-    edges
-        (e, 2) the edges of the mesh. Other sides of triangles lie within polygons.
-    count
-        The number of vertices.
-
-    Attributes
-    ----------
-    tails, tips
-        (3m,) the vertices where half-edges begin and end.
+    Sides of triangles, (m, 3), that are not among the edges of the mesh, (e, 2), lie within polygons. `count` is the number of vertices.
     """
 
     def __init__(self, triangles: NDArray[np.int32], edges: NDArray[np.int32], count: int) -> None:

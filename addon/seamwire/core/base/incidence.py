@@ -15,16 +15,9 @@ if TYPE_CHECKING:
 
 
 class Incidence:
-    """Finds the rows of a table, such as triangles or edges, that contain a vertex.
+    """Finds the rows of a table, (m, k), such as triangles or edges, that contain a vertex. The table must not change afterwards.
 
     A thread sorts the table; whoever asks before it has finished waits for it.
-
-    Parameters
-    ----------
-    table
-        (m, k) vertices. It must not change afterwards.
-    count
-        The number of vertices.
     """
 
     def __init__(self, table: NDArray[np.integer], count: int) -> None:

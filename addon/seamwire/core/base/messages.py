@@ -12,15 +12,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Message:
-    """Something to tell. It is false if there is nothing to tell.
-
-    Parameters
-    ----------
-    code
-        What happened.
-    values
-        The names and values that the words need.
-    """
+    """Something to tell: a code, and the values that its sentence needs. It is false if there is nothing to tell."""
 
     code: str = ""
     values: tuple[tuple[str, object], ...] = ()
@@ -42,13 +34,7 @@ NOTHING = Message()
 
 
 class Told(Exception):  # noqa: N818 - the base of errors, which end in Error
-    """An error with a message for the artist.
-
-    Parameters
-    ----------
-    why, values
-        The message, or its code and values.
-    """
+    """An error with a message for the artist, or its code and values."""
 
     def __init__(self, why: str | Message, /, **values: object) -> None:
         self.message = Message.of(why, **values) if isinstance(why, str) else why

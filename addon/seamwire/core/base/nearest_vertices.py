@@ -36,19 +36,9 @@ class NearestVertices:
         self._tree = native.load().NearestPoints(points[self._rows], corners) if len(rows) else None
 
     def find(self, places: NDArray[np.float64], reach: ArrayLike) -> NDArray[np.int64]:
-        """Return for each place the number of the nearest vertex within reach, the first of equally near ones.
+        """Return for each place, (m, 3), the number of the nearest vertex within reach, the first of equally near ones, or -1.
 
-        Parameters
-        ----------
-        places
-            (m, 3); a place that is not finite has no nearest vertex.
-        reach
-            How far the vertex may be from each place, (m,) or one number.
-
-        Returns
-        -------
-        (m,) array
-            Numbers of vertices, or -1 if no vertex is within reach.
+        A place that is not finite has no nearest vertex. The reach is one number, or that of each place, (m,).
         """
         best = np.full(len(places), -1, dtype=np.int64)
         rows = np.flatnonzero(_is_place(places))

@@ -12,16 +12,9 @@ Answer = TypeVar("Answer")
 
 
 class Newest(Generic[Asked, Answer]):
-    """Answers requests in its own thread. Only the newest waiting request is answered.
+    """Answers requests with `make` in its own thread. Only the newest waiting request is answered.
 
-    Parameters
-    ----------
-    make
-        Answers one; called on the thread.
-    name
-        The thread's.
-    given_up
-        What `make` raises where it was stopped for a newer request.
+    If `make` was stopped for a newer request, it raises `given_up`.
     """
 
     def __init__(self, make: Callable[[Asked], Answer], name: str, given_up: tuple[type[Exception], ...] = ()) -> None:

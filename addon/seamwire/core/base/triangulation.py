@@ -20,19 +20,10 @@ edges in single precision."""
 def without_flat_triangles(
     points: NDArray[np.float64], triangles: NDArray[np.int32], polygons: NDArray[np.int32]
 ) -> NDArray[np.int32]:
-    """Return the triangles with other diagonals where a corner between two others left one without area.
+    """Return (m, 3) triangles with other diagonals where a corner between two others left one without area.
 
     Two polygons that have three corners in a row in common could share the diagonal past the middle one, and hang together there
-    though both edges are cut.
-
-    Parameters
-    ----------
-    points
-        (n, 3)
-    triangles
-        (m, 3)
-    polygons
-        (m,) the polygon of each triangle, ascending.
+    though both edges are cut. `polygons`, (m,), is the polygon of each triangle, ascending.
     """
     shares = np.flatnonzero(polygons[1:] == polygons[:-1])
     among = np.union1d(shares, shares + 1)

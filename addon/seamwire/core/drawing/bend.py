@@ -20,13 +20,6 @@ class BendGesture(Gesture):
     """The last closed cut, bent: the shortest one through its first point and the target that lies around the same.
 
     The next bend moves the second point. One step for undo restores the old cut.
-
-    Parameters
-    ----------
-    drawing
-        The state that gestures share.
-    loops
-        Finds closed cuts and knows which was taken last.
     """
 
     needs_offers = True

@@ -18,13 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Change:
-    """A network that has become another one. The mesh marks and clears the edges of wires, and slides, cuts or takes back cuts.
-
-    Parameters
-    ----------
-    before, after
-        The networks.
-    """
+    """A network that has become another one. The mesh marks and clears the edges of wires, and slides, cuts or takes back cuts."""
 
     before: Network
     after: Network

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The wires and offers at the cursor, or the seed or the line that a button holds."""
+"""The gestures of a session that are not done: at the cursor, held, or waiting."""
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeVar
 
 from ..base.messages import NOTHING, message_of
 from ..network.network import Snap
@@ -13,34 +13,44 @@ from .gesture import Gesture
 from .line import LineGesture
 from .loop import LoopGesture
 from .seed_drag import SeedDrag
-from .under_way import UnderWay
 from .wire import WireGesture
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from ...terms.options import Options
     from ..fields.crests import Crests
     from ..network.network import Seed
     from ..network.picks import Pick
+    from ..network.wires import Wire
+    from ..solver.solver import LiveWire
     from .drawing import Drawing
 
 
-class Cursor:
-    """Finds the wires and offers at the cursor, and holds a seed or a line.
+@dataclass(frozen=True)
+class Waiting:
+    """A committed gesture that waits for the library, and the pick that it was committed at."""
 
-    Parameters
-    ----------
-    drawing
-        The state that gestures share.
+    gesture: Gesture
+    target: Snap | None
+
+
+Kind = TypeVar("Kind", bound=Gesture)
+
+
+class Cursor:
+    """The gestures that are not done, and what of them is shown. It never changes the kept wires.
 
     Attributes
     ----------
     live, loops, extension
         The live wire, the loops and the way to the end that a click would keep.
-    under_way
-        The gestures that are held or wait.
+    held
+        The seed or the line that a button holds. A released seed stays here until its wires are computed.
+    queue
+        Committed gestures that wait, the oldest first. They are committed in this order.
+    retraces
+        Kept wires that take another course once it is computed. Nothing waits for them.
     """
 
     def __init__(self, drawing: Drawing) -> None:
@@ -48,12 +58,66 @@ class Cursor:
         self.live = WireGesture(drawing)
         self.loops = LoopGesture(drawing, self.live)
         self.extension = Extension(drawing, self.live)
-        self.under_way = UnderWay(drawing, self.live, self.loops)
+        self.held: Gesture | None = None
+        self.queue: list[Waiting] = []
+        self.retraces: list[Gesture] = []
 
     @property
     def target(self) -> Snap | None:
         """The pick under the cursor, or that of the oldest waiting gesture."""
         return self.live.target
+
+    def holds(self, kind: type[Kind]) -> Kind | None:
+        """Return the held gesture if it is of a kind, otherwise None."""
+        return self.held if isinstance(self.held, kind) else None
+
+    @property
+    def drag(self) -> SeedDrag | None:
+        """The seed that is being moved."""
+        return self.holds(SeedDrag)
+
+    @property
+    def moved(self) -> tuple[Wire, ...]:
+        """The wires that follow a seed that is held, as they run now."""
+        drag = self.drag
+        return () if drag is None or drag.ending else drag.moved
+
+    @property
+    def gestures(self) -> list[Gesture]:
+        """All gestures that wait or are held."""
+        held = [] if self.held is None else [self.held]
+        return [*(one.gesture for one in self.queue), *self.retraces, *held]
+
+    @property
+    def waiting(self) -> int:
+        """The number of committed gestures that wait for their wires."""
+        drag = self.drag
+        return len(self.queue) + len(self.retraces) + (drag is not None and drag.ending)
+
+    @property
+    def computing(self) -> bool:
+        """Whether the library still works on the picture."""
+        drag = self.drag
+        return self.live.computing or not self.loops.final or (drag is not None and not drag.final)
+
+    @property
+    def will_be_live(self) -> bool:
+        """Whether a chain is live as soon as everything that waits is done."""
+        live = self._drawing.network.seed is not None
+        for one in self.queue:
+            live = one.gesture.leaves_live(live, one.target)
+        return live
+
+    def lives(self) -> list[LiveWire]:
+        """Return the live wires that compute something for what is shown or waits."""
+        shown = [self.live, self.loops] if self.loops.cuts.wanted else [self.live]
+        return [live for gesture in (*shown, *self.gestures) for live in gesture.lives()]
+
+    def read_progress(self) -> None:
+        """Read how much is computed. Wires that are not final after all work is done stay so, so this comes before asking."""
+        self._drawing.progress = min(live.progress() for live in self.lives())
+
+    # Wires and offers
 
     def next_candidate(self) -> bool:
         """Show the next candidate, or the next offer if offers are shown. Return whether there is one."""
@@ -90,28 +154,18 @@ class Cursor:
                 self.sow(before)
             return self._drawing.refuse(message_of(error))
         finally:
-            self.under_way.read_progress()
+            self.read_progress()
         return True
 
     def aim(self, target: Snap | None, again: bool = False, is_read: bool = False) -> None:
-        """Find the wires to a target.
-
-        Parameters
-        ----------
-        target
-            The pick under the cursor, or None.
-        again
-            Whether to find them also if the target is the same as before.
-        is_read
-            Whether the caller has just read the progress.
-        """
+        """Find the wires to a target; `again` if it is the same as before, too. `is_read`: the caller has just read the progress."""
         live, drawing = self.live, self._drawing
         same = live.is_aimed_at(target, drawing.options.straight) and live.final
         if same and not again and self.loops.final:
             return
         before = (live.shown, drawing.message)
         if not is_read:
-            self.under_way.read_progress()
+            self.read_progress()
         drawing.message = self.live.aim(target)
         # Asking again while nothing is ready shows nothing new, and must not cost a redraw each time.
         drawing.revision += before != (live.shown, drawing.message)
@@ -124,9 +178,9 @@ class Cursor:
     def show_offers(self, is_read: bool = False) -> None:
         """Show the offers at the cursor, as soon as they are computed. `is_read` is that of `aim`."""
         if self.loops.offers.unfinished and not is_read:
-            self.under_way.read_progress()
+            self.read_progress()
         before = self._drawing.message
-        is_awaited = any(one.gesture.needs_offers for one in self.under_way.queue)
+        is_awaited = any(one.gesture.needs_offers for one in self.queue)
         changed, self._drawing.message = self.loops.show(before, is_awaited)
         self._drawing.revision += changed or self._drawing.message != before
 
@@ -136,40 +190,10 @@ class Cursor:
             self._drawing.revision += self.extension.poll()
             self._drawing.message = self.extension.message or self._drawing.message
 
-    def follow(self, options: Options) -> bool:
-        """Find wires with other settings from here on. Return False if that ends the chain, see `Session.follow`."""
-        drawing = self._drawing
-        before, drawing.options = drawing.options, options
-        drawing.revision += 1
-        done = options.along == before.along or self._switch()
-        if options.straight != before.straight:
-            self.live.reset()
-            self.aim_again()
-        if options.computes != before.computes:
-            self.compute_anew()
-        if options.clear != before.clear:
-            drawing.message = NOTHING
-        if options.mirror != drawing.network.mirror:
-            drawing.set(replace(drawing.network, mirror=options.mirror))
-        return done
-
-    def _switch(self) -> bool:
-        """Let the live wire run the other way; if it cannot begin there, end the chain."""
-        drawing = self._drawing
-        self.live.reset()
-        self.loops.cancel()
-        seed, why = drawing.network.seed, NOTHING
-        if seed is not None and not self.sow(seed):
-            why = drawing.message
-            drawing.set(replace(drawing.network, seed=None))
-        self.aim_again()
-        drawing.message = why or drawing.message
-        return not why
-
     def compute_anew(self) -> None:
         """Compute live wires with the current settings. While a seed is dragged, its wires keep their metric."""
         options, engines = self._drawing.options, self._drawing.engines
-        if self.under_way.drag is not None:
+        if self.drag is not None:
             return
         if options.metric != engines.metric:
             self.live.reset()
@@ -187,17 +211,17 @@ class Cursor:
         self._drawing.message = NOTHING
         self.aim_again()
 
-    # A held seed or line, in place of wires and offers
+    # A held seed or line
 
     def hold(self, kind: type[SeedDrag] | type[LineGesture], *given: object) -> bool:
-        """Take hold of a new gesture. Return whether it was not refused."""
+        """Take hold of a new gesture, in place of wires and offers. Return whether it was not refused."""
         drawing = self._drawing
         try:
-            self.under_way.held = kind(drawing, *given)
+            self.held = kind(drawing, *given)
         except ValueError as error:
             return drawing.refuse(message_of(error))
         self.live.seedless = kind is SeedDrag
-        self.under_way.read_progress()
+        self.read_progress()
         self.live.cancel()
         self.loops.offers.clear()
         self.extension.cancel()
@@ -206,19 +230,14 @@ class Cursor:
         return True
 
     def let_go(self, kind: type[Gesture] = Gesture, again: bool = True) -> bool:
-        """Cancel the held gesture if it is of a kind: a dragged seed goes back, a line vanishes. Return whether it was held.
+        """Cancel the held gesture if it is of a kind, and find the live wire `again`. Return whether it was held.
 
-        Parameters
-        ----------
-        kind
-            A class of gestures.
-        again
-            Whether to find the live wire again.
+        A dragged seed goes back, and a line vanishes.
         """
         drawing = self._drawing
-        if self.under_way.holds(kind) is None:
+        if self.holds(kind) is None:
             return False
-        self.under_way.held = None
+        self.held = None
         self.live.seedless = False
         drawing.revision += 1
         # While a seed was dragged, its wires kept their metric.
@@ -230,7 +249,7 @@ class Cursor:
 
     def drag_to(self, snap: Snap | Pick | None) -> bool:
         """Move the dragged seed; its wires follow as soon as they are computed. None leaves it in place."""
-        drag, drawing = self.under_way.drag, self._drawing
+        drag, drawing = self.drag, self._drawing
         if drag is None:
             return drawing.refuse("no-seed-moves")
         if snap is None or drag.ending:
@@ -238,26 +257,26 @@ class Cursor:
         before = (drag.target, drag.network, drawing.message)
         self.live.target = Snap.of(snap)
         drawing.message = drag.aim(Snap.of(snap))
-        self.under_way.read_progress()
+        self.read_progress()
         drawing.revision += before != (drag.target, drag.network, drawing.message)
         return drag.solved and not drag.message
 
     def line_to(self, points: NDArray[np.float64], triangles: NDArray[np.int32], snap: Snap | Pick | None) -> bool:
         """Draw the line on: all its points (k, 3), the triangle of each (k,), and the pick under the cursor."""
-        line = self.under_way.holds(LineGesture)
+        line = self.holds(LineGesture)
         if line is None:
             return self._drawing.refuse("no-line-drawn")
         line.draw(points, triangles, None if snap is None else Snap.of(snap))
         self.live.target = line.joined
-        self.under_way.read_progress()
-        self._drawing.message = line.message
+        self.read_progress()
+        self._drawing.message = line.line.message
         self._drawing.revision += 1
         return True
 
     def line_release(self) -> LineGesture | None:
         """Let go of the line, to keep it with `Session.line_keep`. Return None if no line is drawn."""
-        line = self.under_way.holds(LineGesture)
+        line = self.holds(LineGesture)
         if line is not None:
-            self.under_way.held = None
+            self.held = None
             self._drawing.revision += 1
         return line

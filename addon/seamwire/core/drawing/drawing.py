@@ -44,8 +44,6 @@ class Drawing:
         Makes the live wires for one way of running; called once for each way that is used, and once for closed cuts.
     points
         (n, 3) coordinates of the mesh's vertices.
-    options
-        The settings to begin with.
     edges
         (e, 2) the visible edges. If None, any two vertices may share an edge.
     seams
@@ -54,8 +52,6 @@ class Drawing:
         (3, 3) takes `points` to object coordinates, where mirroring happens. If None, they are object coordinates.
     triangles
         (m, 3) the triangles that the surface was made of. If None, strokes run through vertices only.
-    make_stroke
-        Converts a stroke for the live wires.
     topology
         Whether mirrored vertices are found by the connections of the mesh, see `Symmetry`.
     make_parts
@@ -64,22 +60,16 @@ class Drawing:
 
     Attributes
     ----------
-    network
-        The kept wires, the live wire's seed, and the mirror.
-    options
-        The settings.
-    history
-        The steps for undo.
     message
         The reason why something is not done, until the cursor points at something else.
     warning
         A warning about the last step, until the next one. It is shown where there is no `message`.
     failure
         The reason why a gesture that waited was not done, until the next gesture.
-    revision
-        Grows with every change of the picture.
+    revision, network_revision
+        Grow with every change of the picture, and of the kept wires.
     progress
-        The finished fraction of the running work. `UnderWay` reads it before wires are asked for.
+        The finished fraction of the running work. `Cursor.read_progress` reads it before wires are asked for.
     """
 
     def __init__(
@@ -115,7 +105,6 @@ class Drawing:
         self.failure: Message = NOTHING
         self.revision = 0
         self.network_revision = 0
-        """Grows with every change of the kept wires."""
 
     @property
     def told(self) -> Message:
@@ -134,15 +123,7 @@ class Drawing:
         return None if seed is None else undirected(seed.shown(self.options.along))
 
     def as_drawn(self, wire: Wire, like: Wire | None = None) -> Wire:
-        """Return a wire with the settings of a new one: marks, mirror, strength, and finish.
-
-        Parameters
-        ----------
-        wire
-            The wire.
-        like
-            The kept wire that it replaces and takes these settings from, except the strength.
-        """
+        """Return a wire with the settings of a new one, or, except the strength, with those of the kept wire that it replaces."""
         if like is not None:
             return replace(wire, marks=like.marks, mirror=like.mirror, strength=self.strength, finish=like.finish)
         return replace(
@@ -167,10 +148,7 @@ class Drawing:
     def wires_along(self, seams: NDArray[np.int32]) -> Iterator[Wire]:
         """Yield wires that run along seams, (k, 2), as few as possible. None of them is kept.
 
-        Raises
-        ------
-        ValueError
-            If an edge is not part of the surface.
+        Raises ValueError if an edge is not part of the surface.
         """
         live = self.engines.get("EDGES").fork()
         for chain in seam_chains(seams):
@@ -188,16 +166,9 @@ class Drawing:
         return np.unique(known, axis=0)
 
     def find_parts(self, seams: NDArray[np.int32], goes_on: Callable[[], bool]) -> Iterator[NDArray[np.int32]]:
-        """Yield the part of each triangle, (m,), for each of `AMOUNTS`; nothing if there are no parts. Any thread may.
+        """Yield the part of each triangle, (m,), for each of `AMOUNTS`, while `goes_on()`; nothing if there are no parts. Any thread may.
 
-        The next search with the same seams uses the measurements of a search that was stopped.
-
-        Parameters
-        ----------
-        seams
-            (k, 2) edges that part the mesh already.
-        goes_on
-            Whether to search further. Otherwise nothing more comes.
+        `seams`, (k, 2), part the mesh already. The next search with the same seams uses the measurements of a search that was stopped.
         """
         if self._make_parts is None:
             return

@@ -11,27 +11,14 @@ from ..network.wires import Wire
 from .gesture import Gesture
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    from ..network.network import Seed, Snap
-    from ..network.picks import Edge
-    from ..solver.solver import LiveWire
+    from ..network.network import Snap
     from .drawing import Drawing
     from .gesture import Committed
     from .wire import WireGesture
 
 
 class Extension(Gesture):
-    """The live wire with its way to the end. Along edges only.
-
-    Parameters
-    ----------
-    drawing
-        The state that gestures share.
-    live
-        Has the live wire.
-    """
+    """The live wire with its way to the end. Along edges only."""
 
     def __init__(self, drawing: Drawing, live: WireGesture) -> None:
         self._drawing = drawing
@@ -77,13 +64,7 @@ class Extension(Gesture):
         self.wanted, self.wire = False, None
 
     def find(self, active: Wire | None) -> Wire | None:
-        """Return a live wire with its way to the end, or None if there is no way or no direction.
-
-        Parameters
-        ----------
-        active
-            The live wire. If None, the way begins at the seed.
-        """
+        """Return a live wire, or the seed, with its way to the end, or None if there is no way or no direction."""
         drawing = self._drawing
         network, seed = drawing.network, drawing.network.seed
         self.message = NOTHING
@@ -98,40 +79,23 @@ class Extension(Gesture):
             return None
         stops = drawing.stops.of(network, active, edge[1:])
         try:
-            wire = extended(drawing.engines.get("EDGES"), seed, active, edge, stops, drawing.points)
+            way = drawing.engines.get("EDGES").extend_straight(edge, stops[stops != edge[1]])
         except ValueError as error:  # the edge is not part of the surface
             self.message = message_of(error)
             return None
-        strength = drawing.engines.strengths["EDGES"]
-        return wire and replace(wire, marks=drawing.options.marking, mirror=network.mirror, strength=strength)
-
-
-def extended(
-    live: LiveWire, seed: Seed, active: Wire | None, edge: Edge, stops: NDArray[np.int64], points: NDArray[np.float64]
-) -> Wire | None:
-    """Return the way to the end from a directed edge, or None.
-
-    Parameters
-    ----------
-    live
-        Of the way along edges.
-    seed
-        Where the wire begins.
-    active
-        The live wire, which `edge` is the last one of; None: the wire begins with the seed, which is that edge.
-    stops
-        The vertices where it ends, without the edge's second one.
-    points
-        (n, 3) vertices of the mesh.
-
-    Raises
-    ------
-    ValueError
-        Where the edge is not part of the surface.
-    """
-    way = tuple(int(v) for v in live.extend_straight(edge, stops[stops != edge[1]]).vertices)
-    if len(way) < 2:
-        return None
-    vertices = way if active is None else active.vertices + way[1:]
-    heading = active.heading if active is not None else edge
-    return Wire("EDGES", vertices, points[list(vertices)], seed.place, vertices[-1], heading=heading)
+        vertices, heading = tuple(int(vertex) for vertex in way.vertices), edge
+        if len(vertices) < 2:
+            return None
+        if active is not None:
+            vertices, heading = active.vertices + vertices[1:], active.heading
+        return Wire(
+            "EDGES",
+            vertices,
+            drawing.points[list(vertices)],
+            seed.place,
+            vertices[-1],
+            marks=drawing.options.marking,
+            mirror=network.mirror,
+            heading=heading,
+            strength=drawing.engines.strengths["EDGES"],
+        )

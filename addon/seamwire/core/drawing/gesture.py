@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 class Gesture:
     """One way to change the network with the cursor. It knows the drawing and no session.
 
-    The session, the cursor or the queue aims it. The queue polls it while the library computes, and goes on to its network.
+    The session aims it, polls it while the library computes, and goes on to its network.
     """
 
     keeps_active: int | None = None
@@ -39,13 +39,7 @@ class Gesture:
         return False
 
     def commit(self) -> Committed:
-        """Return the network with what the gesture does.
-
-        Raises
-        ------
-        ValueError
-            If it cannot be done.
-        """
+        """Return the network with what the gesture does. Raises ValueError if it cannot be done."""
         raise NotImplementedError
 
     def leaves_live(self, live: bool, target: Snap | None) -> bool:

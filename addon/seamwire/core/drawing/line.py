@@ -27,23 +27,16 @@ if TYPE_CHECKING:
 
 
 class LineGesture(Gesture):
-    """A line on the surface, and the wires that follow it.
+    """A line on the surface, and the wires that follow it. Raises Refused if no line across the surface can begin there.
 
     Parameters
     ----------
-    drawing
-        The state that gestures share.
     begin
         The pick under the cursor at its beginning.
     goes_on
         Whether it continues the chain from the live wire's seed.
     apart
         Whether its wires belong to no chain, and leave the chain that is drawn unchanged.
-
-    Raises
-    ------
-    Refused
-        If no line across the surface can begin there.
     """
 
     def __init__(self, drawing: Drawing, begin: Snap, goes_on: bool = False, apart: bool = False) -> None:
@@ -53,7 +46,8 @@ class LineGesture(Gesture):
         self._apart = apart
         self.end: Snap | None = None
         """The pick under the cursor at its current end."""
-        self._line = self._begun(begin.pick, drawing.network.seed if goes_on else None)
+        self.line = self._begun(begin.pick, drawing.network.seed if goes_on else None)
+        """The line itself, with the wires that follow it."""
 
     def _begun(self, pick: Pick, seed: Seed | None) -> EdgeLine | SurfaceLine:
         """Return a line from a pick, or from the live wire's seed."""
@@ -74,58 +68,29 @@ class LineGesture(Gesture):
 
     def take_warning(self) -> Message:
         """Return why wires do not follow the whole line, or a warning about triangles that they must lead around."""
-        return self._line.message or self._drawing.engines.warning(self._drawing.options.along)
-
-    @property
-    def message(self) -> Message:
-        """Why wires do not follow the whole line, or an empty message."""
-        return self._line.message
-
-    @property
-    def points(self) -> NDArray[np.float64]:
-        """The line, (k, 3)."""
-        return self._line.points
-
-    @property
-    def wires(self) -> tuple[Wire, ...]:
-        """The wires that follow it, as far as they are computed."""
-        return self._line.wires
+        return self.line.message or self._drawing.engines.warning(self._drawing.options.along)
 
     def draw(self, points: NDArray[np.float64], triangles: NDArray[np.int32], target: Snap | None) -> None:
-        """Draw the line on.
-
-        Parameters
-        ----------
-        points
-            (k, 3) all of it, from its beginning.
-        triangles
-            (k,) the triangle that each point lies in.
-        target
-            The pick under the cursor.
-        """
+        """Draw the line on: all its points, (k, 3), the triangle of each, (k,), and the pick under the cursor."""
         self.end = target
         if len(points):
             end = None if self.joined is None else self.joined.pick
-            self._line.to(points, triangles, end, self._drawing.stops.kept(self._drawing.network))
+            self.line.to(points, triangles, end, self._drawing.stops.kept(self._drawing.network))
 
     def poll(self) -> bool:
         """Take in the wires that were computed. Return whether there are others now."""
-        before = self._line.wires
-        self._line.poll()
-        return before is not self._line.wires
-
-    def finish(self) -> None:
-        """End the line."""
-        self._line.finish()
+        before = self.line.wires
+        self.line.poll()
+        return before is not self.line.wires
 
     def commit(self) -> Committed:
         """Return the network with the wires that follow the line."""
-        if not self._line.poll():
+        if not self.line.poll():
             return self
-        wires = tuple(self._drawing.as_drawn(wire) for wire in self._line.wires)
+        wires = tuple(self._drawing.as_drawn(wire) for wire in self.line.wires)
         if not wires:
             none = Message.of("no-wire-follows-line" if self._apart else "line-too-short")
-            raise Refused(self._line.message or none)
+            raise Refused(self.line.message or none)
         return self._kept(wires)
 
     def leaves_live(self, live: bool, target: Snap | None) -> bool:
@@ -134,7 +99,7 @@ class LineGesture(Gesture):
 
     def lives(self) -> list[LiveWire]:
         """Return the live wires that compute for it."""
-        return self._line.lives()
+        return self.line.lives()
 
     @property
     def joined(self) -> Snap | None:

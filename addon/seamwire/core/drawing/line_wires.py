@@ -47,8 +47,6 @@ class EdgeLine:
 
     Parameters
     ----------
-    engines
-        Have the live wires that fit it.
     mesh
         (n, 3) vertices.
     begin
@@ -176,20 +174,7 @@ def _without_overshoot(chain: list[int], stops: NDArray[np.int64]) -> list[int]:
 class SurfaceLine:
     """A line whose wires run across the surface, each as far as one keeps near to the line, and going on where that ended.
 
-    Its attributes and methods are those of `EdgeLine`.
-
-    Parameters
-    ----------
-    engines
-        Have the live wires that those of the line are forks of.
-    mesh
-        (n, 3) vertices.
-    triangles
-        (m, 3) those that the surface was made of.
-    begin
-        Where it begins.
-    anywhere
-        Whether wires may begin and end inside triangles, else at vertices alone.
+    Its attributes and methods are those of `EdgeLine`. Unless `anywhere`, wires begin and end at vertices.
     """
 
     def __init__(

@@ -30,13 +30,6 @@ if TYPE_CHECKING:
 class LoopGesture(Gesture):
     """The loops that a click at the cursor offers, along edges or across the surface.
 
-    Parameters
-    ----------
-    drawing
-        The state that gestures share.
-    live
-        Knows the pick under the cursor.
-
     Attributes
     ----------
     edges, cuts
@@ -86,17 +79,7 @@ class LoopGesture(Gesture):
     # Offers
 
     def hover(self, target: Snap | None, loop: bool, bend: bool) -> bool:
-        """Ask for offers at a target. Return whether others vanish.
-
-        Parameters
-        ----------
-        target
-            The pick under the cursor, or None.
-        loop
-            Whether loops are asked for.
-        bend
-            Whether the last closed cut is to be bent to the target instead.
-        """
+        """Ask for offers at a target, or for the last closed cut bent to it. Return whether others vanish."""
         if target is None or undirected(target.pick) != self._crest_taken:
             self._crest_taken = None
         vanish = self.cuts.bend(bend)
@@ -121,19 +104,9 @@ class LoopGesture(Gesture):
         return offers.unfinished and offers.show(target.pick, self.find(target.pick))
 
     def show(self, message: Message, is_awaited: bool) -> tuple[bool, Message]:
-        """Show the offers at the cursor once they are computed.
+        """Show the offers at the cursor once they are computed. Return whether others are to be seen, and the message from here on.
 
-        Parameters
-        ----------
-        message
-            The message that is shown.
-        is_awaited
-            Whether a committed gesture waits for offers.
-
-        Returns
-        -------
-        tuple
-            Whether other offers are to be seen, and the message from here on.
+        `is_awaited`: whether a committed gesture waits for offers.
         """
         if not is_awaited:
             # Compute no offers that nobody asks for any more, in both ways of running.
@@ -159,14 +132,9 @@ class LoopGesture(Gesture):
         return self.offers.wanted
 
     def find(self, pick: Pick, kept: Wire | None = None) -> tuple[Wire, ...]:
-        """Return what a click on a pick may take, or nothing while it is computed.
+        """Return what a click on a pick may take, or nothing while it is computed. A wire that such a click took comes first.
 
-        Parameters
-        ----------
-        pick
-            An edge has the offers along edges, even if wires run across the surface.
-        kept
-            A kept wire that such a click took, which then comes first.
+        An edge has the offers along edges, even if wires run across the surface.
         """
         self.problem = NOTHING
         offers = self.edges if isinstance(pick, tuple) else self.cuts
@@ -271,7 +239,7 @@ class LoopGesture(Gesture):
         begin: Pick = first if drawing.options.into_faces and drawing.options.along == "SURFACE" else first.vertex
         line = LineGesture(drawing, Snap(begin), apart=True)
         line.draw(points, triangles, None)
-        line.finish()
+        line.line.finish()
         self.cuts.was_taken(pick)
         self.edges.wanted = False
         self._crest_taken = undirected(pick)
@@ -297,19 +265,7 @@ class LoopGesture(Gesture):
 
 
 class NextOffer(Gesture):
-    """A wire that a click on an edge took becomes the next offer of that click.
-
-    Parameters
-    ----------
-    drawing
-        The state that gestures share.
-    loops
-        Finds the offers.
-    wire
-        A wire of the network with an edge that it was taken through.
-    steps
-        How many offers further.
-    """
+    """A wire that a click on an edge took becomes an offer of that click that is some `steps` further."""
 
     needs_offers = True
 

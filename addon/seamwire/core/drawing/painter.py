@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from ...terms.choices import DEFAULT_FINISH
 from ..network.picks import undirected
 from .line import LineGesture
-from .picture import Choice, Intent, Offered, Picture, Role, ShownWire, shown_seeds
+from .picture import Choice, Intent, Offered, Picture, Role, ShownWire, Work, shown_seeds
 from .stroke import StrokeGesture
 
 if TYPE_CHECKING:
@@ -20,43 +20,34 @@ if TYPE_CHECKING:
     from ..network.wires import Wire
     from .cursor import Cursor
     from .drawing import Drawing
-    from .picture import Work
+    from .line_wires import EdgeLine, SurfaceLine
     from .seed_drag import SeedDrag
 
 
 class Painter:
-    """Makes a picture when something has changed, otherwise returns the last one.
-
-    Parameters
-    ----------
-    drawing
-        The network and the settings.
-    cursor
-        The gestures at the cursor, and those that are under way.
-    """
+    """Makes a picture when something has changed, otherwise returns the last one."""
 
     def __init__(self, drawing: Drawing, cursor: Cursor) -> None:
         self._drawing = drawing
-        self._live = cursor.live
-        self._loops = cursor.loops
-        self._extension = cursor.extension
-        self._under_way = cursor.under_way
+        self._cursor = cursor
         self._last: tuple[object, Picture] | None = None
         self._kept: tuple[Network, tuple[ShownWire, ...]] | None = None
 
-    def picture(self, work: Work) -> Picture:
-        """Return a picture with the running computation."""
-        key = (self._drawing.revision, self._drawing.network_revision, self._drawing.told, work)
+    def picture(self) -> Picture:
+        """Return a picture of what there is now."""
+        drawing, cursor = self._drawing, self._cursor
+        work = Work(cursor.computing, drawing.progress, cursor.waiting)
+        key = (drawing.revision, drawing.network_revision, drawing.told, work)
         if self._last is None or self._last[0] != key:
             self._last = (key, self._painted(work))
         return self._last[1]
 
     def _painted(self, work: Work) -> Picture:
-        drawing, loops, under_way = self._drawing, self._loops, self._under_way
-        options, live, drag = drawing.options, self._live, under_way.drag
-        line = under_way.holds(LineGesture)
+        drawing, cursor, loops = self._drawing, self._cursor, self._cursor.loops
+        options, live, drag = drawing.options, cursor.live, cursor.drag
+        line = cursor.holds(LineGesture)
         network = drawing.network if drag is None else drag.network
-        lines = [gesture for gesture in under_way.gestures if isinstance(gesture, LineGesture)]
+        lines = [gesture.line for gesture in cursor.gestures if isinstance(gesture, LineGesture)]
         offers, target = loops.offers, live.target
         seed = drawing.network.seed
         closing = drawing.network.closing_point
@@ -69,8 +60,8 @@ class Painter:
             network_revision=drawing.network_revision,
             wires=self._wires(network, drag, lines),
             seeds=shown_seeds(drawing.seeds(network), drawing.seed_place, closing, hovered, begins),
-            strokes=(*network.strokes, *(one.stroke for one in under_way.gestures if isinstance(one, StrokeGesture))),
-            line=None if line is None else line.points,
+            strokes=(*network.strokes, *(one.stroke for one in cursor.gestures if isinstance(one, StrokeGesture))),
+            line=None if line is None else line.line.points,
             target=target,
             seed=None if seed is None else seed.begins(options.along),
             choice=Choice(live.number, 1 + len(live.others), live.straight_active, live.ring_active),
@@ -78,28 +69,30 @@ class Painter:
             intent=self._intent(work.computing),
             can_close=closing is not None,
             can_bend=options.along == "SURFACE" and loops.cuts.bendable(network) is not None,
-            can_undo=bool(under_way.gestures) or drawing.history.can_undo(drawing.network),
+            can_undo=bool(cursor.gestures) or drawing.history.can_undo(drawing.network),
             can_redo=drawing.history.can_redo,
             strength=drawing.strength,
             work=work,
             message=drawing.told,
         )
 
-    def _wires(self, network: Network, drag: SeedDrag | None, lines: Iterable[LineGesture]) -> tuple[ShownWire, ...]:
+    def _wires(
+        self, network: Network, drag: SeedDrag | None, lines: Iterable[EdgeLine | SurfaceLine]
+    ) -> tuple[ShownWire, ...]:
         """Return the wires from bottom to top: those of a network, and everything live."""
-        options = self._drawing.options
+        options, cursor = self._drawing.options, self._cursor
         moved = () if drag is None else drag.moved
         if self._kept is None or self._kept[0] is not network:
             ids = {wire.id for wire in moved}
             own = (wire for wire in network.wires if wire.id not in ids)
             self._kept = network, tuple(ShownWire(wire, Role.KEPT, tuple(wire.images or ())) for wire in own)
-        target, active = self._live.target, self._live.active
+        target, active = cursor.live.target, cursor.live.active
         hovered = None if target is None or target.to != "WIRE" else network.find(target.wire)
         following = [
             replace(wire, marks=options.marking, mirror=network.mirror) for line in lines for wire in line.wires
         ]
-        role = Role.ACTIVE if self._live.active_final else Role.COMPUTING
-        offer, extension = self._loops.offers.wire, self._extension.wire
+        role = Role.ACTIVE if cursor.live.active_final else Role.COMPUTING
+        offer, extension = cursor.loops.offers.wire, cursor.extension.wire
 
         def live(wire: Wire, role: Role, finish: Finish) -> ShownWire:
             images = self._drawing.images.of(wire, network, False)
@@ -108,7 +101,7 @@ class Painter:
         return (
             *self._kept[1],
             *([] if hovered is None else [ShownWire(hovered, Role.HOVERED)]),
-            *(ShownWire(wire, Role.OTHER) for wire in reversed(self._live.others)),
+            *(ShownWire(wire, Role.OTHER) for wire in reversed(cursor.live.others)),
             *(live(wire, Role.MOVED, wire.finish) for wire in moved),
             *(live(wire, Role.FOLLOWING, options.finish) for wire in following),
             *([] if active is None else [live(active, role, options.finish)]),
@@ -118,20 +111,21 @@ class Painter:
 
     def _intent(self, computing: bool) -> Intent:
         """Return the effect of a click."""
-        along, live, seed = self._drawing.options.along, self._live, self._drawing.network.seed
-        if self._under_way.drag is not None:
+        cursor, live = self._cursor, self._cursor.live
+        along, seed = self._drawing.options.along, self._drawing.network.seed
+        if cursor.drag is not None:
             return Intent.MOVE
-        if self._under_way.holds(LineGesture) is not None:
+        if cursor.holds(LineGesture) is not None:
             return Intent.DRAW
-        if self._extension.wire is not None:
+        if cursor.extension.wire is not None:
             return Intent.RUN
-        if self._loops.offers.wire is not None:
+        if cursor.loops.offers.wire is not None:
             return Intent.LOOP
         if live.target is None or (along == "SURFACE" and isinstance(live.target.pick, tuple)):
             return Intent.NOTHING
         if seed is None:
             return {"SEED": Intent.CONTINUE, "WIRE": Intent.BRANCH}.get(live.target.to, Intent.SEED)
         if live.active_final:
-            return self._live.ending(live.target) or Intent.KEEP
+            return live.ending(live.target) or Intent.KEEP
         waits = computing and not seed.at(live.target.pick, along)
         return Intent.WAIT if waits else Intent.NOTHING

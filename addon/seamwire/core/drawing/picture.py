@@ -94,19 +94,7 @@ class Intent(Enum):
 
 @dataclass(frozen=True)
 class ShownWire:
-    """A wire in a picture.
-
-    Parameters
-    ----------
-    wire
-        How it runs.
-    role
-        The role.
-    images
-        The edges of its mirror images.
-    finish
-        How it becomes a seam.
-    """
+    """A wire in a picture, with the edges of its mirror images, and how it becomes a seam."""
 
     wire: Wire
     role: Role
@@ -159,34 +147,22 @@ class Work:
 class Picture:
     """Everything that is to be seen of a drawing. Overlay, text and status bar read nothing else.
 
-    Parameters
+    Attributes
     ----------
-    options
-        The settings.
     revision, network_revision
         Grow with every change of what is seen, and of the kept wires.
     wires, seeds
         From bottom to top.
-    strokes
-        The strokes that wires follow or avoid.
     line
         The line that is being drawn, (k, 3).
     target
         The pick under the cursor.
     seed
         Where the live wire begins; None between chains.
-    choice, offered
-        Which candidate, and which offer, is shown.
     intent
         The effect of a click.
-    can_close, can_bend, can_undo, can_redo
-        What else could be done.
     strength
         How strongly the shown wires follow the shape.
-    work
-        The running computation.
-    message
-        What there is to tell.
     islands, pointed_island
         The islands that seams make, the gaps in seams, and the island under the cursor.
     stroke
@@ -241,17 +217,7 @@ class Picture:
 def shown_seeds(
     placed: Iterable[Pick], live: Pick | None, closing: Pick | None, hovered: Pick | None, begins: Iterable[Pick]
 ) -> tuple[ShownSeed, ...]:
-    """Return the seeds of a picture, from bottom to top.
-
-    Parameters
-    ----------
-    placed
-        All of the network.
-    live, closing, hovered
-        Those with another role.
-    begins
-        Where wires begin that follow a drawn line.
-    """
+    """Return the seeds of a picture, from bottom to top. `placed` has all of the network, and `begins` those of a drawn line's wires."""
     found = [
         ShownSeed(pick, SeedRole.LIVE if pick == live else SeedRole.PLACED)
         for pick in placed

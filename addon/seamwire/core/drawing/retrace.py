@@ -19,19 +19,9 @@ if TYPE_CHECKING:
 
 
 class Retrace(Gesture):
-    """A kept wire that takes its next way, that of another metric, as soon as it is computed.
+    """A kept wire, no loop, that takes its next way, that of another metric, as soon as it is computed.
 
-    Parameters
-    ----------
-    drawing
-        The state that gestures share.
-    wire
-        A wire of the network; not a loop.
-
-    Raises
-    ------
-    ValueError
-        If its start is not part of the surface.
+    Raises ValueError if its start is not part of the surface.
     """
 
     def __init__(self, drawing: Drawing, wire: Wire) -> None:
@@ -54,22 +44,7 @@ class Retrace(Gesture):
 
 
 def retraced(network: Network, own: Wire, others: tuple[Wire, ...]) -> Network:
-    """Return a network where a wire runs the next other way.
-
-    Parameters
-    ----------
-    network
-        Has the wire.
-    own
-        The wire.
-    others
-        The other ways, the next one first.
-
-    Raises
-    ------
-    Refused
-        Where no way is left.
-    """
+    """Return a network where its own wire runs the next other way, the first of `others`. Raises Refused where no way is left."""
     if not others:
         raise Refused("same-edges")
     other, *rest = others

@@ -36,14 +36,7 @@ _LEAST_BACK = 4
 class RingSearch:
     """Finds the wire from the end of a chain of one wire around a limb to the chain's beginning.
 
-    Parameters
-    ----------
-    engines
-        Compute loops and wires.
-    points
-        (n, 3) vertices of the mesh.
-    edges
-        (e, 2) edges of the mesh; None: no ring is found along edges.
+    Without edges, no ring is found along edges.
     """
 
     def __init__(self, engines: Engines, points: NDArray[np.float64], edges: NDArray[np.int32] | None) -> None:

@@ -50,25 +50,11 @@ class Courses:
 
 
 class Leg:
-    """Finds new courses for one wire with separate live wires, from the end that stays.
+    """Finds new courses for one wire, no loop, from the end that stays.
 
-    Parameters
-    ----------
-    live
-        Made for this leg alone.
-    network
-        The network that the wire is part of: where it joins others, it leaves and arrives as they do.
-    wire
-        Not a loop.
-    moving
-        The end that moves.
-    points
-        (n, 3) vertices of the mesh.
+    Where the wire joins others of the network, it leaves and arrives as they do.
 
-    Raises
-    ------
-    ValueError
-        Where the end that stays is not part of the surface.
+    Raises ValueError where the end that stays is not part of the surface.
     """
 
     def __init__(self, live: LiveWire, network: Network, wire: Wire, moving: End, points: NDArray[np.float64]) -> None:
@@ -81,21 +67,9 @@ class Leg:
         live.seed(for_live(seed, wire.along), forward=forward)
 
     def trace(self, target: Pick, place: Pick, avoid: int | None = None) -> Courses:
-        """Return the courses to a target.
+        """Return the courses to a target, where they have a seed at `place`. They end as soon as they pass the vertex `avoid`.
 
-        Parameters
-        ----------
-        target
-            Where they lead.
-        place
-            The seed that they have there.
-        avoid
-            A vertex where they end as soon as they pass it.
-
-        Raises
-        ------
-        ValueError
-            Where the target is not part of the surface.
+        Raises ValueError where the target is not part of the surface.
         """
         found = self.live.wires(for_live(target, self.wire.along))
         wires, leading = by_number(found)
@@ -136,19 +110,9 @@ def _fixed_seed(network: Network, wire: Wire, moving: End) -> tuple[Pick, bool, 
 
 
 class SeedDrag(Gesture):
-    """A seed of the network that is dragged, and the wires that follow it.
+    """A seed of the network that is dragged, and the wires that follow it. On a wire, a seed is put there first, in the same step for undo.
 
-    Parameters
-    ----------
-    drawing
-        The state that gestures share.
-    grip
-        The seed. On a wire, a seed is put there first, in the same step for undo.
-
-    Raises
-    ------
-    ValueError
-        If there is no seed, or if a wire's other end is not part of the surface.
+    Raises ValueError if there is no seed, or if a wire's other end is not part of the surface.
     """
 
     def __init__(self, drawing: Drawing, grip: Snap) -> None:

@@ -22,29 +22,18 @@ if TYPE_CHECKING:
 class StrokeGesture(Gesture):
     """A stroke that live wires follow or avoid. Kept wires stay as they are.
 
+    Raises OffMeshError if the stroke does not lie on the mesh.
+
     Parameters
     ----------
-    drawing
-        The state that gestures share.
-    live
-        Knows the active wire.
-    points
-        (n, 3) the points that a hand drew on the surface. They are smoothed a little.
-    faces
-        (n,) the triangle of each point.
+    points, faces
+        (n, 3) the points that a hand drew on the surface, and the triangle of each. They are smoothed a little.
     vertices
         (n,) the vertices that the stroke runs through, instead of both.
-    attracts
-        Whether wires follow the stroke. Otherwise they avoid it.
     acts_on
         The wires that it is meant for. If None, the active one while a wire is live, otherwise both.
     radius
         How far it reaches, in the points' units. If None, ten rings of vertices.
-
-    Raises
-    ------
-    OffMeshError
-        If the stroke does not lie on the mesh.
     """
 
     def __init__(

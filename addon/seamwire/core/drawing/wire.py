@@ -32,11 +32,6 @@ if TYPE_CHECKING:
 class WireGesture(Gesture):
     """The live wire from the chain's seed to the cursor: a candidate for each metric.
 
-    Parameters
-    ----------
-    drawing
-        The state that gestures share.
-
     Attributes
     ----------
     target
@@ -172,13 +167,7 @@ class WireGesture(Gesture):
         self.chosen, self.leading = None, 0
 
     def sow(self, seed: Seed, along: Along) -> None:
-        """Let wires that run one way begin at a seed from here on.
-
-        Raises
-        ------
-        ValueError
-            Where the seed is not part of the surface.
-        """
+        """Let wires that run one way begin at a seed from here on. Raises ValueError where the seed is not part of the surface."""
         begin = for_live(seed.begins(along), along)
         self._drawing.engines.get(along).seed(begin, forward=seed.forward and along == "EDGES")
 
@@ -262,13 +251,7 @@ class WireGesture(Gesture):
         return not (self.decided or (self.seen and self.active_final)) and self.computing
 
     def begun(self, target: Snap) -> Network:
-        """Return the network with a new chain that begins at a target.
-
-        Raises
-        ------
-        Refused
-            If wires across the surface cannot begin there.
-        """
+        """Return the network with a new chain that begins at a target. Raises Refused if wires across the surface cannot begin there."""
         along = self._drawing.options.along
         if along == "SURFACE" and isinstance(target.pick, tuple):
             raise Refused(only_vertices(target.pick))
@@ -351,16 +334,12 @@ def only_vertices(edge: Pick) -> Message:
 
 
 def straight_wire(live: LiveWire, begin: Pick, end: Pick, direction: Direction, follow: int) -> Wire | None:
-    """Return the wire in the plane through two picks and along a direction, or None.
+    """Return the wire in the plane through two picks and along a direction, such as that from the viewer, or None.
 
     Parameters
     ----------
-    live
-        Has the surface.
     begin, end
         Vertices, or points of triangles.
-    direction
-        From the viewer to the end, or any other of the plane.
     follow
         Which of the library's wires it is when its seeds are moved.
     """

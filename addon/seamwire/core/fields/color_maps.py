@@ -23,15 +23,7 @@ color too. The red is darker than that of seams, which are seen on it."""
 
 
 def colors(parts: ArrayLike, of: ColorMap) -> NDArray[np.float64]:
-    """Return the colors, (..., 3), at parts of a map; what is below 0 or above 1 has the color of the end.
-
-    Parameters
-    ----------
-    parts
-        0 to 1, of any shape.
-    of
-        The map.
-    """
+    """Return the colors, (..., 3), at parts of a map, from 0 to 1; what is below 0 or above 1 has the color of the end."""
     parts = np.asarray(parts, dtype=np.float64)
     at = np.linspace(0.0, 1.0, len(of))
     return np.stack([np.interp(parts, at, column) for column in zip(*of, strict=True)], axis=-1)

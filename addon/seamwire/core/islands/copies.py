@@ -22,20 +22,16 @@ _SAME = 1e-4
 
 @dataclass(frozen=True)
 class IslandShape:
-    """The corners of an island's faces, and the lengths between them. They decide how it is flattened.
+    """The corners of an island's faces, and the lengths between them, (c,) each. They decide how it is flattened.
 
-    Parameters
+    Attributes
     ----------
-    following
-        (c,) the next corner of the face.
     mates
-        (c,) the corner of the neighboring face from which the same edge runs the other way; -1 at the island's border.
-    lengths
-        (c,) of the edge to the next corner.
-    spans
-        (c,) between the corners before and after.
+        The corner of the neighboring face from which the same edge runs the other way; -1 at the island's border.
+    lengths, spans
+        Of the edge to the next corner, and between the corners before and after.
     corners
-        (c,) the corner at which each edge begins. It is the corner itself, unless the shape is mirrored.
+        The corner at which each edge begins. It is the corner itself, unless the shape is mirrored.
     """
 
     following: NDArray[np.int64]

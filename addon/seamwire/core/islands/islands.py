@@ -91,8 +91,6 @@ class IslandMaker(Newest[_Request, Islands]):
 
     Parameters
     ----------
-    triangles
-        (m, 3).
     label
         What tells the islands apart; called on the thread.
     gaps

@@ -28,16 +28,10 @@ _ON_BORDER = 1e-5
 
 @dataclass(frozen=True)
 class MapFaults:
-    """The faults of some islands of a UV map.
+    """The numbers of faults of some islands of a UV map.
 
-    Parameters
-    ----------
-    flipped
-        The number of faces that are turned over against their island, or have no area in the map.
-    overlapping
-        The number of islands that cover a part of themselves or of another island.
-    outside
-        The number of islands that lie neither in the UV square nor in the tile that they had before.
+    Faces are flipped if they are turned over against their island, or have no area in the map. Islands overlap that cover a part of
+    themselves or of another island. Islands are outside that lie neither in the UV square nor in the tile that they had before.
     """
 
     flipped: int = 0
@@ -53,22 +47,9 @@ NO_FAULTS = MapFaults()
 
 @dataclass(frozen=True)
 class MappedSurface:
-    """The visible faces of a mesh with their UVs.
+    """The visible faces of a mesh with the UVs of the triangles' corners, (m, 3, 2).
 
-    Parameters
-    ----------
-    points
-        (n, 3) vertices.
-    triangles
-        (m, 3) what the faces are cut into.
-    polygons
-        (m,) the face that each triangle is part of.
-    labels
-        (m,) the island of each triangle, numbered from 0.
-    uvs
-        (m, 3, 2) the UVs of the triangles' corners.
-    edges
-        (e, 2) the edges of the faces, without the diagonals that cut these into triangles.
+    Edges are those of faces, without the diagonals that cut these into triangles. Labels are islands, numbered from 0.
     """
 
     points: NDArray[np.float64]

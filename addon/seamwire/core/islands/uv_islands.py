@@ -25,17 +25,7 @@ _GAP = 1.0 / _CELLS
 
 @dataclass(frozen=True)
 class Corners:
-    """The corners of a mesh's faces, face by face, hidden ones included.
-
-    Parameters
-    ----------
-    vertices, edges
-        (c,) the vertex of each, and the edge to the next corner of its face.
-    faces
-        (c,) the face that each belongs to, ascending.
-    following
-        (c,) the next corner of its face.
-    """
+    """The corners of a mesh's faces, face by face, hidden ones included. Each has the edge to the next corner of its face."""
 
     vertices: NDArray[np.int32]
     edges: NDArray[np.int32]
@@ -210,15 +200,7 @@ def _fitted(island: NewIsland) -> NDArray[np.float64]:
 
 
 class _Square:
-    """One unit square of the UV plane, cell by cell.
-
-    Parameters
-    ----------
-    low
-        Its low corner.
-    taken
-        (b, 4) bounds of what lies in it, and elsewhere.
-    """
+    """One unit square of the UV plane, cell by cell. `taken`, (b, 4), are bounds of what lies in it, and elsewhere."""
 
     def __init__(self, low: NDArray[np.float64], taken: NDArray[np.float64]) -> None:
         self._low = low

@@ -16,16 +16,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class FacePoint:
-    """A point inside a triangle of the mesh: where wires across the surface begin and end that are to be cut into it.
+    """A point inside a triangle of the surface: where wires across the surface begin and end that are to be cut into it.
 
-    Parameters
-    ----------
-    triangle
-        Its number among those that the surface was made of.
-    corners
-        Its vertices.
-    weights
-        Of each corner, 0 or more; their sum is 1.
+    The weights of the triangle's corners are 0 or more, and their sum is 1.
     """
 
     triangle: int

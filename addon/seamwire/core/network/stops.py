@@ -26,15 +26,7 @@ _LOW = (1 << _BITS) - 1
 
 
 class Stops:
-    """The vertices where wires that run straight on end: those of seams and of wires, and those on the mirror's plane.
-
-    Parameters
-    ----------
-    seams
-        (k, 2) the edges that are seams already.
-    symmetry
-        Knows the images of wires, and what lies on the plane.
-    """
+    """The vertices where wires that run straight on end: those of seams, (k, 2), and of wires, and those on the mirror's plane."""
 
     def __init__(self, seams: ArrayLike, symmetry: Symmetry) -> None:
         self._symmetry = symmetry

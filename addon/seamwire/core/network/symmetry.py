@@ -152,7 +152,7 @@ class Symmetry:
         if self._triangles is None:
             return self._by_place(axes)
         if len(axes) == 1:
-            return self._by_topology(axes)
+            return grown_partners(self._triangles, np.asarray(self._edges), self._by_place(axes))
         first, rest = self.partners(axes[:1]), self.partners(axes[1:])
         return np.where(rest >= 0, first[rest], -1)
 
@@ -174,10 +174,6 @@ class Symmetry:
             at = np.minimum(np.searchsorted(keys, wanted), len(keys) - 1)
             partners[rows] = np.where(keys[at] == wanted, rows[at], -1)
         return partners
-
-    def _by_topology(self, axes: tuple[int, ...]) -> NDArray[np.int64]:
-        assert self._triangles is not None
-        return grown_partners(self._triangles, np.asarray(self._edges), self._by_place(axes))
 
     def _partners_of(self, vertices: NDArray[np.int64], axes: tuple[int, ...]) -> NDArray[np.int64]:
         """Return what a few vertices are mirrored to; of a large mesh not all are looked for because of them."""
@@ -216,13 +212,8 @@ class Symmetry:
         An image that runs along the wire itself, or along another image, is left out. If vertices have no partners, or the
         mesh lacks an edge of an image, the image falls into several, each drawn along its edges: see `one_sided`.
 
-        Parameters
-        ----------
-        wire, axes
-            The wire, and the axes that it is mirrored over.
-        curves
-            Whether only the curves matter, because they are cut into the faces: across the surface an image stays whole
-            if its ends have partners. If the mesh lacks edges of it, it has only these two vertices.
+        If only `curves` matter, because they are cut into the faces, an image across the surface stays whole if its ends have
+        partners. If the mesh lacks edges of it, it has only these two vertices.
         """
         by_curve = curves and self._is_across(wire)
         images: list[Wire] = []
@@ -314,12 +305,8 @@ def _combinations(axes: tuple[int, ...]) -> list[tuple[int, ...]]:
 class _PolygonEdges(HalfEdges):
     """The half-edges of the polygons that triangles make up. The triangles are alike oriented.
 
-    Attributes
-    ----------
-    following, preceding
-        (3m,) the half-edges beside each in its polygon, past the diagonals that cut the polygon into triangles. -1 if there is none.
-    sides
-        (3m,) how many half-edges the polygon of each has. 0 if it is not closed, or has too many.
+    `following` and `preceding`, (3m,), are those beside each in its polygon, past the diagonals, or -1. `sides`, (3m,), is the number of
+    half-edges of the polygon of each, or 0 if it is not closed, or has too many.
     """
 
     def __init__(self, triangles: NDArray[np.int32], edges: NDArray[np.int32], count: int) -> None:

@@ -34,17 +34,7 @@ _MUCH_SHORTER = 0.8
 
 @dataclass(frozen=True)
 class Direction:
-    """The likeliest loop in one direction.
-
-    Parameters
-    ----------
-    wire
-        The loop.
-    unlikeliness
-        How unlikely it is that the artist wants it.
-    edge
-        (2, 3) both ends of its edge at the cursor.
-    """
+    """The likeliest loop in one direction, and both ends of its edge at the cursor, (2, 3)."""
 
     wire: Wire
     unlikeliness: float
@@ -114,19 +104,7 @@ _MOST_PIECES = 64
 
 
 class LoopOffers(Offers):
-    """The loops that a click on the edge under the cursor may add.
-
-    Parameters
-    ----------
-    engines
-        Find it.
-    stops
-        Where strips end.
-    points
-        (n, 3) vertices of the mesh.
-    parts
-        Finds the borders of parts and flat faces; None: they are not offered.
-    """
+    """The loops that a click on the edge under the cursor may add. Without `parts`, no borders of parts and flat faces are offered."""
 
     SINGLE = Message.of("nothing-else-through-edge")
 

@@ -43,14 +43,12 @@ _MOST_BYTES = 16_000_000
 class TakenCut:
     """A closed cut that is kept, and where it came from: what it takes to bend it.
 
-    Parameters
+    Attributes
     ----------
     through
         The point that it was taken at.
     course
         (k, 3) its course when it was added, from that point around. Bending does not change it.
-    wires
-        The wires that it consists of.
     id
         The library's number among the cuts through that point, or None if it was added on another mesh.
     metric
@@ -159,12 +157,7 @@ class CutMemory:
 class SurfaceLoops(Offers):
     """The closed cuts through the point under the cursor, while they are asked for; or, to be bent, the one taken last through it too.
 
-    Parameters
-    ----------
-    engines
-        Find them.
-    triangles
-        (m, 3) those of the surface; None: nothing is offered.
+    Without triangles, nothing is offered.
     """
 
     SINGLE = Message.of("nothing-else-here")

@@ -32,17 +32,7 @@ _TINY = 0.2
 
 
 class SurfaceEdges(HalfEdges):
-    """The half-edges of a mesh with places.
-
-    Parameters
-    ----------
-    points
-        (n, 3) vertices of the mesh.
-    triangles
-        (m, 3) what its polygons are divided into.
-    edges
-        (e, 2) its edges; other sides of triangles lie within polygons, which are flat by definition.
-    """
+    """The half-edges of a mesh with places. Sides of triangles that are not among its edges lie within flat polygons."""
 
     def __init__(self, points: NDArray[np.float64], triangles: NDArray[np.int32], edges: NDArray[np.int32]) -> None:
         super().__init__(triangles, edges, len(points))

@@ -19,12 +19,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Camera:
-    """How a region sees the world.
+    """How a region sees the world. Its size is in pixels.
 
-    Parameters
+    Attributes
     ----------
-    width, height
-        Size in pixels.
     perspective
         (4, 4), takes world coordinates to clip space.
     clipped
@@ -112,20 +110,9 @@ class Projected:
 
 @dataclass(frozen=True, eq=False)
 class Sight:
-    """A pixel of a view of an object.
+    """A pixel of a view of an object, from the region's bottom left. The object's (4, 4) matrix may rotate, scale and shear.
 
-    Parameters
-    ----------
-    camera
-        How the view shows the world.
-    matrix
-        (4, 4) the object's matrix. It may rotate, scale and shear.
-    cursor
-        Pixels from the region's bottom left.
-    scale
-        Of the display.
-    xray
-        Whether to find what lies behind faces too.
+    `scale` is that of the display. With `xray`, what lies behind faces is found too.
     """
 
     camera: Camera

@@ -194,7 +194,7 @@ class DrawnPicker:
 
     def _drawn_now(self, session: Session) -> _Drawn:
         """Return what can be found of a session's network. A held seed and its wires cannot, because they follow the mouse."""
-        network, along, moving = session.network, session.options.along, session.under_way.moved
+        network, along, moving = session.network, session.options.along, session.cursor.moved
         of = network, along, moving
         if self._drawn is not None and self._drawn_of == of:
             return self._drawn
@@ -225,16 +225,7 @@ class Picker:
     """Finds what is under the cursor on one edit mesh.
 
     In all methods, `matrix` is the object's (4, 4) matrix, which may rotate, scale and shear. `cursor` is in pixels from the region's
-    bottom left.
-
-    Parameters
-    ----------
-    arrays
-        The edit mesh.
-    seams
-        (s, 2) the edges that are seams and that no wire runs along.
-    bend
-        As in `VisibleSurface`.
+    bottom left. `seams`, (s, 2), are those that no wire runs along, and `bend` is as in `VisibleSurface`.
     """
 
     def __init__(self, arrays: Arrays, seams: ArrayLike = (), bend: Bend | None = None) -> None:
@@ -271,8 +262,6 @@ class Picker:
 
         Parameters
         ----------
-        camera, matrix, cursor
-            The camera of the view, the object and the pixel.
         vertices_only, edges_only
             Find vertices of the mesh alone, or edges.
         anywhere
@@ -288,8 +277,6 @@ class Picker:
             strongest feature nearby.
         crests
             Ridges and valleys. What lies on one nearby is taken before anything else of the plain mesh.
-        scale
-            Of the display.
         """
         sight = Sight.of(camera, matrix, cursor, scale, xray)
         if sight is None:

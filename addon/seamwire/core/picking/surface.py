@@ -25,28 +25,15 @@ MAX_NEAR = 400
 
 
 class VisibleSurface:
-    """The visible part of an edit mesh.
+    """The visible part of an edit mesh, as rays meet it.
+
+    Threads build the library's tree of the triangles and the tables of what meets at each vertex. A lookup before they are ready
+    waits for the tables.
 
     Parameters
     ----------
-    arrays
-        The edit mesh.
     bend
         Takes the points of a curve on the mesh, (k, 3), to where they are seen on the surface. None: they are seen where they are.
-
-    Attributes
-    ----------
-    points, edges, triangles, polygons, to_object
-        As in the arrays.
-    to_points
-        (3, 3) takes object coordinates to those of the points.
-    triangles_at, edges_at
-        The rows of the triangles and of the edges that meet at a vertex.
-
-    Notes
-    -----
-    Threads build the library's tree of the triangles and the tables of what meets at each vertex. A lookup before they are ready
-    waits for the tables.
     """
 
     def __init__(self, arrays: Arrays, bend: Bend | None = None) -> None:

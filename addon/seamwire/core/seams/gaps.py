@@ -31,18 +31,9 @@ _NO_EDGES = np.empty((0, 2), dtype=np.int32)
 
 @dataclass(frozen=True)
 class Gap:
-    """Where a cut ends, and what it nearly meets.
+    """Where a cut ends, and the vertex that it nearly meets: the nearest along edges that the cut does not lead to soon.
 
-    Parameters
-    ----------
-    end
-        The vertex at the cut's end.
-    target
-        A vertex of a cut or of the border, the nearest along edges that the cut does not lead to soon.
-    length
-        Of the shortest way between them along edges.
-    path
-        The vertices of that way, from the end on.
+    That is a vertex of a cut or of the border. The path and its length are those of the shortest way there along edges.
     """
 
     end: int
@@ -52,19 +43,7 @@ class Gap:
 
 
 class GapFinder:
-    """Finds the gaps of a mesh's seams.
-
-    Parameters
-    ----------
-    points
-        (n, 3) vertices.
-    triangles
-        (m, 3) what the polygons are divided into.
-    edges
-        (e, 2) edges of the polygons.
-    partly_hidden
-        (h, 2) those beside which there is more of the mesh: cuts may lead on there, and have not met the border.
-    """
+    """Finds the gaps of a mesh's seams. Beside edges that are `partly_hidden`, cuts may lead on, and have not met the border."""
 
     def __init__(
         self,
@@ -93,12 +72,10 @@ class GapFinder:
         longest_of_several: float = math.inf,
         meant: Collection[int] = (),
     ) -> list[Gap]:
-        """Find the gaps, shortest first; where two ends face each other there is one for both.
+        """Find the gaps of seams, (k, 2), shortest first; where two ends face each other there is one for both.
 
         Parameters
         ----------
-        seams
-            (k, 2) the edges that are seams.
         longest
             Of a gap, in lengths of the cut that ends there, as far as it leads without meeting others. So a dart, which ends in
             the middle of a face on purpose, has none.

@@ -52,10 +52,6 @@ def auto_for(
 
     Parameters
     ----------
-    points
-        (n, 3)
-    triangles
-        (m, 3)
     polygons
         (m,) the face that each triangle is part of, ascending.
     rigged

@@ -168,16 +168,9 @@ def edges_of(chain: NDArray[np.int32]) -> frozenset[Edge]:
 
 @dataclass(frozen=True)
 class PartEdits:
-    """An artist's changes to the parts of one mesh.
+    """An artist's changes to the parts of one mesh: edges that have to be borders, and edges that must not be.
 
-    Parameters
-    ----------
-    kept
-        Edges that have to be borders.
-    dropped
-        Edges that must not be borders.
-    parted
-        A polygon for each part that is cut in two, one after another.
+    `parted` has a polygon for each part that is cut in two, one after another.
     """
 
     kept: frozenset[Edge] = frozenset()

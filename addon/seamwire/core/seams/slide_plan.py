@@ -59,17 +59,7 @@ class SlidFaces(Protocol):
 
 @dataclass(frozen=True)
 class Move:
-    """Where a vertex goes.
-
-    Parameters
-    ----------
-    polygon
-        One around the vertex, that the place lies in.
-    corners
-        Some of its vertices.
-    weights
-        Of each of these, 0 or more; their sum is 1.
-    """
+    """Where a vertex goes: in a polygon around it, by some of the corners and their weights, which are 0 or more and sum to 1."""
 
     polygon: int
     corners: tuple[int, ...]

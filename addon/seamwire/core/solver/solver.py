@@ -86,14 +86,9 @@ def final(live: LiveWire, ask: Callable[[], Answer]) -> Answer:
 
 
 class Engines:
-    """Live wires, each made when it is first asked for.
+    """Live wires, each made when it is first asked for, with its way's strength of `STRENGTHS` and `CLAMP_PERCENTILE`.
 
-    Parameters
-    ----------
-    make
-        Makes those of one way, with that way's strength of `STRENGTHS` and `CLAMP_PERCENTILE`.
-    make_stroke
-        Makes of a stroke what the live wires take.
+    `make_stroke` makes of a stroke what the live wires take.
     """
 
     def __init__(

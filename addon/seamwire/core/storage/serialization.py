@@ -60,15 +60,7 @@ DAMAGED = (
 
 @dataclass(frozen=True)
 class Places:
-    """Where a mesh's vertices are.
-
-    Parameters
-    ----------
-    points
-        (n, 3) as sessions have them.
-    to_object
-        (3, 3) takes them to object coordinates: ``points @ to_object.T``.
-    """
+    """Where a mesh's vertices are, (n, 3), as sessions have them. Object coordinates are ``points @ to_object.T``."""
 
     points: NDArray[np.float64]
     to_object: NDArray[np.float64]

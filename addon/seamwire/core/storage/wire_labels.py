@@ -38,17 +38,7 @@ Claim = tuple["Edge", int]
 
 @dataclass(frozen=True)
 class EdgeLabels:
-    """The labelled edges of a mesh.
-
-    Parameters
-    ----------
-    pairs
-        (k, 2) their vertices.
-    labels
-        (k,) no zeros.
-    seams, hidden
-        (k,) whether they are.
-    """
+    """The labelled edges of a mesh, (k, 2), with their labels, which are not 0, and whether they are seams, and hidden; (k,) each."""
 
     pairs: NDArray[np.int64]
     labels: NDArray[np.int64]
@@ -74,19 +64,8 @@ class EdgeLabels:
 
 @dataclass(frozen=True)
 class Found:
-    """What labels tell of.
+    """What labels tell of: the wires that are not hidden, the claims to edges that stand for them, and `broken` claims of former wires.
 
-    Parameters
-    ----------
-    network
-        The wires and strokes that are there and not hidden.
-    known
-        The claims to edges that stand for those.
-    broken
-        The claims of former wires, whose edges have changed.
-
-    Notes
-    -----
     Claims and not numbers alone: of two copies of a wire one may be hidden, or broken, while the other is sound.
     """
 
@@ -97,18 +76,9 @@ class Found:
 
 @dataclass(frozen=True)
 class Plan:
-    """The wanted labels of a mesh's edges.
+    """The wanted labels of a mesh's edges, 0 for none, the edges that become seams, and those that cease to be.
 
-    Parameters
-    ----------
-    network
-        As it is when that is done: wires that clear seams have done so, and are no wires, nor are those that they cleared.
-    labels
-        The edges' new labels; 0: none.
-    mark, clear
-        The edges that become seams, and those that cease to be.
-    known
-        As in `Found`.
+    In its network, wires that clear seams have done so, and are no wires, nor are those that they cleared. `known` is as in `Found`.
     """
 
     network: Network
@@ -135,12 +105,8 @@ def plan(
         Of a session that began with `found`, or went on from it.
     marks
         The labels that the mesh has.
-    found
-        What of them the session knew.
     archive
         Where new records go.
-    places
-        The mesh's vertices.
     is_seam
         Whether an edge is a seam now.
     edges

@@ -83,7 +83,7 @@ def test_one_click_takes_a_ridge_as_far_as_it_is_one(sheet: Sheet, finish: str) 
     np.testing.assert_array_equal(session.picture.one(Role.OFFER).points, sheet.crests.line(sheet.ridge)[0])
     assert session.picture.one(Role.OFFER).edges() == []
     assert session.click(pick)
-    session.queue.wait()
+    session.wait()
     wires = session.wires
     assert wires
     curve = np.concatenate([wire.points for wire in wires])
@@ -114,12 +114,12 @@ def test_its_seeds_can_be_dragged(sheet: Sheet) -> None:
     session.cursor.use_crests(sheet.crests, True)
     session.hover(sheet.pick(), loop=True)
     session.click(sheet.pick())
-    session.queue.wait()
+    session.wait()
     end = session.wires[-1].end
     assert session.drag(end)
     session.cursor.drag_to(20 * (N + 1) + 5)
-    session.queue.wait()
-    assert session.queue.drag_end()
+    session.wait()
+    assert session.drag_end()
     assert session.wires[-1].end == 20 * (N + 1) + 5
 
 
@@ -127,14 +127,14 @@ def test_where_ridges_are_not_seen_they_come_last(sheet: Sheet) -> None:
     session = sheet.session
     session.cursor.use_crests(sheet.crests, False)
     session.hover(sheet.pick(), loop=True)
-    session.queue.wait()
+    session.wait()
     assert session.picture.offered.kinds[-1] == "RIDGE"
     assert session.picture.offered.kinds.count("RIDGE") == 1
     if sheet.session.options.along == "EDGES":
         assert len(session.picture.offered.kinds) > 1
         # Wires before it do not depend on it.
         session.click(sheet.pick())
-        session.queue.wait()
+        session.wait()
         (wire,) = session.wires
         assert wire.kind not in {"RIDGE", "VALLEY"}
         assert not {offer.kind for offer in wire.offers} & {"RIDGE", "VALLEY"}
@@ -144,15 +144,13 @@ def test_a_loop_that_is_kept_does_not_become_a_ridge() -> None:
     sheet = Sheet("EDGES")
     session, edge = sheet.session, sheet.pick()
     assert session.loop(edge)
-    session.queue.wait()
+    session.wait()
     session.cursor.use_crests(sheet.crests, False)
     # Stored, it has lost what else was offered: that is found anew.
-    session.queue.adopt(
-        replace(session.drawing.network, wires=tuple(replace(wire, offers=()) for wire in session.wires)), []
-    )
+    session.adopt(replace(session.drawing.network, wires=tuple(replace(wire, offers=()) for wire in session.wires)), [])
     for _ in range(4):
         session.retrace(session.wires[0])
-        session.queue.wait()
+        session.wait()
         (wire,) = session.wires
         assert not {offer.kind for offer in wire.all_offers()} & {"RIDGE", "VALLEY"}
 
@@ -164,10 +162,10 @@ def test_toggling_goes_through_what_is_offered_beside_a_ridge(steps: int, kept: 
     session = sheet.session
     if kept:
         assert session.loop(sheet.pick())
-        session.queue.wait()
+        session.wait()
     session.cursor.use_crests(sheet.crests, True)
     session.hover(sheet.pick(), loop=True)
-    session.queue.wait()
+    session.wait()
     kinds = session.picture.offered.kinds
     assert len(kinds) > 2
     assert kinds[0] == "RIDGE"
@@ -176,7 +174,7 @@ def test_toggling_goes_through_what_is_offered_beside_a_ridge(steps: int, kept: 
     shown = session.picture.one(Role.OFFER)
     assert session.picture.offered.kind == kinds[steps]
     assert session.click(sheet.pick())
-    session.queue.wait()
+    session.wait()
     assert session.edges_to_mark() == sorted(shown.edges())
 
 
@@ -187,8 +185,8 @@ def test_a_ridge_that_is_seen_does_not_wait_for_what_else_is_offered() -> None:
     session.hover(pick, loop=True)
     assert session.picture.offered.kind == "RIDGE"
     assert session.click(pick)
-    assert not any(isinstance(waiting.gesture, LoopGesture) for waiting in session.under_way.queue)
-    session.queue.wait()
+    assert not any(isinstance(waiting.gesture, LoopGesture) for waiting in session.cursor.queue)
+    session.wait()
     assert session.wires
     assert {wire.closed for wire in session.wires} == {False}
 
@@ -197,12 +195,12 @@ def test_where_neither_a_ridge_nor_a_cut_is_offered_it_is_said_however_late_ridg
     sheet = Sheet("SURFACE")
     session = sheet.session
     session.hover(20 * (N + 1) + 26, loop=True)
-    while session.under_way.computing:
-        for live in session.under_way.lives():
+    while session.cursor.computing:
+        for live in session.cursor.lives():
             live.wait()
         # Its result is final before the session has looked.
         session.cursor.use_crests(sheet.crests, False)
-        session.queue.poll()
+        session.poll()
     assert session.picture.one(Role.OFFER) is None
     assert session.drawing.message == SurfaceLoops.NONE
 
@@ -211,7 +209,7 @@ def test_ridges_that_are_known_later_are_offered_then(sheet: Sheet) -> None:
     session = sheet.session
     assert not session.cursor.loops.offers.wanted
     session.hover(sheet.pick(), loop=True)
-    session.queue.wait()
+    session.wait()
     assert session.cursor.loops.offers.wanted
     assert "RIDGE" not in session.picture.offered.kinds
     before = session.drawing.revision
@@ -229,7 +227,7 @@ def test_what_was_taken_is_not_offered_again_until_the_cursor_was_elsewhere(shee
     session.cursor.use_crests(sheet.crests, True)
     session.hover(pick, loop=True)
     session.click(pick)
-    session.queue.wait()
+    session.wait()
     session.hover(pick, loop=True)
     assert "RIDGE" not in session.picture.offered.kinds
     session.hover(3 * (N + 1) + 3, loop=True)
@@ -245,9 +243,9 @@ def test_the_second_press_of_a_double_click_on_a_ridge_takes_nothing_more(comput
     session.hover(edge, loop=True)
     session.click(edge)
     if computed:
-        session.queue.wait()
+        session.wait()
     assert session.loop(edge)
-    session.queue.wait()
+    session.wait()
     assert session.wires
     assert {wire.kind for wire in session.wires} == {None}
     assert session.undo()
@@ -255,7 +253,7 @@ def test_the_second_press_of_a_double_click_on_a_ridge_takes_nothing_more(comput
     assert session.loop(edge)
     assert session.undo(), "it waits still"
     assert session.loop(edge)
-    session.queue.wait()
+    session.wait()
     assert session.wires
 
 
@@ -265,7 +263,7 @@ def test_a_ridge_leaves_the_chain_that_is_drawn_as_it_is(sheet: Sheet) -> None:
     session.click(2 * (N + 1) + 3)
     session.hover(pick, loop=True)
     session.click(pick)
-    session.queue.wait()
+    session.wait()
     assert session.wires
     assert session.seed == 2 * (N + 1) + 3
 
@@ -275,5 +273,5 @@ def test_away_from_ridges_nothing_is_said_of_them(sheet: Sheet) -> None:
     session.cursor.use_crests(sheet.crests, True)
     place: Pick = 20 * (N + 1) + 26 if session.options.along == "SURFACE" else (20 * (N + 1) + 26, 20 * (N + 1) + 27)
     session.hover(place, loop=True)
-    session.queue.wait()
+    session.wait()
     assert "RIDGE" not in session.picture.offered.kinds

@@ -217,7 +217,7 @@ def test_the_other_way_of_half_a_wire_is_computed() -> None:
     assert courses(session) == [(0, 1, 2, 8, 14, 20)]
     insert(session, session.wires[0], 8)
     assert session.retrace(session.wires[0])
-    assert session.under_way.computing
+    assert session.cursor.computing
     assert courses(session) == [(0, 1, 2, 8), (8, 14, 20)]
     table.compute()
     assert courses(session) == [(0, 6, 7, 8), (8, 14, 20)]
@@ -233,7 +233,7 @@ def test_dropping_waits_for_nothing_that_was_asked_of_the_wire() -> None:
     session.click(21)
     insert(session, session.wires[0], 9)
     session.retrace(session.wires[0])
-    assert session.under_way.waiting == 1
+    assert session.cursor.waiting == 1
     session.drop(session.wires[0])
     table.compute()
     assert courses(session) == [(9, 15, 21)]
@@ -248,7 +248,7 @@ def test_undo_takes_back_what_waits_for_a_wires_other_way() -> None:
     insert(session, session.wires[0], 9)
     session.retrace(session.wires[0])
     assert session.undo()
-    assert session.under_way.waiting == 0
+    assert session.cursor.waiting == 0
     table.compute()
     assert len(session.wires) == 2
     assert session.wires[0].vertices == (0, 1, 2, 3, 9)
@@ -360,5 +360,5 @@ def test_a_preview_is_seen_and_not_kept() -> None:
     session.click(7)
     assert session.wires == ()
     live.ready = (True, True)
-    session.queue.poll()
+    session.poll()
     assert courses(session) == [(0, 1, 7)]

@@ -43,7 +43,7 @@ def at(x: float, y: float) -> FacePoint:
 def click(on: Session, *picks: object) -> None:
     for pick in picks:
         assert on.click(pick), str(on.drawing.message)
-        on.queue.wait()
+        on.wait()
 
 
 def ends(on: Session) -> list[tuple[list[float], list[float]]]:
@@ -69,7 +69,7 @@ def test_a_chain_closes_at_the_point_where_it_began() -> None:
     on = session()
     click(on, at(0.3, 0.2), at(1.7, 0.2), at(1.0, 1.7))
     assert on.close()
-    on.queue.wait()
+    on.wait()
     assert ends(on)[-1] == ([1.0, 1.7], [0.3, 0.2])
     assert on.seed is None
 
@@ -90,7 +90,7 @@ def test_where_it_is_not_to_be_cut_a_wire_that_meets_no_edge_is_not_kept() -> No
     one = at(0.3, 0.1)
     click(on, one)
     on.hover(0)
-    on.queue.wait()
+    on.wait()
     assert not on.click(0)
     assert "Too short to become a seam" in str(on.drawing.message)
     assert on.wires == () and on.seed == one
@@ -98,8 +98,8 @@ def test_where_it_is_not_to_be_cut_a_wire_that_meets_no_edge_is_not_kept() -> No
     on.end_chain()
     assert on.drag(2)
     on.cursor.drag_to(0)
-    on.queue.wait()
-    assert on.queue.drag_end()
+    on.wait()
+    assert on.drag_end()
     assert on.wires == (), "the mesh would not know of it"
     assert "A wire was removed" in str(on.drawing.told)
     assert on.undo()
@@ -114,8 +114,8 @@ def test_a_seed_is_dragged_from_point_to_point() -> None:
     on.end_chain()
     assert on.drag(Snap(middle, "SEED"))
     on.cursor.drag_to(at(0.6, 1.6))
-    on.queue.wait()
-    assert on.queue.drag_end()
+    on.wait()
+    assert on.drag_end()
     assert ends(on) == [([0.3, 0.2], [0.6, 1.6]), ([0.6, 1.6], [2.0, 2.0])]
 
 
@@ -125,7 +125,7 @@ def test_along_edges_a_point_is_its_nearest_vertex() -> None:
     click(on, 2, point)
     assert use(on, along="EDGES")
     on.hover(6)
-    on.queue.wait()
+    on.wait()
     assert on.picture.active is not None and on.picture.active.vertices[0] == point.vertex == 4
     click(on, 6)
     assert on.wires[-1].vertices[0] == on.wires[0].vertices[-1]
@@ -133,7 +133,7 @@ def test_along_edges_a_point_is_its_nearest_vertex() -> None:
     on.start(8)
     use(on, along="EDGES")
     assert on.click(Snap(point, "SEED"))
-    on.queue.wait()
+    on.wait()
     assert on.wires[-1].vertices[-1] == 4
 
 

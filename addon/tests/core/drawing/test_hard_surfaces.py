@@ -114,7 +114,7 @@ def session_of(points: NDArray[np.float64], polygons: Polygons) -> tuple[Session
 def offers(session: Session, target: Snap) -> list[tuple[str, frozenset[Edge]]]:
     """Return the kinds and the edges of what is offered, in order."""
     session.hover(target, loop=True)
-    session.queue.wait()
+    session.wait()
     found = []
     for _ in session.picture.offered.kinds:
         loops = [shown.wire for shown in session.picture.wires if shown.role is Role.OFFER]
@@ -144,7 +144,7 @@ def test_over_an_upright_edge_of_a_cylinder_the_strip_comes_first(sides: int, ri
     session, _ = session_of(*prism(circle(sides), 2.0))
     if rim:
         session.loop((sides, sides + 1))
-        session.queue.wait()
+        session.wait()
         assert session.wires[0].closed
     assert offers(session, Snap((2, sides + 2)))[0] == ("STRIP", {(2, sides + 2)})
 
@@ -215,11 +215,11 @@ def test_a_border_that_was_taken_over_an_edge_inside_is_kept() -> None:
     session, arrays = session_of(points, polygons)
     target = Snap((8, 9), triangle=int(np.flatnonzero(arrays.polygons == 2)[0]))
     session.hover(target, loop=True)
-    session.queue.wait()
+    session.wait()
     for _ in range(session.picture.offered.kinds.index("FLAT")):
         session.cursor.next_candidate()
     assert session.loop(target)
-    session.queue.wait()
+    session.wait()
     assert frozenset(session.wires[0].edges()) == border((0, 1, 9, 17, 25, 24, 16, 8))
 
 
@@ -321,21 +321,21 @@ def test_all_borders_of_a_wall_are_shown_and_taken_at_once() -> None:
     session, arrays = session_of(*prism(circle(16), 2.0))
     target = Snap((18, 19), crossing=(18, 2), triangle=face_of(arrays, 2, 3, 19), inside=True)
     session.hover(target, loop=True)
-    session.queue.wait()
+    session.wait()
     assert session.cursor.next_candidate()
     assert session.cursor.next_candidate()
     session.hover(target, loop=True)
-    session.queue.wait()
+    session.wait()
     assert session.picture.offered.number == 2, "the choice stays"
     assert session.loop(target)
-    session.queue.wait()
+    session.wait()
     rims = [ring_of(0, 16), ring_of(1, 16)]
     assert [frozenset(wire.edges()) for wire in session.wires] == rims
     assert all(wire.closed and not wire.beside for wire in session.wires)
     assert session.loop(target), "the second press of a double click"
     assert len(session.wires) == 2
     assert session.retrace(session.wires[1])
-    session.queue.wait()
+    session.wait()
     assert frozenset(session.wires[0].edges()) == rims[0]
     assert frozenset(session.wires[1].edges()) != rims[1]
     assert session.undo()
@@ -346,7 +346,7 @@ def test_all_borders_of_a_wall_are_shown_and_taken_at_once() -> None:
 def test_a_slit_ends_at_a_seam() -> None:
     session, _ = session_of(*with_fans(*prism(circle(16), 2.0, 4), rows=4))
     session.loop((32, 33))
-    session.queue.wait()
+    session.wait()
     assert frozenset(session.wires[0].edges()) == ring_of(2, 16)
     assert offers(session, Snap((50, 66)))[0] == ("STRIP", upright(2, 2, 4, 16))
 
@@ -396,9 +396,9 @@ def test_a_rim_that_is_taken_inside_a_wall_is_mirrored_like_any_wire() -> None:
     use(session, mirror=(0,))
     target = Snap((18, 19), triangle=face_of(arrays, 2, 3, 19), inside=True)
     session.hover(target, loop=True)
-    session.queue.wait()
+    session.wait()
     assert session.loop(target)
-    session.queue.wait()
+    session.wait()
     assert [frozenset(wire.edges()) for wire in session.wires] == [ring_of(1, 16)]
     assert session.wires[0].mirror == (0,)
     assert session.undo()

@@ -71,7 +71,7 @@ class Alt:
     def over(self, x: float, y: float) -> list[set[int]]:
         """Point at a place and return the vertices of the first two offers."""
         self.session.hover(self.snap(x, y), loop=True)
-        self.session.queue.wait()
+        self.session.wait()
         return [set(offer.vertices) for offer in self.session.cursor.loops.offers.offers[:2]]
 
 
@@ -144,8 +144,8 @@ def test_on_a_plain_where_no_direction_is_likelier_the_last_one_stays() -> None:
 def test_a_click_on_a_large_mesh_waits_for_the_faces() -> None:
     alt = Alt(arrays_of(grid_places(81), grid_polygons(81)), 150.0)
     alt.session.loop(alt.snap(0.013, 0.0))
-    assert alt.session.under_way.waiting == 1
-    alt.session.queue.wait()
+    assert alt.session.cursor.waiting == 1
+    alt.session.wait()
     assert len(alt.session.wires) == 1
 
 
@@ -154,7 +154,7 @@ def test_a_crossing_loop_is_kept_as_a_loop_through_its_own_edge_and_a_second_pre
     session = alt.session
     snap = next(one for one in (alt.snap(x, y) for x, y in spots()) if abs(one.pick[0] - one.pick[1]) == AROUND)
     session.hover(snap, loop=True)
-    session.queue.wait()
+    session.wait()
     assert session.cursor.next_candidate()
     assert session.picture.offered.kind == "CROSSING"
     assert session.loop(snap)
@@ -163,7 +163,7 @@ def test_a_crossing_loop_is_kept_as_a_loop_through_its_own_edge_and_a_second_pre
     assert wire.through in wire.edges()
     assert set(wire.vertices) == ring(min(wire.vertices) // AROUND)
     session.hover(snap, loop=True)
-    session.queue.wait()
+    session.wait()
     assert session.loop(snap)
     assert session.wires == (wire,)
     assert session.retrace(wire)
@@ -174,7 +174,7 @@ def test_of_a_click_that_nothing_was_shown_for_the_first_offer_is_kept() -> None
     alt = Alt(limb(), 40.0)
     snap = next(one for one in (alt.snap(x, y) for x, y in spots()) if abs(one.pick[0] - one.pick[1]) == AROUND)
     alt.session.loop(snap)
-    alt.session.queue.wait()
+    alt.session.wait()
     (wire,) = alt.session.wires
     assert set(wire.vertices) == ring(min(wire.vertices) // AROUND)
 
@@ -185,11 +185,11 @@ def closing(alt: Alt, first: int, second: int, along: Along = "EDGES") -> Sessio
     use(session, along=along)
     for pick in (first, second):
         session.hover(pick)
-        session.queue.wait()
+        session.wait()
         session.click(pick)
-        session.queue.wait()
+        session.wait()
     session.hover(Snap(first, "SEED"))
-    session.queue.wait()
+    session.wait()
     return session
 
 
@@ -208,13 +208,13 @@ def test_two_seeds_on_one_side_of_a_limb_close_around_it_first_and_in_front_afte
     session = closing(Alt(limb(), 200.0), first, second, along)
     others = [{*wire.vertices} for wire in session.cursor.live.others]
     assert session.close()
-    session.queue.wait()
+    session.wait()
     assert turns_around(session)
     assert session.seed is None
     assert session.wires[0].vertices[0] == session.wires[-1].vertices[-1] == first
     assert session.undo()
     session.hover(Snap(first, "SEED"))
-    session.queue.wait()
+    session.wait()
     assert others
     assert session.cursor.next_candidate()
     assert {*session.picture.active.vertices} == others[0]
@@ -228,10 +228,10 @@ def test_a_click_while_the_way_around_a_limb_is_searched_waits_for_it(along: Alo
     session.hover(None)
     session.cursor.live.ring.forget()
     session.hover(Snap(first, "SEED"))
-    assert session.under_way.computing
+    assert session.cursor.computing
     assert not session.cursor.live.decided
     session.click(Snap(first, "SEED"))
-    session.queue.wait()
+    session.wait()
     assert turns_around(session)
 
 
@@ -254,12 +254,12 @@ def test_offers_and_the_way_around_a_limb_are_found_at_once(monkeypatch: pytest.
     session.cursor.live.ring.forget()
     session.hover(Snap(first, "SEED"), loop=True)
     for _ in range(100):
-        for live in session.under_way.lives():
+        for live in session.cursor.lives():
             live.wait()
-        session.queue.poll()
-        if not session.under_way.computing:
+        session.poll()
+        if not session.cursor.computing:
             break
-    assert not session.under_way.computing
+    assert not session.cursor.computing
     assert session.cursor.live.ring.wire is not None
     assert session.cursor.loops.offers.offers
 
@@ -270,8 +270,8 @@ def test_the_wire_around_a_limb_stays_around_it_when_a_seed_is_moved() -> None:
     assert session.close()
     session.drag(Snap(AROUND * 24 + 4, "SEED"))
     session.cursor.drag_to(AROUND * 25 + 4)
-    session.queue.drag_end()
-    session.queue.wait()
+    session.drag_end()
+    session.wait()
     assert turns_around(session)
 
 
@@ -286,8 +286,8 @@ def test_a_chain_of_several_wires_closes_as_it_was_drawn() -> None:
     alt = Alt(limb(), 200.0)
     session = closing(alt, AROUND * 20, AROUND * 20 + 4)
     session.hover(AROUND * 24 + 4)
-    session.queue.wait()
+    session.wait()
     session.click(AROUND * 24 + 4)
     session.hover(Snap(AROUND * 20, "SEED"))
-    session.queue.wait()
+    session.wait()
     assert not session.picture.choice.around

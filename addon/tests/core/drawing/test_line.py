@@ -38,7 +38,7 @@ def session(along: Along = "EDGES", seams: object = (), **options: object) -> Se
     made = session_on(
         hills(), grid_triangles(SIZE), grid_edges(SIZE), options=Options(along=along), seams=seams, **options
     )
-    made.queue.wait()
+    made.wait()
     return made
 
 
@@ -80,7 +80,7 @@ def draw(
         count = max(2, len(points) * move // moves)
         drawing.cursor.line_to(points[:count], faces[:count], end if move == moves else None)
     end_line(drawing)
-    drawing.queue.wait()
+    drawing.wait()
 
 
 ROW = tuple(at(x, 5) for x in range(2, 10))
@@ -111,10 +111,10 @@ def test_a_line_is_kept_as_wires_along_its_edges_in_one_step() -> None:
     drawing.cursor.line_to(points, faces, None)
     assert [wire.vertices for wire in drawing.picture.all(Role.FOLLOWING)] == [HOOK]
     assert end_line(drawing)
-    drawing.queue.wait()
+    drawing.wait()
     assert chain_of(drawing) == list(HOOK)
     assert drawing.seed is None, "a line is a chain of its own"
-    assert not drawing.under_way.held
+    assert not drawing.cursor.held
     assert drawing.picture.all(Role.FOLLOWING) == ()
     assert drawing.undo()
     assert drawing.wires == ()
@@ -132,9 +132,9 @@ def test_its_wires_run_as_those_between_their_seeds_do() -> None:
         # A seed that is moved away and back brings the same wires.
         assert drawing.drag(Snap(wire.end, "SEED"))
         drawing.cursor.drag_to(Snap(at(12, 12)))
-        drawing.queue.wait()
+        drawing.wait()
         drawing.cursor.drag_to(Snap(wire.end))
-        drawing.queue.wait()
+        drawing.wait()
         assert {own.id: own.vertices for own in drawing.wires} == before
         drawing.cursor.let_go()
 
@@ -143,7 +143,7 @@ def test_a_line_that_is_cancelled_leaves_all_as_it_was() -> None:
     drawing = session()
     drawing.click(at(1, 1))
     drawing.click(at(4, 1))
-    drawing.queue.wait()
+    drawing.wait()
     network = drawing.network
     drawing.line_begin(at(3, 7))
     drawing.cursor.line_to(*line((3, 7), (9, 7)), None)
@@ -163,7 +163,7 @@ def test_undo_forgets_a_line_before_it_undoes() -> None:
     drawing.line_begin(at(3, 7))
     assert drawing.picture.can_undo
     assert drawing.undo()
-    assert not drawing.under_way.held
+    assert not drawing.cursor.held
     assert len(drawing.wires) == 1
 
 
@@ -171,7 +171,7 @@ def test_a_line_begun_elsewhere_ends_the_chain_and_one_begun_at_its_seed_goes_on
     drawing = session()
     for pick in (at(1, 1), at(4, 1)):
         drawing.click(pick)
-        drawing.queue.wait()
+        drawing.wait()
     assert drawing.goes_on_from(Snap(at(4, 1), "SEED"))
     assert not drawing.goes_on_from(Snap(at(1, 1), "SEED"))
     draw(drawing, Snap(at(4, 1), "SEED"), line((4, 1), (9, 1)))
@@ -180,7 +180,7 @@ def test_a_line_begun_elsewhere_ends_the_chain_and_one_begun_at_its_seed_goes_on
     assert drawing.drawing.seed_place == at(9, 1)
     assert drawing.wires[1].heading == (at(3, 1), at(4, 1)), "its first wire goes on from the one before"
     drawing.click(at(9, 4))
-    drawing.queue.wait()
+    drawing.wait()
     assert chain_of(drawing)[-1] == at(9, 4)
     draw(drawing, at(2, 8), line((2, 8), (6, 8)))
     assert drawing.seed is None
@@ -272,9 +272,9 @@ def test_a_line_drawn_before_the_mesh_is_known_is_fitted_when_it_is() -> None:
     drawing.cursor.line_to(points, np.zeros(3, dtype=np.int32), None)
     assert drawing.picture.all(Role.FOLLOWING) == ()
     end_line(drawing)
-    assert drawing.under_way.waiting == 1
+    assert drawing.cursor.waiting == 1
     assert drawing.wires == ()
-    drawing.queue.wait()
+    drawing.wait()
     assert [wire.vertices for wire in drawing.wires] == [(0, 1, 2)]
 
 
@@ -290,9 +290,9 @@ def test_clicks_and_lines_wait_for_a_line_that_is_not_computed_yet() -> None:
     drawing.cursor.line_to(np.array([[0.0, 2, 0], [1, 2, 0], [2, 2, 0]]), three + 20, None)
     end_line(drawing)
     drawing.click(20)
-    assert drawing.under_way.waiting == 3
+    assert drawing.cursor.waiting == 3
     assert [wire.vertices for wire in drawing.picture.all(Role.FOLLOWING)] == [(0, 1, 2), (12, 13, 14)]
-    drawing.queue.wait()
+    drawing.wait()
     assert [wire.vertices for wire in drawing.wires] == [(0, 1, 2), (12, 13, 14)]
     assert drawing.seed == 20
 
@@ -317,9 +317,9 @@ def test_across_the_surface_wires_keep_near_to_the_line(finish: str) -> None:
     drawing.line_begin(begin)
     for count in range(8, len(points) + 8, 8):
         drawing.cursor.line_to(points[:count], faces[:count], None)
-        drawing.queue.poll()
+        drawing.poll()
     end_line(drawing)
-    drawing.queue.wait()
+    drawing.wait()
     wires = drawing.wires
     assert 2 <= len(wires) <= 12
     assert all(one.end == other.start for one, other in itertools.pairwise(wires))
@@ -338,7 +338,7 @@ def test_across_the_surface_a_line_where_the_live_wire_runs_is_one_wire() -> Non
     drawing = session("SURFACE")
     drawing.click(at(2, 5))
     drawing.hover(at(12, 9))
-    drawing.queue.wait()
+    drawing.wait()
     drawing.hover(at(12, 9))
     live = drawing.picture.active
     drawing.end_chain()
@@ -362,7 +362,7 @@ def test_across_the_surface_a_line_goes_on_from_the_live_wire() -> None:
     drawing = session("SURFACE")
     drawing.click(at(2, 2))
     drawing.click(at(5, 2))
-    drawing.queue.wait()
+    drawing.wait()
     draw(drawing, Snap(at(5, 2), "SEED"), line((5, 2), (9, 2), (9, 6)))
     assert drawing.wires[1].start == at(5, 2)
     assert drawing.seed == at(9, 6)

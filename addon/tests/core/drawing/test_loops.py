@@ -38,7 +38,7 @@ def grid(shift: float = 0.0, **options: object) -> Session:
 def show(session: Session, edge: tuple[int, int], kind: str | None = None) -> tuple[int, ...]:
     """Show what a click on an edge offers, of a kind or the first; return its vertices."""
     session.hover(edge, loop=True)
-    session.queue.wait()
+    session.wait()
     while kind is not None and session.picture.offered.kind != kind:
         assert session.cursor.next_candidate()
     return shown(session)
@@ -49,7 +49,7 @@ def take(session: Session, edge: tuple[int, int], kind: str | None = None) -> bo
     if kind is not None:
         show(session, edge, kind)
     is_done = session.loop(edge)
-    session.queue.wait()
+    session.wait()
     session.hover(None)
     return is_done
 
@@ -94,7 +94,7 @@ def test_a_strip_ends_at_images_of_kept_wires() -> None:
     use(session, mirror=[0])  # what is drawn on column 1 is on column 4 as well
     session.click(7)
     session.hover(25)
-    session.queue.wait()
+    session.wait()
     session.click(25)
     session.end_chain()
     assert show(session, (14, 15), "STRIP") == (13, 14, 15, 16)
@@ -137,7 +137,7 @@ def test_a_kept_loop_takes_its_next_offer_in_place() -> None:
     courses = []
     for _ in range(3):
         assert session.retrace(session.wires[0])
-        session.queue.wait()
+        session.wait()
         courses.append(session.wires[0].vertices)
         assert session.wires[0].id == number
     assert courses == [ROW, AROUND, ROW]
@@ -148,7 +148,7 @@ def test_a_kept_loop_takes_its_next_offer_in_place() -> None:
     assert session.wires == ()
     assert session.redo()
     assert session.retrace(session.wires[0])
-    session.queue.wait()
+    session.wait()
     assert session.wires[0].vertices == ROW
 
 
@@ -175,7 +175,7 @@ def test_a_double_click_takes_its_first_click_back() -> None:
     session = grid()
     session.click(0)
     session.hover((14, 20))
-    session.queue.wait()
+    session.wait()
     session.click((14, 20))
     assert len(session.wires) == 1
     assert take(session, (14, 20))
@@ -191,8 +191,8 @@ def test_a_strips_ends_are_seeds_that_can_be_moved_and_gone_on_from() -> None:
     take(session, (14, 20), "STRIP")
     session.drag(32)
     session.cursor.drag_to(33)
-    session.queue.wait()
-    assert session.queue.drag_end()
+    session.wait()
+    assert session.drag_end()
     (wire,) = session.wires
     assert (wire.vertices[0], wire.vertices[-1]) == (2, 33)
     assert wire.kind is None
@@ -207,14 +207,14 @@ def test_what_goes_on_from_a_strip_stays_when_that_takes_its_next_offer() -> Non
     take(session, (14, 20), "STRIP")
     session.click(Snap(26, "SEED"))
     session.hover(28)
-    session.queue.wait()
+    session.wait()
     session.click(28)
     session.end_chain()
     before = session.wires[1].vertices
     assert session.wires[1].heading == (20, 26)
     while session.wires[0].vertices != COLUMN:
         assert session.retrace(session.wires[0])
-        session.queue.wait()
+        session.wait()
     assert session.wires[1].vertices == before
     assert session.wires[1].heading is None
 
@@ -320,7 +320,7 @@ def test_while_the_loop_is_computed_nothing_is_offered_yet() -> None:
     session = table.session
     session.hover((14, 15), loop=True)
     assert session.picture.one(Role.OFFER) is None
-    assert session.under_way.computing
+    assert session.cursor.computing
     assert not session.cursor.next_candidate()
     assert session.drawing.message.code == "no-loop-yet"
     table.compute()
@@ -334,10 +334,10 @@ def test_a_loop_that_waits_does_not_keep_a_click_before_it_waiting() -> None:
     session.click(21)
     session.loop((14, 15))
     session.click(3)
-    assert session.under_way.waiting == 3
+    assert session.cursor.waiting == 3
     table.compute()
-    assert session.under_way.waiting == 0
-    assert not session.under_way.computing
+    assert session.cursor.waiting == 0
+    assert not session.cursor.computing
     assert [wire.vertices for wire in session.wires] == [COMPUTED, (0, 1, 2, 3)], "no wire reaches 21"
 
 
@@ -376,7 +376,7 @@ def test_a_stored_loops_offers_are_waited_for_across_the_surface_too() -> None:
     session = Table("SURFACE", ready=(False, False)).session
     mesh.open(session)
     session.retrace(session.wires[0])
-    session.queue.wait()
+    session.wait()
     assert session.wires[0].vertices == ROW
 
 
@@ -386,7 +386,7 @@ def test_loops_that_were_asked_for_on_an_edge_are_given_up_once_a_vertex_is_unde
     session.hover((14, 15), loop=True)
     session.click(7)
     session.cursor.use_crests(None, True)
-    session.queue.poll()
-    assert not session.under_way.computing, "waiting would never end"
+    session.poll()
+    assert not session.cursor.computing, "waiting would never end"
     session.hover((14, 15), loop=True)
     assert session.picture.offered.kinds

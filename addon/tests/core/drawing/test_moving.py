@@ -13,7 +13,7 @@ def test_a_mirror_that_is_set_while_a_seed_is_dragged_stays() -> None:
     session.drag(3)
     session.cursor.drag_to(4)
     assert use(session, mirror=(0,))
-    assert session.queue.drag_end()
+    assert session.drag_end()
     assert session.network.mirror == session.options.mirror == (0,)
 
 
@@ -35,7 +35,7 @@ def test_the_seed_of_the_live_wire_moves_with_its_wire() -> None:
     session = table.session
     session.drag(21)
     session.cursor.drag_to(22)
-    session.queue.drag_end()
+    session.drag_end()
     assert courses(session)[-1] == (3, 4, 10, 16, 22)
     assert session.seed == (16, 22)
     assert table.lives["EDGES"].seeded == ((16, 22), True)
@@ -48,7 +48,7 @@ def test_a_seed_without_wires_can_be_moved() -> None:
     session.click(0)
     session.drag(0)
     session.cursor.drag_to(7)
-    session.queue.drag_end()
+    session.drag_end()
     assert session.seed == 7
     assert session.seeds() == [7]
     session.undo()
@@ -59,7 +59,7 @@ def test_the_first_seed_of_a_chain_can_be_moved_and_still_closes_it() -> None:
     session = corner().session
     session.drag(0)
     session.cursor.drag_to(1)
-    session.queue.drag_end()
+    session.drag_end()
     assert session.drawing.network.closing_point == 1
     session.close()
     assert session.wires[-1].end == 1
@@ -72,19 +72,19 @@ def test_a_seed_dragged_onto_another_one_becomes_one_with_it() -> None:
     session.end_chain()
     session.drag(33)
     session.cursor.drag_to(Snap(21, "SEED"))
-    session.queue.drag_end()
+    session.drag_end()
     assert session.seeds() == [0, 3, 21, 30]
     assert session.wires[-1].vertices[-1] == 21
     session.drag(21)
     session.cursor.drag_to(22)
-    assert len(session.under_way.moved) == 2, "from then on they move together"
+    assert len(session.cursor.moved) == 2, "from then on they move together"
 
 
 def test_a_seed_dragged_onto_its_neighbour_takes_the_wire_between_away() -> None:
     session = corner().session
     session.drag(3)
     session.cursor.drag_to(Snap(0, "SEED"))
-    session.queue.drag_end()
+    session.drag_end()
     assert courses(session) == [(0, 6, 12, 18, 19, 20, 21)]
     assert session.seeds() == [0, 21]
 
@@ -98,9 +98,9 @@ def test_an_only_wire_is_not_dragged_to_nothing() -> None:
     assert not session.cursor.drag_to(Snap(0, "SEED"))
     assert "remove it instead" in str(session.drawing.message)
     assert courses(session) == [(0, 1, 2, 3)]
-    assert not session.queue.drag_end()
+    assert not session.drag_end()
     assert courses(session) == [(0, 1, 2, 3)]
-    assert not session.under_way.drag
+    assert not session.cursor.drag
 
 
 def test_a_seed_dragged_to_where_no_wire_leads_stays() -> None:
@@ -109,7 +109,7 @@ def test_a_seed_dragged_to_where_no_wire_leads_stays() -> None:
     session.cursor.drag_to(4)
     assert not session.cursor.drag_to(35)
     assert str(session.drawing.message) == "No wire from vertex 0 reaches vertex 35"
-    session.queue.drag_end()
+    session.drag_end()
     assert courses(session) == [(0, 1, 2, 3), (3, 9, 15, 21)]
 
 
@@ -119,7 +119,7 @@ def test_undo_during_a_drag_takes_back_the_drag_alone() -> None:
     session.cursor.drag_to(4)
     assert session.picture.can_undo
     assert session.undo()
-    assert not session.under_way.drag
+    assert not session.cursor.drag
     assert courses(session) == [(0, 1, 2, 3), (3, 9, 15, 21)]
     assert not session.picture.can_redo
 
@@ -129,12 +129,12 @@ def test_a_drag_that_is_not_computed_is_done_when_it_is() -> None:
     session = table.session
     session.drag(3)
     assert not session.cursor.drag_to(4)
-    assert session.under_way.computing
+    assert session.cursor.computing
     assert courses(session) == [(0, 1, 2, 3), (3, 9, 15, 21)]
-    assert session.queue.drag_end()
-    assert session.under_way.drag, "it waits"
+    assert session.drag_end()
+    assert session.cursor.drag, "it waits"
     table.compute()
-    assert not session.under_way.drag
+    assert not session.cursor.drag
     assert courses(session) == [(0, 1, 2, 3, 4), (4, 10, 16, 22, 21)]
 
 
@@ -142,7 +142,7 @@ def test_there_must_be_a_seed_to_drag() -> None:
     session = corner().session
     assert not session.drag(20)
     assert not session.cursor.drag_to(21)
-    assert not session.queue.drag_end()
+    assert not session.drag_end()
     assert not session.cursor.let_go()
 
 
@@ -155,7 +155,7 @@ def test_surface_wires_follow_to_vertices_only() -> None:
     assert "vertices" in str(session.drawing.message)
     assert session.cursor.drag_to(4)
     assert session.wires[1].points[0].tolist() == [4.0, 0.0, 0.0], "the curve runs from its start"
-    session.queue.drag_end()
+    session.drag_end()
     assert session.seeds() == [0, 4, 21]
 
 

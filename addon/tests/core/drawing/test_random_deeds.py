@@ -68,12 +68,12 @@ class Monkey:
             *[lambda: session.hover(self.snap(), loop=self.dice.random() < 0.3)] * 6,
             *[lambda: session.loop(self.snap())] * 3,
             *[self.stroke] * 3,
-            *[session.cursor.next_candidate, session.queue.poll, session.undo] * 3,
-            *[session.redo, session.queue.wait] * 2,
+            *[session.cursor.next_candidate, session.poll, session.undo] * 3,
+            *[session.redo, session.wait] * 2,
             lambda: session.start(self.snap()),
             lambda: session.drag(self.snap()),
             lambda: session.cursor.drag_to(self.snap()),
-            session.queue.drag_end,
+            session.drag_end,
             session.cursor.let_go,
             lambda: session.line_begin(self.snap()),
             *[self.line_on] * 3,
@@ -131,7 +131,7 @@ class Monkey:
 
     def store(self) -> None:
         session, mesh = self.session, self.mesh
-        if session.under_way.drag:
+        if session.cursor.drag:
             return
         cleared = set(session.edges_to_clear())
         self.plain -= cleared
@@ -189,7 +189,7 @@ class Monkey:
         assert (session.picture.offered.kind is None) == (session.picture.offered.kinds == ())
         offers = session.cursor.loops.offers.offers
         assert len({frozenset(offer.edges()) for offer in offers}) == len(offers)
-        assert (session.picture.intent is Intent.MOVE) == (session.under_way.drag is not None)
+        assert (session.picture.intent is Intent.MOVE) == (session.cursor.drag is not None)
 
 
 def looks(network: Network) -> set[tuple[object, ...]]:
@@ -209,7 +209,7 @@ def test_whatever_is_done_the_network_is_sound_and_undo_leads_back(seed: int) ->
         monkey.check()
     session.cursor.let_go()
     session.end_chain()
-    session.queue.wait()
+    session.wait()
     left = 1000
     while session.picture.can_undo and left:
         session.undo()
@@ -224,9 +224,9 @@ def test_whatever_is_done_the_network_is_sound_and_undo_leads_back(seed: int) ->
     use(session, strength_edges=STRENGTHS["EDGES"])
     session.start(0)
     session.hover(SIZE**2 - 1)
-    session.queue.wait()
+    session.wait()
     fresh = Monkey(seed).session
     fresh.start(0)
     fresh.hover(SIZE**2 - 1)
-    fresh.queue.wait()
+    fresh.wait()
     assert session.picture.active.vertices == fresh.picture.active.vertices, "the strokes left no trace"

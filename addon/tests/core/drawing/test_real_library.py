@@ -42,7 +42,7 @@ def straight(x: int, y0: int, y1: int) -> tuple[int, ...]:
 def click(session: Session, *picks: object) -> None:
     for pick in picks:
         session.click(pick)
-        session.queue.wait()
+        session.wait()
 
 
 @pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
@@ -54,7 +54,7 @@ def test_another_strength_keeps_the_surface_and_its_curvatures(along: Along) -> 
     for steps in (1, -2):
         assert stronger(session, steps)
         assert np.shares_memory(session.drawing.feature_strength(), strength)
-        session.queue.wait()
+        session.wait()
         assert np.shares_memory(session.drawing.feature_strength(), strength)
         assert np.shares_memory(session.drawing.engines.get(along).surface.points, surface.points)
 
@@ -65,11 +65,11 @@ def test_a_dragged_seed_leads_its_wires() -> None:
     before = session.edges_to_mark()
     assert session.drag(at(0, 0))
     session.cursor.drag_to(at(0, 2))
-    session.queue.wait()
-    assert all(at(0, 2) in wire.vertices for wire in session.under_way.moved)
-    assert session.under_way.moved[0].vertices[-1] == session.under_way.moved[1].vertices[0] == at(0, 2)
-    assert session.queue.drag_end()
-    session.queue.wait()
+    session.wait()
+    assert all(at(0, 2) in wire.vertices for wire in session.cursor.moved)
+    assert session.cursor.moved[0].vertices[-1] == session.cursor.moved[1].vertices[0] == at(0, 2)
+    assert session.drag_end()
+    session.wait()
     assert session.seeds() == [at(-6, -6), at(0, 2), at(6, 6)]
     assert session.wires[1].heading == session.wires[0].last_edge
     for wire in session.wires:
@@ -85,8 +85,8 @@ def test_a_wire_dragged_back_is_what_it_was() -> None:
     session.drag(at(0, 0))
     for place in (at(1, 1), at(2, 0), at(0, 0)):
         session.cursor.drag_to(place)
-        session.queue.wait()
-    session.queue.drag_end()
+        session.wait()
+    session.drag_end()
     assert [wire.vertices for wire in session.wires] == before
 
 
@@ -97,7 +97,7 @@ def test_an_edge_seed_is_passed_in_one_direction_wherever_it_is_dragged() -> Non
     for y in range(-4, 5):
         for edge in ((at(0, y), at(1, y)), (at(1, y), at(0, y)), (at(0, y), at(0, y + 1))):
             session.cursor.drag_to(edge)
-            session.queue.wait()
+            session.wait()
             one, two = session.wires
             assert one.vertices[-1] == two.vertices[0]
             assert set(one.last_edge) == set(edge)
@@ -109,8 +109,8 @@ def test_a_seed_put_into_a_wire_and_moved_bends_it() -> None:
     click(session, at(0, -8), at(0, 8))
     session.drag(Snap(at(0, 0), "WIRE", session.wires[0]))
     session.cursor.drag_to(at(5, 0))
-    session.queue.wait()
-    session.queue.drag_end()
+    session.wait()
+    session.drag_end()
     assert session.seeds() == [at(0, -8), at(5, 0), at(0, 8)]
     session.undo()
     assert [wire.vertices for wire in session.wires] == [straight(0, -8, 8)]
@@ -121,8 +121,8 @@ def test_across_the_surface_curves_follow_the_dragged_seed() -> None:
     click(session, at(-6, -6), at(0, 0), at(6, 6))
     session.drag(at(0, 0))
     session.cursor.drag_to(at(2, -2))
-    session.queue.wait()
-    session.queue.drag_end()
+    session.wait()
+    session.drag_end()
     first, second = session.wires
     assert np.allclose(first.points[-1], ridge()[at(2, -2)])
     assert np.allclose(second.points[0], ridge()[at(2, -2)])
@@ -133,15 +133,15 @@ def test_another_strength_is_computed_in_the_background() -> None:
     session = draw()
     click(session, at(-4, -8))
     session.hover(at(-4, 8))
-    session.queue.wait()
+    session.wait()
     weak = session.picture.active
     stronger(session, -20)
     assert session.drawing.strength == 1.0
-    session.queue.wait()
+    session.wait()
     assert session.picture.active.vertices == straight(-4, -8, 8), "without a pull the straight way is the shortest"
     assert weak.vertices
     use(session, metric="euclidean")
-    session.queue.wait()
+    session.wait()
     session.click(at(-4, 8))
     assert session.wires[0].vertices == straight(-4, -8, 8)
 
@@ -150,7 +150,7 @@ def test_a_wire_runs_on_over_the_ridge_to_the_boundary() -> None:
     session = draw()
     click(session, at(0, -8))
     session.hover(at(0, -4))
-    session.queue.wait()
+    session.wait()
     assert session.run_to_end(preview=True)
     assert session.picture.one(Role.EXTENSION).vertices == straight(0, -8, 10)
     assert session.run_to_end()
@@ -164,7 +164,7 @@ def test_mirrored_wires_lie_on_the_other_side_of_the_ridge() -> None:
     click(session, at(3, -5), at(7, 5))
     assert len(session.edges_to_mark()) == 2 * len(session.wires[0].edges())
     session.start(at(0, -8))
-    session.queue.wait()
+    session.wait()
     click(session, at(0, 8))
     assert session.mirrored(session.wires[1]) == []
 
@@ -190,8 +190,8 @@ def test_wires_of_the_library_come_back_from_the_mesh_and_can_be_dragged() -> No
     assert sorted(wire.vertices for wire in again.wires) == sorted(wire.vertices for wire in session.wires)
     assert again.drag(at(0, 8))
     again.cursor.drag_to(at(2, 8))
-    again.queue.wait()
-    assert again.queue.drag_end()
+    again.wait()
+    assert again.drag_end()
     assert at(2, 8) in again.seeds()
     mesh.write(again)
     assert mesh.seams == set(again.edges_to_mark())

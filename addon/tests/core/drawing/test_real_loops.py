@@ -22,7 +22,7 @@ core = pytest.importorskip("seamwire_core")
 
 def hovered(session: Session, edge: tuple[int, int]) -> list[tuple[str, list[int]]]:
     session.hover(edge, loop=True)
-    session.queue.wait()
+    session.wait()
     found = []
     for _ in session.picture.offered.kinds:
         found.append((session.picture.offered.kind, sorted(session.picture.one(Role.OFFER).vertices)))
@@ -81,7 +81,7 @@ def test_a_double_click_on_a_ball_takes_the_meridian_between_the_poles(ready: bo
     edge = (3 * AROUND + 2, 4 * AROUND + 2)
     session.click(edge)
     session.loop(edge)
-    session.queue.wait()
+    session.wait()
     (wire,) = session.wires
     while wire.kind == "CLOSED":  # a great circle through both poles is a loop, where the metric says so
         session.retrace(wire)
@@ -109,7 +109,7 @@ def test_a_way_past_poles_goes_straight_on_there_up_to_seams() -> None:
 def test_a_way_past_poles_that_meets_no_seam_closes_around_the_ball() -> None:
     session = ball()
     session.hover((2 * AROUND, 3 * AROUND), loop=True)
-    session.queue.wait()
+    session.wait()
     great_circle = {*meridian(0), *meridian(AROUND // 2), AROUND * RINGS, AROUND * RINGS + 1}
     shown = []
     for _ in session.picture.offered.kinds:
@@ -121,7 +121,7 @@ def test_a_way_past_poles_that_meets_no_seam_closes_around_the_ball() -> None:
 def test_a_kept_ring_ends_the_next_strip() -> None:
     session = ball()
     session.loop((4 * AROUND, 4 * AROUND + 1))
-    session.queue.wait()
+    session.wait()
     assert session.wires[0].closed
     offers = dict(hovered(session, (2 * AROUND, 3 * AROUND)))
     assert offers["STRIP"] == sorted([*meridian(0)[:5], AROUND * RINGS])
@@ -172,8 +172,8 @@ def test_the_strip_of_a_stored_network_can_be_moved() -> None:
     mesh.open(again)
     assert again.drag(again.seeds()[0])
     again.cursor.drag_to(4)
-    again.queue.wait()
-    assert again.queue.drag_end()
+    again.wait()
+    assert again.drag_end()
     assert 4 in again.seeds()
 
 
@@ -214,7 +214,7 @@ def wire_between(session: Session, along: Along) -> NDArray[np.float64]:
     use(session, along=along)
     session.start(LEFT)
     session.hover(RIGHT)
-    session.queue.wait()
+    session.wait()
     points = session.picture.active.points.copy()
     session.end_chain()
     return points
@@ -263,12 +263,12 @@ def test_the_live_wire_follows_a_stroke_while_it_is_live() -> None:
     session = grid()
     session.click(LEFT)
     session.hover(RIGHT)
-    session.queue.wait()
+    session.wait()
     session.draw_stroke(gate(), faces_under(gate()))
-    session.queue.wait()
+    session.wait()
     assert set(map(tuple, session.picture.active.points[:, :2])) == GATE
     session.undo()
-    session.queue.wait()
+    session.wait()
     assert session.picture.active.points[:, 1].max() == 15.0
 
 
@@ -276,15 +276,15 @@ def test_strokes_reach_wires_whose_seeds_are_moved() -> None:
     session = grid()
     session.click(LEFT)
     session.click(RIGHT - 4)
-    session.queue.wait()
+    session.wait()
     session.end_chain()
     session.draw_stroke(gate(), faces_under(gate()))
     assert session.wires[0].points[:, 1].max() == 15.0, "a kept wire stays"
     session.drag(RIGHT - 4)
     session.cursor.drag_to(RIGHT)
-    session.queue.wait()
-    session.queue.drag_end()
-    session.queue.wait()
+    session.wait()
+    session.drag_end()
+    session.wait()
     assert set(map(tuple, session.wires[0].points[:, :2])) == GATE
 
 
@@ -332,16 +332,16 @@ def test_what_the_library_refuses_is_said_and_undone_without_a_loss(ready: bool)
     session = grid(ready=ready, make_stroke=off_mesh)
     session.click(LEFT)
     session.click(RIGHT)
-    session.queue.wait()
+    session.wait()
     session.hover(LEFT + 3 * SIZE)
     session.draw_stroke(gate(), faces_under(gate()))
-    session.queue.wait()
+    session.wait()
     assert "off the mesh" in str(session.drawing.message)
-    assert not session.under_way.computing
+    assert not session.cursor.computing
     assert not session.click(LEFT + 3 * SIZE)
     assert len(session.wires) == 1
     assert session.undo()
-    session.queue.wait()
+    session.wait()
     assert str(session.drawing.message) == ""
     assert session.picture.active is not None
     assert session.click(LEFT + 3 * SIZE)

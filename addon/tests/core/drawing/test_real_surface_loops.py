@@ -63,7 +63,7 @@ def islands(session: Session, triangles: NDArray[np.int32]) -> int:
 
 def test_one_click_cuts_the_limb_in_two(session: Session, triangles: NDArray[np.int32]) -> None:
     session.hover(WAIST, loop=True)
-    session.queue.wait()
+    session.wait()
     assert session.picture.offered.kinds[0] == "ACROSS"
     preview = session.picture.one(Role.OFFER)
     assert np.abs(preview.points[:, 2]).max() < 0.06
@@ -81,7 +81,7 @@ def test_wherever_the_limb_is_clicked_it_falls_in_two(
     session: Session, triangles: NDArray[np.int32], vertex: int
 ) -> None:
     assert session.loop(vertex)
-    session.queue.wait()
+    session.wait()
     assert islands(session, triangles) == 2
 
 
@@ -89,19 +89,19 @@ def test_a_click_within_a_face_does_so_too(session: Session, triangles: NDArray[
     triangle = 2 * AROUND * 10 + 3
     place = FacePoint(triangle, tuple(triangles[triangle].tolist()), (0.2, 0.3, 0.5))
     assert session.loop(place)
-    session.queue.wait()
+    session.wait()
     assert session.wires[0].start == session.wires[-1].end == place
     assert islands(session, triangles) == 2
 
 
 def test_its_seeds_can_be_dragged(session: Session, triangles: NDArray[np.int32]) -> None:
     session.loop(WAIST)
-    session.queue.wait()
+    session.wait()
     assert session.drag(Snap(WAIST, "SEED"))
     to = WAIST + 3 * AROUND
     session.cursor.drag_to(to)
-    session.queue.drag_end()
-    session.queue.wait()
+    session.drag_end()
+    session.wait()
     assert to in session.seeds()
     assert WAIST not in session.seeds()
     assert islands(session, triangles) == 2
@@ -110,7 +110,7 @@ def test_its_seeds_can_be_dragged(session: Session, triangles: NDArray[np.int32]
 def shows(session: Session, vertex: int, **how: bool) -> bool:
     """Return whether a cut is shown at a vertex once it is computed."""
     session.hover(vertex, **how)
-    session.queue.wait()
+    session.wait()
     return session.picture.one(Role.OFFER) is not None
 
 
@@ -140,13 +140,13 @@ def test_after_it_was_taken_it_is_not_offered_again_until_another_point(session:
 
 def test_a_cut_clears_seams_where_wires_do(session: Session) -> None:
     session.loop(WAIST)
-    session.queue.wait()
+    session.wait()
     ring = session.edges_to_mark()
     session.undo()
-    session.queue.adopt(session.drawing.network, ring)
+    session.adopt(session.drawing.network, ring)
     use(session, clear=True)
     session.loop(WAIST)
-    session.queue.wait()
+    session.wait()
     assert session.edges_to_clear() == ring
 
 
@@ -160,11 +160,11 @@ def test_edges_have_none_across_the_surface_and_points_none_along_edges(session:
 
 def test_bent_to_a_second_point_it_parts_the_limb_all_the_same(session: Session, triangles: NDArray[np.int32]) -> None:
     session.loop(WAIST)
-    session.queue.wait()
+    session.wait()
     cut = session.edges_to_mark()
     for second in (WAIST + 5 * AROUND + 12, WAIST - 4 * AROUND + 7):
         assert session.bend(second)
-        session.queue.wait()
+        session.wait()
         assert session.wires[0].start == session.wires[-1].end == WAIST
         assert second in session.seeds()
         assert len(session.wires) == 4
@@ -175,7 +175,7 @@ def test_bent_to_a_second_point_it_parts_the_limb_all_the_same(session: Session,
     assert session.redo()
     assert session.undo()
     assert session.bend(WAIST - 3 * AROUND + 12), "it can be bent elsewhere"
-    session.queue.wait()
+    session.wait()
     assert islands(session, triangles) == 2
     assert session.edges_to_mark() != cut
     assert session.undo()
@@ -189,23 +189,23 @@ def test_a_bent_cut_does_to_the_mesh_what_the_cut_did(session: Session, drawn: s
     before = session.options
     use(session, **changes.get(drawn, {}))
     session.loop(WAIST)
-    session.queue.wait()
+    session.wait()
     cut = session.wires[0]
     session.follow(before)
     if drawn == "marking":
         use(session, clear=True)
     assert session.bend(WAIST + 5 * AROUND + 12)
-    session.queue.wait()
+    session.wait()
     assert {(wire.marks, wire.finish, wire.mirror) for wire in session.wires} == {(cut.marks, cut.finish, cut.mirror)}
 
 
 def test_what_is_not_there_as_it_was_taken_is_not_bent(session: Session) -> None:
     second = WAIST + 5 * AROUND + 12
     assert not session.bend(second)
-    session.queue.wait()
+    session.wait()
     assert session.drawing.message.code == "nothing-to-bend"
     session.loop(WAIST)
-    session.queue.wait()
+    session.wait()
     assert session.picture.can_bend
     session.drop(session.wires[1])
     assert not session.picture.can_bend
@@ -231,7 +231,7 @@ def test_what_is_said_of_bending_goes_with_it_where_a_wire_is_live(session: Sess
 def test_edges_are_not_bent_to_and_along_edges_nothing_is(session: Session) -> None:
     second = WAIST + 5 * AROUND + 12
     session.loop(WAIST)
-    session.queue.wait()
+    session.wait()
     cut = session.edges_to_mark()
     assert not session.bend((second, second + 1))
     use(session, along="EDGES")
@@ -243,13 +243,13 @@ def test_edges_are_not_bent_to_and_along_edges_nothing_is(session: Session) -> N
 def test_a_bent_cut_is_dragged_by_its_second_point(session: Session, triangles: NDArray[np.int32]) -> None:
     second, to = WAIST + 3 * AROUND + 12, WAIST + 5 * AROUND + 12
     session.loop(WAIST)
-    session.queue.wait()
+    session.wait()
     session.bend(second)
-    session.queue.wait()
+    session.wait()
     assert session.drag(Snap(second, "SEED"))
     session.cursor.drag_to(to)
-    session.queue.drag_end()
-    session.queue.wait()
+    session.drag_end()
+    session.wait()
     assert to in session.seeds()
     assert islands(session, triangles) == 2
 
@@ -258,14 +258,14 @@ def test_w_on_a_piece_of_a_cut_takes_its_other_paths_between_the_same_seeds(
     session: Session, triangles: NDArray[np.int32]
 ) -> None:
     session.loop(WAIST)
-    session.queue.wait()
+    session.wait()
     session.bend(WAIST + 4 * AROUND + 12)
-    session.queue.wait()
+    session.wait()
     before = session.wires
     paths = set()
     for _ in range(4):
         session.retrace(session.wires[1])
-        session.queue.wait()
+        session.wait()
         paths.add(session.wires[1].vertices)
         ends = [(wire.start, wire.end) for wire in session.wires]
         assert ends == [(wire.start, wire.end) for wire in before], "seeds stay"
@@ -277,9 +277,9 @@ def test_w_on_a_piece_of_a_cut_takes_its_other_paths_between_the_same_seeds(
 
 def test_x_on_a_piece_of_a_cut_removes_that_piece(session: Session) -> None:
     session.loop(WAIST)
-    session.queue.wait()
+    session.wait()
     session.bend(WAIST + 4 * AROUND + 12)
-    session.queue.wait()
+    session.wait()
     session.drop(session.wires[1])
     assert len(session.wires) == 3
     assert not is_closed(session.edges_to_mark())

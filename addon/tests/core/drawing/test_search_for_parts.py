@@ -33,7 +33,7 @@ def test_existing_seams_part_the_mesh() -> None:
         is_left = (grid_triangles(SIZE) % SIZE).max(axis=1) <= 4
         assert len(np.unique(labels)) == 2
         assert len(np.unique(labels[is_left])) == len(np.unique(labels[~is_left])) == 1
-    session.queue.adopt(session.network, ())
+    session.adopt(session.network, ())
     assert [len(np.unique(labels)) for labels in parts_of(session)] == [1] * len(AMOUNTS), "the seams are gone"
 
 

@@ -45,7 +45,7 @@ def test_a_click_does_not_wait_for_wires_that_do_not_lead() -> None:
     session = table.session
     session.click(0)
     session.click(14)
-    assert session.under_way.waiting == 0
+    assert session.cursor.waiting == 0
     assert session.wires[0].follow == 2
     assert session.wires[0].alternatives == (), "they are found when they are asked for"
 
@@ -198,15 +198,15 @@ def test_a_wire_that_is_not_computed_is_not_shown_and_then_is() -> None:
     session.click(0)
     session.hover(7)
     assert session.picture.active is None
-    assert session.under_way.computing
+    assert session.cursor.computing
     table.lives["EDGES"].ready = (False, True)
-    assert session.queue.poll()
+    assert session.poll()
     assert session.picture.active.vertices == (0, 6, 7), "the one there is, though it may be the longer"
     table.lives["EDGES"].ready = (True, True)
-    session.queue.poll()
+    session.poll()
     assert session.picture.active.vertices == (0, 1, 7)
-    assert not session.under_way.computing
-    assert not session.queue.poll(), "nothing is new"
+    assert not session.cursor.computing
+    assert not session.poll(), "nothing is new"
 
 
 def test_waiting_shows_nothing_new_until_there_is_a_wire() -> None:
@@ -216,15 +216,15 @@ def test_waiting_shows_nothing_new_until_there_is_a_wire() -> None:
     session.hover(7)
     before = session.drawing.revision
     for _ in range(5):
-        session.queue.poll()
+        session.poll()
     assert session.drawing.revision == before
     session.click(7)
     before = session.drawing.revision
     for _ in range(5):
-        session.queue.poll()
+        session.poll()
     assert session.drawing.revision == before
     table.lives["EDGES"].ready = (True, True)
-    session.queue.poll()
+    session.poll()
     assert session.drawing.revision > before
 
 
@@ -234,10 +234,10 @@ def test_a_click_before_anything_is_seen_waits_until_it_is_known_which_wire_is_s
     session.click(0)
     session.click(7)
     table.lives["EDGES"].ready = (False, True)
-    session.queue.poll()
+    session.poll()
     assert session.wires == ()
     table.lives["EDGES"].ready = (True, True)
-    session.queue.poll()
+    session.poll()
     assert [wire.vertices for wire in session.wires] == [(0, 1, 7)]
 
 
@@ -256,7 +256,7 @@ def test_undo_takes_back_waiting_clicks_first() -> None:
     session.click(0)
     session.click(2)
     session.undo()
-    assert session.under_way.waiting == 0
+    assert session.cursor.waiting == 0
     assert session.seed == 0
 
 

@@ -69,7 +69,7 @@ def test_while_another_strength_is_computed_the_wires_stay_to_be_seen() -> None:
     session.click(0)
     session.hover(7)
     stronger(session, 1)
-    assert session.under_way.computing
+    assert session.cursor.computing
     assert session.picture.active.vertices == (0, 1, 7)
     assert session.picture.intent is Intent.WAIT
     session.click(7)
@@ -77,7 +77,7 @@ def test_while_another_strength_is_computed_the_wires_stay_to_be_seen() -> None:
     table.compute()
     assert courses(session) == [(0, 1, 7)]
     assert session.wires[0].strength == 12.5
-    assert not session.under_way.computing
+    assert not session.cursor.computing
 
 
 def test_a_kept_wire_remembers_the_strength_it_was_drawn_with() -> None:

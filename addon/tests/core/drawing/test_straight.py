@@ -41,7 +41,7 @@ def off_plane(session: Session, points: np.ndarray, start: int = START, end: int
 def aim(session: Session, end: int = END, seen: tuple[float, float, float] | None = DOWN) -> None:
     session.start(START)
     session.hover(Snap(end, seen_along=seen))
-    session.queue.wait()
+    session.wait()
 
 
 def test_it_leads_the_candidates_and_a_click_keeps_it(session: Session) -> None:
@@ -66,7 +66,7 @@ def test_it_is_there_at_once_while_others_are_computed(session: Session) -> None
     session.drawing.engines.get("SURFACE").wait_for_surface()
     session.start(START)
     assert session.click(Snap(END, seen_along=DOWN))
-    assert session.under_way.waiting == 0
+    assert session.cursor.waiting == 0
     (wire,) = session.wires
     assert off_plane(session, wire.points) < 1e-9
 
@@ -76,11 +76,11 @@ def test_the_wire_that_closes_a_chain_is_straight_too(session: Session) -> None:
     session.click(Snap(END, seen_along=DOWN))
     third = 19 * SIDE + 2
     session.hover(Snap(third, seen_along=DOWN))
-    session.queue.wait()
+    session.wait()
     session.click(Snap(third, seen_along=DOWN))
-    session.queue.wait()
+    session.wait()
     assert session.close(DOWN)
-    session.queue.wait()
+    session.wait()
     assert session.seed is None
     assert off_plane(session, session.wires[-1].points, third, START) < 1e-9
 
@@ -103,8 +103,8 @@ def test_moved_it_becomes_a_wire_of_the_metric(session: Session) -> None:
     session.end_chain()
     session.drag(END)
     session.cursor.drag_to(END + 2)
-    session.queue.wait()
-    assert session.queue.drag_end()
+    session.wait()
+    assert session.drag_end()
     (wire,) = session.wires
     assert wire.vertices[-1] == END + 2
     assert off_plane(session, wire.points, end=END + 2) > 0.01
@@ -120,7 +120,7 @@ def test_it_follows_the_view(session: Session) -> None:
     aim(session)
     tilted = (0.3, 0.1, -1.0)
     session.hover(Snap(END, seen_along=tilted))
-    session.queue.wait()
+    session.wait()
     normal = np.cross(session.drawing.points[END] - session.drawing.points[START], tilted)
     normal /= np.linalg.norm(normal)
     assert session.picture.choice.straight
@@ -131,7 +131,7 @@ def test_switched_off_the_others_are_as_ever(session: Session) -> None:
     aim(session)
     others = session.picture.others
     use(session, straight=False)
-    session.queue.wait()
+    session.wait()
     assert not session.picture.choice.straight
     assert {wire.points.tobytes() for wire in (session.picture.active, *session.picture.others)} == {
         wire.points.tobytes() for wire in others
@@ -153,7 +153,7 @@ def test_points_of_faces_are_its_ends_too(session: Session) -> None:
     point = FacePoint(100, tuple(triangle.tolist()), (0.2, 0.3, 0.5))
     session.start(START)
     session.hover(Snap(point, seen_along=DOWN))
-    session.queue.wait()
+    session.wait()
     assert session.picture.choice.straight
     a, b = session.drawing.points[START, :2], (np.array(point.weights) @ session.drawing.points[triangle])[:2]
     normal = np.array([a[1] - b[1], b[0] - a[0]]) / np.linalg.norm(b - a)
@@ -168,7 +168,7 @@ def test_between_near_points_it_is_offered_where_it_is_to_be_cut(session: Sessio
     end = int(triangle[0]) if to_vertex else two
     session.start(one)
     session.hover(Snap(end, seen_along=DOWN))
-    session.queue.wait()
+    session.wait()
     assert session.picture.choice.straight
     assert session.click(Snap(end, seen_along=DOWN))
     (wire,) = session.wires
@@ -179,6 +179,6 @@ def test_between_near_points_it_is_offered_where_it_is_to_be_cut(session: Sessio
     use(session, finish="SNAP")
     session.start(one)
     session.hover(Snap(end, seen_along=DOWN))
-    session.queue.wait()
+    session.wait()
     assert not session.click(Snap(end, seen_along=DOWN))
     assert "Too short to become a seam" in str(session.drawing.message)

@@ -70,13 +70,13 @@ def test_what_is_there_early_is_shown_and_refined_while_the_cursor_rests() -> No
     session = it.session
     session.hover(8, loop=True)
     assert session.picture.one(Role.OFFER).vertices == LEFT
-    assert session.under_way.computing
+    assert session.cursor.computing
     revision = session.drawing.revision
-    session.queue.poll()
+    session.poll()
     assert session.drawing.revision == revision, "the same is not drawn anew"
     it.compute()
     assert session.picture.one(Role.OFFER).vertices == RIGHT
-    assert not session.under_way.computing
+    assert not session.cursor.computing
 
 
 @pytest.mark.parametrize("clicks_early", [False, True])
@@ -158,7 +158,7 @@ def test_where_none_leads_it_says_so_and_the_cut_stays() -> None:
     session.hover(11, bend=True)
     assert str(session.drawing.message) == "No closed cut leads through both points"
     revision = session.drawing.revision
-    session.queue.poll()
+    session.poll()
     assert session.drawing.revision == revision, "nothing new to be seen"
     assert not session.bend(11)
     assert session.edges_to_mark() == edges(*RIGHT)
@@ -173,8 +173,8 @@ def test_bending_waits_until_it_is_computed() -> None:
     session.hover(28, bend=True)
     assert session.picture.one(Role.OFFER) is None
     assert session.bend(28)
-    assert session.under_way.waiting == 1
+    assert session.cursor.waiting == 1
     assert session.edges_to_mark() == edges(*RIGHT)
     it.compute()
-    assert session.under_way.waiting == 0
+    assert session.cursor.waiting == 0
     assert session.seeds() == [8, 28]

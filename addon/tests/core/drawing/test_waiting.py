@@ -10,8 +10,8 @@ import pytest
 from fake_live import FakeLive, grid_points, grid_triangles
 from seamwire.core.base.messages import Refused
 from seamwire.core.drawing import wire
+from seamwire.core.drawing.cursor import Cursor
 from seamwire.core.drawing.session import Session
-from seamwire.core.drawing.under_way import UnderWay
 from seamwire.core.fields.crests import Crests
 from seamwire.core.network.network import Snap
 from seamwire.core.network.wires import Wire
@@ -50,7 +50,7 @@ def with_ridge(*args: object, **options: object) -> Table:
 def make_ready(table: Table, *ready: bool) -> None:
     for live in table.lives.values():
         live.ready = ready
-    table.session.queue.poll()
+    table.session.poll()
 
 
 def test_a_run_that_waits_does_not_take_the_wire_that_merely_finishes_first() -> None:
@@ -60,7 +60,7 @@ def test_a_run_that_waits_does_not_take_the_wire_that_merely_finishes_first() ->
     session.hover(14)
     session.run_to_end()
     make_ready(table, False, True)
-    assert session.under_way.waiting == 1
+    assert session.cursor.waiting == 1
     assert session.wires == ()
     make_ready(table, True, True)
     assert courses(session) == [(0, 1, 2, 8, 14, 20, 26, 32)]
@@ -81,7 +81,7 @@ def test_a_ridge_waits_behind_clicks() -> None:
     session.click(20)
     session.click(22)
     session.loop(7)
-    assert session.under_way.waiting == 2
+    assert session.cursor.waiting == 2
     assert session.wires == ()
 
 
@@ -100,10 +100,10 @@ def test_a_waiting_click_that_begins_a_chain_does_not_use_up_the_warning() -> No
     session = table.session
     session.loop(0)
     session.click(35)
-    session.queue.wait()
+    session.wait()
     assert session.drawing.told.code != "invalid-triangles"
     session.click(7)
-    session.queue.wait()
+    session.wait()
     assert session.drawing.warning.code == "invalid-triangles"
 
 
@@ -113,8 +113,8 @@ def test_a_loop_that_was_given_up_leaves_nothing_to_compute() -> None:
     session.undo()
     session.click(0)
     session.hover(21)
-    session.queue.poll()
-    assert not session.under_way.computing
+    session.poll()
+    assert not session.cursor.computing
     assert session.picture.work.progress == 1.0
 
 
@@ -140,7 +140,7 @@ def test_no_run_goes_ahead_of_a_line_that_waits() -> None:
     session.line_begin(35)
     session.cursor.line_to(POINTS[[35, 34]], np.array([49, 49]), None)
     session.line_keep(session.cursor.line_release())
-    assert session.under_way.waiting == 1
+    assert session.cursor.waiting == 1
     assert not session.run_to_end()
     assert session.drawing.message.code == "no-way-on"
     assert len(session.wires) == 1
@@ -158,7 +158,7 @@ def test_a_stroke_is_drawn_while_a_moved_seed_waits(monkeypatch: pytest.MonkeyPa
     session.hover(Snap(28, seen_along=(0.0, 0.0, 1.0)))
     session.drag(Snap(14, "SEED"))
     session.cursor.drag_to(Snap(21, seen_along=(0.0, 0.0, 1.0)))
-    session.queue.drag_end()
+    session.drag_end()
     assert session.draw_stroke(vertices=[27, 28])
     assert session.network.strokes[0].acts_on == "both"
 
@@ -171,8 +171,8 @@ def test_waiting_ends_if_the_library_never_comes_to_a_result(along: Along, monke
     session.click(8)
     session.click(20)
     monkeypatch.setattr(FakeLive, "wait", lambda _self, _seconds=None: True)
-    session.queue.wait()
-    assert session.under_way.waiting == 0
+    session.wait()
+    assert session.cursor.waiting == 0
     assert session.drawing.message.code == "no-result"
     assert session.wires == ()
     assert session.seed == 0
@@ -186,7 +186,7 @@ def test_waiting_ends_without_a_word_if_nothing_waits(monkeypatch: pytest.Monkey
     session.click(0)
     session.hover(8)
     monkeypatch.setattr(FakeLive, "wait", lambda _self, _seconds=None: True)
-    session.queue.wait()
+    session.wait()
     assert not session.drawing.message
     assert session.seed == 0
 
@@ -206,11 +206,11 @@ def test_undo_takes_back_a_held_line_before_a_click_that_waits() -> None:
     session = table.session
     session.click(0)
     session.click(8)
-    assert session.under_way.waiting == 1
+    assert session.cursor.waiting == 1
     session.line_begin(30)
     assert session.undo()
-    assert not session.under_way.held
-    assert session.under_way.waiting == 1
+    assert not session.cursor.held
+    assert session.cursor.waiting == 1
     table.compute()
     assert len(session.wires) == 1
 
@@ -222,7 +222,7 @@ def with_a_waiting_click() -> Table:
     table.session.click(3)
     table.lives["EDGES"].ready = (False, False)
     table.session.click(21)
-    assert table.session.under_way.waiting == 1
+    assert table.session.cursor.waiting == 1
     assert len(table.session.wires) == 1
     return table
 
@@ -264,7 +264,7 @@ FIRST, SECOND = (0, 1, 2, 3), (3, 9, 15, 21)
 def test_only_a_cancelled_chain_forgets_a_click_that_waits(go_on: Callable[[Session], object], kept: list) -> None:
     session = with_a_waiting_click().session
     go_on(session)
-    assert session.under_way.waiting == 0
+    assert session.cursor.waiting == 0
     assert courses(session) == kept
 
 
@@ -275,7 +275,7 @@ def test_settings_of_later_wires_do_not_reach_a_click_that_waits() -> None:
     assert session.wires[1].marks
     assert session.wires[1].mirror == ()
     session.click(35)
-    session.queue.wait()
+    session.wait()
     assert not session.wires[2].marks
     assert session.wires[2].mirror == (0,)
 
@@ -284,7 +284,7 @@ def test_settings_of_later_wires_do_not_reach_a_click_that_waits() -> None:
 def test_settings_that_draw_no_wires_do_not_wait(change: dict[str, object]) -> None:
     session = with_a_waiting_click().session
     use(session, **change)
-    assert session.under_way.waiting == 1
+    assert session.cursor.waiting == 1
 
 
 def test_a_stroke_waits_behind_a_click() -> None:
@@ -292,7 +292,7 @@ def test_a_stroke_waits_behind_a_click() -> None:
     session = table.session
     assert session.draw_stroke(vertices=[34, 35])
     assert session.network.strokes == ()
-    assert session.under_way.waiting == 2
+    assert session.cursor.waiting == 2
     assert [stroke.vertices.tolist() for stroke in session.picture.strokes] == [[34, 35]], "it is shown while it waits"
     table.compute()
     assert len(session.picture.strokes) == 1
@@ -309,11 +309,11 @@ def test_a_loop_waits_behind_a_click() -> None:
     live.ready = (False, False)
     session.click(3)
     assert session.loop(20)
-    assert session.under_way.waiting == 2
+    assert session.cursor.waiting == 2
     assert session.wires == (), "though the closed cut is computed already"
     live.ready = (True, True)
-    session.queue.poll()
-    assert session.under_way.waiting == 0
+    session.poll()
+    assert session.cursor.waiting == 0
     assert courses(session)[0] == FIRST
     assert len(session.wires) > 1
 
@@ -339,7 +339,7 @@ def test_the_chain_is_closed_by_a_key_after_the_click_that_waits() -> None:
     table.lives["EDGES"].ready = (False, False)
     session.click(15)
     assert session.close()
-    session.queue.wait()
+    session.wait()
     assert courses(session)[0][-1] == 15
     assert session.wires[-1].end == 0
     assert session.seed is None
@@ -347,15 +347,15 @@ def test_the_chain_is_closed_by_a_key_after_the_click_that_waits() -> None:
 
 def test_what_waits_tells_whether_a_chain_will_be_live() -> None:
     session = with_a_waiting_click().session
-    assert session.under_way.will_be_live
+    assert session.cursor.will_be_live
     session.click(Snap(0, "SEED"))
-    assert not session.under_way.will_be_live, "the second click closes the chain"
+    assert not session.cursor.will_be_live, "the second click closes the chain"
     session.loop((33, 34))
-    assert not session.under_way.will_be_live
+    assert not session.cursor.will_be_live
     session.click(35)
-    assert session.under_way.will_be_live
+    assert session.cursor.will_be_live
     session.run_to_end()
-    assert not session.under_way.will_be_live
+    assert not session.cursor.will_be_live
 
 
 def never(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -400,7 +400,7 @@ def test_a_waiting_click_that_is_refused_is_told_of_when_the_chain_ends() -> Non
     session.click(0)
     session.click(35)
     table.compute()
-    assert session.under_way.waiting == 0
+    assert session.cursor.waiting == 0
     session.end_chain()
     assert session.drawing.failure.code == "no-wire-reaches"
 
@@ -412,9 +412,9 @@ def test_a_cancelled_chain_forgets_a_wire_that_waits_for_its_other_path() -> Non
     insert(session, session.wires[0], 14)
     before = courses(session)
     assert session.retrace(session.wires[0])
-    assert session.under_way.waiting == 1
+    assert session.cursor.waiting == 1
     session.end_chain(wait=False)
-    assert session.under_way.waiting == 0
+    assert session.cursor.waiting == 0
     assert courses(session) == before
 
 
@@ -439,8 +439,8 @@ def test_a_released_seed_stays_where_it_is_whatever_comes_next(go_on: Callable[[
     session.end_chain()
     session.drag(Snap(3, "SEED"))
     session.cursor.drag_to(Snap(4))
-    session.queue.drag_end()
-    assert session.under_way.waiting == 1
+    session.drag_end()
+    assert session.cursor.waiting == 1
     go_on(session)
     assert session.drawing.network.wires[0].vertices == (0, 1, 2, 3, 4)
 
@@ -473,7 +473,7 @@ def test_a_look_at_running_work_reads_the_progress_once(monkeypatch: pytest.Monk
     session.click(0)
     session.hover((14, 15), loop=True)
     session.click(20)
-    read, count = UnderWay.read_progress, []
-    monkeypatch.setattr(UnderWay, "read_progress", lambda under_way: (count.append(1), read(under_way)))
-    session.queue.poll()
+    read, count = Cursor.read_progress, []
+    monkeypatch.setattr(Cursor, "read_progress", lambda cursor: (count.append(1), read(cursor)))
+    session.poll()
     assert len(count) == 1

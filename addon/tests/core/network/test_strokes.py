@@ -123,7 +123,7 @@ def test_other_steps_leave_the_strokes_alone() -> None:
     session.loop((14, 15))
     session.drag(3)
     session.cursor.drag_to(4)
-    session.queue.drag_end()
+    session.drag_end()
     session.undo()
     assert len(table.lives["EDGES"].strokes) == 1
     assert len(session.network.strokes) == 1
@@ -182,7 +182,7 @@ def test_the_live_wire_follows_and_kept_ones_stay() -> None:
     session.hover(9)
     kept = session.wires
     stroke(session, (0.5, 0.2), (4.5, 0.2))
-    assert session.under_way.computing
+    assert session.cursor.computing
     assert session.picture.active is not None, "the former wire is seen until there is another"
     assert session.picture.one(Role.COMPUTING) is not None
     table.compute()
@@ -196,9 +196,9 @@ def test_a_waiting_click_goes_on_waiting_while_a_stroke_is_drawn() -> None:
     session = table.session
     session.click(0)
     session.click(3)
-    assert session.under_way.waiting == 1
+    assert session.cursor.waiting == 1
     stroke(session, (0.5, 0.2), (4.5, 0.2))
-    assert session.under_way.waiting == 2
+    assert session.cursor.waiting == 2
     table.compute()
     assert [wire.vertices for wire in session.wires] == [(0, 1, 2, 3)]
     assert len(session.network.strokes) == 1

@@ -454,7 +454,7 @@ def test_mirroring_is_for_wires_kept_from_then_on_and_no_step() -> None:
 def test_after_the_mirror_was_set_undo_does_not_stop_at_steps_that_changed_nothing() -> None:
     session = Table(centred=True).session
     session.click(0)
-    session.queue.adopt(session.network, [])
+    session.adopt(session.network, [])
     session.start(0)
     assert not session.picture.can_undo
     use(session, mirror=(0,))

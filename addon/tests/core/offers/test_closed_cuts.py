@@ -46,7 +46,7 @@ def after_cutting(session: Session, wires: list[Wire]) -> Table:
     memory = CutMemory()
     cuts = [cut.of(Network(tuple(wires))) for cut in session.cursor.loops.cuts.taken(session.drawing.network)]
     memory.keep([cut for cut in cuts if cut is not None], Network(tuple(wires)), places)
-    it.session.queue.adopt(Network(tuple(replace(wire.anew(), stored=wire.stored) for wire in wires)), [])
+    it.session.adopt(Network(tuple(replace(wire.anew(), stored=wire.stored) for wire in wires)), [])
     it.session.cursor.loops.cuts.recall(memory.recall(it.session.network, places))
     return it
 
@@ -57,7 +57,7 @@ def test_a_cut_is_bent_in_the_session_after_it_was_cut(left: bool) -> None:
     it = after_cutting(session, as_cut(session))
     assert it.session.picture.can_bend
     it.session.hover(28, bend=True)
-    it.session.queue.poll()
+    it.session.poll()
     assert it.lives["SURFACE"].bent[-1] == (8, 28, (1, 1) if left else (0, 0)), (
         "the one of those through the point that ran there"
     )

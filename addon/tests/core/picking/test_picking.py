@@ -290,7 +290,7 @@ class Network:
     moved: tuple[Wire, ...] = ()
 
     @property
-    def under_way(self) -> object:
+    def cursor(self) -> object:
         """The wires that are dragged are here."""
         return self
 

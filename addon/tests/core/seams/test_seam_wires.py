@@ -50,11 +50,11 @@ def redrawn(session: Session, wires: list[Wire]) -> list[list[int]]:
             session.end_chain()
             session.start(wire.start)
         session.hover(wire.end)
-        session.queue.wait()
+        session.wait()
         if session.picture.active.vertices != wire.vertices:
             session.cursor.next_candidate()
         session.click(wire.end)
-        session.queue.wait()
+        session.wait()
     session.end_chain()
     return [list(wire.vertices) for wire in session.wires]
 
@@ -68,7 +68,7 @@ def test_what_was_drawn_is_found_again_with_as_few_seeds() -> None:
     session.start(0)
     for end in (4 * AROUND + 5, 7 * AROUND + 2):
         session.click(end)
-        session.queue.wait()
+        session.wait()
     seams = np.array([edge for wire in session.wires for edge in wire.edges()])
     wires = list(tube().drawing.wires_along(seams))
     assert len(wires) <= 2
