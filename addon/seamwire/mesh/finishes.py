@@ -40,24 +40,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Finished:
-    """What became of wires across the surface when their chain ended.
+    """What became of wires across the surface when their chain ended."""
 
-    Parameters
-    ----------
-    reports
-        What each of `FINISHERS` has done.
-    cut
-        The cut into the faces; None: nothing was cut.
-    problem
-        Why nothing was cut.
-    taken_back
-        How many edges of former cuts went, where nothing was cut in their place.
-    """
-
-    reports: tuple[str, ...] = ()
+    reports: tuple[str, ...] = ()  # what each of `FINISHERS` has done
     cut: Cut | None = None
-    problem: str = ""
-    taken_back: int = 0
+    problem: str = ""  # why nothing was cut
+    taken_back: int = 0  # how many edges of former cuts went, where nothing was cut in their place
 
     @property
     def text(self) -> str:
@@ -169,18 +157,13 @@ def cut(
     taken: Collection[TakenCut] | None = None,
     crumb: float = 0.0,
 ) -> tuple[ObjectSession, Cut]:
-    """Cut the mesh; what was cut are wires along its edges then, between the seeds of those across the surface.
+    """Cut the mesh as `plan_cut` has planned for these wires, and return the session that goes on.
 
-    Vertices, edges and faces have other numbers then.
+    What was cut are wires along edges afterwards, between the seeds of those across the surface. Wires that are not cut stay wires across
+    the surface. Vertices, edges and faces have other numbers then.
 
     Parameters
     ----------
-    mesh
-        The session, which ends.
-    plan
-        From `plan_cut`.
-    wires
-        The same as for `plan_cut`. Wires that are not cut stay wires across the surface.
     kept
         Whether the mesh has these wires already: their snapped edges cease to be seams.
     before
@@ -189,13 +172,6 @@ def cut(
         The closed cuts that are among these wires; None: those of the session.
     crumb
         The part of the mesh's area below which an island beside the cuts becomes part of a larger one.
-
-    Returns
-    -------
-    ObjectSession
-        The session that goes on.
-    Cut
-        The result of the cut.
 
     Raises
     ------

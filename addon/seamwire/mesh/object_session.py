@@ -81,26 +81,9 @@ def _trimmed_archive() -> Archive:
 
 
 class ObjectSession:
-    """One object that is drawn on.
+    """One mesh object that is drawn on. Outside edit mode it can only be read.
 
-    Parameters
-    ----------
-    obj
-        A mesh object in edit mode; in another mode it can be read, and not drawn on.
-    options
-        The settings to begin with; None: the defaults, with the mesh's own mirror.
-
-    Attributes
-    ----------
-    notices
-        Problems with the wires that are stored with the mesh.
-    symmetric
-        The axes over which the mesh is symmetric; None while that is not known.
-
-    Raises
-    ------
-    ValueError
-        Where there is nothing to draw on.
+    It begins with `options`; None: the defaults, with the mesh's own mirror. Raises ValueError where there is nothing to draw on.
     """
 
     def __init__(self, obj: bpy.types.Object, options: Options | None = None) -> None:
@@ -121,9 +104,9 @@ class ObjectSession:
                 make_parts=self.make_live.part_finder,
             )
         )
-        self.notices = Notices()
+        self.notices = Notices()  # problems with the wires that are stored with the mesh
         self.plain_seams: NDArray[np.int32] = self.arrays.seams
-        self.symmetric: tuple[int, ...] | None = None
+        self.symmetric: tuple[int, ...] | None = None  # over these axes; None while that is not known
         self._auto: Auto | None = None
         self._symmetry_error: Exception | None = None
         self._looking: threading.Thread | None = None

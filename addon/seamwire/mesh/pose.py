@@ -25,17 +25,8 @@ _MOST_CURVES = 2_000
 class Pose:
     """Where the vertices of an edit mesh are seen, and any point of its surface with them.
 
-    Parameters
-    ----------
-    arrays
-        The edit mesh as it is without modifiers.
-
-    Attributes
-    ----------
-    points
-        (n, 3) the vertices as they are seen, in the coordinates of the arrays.
-    is_bent
-        Whether they are seen elsewhere than the mesh has them.
+    `points`, (n, 3), are the vertices as they are seen, in the coordinates of the arrays. If the pose `is_bent`, they are seen elsewhere
+    than the mesh has them.
     """
 
     def __init__(self, arrays: Arrays) -> None:

@@ -128,21 +128,12 @@ def _material_slots(obj: bpy.types.Object, hues: list[int]) -> list[int]:
 class Worst:
     """An island that is stretched.
 
-    Parameters
-    ----------
-    value
-        Octaves, see `core.stretch`.
-    faces
-        (k,) its faces.
-    count
-        How many islands its mesh has.
-    facing
-        (3,) which way it faces in the mean, in object coordinates; its length is the projected area divided by the total area.
+    `facing`, (3,), is which way it faces in the mean, in object coordinates; its length is the projected area divided by the total area.
     """
 
-    value: float
+    value: float  # octaves, see `Stretch`
     faces: NDArray[np.int32]
-    count: int
+    count: int  # of all islands of the mesh
     facing: NDArray[np.float64]
 
 

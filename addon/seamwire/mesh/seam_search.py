@@ -63,31 +63,16 @@ _MEASURING = 0.1
 class SearchOptions:
     """Requirements for the wires and the seams.
 
-    Parameters
-    ----------
-    along
-        How the wires run; None: as is best for the mesh.
-    finish
-        What becomes the seam of wires across the surface; None: as is best for the mesh.
-    symmetric
-        Whether wires come in pairs where the mesh is symmetric.
-    front
-        (3,) the direction towards the viewer in the scene's coordinates: seams are hidden from there. None: from everywhere alike.
-    stretch
-        The mean stretch in percent.
-    islands
-        The least number of islands of each object.
-    unwraps
-        Whether to unwrap the islands whose seams have changed. Otherwise Blender's Live Unwrap decides.
+    `front`, (3,), is the direction towards the viewer in the scene's coordinates: seams are hidden from there. None: from all sides alike.
     """
 
-    along: Along | None = None
-    finish: Finish | None = None
-    symmetric: bool = True
-    front: Sequence[float] | None = None
-    stretch: float = 17.0
-    islands: int = 1
-    unwraps: bool = True
+    along: Along | None  # None: as is best for the mesh
+    finish: Finish | None  # None: as is best for the mesh
+    symmetric: bool  # whether wires come in pairs where the mesh is symmetric
+    front: Sequence[float] | None
+    stretch: float  # the mean, in percent
+    islands: int  # the least number of each object
+    unwraps: bool  # whether to unwrap the islands whose seams have changed; otherwise Blender's Live Unwrap decides
 
 
 class Suggestion:
@@ -99,8 +84,6 @@ class Suggestion:
     ----------
     obj
         In edit mode.
-    options
-        How wires are planned.
     faces
         Only the islands that have some of these faces are cut; None: all islands.
 
@@ -108,22 +91,8 @@ class Suggestion:
     ----------
     borders
         The chosen borders between parts: chains of vertices. A closed chain ends with its first vertex.
-    part_count
-        The number of parts, those that are not to be cut included.
-    best
-        The plan to carry out; None: nothing was planned yet.
-    slits
-        The wires of this plan.
-    straight_cost
-        How much a straight layout may add to an island's symmetric Dirichlet energy, so that the plan stays within its limit.
-    layout
-        (m, 3, 2) the map of this plan as unwrapping lays it out, in the object's units; None: not known yet.
-    marked
-        The number of edges that `write` made seams.
-    others
-        The number of islands that are not to be cut.
-    had_seams
-        Whether the mesh had seams before.
+    best, slits, layout
+        The plan to carry out, its wires, and its map as unwrapping lays it out, (m, 3, 2) in the object's units.
 
     Raises
     ------
@@ -145,14 +114,14 @@ class Suggestion:
         self._chosen: tuple[float, PartEdits, seamwire_core.Parts] | None = None
         self._planner: seamwire_core.SeamPlanner | None = None
         self._blenders_mirrors = mirror_axes(obj.data)
-        self.had_seams = len(arrays.seams) > 0
+        self.had_seams = len(arrays.seams) > 0  # before `write`
         self.borders: list[NDArray[np.int32]] = []
-        self.part_count = 0
+        self.part_count = 0  # islands that are not to be cut included
         self.best: seamwire_core.SeamPlan | None = None
-        self.straight_cost = STRAIGHT_COST
+        self.straight_cost = STRAIGHT_COST  # of `Layout`, so that the plan stays within its limit
         self.layout: NDArray[np.float64] | None = None
         self.slits: list[Wire] = []
-        self.marked = 0
+        self.marked = 0  # how many edges `write` made seams
 
     def _islands_with(self, faces: NDArray[np.integer] | None) -> tuple[NDArray[np.bool_] | None, int]:
         """Return which triangles are of the islands that have some of these faces, (m,), and the number of other islands."""
@@ -249,18 +218,10 @@ class Suggestion:
         return weights if self._within is None else weights * keep_out(arrays.triangles, self._within, len(weights))
 
     def plan(self, energy: float, islands: int, progress: Progress, is_enough: Callable[[], bool]) -> None:
-        """Find wires in the chosen parts, better and better ones; any thread may.
+        """Find wires in the chosen parts, better and better ones; any thread may. `progress` is that of `measure`.
 
-        Parameters
-        ----------
-        energy
-            The largest symmetric Dirichlet energy of the map.
-        islands
-            The least number of islands among those that are planned.
-        progress
-            That of `measure`.
-        is_enough
-            Whether to go on with the best plan so far. The first one is waited for.
+        The map has at most an `energy`, and the islands to be cut become at least so many. Once it `is_enough`, go on with the best plan
+        so far. The first one is waited for.
         """
         # Other parts may be chosen meanwhile, which drops the planner.
         self._planner = planner = self._core.SeamPlanner(
@@ -326,14 +287,9 @@ class Suggestion:
         return plan if plan.wires or self.borders else None
 
     @property
-    def border_wires(self) -> list[Wire]:
-        """The borders between the chosen parts as wires."""
-        return border_wires(self.borders, self.mesh.arrays.points)
-
-    @property
     def wires(self) -> list[Wire]:
-        """The borders between the chosen parts, and the wires in them, as wires."""
-        return [*self.border_wires, *self.slits]
+        """The borders between the chosen parts, and the wires in them."""
+        return [*border_wires(self.borders, self.mesh.arrays.points), *self.slits]
 
     def map(self) -> NDArray[np.float64] | None:
         """Return the map of the plan, (m, 3, 2), in the object's units; None if it has none, or the mesh is another one with the wires."""
@@ -373,7 +329,7 @@ class Suggestion:
 
     def write(self) -> None:
         """Keep the wires with the mesh, and finish them. Only borders are kept if the others are to be cut."""
-        self.mesh.add(self.border_wires if self.cuts else self.wires)
+        self.mesh.add(self.wires[: len(self.borders)] if self.cuts else self.wires)
         marked, _ = self.mesh.write(self.mesh.plan())
         self.marked += marked
         if self.along == "SURFACE":
@@ -387,17 +343,8 @@ class SeamSearch:
     ----------
     objects
         In Edit Mode. Objects without visible faces are left out.
-    options
-        Requirements for the wires and the seams.
     selected
         Whether only islands with selected faces are cut.
-
-    Attributes
-    ----------
-    notices
-        Problems with the wires that are stored with the meshes.
-    problem
-        Why no object can be cut.
 
     Raises
     ------
@@ -406,8 +353,8 @@ class SeamSearch:
     """
 
     def __init__(self, objects: Iterable[bpy.types.Object], options: SearchOptions, selected: bool) -> None:
-        self.notices = Notices()
-        self.problem = "No face is visible"
+        self.notices = Notices()  # problems with the wires that are stored with the meshes
+        self.problem = "No face is visible"  # why no object can be cut
         self._options = options
         self._unwrapped: Unwrapped | None = None
         self._found: list[Suggestion] = []
@@ -419,7 +366,7 @@ class SeamSearch:
                 self.problem = str(error)
                 continue
             for notice in suggestion.mesh.notices.take():
-                self.notices.add(notice.level, notice.text)
+                self.notices.add(*notice)
             if len(suggestion.mesh.arrays.triangles):
                 self._found.append(suggestion)
 
@@ -538,26 +485,24 @@ class SeamSearch:
         is_few = any(
             len(own) - suggestion.others < options.islands for own, suggestion in zip(missing, self, strict=True)
         )
-        energies, areas = self._energies()
+        maps = self._maps()
         return Outcome(
             wires=sum(len(suggestion.wires) for suggestion in self),
             marked=sum(suggestion.marked for suggestion in self),
             missing=[int(cuts) for own in missing for cuts in own],
             islands_wanted=options.islands if is_few else 0,
-            stretch=100.0 * mean_stretch(energies, areas) if energies else None,
-            stretches=[100.0 * stretch_of(energy) for energy in energies],
+            stretch=100.0 * mean_stretch(*zip(*maps, strict=True)) if maps else None,
+            stretches=[100.0 * stretch_of(energy) for energy, _ in maps],
             stretch_wanted=options.stretch,
             unwrapped=None if done is None else done.islands,
             faults=NO_FAULTS if done is None else done.faults,
         )
 
-    def _energies(self) -> tuple[list[float], list[float]]:
+    def _maps(self) -> list[tuple[float, float]]:
         """Return the energy of each map, and the area of its surface."""
         if not self._options.unwraps:
-            return [float(suggestion.best.energy) for suggestion in self], [suggestion.area for suggestion in self]
+            return [(float(suggestion.best.energy), suggestion.area) for suggestion in self]
         if self._unwrapped is None:  # the maps on the meshes are those from before
-            return [], []
+            return []
         maps = {obj: found for obj in (each.mesh.obj for each in self) if (found := mapped(obj)) is not None}
-        return [found.energy(uv_map.aspect(obj)) for obj, found in maps.items()], [
-            found.area for found in maps.values()
-        ]
+        return [(found.energy(uv_map.aspect(obj)), found.area) for obj, found in maps.items()]
