@@ -51,22 +51,12 @@ TAKES = ("FIRST", *KIND_COSTS)
 
 @dataclass(frozen=True)
 class Marked:
-    """What `mark` has done.
+    """What `mark` has done."""
 
-    Parameters
-    ----------
-    wires
-        How many wires are new.
-    marked, cleared
-        How many edges became seams, and how many are seams no longer.
-    problems
-        Sentences about what could not be drawn.
-    """
-
-    wires: int
-    marked: int
-    cleared: int
-    problems: tuple[str, ...] = ()
+    wires: int  # how many are new
+    marked: int  # how many edges became seams
+    cleared: int  # how many are seams no longer
+    problems: tuple[str, ...] = ()  # sentences about what could not be drawn
 
 
 def mark(
@@ -268,15 +258,7 @@ def editing(obj: bpy.types.Object, alone: bool = False) -> Iterator[None]:
 
 
 class _Reader:
-    """Reads the seeds that a script gives.
-
-    Parameters
-    ----------
-    mesh
-        The mesh that must have them.
-    across
-        Whether wires run across the surface.
-    """
+    """Reads the seeds that a script gives for a mesh, and for wires `across` the surface or along edges."""
 
     def __init__(self, mesh: ObjectSession, across: bool) -> None:
         self._mesh = mesh

@@ -34,21 +34,11 @@ _SHAPE = ("points", "triangles", "edges", "to_object")
 
 @dataclass(frozen=True)
 class Source:
-    """A network, and what is known of the mesh that it was drawn on.
-
-    Parameters
-    ----------
-    network
-        The content of a file, or of the mesh.
-    shape
-        The mesh, or None if there is only a file.
-    groups
-        A vertex of the mesh for each name of a vertex group, see `group_middles`.
-    """
+    """A network, and what is known of the mesh that it was drawn on."""
 
     network: NetworkFile
-    shape: Shape | None = None
-    groups: Mapping[str, int] = field(default_factory=dict)
+    shape: Shape | None = None  # None if there is only a file
+    groups: Mapping[str, int] = field(default_factory=dict)  # see `group_middles`
 
     @classmethod
     def of(cls, mesh: ObjectSession, settings: SeamwireSettings, more: Iterable[Wire] = ()) -> Source:

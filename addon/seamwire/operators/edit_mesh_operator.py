@@ -102,19 +102,9 @@ class EditMeshOperator(NeedsEditMode):
     def for_each_object(
         self, context: bpy.types.Context, work: Callable[[bpy.types.Object], _Found]
     ) -> dict[bpy.types.Object, _Found]:
-        """Do the work for each object in Edit Mode that has something visible.
+        """Do the work for each object in Edit Mode that has something visible, and return the results.
 
-        Parameters
-        ----------
-        context
-            Tells which objects are in Edit Mode.
-        work
-            Takes an object. Its ValueErrors and NativeErrors are reported, and the other objects are still worked on.
-
-        Returns
-        -------
-        dict
-            The result for each object. It is empty if every object failed, and the reason is reported.
+        ValueErrors and NativeErrors of the work are reported, and the other objects are still worked on.
         """
         from ..core.base.native import NativeError
         from ..mesh.edit_mesh import NothingVisibleError
@@ -134,10 +124,7 @@ class EditMeshOperator(NeedsEditMode):
     def open_mesh(self, obj: bpy.types.Object) -> ObjectSession:
         """Read an object to draw on, and report problems with the wires that are stored with it.
 
-        Raises
-        ------
-        ValueError, native.NativeError
-            If nothing is visible, or the compiled part is missing.
+        Raises ValueError or NativeError if nothing is visible, or the compiled part is missing.
         """
         from ..mesh.object_session import ObjectSession
 

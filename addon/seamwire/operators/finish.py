@@ -27,10 +27,7 @@ class MESH_OT_seamwire_finish(EditMeshOperator, bpy.types.Operator):
     bl_label = "Finish Seamwires"
 
     finish: bpy.props.EnumProperty(
-        name="Finish",
-        description="How a seam comes to lie on its wire",
-        items=_ITEMS,
-        default="CUT",
+        name="Finish", description="How a seam comes to lie on its wire", items=_ITEMS, default="CUT"
     )
 
     description = description_of_item("finish")
@@ -39,8 +36,15 @@ class MESH_OT_seamwire_finish(EditMeshOperator, bpy.types.Operator):
         """Finish the wires of all objects in Edit Mode."""
         from ..mesh import finishes
 
-        wires = _wires_across(self, context)
+        meshes = self.open_meshes(context)
+        wires = {
+            mesh: own
+            for mesh in meshes
+            if (own := [wire for wire in mesh.session.wires if wire.along == "SURFACE" and wire.marks])
+        }
         if not wires:
+            if meshes:
+                self.report({"ERROR"}, "No kept wire runs across the surface")
             return {"CANCELLED"}
         if FINISHES[self.finish].cuts:
             return cut_wires(self, context, wires, kept=True)
@@ -49,19 +53,6 @@ class MESH_OT_seamwire_finish(EditMeshOperator, bpy.types.Operator):
         done = count(sum(map(len, wires.values())), "wire"), count(moved, "vertex", "vertices")
         self.report({"INFO"}, "{}: {} moved".format(*done))
         return {"FINISHED"}
-
-
-def _wires_across(operator: EditMeshOperator, context: bpy.types.Context) -> dict[ObjectSession, list[Wire]]:
-    """Return the kept wires across the surface of each object in Edit Mode. Report an error if no object has such a wire."""
-    wires: dict[ObjectSession, list[Wire]] = {}
-    meshes = operator.open_meshes(context)
-    for mesh in meshes:
-        own = [wire for wire in mesh.session.wires if wire.along == "SURFACE" and wire.marks]
-        if own:
-            wires[mesh] = own
-    if meshes and not wires:
-        operator.report({"ERROR"}, "No kept wire runs across the surface")
-    return wires
 
 
 def cut_wires(
@@ -80,8 +71,6 @@ def cut_wires(
 
     Parameters
     ----------
-    operator
-        Reports the result.
     wires
         The wires of each mesh. Its session ends.
     kept

@@ -53,31 +53,7 @@ _TAKEN = frozenset({"RUNNING_MODAL"})
 class LiveParts:
     """The parts of meshes while an artist changes them.
 
-    Parameters
-    ----------
-    window
-        Where events come from.
-    search
-        Measured for parts.
-    preview
-        Draws the parts, and the seams that are planned in them.
-    amount
-        The amount of parts at first, from 0 to 1.
-    stretch
-        The limit of the stretch at first, in percent.
-    is_enough
-        Whether to stop planning, and go on with the best plan so far.
-
-    Attributes
-    ----------
-    amount
-        The chosen amount of parts.
-    stretch
-        The chosen limit of the stretch.
-    edits
-        The changes by clicks, by the name of the object.
-    is_kept
-        Whether the artist has confirmed the parts.
+    The meshes are measured for parts. Once it `is_enough`, planning stops, and the best plan so far is taken.
     """
 
     def __init__(
@@ -93,10 +69,10 @@ class LiveParts:
         self._search = search
         self._preview = preview
         self._is_enough = is_enough
-        self.amount = amount
-        self.stretch = stretch
-        self.edits: dict[str, PartEdits] = {}
-        self.is_kept = False
+        self.amount = amount  # of parts, from 0 to 1
+        self.stretch = stretch  # the limit, in percent
+        self.edits: dict[str, PartEdits] = {}  # the changes by clicks, by the name of the object
+        self.is_kept = False  # whether the artist has confirmed the parts
         self._dropped: dict[str, list[NDArray[np.int32]]] = {}
         self._counts: dict[float, int] = {}
         self._searches: deque[Search] = deque()

@@ -49,35 +49,18 @@ SCANNED = Auto("SURFACE", "CUT")
 class Setting(NamedTuple):
     """How Blender shows a setting.
 
-    Parameters
-    ----------
-    name, tooltip
-        Its words.
-    group
-        The panel that shows it: Drawing, Finish, Islands or Advanced, or Views.
-    limits
-        Of a number: smaller and larger values are moved to the limits.
-    choices
-        The table of its values.
-    auto
-        The tooltip of Auto, if that is the default in Blender. `Auto` has the value that it stands for.
-    matters
-        Whether it has an effect, for a way of running and a metric. Otherwise it is grayed out.
-    slider
-        Whether a number is shown as a slider.
-    others
-        More arguments of Blender's property.
+    A setting that does not matter for a way of running and a metric is grayed out.
     """
 
     name: str
     tooltip: str
-    group: str
-    limits: tuple[float, float] | None = None
-    choices: Mapping[str, Term | Finishing | Metric] | None = None
-    auto: str = ""
+    group: str  # the panel that shows it: Drawing, Finish, Islands or Advanced, or Views
+    limits: tuple[float, float] | None = None  # smaller and larger numbers are moved to the limits
+    choices: Mapping[str, Term | Finishing | Metric] | None = None  # the table of its values
+    auto: str = ""  # the tooltip of Auto, if that is the default in Blender; `Auto` has the value that it stands for
     matters: Callable[[Along, MetricName], bool] = lambda _along, _metric: True
-    slider: bool = False
-    others: Mapping[str, object] = {}
+    slider: bool = False  # whether a number is shown as a slider
+    others: Mapping[str, object] = {}  # more arguments of Blender's property
 
 
 def _setting(default: object, *words: str, **others: object) -> Any:  # noqa: ANN401 - a field of any type

@@ -37,17 +37,8 @@ _MOST_IDLE = 1_000_000_000
 class EditedObjects:
     """The objects that are drawn on, by their names.
 
-    Attributes
-    ----------
-    front
-        The one that was pointed at last; None: none yet.
-    chain
-        Lets the chain that is being drawn look at a changed mesh; None if no chain is drawn. While there is a chain, it updates the
-        objects, and they are drawn with every tool.
-    covered
-        Whether something else is drawn in place of the objects.
-    timer
-        Looks after running work.
+    `chain` lets the chain that is being drawn look at a changed mesh. It is None if no chain is drawn. While there is a chain, it updates
+    the objects, and they are drawn with every tool.
     """
 
     def __init__(self) -> None:
@@ -55,10 +46,10 @@ class EditedObjects:
         self._was_front = ""  # the object that was in front until it had to be read anew
         self._waits = False  # whether a mesh may have to be read
         self._states: dict[int, tuple[str, bool]] = {}  # the mode of each window, and whether it shows the tool
-        self.front: ObjectView | None = None
+        self.front: ObjectView | None = None  # the one that was pointed at last
         self.timer = Timer(self.tick)
         self.chain: Callable[[], None] | None = None
-        self.covered = False
+        self.covered = False  # whether something else is drawn in place of the objects
 
     # What there is
 

@@ -13,8 +13,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from ..core.base import native
-from ..core.islands import islands
+from ..core.islands.islands import IslandMaker
 from ..core.network.network import edges_after
 from ..core.picking.picker import Picker
 from ..core.picking.plain import REACH
@@ -37,7 +36,7 @@ if TYPE_CHECKING:
 
     from ..core.drawing.picture import Picture
     from ..core.drawing.session import Session
-    from ..core.islands.islands import IslandMaker, Islands
+    from ..core.islands.islands import Islands
     from ..core.network.network import Snap
     from ..core.network.picks import Pick
     from ..core.network.strokes import Stroke
@@ -50,17 +49,7 @@ if TYPE_CHECKING:
 
 
 class ShownIslands:
-    """Follows the cuts of a session.
-
-    Parameters
-    ----------
-    maker
-        Computes islands.
-    session
-        Its wires are cuts.
-    seams
-        (s, 2) the edges that are seams.
-    """
+    """The islands that the wires of a session and seams, (s, 2), cut the mesh into."""
 
     def __init__(self, maker: IslandMaker, session: Session, seams: ArrayLike) -> None:
         self._maker = maker
@@ -72,8 +61,7 @@ class ShownIslands:
         self._meant: frozenset[int] = frozenset()
         self._told: object = None
         self._part = ("islands", object())
-        self.pointed: int | None = None
-        """The triangle under the mouse; None: it is elsewhere."""
+        self.pointed: int | None = None  # the triangle under the mouse; None: it is elsewhere
 
     @property
     def newest(self) -> Islands | None:
@@ -156,17 +144,10 @@ def let_blender_tell() -> None:
 
 
 class ObjectView:
-    """One object that is drawn on, with its picker and its overlay.
-
-    Parameters
-    ----------
-    obj
-        A mesh object in edit mode.
+    """One object in edit mode that is drawn on, with its picker and its overlay.
 
     Attributes
     ----------
-    name
-        The object's, when it was read.
     stroke
         The stroke that is being drawn: its points, (k, 3), as the session has them, and whether wires will follow it.
     stale
@@ -188,9 +169,9 @@ class ObjectView:
         arrays = self.mesh.arrays
         gaps = GapFinder(arrays.points, arrays.triangles, arrays.edges, arrays.partly_hidden)
         make = self.mesh.make_live
-        self._islands = islands.IslandMaker(arrays.triangles, make.face_segments, gaps, make.missing_cuts)
+        self._islands = IslandMaker(arrays.triangles, make.face_segments, gaps, make.missing_cuts)
         self.pose = Pose(arrays)
-        self.crest_view = CrestView(native.load(), self.mesh.make_live.wait, self.pose)
+        self.crest_view = CrestView(make.wait, self.pose)
         self.heat = StretchHeat(arrays, self._islands, self.pose)
         self._layers: list[Layer] = []
         self.turned: tuple[Wire, Place] | None = None
@@ -209,7 +190,7 @@ class ObjectView:
             layers=self._layers,
         )
         self._strength: NDArray[np.float64] | None = None
-        self.name = obj.name_full
+        self.name = obj.name_full  # when it was read
         self.was_read()
         self.follow_pose()
         self.make_layers()

@@ -73,20 +73,8 @@ class _Sheet:
 class Overlay:
     """The drawing of pictures over one object.
 
-    Parameters
-    ----------
-    picture
-        Returns what is to be seen now.
-    obj
-        Whose mesh it is.
-    pose
-        Where the mesh is seen.
-    to_object
-        (3, 3) takes those to object coordinates.
-    preferences
-        The add-on's, see `Looks`.
-    layers
-        What lies below the wires. The list may change.
+    `picture` returns what is to be seen now. `to_object`, (3, 3), takes places of the pose to object coordinates. The `layers` lie below
+    the wires, and the list may change.
     """
 
     def __init__(

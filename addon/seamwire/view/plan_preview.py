@@ -68,15 +68,7 @@ def _checker_shader() -> gpu.types.GPUShader:
 
 
 class CheckedFaces:
-    """Triangles with a checker pattern, handed to the GPU once.
-
-    Parameters
-    ----------
-    corners
-        (m, 3, 3) the points of their corners.
-    squares
-        (m, 3, 2) where the corners lie in the pattern, in squares.
-    """
+    """Triangles, by the points of their corners, (m, 3, 3), with a checker pattern. The corners lie there at (m, 3, 2), in squares."""
 
     def __init__(self, corners: NDArray[np.float64], squares: NDArray[np.float64]) -> None:
         self._shader = _checker_shader()
@@ -119,39 +111,19 @@ _REACH = 10.0
 
 @dataclass(frozen=True)
 class Curves:
-    """The curves that are drawn over an object, (k, 3) each, in object coordinates.
+    """The curves that are drawn over an object, (k, 3) each, in object coordinates."""
 
-    Parameters
-    ----------
-    borders
-        Between parts.
-    dropped
-        Borders that the artist has dropped.
-    slits
-        Seams within parts. The mouse does not find them.
-    """
-
-    borders: Sequence[NDArray[np.float64]] = ()
-    dropped: Sequence[NDArray[np.float64]] = ()
-    slits: Sequence[NDArray[np.float64]] = ()
+    borders: Sequence[NDArray[np.float64]] = ()  # between parts
+    dropped: Sequence[NDArray[np.float64]] = ()  # borders that the artist has dropped
+    slits: Sequence[NDArray[np.float64]] = ()  # seams within parts; the mouse does not find them
 
 
 @dataclass(frozen=True)
 class Pointed:
-    """The border and the triangle under the mouse.
+    """The numbers of the border and the triangle under the mouse; None: there is none."""
 
-    Parameters
-    ----------
-    name
-        The full name of the object.
-    border
-        The number of the border, counting on with those that were dropped; None: there is no border.
-    triangle
-        The number of the triangle; None: only a border is there.
-    """
-
-    name: str
-    border: int | None
+    name: str  # the full name of the object
+    border: int | None  # counting on with those that were dropped
     triangle: int | None
 
 

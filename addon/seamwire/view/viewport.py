@@ -29,25 +29,13 @@ def clipping_planes(region_3d: bpy.types.RegionView3D) -> NDArray[np.float64]:
 
 @dataclass(frozen=True)
 class Place:
-    """A pixel of a 3D view.
-
-    Parameters
-    ----------
-    area, region
-        The view.
-    view
-        How it sees the world.
-    cursor
-        Pixels from the region's bottom left.
-    x, y
-        Pixels of the window.
-    """
+    """A pixel of a 3D view."""
 
     area: bpy.types.Area
     region: bpy.types.Region
-    view: Camera
-    cursor: tuple[float, float]
-    x: int
+    view: Camera  # how the view sees the world
+    cursor: tuple[float, float]  # from the region's bottom left
+    x: int  # in the window
     y: int
 
     def away(self, other: Place) -> int:

@@ -18,12 +18,9 @@ if TYPE_CHECKING:
 
 
 def draw_chain(session: Session, seeds: Iterable[Pick]) -> list[str]:
-    """Draw a chain of seeds, waiting for each wire.
+    """Draw a chain of seeds, waiting for each wire, and return what could not be done, in words.
 
-    Returns
-    -------
-    list of str
-        What could not be done, in words. The chain goes on from the last seed that was reached.
+    The chain goes on from the last seed that was reached.
     """
     problems = []
     session.end_chain()
@@ -39,19 +36,7 @@ def draw_chain(session: Session, seeds: Iterable[Pick]) -> list[str]:
 def draw_loop(session: Session, pick: Pick, kind: LoopKind | None = None) -> str:
     """Take the loop or strip through an edge, or the closed cut through a point of the surface.
 
-    Parameters
-    ----------
-    session
-        That draws along edges, or across the surface.
-    pick
-        The edge or point.
-    kind
-        The kind of loop through the edge, or None for the first one that a click offers.
-
-    Returns
-    -------
-    str
-        What could not be done, in words. An empty text if it was done.
+    Without a kind of loop, the first that a click offers is taken. Returns what could not be done, in words.
     """
     before = session.wires
     if kind is not None and isinstance(pick, tuple) and not _turn_to(session, pick, kind):

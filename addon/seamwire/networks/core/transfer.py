@@ -48,12 +48,6 @@ def transfer(
 
     Parameters
     ----------
-    file
-        The network.
-    target
-        The mesh.
-    place
-        How seeds are placed.
     mirror
         The axis, 0 to 2, over which the network is mirrored first, or None. Then it is placed on the surface.
     align
@@ -67,7 +61,7 @@ def transfer(
     live
         Makes live wires on the target. None to make them here.
     progress
-        Is told the fraction done; where it returns False, `seamwire_core.Cancelled` is raised.
+        Is told the fraction done. If it returns False, `seamwire_core.Cancelled` is raised.
 
     Raises
     ------
@@ -111,8 +105,7 @@ class _Told:
 
 def _check(file: NetworkFile, mesh: Shape) -> None:
     """Raise NetworkFileError if a network was drawn on another mesh."""
-    problem = file.problem_with(mesh)
-    if problem:
+    if problem := file.problem_with(mesh):
         raise NetworkFileError(problem)
 
 
