@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The search for seams on all objects in Edit Mode, from reading the meshes to unwrapped islands.
 
-The library finds the parts of each object, and plans the wires between and within them.
+The library finds the parts of each object, and plans the wires between and within them. Functions that take `progress` may run in any
+thread, and raise `seamwire_core.Cancelled` where it returns False.
 """
 
 from __future__ import annotations
@@ -53,6 +54,7 @@ if TYPE_CHECKING:
 
 Progress = Callable[[float], bool]
 """Takes the finished fraction, and returns whether to continue."""
+_NO_EDITS = PartEdits()
 _CUT_CRUMB = 0.25
 """Cuts that run side by side cross here and there. A piece smaller than this fraction of the smallest planned island is merged."""
 _MEASURING = 0.1
@@ -78,26 +80,9 @@ class SearchOptions:
 class Suggestion:
     """Wires for one object: parts are found, wires planned in them, and all wires written to the mesh.
 
-    The mesh is planned in object coordinates, without the object's scale, as UV maps are measured.
-
-    Parameters
-    ----------
-    obj
-        In edit mode.
-    faces
-        Only the islands that have some of these faces are cut; None: all islands.
-
-    Attributes
-    ----------
-    borders
-        The chosen borders between parts: chains of vertices. A closed chain ends with its first vertex.
-    best, slits, layout
-        The plan to carry out, its wires, and its map as unwrapping lays it out, (m, 3, 2) in the object's units.
-
-    Raises
-    ------
-    ValueError, native.NativeError
-        If no edge is visible, none of the faces is, or the compiled part is missing.
+    The mesh is planned in object coordinates, without the object's scale, as UV maps are measured. If faces are given, only the islands
+    that have some of them are cut. Raises ValueError or NativeError if no edge is visible, none of the faces is, or the compiled part is
+    missing.
     """
 
     def __init__(self, obj: bpy.types.Object, options: SearchOptions, faces: NDArray[np.integer] | None) -> None:
@@ -115,12 +100,15 @@ class Suggestion:
         self._planner: seamwire_core.SeamPlanner | None = None
         self._blenders_mirrors = mirror_axes(obj.data)
         self.had_seams = len(arrays.seams) > 0  # before `write`
+        # The chosen borders between parts, as chains of vertices. A closed chain ends with its first vertex.
         self.borders: list[NDArray[np.int32]] = []
         self.part_count = 0  # islands that are not to be cut included
-        self.best: seamwire_core.SeamPlan | None = None
+        self.best: seamwire_core.SeamPlan | None = None  # the plan to carry out
         self.straight_cost = STRAIGHT_COST  # of `Layout`, so that the plan stays within its limit
-        self.layout: NDArray[np.float64] | None = None
-        self.slits: list[Wire] = []
+        self.layout: NDArray[np.float64] | None = (
+            None  # (m, 3, 2) its map as unwrapping lays it out, in the object's units
+        )
+        self.slits: list[Wire] = []  # its wires
         self.marked = 0  # how many edges `write` made seams
 
     def _islands_with(self, faces: NDArray[np.integer] | None) -> tuple[NDArray[np.bool_] | None, int]:
@@ -143,22 +131,19 @@ class Suggestion:
         return tuple(found.normalized()) if found.length > 0.0 else None
 
     def measure(self, progress: Progress) -> None:
-        """Measure the mesh for parts; any thread may. `seamwire_core.Cancelled` is raised where `progress` returns False."""
+        """Measure the mesh for parts."""
         arrays = self.mesh.arrays
         self._axis = self._mirror()
         self._finder = self._core.PartFinder(
             arrays.surface, mirror=self._axis, marked=arrays.marked, seams=arrays.seams, progress=progress
         )
 
-    def count(self, amount: float, edits: PartEdits, progress: Callable[[float], bool]) -> int:
-        """Return the number of parts for an amount from 0 to 1; any thread may. `progress` is that of `measure`."""
+    def count(self, amount: float, edits: PartEdits, progress: Progress) -> int:
+        """Return the number of parts for an amount from 0 to 1."""
         return self._counted(self._found(amount, edits, progress))
 
-    def choose(self, amount: float, edits: PartEdits, progress: Callable[[float], bool]) -> None:
-        """Find the parts for an amount from 0 to 1, and choose them. A plan for other parts is dropped.
-
-        Parts that were counted last, or that are chosen already, are not searched again. `progress` is that of `measure`.
-        """
+    def choose(self, amount: float, edits: PartEdits, progress: Progress) -> None:
+        """Find the parts for an amount from 0 to 1, and choose them. A plan for other parts is dropped."""
         found = self._found(amount, edits, progress)
         self._chosen = amount, edits, found
         self.part_count = self._counted(found)
@@ -170,7 +155,7 @@ class Suggestion:
         self._planner = self.best = self.layout = None
         self.slits = []
 
-    def _found(self, amount: float, edits: PartEdits, progress: Callable[[float], bool]) -> seamwire_core.Parts:
+    def _found(self, amount: float, edits: PartEdits, progress: Progress) -> seamwire_core.Parts:
         """Find parts. The last ones are kept, because parts are counted before they are chosen."""
         assert self._finder is not None
         for known in (self._chosen, self._last):
@@ -218,7 +203,7 @@ class Suggestion:
         return weights if self._within is None else weights * keep_out(arrays.triangles, self._within, len(weights))
 
     def plan(self, energy: float, islands: int, progress: Progress, is_enough: Callable[[], bool]) -> None:
-        """Find wires in the chosen parts, better and better ones; any thread may. `progress` is that of `measure`.
+        """Find wires in the chosen parts, better and better ones.
 
         The map has at most an `energy`, and the islands to be cut become at least so many. Once it `is_enough`, go on with the best plan
         so far. The first one is waited for.
@@ -253,7 +238,7 @@ class Suggestion:
         self.best, self.slits = found, planned_wires(found, self.along, STRENGTHS[self.along], from_object)
 
     def lay_out(self, progress: Progress) -> None:
-        """Find how the islands of the plan will lie in the UV map; any thread may. `progress` is that of `measure`."""
+        """Find how the islands of the plan will lie in the UV map."""
         planner, plan, arrays = self._planner, self.best, self.mesh.arrays
         if plan is None or plan.uvs is None:
             return
@@ -273,6 +258,11 @@ class Suggestion:
             found = plan.uvs  # unwrapping may open islands further
         if self._planner is planner:
             self.layout = np.asarray(found)
+
+    @property
+    def name(self) -> str:
+        """The full name of the object."""
+        return self.mesh.obj.name_full
 
     @property
     def best_so_far(self) -> seamwire_core.SeamPlan | None:
@@ -339,17 +329,8 @@ class Suggestion:
 class SeamSearch:
     """Suggested wires for several objects.
 
-    Parameters
-    ----------
-    objects
-        In Edit Mode. Objects without visible faces are left out.
-    selected
-        Whether only islands with selected faces are cut.
-
-    Raises
-    ------
-    native.NativeError
-        If the compiled part is missing.
+    Objects without visible faces are left out. If `selected`, only islands with selected faces are cut. Raises NativeError if the
+    compiled part is missing.
     """
 
     def __init__(self, objects: Iterable[bpy.types.Object], options: SearchOptions, selected: bool) -> None:
@@ -382,26 +363,21 @@ class SeamSearch:
         return all(suggestion.mesh.alive() for suggestion in self)
 
     def measure(self, progress: Progress) -> None:
-        """Measure all meshes for parts; any thread may. `seamwire_core.Cancelled` is raised where `progress` returns False."""
+        """Measure all meshes for parts."""
         for suggestion, share in self._shares(progress):
             suggestion.measure(share)
 
-    @staticmethod
-    def _edits_of(suggestion: Suggestion, edits: Mapping[str, PartEdits]) -> PartEdits:
-        return edits.get(suggestion.mesh.obj.name_full, PartEdits())
-
     def count(self, amount: float, edits: Mapping[str, PartEdits], progress: Progress) -> int:
-        """Return the number of parts of all meshes for an amount from 0 to 1; any thread may.
-
-        The edits have the names of objects. `progress` is that of `measure`.
-        """
+        """Return the number of parts of all meshes for an amount from 0 to 1. The edits have the names of objects."""
         shares = self._shares(progress)
-        return sum(suggestion.count(amount, self._edits_of(suggestion, edits), share) for suggestion, share in shares)
+        return sum(
+            suggestion.count(amount, edits.get(suggestion.name, _NO_EDITS), share) for suggestion, share in shares
+        )
 
     def choose(self, amount: float, edits: Mapping[str, PartEdits], progress: Progress = lambda _: True) -> None:
         """Choose the parts for an amount from 0 to 1, as `count` finds them."""
         for suggestion, share in self._shares(progress):
-            suggestion.choose(amount, self._edits_of(suggestion, edits), share)
+            suggestion.choose(amount, edits.get(suggestion.name, _NO_EDITS), share)
 
     def limit_stretch(self, percent: float) -> None:
         """Let the next plans have another mean stretch. `choose` drops those for the stretch before."""
@@ -413,16 +389,13 @@ class SeamSearch:
         return sum(suggestion.part_count for suggestion in self)
 
     def plan(self, progress: Progress, is_enough: Callable[[], bool] = lambda: False) -> None:
-        """Plan wires in the chosen parts of all meshes; any thread may.
-
-        `progress` is that of `measure`. Once it `is_enough`, go on with the best plans so far; the first plan of each mesh is waited for.
-        """
+        """Plan wires in the chosen parts of all meshes, until it `is_enough`, but wait for the first plan of each mesh."""
         energy = energy_of(0.01 * self._options.stretch)
         for suggestion, share in self._shares(progress):
             suggestion.plan(energy, self._options.islands, share, is_enough)
 
     def lay_out(self, progress: Progress) -> None:
-        """Find how the islands of the plans will lie in the UV map; any thread may. `progress` is that of `measure`."""
+        """Find how the islands of the plans will lie in the UV map."""
         for suggestion, share in self._shares(progress):
             suggestion.lay_out(share)
 
@@ -432,10 +405,7 @@ class SeamSearch:
             yield suggestion, lambda done, number=number: progress((number + done) / len(self))
 
     def refresh(self) -> None:
-        """Read the meshes again. Wires and seams that were added during the search stay.
-
-        Raises ValueError if a mesh has another shape than the planned one.
-        """
+        """Read the meshes again. Wires and seams that were added stay. Raises ValueError if a mesh has another shape now."""
         if not all(suggestion.mesh.refresh(suggestion.mesh.obj) for suggestion in self):
             raise ValueError("The mesh changed during the search")
 

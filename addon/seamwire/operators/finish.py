@@ -67,25 +67,9 @@ def cut_wires(
     """Cut wires across the surface into meshes, and report the result.
 
     Wires that do not run over their mesh are left out. If no wire of a mesh can be cut, a warning names the mesh, and the others are
-    cut. Every cut is tried on a copy before the first mesh changes.
+    cut. Every cut is tried on a copy before the first mesh changes. Raises `Halfway` if an error comes after that.
 
-    Parameters
-    ----------
-    wires
-        The wires of each mesh. Its session ends.
-    kept
-        Whether meshes already have these wires. Their snapped edges stop being seams.
-    crumb
-        Islands smaller than this fraction of the area of a mesh are merged into a larger one.
-    live_unwrap
-        Whether to follow Blender's Live Unwrap.
-    first
-        Changes meshes before they are cut, after every cut was tried. It must not renumber them.
-
-    Raises
-    ------
-    Halfway
-        If an error comes after a mesh has changed.
+    `kept` and `crumb` are those of `finishes.cut`. `first` changes meshes before they are cut, and must not renumber them. Sessions end.
     """
     from ..mesh import finishes
     from ..mesh.cut import CutError

@@ -258,7 +258,7 @@ class LiveParts:
 
     def _edited(self, edits: PartEdits, at: Pointed) -> PartEdits:
         """Return the edits of an object after a click."""
-        suggestion = next(each for each in self._search if each.mesh.obj.name_full == at.name)
+        suggestion = next(each for each in self._search if each.name == at.name)
         if at.border is None:
             return edits.part(int(suggestion.mesh.arrays.polygons[at.triangle]))
         if at.border < len(suggestion.borders):
@@ -281,9 +281,8 @@ class LiveParts:
 
     def _dim(self, suggestion: Suggestion) -> list[NDArray[np.int32]]:
         """Return the borders that the artist has dropped."""
-        name = suggestion.mesh.obj.name_full
-        dropped = self.edits.get(name, PartEdits()).dropped
-        return [chain for chain in self._dropped.get(name, ()) if edges_of(chain) <= dropped]
+        dropped = self.edits.get(suggestion.name, PartEdits()).dropped
+        return [chain for chain in self._dropped.get(suggestion.name, ()) if edges_of(chain) <= dropped]
 
     def _show(self, suggestion: Suggestion) -> None:
         """Draw the borders of a mesh, and the seams that are planned for them."""

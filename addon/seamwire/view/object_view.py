@@ -105,22 +105,22 @@ class ShownIslands:
     def _ask(self) -> None:
         try:
             self._maker.check()
-            self._want()
+            if self._stale:
+                self._want()
         except Exception:
             self._asked = self._cuts = None  # the next attempt asks anew
             raise
 
     def _want(self) -> None:
-        if self._stale:
-            self._asked = (self._session.drawing.network_revision, self._seams_read)
-            session = self._session
-            wanted = edges_after(self._seams, session.edges_to_mark(), session.edges_to_clear())
-            planned = (wire for wire in session.wires if wire.planned)
-            meant = frozenset(vertex for wire in planned for edge in wire.claims() for vertex in edge)
-            # A chain that ends turns cuts of wires into seams: the islands stay the same.
-            if self._cuts is None or meant != self._meant or not np.array_equal(wanted, self._cuts):
-                self._cuts, self._meant = wanted, meant
-                self._maker.ask(self._asked, wanted, meant)
+        session = self._session
+        self._asked = (session.drawing.network_revision, self._seams_read)
+        wanted = edges_after(self._seams, session.edges_to_mark(), session.edges_to_clear())
+        planned = (wire for wire in session.wires if wire.planned)
+        meant = frozenset(vertex for wire in planned for edge in wire.claims() for vertex in edge)
+        # A chain that ends turns cuts of wires into seams: the islands stay the same.
+        if self._cuts is None or meant != self._meant or not np.array_equal(wanted, self._cuts):
+            self._cuts, self._meant = wanted, meant
+            self._maker.ask(self._asked, wanted, meant)
 
 
 _BYTES_A_TRIANGLE = 1_150
@@ -144,22 +144,9 @@ def let_blender_tell() -> None:
 
 
 class ObjectView:
-    """One object in edit mode that is drawn on, with its picker and its overlay.
+    """One object in edit mode that is drawn on, with its picker and its overlay. It is `stale` once Blender told of a change of the mesh.
 
-    Attributes
-    ----------
-    stroke
-        The stroke that is being drawn: its points, (k, 3), as the session has them, and whether wires will follow it.
-    stale
-        Whether Blender told of a change of the mesh since it was read.
-    turned
-        The wire that was given another path last, and where the mouse was; None: the mouse has moved since. Keys still act on this wire,
-        though it may run elsewhere now.
-
-    Raises
-    ------
-    ValueError
-        Where there is nothing to draw on.
+    Raises ValueError where there is nothing to draw on.
     """
 
     def __init__(self, obj: bpy.types.Object) -> None:
@@ -174,10 +161,12 @@ class ObjectView:
         self.crest_view = CrestView(make.wait, self.pose)
         self.heat = StretchHeat(arrays, self._islands, self.pose)
         self._layers: list[Layer] = []
+        # The wire that was given another path last, and where the mouse was. Until it moves, keys act on this wire, wherever it runs now.
         self.turned: tuple[Wire, Place] | None = None
         self._has_moved = True
         self._posed_picker: Picker | None = None
         self.islands = ShownIslands(self._islands, self.session, arrays.seams)
+        # The stroke that is being drawn: its points, (k, 3), as the session has them, and whether wires will follow it.
         self.stroke: tuple[NDArray[np.float64], bool] | None = None
         self._front = True
         own = ref(self)  # what was prepared for a view is freed with it, and not when Python looks for cycles
