@@ -78,8 +78,6 @@ def mark(
 
     Parameters
     ----------
-    obj
-        A mesh object.
     chains
         Chains of seeds. Wires run from each seed to the next. A seed is a vertex, an edge such as ``(7, 9)`` (along edges), or a place
         such as ``(0.3, 0.0, 1.2)`` in object coordinates (across the surface).
@@ -89,18 +87,14 @@ def mark(
         Which loop along edges: the first that a click would offer, or a kind of loop.
     strokes, avoid
         Vertices along strokes that attract wires, and along strokes that repel wires.
-    along
-        Whether wires run along edges or across the surface.
-    finish
-        How wires across the surface become seams.
+    along, finish, metric
+        How wires run, how wires across the surface become seams, and what wires follow: keys of the tables in `terms/choices.py`.
     clear
         Whether to clear seams instead of marking them.
     mirror
         Axes to mirror wires over, such as ``"X"`` or ``"XY"``. None takes the mesh's own mirror option.
     strength
         How strongly wires follow the shape, 1 to 100. None takes the tool's default.
-    metric
-        What wires follow.
 
     Raises
     ------
@@ -297,7 +291,7 @@ class _Reader:
             raise ValueError(f"{where}: across the surface, a seed is a vertex or a place, not an edge")
         if not self._across and isinstance(pick, FacePoint):
             raise ValueError(f"{where}: along edges, a seed is a vertex or an edge, not a place")
-        problem = self._mesh.cage.problem_with([pick])
+        problem = self._mesh.cage.problem_with(pick)
         if problem:
             raise ValueError(f"{where}: {problem}")
         return pick

@@ -148,7 +148,7 @@ def _changing(cage: Cage) -> Iterator[None]:
     finally:
         # Blender's update keeps the normals, and a face that was split while it was drawn as a regular polygon has the wrong one.
         cage.number_bmesh().normal_update()
-        bmesh.update_edit_mesh(cage.mesh, loop_triangles=True, destructive=True)
+        bmesh.update_edit_mesh(cage.data, loop_triangles=True, destructive=True)
 
 
 def _carry_out(

@@ -46,10 +46,10 @@ if TYPE_CHECKING:
 
 def auto_for(obj: bpy.types.Object, arrays: Arrays) -> Auto:
     """Return the values that Auto stands for on a mesh object whose mesh was read as arrays."""
-    mesh = obj.data
-    rigged = len(obj.vertex_groups) > 0 or mesh.shape_keys is not None
-    sharp = edit_mesh.column(mesh.edges, "use_edge_sharp", np.bool_)
-    marks = (len(mesh.uv_layers) > 0, sharp.any(), mesh.has_custom_normals, len(mesh.materials) > 1)
+    data = obj.data
+    rigged = len(obj.vertex_groups) > 0 or data.shape_keys is not None
+    sharp = edit_mesh.column(data.edges, "use_edge_sharp", np.bool_)
+    marks = (len(data.uv_layers) > 0, sharp.any(), data.has_custom_normals, len(data.materials) > 1)
     return placed_edges.auto_for(arrays.points, arrays.triangles, arrays.polygons, rigged, sum(marks))
 
 
@@ -164,7 +164,7 @@ class ObjectSession:
 
     def options(self, settings: SeamwireSettings) -> Options:
         """Return the settings as they are now, for this object."""
-        return snapshot(settings, self.cage.mesh, self.find_auto())
+        return snapshot(settings, self.cage.data, self.find_auto())
 
     def find_auto(self) -> Auto:
         """Return the values that Auto stands for here. The first call reads the mesh."""
@@ -182,7 +182,7 @@ class ObjectSession:
     def alive(self) -> bool:
         """Whether the edit mesh that was read is still there, and can be drawn on with the numbers it was read with."""
         try:
-            is_edited = self.obj.mode == "EDIT" and self.obj.data == self.cage.mesh
+            is_edited = self.obj.mode == "EDIT" and self.obj.data == self.cage.data
             return is_edited and not self._outdated and self.cage.intact()
         except ReferenceError:
             return False
@@ -205,7 +205,7 @@ class ObjectSession:
         elif self._found.known:
             self._store()
         session = self.session
-        session.follow(replace(session.options, mirror=mirror_axes(self.cage.mesh)))
+        session.follow(replace(session.options, mirror=mirror_axes(self.cage.data)))
         return True
 
     def follow_change(self, obj: bpy.types.Object, before: Network) -> Network | None:
@@ -274,7 +274,7 @@ class ObjectSession:
         """Take in the records of the mesh and, where labels came from another one, those of all meshes in the file."""
         self._newer = self._damaged = False
         try:
-            own = Archive.parse(self.cage.mesh.seamwire_wires)
+            own = Archive.parse(self.cage.data.seamwire_wires)
             # If numbers of the mesh stand for something else in this Blender, the mesh gets a separate archive.
             archive = _trimmed_archive()
             self._archive = archive if archive.merge(own) else own
@@ -287,9 +287,9 @@ class ObjectSession:
             self.notices.add("WARNING", str(error))
         if all(self._archive.knows(label) for label in np.unique(labels.labels).tolist()):
             return
-        for mesh in bpy.data.meshes:
+        for data in bpy.data.meshes:
             try:
-                self._archive.merge(Archive.parse(mesh.seamwire_wires))
+                self._archive.merge(Archive.parse(data.seamwire_wires))
             except UnreadableError:
                 continue
 
@@ -298,11 +298,11 @@ class ObjectSession:
         if self._newer:
             return
         text = self._archive.text(np.unique(self._labels.labels).tolist())
-        mesh = self.cage.mesh
+        data = self.cage.data
         self._unstored = False
         try:
-            if mesh.seamwire_wires != text:
-                mesh.seamwire_wires = text
+            if data.seamwire_wires != text:
+                data.seamwire_wires = text
         except AttributeError:
             # While Blender asks what is under the mouse nothing may be written; after undo the records may be others by then.
             self._unstored = True

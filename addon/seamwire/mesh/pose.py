@@ -91,12 +91,12 @@ def _cage_points(obj: bpy.types.Object, count: int) -> NDArray[np.float64] | Non
     if not active or not active[-1].show_on_cage:
         return None
     evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
-    mesh = evaluated.to_mesh()
+    data = evaluated.to_mesh()
     try:
-        if len(mesh.vertices) != count:
+        if len(data.vertices) != count:
             return None
         points = np.empty(3 * count, dtype=np.float32)
-        mesh.vertices.foreach_get("co", points)
+        data.vertices.foreach_get("co", points)
         return points.reshape(-1, 3).astype(np.float64)
     finally:
         evaluated.to_mesh_clear()

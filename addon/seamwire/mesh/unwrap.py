@@ -78,10 +78,10 @@ class _Map:
         self.obj = obj
         self._arrays = arrays = edit_mesh.read(obj)
         self.aspect = uv_map.aspect(obj)
-        with uv_map.copied(obj) as mesh:
-            self.corners, self._uvs, pinned = uv_map.corners_of(mesh), uv_map.uvs_of(mesh), uv_map.pinned_of(mesh)
-            self._seams = edit_mesh.column(mesh.edges, "use_seam", np.bool_)
-            layer = mesh.attributes.get(UNWRAPPED)
+        with uv_map.copied(obj) as data:
+            self.corners, self._uvs, pinned = uv_map.corners_of(data), uv_map.uvs_of(data), uv_map.pinned_of(data)
+            self._seams = edit_mesh.column(data.edges, "use_seam", np.bool_)
+            layer = data.attributes.get(UNWRAPPED)
             is_known = layer is not None and len(layer.data) == len(self._seams)
             none = np.zeros(len(self._seams), dtype=np.int32)
             self._known = edit_mesh.column(layer.data, "value", np.int32) if is_known else none
@@ -497,8 +497,8 @@ def _with_uv_maps(context: bpy.types.Context, maps: Iterable[_Map]) -> Iterator[
     """Let objects that are unwrapped have a UV map, and other objects none that they had not; on an error all as before."""
     # Blender would make missing UV maps while it unwraps, and what is selected would be other items then.
     made = [found.obj.data for found in maps if not found.obj.data.uv_layers]
-    for mesh in made:
-        mesh.uv_layers.new()
+    for data in made:
+        data.uv_layers.new()
     # It would make some, too, for objects of which nothing is selected.
     bare = [obj.data for obj in context.objects_in_mode_unique_data if not obj.data.uv_layers]
     try:
@@ -512,9 +512,9 @@ def _with_uv_maps(context: bpy.types.Context, maps: Iterable[_Map]) -> Iterator[
 
 def _remove_uv_maps(meshes: Iterable[bpy.types.Mesh]) -> None:
     # In Blender 5 references to layers do not last.
-    for mesh in meshes:
-        while mesh.uv_layers:
-            mesh.uv_layers.remove(mesh.uv_layers[0])
+    for data in meshes:
+        while data.uv_layers:
+            data.uv_layers.remove(data.uv_layers[0])
 
 
 @contextmanager

@@ -88,7 +88,7 @@ def seam_wires(mesh: ObjectSession, progress: Progress = lambda _: True) -> list
 def network_of(mesh: ObjectSession, settings: SeamwireSettings, more: Iterable[Wire] = ()) -> NetworkFile:
     """Return the network of an object, and more wires, as they are saved to a file."""
     network = replace(mesh.session.drawing.network, wires=(*mesh.session.wires, *more))
-    name = mesh.cage.mesh.name
+    name = mesh.cage.data.name
     return NetworkFile.of(network, shape_of(mesh), name=name, metric=settings.metric, clamp=settings.clamp)
 
 
@@ -140,7 +140,7 @@ def carry_over(
         align=align,
         source=source.shape,
         pairs=pairs,
-        topology=target.cage.mesh.use_mirror_topology,
+        topology=target.cage.data.use_mirror_topology,
         live=target.make_live,
     )
 

@@ -148,16 +148,9 @@ _NAMES = {
     "ACCENT_GRAVE": "`",
     "COMMA": ",",
     "PERIOD": ".",
-    "ONE": "1",
-    "TWO": "2",
-    "THREE": "3",
-    "FOUR": "4",
-    "FIVE": "5",
-    "SIX": "6",
-    "SEVEN": "7",
-    "EIGHT": "8",
-    "NINE": "9",
-    "ZERO": "0",
+    **dict(
+        zip(("ZERO", "ONE", "TWO", "THREE", "FOUR", "FIVE", "SIX", "SEVEN", "EIGHT", "NINE"), "0123456789", strict=True)
+    ),
 }
 _ICONS = {
     "LEFTMOUSE": "MOUSE_LMB",

@@ -161,10 +161,10 @@ class NetworkFile:
             raise NetworkFileError("file-by-newer", version=version, known=VERSION)
         try:
             where = "mesh"
-            mesh = data["mesh"]
-            counts = [_count(mesh[key]) for key in ("vertices", "edges", "triangles")]
-            moments = Moments(_points([mesh["middle"]], 1)[0], _points(mesh["axes"], 3))
-            origin = Origin(str(mesh["name"]), *counts, moments)
+            origin = data["mesh"]
+            counts = [_count(origin[key]) for key in ("vertices", "edges", "triangles")]
+            moments = Moments(_points([origin["middle"]], 1)[0], _points(origin["axes"], 3))
+            origin = Origin(str(origin["name"]), *counts, moments)
             where = "metric"
             metric, clamp = data["metric"], float(data["clamp"])
             if metric not in METRICS or not 0.0 < clamp <= 100.0:

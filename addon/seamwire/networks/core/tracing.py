@@ -185,7 +185,9 @@ class Tracing:
             for group in groups([[(axes, vertex) for vertex in course.record["vertices"]] for course, axes in runs]):
                 self._keep_together(group, runs, placed, place_on)
         pieces = [_placed(*run, found) for run, found in zip(runs, placed, strict=True)]
-        self._find_seeds(pieces)
+        for piece in pieces:  # each vertex where wires end is placed once, so that what met meets
+            for row in () if piece.course.record["closed"] else (0, -1):
+                self._seed(piece, row)
         pieces = list(self._cut(pieces))
         for number, piece in enumerate(pieces):
             self._done = PLACED + (1.0 - PLACED) * number / len(pieces)
@@ -219,14 +221,6 @@ class Tracing:
             )
 
     # Seeds
-
-    def _find_seeds(self, pieces: Sequence[_CoursePart]) -> None:
-        """Place each vertex where wires end once, so that what met meets."""
-        for piece in pieces:
-            if piece.course.record["closed"]:
-                continue
-            for row in (0, -1):
-                self._seed(piece, row)
 
     def _seed(self, piece: _CoursePart, row: int) -> int | None:
         key = piece.axes, piece.vertices[row]

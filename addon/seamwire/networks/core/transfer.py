@@ -102,9 +102,9 @@ class _Told:
         return self._progress(self._done)
 
 
-def _check(file: NetworkFile, mesh: Shape) -> None:
+def _check(file: NetworkFile, shape: Shape) -> None:
     """Raise NetworkFileError if a network was drawn on another mesh."""
-    if problem := file.problem_with(mesh):
+    if problem := file.problem_with(shape):
         raise NetworkFileError(problem)
 
 
