@@ -191,7 +191,6 @@ def _cut(mesh: ObjectSession, wires: list[Wire], problems: list[str]) -> Marked:
 
 @contextmanager
 def _changing() -> Iterator[None]:
-    """Raise RuntimeError instead of any error."""
     try:
         yield
     except Exception as error:

@@ -400,7 +400,6 @@ class SeamSearch:
             suggestion.lay_out(share)
 
     def _shares(self, progress: Progress) -> Iterator[tuple[Suggestion, Progress]]:
-        """Yield each suggestion with its share of the progress."""
         for number, suggestion in enumerate(self):
             yield suggestion, lambda done, number=number: progress((number + done) / len(self))
 

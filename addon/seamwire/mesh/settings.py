@@ -42,7 +42,6 @@ def tell_listeners() -> None:
 
 
 def _property(name: str, setting: Setting) -> object:
-    """Return Blender's property for a setting."""
     default = getattr(_DEFAULTS, name)
     values = {
         "name": setting.name,

@@ -90,12 +90,8 @@ class EditMeshOperator(NeedsEditMode):
     def run(self, context: bpy.types.Context) -> set[str]:
         """Do the work, and return the result that Blender expects.
 
-        Raises
-        ------
-        ValueError, native.NativeError
-            If it cannot be done. The message is a sentence for the artist. Nothing has changed then.
-        Halfway
-            If an error comes while meshes are changed.
+        If it cannot be done, raises ValueError or NativeError with a sentence for the artist, and nothing has changed. Raises `Halfway` if
+        an error comes while meshes are changed.
         """
         raise NotImplementedError
 

@@ -65,7 +65,6 @@ class MESH_OT_seamwire_select_islands(EditMeshOperator, bpy.types.Operator):
         return self._select_worst_island(context)
 
     def _select_islands_to_cut(self, context: bpy.types.Context) -> set[str]:
-        """Select the faces of the islands that are not discs, and nothing else."""
         from ..mesh import edit_mesh
         from ..mesh.seam_islands import faces_to_cut
 
@@ -83,7 +82,6 @@ class MESH_OT_seamwire_select_islands(EditMeshOperator, bpy.types.Operator):
         return {"FINISHED"}
 
     def _select_worst_island(self, context: bpy.types.Context) -> set[str]:
-        """Select the island that is stretched most, and turn the view to it."""
         from ..mesh import edit_mesh
         from ..mesh.seam_islands import worst_island
 

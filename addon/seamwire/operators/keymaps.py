@@ -145,7 +145,6 @@ def _item_for(event: bpy.types.Event, manager: bpy.types.WindowManager) -> bpy.t
 
 
 def _is_harmless(item: bpy.types.KeyMapItem) -> bool:
-    """Return whether a keymap item changes neither the mesh nor the mode."""
     is_pie = item.idname == "wm.call_menu_pie" and item.properties.name in _HARMLESS_PIES
     return is_pie or item.idname.startswith(_HARMLESS)
 

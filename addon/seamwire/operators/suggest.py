@@ -162,7 +162,6 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         return tuple(self.view_direction) if any(self.view_direction) else _towards_viewer(context)
 
     def _read(self, context: bpy.types.Context) -> SeamSearch:
-        """Read the meshes in Edit Mode."""
         from ..mesh.seam_search import SeamSearch, SearchOptions
 
         along, finish = (None if chosen == "AUTO" else chosen for chosen in (self.along, self.finish))

@@ -211,7 +211,6 @@ class LiveParts:
         self._begin(search)
 
     def _count(self, amount: float, progress: Progress) -> int:
-        """Return the number of parts for an amount."""
         if amount not in self._counts:
             self._counts[amount] = self._search.count(amount, self.edits, progress)
         return self._counts[amount]
@@ -243,12 +242,10 @@ class LiveParts:
             self._change_to(*found)
 
     def _find(self, progress: Progress) -> None:
-        """Find the parts that the artist asked for first."""
         with suppress(self._cancelled):
             self._found = self._searches[0](progress)
 
     def _change_to(self, amount: float, edits: dict[str, PartEdits]) -> None:
-        """Show parts that were found."""
         if edits != self.edits:
             self._counts.clear()
         elif amount == self.amount:
@@ -257,7 +254,6 @@ class LiveParts:
         self._change()
 
     def _edited(self, edits: PartEdits, at: Pointed) -> PartEdits:
-        """Return the edits of an object after a click."""
         suggestion = next(each for each in self._search if each.name == at.name)
         if at.border is None:
             return edits.part(int(suggestion.mesh.arrays.polygons[at.triangle]))
@@ -285,7 +281,6 @@ class LiveParts:
         return [chain for chain in self._dropped.get(suggestion.name, ()) if edges_of(chain) <= dropped]
 
     def _show(self, suggestion: Suggestion) -> None:
-        """Draw the borders of a mesh, and the seams that are planned for them."""
         plan, points = suggestion.best_so_far, suggestion.mesh.arrays.in_object
         curves = Curves(
             [points[chain] for chain in suggestion.borders], [points[chain] for chain in self._dim(suggestion)]
@@ -312,7 +307,6 @@ def _square_size(search: SeamSearch) -> float:
 
 
 def _in_units(length: float) -> str:
-    """Return a length in the scene's units."""
     units = bpy.context.scene.unit_settings
     if units.system == "NONE":
         return f"{length:.3g}"

@@ -87,16 +87,8 @@ def _strength(along: Along) -> float:
 class Options:
     """A snapshot of the settings. Values beyond their limits are moved to the limits.
 
-    Parameters
-    ----------
-    mirror
-        The axes, 0 to 2, over which wires are mirrored. It is a setting of the mesh.
-    strength_edges, strength_surface
-        The metric's largest anisotropy, for each way of running.
-    clamp
-        The percentile of feature strengths that counts as the strongest.
-    stroke_radius
-        In the object's units; 0: ten rings of vertices.
+    A strength is the metric's largest anisotropy. The stroke radius is in the object's units. `mirror` has the axes, 0 to 2, over which
+    wires are mirrored. It is a setting of the mesh.
     """
 
     along: Along = _setting("EDGES", "Along", "How wires run on the mesh", "Drawing", choices=ALONG, auto=AUTO_ALONG)

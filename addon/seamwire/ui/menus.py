@@ -131,7 +131,6 @@ class VIEW3D_PT_seamwire_help(bpy.types.Panel):
 
 
 def _box(layout: bpy.types.UILayout, heading: str) -> bpy.types.UILayout:
-    """Return a column in a box below a heading."""
     column = layout.box().column(align=True)
     column.label(text=heading)
     column.separator()

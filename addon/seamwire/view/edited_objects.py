@@ -398,7 +398,6 @@ class EditedObjects:
         return is_new
 
     def _drawn(self, space: bpy.types.SpaceView3D) -> Iterator[ObjectView]:
-        """Yield the objects that are drawn in a view."""
         for obj in _in_edit_mode():
             view = self._views.get(obj.name_full)
             if view is None or not view.mesh.alive() or not obj.visible_in_viewport_get(space):

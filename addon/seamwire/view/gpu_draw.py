@@ -186,7 +186,6 @@ class Lines:
         self._draw(eye, [(self._hidden[1], color, max(1.0, _HIDDEN_WIDTH * style.width) * eye.scale)])
 
     def _draw(self, eye: Eye, passes: Sequence[tuple[gpu.types.GPUBatch | None, Color, float]]) -> None:
-        """Draw batches one over the other, each in a color, with a width."""
         with gpu.matrix.push_pop():
             gpu.matrix.load_matrix(eye.lifted(self.style.lift))
             self._shader.bind()

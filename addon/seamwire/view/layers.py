@@ -56,7 +56,6 @@ def draw_legends(
 
 
 def _width(legend: Legend, size: float) -> float:
-    """Return the width of what a legend holds."""
     texts = [*legend.lines, *(f"      {text}" for _, text in legend.swatches)]
     return max(14.0 * size, *(gpu_draw.text_width(text) for text in texts))
 

@@ -206,7 +206,6 @@ class Overlay:
         ]
 
     def _sheet(self, name: str, key: object, add: Callable[[Sheet, object], None], what: object) -> Sheet:
-        """Return a sheet, made anew if its key is another one."""
         if name not in self._sheets or self._sheets[name][0] != key:
             sheet = Sheet(self._pose)
             add(sheet, what)
@@ -215,7 +214,6 @@ class Overlay:
         return self._sheets[name][1]
 
     def _add_bands(self, sheet: Sheet, strokes: Iterable[tuple[NDArray[np.float64], bool]]) -> None:
-        """Add the strokes, the one that is being drawn among them."""
         for points, attracts in strokes:
             sheet.curve(self._looks.attracting if attracts else self._looks.repelling, points)
 

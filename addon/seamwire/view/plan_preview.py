@@ -129,8 +129,6 @@ class Pointed:
 
 
 class _ObjectPreview:
-    """The drawing over one object."""
-
     def __init__(self, obj: bpy.types.Object, arrays: Arrays) -> None:
         core = native.load()
         self.obj = obj

@@ -79,7 +79,6 @@ class Outcome:
         return parts
 
     def _problems(self) -> list[str]:
-        """Return what was asked for and not reached."""
         parts = []
         if self.islands_wanted:
             parts.append(f"fewer than {self.islands_wanted} because no island can be cut further")

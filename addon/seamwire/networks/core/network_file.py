@@ -161,10 +161,10 @@ class NetworkFile:
             raise NetworkFileError("file-by-newer", version=version, known=VERSION)
         try:
             where = "mesh"
-            origin = data["mesh"]
-            counts = [_count(origin[key]) for key in ("vertices", "edges", "triangles")]
-            moments = Moments(_points([origin["middle"]], 1)[0], _points(origin["axes"], 3))
-            origin = Origin(str(origin["name"]), *counts, moments)
+            stored = data["mesh"]
+            counts = [_count(stored[key]) for key in ("vertices", "edges", "triangles")]
+            moments = Moments(_points([stored["middle"]], 1)[0], _points(stored["axes"], 3))
+            origin = Origin(str(stored["name"]), *counts, moments)
             where = "metric"
             metric, clamp = data["metric"], float(data["clamp"])
             if metric not in METRICS or not 0.0 < clamp <= 100.0:

@@ -377,8 +377,8 @@ class Landmarks:
                 best[row] = used[0]
                 continue
             # Near pairs say more: poses change long ways most.
-            off = (there[:, known] - wanted[known]) / (self._RESOLUTION * size + self._CHANGE * wanted[known])
-            square = (off**2).mean(axis=1)
+            usual = self._RESOLUTION * size + self._CHANGE * wanted[known]
+            square = (((there[:, known] - wanted[known]) / usual) ** 2).mean(axis=1)
             aside = ((target.places[used] - self._aligned[vertex]) ** 2).sum(axis=1) / size**2
             chosen = int(np.argmin(square + self._TIE * aside))
             best[row] = used[chosen]
@@ -386,7 +386,7 @@ class Landmarks:
             far = np.linalg.norm(target.places[used] - target.places[used[chosen]], axis=1) > 4.0 * edge
             rival = np.sqrt(square[far].min()) if far.any() else np.inf
             # Where the distances are off by more than edges are long, so is the place.
-            weights = (self._RESOLUTION * size + self._CHANGE * wanted[known]) ** -2.0
+            weights = usual**-2.0
             gaps = ((there[chosen, known] - wanted[known]) ** 2 * weights).sum() / weights.sum()
             exact = 1.0 / (1.0 + gaps / (2.0 * max(float(target.spacing[used[chosen]]), 1e-300)) ** 2)
             likely = _landmark_confidence(np.sqrt(square[chosen]), rival)

@@ -179,7 +179,6 @@ class Repeats:
 
 
 def _moved(wire: Wire, to: dict[int, int], points: NDArray[np.float64]) -> Wire:
-    """Return a wire where its vertices are at another place."""
     vertices = tuple(to[vertex] for vertex in wire.vertices)
     around = [*vertices, *vertices[:1]] if wire.closed else list(vertices)
 
