@@ -254,17 +254,10 @@ class _Map:
         for label in np.setdiff1d(self.changed, np.union1d(self.with_pins, self.stacked)).tolist():
             rows = order[starts[label] : starts[label + 1]]
             corners, triangles = np.unique(self._triangles[rows], return_inverse=True)
-            one, other = (uvs[corners].astype(np.float64) for uvs in (self._before, after))
             triangles = triangles.reshape(-1, 3)
-            new = NewIsland(
-                one,
-                other,
-                triangles,
-                self._areas[rows],
-                float(densities[label]),
-                self.aspect,
-                bool(self._are_straight[label]),
-            )
+            uvs = [each[corners].astype(np.float64) for each in (self._before, after)]
+            density, is_straight = float(densities[label]), bool(self._are_straight[label])
+            new = NewIsland(*uvs, triangles, self._areas[rows], density, self.aspect, is_straight)
             islands.append((corners, new))
         return islands
 
@@ -275,19 +268,17 @@ class _Map:
             bmesh.update_edit_mesh(self.obj.data, loop_triangles=False, destructive=False)
 
     def write(self, corners: NDArray[np.int64], uvs: NDArray[np.float64]) -> None:
-        """Give corners, (c,) ascending, their places in the map, (c, 2)."""
+        """Give corners, (c,), their places in the map, (c, 2)."""
         bm = edit_mesh.edit_bmesh(self.obj.data)
         layer = bm.loops.layers.uv.active
-        places = iter(zip(corners.tolist(), uvs.tolist(), strict=True))
+        places = dict(zip(corners.tolist(), uvs.tolist(), strict=True))
         faces, starts = np.unique(self.corners.faces, return_index=True)
         touched = np.unique(self.corners.faces[corners])
         begin = starts[np.searchsorted(faces, touched)]
-        corner, uv = next(places, (-1, None))
         for face, first in zip(touched.tolist(), begin.tolist(), strict=True):
             for number, loop in enumerate(bm.faces[face].loops, start=first):
-                if number == corner:
-                    loop[layer].uv = uv
-                    corner, uv = next(places, (-1, None))
+                if number in places:
+                    loop[layer].uv = places[number]
 
     def mapped(self) -> MappedSurface:
         """Return the visible faces with the UVs that the mesh has."""
@@ -450,10 +441,8 @@ def _pile_up(maps: Sequence[_Map], copies: Sequence[uv_map.Copy]) -> None:
     for found in maps:
         own = [copy for copy in copies if copy.obj == found.obj]
         if own:
-            corners = np.concatenate([copy.corners for copy in own])
             uvs = np.concatenate([present[copy.other][copy.below] for copy in own]).astype(np.float64)
-            order = np.argsort(corners)
-            found.write(corners[order], uvs[order])
+            found.write(np.concatenate([copy.corners for copy in own]), uvs)
 
 
 def _place(context: bpy.types.Context, maps: Sequence[_Map], layout: Layout) -> None:

@@ -129,10 +129,7 @@ class MESH_OT_seamwire_transfer(_Placing, bpy.types.Operator):
     place: bpy.props.EnumProperty(
         name="Place",
         description="How to place seeds",
-        items=(
-            *_PLACE_ITEMS,
-            ("PAIRS", "Pairs", "By distances along the surface to pairs of vertices, in any pose"),
-        ),
+        items=(*_PLACE_ITEMS, ("PAIRS", "Pairs", "By distances along the surface to pairs of vertices, in any pose")),
         default="AUTO",
     )
     pairs: bpy.props.StringProperty(

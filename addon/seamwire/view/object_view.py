@@ -216,8 +216,8 @@ class ObjectView:
         """Let go of what works on threads."""
         self.session.cursor.loops.edges.stop_search()
         self._islands.close()
-        self._close_layers()
-        self.crest_view.close()
+        for layer in self._layers:
+            layer.close()
 
     def refresh(self, obj: bpy.types.Object) -> bool:
         """Take over what the mesh holds now; return False where it is another one, see `ObjectSession.refresh`."""
@@ -282,12 +282,9 @@ class ObjectView:
             failures.attempt(("layer made", self.name, make), partial(make, arrays, surface, self.pose))
             for make in makers
         ]
-        self._close_layers()
-        self._layers[:] = (self.heat, self.crest_view, *(layer for layer in made if layer is not None))
-
-    def _close_layers(self) -> None:
         for layer in self._layers[2:]:
             layer.close()
+        self._layers[:] = (self.heat, self.crest_view, *(layer for layer in made if layer is not None))
 
     def _follow_layers(self) -> None:
         session, options = self.session, self.options

@@ -15,7 +15,6 @@ from ..core.drawing.picture import LIVE, Role, SeedRole
 from ..core.network.picks import place_of, undirected
 from ..terms.choices import FINISHES
 from ..words import corner
-from ..words.first_steps import FIRST_LINES
 from .failures import failures
 from .gpu_draw import ColoredFaces, Eye, Lines, blended, draw_dots, draw_text, set_text, text_size
 from .layers import Legend, draw_legends
@@ -185,7 +184,7 @@ class Overlay:
             if self._looks.text == "STEPS":
                 left, bottom, width, height = room
                 above = (left, high, width, height - (high - bottom))
-                draw_legends([Legend(FIRST_LINES)], above, scale, on_left=True)
+                draw_legends([Legend(corner.FIRST_LINES)], above, scale, on_left=True)
             draw_legends([box for boxes in self._ask_layers("legends") for box in boxes or ()], room, scale)
 
     # What there is to draw

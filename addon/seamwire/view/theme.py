@@ -43,11 +43,7 @@ class Looks:
     """The styles of all that the overlay draws: the color of `kept` wires, and values of the preferences."""
 
     def __init__(
-        self,
-        kept: Color = (1.0, 0.2, 0.1, 1.0),
-        line_width: float = 1.0,
-        tint: float = 0.22,
-        text: str = "INFORMATION",
+        self, kept: Color = (1.0, 0.2, 0.1, 1.0), line_width: float = 1.0, tint: float = 0.22, text: str = "INFORMATION"
     ) -> None:
         active, other, loop = (1.0, 0.72, 0.05, 1.0), (0.45, 0.8, 1.0, 0.9), (0.3, 1.0, 0.55, 1.0)
         clear, white = (0.82, 0.86, 0.95, 1.0), (1.0, 1.0, 1.0, 1.0)
