@@ -147,19 +147,13 @@ def mark(
 
 
 def suggest(obj: bpy.types.Object, **options: object) -> bool:
-    """Mark the seams that *Suggest Seamwires* finds, and return whether it found any.
-
-    `options` are those of the operator, such as ``parts=50``.
-    """
+    """Mark the seams that *Suggest Seamwires* finds with its options, such as ``parts=50``, and return whether it found any."""
     with editing(obj, alone=True):
         return _call(bpy.ops.mesh.seamwire_suggest, options)
 
 
 def unwrap(obj: bpy.types.Object, **options: object) -> bool:
-    """Unwrap the islands between seams, and return whether there was anything to unwrap.
-
-    `options` are those of *Unwrap Changed Islands*, such as ``changed_only=False``.
-    """
+    """Unwrap islands with the options of *Unwrap Changed Islands*, such as ``changed_only=False``. Return whether there were any."""
     with editing(obj, alone=True):
         return _call(bpy.ops.mesh.seamwire_unwrap, options)
 

@@ -38,10 +38,9 @@ class NothingVisibleError(ValueError):
 
 
 def edit_bmesh(data: bpy.types.Mesh) -> bmesh.types.BMesh:
-    """Return the edit mesh of a mesh, each vertex, edge and face with its number.
+    """Return the edit mesh of a mesh, each vertex, edge and face with its number. The rest of the add-on must use this function.
 
-    Some of Blender's operators, such as View Selected, leave other numbers behind. The rest of the
-    add-on must get edit meshes from this function.
+    Some of Blender's operators, such as View Selected, leave other numbers behind.
     """
     return _numbered(bmesh.from_edit_mesh(data))
 
@@ -310,10 +309,7 @@ def _between_materials(data: bpy.types.Mesh, columns: _Columns) -> NDArray[np.bo
 
 
 class _Columns:
-    """The data of a mesh.
-
-    In newer versions of Blender, all of it is attributes. Reading them is ten times as fast as reading items.
-    """
+    """The data of a mesh. In newer versions of Blender, all of it is attributes, which are read ten times as fast as items."""
 
     SOURCES = {
         "points": ("vertices", "co", ("position",), np.float32, 3),
@@ -347,8 +343,7 @@ def _cut(
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Cut the faces into triangles as Blender does, but into none without area, and return the face of each too.
 
-    Reading Blender's own triangles takes most of a second for a million of them: they are asked for only where there
-    are faces of more than four corners.
+    Reading a million triangles from Blender takes most of a second. They are read only if a face has more than four corners.
     """
     count = len(data.polygons)
     sizes = np.full(count, 3) if len(corners) == 3 * count else column(data.polygons, "loop_total", np.int32)

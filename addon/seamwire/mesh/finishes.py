@@ -93,10 +93,7 @@ def apply(mesh: ObjectSession, change: Change) -> tuple[ObjectSession | None, Fi
 
 
 def slide(mesh: ObjectSession, wires: Collection[Wire]) -> tuple[ObjectSession, int]:
-    """Slide the vertices of snapped wires, and of their mirror images, onto the wires. The mesh has these wires.
-
-    Returns the session that goes on, and how many vertices were moved.
-    """
+    """Slide the vertices of snapped wires, and of their mirror images, onto the wires. The mesh has these wires."""
     own = {wire: [wire, *mesh.session.mirrored(wire)] for wire in wires}
     courses = [(image.vertices, image.points) for images in own.values() for image in images]
     seams = {edge for images in own.values() for image in images for edge in image.edges()}
@@ -221,10 +218,7 @@ def _go_on_with(mesh: ObjectSession, taken: Iterable[TakenCut]) -> None:
 
 
 def _left_cuts(mesh: ObjectSession, before: Network) -> list[Edge]:
-    """Return the edges that wires of a network ran along where a cut can be taken back.
-
-    The last wire along a cut, or over a vertex that it made, need not be the wire that was cut.
-    """
+    """Return the edges that wires of a network ran along where a cut can be taken back. Other wires may have been cut there."""
     return mesh_cut.left_behind(mesh.cage, sorted({edge for wire in before.wires for edge in wire.claims()}))
 
 

@@ -137,10 +137,7 @@ class ObjectSession:
             self.symmetric = ()
 
     def symmetric_soon(self) -> tuple[int, ...] | None:
-        """Return the axes over which the mesh is symmetric, or None if it takes longer than a moment to find out.
-
-        Raises ValueError if it cannot be found out.
-        """
+        """Return `symmetric`, or None if it takes longer than a moment to find out. Raises ValueError if it cannot be found out."""
         self.look_for_symmetry()
         if self._looking is not None:
             self._looking.join(_MOMENT)
@@ -313,10 +310,7 @@ class ObjectSession:
             self._store()
 
     def plan(self) -> wire_labels.Plan:
-        """Return what the mesh's edges must be for the session's network.
-
-        Raises ValueError if the vertices have other numbers now.
-        """
+        """Return what the mesh's edges must be for the session's network. Raises ValueError if vertices have other numbers now."""
         if self._renumbered:
             raise ValueError("The mesh has other vertices now")
         return wire_labels.plan(

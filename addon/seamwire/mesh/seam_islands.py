@@ -124,15 +124,12 @@ def _material_slots(obj: bpy.types.Object, hues: list[int]) -> list[int]:
 
 @dataclass(frozen=True)
 class Worst:
-    """An island that is stretched.
-
-    `facing`, (3,), is which way it faces in the mean, in object coordinates; its length is the projected area divided by the total area.
-    """
+    """An island that is stretched."""
 
     value: float  # octaves, see `Stretch`
     faces: NDArray[np.int32]
     count: int  # of all islands of the mesh
-    facing: NDArray[np.float64]
+    facing: NDArray[np.float64]  # (3,) mean direction in the object, as long as the projected part of the area
 
 
 def worst_island(obj: bpy.types.Object, kind: str) -> Worst | None:

@@ -63,15 +63,12 @@ _MEASURING = 0.1
 
 @dataclass(frozen=True)
 class SearchOptions:
-    """Requirements for the wires and the seams.
-
-    `front`, (3,), is the direction towards the viewer in the scene's coordinates: seams are hidden from there. None: from all sides alike.
-    """
+    """Requirements for the wires and the seams."""
 
     along: Along | None  # None: as is best for the mesh
     finish: Finish | None  # None: as is best for the mesh
     symmetric: bool  # whether wires come in pairs where the mesh is symmetric
-    front: Sequence[float] | None
+    front: Sequence[float] | None  # (3,) to the viewer in the scene: seams are hidden from there; None: from all sides
     stretch: float  # the mean, in percent
     islands: int  # the least number of each object
     unwraps: bool  # whether to unwrap the islands whose seams have changed; otherwise Blender's Live Unwrap decides
@@ -327,11 +324,7 @@ class Suggestion:
 
 
 class SeamSearch:
-    """Suggested wires for several objects.
-
-    Objects without visible faces are left out. If `selected`, only islands with selected faces are cut. Raises NativeError if the
-    compiled part is missing.
-    """
+    """Suggested wires for all objects that have visible faces. If `selected`, only islands with selected faces are cut."""
 
     def __init__(self, objects: Iterable[bpy.types.Object], options: SearchOptions, selected: bool) -> None:
         self.notices = Notices()  # problems with the wires that are stored with the meshes
@@ -433,8 +426,7 @@ class SeamSearch:
     def unwrap(self, context: bpy.types.Context) -> int:
         """Unwrap if wanted, otherwise follow Blender's Live Unwrap. Return the number of unwrapped islands.
 
-        If the meshes had no seams, all UVs are replaced, so that the new islands fill the UV square. Raises ValueError or NativeError if a
-        map cannot be made.
+        If the meshes had no seams, all UVs are replaced, so that the new islands fill the UV square. Raises as `unwrap_changed`.
         """
         if not self._options.unwraps:
             edit_mesh.live_unwrap(context)

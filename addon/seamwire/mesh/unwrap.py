@@ -69,10 +69,7 @@ class Layout:
 
 
 class _Map:
-    """The UV map of one edit mesh, by the islands that the seams make.
-
-    Of the islands to unwrap, which are the changed ones or `every` one, the library flattens `flat`: all `by_library` without pins.
-    """
+    """The UV map of one edit mesh, by the islands that seams make. Those to unwrap are `changed`, and the library maps `flat`."""
 
     def __init__(self, obj: bpy.types.Object, every: bool, by_library: bool) -> None:
         self.obj = obj
@@ -242,10 +239,7 @@ class _Map:
         return shaped_islands(self._arrays.in_object, corners.vertices, edges, corners.following, labels)
 
     def new_islands(self, density: float) -> list[tuple[NDArray[np.int64], NewIsland]]:
-        """Return the corners of each island that was unwrapped and has a place to get, and what it has become.
-
-        `density` is for those that had no place.
-        """
+        """Return the corners of each unwrapped island that needs a place, and what it has become; with a `density` for new ones."""
         densities = self.densities(density)
         after = uv_map.read_uvs(self.obj)
         islands = []

@@ -54,10 +54,7 @@ def copied(obj: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
 
 
 def aspect(obj: bpy.types.Object) -> float:
-    """Return the width over the height of the image that an edit mesh's UVs lie on, as Blender's unwrap takes it into account.
-
-    It is the active image of the active face's material, or of the first face's; 1 without an image.
-    """
+    """Return the aspect of the image that Blender unwraps for: the active one of the active or first face's material; 1 without one."""
     bm = edit_mesh.edit_bmesh(obj.data)
     if not len(bm.faces):
         return 1.0

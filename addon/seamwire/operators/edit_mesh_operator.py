@@ -118,10 +118,7 @@ class EditMeshOperator(NeedsEditMode):
         return found
 
     def open_mesh(self, obj: bpy.types.Object) -> ObjectSession:
-        """Read an object to draw on, and report problems with the wires that are stored with it.
-
-        Raises ValueError or NativeError if nothing is visible, or the compiled part is missing.
-        """
+        """Read an object to draw on, and report problems with the wires that are stored with it."""
         from ..mesh.object_session import ObjectSession
 
         mesh = ObjectSession(obj)
@@ -129,10 +126,7 @@ class EditMeshOperator(NeedsEditMode):
         return mesh
 
     def write(self, context: bpy.types.Context, meshes: Iterable[ObjectSession], follow: bool = True) -> int:
-        """Write what was drawn on meshes, and return how many edges became seams.
-
-        Everything is planned before the first mesh changes. With `follow`, Blender's Live Unwrap follows.
-        """
+        """Plan everything, then write what was drawn on meshes, and return how many edges became seams. Live Unwrap may `follow`."""
         plans = {mesh: mesh.plan() for mesh in meshes}
         with changing(context if follow else None):
             return sum(mesh.write(plan)[0] for mesh, plan in plans.items())

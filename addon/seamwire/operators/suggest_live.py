@@ -51,10 +51,7 @@ _TAKEN = frozenset({"RUNNING_MODAL"})
 
 
 class LiveParts:
-    """The parts of meshes while an artist changes them.
-
-    The meshes are measured for parts. Once it `is_enough`, planning stops, and the best plan so far is taken.
-    """
+    """The parts of meshes while an artist changes them. Once it `is_enough`, planning stops, and the best plan so far is taken."""
 
     def __init__(
         self,

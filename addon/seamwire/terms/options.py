@@ -47,10 +47,7 @@ SCANNED = Auto("SURFACE", "CUT")
 
 
 class Setting(NamedTuple):
-    """How Blender shows a setting.
-
-    A setting that does not matter for a way of running and a metric is grayed out.
-    """
+    """How Blender shows a setting. It is grayed out unless it `matters` for the way of running and the metric."""
 
     name: str
     tooltip: str

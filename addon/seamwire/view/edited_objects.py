@@ -58,10 +58,7 @@ class EditedObjects:
         return [view for view in self._views.values() if view.mesh.alive()]
 
     def of(self, obj: bpy.types.Object) -> ObjectView:
-        """Return an object in edit mode, read anew where it has changed.
-
-        Raises ValueError or NativeError where there is nothing to draw on, or nothing to draw with.
-        """
+        """Return an object in edit mode, read anew where it has changed. Raises as `ObjectView`."""
         name = obj.name_full
         view = self._views.get(name)
         if view is not None and not self.chain and not self._is_current(view, obj):
@@ -231,10 +228,7 @@ class EditedObjects:
             self.watch()
 
     def refresh(self, *_: object) -> None:
-        """Read changed meshes again, and forget meshes with a new topology.
-
-        A chain looks after its objects itself.
-        """
+        """Read changed meshes again, and forget meshes with a new topology. A chain looks after its objects itself."""
         if self.chain:
             return
         for name, view in tuple(self._views.items()):

@@ -146,7 +146,7 @@ def let_blender_tell() -> None:
 class ObjectView:
     """One object in edit mode that is drawn on, with its picker and its overlay. It is `stale` once Blender told of a change of the mesh.
 
-    Raises ValueError where there is nothing to draw on.
+    Raises ValueError or NativeError where there is nothing to draw on, or nothing to draw with.
     """
 
     def __init__(self, obj: bpy.types.Object) -> None:

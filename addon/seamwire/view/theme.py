@@ -122,10 +122,7 @@ def vivid(color: Sequence[float]) -> Color:
 
 
 def hue_colors(opacity: float) -> list[Color]:
-    """Return the islands' colors; those next to each other in the list are far apart in hue.
-
-    From yellow-green to pink: red and orange are left to wires and seams.
-    """
+    """Return the islands' colors, each far from the next in hue, without red and orange, which are left to wires and seams."""
     hues = np.linspace(0.24, 0.88, HUES)
     return [(*_light(float(hues[place])), opacity) for place in PLACES]
 

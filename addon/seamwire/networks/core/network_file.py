@@ -142,10 +142,7 @@ class NetworkFile:
 
     @classmethod
     def parse(cls, text: str) -> NetworkFile:
-        """Read what `text` wrote.
-
-        Raises NetworkFileError if it is not such a file, is damaged, or a later version wrote it. The message says where.
-        """
+        """Read what `text` wrote. Raises NetworkFileError if that is not so, a later version wrote it, or where it is damaged."""
         try:
             data = json.loads(text)
         except (ValueError, RecursionError) as error:

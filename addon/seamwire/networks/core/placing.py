@@ -201,12 +201,9 @@ class Similarity:
 
 
 class NearestSurface:
-    """Finds the points of a mesh that are nearest to places. Raises ValueError if it has no triangle.
+    """Finds the points of a mesh that are nearest to places. Raises ValueError if it has no triangle."""
 
-    `go_on` is asked again and again, with any fraction, whether to continue. If not, `seamwire_core.Cancelled` is raised.
-    """
-
-    def __init__(self, shape: Shape, go_on: Progress = lambda _: True) -> None:
+    def __init__(self, shape: Shape, go_on: Progress = lambda _: True) -> None:  # `go_on` gets any fraction
         if not len(shape.triangles):
             raise Refused("no-visible-faces")
         self._shape, self._go_on = shape, go_on

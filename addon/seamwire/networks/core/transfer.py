@@ -57,15 +57,13 @@ def transfer(
         (k, 2) vertices of the source and of the target that are the same point of the shape, three pairs at least.
     topology
         By numbers: whether mirror images are found by how the mesh is connected, see `Symmetry`.
-    live
-        Makes live wires on the target. None to make them here.
-    progress
-        Is told the fraction done. If it returns False, `seamwire_core.Cancelled` is raised.
 
     Raises
     ------
     ValueError
         If the mesh, the pairs or the choices do not fit.
+    seamwire_core.Cancelled
+        If `progress` returns False.
     """
     pairs = np.array(pairs, dtype=np.int64).reshape(-1, 2)
     if mirror is not None and place in {"NUMBERS", "PAIRS"}:
