@@ -7,7 +7,8 @@ edges are left out of what wires may run on.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
@@ -381,15 +382,36 @@ def live_unwrap(context: bpy.types.Context) -> None:
 
     Blender does that wherever it marks seams: with nothing selected, marking does nothing else. The selection comes back.
     """
-    if not context.tool_settings.use_edge_path_live_unwrap:
-        return
-    selections = [Selection(obj) for obj in context.objects_in_mode_unique_data]
+    if context.tool_settings.use_edge_path_live_unwrap:
+        with nothing_selected(context):
+            bpy.ops.mesh.mark_seam(clear=False)
+
+
+@contextmanager
+def nothing_selected(context: bpy.types.Context) -> Iterator[None]:
+    """Let nothing be selected at first, and restore the selections of all objects in edit mode afterwards."""
+    selections = []
+    for obj in context.objects_in_mode_unique_data:
+        bm = edit_bmesh(obj.data)
+        items = [item for sequence in (bm.verts, bm.edges, bm.faces) for item in sequence if item.select]
+        # Not iterated: Blender 4.3 cannot, on the Python 3.13 of Debian 13.
+        history = [bm.select_history[i] for i in range(len(bm.select_history))]
+        # The edit mesh is held, because its items end with the last that holds it.
+        selections.append((obj.data, bm, items, history, bm.faces.active))
     try:
         bpy.ops.mesh.select_all(action="DESELECT")
-        bpy.ops.mesh.mark_seam(clear=False)
+        yield
     finally:
-        for selection in selections:
-            selection.restore()
+        bpy.ops.mesh.select_all(action="DESELECT")
+        for data, _, items, history, active in selections:
+            bm = edit_bmesh(data)
+            for item in items:
+                item.select = True
+            bm.select_history.clear()
+            for item in history:
+                bm.select_history.add(item)
+            bm.faces.active = active
+            bmesh.update_edit_mesh(data, loop_triangles=False, destructive=False)
 
 
 def select_faces(obj: bpy.types.Object, faces: NDArray[np.integer]) -> None:
@@ -404,27 +426,3 @@ def select_faces(obj: bpy.types.Object, faces: NDArray[np.integer]) -> None:
 def selected_faces(obj: bpy.types.Object) -> NDArray[np.int64]:
     """Return the numbers of the selected faces of an edit mesh."""
     return np.array([face.index for face in edit_bmesh(obj.data).faces if face.select], dtype=np.int64)
-
-
-class Selection:
-    """The selection of the edit mesh of an object in edit mode."""
-
-    def __init__(self, obj: bpy.types.Object) -> None:
-        self._data = obj.data
-        # Held, for items end with the last that holds it.
-        self._bm = bm = edit_bmesh(obj.data)
-        self._items = [item for items in (bm.verts, bm.edges, bm.faces) for item in items if item.select]
-        # Not iterated: Blender 4.3 cannot, on the Python 3.13 of Debian 13.
-        self._history = [bm.select_history[i] for i in range(len(bm.select_history))]
-        self._active = bm.faces.active
-
-    def restore(self) -> None:
-        """Select it again, where nothing is selected."""
-        bm = edit_bmesh(self._data)
-        for item in self._items:
-            item.select = True
-        bm.select_history.clear()
-        for item in self._history:
-            bm.select_history.add(item)
-        bm.faces.active = self._active
-        bmesh.update_edit_mesh(self._data, loop_triangles=False, destructive=False)

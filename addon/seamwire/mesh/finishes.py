@@ -156,8 +156,8 @@ def cut(
 ) -> tuple[ObjectSession, Cut]:
     """Cut the mesh as `plan_cut` has planned for these wires, and return the session that goes on.
 
-    What was cut are wires along edges afterwards, between the seeds of those across the surface. Wires that are not cut stay wires across
-    the surface. Vertices, edges and faces have other numbers then.
+    Wires that are cut become wires along edges, between the seeds of those across the surface. The others stay as they are. Vertices, edges
+    and faces have other numbers then.
 
     Parameters
     ----------

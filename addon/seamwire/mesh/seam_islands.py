@@ -158,7 +158,7 @@ def mapped(obj: bpy.types.Object) -> MappedSurface | None:
 
 
 def stretch_of(obj: bpy.types.Object, arrays: Arrays) -> Stretch | None:
-    """Return how much the active UV map of an edit mesh stretches faces, without the object's scale; None: there is none, or no face."""
+    """Return how much the active UV map of an edit mesh stretches faces, without the object's scale. None without UVs or faces."""
     corners, uvs = uv_map.read(obj)
     if uvs is None or not len(arrays.triangles):
         return None

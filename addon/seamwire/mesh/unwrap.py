@@ -503,16 +503,10 @@ def _remove_uv_maps(meshes: Iterable[bpy.types.Mesh]) -> None:
 @contextmanager
 def _only_selected(context: bpy.types.Context, faces: Mapping[_Map, NDArray[np.integer]]) -> Iterator[None]:
     """Have nothing selected but some faces of maps; not in the UV editor, where its own selection counts."""
-    selections = [edit_mesh.Selection(obj) for obj in context.objects_in_mode_unique_data]
-    try:
-        bpy.ops.mesh.select_all(action="DESELECT")
+    with edit_mesh.nothing_selected(context):
         for found, numbers in faces.items():
             bm = edit_mesh.edit_bmesh(found.obj.data)
             for face in numbers.tolist():
                 bm.faces[face].select = True
         with context.temp_override(area=None, region=None):
             yield
-    finally:
-        bpy.ops.mesh.select_all(action="DESELECT")
-        for selection in selections:
-            selection.restore()
