@@ -57,7 +57,7 @@ def main() -> None:
     show("the stretch of all faces", all_anew)
     show("its means by islands", lambda: stretch.islands(labels, "ANGLE"))
     show("one island of fifty anew", one_island_anew)
-    show("the islands that have changed are found", lambda: unwrap._Map(obj))
+    show("the islands that have changed are found", lambda: unwrap._Map(obj, every=False, by_library=True))
 
 
 if __name__ == "__main__":

@@ -65,7 +65,6 @@ def unregister() -> None:
 
 
 def _parts() -> tuple[Callable[[], None], Callable[[], None]]:
-    """Return what registers all parts, and what removes them."""
     together = import_module(".mesh.registration", __package__).together
     check = import_module(".mesh.versions", __package__).check
     parts = (import_module(f".{part}", __package__) for part in _PARTS)
@@ -73,7 +72,6 @@ def _parts() -> tuple[Callable[[], None], Callable[[], None]]:
 
 
 def _forget() -> None:
-    """Drop prepared meshes."""
     objects = sys.modules.get(f"{__package__}.view.edited_objects")
     if objects is not None:
         objects.edited.clear()

@@ -51,22 +51,12 @@ TAKES = ("FIRST", *KIND_COSTS)
 
 @dataclass(frozen=True)
 class Marked:
-    """What `mark` has done.
+    """What `mark` has done."""
 
-    Parameters
-    ----------
-    wires
-        How many wires are new.
-    marked, cleared
-        How many edges became seams, and how many are seams no longer.
-    problems
-        Sentences about what could not be drawn.
-    """
-
-    wires: int
-    marked: int
-    cleared: int
-    problems: tuple[str, ...] = ()
+    wires: int  # how many are new
+    marked: int  # how many edges became seams
+    cleared: int  # how many are seams no longer
+    problems: tuple[str, ...] = ()  # sentences about what could not be drawn
 
 
 def mark(
@@ -88,8 +78,6 @@ def mark(
 
     Parameters
     ----------
-    obj
-        A mesh object.
     chains
         Chains of seeds. Wires run from each seed to the next. A seed is a vertex, an edge such as ``(7, 9)`` (along edges), or a place
         such as ``(0.3, 0.0, 1.2)`` in object coordinates (across the surface).
@@ -99,18 +87,14 @@ def mark(
         Which loop along edges: the first that a click would offer, or a kind of loop.
     strokes, avoid
         Vertices along strokes that attract wires, and along strokes that repel wires.
-    along
-        Whether wires run along edges or across the surface.
-    finish
-        How wires across the surface become seams.
+    along, finish, metric
+        How wires run, how wires across the surface become seams, and what wires follow: keys of the tables in `terms/choices.py`.
     clear
         Whether to clear seams instead of marking them.
     mirror
         Axes to mirror wires over, such as ``"X"`` or ``"XY"``. None takes the mesh's own mirror option.
     strength
         How strongly wires follow the shape, 1 to 100. None takes the tool's default.
-    metric
-        What wires follow.
 
     Raises
     ------
@@ -163,19 +147,13 @@ def mark(
 
 
 def suggest(obj: bpy.types.Object, **options: object) -> bool:
-    """Mark the seams that *Suggest Seamwires* finds, and return whether it found any.
-
-    `options` are those of the operator, such as ``parts=50``.
-    """
+    """Mark the seams that *Suggest Seamwires* finds with its options, such as ``parts=50``, and return whether it found any."""
     with editing(obj, alone=True):
         return _call(bpy.ops.mesh.seamwire_suggest, options)
 
 
 def unwrap(obj: bpy.types.Object, **options: object) -> bool:
-    """Unwrap the islands between seams, and return whether there was anything to unwrap.
-
-    `options` are those of *Unwrap Changed Islands*, such as ``changed_only=False``.
-    """
+    """Unwrap islands with the options of *Unwrap Changed Islands*, such as ``changed_only=False``. Return whether there were any."""
     with editing(obj, alone=True):
         return _call(bpy.ops.mesh.seamwire_unwrap, options)
 
@@ -207,7 +185,6 @@ def _cut(mesh: ObjectSession, wires: list[Wire], problems: list[str]) -> Marked:
 
 @contextmanager
 def _changing() -> Iterator[None]:
-    """Raise RuntimeError instead of any error."""
     try:
         yield
     except Exception as error:
@@ -268,15 +245,7 @@ def editing(obj: bpy.types.Object, alone: bool = False) -> Iterator[None]:
 
 
 class _Reader:
-    """Reads the seeds that a script gives.
-
-    Parameters
-    ----------
-    mesh
-        The mesh that must have them.
-    across
-        Whether wires run across the surface.
-    """
+    """Reads the seeds that a script gives for a mesh, and for wires `across` the surface or along edges."""
 
     def __init__(self, mesh: ObjectSession, across: bool) -> None:
         self._mesh = mesh
@@ -315,7 +284,7 @@ class _Reader:
             raise ValueError(f"{where}: across the surface, a seed is a vertex or a place, not an edge")
         if not self._across and isinstance(pick, FacePoint):
             raise ValueError(f"{where}: along edges, a seed is a vertex or an edge, not a place")
-        problem = self._mesh.cage.problem_with([pick])
+        problem = self._mesh.cage.problem_with(pick)
         if problem:
             raise ValueError(f"{where}: {problem}")
         return pick

@@ -708,12 +708,12 @@ def test_an_animation_plays_meanwhile(ui: driver.Ui, prism: bpy.types.Object) ->
     before = snapshot(prism)
     invoke(ui)
     (shown,) = live()._preview._shown.values()
-    rest = shown._curves.borders[0].copy()
+    rest = shown._seen[0].copy()
     try:
         with ui.override():
             bpy.ops.screen.animation_play()
         ui.wait_until(lambda: bpy.context.scene.frame_current > 10)
-        ui.wait_until(lambda: np.abs(shown._curves.borders[0] - rest).max() > 1e-3)
+        ui.wait_until(lambda: np.abs(shown._seen[0] - rest).max() > 1e-3)
         ui.wheel(True, ui.on_screen(TOP))
         assert count() == 9
         ui.wait_until(lambda: live().is_planned)

@@ -7,6 +7,7 @@ The library plans the cuts. They are made by the operations of Blender's knife, 
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -23,7 +24,6 @@ from .cut_joins import cut_layers, holding, is_left_behind, join, mark_seams
 from .unwrap import UNWRAPPED
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
     from seamwire_core import CutCurve, CutPlan
 
     from ..core.base.mesh_arrays import Arrays
@@ -43,42 +43,18 @@ class CutError(Refused):
 
 @dataclass(frozen=True)
 class Cut:
-    """The result of a cut.
+    """The result of a cut."""
 
-    Parameters
-    ----------
-    edges
-        The vertices of the edges that the wires run along.
-    seeds
-        The vertices and points that were asked for, and the numbers of the vertices there now.
-    vertices
-        How many vertices are new.
-    uncut
-        How many faces could not be cut.
-    wires
-        How many wires were cut.
-    left_out
-        How many wires and mirror images were not cut, because they do not run over the mesh.
-    """
-
-    edges: tuple[Edge, ...]
-    seeds: Mapping[int | FacePoint, int]
-    vertices: int
-    uncut: int
-    wires: int = 0
-    left_out: int = 0
+    edges: tuple[Edge, ...]  # those that the wires run along
+    seeds: Mapping[int | FacePoint, int]  # what was asked for, and the numbers of the vertices there
+    vertices: int  # how many are new
+    uncut: int  # how many faces could not be cut
+    wires: int = 0  # how many were cut
+    left_out: int = 0  # how many wires and mirror images were not cut, because they do not run over the mesh
 
 
 class PickedPlaces:
-    """Where picks are, whatever cuts are taken back meanwhile; other parts of the mesh may lie at the same places.
-
-    Parameters
-    ----------
-    cage
-        The mesh before.
-    picks
-        On visible faces.
-    """
+    """Where picks on visible faces are, whatever cuts are taken back afterwards; other parts of the mesh may lie at the same places."""
 
     def __init__(self, cage: Cage, picks: Iterable[Pick]) -> None:
         bm = cage.number_bmesh()
@@ -172,7 +148,7 @@ def _changing(cage: Cage) -> Iterator[None]:
     finally:
         # Blender's update keeps the normals, and a face that was split while it was drawn as a regular polygon has the wrong one.
         cage.number_bmesh().normal_update()
-        bmesh.update_edit_mesh(cage.mesh, loop_triangles=True, destructive=True)
+        bmesh.update_edit_mesh(cage.data, loop_triangles=True, destructive=True)
 
 
 def _carry_out(
@@ -352,10 +328,7 @@ def _vert_inside(
     bm: bmesh.types.BMesh, corners: Sequence[bmesh.types.BMVert], weights: Sequence[float]
 ) -> bmesh.types.BMVert:
     """Make a vertex between two or three others, its attributes and shape keys interpolated."""
-    place = sum(
-        (weight * corner.co for corner, weight in zip(corners[1:], weights[1:], strict=True)),
-        weights[0] * corners[0].co,
-    )
+    place = sum((weight * corner.co for corner, weight in zip(corners, weights, strict=True)), Vector())
     vert = bm.verts.new(place)
     vert.copy_from_vert_interp(corners[:2], weights[1] / (weights[0] + weights[1]))
     if len(corners) == 3:
@@ -407,8 +380,9 @@ def _drawn(
     The corners before its edges were split, `rim`, become the corners of the polygon. The other vertices lie between some of them.
     """
     before = {vert: vert.co.copy() for vert in (*rim, *between)}
-    for vert, (x, y) in zip(rim, _regular_corners(len(rim)), strict=True):
-        vert.co = (x, y, 0.0)
+    for number, vert in enumerate(rim):
+        angle = 2.0 * math.pi * number / len(rim)
+        vert.co = (math.cos(angle), math.sin(angle), 0.0)
     for vert, parts in between.items():
         vert.co = sum((weight * corners[vertex].co for vertex, weight in zip(*parts, strict=True)), Vector())
     face.normal_update()
@@ -417,9 +391,3 @@ def _drawn(
     finally:
         for vert, place in before.items():
             vert.co = place
-
-
-def _regular_corners(count: int) -> NDArray[np.float64]:
-    """Return the corners of a regular polygon, (count, 2)."""
-    angles = 2.0 * np.pi * np.arange(count) / count
-    return np.stack([np.cos(angles), np.sin(angles)], axis=1)

@@ -7,7 +7,8 @@ edges are left out of what wires may run on.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
@@ -37,13 +38,12 @@ class NothingVisibleError(ValueError):
     """There is nothing of the mesh to work on: it has none, or all of it is hidden."""
 
 
-def edit_bmesh(mesh: bpy.types.Mesh) -> bmesh.types.BMesh:
-    """Return the edit mesh of a mesh, each vertex, edge and face with its number.
+def edit_bmesh(data: bpy.types.Mesh) -> bmesh.types.BMesh:
+    """Return the edit mesh of a mesh, each vertex, edge and face with its number. The rest of the add-on must use this function.
 
-    Some of Blender's operators, such as View Selected, leave other numbers behind. The rest of the
-    add-on must get edit meshes from this function.
+    Some of Blender's operators, such as View Selected, leave other numbers behind.
     """
-    return _numbered(bmesh.from_edit_mesh(mesh))
+    return _numbered(bmesh.from_edit_mesh(data))
 
 
 def _numbered(bm: bmesh.types.BMesh) -> bmesh.types.BMesh:
@@ -58,7 +58,7 @@ class Cage:
     """The edit mesh of an object in edit mode, as long as its topology stays what it is."""
 
     def __init__(self, obj: bpy.types.Object) -> None:
-        self.mesh = obj.data
+        self.data = obj.data
         self._bm = edit_bmesh(obj.data)
         self._counts = self._count()
 
@@ -78,21 +78,20 @@ class Cage:
         """How many vertices the mesh had when it was read, hidden ones included."""
         return self._counts[0]
 
-    def problem_with(self, picks: Iterable[Pick]) -> str:
-        """Say in words what keeps picks from being seeds; an empty string where nothing does."""
+    def problem_with(self, pick: Pick) -> str:
+        """Say in words what keeps a pick from being a seed; an empty string where nothing does."""
         count, bm = self._counts[0], self.number_bmesh()
-        for pick in picks:
-            for vertex in vertices_of(pick):
-                if not 0 <= vertex < count:
-                    return f"There is no vertex {vertex}: the mesh has {count}, numbered from 0"
-                if bm.verts[vertex].hide:
-                    return f"Vertex {vertex} is hidden"
-            if isinstance(pick, tuple):
-                edge = _edge(bm, pick)
-                if edge is None:
-                    return f"There is no edge {pick[0]}-{pick[1]}"
-                if edge.hide:
-                    return f"Edge {pick[0]}-{pick[1]} is hidden"
+        for vertex in vertices_of(pick):
+            if not 0 <= vertex < count:
+                return f"There is no vertex {vertex}: the mesh has {count}, numbered from 0"
+            if bm.verts[vertex].hide:
+                return f"Vertex {vertex} is hidden"
+        if isinstance(pick, tuple):
+            edge = _edge(bm, pick)
+            if edge is None:
+                return f"There is no edge {pick[0]}-{pick[1]}"
+            if edge.hide:
+                return f"Edge {pick[0]}-{pick[1]} is hidden"
         return ""
 
     def active_vertex(self) -> int | None:
@@ -121,7 +120,7 @@ class Cage:
             there = {edge.index: edge for pair in among if (edge := _edge(bm, pair)) is not None}
             edges = [there[number] for number in sorted(there)]
         elif was_read and not IS_OLD:
-            edges = [edges[row] for row in _labelled_rows(self.mesh)]
+            edges = [edges[row] for row in _labelled_rows(self.data)]
         found = [(label, edge) for edge in edges if (label := edge[layer])]
         return EdgeLabels(
             np.array([[v.index for v in edge.verts] for _, edge in found], dtype=np.int64).reshape(-1, 2),
@@ -159,7 +158,7 @@ class Cage:
                 self.number_bmesh().edges.layers.int.remove(layer)
         if new or old or labels:
             _numbered(self._bm)  # a layer that comes or goes takes the numbers away
-            bmesh.update_edit_mesh(self.mesh, loop_triangles=False, destructive=False)
+            bmesh.update_edit_mesh(self.data, loop_triangles=False, destructive=False)
         return len(new), len(old)
 
     def _found(self, pairs: Iterable[tuple[int, int]]) -> list[bmesh.types.BMEdge]:
@@ -172,9 +171,9 @@ class Cage:
         return found
 
 
-def _labelled_rows(mesh: bpy.types.Mesh) -> list[int]:
+def _labelled_rows(data: bpy.types.Mesh) -> list[int]:
     """Return the numbers of the edges that have a label in what Blender stored last of a mesh in edit mode."""
-    shared = mesh.copy()  # see `read`
+    shared = data.copy()  # see `read`
     try:
         attribute = shared.attributes.get(LABELS)
         return [] if attribute is None else np.flatnonzero(column(attribute.data, "value", np.int32)).tolist()
@@ -189,10 +188,10 @@ def _edge(bm: bmesh.types.BMesh, pair: tuple[int, int]) -> bmesh.types.BMEdge | 
 class StoredMesh:
     """A mesh outside edit mode, to be marked like a `Cage` where edit mode was left before a chain had ended."""
 
-    def __init__(self, mesh: bpy.types.Mesh) -> None:
-        self.mesh = mesh
-        self.vertex_count = len(mesh.vertices)
-        self._pairs = np.sort(column(mesh.edges, "vertices", np.int32, 2), axis=1)
+    def __init__(self, data: bpy.types.Mesh) -> None:
+        self.data = data
+        self.vertex_count = len(data.vertices)
+        self._pairs = np.sort(column(data.edges, "vertices", np.int32, 2), axis=1)
         self._row_of: dict[tuple[int, int], int] = {}
 
     def intact(self) -> bool:
@@ -207,16 +206,16 @@ class StoredMesh:
     def is_seam(self, pair: tuple[int, int]) -> bool:
         """As `Cage.is_seam`."""
         row = self._row(pair)
-        return row is not None and self.mesh.edges[row].use_seam
+        return row is not None and self.data.edges[row].use_seam
 
     def labels(self, among: Iterable[tuple[int, int]] | None = None) -> EdgeLabels:
         """As `Cage.labels`."""
-        attribute = self.mesh.attributes.get(LABELS)
+        attribute = self.data.attributes.get(LABELS)
         if attribute is None:
             return EdgeLabels.none()
         labels = column(attribute.data, "value", np.int32)
         rows = np.flatnonzero(labels)
-        seams, hidden = (column(self.mesh.edges, name, np.bool_)[rows] for name in ("use_seam", "hide"))
+        seams, hidden = (column(self.data.edges, name, np.bool_)[rows] for name in ("use_seam", "hide"))
         return EdgeLabels(self._pairs[rows].astype(np.int64), labels[rows].astype(np.int64), seams, hidden)
 
     def write(
@@ -231,20 +230,20 @@ class StoredMesh:
         gone = [pair for pair, row in rows.items() if row is None]
         if gone:
             raise ValueError(f"There is no edge {gone[0][0]}-{gone[0][1]} to mark")
-        edges = self.mesh.edges
+        edges = self.data.edges
         new = [pair for pair in mark if not edges[rows[pair]].use_seam]
         old = [pair for pair in clear if edges[rows[pair]].use_seam]
         for pairs, seam in ((new, True), (old, False)):
             for pair in pairs:
                 edges[rows[pair]].use_seam = seam
         if labels:
-            attributes = self.mesh.attributes
+            attributes = self.data.attributes
             attribute = attributes.get(LABELS) or attributes.new(LABELS, "INT", "EDGE")
             for pair, label in labels.items():
                 attribute.data[rows[pair]].value = label
             if not column(attribute.data, "value", np.int32).any():
                 attributes.remove(attribute)
-        self.mesh.update()
+        self.data.update()
         return len(new), len(old)
 
 
@@ -270,25 +269,25 @@ def read_evaluated(obj: bpy.types.Object) -> tuple[Arrays, NDArray[np.bool_]]:
     Also returns which vertices were selected in edit mode, (n,). Raises NothingVisibleError where no edge is visible.
     """
     evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
-    mesh = evaluated.to_mesh()
+    data = evaluated.to_mesh()
     try:
-        columns = _Columns(mesh)
-        return _arrays(obj, mesh, columns, columns["points"]), columns["selected"]
+        columns = _Columns(data)
+        return _arrays(obj, data, columns, columns["points"]), columns["selected"]
     finally:
         evaluated.to_mesh_clear()
 
 
-def _arrays(obj: bpy.types.Object, mesh: bpy.types.Mesh, columns: _Columns, points: NDArray[np.float32]) -> Arrays:
+def _arrays(obj: bpy.types.Object, data: bpy.types.Mesh, columns: _Columns, points: NDArray[np.float32]) -> Arrays:
     """Return what the library needs of a mesh of an object, whose vertices are at other places where so given."""
     points = points.astype(np.float64)
     edges, visible = columns["edges"], ~columns["hidden edges"]
     seams = edges[visible & columns["seams"]]
-    marked = edges[visible & (columns["sharp edges"] | _between_materials(mesh, columns))]
+    marked = edges[visible & (columns["sharp edges"] | _between_materials(data, columns))]
     edges = edges[visible]
     if len(edges) == 0:
         raise NothingVisibleError("No edge of the mesh is visible")
     hidden = columns["hidden faces"]
-    triangles, polygons = _cut(mesh, columns["corners"], points)
+    triangles, polygons = _cut(data, columns["corners"], points)
     partly_hidden = edges[:0]
     if hidden.any():
         visible = ~hidden[polygons]
@@ -298,12 +297,12 @@ def _arrays(obj: bpy.types.Object, mesh: bpy.types.Mesh, columns: _Columns, poin
     return Arrays(points @ stretch, triangles, polygons, edges, np.linalg.inv(stretch), seams, partly_hidden, marked)
 
 
-def _between_materials(mesh: bpy.types.Mesh, columns: _Columns) -> NDArray[np.bool_]:
+def _between_materials(data: bpy.types.Mesh, columns: _Columns) -> NDArray[np.bool_]:
     """Return which edges of a mesh, (e,), faces of several materials share."""
-    found = np.zeros(len(mesh.edges), dtype=np.bool_)
-    if len(mesh.materials) > 1:
-        edges = column(mesh.loops, "edge_index", np.int32)
-        materials = np.repeat(columns["materials"], column(mesh.polygons, "loop_total", np.int32))
+    found = np.zeros(len(data.edges), dtype=np.bool_)
+    if len(data.materials) > 1:
+        edges = column(data.loops, "edge_index", np.int32)
+        materials = np.repeat(columns["materials"], column(data.polygons, "loop_total", np.int32))
         order = np.argsort(edges, kind="stable")
         edges, materials = edges[order], materials[order]
         found[edges[1:][(edges[1:] == edges[:-1]) & (materials[1:] != materials[:-1])]] = True
@@ -311,10 +310,7 @@ def _between_materials(mesh: bpy.types.Mesh, columns: _Columns) -> NDArray[np.bo
 
 
 class _Columns:
-    """The data of a mesh.
-
-    In newer versions of Blender, all of it is attributes. Reading them is ten times as fast as reading items.
-    """
+    """The data of a mesh. In newer versions of Blender, all of it is attributes, which are read ten times as fast as items."""
 
     SOURCES = {
         "points": ("vertices", "co", ("position",), np.float32, 3),
@@ -329,34 +325,33 @@ class _Columns:
     }
     """For each name the items and their property, the names of the attribute, and what it holds."""
 
-    def __init__(self, mesh: bpy.types.Mesh) -> None:
-        self._mesh = mesh
+    def __init__(self, data: bpy.types.Mesh) -> None:
+        self._data = data
 
     def __getitem__(self, name: str) -> NDArray:
         items, key, attributes, dtype, width = self.SOURCES[name]
-        items = getattr(self._mesh, items)
+        items = getattr(self._data, items)
         if IS_OLD:
             return column(items, key, dtype, width)
-        found = next((one for one in attributes if one in self._mesh.attributes), None)
+        found = next((one for one in attributes if one in self._data.attributes), None)
         if found is None or not len(items):  # there may be no attribute where all values are 0
             return np.zeros((len(items), width) if width > 1 else len(items), dtype=dtype)
-        return column(self._mesh.attributes[found].data, "vector" if found == "position" else "value", dtype, width)
+        return column(self._data.attributes[found].data, "vector" if found == "position" else "value", dtype, width)
 
 
 def _cut(
-    mesh: bpy.types.Mesh, corners: NDArray[np.int32], points: NDArray[np.float64]
+    data: bpy.types.Mesh, corners: NDArray[np.int32], points: NDArray[np.float64]
 ) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
     """Cut the faces into triangles as Blender does, but into none without area, and return the face of each too.
 
-    Reading Blender's own triangles takes most of a second for a million of them: they are asked for only where there
-    are faces of more than four corners.
+    Reading a million triangles from Blender takes most of a second. They are read only if a face has more than four corners.
     """
-    count = len(mesh.polygons)
-    sizes = np.full(count, 3) if len(corners) == 3 * count else column(mesh.polygons, "loop_total", np.int32)
+    count = len(data.polygons)
+    sizes = np.full(count, 3) if len(corners) == 3 * count else column(data.polygons, "loop_total", np.int32)
     if sizes.size and sizes.max() > 4:
-        mesh.calc_loop_triangles()
-        polygons = column(mesh.loop_triangles, "polygon_index", np.int32)
-        triangles = column(mesh.loop_triangles, "vertices", np.int32, 3)
+        data.calc_loop_triangles()
+        polygons = column(data.loop_triangles, "polygon_index", np.int32)
+        triangles = column(data.loop_triangles, "vertices", np.int32, 3)
         return without_flat_triangles(points, triangles, polygons), polygons
     return native.load().cut_polygons(points, corners, sizes)
 
@@ -387,15 +382,36 @@ def live_unwrap(context: bpy.types.Context) -> None:
 
     Blender does that wherever it marks seams: with nothing selected, marking does nothing else. The selection comes back.
     """
-    if not context.tool_settings.use_edge_path_live_unwrap:
-        return
-    selections = [Selection(obj) for obj in context.objects_in_mode_unique_data]
+    if context.tool_settings.use_edge_path_live_unwrap:
+        with nothing_selected(context):
+            bpy.ops.mesh.mark_seam(clear=False)
+
+
+@contextmanager
+def nothing_selected(context: bpy.types.Context) -> Iterator[None]:
+    """Let nothing be selected at first, and restore the selections of all objects in edit mode afterwards."""
+    selections = []
+    for obj in context.objects_in_mode_unique_data:
+        bm = edit_bmesh(obj.data)
+        items = [item for sequence in (bm.verts, bm.edges, bm.faces) for item in sequence if item.select]
+        # Not iterated: Blender 4.3 cannot, on the Python 3.13 of Debian 13.
+        history = [bm.select_history[i] for i in range(len(bm.select_history))]
+        # The edit mesh is held, because its items end with the last that holds it.
+        selections.append((obj.data, bm, items, history, bm.faces.active))
     try:
         bpy.ops.mesh.select_all(action="DESELECT")
-        bpy.ops.mesh.mark_seam(clear=False)
+        yield
     finally:
-        for selection in selections:
-            selection.restore()
+        bpy.ops.mesh.select_all(action="DESELECT")
+        for data, _, items, history, active in selections:
+            bm = edit_bmesh(data)
+            for item in items:
+                item.select = True
+            bm.select_history.clear()
+            for item in history:
+                bm.select_history.add(item)
+            bm.faces.active = active
+            bmesh.update_edit_mesh(data, loop_triangles=False, destructive=False)
 
 
 def select_faces(obj: bpy.types.Object, faces: NDArray[np.integer]) -> None:
@@ -410,27 +426,3 @@ def select_faces(obj: bpy.types.Object, faces: NDArray[np.integer]) -> None:
 def selected_faces(obj: bpy.types.Object) -> NDArray[np.int64]:
     """Return the numbers of the selected faces of an edit mesh."""
     return np.array([face.index for face in edit_bmesh(obj.data).faces if face.select], dtype=np.int64)
-
-
-class Selection:
-    """The selection of the edit mesh of an object in edit mode."""
-
-    def __init__(self, obj: bpy.types.Object) -> None:
-        self._mesh = obj.data
-        # Held, for items end with the last that holds it.
-        self._bm = bm = edit_bmesh(obj.data)
-        self._items = [item for items in (bm.verts, bm.edges, bm.faces) for item in items if item.select]
-        # Not iterated: Blender 4.3 cannot, on the Python 3.13 of Debian 13.
-        self._history = [bm.select_history[i] for i in range(len(bm.select_history))]
-        self._active = bm.faces.active
-
-    def restore(self) -> None:
-        """Select it again, where nothing is selected."""
-        bm = edit_bmesh(self._mesh)
-        for item in self._items:
-            item.select = True
-        bm.select_history.clear()
-        for item in self._history:
-            bm.select_history.add(item)
-        bm.faces.active = self._active
-        bmesh.update_edit_mesh(self._mesh, loop_triangles=False, destructive=False)

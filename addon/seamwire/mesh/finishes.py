@@ -40,24 +40,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Finished:
-    """What became of wires across the surface when their chain ended.
+    """What became of wires across the surface when their chain ended."""
 
-    Parameters
-    ----------
-    reports
-        What each of `FINISHERS` has done.
-    cut
-        The cut into the faces; None: nothing was cut.
-    problem
-        Why nothing was cut.
-    taken_back
-        How many edges of former cuts went, where nothing was cut in their place.
-    """
-
-    reports: tuple[str, ...] = ()
+    reports: tuple[str, ...] = ()  # what each of `FINISHERS` has done
     cut: Cut | None = None
-    problem: str = ""
-    taken_back: int = 0
+    problem: str = ""  # why nothing was cut
+    taken_back: int = 0  # how many edges of former cuts went, where nothing was cut in their place
 
     @property
     def text(self) -> str:
@@ -105,10 +93,7 @@ def apply(mesh: ObjectSession, change: Change) -> tuple[ObjectSession | None, Fi
 
 
 def slide(mesh: ObjectSession, wires: Collection[Wire]) -> tuple[ObjectSession, int]:
-    """Slide the vertices of snapped wires, and of their mirror images, onto the wires. The mesh has these wires.
-
-    Returns the session that goes on, and how many vertices were moved.
-    """
+    """Slide the vertices of snapped wires, and of their mirror images, onto the wires. The mesh has these wires."""
     own = {wire: [wire, *mesh.session.mirrored(wire)] for wire in wires}
     courses = [(image.vertices, image.points) for images in own.values() for image in images]
     seams = {edge for images in own.values() for image in images for edge in image.edges()}
@@ -169,18 +154,13 @@ def cut(
     taken: Collection[TakenCut] | None = None,
     crumb: float = 0.0,
 ) -> tuple[ObjectSession, Cut]:
-    """Cut the mesh; what was cut are wires along its edges then, between the seeds of those across the surface.
+    """Cut the mesh as `plan_cut` has planned for these wires, and return the session that goes on.
 
-    Vertices, edges and faces have other numbers then.
+    Wires that are cut become wires along edges, between the seeds of those across the surface. The others stay as they are. Vertices, edges
+    and faces have other numbers then.
 
     Parameters
     ----------
-    mesh
-        The session, which ends.
-    plan
-        From `plan_cut`.
-    wires
-        The same as for `plan_cut`. Wires that are not cut stay wires across the surface.
     kept
         Whether the mesh has these wires already: their snapped edges cease to be seams.
     before
@@ -189,13 +169,6 @@ def cut(
         The closed cuts that are among these wires; None: those of the session.
     crumb
         The part of the mesh's area below which an island beside the cuts becomes part of a larger one.
-
-    Returns
-    -------
-    ObjectSession
-        The session that goes on.
-    Cut
-        The result of the cut.
 
     Raises
     ------
@@ -245,10 +218,7 @@ def _go_on_with(mesh: ObjectSession, taken: Iterable[TakenCut]) -> None:
 
 
 def _left_cuts(mesh: ObjectSession, before: Network) -> list[Edge]:
-    """Return the edges that wires of a network ran along where a cut can be taken back.
-
-    The last wire along a cut, or over a vertex that it made, need not be the wire that was cut.
-    """
+    """Return the edges that wires of a network ran along where a cut can be taken back. Other wires may have been cut there."""
     return mesh_cut.left_behind(mesh.cage, sorted({edge for wire in before.wires for edge in wire.claims()}))
 
 

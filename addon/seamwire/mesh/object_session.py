@@ -46,10 +46,10 @@ if TYPE_CHECKING:
 
 def auto_for(obj: bpy.types.Object, arrays: Arrays) -> Auto:
     """Return the values that Auto stands for on a mesh object whose mesh was read as arrays."""
-    mesh = obj.data
-    rigged = len(obj.vertex_groups) > 0 or mesh.shape_keys is not None
-    sharp = edit_mesh.column(mesh.edges, "use_edge_sharp", np.bool_)
-    marks = (len(mesh.uv_layers) > 0, sharp.any(), mesh.has_custom_normals, len(mesh.materials) > 1)
+    data = obj.data
+    rigged = len(obj.vertex_groups) > 0 or data.shape_keys is not None
+    sharp = edit_mesh.column(data.edges, "use_edge_sharp", np.bool_)
+    marks = (len(data.uv_layers) > 0, sharp.any(), data.has_custom_normals, len(data.materials) > 1)
     return placed_edges.auto_for(arrays.points, arrays.triangles, arrays.polygons, rigged, sum(marks))
 
 
@@ -81,26 +81,9 @@ def _trimmed_archive() -> Archive:
 
 
 class ObjectSession:
-    """One object that is drawn on.
+    """One mesh object that is drawn on. Outside edit mode it can only be read.
 
-    Parameters
-    ----------
-    obj
-        A mesh object in edit mode; in another mode it can be read, and not drawn on.
-    options
-        The settings to begin with; None: the defaults, with the mesh's own mirror.
-
-    Attributes
-    ----------
-    notices
-        Problems with the wires that are stored with the mesh.
-    symmetric
-        The axes over which the mesh is symmetric; None while that is not known.
-
-    Raises
-    ------
-    ValueError
-        Where there is nothing to draw on.
+    It begins with `options`; None: the defaults, with the mesh's own mirror. Raises ValueError where there is nothing to draw on.
     """
 
     def __init__(self, obj: bpy.types.Object, options: Options | None = None) -> None:
@@ -121,9 +104,9 @@ class ObjectSession:
                 make_parts=self.make_live.part_finder,
             )
         )
-        self.notices = Notices()
+        self.notices = Notices()  # problems with the wires that are stored with the mesh
         self.plain_seams: NDArray[np.int32] = self.arrays.seams
-        self.symmetric: tuple[int, ...] | None = None
+        self.symmetric: tuple[int, ...] | None = None  # over these axes; None while that is not known
         self._auto: Auto | None = None
         self._symmetry_error: Exception | None = None
         self._looking: threading.Thread | None = None
@@ -154,10 +137,7 @@ class ObjectSession:
             self.symmetric = ()
 
     def symmetric_soon(self) -> tuple[int, ...] | None:
-        """Return the axes over which the mesh is symmetric, or None if it takes longer than a moment to find out.
-
-        Raises ValueError if it cannot be found out.
-        """
+        """Return `symmetric`, or None if it takes longer than a moment to find out. Raises ValueError if it cannot be found out."""
         self.look_for_symmetry()
         if self._looking is not None:
             self._looking.join(_MOMENT)
@@ -181,7 +161,7 @@ class ObjectSession:
 
     def options(self, settings: SeamwireSettings) -> Options:
         """Return the settings as they are now, for this object."""
-        return snapshot(settings, self.cage.mesh, self.find_auto())
+        return snapshot(settings, self.cage.data, self.find_auto())
 
     def find_auto(self) -> Auto:
         """Return the values that Auto stands for here. The first call reads the mesh."""
@@ -199,7 +179,7 @@ class ObjectSession:
     def alive(self) -> bool:
         """Whether the edit mesh that was read is still there, and can be drawn on with the numbers it was read with."""
         try:
-            is_edited = self.obj.mode == "EDIT" and self.obj.data == self.cage.mesh
+            is_edited = self.obj.mode == "EDIT" and self.obj.data == self.cage.data
             return is_edited and not self._outdated and self.cage.intact()
         except ReferenceError:
             return False
@@ -222,7 +202,7 @@ class ObjectSession:
         elif self._found.known:
             self._store()
         session = self.session
-        session.follow(replace(session.options, mirror=mirror_axes(self.cage.mesh)))
+        session.follow(replace(session.options, mirror=mirror_axes(self.cage.data)))
         return True
 
     def follow_change(self, obj: bpy.types.Object, before: Network) -> Network | None:
@@ -291,7 +271,7 @@ class ObjectSession:
         """Take in the records of the mesh and, where labels came from another one, those of all meshes in the file."""
         self._newer = self._damaged = False
         try:
-            own = Archive.parse(self.cage.mesh.seamwire_wires)
+            own = Archive.parse(self.cage.data.seamwire_wires)
             # If numbers of the mesh stand for something else in this Blender, the mesh gets a separate archive.
             archive = _trimmed_archive()
             self._archive = archive if archive.merge(own) else own
@@ -304,9 +284,9 @@ class ObjectSession:
             self.notices.add("WARNING", str(error))
         if all(self._archive.knows(label) for label in np.unique(labels.labels).tolist()):
             return
-        for mesh in bpy.data.meshes:
+        for data in bpy.data.meshes:
             try:
-                self._archive.merge(Archive.parse(mesh.seamwire_wires))
+                self._archive.merge(Archive.parse(data.seamwire_wires))
             except UnreadableError:
                 continue
 
@@ -315,11 +295,11 @@ class ObjectSession:
         if self._newer:
             return
         text = self._archive.text(np.unique(self._labels.labels).tolist())
-        mesh = self.cage.mesh
+        data = self.cage.data
         self._unstored = False
         try:
-            if mesh.seamwire_wires != text:
-                mesh.seamwire_wires = text
+            if data.seamwire_wires != text:
+                data.seamwire_wires = text
         except AttributeError:
             # While Blender asks what is under the mouse nothing may be written; after undo the records may be others by then.
             self._unstored = True
@@ -330,10 +310,7 @@ class ObjectSession:
             self._store()
 
     def plan(self) -> wire_labels.Plan:
-        """Return what the mesh's edges must be for the session's network.
-
-        Raises ValueError if the vertices have other numbers now.
-        """
+        """Return what the mesh's edges must be for the session's network. Raises ValueError if vertices have other numbers now."""
         if self._renumbered:
             raise ValueError("The mesh has other vertices now")
         return wire_labels.plan(

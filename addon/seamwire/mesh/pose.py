@@ -25,17 +25,8 @@ _MOST_CURVES = 2_000
 class Pose:
     """Where the vertices of an edit mesh are seen, and any point of its surface with them.
 
-    Parameters
-    ----------
-    arrays
-        The edit mesh as it is without modifiers.
-
-    Attributes
-    ----------
-    points
-        (n, 3) the vertices as they are seen, in the coordinates of the arrays.
-    is_bent
-        Whether they are seen elsewhere than the mesh has them.
+    `points`, (n, 3), are the vertices as they are seen, in the coordinates of the arrays. If the pose `is_bent`, they are seen elsewhere
+    than the mesh has them.
     """
 
     def __init__(self, arrays: Arrays) -> None:
@@ -100,12 +91,12 @@ def _cage_points(obj: bpy.types.Object, count: int) -> NDArray[np.float64] | Non
     if not active or not active[-1].show_on_cage:
         return None
     evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
-    mesh = evaluated.to_mesh()
+    data = evaluated.to_mesh()
     try:
-        if len(mesh.vertices) != count:
+        if len(data.vertices) != count:
             return None
         points = np.empty(3 * count, dtype=np.float32)
-        mesh.vertices.foreach_get("co", points)
+        data.vertices.foreach_get("co", points)
         return points.reshape(-1, 3).astype(np.float64)
     finally:
         evaluated.to_mesh_clear()

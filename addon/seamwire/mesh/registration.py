@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from contextlib import ExitStack
-from functools import partial
 from typing import TYPE_CHECKING
 
 import bpy
@@ -40,7 +39,11 @@ def together(*changes: Change) -> tuple[Callable[[], None], Callable[[], None]]:
 
 def classes(*types: type) -> tuple[Change, ...]:
     """Return the changes that register classes."""
-    return tuple((partial(_add, each), partial(_remove, each)) for each in types)
+
+    def change(each: type) -> Change:
+        return lambda: bpy.utils.register_class(each), lambda: bpy.utils.unregister_class(each)
+
+    return tuple(map(change, types))
 
 
 def menu_entry(menu: str, draw: Callable[[bpy.types.Menu, bpy.types.Context], None]) -> Change:
@@ -78,11 +81,3 @@ class Timer:
         """Let Blender call the function no longer."""
         if self.is_running:
             bpy.app.timers.unregister(self._call)
-
-
-def _add(each: type) -> None:
-    bpy.utils.register_class(each)
-
-
-def _remove(each: type) -> None:
-    bpy.utils.unregister_class(each)

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The islands that the seams of an edit mesh make: which are discs, how much its active UV map stretches each, and how they are stored."""
+"""The islands that the seams of an edit mesh make: which are discs, how much its active UV map stretches each, and how they are stored.
+
+Functions raise ValueError or NativeError where no face is visible, a coordinate is no number, or the compiled part is missing.
+"""
 
 from __future__ import annotations
 
@@ -47,16 +50,13 @@ def _missing_cuts(arrays: Arrays) -> tuple[NDArray[np.int32], NDArray[np.int32]]
 
 
 def missing_cuts(obj: bpy.types.Object) -> NDArray[np.int32]:
-    """Return how many more cuts each island of an edit mesh needs to become a disc, (count,); raises as `edit_mesh.read`."""
+    """Return how many more cuts each island of an edit mesh needs to become a disc, (count,)."""
     arrays = edit_mesh.read(obj)
     return _missing_cuts(arrays)[1] if len(arrays.triangles) else np.empty(0, dtype=np.int32)
 
 
 def faces_to_cut(obj: bpy.types.Object) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Return the faces of the islands that are not discs, and how many cuts each of these islands needs.
-
-    Raises as `worst_island`.
-    """
+    """Return the faces of the islands that are not discs, and how many cuts each of these islands needs."""
     arrays = read(obj)
     labels, missing = _missing_cuts(arrays)
     return np.unique(arrays.polygons[missing[labels] > 0]), missing[missing > 0]
@@ -66,10 +66,8 @@ def store(obj: bpy.types.Object, kind: str) -> int:
     """Store the island of each visible face with an edit mesh; return how many there are.
 
     The kind ``ATTRIBUTE`` is the face attribute `ATTRIBUTE`, from 0, largest first. ``MATERIALS`` are materials in new slots, with
-    different hues for neighbors. Hidden faces keep their values. Without a value they get -1, or an empty slot.
-
-    Raises ValueError or NativeError where no face is visible, a coordinate is no number, the attribute's name is taken, or the compiled
-    part is missing.
+    different hues for neighbors. Hidden faces keep their values. Without a value they get -1, or an empty slot. Raises ValueError if the
+    attribute's name is taken.
     """
     arrays = read(obj)
     labels = labels_of(arrays)
@@ -126,31 +124,16 @@ def _material_slots(obj: bpy.types.Object, hues: list[int]) -> list[int]:
 
 @dataclass(frozen=True)
 class Worst:
-    """An island that is stretched.
+    """An island that is stretched."""
 
-    Parameters
-    ----------
-    value
-        Octaves, see `core.stretch`.
-    faces
-        (k,) its faces.
-    count
-        How many islands its mesh has.
-    facing
-        (3,) which way it faces in the mean, in object coordinates; its length is the projected area divided by the total area.
-    """
-
-    value: float
+    value: float  # octaves, see `Stretch`
     faces: NDArray[np.int32]
-    count: int
-    facing: NDArray[np.float64]
+    count: int  # of all islands of the mesh
+    facing: NDArray[np.float64]  # (3,) mean direction in the object, as long as the projected part of the area
 
 
 def worst_island(obj: bpy.types.Object, kind: str) -> Worst | None:
-    """Find the island of an edit mesh that is stretched most by ``ANGLE`` or ``AREA``; None: it has no UV map.
-
-    Raises ValueError or NativeError where no face is visible, a coordinate is no number, or the compiled part is missing.
-    """
+    """Find the island of an edit mesh that is stretched most by ``ANGLE`` or ``AREA``; None: it has no UV map."""
     arrays = read(obj)
     labels = labels_of(arrays)
     stretch = stretch_of(obj, arrays)
@@ -175,10 +158,7 @@ def mapped(obj: bpy.types.Object) -> MappedSurface | None:
 
 
 def stretch_of(obj: bpy.types.Object, arrays: Arrays) -> Stretch | None:
-    """Return how much the active UV map of an edit mesh stretches faces; None: there is no UV map, or no visible face.
-
-    As Blender unwraps it: without the object's scale.
-    """
+    """Return how much the active UV map of an edit mesh stretches faces, without the object's scale. None without UVs or faces."""
     corners, uvs = uv_map.read(obj)
     if uvs is None or not len(arrays.triangles):
         return None

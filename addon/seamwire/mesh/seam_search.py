@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The search for seams on all objects in Edit Mode, from reading the meshes to unwrapped islands.
 
-The library finds the parts of each object, and plans the wires between and within them.
+The library finds the parts of each object, and plans the wires between and within them. Functions that take `progress` may run in any
+thread, and raise `seamwire_core.Cancelled` where it returns False.
 """
 
 from __future__ import annotations
@@ -53,6 +54,7 @@ if TYPE_CHECKING:
 
 Progress = Callable[[float], bool]
 """Takes the finished fraction, and returns whether to continue."""
+_NO_EDITS = PartEdits()
 _CUT_CRUMB = 0.25
 """Cuts that run side by side cross here and there. A piece smaller than this fraction of the smallest planned island is merged."""
 _MEASURING = 0.1
@@ -61,74 +63,23 @@ _MEASURING = 0.1
 
 @dataclass(frozen=True)
 class SearchOptions:
-    """Requirements for the wires and the seams.
+    """Requirements for the wires and the seams."""
 
-    Parameters
-    ----------
-    along
-        How the wires run; None: as is best for the mesh.
-    finish
-        What becomes the seam of wires across the surface; None: as is best for the mesh.
-    symmetric
-        Whether wires come in pairs where the mesh is symmetric.
-    front
-        (3,) the direction towards the viewer in the scene's coordinates: seams are hidden from there. None: from everywhere alike.
-    stretch
-        The mean stretch in percent.
-    islands
-        The least number of islands of each object.
-    unwraps
-        Whether to unwrap the islands whose seams have changed. Otherwise Blender's Live Unwrap decides.
-    """
-
-    along: Along | None = None
-    finish: Finish | None = None
-    symmetric: bool = True
-    front: Sequence[float] | None = None
-    stretch: float = 17.0
-    islands: int = 1
-    unwraps: bool = True
+    along: Along | None  # None: as is best for the mesh
+    finish: Finish | None  # None: as is best for the mesh
+    symmetric: bool  # whether wires come in pairs where the mesh is symmetric
+    front: Sequence[float] | None  # (3,) to the viewer in the scene: seams are hidden from there; None: from all sides
+    stretch: float  # the mean, in percent
+    islands: int  # the least number of each object
+    unwraps: bool  # whether to unwrap the islands whose seams have changed; otherwise Blender's Live Unwrap decides
 
 
 class Suggestion:
     """Wires for one object: parts are found, wires planned in them, and all wires written to the mesh.
 
-    The mesh is planned in object coordinates, without the object's scale, as UV maps are measured.
-
-    Parameters
-    ----------
-    obj
-        In edit mode.
-    options
-        How wires are planned.
-    faces
-        Only the islands that have some of these faces are cut; None: all islands.
-
-    Attributes
-    ----------
-    borders
-        The chosen borders between parts: chains of vertices. A closed chain ends with its first vertex.
-    part_count
-        The number of parts, those that are not to be cut included.
-    best
-        The plan to carry out; None: nothing was planned yet.
-    slits
-        The wires of this plan.
-    straight_cost
-        How much a straight layout may add to an island's symmetric Dirichlet energy, so that the plan stays within its limit.
-    layout
-        (m, 3, 2) the map of this plan as unwrapping lays it out, in the object's units; None: not known yet.
-    marked
-        The number of edges that `write` made seams.
-    others
-        The number of islands that are not to be cut.
-    had_seams
-        Whether the mesh had seams before.
-
-    Raises
-    ------
-    ValueError, native.NativeError
-        If no edge is visible, none of the faces is, or the compiled part is missing.
+    The mesh is planned in object coordinates, without the object's scale, as UV maps are measured. If faces are given, only the islands
+    that have some of them are cut. Raises ValueError or NativeError if no edge is visible, none of the faces is, or the compiled part is
+    missing.
     """
 
     def __init__(self, obj: bpy.types.Object, options: SearchOptions, faces: NDArray[np.integer] | None) -> None:
@@ -145,14 +96,17 @@ class Suggestion:
         self._chosen: tuple[float, PartEdits, seamwire_core.Parts] | None = None
         self._planner: seamwire_core.SeamPlanner | None = None
         self._blenders_mirrors = mirror_axes(obj.data)
-        self.had_seams = len(arrays.seams) > 0
+        self.had_seams = len(arrays.seams) > 0  # before `write`
+        # The chosen borders between parts, as chains of vertices. A closed chain ends with its first vertex.
         self.borders: list[NDArray[np.int32]] = []
-        self.part_count = 0
-        self.best: seamwire_core.SeamPlan | None = None
-        self.straight_cost = STRAIGHT_COST
-        self.layout: NDArray[np.float64] | None = None
-        self.slits: list[Wire] = []
-        self.marked = 0
+        self.part_count = 0  # islands that are not to be cut included
+        self.best: seamwire_core.SeamPlan | None = None  # the plan to carry out
+        self.straight_cost = STRAIGHT_COST  # of `Layout`, so that the plan stays within its limit
+        self.layout: NDArray[np.float64] | None = (
+            None  # (m, 3, 2) its map as unwrapping lays it out, in the object's units
+        )
+        self.slits: list[Wire] = []  # its wires
+        self.marked = 0  # how many edges `write` made seams
 
     def _islands_with(self, faces: NDArray[np.integer] | None) -> tuple[NDArray[np.bool_] | None, int]:
         """Return which triangles are of the islands that have some of these faces, (m,), and the number of other islands."""
@@ -174,22 +128,19 @@ class Suggestion:
         return tuple(found.normalized()) if found.length > 0.0 else None
 
     def measure(self, progress: Progress) -> None:
-        """Measure the mesh for parts; any thread may. `seamwire_core.Cancelled` is raised where `progress` returns False."""
+        """Measure the mesh for parts."""
         arrays = self.mesh.arrays
         self._axis = self._mirror()
         self._finder = self._core.PartFinder(
             arrays.surface, mirror=self._axis, marked=arrays.marked, seams=arrays.seams, progress=progress
         )
 
-    def count(self, amount: float, edits: PartEdits, progress: Callable[[float], bool]) -> int:
-        """Return the number of parts for an amount from 0 to 1; any thread may. `progress` is that of `measure`."""
+    def count(self, amount: float, edits: PartEdits, progress: Progress) -> int:
+        """Return the number of parts for an amount from 0 to 1."""
         return self._counted(self._found(amount, edits, progress))
 
-    def choose(self, amount: float, edits: PartEdits, progress: Callable[[float], bool]) -> None:
-        """Find the parts for an amount from 0 to 1, and choose them. A plan for other parts is dropped.
-
-        Parts that were counted last, or that are chosen already, are not searched again. `progress` is that of `measure`.
-        """
+    def choose(self, amount: float, edits: PartEdits, progress: Progress) -> None:
+        """Find the parts for an amount from 0 to 1, and choose them. A plan for other parts is dropped."""
         found = self._found(amount, edits, progress)
         self._chosen = amount, edits, found
         self.part_count = self._counted(found)
@@ -201,7 +152,7 @@ class Suggestion:
         self._planner = self.best = self.layout = None
         self.slits = []
 
-    def _found(self, amount: float, edits: PartEdits, progress: Callable[[float], bool]) -> seamwire_core.Parts:
+    def _found(self, amount: float, edits: PartEdits, progress: Progress) -> seamwire_core.Parts:
         """Find parts. The last ones are kept, because parts are counted before they are chosen."""
         assert self._finder is not None
         for known in (self._chosen, self._last):
@@ -249,18 +200,10 @@ class Suggestion:
         return weights if self._within is None else weights * keep_out(arrays.triangles, self._within, len(weights))
 
     def plan(self, energy: float, islands: int, progress: Progress, is_enough: Callable[[], bool]) -> None:
-        """Find wires in the chosen parts, better and better ones; any thread may.
+        """Find wires in the chosen parts, better and better ones.
 
-        Parameters
-        ----------
-        energy
-            The largest symmetric Dirichlet energy of the map.
-        islands
-            The least number of islands among those that are planned.
-        progress
-            That of `measure`.
-        is_enough
-            Whether to go on with the best plan so far. The first one is waited for.
+        The map has at most an `energy`, and the islands to be cut become at least so many. Once it `is_enough`, go on with the best plan
+        so far. The first one is waited for.
         """
         # Other parts may be chosen meanwhile, which drops the planner.
         self._planner = planner = self._core.SeamPlanner(
@@ -292,7 +235,7 @@ class Suggestion:
         self.best, self.slits = found, planned_wires(found, self.along, STRENGTHS[self.along], from_object)
 
     def lay_out(self, progress: Progress) -> None:
-        """Find how the islands of the plan will lie in the UV map; any thread may. `progress` is that of `measure`."""
+        """Find how the islands of the plan will lie in the UV map."""
         planner, plan, arrays = self._planner, self.best, self.mesh.arrays
         if plan is None or plan.uvs is None:
             return
@@ -314,6 +257,11 @@ class Suggestion:
             self.layout = np.asarray(found)
 
     @property
+    def name(self) -> str:
+        """The full name of the object."""
+        return self.mesh.obj.name_full
+
+    @property
     def best_so_far(self) -> seamwire_core.SeamPlan | None:
         """The best plan so far with a map of every part of the mesh, also while `plan` runs. Any thread may read it."""
         planner = self._planner
@@ -326,14 +274,9 @@ class Suggestion:
         return plan if plan.wires or self.borders else None
 
     @property
-    def border_wires(self) -> list[Wire]:
-        """The borders between the chosen parts as wires."""
-        return border_wires(self.borders, self.mesh.arrays.points)
-
-    @property
     def wires(self) -> list[Wire]:
-        """The borders between the chosen parts, and the wires in them, as wires."""
-        return [*self.border_wires, *self.slits]
+        """The borders between the chosen parts, and the wires in them."""
+        return [*border_wires(self.borders, self.mesh.arrays.points), *self.slits]
 
     def map(self) -> NDArray[np.float64] | None:
         """Return the map of the plan, (m, 3, 2), in the object's units; None if it has none, or the mesh is another one with the wires."""
@@ -373,7 +316,7 @@ class Suggestion:
 
     def write(self) -> None:
         """Keep the wires with the mesh, and finish them. Only borders are kept if the others are to be cut."""
-        self.mesh.add(self.border_wires if self.cuts else self.wires)
+        self.mesh.add(self.wires[: len(self.borders)] if self.cuts else self.wires)
         marked, _ = self.mesh.write(self.mesh.plan())
         self.marked += marked
         if self.along == "SURFACE":
@@ -381,33 +324,11 @@ class Suggestion:
 
 
 class SeamSearch:
-    """Suggested wires for several objects.
-
-    Parameters
-    ----------
-    objects
-        In Edit Mode. Objects without visible faces are left out.
-    options
-        Requirements for the wires and the seams.
-    selected
-        Whether only islands with selected faces are cut.
-
-    Attributes
-    ----------
-    notices
-        Problems with the wires that are stored with the meshes.
-    problem
-        Why no object can be cut.
-
-    Raises
-    ------
-    native.NativeError
-        If the compiled part is missing.
-    """
+    """Suggested wires for all objects that have visible faces. If `selected`, only islands with selected faces are cut."""
 
     def __init__(self, objects: Iterable[bpy.types.Object], options: SearchOptions, selected: bool) -> None:
-        self.notices = Notices()
-        self.problem = "No face is visible"
+        self.notices = Notices()  # problems with the wires that are stored with the meshes
+        self.problem = "No face is visible"  # why no object can be cut
         self._options = options
         self._unwrapped: Unwrapped | None = None
         self._found: list[Suggestion] = []
@@ -419,7 +340,7 @@ class SeamSearch:
                 self.problem = str(error)
                 continue
             for notice in suggestion.mesh.notices.take():
-                self.notices.add(notice.level, notice.text)
+                self.notices.add(*notice)
             if len(suggestion.mesh.arrays.triangles):
                 self._found.append(suggestion)
 
@@ -435,26 +356,21 @@ class SeamSearch:
         return all(suggestion.mesh.alive() for suggestion in self)
 
     def measure(self, progress: Progress) -> None:
-        """Measure all meshes for parts; any thread may. `seamwire_core.Cancelled` is raised where `progress` returns False."""
+        """Measure all meshes for parts."""
         for suggestion, share in self._shares(progress):
             suggestion.measure(share)
 
-    @staticmethod
-    def _edits_of(suggestion: Suggestion, edits: Mapping[str, PartEdits]) -> PartEdits:
-        return edits.get(suggestion.mesh.obj.name_full, PartEdits())
-
     def count(self, amount: float, edits: Mapping[str, PartEdits], progress: Progress) -> int:
-        """Return the number of parts of all meshes for an amount from 0 to 1; any thread may.
-
-        The edits have the names of objects. `progress` is that of `measure`.
-        """
+        """Return the number of parts of all meshes for an amount from 0 to 1. The edits have the names of objects."""
         shares = self._shares(progress)
-        return sum(suggestion.count(amount, self._edits_of(suggestion, edits), share) for suggestion, share in shares)
+        return sum(
+            suggestion.count(amount, edits.get(suggestion.name, _NO_EDITS), share) for suggestion, share in shares
+        )
 
     def choose(self, amount: float, edits: Mapping[str, PartEdits], progress: Progress = lambda _: True) -> None:
         """Choose the parts for an amount from 0 to 1, as `count` finds them."""
         for suggestion, share in self._shares(progress):
-            suggestion.choose(amount, self._edits_of(suggestion, edits), share)
+            suggestion.choose(amount, edits.get(suggestion.name, _NO_EDITS), share)
 
     def limit_stretch(self, percent: float) -> None:
         """Let the next plans have another mean stretch. `choose` drops those for the stretch before."""
@@ -466,29 +382,22 @@ class SeamSearch:
         return sum(suggestion.part_count for suggestion in self)
 
     def plan(self, progress: Progress, is_enough: Callable[[], bool] = lambda: False) -> None:
-        """Plan wires in the chosen parts of all meshes; any thread may.
-
-        `progress` is that of `measure`. Once it `is_enough`, go on with the best plans so far; the first plan of each mesh is waited for.
-        """
+        """Plan wires in the chosen parts of all meshes, until it `is_enough`, but wait for the first plan of each mesh."""
         energy = energy_of(0.01 * self._options.stretch)
         for suggestion, share in self._shares(progress):
             suggestion.plan(energy, self._options.islands, share, is_enough)
 
     def lay_out(self, progress: Progress) -> None:
-        """Find how the islands of the plans will lie in the UV map; any thread may. `progress` is that of `measure`."""
+        """Find how the islands of the plans will lie in the UV map."""
         for suggestion, share in self._shares(progress):
             suggestion.lay_out(share)
 
     def _shares(self, progress: Progress) -> Iterator[tuple[Suggestion, Progress]]:
-        """Yield each suggestion with its share of the progress."""
         for number, suggestion in enumerate(self):
             yield suggestion, lambda done, number=number: progress((number + done) / len(self))
 
     def refresh(self) -> None:
-        """Read the meshes again. Wires and seams that were added during the search stay.
-
-        Raises ValueError if a mesh has another shape than the planned one.
-        """
+        """Read the meshes again. Wires and seams that were added stay. Raises ValueError if a mesh has another shape now."""
         if not all(suggestion.mesh.refresh(suggestion.mesh.obj) for suggestion in self):
             raise ValueError("The mesh changed during the search")
 
@@ -517,8 +426,7 @@ class SeamSearch:
     def unwrap(self, context: bpy.types.Context) -> int:
         """Unwrap if wanted, otherwise follow Blender's Live Unwrap. Return the number of unwrapped islands.
 
-        If the meshes had no seams, all UVs are replaced, so that the new islands fill the UV square. Raises ValueError or NativeError if a
-        map cannot be made.
+        If the meshes had no seams, all UVs are replaced, so that the new islands fill the UV square. Raises as `unwrap_changed`.
         """
         if not self._options.unwraps:
             edit_mesh.live_unwrap(context)
@@ -538,26 +446,24 @@ class SeamSearch:
         is_few = any(
             len(own) - suggestion.others < options.islands for own, suggestion in zip(missing, self, strict=True)
         )
-        energies, areas = self._energies()
+        maps = self._maps()
         return Outcome(
             wires=sum(len(suggestion.wires) for suggestion in self),
             marked=sum(suggestion.marked for suggestion in self),
             missing=[int(cuts) for own in missing for cuts in own],
             islands_wanted=options.islands if is_few else 0,
-            stretch=100.0 * mean_stretch(energies, areas) if energies else None,
-            stretches=[100.0 * stretch_of(energy) for energy in energies],
+            stretch=100.0 * mean_stretch(*zip(*maps, strict=True)) if maps else None,
+            stretches=[100.0 * stretch_of(energy) for energy, _ in maps],
             stretch_wanted=options.stretch,
             unwrapped=None if done is None else done.islands,
             faults=NO_FAULTS if done is None else done.faults,
         )
 
-    def _energies(self) -> tuple[list[float], list[float]]:
+    def _maps(self) -> list[tuple[float, float]]:
         """Return the energy of each map, and the area of its surface."""
         if not self._options.unwraps:
-            return [float(suggestion.best.energy) for suggestion in self], [suggestion.area for suggestion in self]
+            return [(float(suggestion.best.energy), suggestion.area) for suggestion in self]
         if self._unwrapped is None:  # the maps on the meshes are those from before
-            return [], []
+            return []
         maps = {obj: found for obj in (each.mesh.obj for each in self) if (found := mapped(obj)) is not None}
-        return [found.energy(uv_map.aspect(obj)) for obj, found in maps.items()], [
-            found.area for found in maps.values()
-        ]
+        return [(found.energy(uv_map.aspect(obj)), found.area) for obj, found in maps.items()]

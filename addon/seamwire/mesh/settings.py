@@ -42,7 +42,6 @@ def tell_listeners() -> None:
 
 
 def _property(name: str, setting: Setting) -> object:
-    """Return Blender's property for a setting."""
     default = getattr(_DEFAULTS, name)
     values = {
         "name": setting.name,
@@ -80,7 +79,7 @@ def _forget() -> None:
     SeamwireSettings.__annotations__ = {}
 
 
-def snapshot(settings: SeamwireSettings, mesh: bpy.types.Mesh | None = None, auto: Auto = PLACED) -> Options:
+def snapshot(settings: SeamwireSettings, data: bpy.types.Mesh | None = None, auto: Auto = PLACED) -> Options:
     """Return the settings as they are now, from Blender's properties.
 
     Wires are mirrored over the axes that a mesh says, or over none without a mesh. `auto` has the values that Auto stands for there.
@@ -91,12 +90,12 @@ def snapshot(settings: SeamwireSettings, mesh: bpy.types.Mesh | None = None, aut
     for name, best in auto._asdict().items():
         if values[name] == "AUTO":
             values[name] = best
-    return Options(**values, mirror=() if mesh is None else mirror_axes(mesh))
+    return Options(**values, mirror=() if data is None else mirror_axes(data))
 
 
-def mirror_axes(mesh: bpy.types.Mesh) -> tuple[int, ...]:
+def mirror_axes(data: bpy.types.Mesh) -> tuple[int, ...]:
     """Return the axes over which Blender mirrors what is done to a mesh."""
-    return tuple(axis for axis, name in enumerate("xyz") if getattr(mesh, f"use_mirror_{name}"))
+    return tuple(axis for axis, name in enumerate("xyz") if getattr(data, f"use_mirror_{name}"))
 
 
 def preferences(context: bpy.types.Context | None = None) -> bpy.types.AddonPreferences:

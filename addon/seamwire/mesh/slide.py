@@ -80,7 +80,9 @@ def carry_out(obj: bpy.types.Object, cage: Cage, moves: Mapping[int, Move]) -> N
         (layer, {vertex: _mean([corner[layer] for corner in own], weights) for vertex, (own, weights) in spans.items()})
         for layer in bm.verts.layers.shape.values()
     ]
-    corners = [(layer, list(_of_corners(bm, moves, places, layer))) for layer in _corner_layers(bm)]
+    kinds = ("uv", "color", "float_color", "float", "float_vector")
+    layers = [layer for kind in kinds for layer in getattr(bm.loops.layers, kind).values()]
+    corners = [(layer, list(_of_corners(bm, moves, places, layer))) for layer in layers]
     follows = _keys_that_follow(obj)
     for vertex, place in places.items():
         vert = bm.verts[vertex]
@@ -96,7 +98,7 @@ def carry_out(obj: bpy.types.Object, cage: Cage, moves: Mapping[int, Move]) -> N
             else:
                 corner[layer] = value
     bm.normal_update()
-    bmesh.update_edit_mesh(cage.mesh, loop_triangles=True, destructive=False)
+    bmesh.update_edit_mesh(cage.data, loop_triangles=True, destructive=False)
 
 
 def _mean(values: Sequence[Value], weights: Sequence[float]) -> Value:
@@ -107,10 +109,7 @@ def _mean(values: Sequence[Value], weights: Sequence[float]) -> Value:
 
 
 def _keys_that_follow(obj: bpy.types.Object) -> set[int]:
-    """Return the numbers of the shape keys that Blender moves with the edited one.
-
-    These are the keys relative to it. Newer versions also move keys relative to these.
-    """
+    """Return the numbers of the shape keys that Blender moves with the edited one: those relative to it, in newer versions to these too."""
     keys = obj.data.shape_keys
     if keys is None or not keys.use_relative:
         return set()
@@ -129,12 +128,6 @@ def _keys_that_follow(obj: bpy.types.Object) -> set[int]:
         return False
 
     return {number for number, block in enumerate(blocks) if block != edited and leads_there(block)}
-
-
-def _corner_layers(bm: bmesh.types.BMesh) -> list[bmesh.types.BMLayerItem]:
-    """Return the layers of numbers at the corners of faces."""
-    kinds = ("uv", "color", "float_color", "float", "float_vector")
-    return [layer for kind in kinds for layer in getattr(bm.loops.layers, kind).values()]
 
 
 def _read(corner: bmesh.types.BMLoop, layer: bmesh.types.BMLayerItem) -> Value:

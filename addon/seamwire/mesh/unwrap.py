@@ -39,8 +39,6 @@ UNWRAPPED = ".seamwire_unwrapped"
 """The layer of the edges: twice a number that stands for the UV map, plus one where the edge was a seam; 0: not known, or `JOINED`."""
 JOINED = 1
 """The value for edges around faces that were joined later. Their corners may belong to several islands in the map."""
-
-
 STRAIGHT_COST = 0.05
 """How much a straight layout may add to an island's symmetric Dirichlet energy."""
 UP = (0.0, 0.0, 1.0)
@@ -53,17 +51,7 @@ _MARGIN = 0.01
 
 @dataclass(frozen=True)
 class Unwrapped:
-    """The result of unwrapping.
-
-    Parameters
-    ----------
-    islands
-        How many were unwrapped.
-    kept
-        How many keep their UVs.
-    faults
-        The faults of the unwrapped islands in the UV map that the mesh has.
-    """
+    """How many islands were unwrapped, how many keep their UVs, and the faults of the unwrapped ones in the UV maps of the meshes."""
 
     islands: int
     kept: int
@@ -72,37 +60,25 @@ class Unwrapped:
 
 @dataclass(frozen=True)
 class Layout:
-    """How the islands of the method ``SEAMWIRE`` are laid out.
+    """How the islands of the method ``SEAMWIRE`` are laid out."""
 
-    Parameters
-    ----------
-    straight
-        Whether strips and rectangles of quads are straight and along the axes, if that hardly stretches them.
-    upright
-        Whether islands stand upright where Blender packs them. Otherwise Blender turns them as they need the least room.
-    stack
-        Whether islands of the same shape, mirrored or not, lie on each other.
-    straight_cost
-        How much a straight layout may add to an island's symmetric Dirichlet energy.
-    """
-
-    straight: bool = True
-    upright: bool = True
-    stack: bool = False
+    straight: bool = True  # strips and rectangles of quads lie along the axes, if that hardly stretches them
+    upright: bool = True  # islands stand upright where Blender packs them; otherwise Blender turns them to save room
+    stack: bool = False  # islands of the same shape, mirrored or not, lie on each other
     straight_cost: float = STRAIGHT_COST
 
 
 class _Map:
-    """The UV map of one edit mesh, by the islands that the seams make."""
+    """The UV map of one edit mesh, by the islands that seams make. Those to unwrap are `changed`, and the library maps `flat`."""
 
-    def __init__(self, obj: bpy.types.Object, every: bool = False) -> None:
+    def __init__(self, obj: bpy.types.Object, every: bool, by_library: bool) -> None:
         self.obj = obj
         self._arrays = arrays = edit_mesh.read(obj)
         self.aspect = uv_map.aspect(obj)
-        with uv_map.copied(obj) as mesh:
-            self.corners, self._uvs, pinned = uv_map.corners_of(mesh), uv_map.uvs_of(mesh), uv_map.pinned_of(mesh)
-            self._seams = edit_mesh.column(mesh.edges, "use_seam", np.bool_)
-            layer = mesh.attributes.get(UNWRAPPED)
+        with uv_map.copied(obj) as data:
+            self.corners, self._uvs, pinned = uv_map.corners_of(data), uv_map.uvs_of(data), uv_map.pinned_of(data)
+            self._seams = edit_mesh.column(data.edges, "use_seam", np.bool_)
+            layer = data.attributes.get(UNWRAPPED)
             is_known = layer is not None and len(layer.data) == len(self._seams)
             none = np.zeros(len(self._seams), dtype=np.int32)
             self._known = edit_mesh.column(layer.data, "value", np.int32) if is_known else none
@@ -121,12 +97,9 @@ class _Map:
         changed = self._find_changed()
         self.changed = np.arange(self.count) if every else np.flatnonzero(changed)
         self.with_pins = np.intersect1d(self.changed, self._labels[pinned[self._triangles].any(axis=1)])
+        self.flat = np.setdiff1d(self.changed, self.with_pins) if by_library else self.changed[:0]
         self._are_straight = np.zeros(self.count, dtype=bool)
         self.stacked = np.empty(0, dtype=np.int64)
-
-    def number_bmesh(self) -> bmesh.types.BMesh:
-        """Return the edit mesh, each item with its number."""
-        return edit_mesh.edit_bmesh(self.obj.data)
 
     @property
     def _before(self) -> NDArray[np.float64]:
@@ -135,7 +108,7 @@ class _Map:
 
     def _drawn(self) -> NDArray[np.int64]:
         """Return the corners of the triangles that Blender draws in edit mode, (t, 3), hidden ones included."""
-        bm = self.number_bmesh()  # kept, because its loops live as long
+        bm = edit_mesh.edit_bmesh(self.obj.data)  # kept, because its loops live as long
         found = (
             number
             for a, b, c in bm.calc_loop_triangles()
@@ -168,20 +141,20 @@ class _Map:
         name = self.obj.data.uv_layers.active.name
         return 2 * (1 + zlib.crc32(name.encode()) % (1 << 29)) + seams.astype(np.int64)
 
-    def faces(self, islands: NDArray[np.integer] | None = None) -> NDArray[np.int64]:
-        """Return the faces of some islands, or else of those that have changed."""
-        return np.flatnonzero(np.isin(self._of_face, self.changed if islands is None else islands))
+    def faces(self, islands: NDArray[np.integer]) -> NDArray[np.int64]:
+        """Return the faces of some islands."""
+        return np.flatnonzero(np.isin(self._of_face, islands))
 
     def flattened(
-        self, islands: NDArray[np.integer], start: NDArray[np.float64] | None, layout: Layout
+        self, start: NDArray[np.float64] | None, layout: Layout
     ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64]]:
-        """Flatten islands: without flips, and without overlaps where possible. Raises ValueError if a coordinate is not a number.
+        """Flatten `flat`: without flips, and without overlaps where possible. Raises ValueError if a coordinate is not a number.
 
         `start`, (m, 3, 2), is a map to start from, in lengths on the model, where it is continuous; None: the present one. Returns the
         corners of the islands, ascending, their UVs in lengths on the model, and the number of the island of each. An island has several
         numbers where the seams do not part what is no surface.
         """
-        drawn = self._triangles[np.isin(self._labels, islands)]
+        drawn = self._triangles[np.isin(self._labels, self.flat)]
         corners = self._straight.to_map(self._arrays.in_object, self.corners, drawn)
         vertices, triangles = np.unique(self.corners.vertices[corners], return_inverse=True)
         number = np.full(len(self._arrays.points), -1, dtype=np.int32)
@@ -204,7 +177,7 @@ class _Map:
             straighten=layout.straight_cost if layout.straight else None,
             up=UP if layout.upright else None,
         )
-        self._are_straight[islands] = True
+        self._are_straight[self.flat] = True
         bent = ~np.isin(np.asarray(flat.islands), flat.straight)
         self._are_straight[self._of_face[self.corners.faces[corners[bent, 0]]]] = False
         # A corner of several triangles is where the largest has it: one without area may be anywhere.
@@ -258,18 +231,15 @@ class _Map:
         known = (sums > 0.0).all(axis=0)
         return np.sqrt(np.divide(sums[0], sums[1], out=np.full(self.count, fallback**2), where=known))
 
-    def shapes(self, islands: NDArray[np.integer]) -> list[ShapedIsland]:
-        """Return the shapes of some islands."""
+    def shapes(self) -> list[ShapedIsland]:
+        """Return the shapes of the islands that were flattened."""
         corners, labels = self.corners, self._of_face[self.corners.faces]
         edges = np.where(self._seams[corners.edges], -1, corners.edges)
-        labels = np.where(np.isin(labels, islands), labels, -1)
+        labels = np.where(np.isin(labels, self.flat), labels, -1)
         return shaped_islands(self._arrays.in_object, corners.vertices, edges, corners.following, labels)
 
     def new_islands(self, density: float) -> list[tuple[NDArray[np.int64], NewIsland]]:
-        """Return the corners of each island that was unwrapped and has a place to get, and what it has become.
-
-        `density` is for those that had no place.
-        """
+        """Return the corners of each unwrapped island that needs a place, and what it has become; with a `density` for new ones."""
         densities = self.densities(density)
         after = uv_map.read_uvs(self.obj)
         islands = []
@@ -278,17 +248,10 @@ class _Map:
         for label in np.setdiff1d(self.changed, np.union1d(self.with_pins, self.stacked)).tolist():
             rows = order[starts[label] : starts[label + 1]]
             corners, triangles = np.unique(self._triangles[rows], return_inverse=True)
-            one, other = (uvs[corners].astype(np.float64) for uvs in (self._before, after))
             triangles = triangles.reshape(-1, 3)
-            new = NewIsland(
-                one,
-                other,
-                triangles,
-                self._areas[rows],
-                float(densities[label]),
-                self.aspect,
-                bool(self._are_straight[label]),
-            )
+            uvs = [each[corners].astype(np.float64) for each in (self._before, after)]
+            density, is_straight = float(densities[label]), bool(self._are_straight[label])
+            new = NewIsland(*uvs, triangles, self._areas[rows], density, self.aspect, is_straight)
             islands.append((corners, new))
         return islands
 
@@ -299,19 +262,17 @@ class _Map:
             bmesh.update_edit_mesh(self.obj.data, loop_triangles=False, destructive=False)
 
     def write(self, corners: NDArray[np.int64], uvs: NDArray[np.float64]) -> None:
-        """Give corners, (c,) ascending, their places in the map, (c, 2)."""
-        bm = self.number_bmesh()
+        """Give corners, (c,), their places in the map, (c, 2)."""
+        bm = edit_mesh.edit_bmesh(self.obj.data)
         layer = bm.loops.layers.uv.active
-        places = iter(zip(corners.tolist(), uvs.tolist(), strict=True))
+        places = dict(zip(corners.tolist(), uvs.tolist(), strict=True))
         faces, starts = np.unique(self.corners.faces, return_index=True)
         touched = np.unique(self.corners.faces[corners])
         begin = starts[np.searchsorted(faces, touched)]
-        corner, uv = next(places, (-1, None))
         for face, first in zip(touched.tolist(), begin.tolist(), strict=True):
             for number, loop in enumerate(bm.faces[face].loops, start=first):
-                if number == corner:
-                    loop[layer].uv = uv
-                    corner, uv = next(places, (-1, None))
+                if number in places:
+                    loop[layer].uv = places[number]
 
     def mapped(self) -> MappedSurface:
         """Return the visible faces with the UVs that the mesh has."""
@@ -348,7 +309,7 @@ class _Map:
 
     def remember(self) -> None:
         """Let visible edges hold whether they were seams when they were unwrapped last."""
-        bm = self.number_bmesh()
+        bm = edit_mesh.edit_bmesh(self.obj.data)
         layer = bm.edges.layers.int.get(UNWRAPPED) or bm.edges.layers.int.new(UNWRAPPED)
         plain, seam = self._signs(np.array([False, True])).tolist()
         for edge in bm.edges:
@@ -372,13 +333,9 @@ def unwrap_changed(
 
     Parameters
     ----------
-    context
-        In edit mode.
     method
         ``SEAMWIRE``: least symmetric Dirichlet energy, without flips and overlaps, see ``seamwire_core.flatten``; islands with pinned
         corners are left to Blender. ``ANGLE_BASED`` or ``CONFORMAL``: Blender's unwrap of that name.
-    layout
-        How the islands of ``SEAMWIRE`` are laid out.
     every
         Whether all islands are unwrapped, changed or not.
     starts
@@ -392,7 +349,7 @@ def unwrap_changed(
     maps, problem = [], ""
     for obj in context.objects_in_mode_unique_data:
         try:
-            maps.append(_Map(obj, every))
+            maps.append(_Map(obj, every, by_library=method == "SEAMWIRE"))
         except ValueError as error:
             problem = f"{obj.name}: {error}"
     if not any(found.count for found in maps):
@@ -401,22 +358,13 @@ def unwrap_changed(
     unwrapped, faults = sum(len(found.changed) for found in maps), NO_FAULTS
     kept = sum(found.count for found in maps) - unwrapped
     if unwrapped:
-        # Blender unwraps the others: all by its own methods, else those with pins.
-        flat = {found: np.setdiff1d(found.changed, found.with_pins) for found in maps}
-        if method != "SEAMWIRE":
-            flat = {found: found.changed[:0] for found in maps}
-        solved = {
-            found: found.flattened(islands, starts.get(found.obj), layout)
-            for found, islands in flat.items()
-            if len(islands)
-        }
+        solved = {found: found.flattened(starts.get(found.obj), layout) for found in maps if len(found.flat)}
         with _with_uv_maps(context, maps):
-            blenders = {found: np.setdiff1d(found.changed, islands) for found, islands in flat.items()}
             try:
-                _unwrap_by_blender(context, blenders, "ANGLE_BASED" if method == "SEAMWIRE" else method)
+                _unwrap_by_blender(context, maps, "ANGLE_BASED" if method == "SEAMWIRE" else method)
                 _lay_out(solved)
-                copies = _find_copies(flat) if layout.stack else []
-                _place(context, maps, flat, layout)
+                copies = _find_copies(maps) if layout.stack else []
+                _place(context, maps, layout)
                 _pile_up(maps, copies)
                 faults = _faults(maps)
                 if faults.flipped and any([found.turn_back() for found in maps]):
@@ -443,8 +391,9 @@ def _faults(maps: Sequence[_Map]) -> MapFaults:
     )
 
 
-def _unwrap_by_blender(context: bpy.types.Context, islands: Mapping[_Map, NDArray[np.integer]], method: str) -> None:
-    """Unwrap islands with Blender's method, and let it pack them; raises ValueError if it cannot."""
+def _unwrap_by_blender(context: bpy.types.Context, maps: Sequence[_Map], method: str) -> None:
+    """Unwrap the other islands with Blender's method, and let it pack them; raises ValueError if it cannot."""
+    islands = {found: np.setdiff1d(found.changed, found.flat) for found in maps}
     faces = {found: found.faces(labels) for found, labels in islands.items() if len(labels)}
     if not faces:
         return
@@ -469,15 +418,13 @@ def _lay_out(solved: Mapping[_Map, tuple[NDArray[np.int64], NDArray[np.float64],
         bmesh.update_edit_mesh(found.obj.data, loop_triangles=False, destructive=False)
 
 
-def _find_copies(flat: Mapping[_Map, NDArray[np.integer]]) -> list[uv_map.Copy]:
+def _find_copies(maps: Sequence[_Map]) -> list[uv_map.Copy]:
     """Find the islands that lie on others, for each width of the image that the UVs lie on."""
     copies = []
-    for aspect in dict.fromkeys(found.aspect for found in flat):
-        own = {found: islands for found, islands in flat.items() if found.aspect == aspect}
-        copies += uv_map.copies_among(
-            [(found.obj, shape) for found, some in own.items() for shape in found.shapes(some)]
-        )
-    for found in flat:
+    for aspect in dict.fromkeys(found.aspect for found in maps):
+        own = [found for found in maps if found.aspect == aspect]
+        copies += uv_map.copies_among([(found.obj, shape) for found in own for shape in found.shapes()])
+    for found in maps:
         found.stacked = np.array([copy.label for copy in copies if copy.obj == found.obj], dtype=np.int64)
     return copies
 
@@ -488,21 +435,17 @@ def _pile_up(maps: Sequence[_Map], copies: Sequence[uv_map.Copy]) -> None:
     for found in maps:
         own = [copy for copy in copies if copy.obj == found.obj]
         if own:
-            corners = np.concatenate([copy.corners for copy in own])
             uvs = np.concatenate([present[copy.other][copy.below] for copy in own]).astype(np.float64)
-            order = np.argsort(corners)
-            found.write(corners[order], uvs[order])
+            found.write(np.concatenate([copy.corners for copy in own]), uvs)
 
 
-def _place(
-    context: bpy.types.Context, maps: Sequence[_Map], flat: Mapping[_Map, NDArray[np.integer]], layout: Layout
-) -> None:
-    """Move new islands to where there is room among those that stay, or have Blender pack those of `flat` where nothing stays."""
+def _place(context: bpy.types.Context, maps: Sequence[_Map], layout: Layout) -> None:
+    """Move new islands to where there is room among those that stay, or have Blender pack the flattened ones where nothing stays."""
     taken = np.concatenate([boxes for found in maps for boxes in (found.staying(), found.pinned_down())])
     in_map, on_model = sum(np.delete(found.areas(), found.changed, axis=1).sum(axis=1) for found in maps)
     density = float(np.sqrt(in_map / on_model)) if on_model > 0.0 else 0.0
     if density == 0.0:
-        once = {found: np.setdiff1d(islands, found.stacked) for found, islands in flat.items()}
+        once = {found: np.setdiff1d(found.flat, found.stacked) for found in maps}
         _pack(context, {found: found.faces(islands) for found, islands in once.items() if len(islands)}, layout)
     if not len(taken):
         return
@@ -537,8 +480,8 @@ def _with_uv_maps(context: bpy.types.Context, maps: Iterable[_Map]) -> Iterator[
     """Let objects that are unwrapped have a UV map, and other objects none that they had not; on an error all as before."""
     # Blender would make missing UV maps while it unwraps, and what is selected would be other items then.
     made = [found.obj.data for found in maps if not found.obj.data.uv_layers]
-    for mesh in made:
-        mesh.uv_layers.new()
+    for data in made:
+        data.uv_layers.new()
     # It would make some, too, for objects of which nothing is selected.
     bare = [obj.data for obj in context.objects_in_mode_unique_data if not obj.data.uv_layers]
     try:
@@ -552,24 +495,18 @@ def _with_uv_maps(context: bpy.types.Context, maps: Iterable[_Map]) -> Iterator[
 
 def _remove_uv_maps(meshes: Iterable[bpy.types.Mesh]) -> None:
     # In Blender 5 references to layers do not last.
-    for mesh in meshes:
-        while mesh.uv_layers:
-            mesh.uv_layers.remove(mesh.uv_layers[0])
+    for data in meshes:
+        while data.uv_layers:
+            data.uv_layers.remove(data.uv_layers[0])
 
 
 @contextmanager
 def _only_selected(context: bpy.types.Context, faces: Mapping[_Map, NDArray[np.integer]]) -> Iterator[None]:
     """Have nothing selected but some faces of maps; not in the UV editor, where its own selection counts."""
-    selections = [edit_mesh.Selection(obj) for obj in context.objects_in_mode_unique_data]
-    try:
-        bpy.ops.mesh.select_all(action="DESELECT")
+    with edit_mesh.nothing_selected(context):
         for found, numbers in faces.items():
-            bm = found.number_bmesh()
+            bm = edit_mesh.edit_bmesh(found.obj.data)
             for face in numbers.tolist():
                 bm.faces[face].select = True
         with context.temp_override(area=None, region=None):
             yield
-    finally:
-        bpy.ops.mesh.select_all(action="DESELECT")
-        for selection in selections:
-            selection.restore()

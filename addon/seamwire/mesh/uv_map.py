@@ -20,10 +20,10 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
-def corners_of(mesh: bpy.types.Mesh) -> Corners:
+def corners_of(data: bpy.types.Mesh) -> Corners:
     """Read the corners of a mesh that edit mode does not hold."""
-    vertices, edges = (edit_mesh.column(mesh.loops, name, np.int32) for name in ("vertex_index", "edge_index"))
-    starts = edit_mesh.column(mesh.polygons, "loop_start", np.int32)
+    vertices, edges = (edit_mesh.column(data.loops, name, np.int32) for name in ("vertex_index", "edge_index"))
+    starts = edit_mesh.column(data.polygons, "loop_start", np.int32)
     sizes = np.diff(starts, append=len(vertices))
     following = np.arange(1, len(vertices) + 1)
     following[starts + sizes - 1] = starts
@@ -32,32 +32,29 @@ def corners_of(mesh: bpy.types.Mesh) -> Corners:
 
 def read(obj: bpy.types.Object) -> tuple[Corners, NDArray[np.float32] | None]:
     """Read the corners of an edit mesh, and their UVs as `read_uvs` does."""
-    with copied(obj) as mesh:
-        return corners_of(mesh), uvs_of(mesh)
+    with copied(obj) as data:
+        return corners_of(data), uvs_of(data)
 
 
 def read_uvs(obj: bpy.types.Object) -> NDArray[np.float32] | None:
     """Read the places of an edit mesh's corners in the active UV map, (c, 2); None: there is no UV map."""
-    with copied(obj) as mesh:
-        return uvs_of(mesh)
+    with copied(obj) as data:
+        return uvs_of(data)
 
 
 @contextmanager
 def copied(obj: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
     """Copy the mesh, which itself shows no UVs in edit mode; in newer versions a copy shares the data and costs nothing."""
     obj.update_from_editmode()
-    mesh = obj.data.copy()
+    data = obj.data.copy()
     try:
-        yield mesh
+        yield data
     finally:
-        bpy.data.meshes.remove(mesh)
+        bpy.data.meshes.remove(data)
 
 
 def aspect(obj: bpy.types.Object) -> float:
-    """Return the width over the height of the image that an edit mesh's UVs lie on, as Blender's unwrap takes it into account.
-
-    It is the active image of the active face's material, or of the first face's; 1 without an image.
-    """
+    """Return the aspect of the image that Blender unwraps for: the active one of the active or first face's material; 1 without one."""
     bm = edit_mesh.edit_bmesh(obj.data)
     if not len(bm.faces):
         return 1.0
@@ -73,17 +70,17 @@ def aspect(obj: bpy.types.Object) -> float:
     return (width * wide) / (height * tall) if width and height else 1.0
 
 
-def uvs_of(mesh: bpy.types.Mesh) -> NDArray[np.float32] | None:
+def uvs_of(data: bpy.types.Mesh) -> NDArray[np.float32] | None:
     """Return the places of the corners in the active UV map, (c, 2); None: there is no UV map."""
-    layer = mesh.uv_layers.active
+    layer = data.uv_layers.active
     if layer is None:
         return None
     return edit_mesh.column(*((layer.data, "uv") if IS_OLD else (layer.uv, "vector")), np.float32, 2)
 
 
-def pinned_of(mesh: bpy.types.Mesh) -> NDArray[np.bool_]:
+def pinned_of(data: bpy.types.Mesh) -> NDArray[np.bool_]:
     """Return which corners are pinned, (c,)."""
-    layer, count = mesh.uv_layers.active, len(mesh.loops)
+    layer, count = data.uv_layers.active, len(data.loops)
     # The attribute of newer versions is empty while nothing is pinned.
     items, name = ((), "") if layer is None else (layer.data, "pin_uv") if IS_OLD else (layer.pin, "value")
     return edit_mesh.column(items, name, np.bool_) if count and len(items) == count else np.zeros(count, dtype=bool)

@@ -34,21 +34,11 @@ _SHAPE = ("points", "triangles", "edges", "to_object")
 
 @dataclass(frozen=True)
 class Source:
-    """A network, and what is known of the mesh that it was drawn on.
-
-    Parameters
-    ----------
-    network
-        The content of a file, or of the mesh.
-    shape
-        The mesh, or None if there is only a file.
-    groups
-        A vertex of the mesh for each name of a vertex group, see `group_middles`.
-    """
+    """A network, and what is known of the mesh that it was drawn on."""
 
     network: NetworkFile
-    shape: Shape | None = None
-    groups: Mapping[str, int] = field(default_factory=dict)
+    shape: Shape | None = None  # None if there is only a file
+    groups: Mapping[str, int] = field(default_factory=dict)  # see `group_middles`
 
     @classmethod
     def of(cls, mesh: ObjectSession, settings: SeamwireSettings, more: Iterable[Wire] = ()) -> Source:
@@ -98,7 +88,7 @@ def seam_wires(mesh: ObjectSession, progress: Progress = lambda _: True) -> list
 def network_of(mesh: ObjectSession, settings: SeamwireSettings, more: Iterable[Wire] = ()) -> NetworkFile:
     """Return the network of an object, and more wires, as they are saved to a file."""
     network = replace(mesh.session.drawing.network, wires=(*mesh.session.wires, *more))
-    name = mesh.cage.mesh.name
+    name = mesh.cage.data.name
     return NetworkFile.of(network, shape_of(mesh), name=name, metric=settings.metric, clamp=settings.clamp)
 
 
@@ -150,7 +140,7 @@ def carry_over(
         align=align,
         source=source.shape,
         pairs=pairs,
-        topology=target.cage.mesh.use_mirror_topology,
+        topology=target.cage.data.use_mirror_topology,
         live=target.make_live,
     )
 

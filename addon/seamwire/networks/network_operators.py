@@ -74,7 +74,6 @@ class _Placing(Stepwise):
         return self._write(context, mesh, found)
 
     def _write(self, context: bpy.types.Context, mesh: ObjectSession, found: Transfer) -> set[str]:
-        """Write the wires to the mesh, and report how certain each seed is and what is missing."""
         from .carry import write
 
         problems = found.problems
@@ -102,7 +101,6 @@ class _Placing(Stepwise):
 
 
 def _done(text: str, work: Callable[..., object]) -> Generator[Step, None, object]:
-    """Yield the step that does some work, and return its result."""
     found = []
     yield Step(text, lambda progress: found.append(work(progress=progress)))
     return found[0]
@@ -131,10 +129,7 @@ class MESH_OT_seamwire_transfer(_Placing, bpy.types.Operator):
     place: bpy.props.EnumProperty(
         name="Place",
         description="How to place seeds",
-        items=(
-            *_PLACE_ITEMS,
-            ("PAIRS", "Pairs", "By distances along the surface to pairs of vertices, in any pose"),
-        ),
+        items=(*_PLACE_ITEMS, ("PAIRS", "Pairs", "By distances along the surface to pairs of vertices, in any pose")),
         default="AUTO",
     )
     pairs: bpy.props.StringProperty(

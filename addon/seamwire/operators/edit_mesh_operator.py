@@ -90,31 +90,17 @@ class EditMeshOperator(NeedsEditMode):
     def run(self, context: bpy.types.Context) -> set[str]:
         """Do the work, and return the result that Blender expects.
 
-        Raises
-        ------
-        ValueError, native.NativeError
-            If it cannot be done. The message is a sentence for the artist. Nothing has changed then.
-        Halfway
-            If an error comes while meshes are changed.
+        If it cannot be done, raises ValueError or NativeError with a sentence for the artist, and nothing has changed. Raises `Halfway` if
+        an error comes while meshes are changed.
         """
         raise NotImplementedError
 
     def for_each_object(
         self, context: bpy.types.Context, work: Callable[[bpy.types.Object], _Found]
     ) -> dict[bpy.types.Object, _Found]:
-        """Do the work for each object in Edit Mode that has something visible.
+        """Do the work for each object in Edit Mode that has something visible, and return the results.
 
-        Parameters
-        ----------
-        context
-            Tells which objects are in Edit Mode.
-        work
-            Takes an object. Its ValueErrors and NativeErrors are reported, and the other objects are still worked on.
-
-        Returns
-        -------
-        dict
-            The result for each object. It is empty if every object failed, and the reason is reported.
+        ValueErrors and NativeErrors of the work are reported, and the other objects are still worked on.
         """
         from ..core.base.native import NativeError
         from ..mesh.edit_mesh import NothingVisibleError
@@ -132,13 +118,7 @@ class EditMeshOperator(NeedsEditMode):
         return found
 
     def open_mesh(self, obj: bpy.types.Object) -> ObjectSession:
-        """Read an object to draw on, and report problems with the wires that are stored with it.
-
-        Raises
-        ------
-        ValueError, native.NativeError
-            If nothing is visible, or the compiled part is missing.
-        """
+        """Read an object to draw on, and report problems with the wires that are stored with it."""
         from ..mesh.object_session import ObjectSession
 
         mesh = ObjectSession(obj)
@@ -146,10 +126,7 @@ class EditMeshOperator(NeedsEditMode):
         return mesh
 
     def write(self, context: bpy.types.Context, meshes: Iterable[ObjectSession], follow: bool = True) -> int:
-        """Write what was drawn on meshes, and return how many edges became seams.
-
-        Everything is planned before the first mesh changes. With `follow`, Blender's Live Unwrap follows.
-        """
+        """Plan everything, then write what was drawn on meshes, and return how many edges became seams. Live Unwrap may `follow`."""
         plans = {mesh: mesh.plan() for mesh in meshes}
         with changing(context if follow else None):
             return sum(mesh.write(plan)[0] for mesh, plan in plans.items())

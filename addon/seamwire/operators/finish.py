@@ -27,10 +27,7 @@ class MESH_OT_seamwire_finish(EditMeshOperator, bpy.types.Operator):
     bl_label = "Finish Seamwires"
 
     finish: bpy.props.EnumProperty(
-        name="Finish",
-        description="How a seam comes to lie on its wire",
-        items=_ITEMS,
-        default="CUT",
+        name="Finish", description="How a seam comes to lie on its wire", items=_ITEMS, default="CUT"
     )
 
     description = description_of_item("finish")
@@ -39,8 +36,15 @@ class MESH_OT_seamwire_finish(EditMeshOperator, bpy.types.Operator):
         """Finish the wires of all objects in Edit Mode."""
         from ..mesh import finishes
 
-        wires = _wires_across(self, context)
+        meshes = self.open_meshes(context)
+        wires = {
+            mesh: own
+            for mesh in meshes
+            if (own := [wire for wire in mesh.session.wires if wire.along == "SURFACE" and wire.marks])
+        }
         if not wires:
+            if meshes:
+                self.report({"ERROR"}, "No kept wire runs across the surface")
             return {"CANCELLED"}
         if FINISHES[self.finish].cuts:
             return cut_wires(self, context, wires, kept=True)
@@ -49,19 +53,6 @@ class MESH_OT_seamwire_finish(EditMeshOperator, bpy.types.Operator):
         done = count(sum(map(len, wires.values())), "wire"), count(moved, "vertex", "vertices")
         self.report({"INFO"}, "{}: {} moved".format(*done))
         return {"FINISHED"}
-
-
-def _wires_across(operator: EditMeshOperator, context: bpy.types.Context) -> dict[ObjectSession, list[Wire]]:
-    """Return the kept wires across the surface of each object in Edit Mode. Report an error if no object has such a wire."""
-    wires: dict[ObjectSession, list[Wire]] = {}
-    meshes = operator.open_meshes(context)
-    for mesh in meshes:
-        own = [wire for wire in mesh.session.wires if wire.along == "SURFACE" and wire.marks]
-        if own:
-            wires[mesh] = own
-    if meshes and not wires:
-        operator.report({"ERROR"}, "No kept wire runs across the surface")
-    return wires
 
 
 def cut_wires(
@@ -76,27 +67,9 @@ def cut_wires(
     """Cut wires across the surface into meshes, and report the result.
 
     Wires that do not run over their mesh are left out. If no wire of a mesh can be cut, a warning names the mesh, and the others are
-    cut. Every cut is tried on a copy before the first mesh changes.
+    cut. Every cut is tried on a copy before the first mesh changes. Raises `Halfway` if an error comes after that.
 
-    Parameters
-    ----------
-    operator
-        Reports the result.
-    wires
-        The wires of each mesh. Its session ends.
-    kept
-        Whether meshes already have these wires. Their snapped edges stop being seams.
-    crumb
-        Islands smaller than this fraction of the area of a mesh are merged into a larger one.
-    live_unwrap
-        Whether to follow Blender's Live Unwrap.
-    first
-        Changes meshes before they are cut, after every cut was tried. It must not renumber them.
-
-    Raises
-    ------
-    Halfway
-        If an error comes after a mesh has changed.
+    `kept` and `crumb` are those of `finishes.cut`. `first` changes meshes before they are cut, and must not renumber them. Sessions end.
     """
     from ..mesh import finishes
     from ..mesh.cut import CutError

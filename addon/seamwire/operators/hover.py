@@ -81,7 +81,4 @@ class SEAMWIRE_GGT_hover(bpy.types.GizmoGroup):
         self.gizmos.new(SEAMWIRE_GT_hover.bl_idname)
 
 
-_CLASSES = (MESH_OT_seamwire_hover, SEAMWIRE_GT_hover, SEAMWIRE_GGT_hover)
-
-
-register, unregister = together(*classes(*_CLASSES))
+register, unregister = together(*classes(MESH_OT_seamwire_hover, SEAMWIRE_GT_hover, SEAMWIRE_GGT_hover))

@@ -57,14 +57,14 @@ class MESH_OT_seamwire_select_islands(EditMeshOperator, bpy.types.Operator):
             layout.prop(self, "kind")
 
     def run(self, context: bpy.types.Context) -> set[str]:
-        """Select them."""
+        """Select them. The stretch is the operator's own if it was given, otherwise the one that the tool shows."""
         if self.which == "TO_CUT":
             return self._select_islands_to_cut(context)
-        self.kind = self._stretch_kind(context)
-        return self._select_worst_island(context, self.kind)
+        is_given = self.properties.is_property_set("kind")
+        self.kind = "AREA" if not is_given and settings(context).heat == "AREA" else self.kind
+        return self._select_worst_island(context)
 
     def _select_islands_to_cut(self, context: bpy.types.Context) -> set[str]:
-        """Select the faces of the islands that are not discs, and nothing else."""
         from ..mesh import edit_mesh
         from ..mesh.seam_islands import faces_to_cut
 
@@ -81,20 +81,11 @@ class MESH_OT_seamwire_select_islands(EditMeshOperator, bpy.types.Operator):
             self.report({"INFO"}, "All islands are discs")
         return {"FINISHED"}
 
-    def _select_worst_island(self, context: bpy.types.Context, kind: str) -> set[str]:
-        """Select the island that is stretched most, and turn the view to it.
-
-        Parameters
-        ----------
-        context
-            Tells which view to turn.
-        kind
-            A row of `STRETCHES`.
-        """
+    def _select_worst_island(self, context: bpy.types.Context) -> set[str]:
         from ..mesh import edit_mesh
         from ..mesh.seam_islands import worst_island
 
-        found = self.for_each_object(context, lambda obj: worst_island(obj, kind))
+        found = self.for_each_object(context, lambda obj: worst_island(obj, self.kind))
         if not found:
             return {"CANCELLED"}
         with_uvs = {obj: worst for obj, worst in found.items() if worst is not None}
@@ -108,11 +99,6 @@ class MESH_OT_seamwire_select_islands(EditMeshOperator, bpy.types.Operator):
             bpy.ops.view3d.view_selected("INVOKE_DEFAULT")
         self.report({"INFO"}, f"{obj.name}: stretched {2.0**worst.value:.2f} times, worst of {worst.count} islands")
         return {"FINISHED"}
-
-    def _stretch_kind(self, context: bpy.types.Context) -> str:
-        """Return the kind of stretch: the operator's own if it was given, otherwise the one that the tool shows."""
-        is_given = self.properties.is_property_set("kind")
-        return "AREA" if not is_given and settings(context).heat == "AREA" else self.kind
 
 
 def _turn(view: bpy.types.RegionView3D, obj: bpy.types.Object, facing: Sequence[float]) -> None:
@@ -138,9 +124,7 @@ class MESH_OT_seamwire_store(EditMeshOperator, bpy.types.Operator):
     bl_label = "Store Islands"
 
     what: bpy.props.EnumProperty(
-        name="Store",
-        description="How to store the islands that seams make",
-        items=ISLAND_ITEMS,
+        name="Store", description="How to store the islands that seams make", items=ISLAND_ITEMS
     )
     description = description_of_item("what")
 

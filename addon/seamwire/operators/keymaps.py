@@ -71,35 +71,19 @@ def of_user(manager: bpy.types.WindowManager) -> Bindings:
 
 _KEYMAPS = ("Mesh", "3D View Generic", "3D View", "Object Non-modal", "Frames", "Screen", "Screen Editing", "Window")
 """The keymaps of a 3D view in Edit Mode, in the order in which Blender asks them."""
-_NAVIGATION = (
-    "view3d.rotate",
-    "view3d.move",
-    "view3d.zoom",
-    "view3d.dolly",
-    "view3d.view",
-    "view3d.ndof",
-    "view3d.navigate",
-    "view3d.walk",
-    "view3d.fly",
-    "view3d.smoothview",
+_NAVIGATION = tuple(
+    f"view3d.{name}"
+    for name in ("rotate", "move", "zoom", "dolly", "view", "ndof", "navigate", "walk", "fly", "smoothview")
 )
 """How the names of operators that move the view begin."""
 _HARMLESS = (
     *_NAVIGATION,
-    "view3d.clip_border",
-    "view3d.cursor3d",
-    "view3d.toggle_shading",
-    "view3d.toggle_xray",
-    "screen.animation",
-    "screen.frame",
-    "screen.region",
-    "screen.screen_full_area",
-    "screen.screenshot",
-    "screen.space_",
-    "screen.header",
-    "wm.context_",
-    "wm.save",
-    "wm.window_fullscreen",
+    *(f"view3d.{name}" for name in ("clip_border", "cursor3d", "toggle_shading", "toggle_xray")),
+    *(
+        f"screen.{name}"
+        for name in ("animation", "frame", "region", "screen_full_area", "screenshot", "space_", "header")
+    ),
+    *(f"wm.{name}" for name in ("context_", "save", "window_fullscreen")),
 )
 """How the names of operators begin that change neither the mesh nor the mode."""
 _HARMLESS_PIES = frozenset({"VIEW3D_MT_view_pie", "VIEW3D_MT_shading_pie", "VIEW3D_MT_shading_ex_pie"})
@@ -145,7 +129,6 @@ def _item_for(event: bpy.types.Event, manager: bpy.types.WindowManager) -> bpy.t
 
 
 def _is_harmless(item: bpy.types.KeyMapItem) -> bool:
-    """Return whether a keymap item changes neither the mesh nor the mode."""
     is_pie = item.idname == "wm.call_menu_pie" and item.properties.name in _HARMLESS_PIES
     return is_pie or item.idname.startswith(_HARMLESS)
 

@@ -104,7 +104,6 @@ class MESH_OT_seamwire_close_gaps(EditMeshOperator, bpy.types.Operator):
         return {"FINISHED"}
 
     def _find(self, meshes: Iterable[ObjectSession]) -> dict[ObjectSession, list[Gap]]:
-        """Return the gaps of each object that has some."""
         from ..core.seams.gaps import GapFinder
 
         found = {}

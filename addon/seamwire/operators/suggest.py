@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import bpy
 from mathutils import Vector
 
+from ..mesh.registration import classes, together
 from ..terms.choices import ALONG, AUTO_ALONG, AUTO_FINISH, FINISHES, items
 from .edit_mesh_operator import changing
 from .finish import cut_wires
@@ -70,10 +71,7 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         default="VIEW",
     )
     along: bpy.props.EnumProperty(
-        name="Along",
-        description="How wires run on the mesh",
-        items=items(ALONG, AUTO_ALONG),
-        default="AUTO",
+        name="Along", description="How wires run on the mesh", items=items(ALONG, AUTO_ALONG), default="AUTO"
     )
     finish: bpy.props.EnumProperty(
         name="Finish",
@@ -139,9 +137,7 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
             yield from _step(search, Step("Finding parts", choose))
             yield from _step(search, Step("Planning seams", search.plan))
         search.refresh()
-        if search.has_wires:
-            return self._change(context, search)
-        return self._unwrap_uncut(context, search)
+        return self._change(context, search)
 
     def _show_parts(self, context: bpy.types.Context, search: SeamSearch) -> Generator[Step, None, None]:
         """Yield steps until the artist has confirmed the parts that the views show, and seams are planned in them."""
@@ -166,7 +162,6 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         return tuple(self.view_direction) if any(self.view_direction) else _towards_viewer(context)
 
     def _read(self, context: bpy.types.Context) -> SeamSearch:
-        """Read the meshes in Edit Mode."""
         from ..mesh.seam_search import SeamSearch, SearchOptions
 
         along, finish = (None if chosen == "AUTO" else chosen for chosen in (self.along, self.finish))
@@ -176,7 +171,11 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         return SeamSearch(context.objects_in_mode_unique_data, options, self.selected)
 
     def _change(self, context: bpy.types.Context, search: SeamSearch) -> set[str]:
-        """Write or cut the wires, unwrap, and report."""
+        """Write or cut the wires, unwrap, and report. Unwrap although no seam is needed."""
+        if not search.has_wires:
+            unwrapped = self._unwrap(context, search) if self.unwrap else 0
+            self._report_outcome(search)
+            return {"FINISHED"} if unwrapped else {"CANCELLED"}
         if search.to_cut:
             first = partial(search.write, before_cuts=True)
             done = cut_wires(self, context, search.to_cut, crumb=search.crumb, live_unwrap=False, first=first)
@@ -192,12 +191,6 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         outcome = search.outcome()
         self.report({"INFO"} if outcome.is_good else {"WARNING"}, outcome.text)
 
-    def _unwrap_uncut(self, context: bpy.types.Context, search: SeamSearch) -> set[str]:
-        """Unwrap although no seam is needed, report it, and return the operator's result."""
-        unwrapped = self._unwrap(context, search) if self.unwrap else 0
-        self._report_outcome(search)
-        return {"FINISHED"} if unwrapped else {"CANCELLED"}
-
     def _unwrap(self, context: bpy.types.Context, search: SeamSearch) -> int:
         """Unwrap, and report what cannot be unwrapped. Return the number of unwrapped islands."""
         from ..core.base.native import NativeError
@@ -210,13 +203,7 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
 
 
 def _step(search: SeamSearch, step: Step) -> Generator[Step, None, None]:
-    """Yield one step.
-
-    Raises
-    ------
-    ValueError
-        If a mesh changed during the step.
-    """
+    """Yield one step. Raise ValueError if a mesh changed during the step."""
     yield step
     if not search.are_alive:
         raise ValueError("The mesh changed during the search")
@@ -233,12 +220,4 @@ def _towards_viewer(context: bpy.types.Context) -> tuple[float, float, float]:
     return tuple(view.view_rotation @ Vector((0.0, 0.0, 1.0)))
 
 
-def register() -> None:
-    """Add the operator."""
-    bpy.utils.register_class(MESH_OT_seamwire_suggest)
-
-
-def unregister() -> None:
-    """End the search that runs, and remove the operator."""
-    end_all()
-    bpy.utils.unregister_class(MESH_OT_seamwire_suggest)
+register, unregister = together(*classes(MESH_OT_seamwire_suggest), (lambda: None, end_all))

@@ -51,34 +51,7 @@ _TAKEN = frozenset({"RUNNING_MODAL"})
 
 
 class LiveParts:
-    """The parts of meshes while an artist changes them.
-
-    Parameters
-    ----------
-    window
-        Where events come from.
-    search
-        Measured for parts.
-    preview
-        Draws the parts, and the seams that are planned in them.
-    amount
-        The amount of parts at first, from 0 to 1.
-    stretch
-        The limit of the stretch at first, in percent.
-    is_enough
-        Whether to stop planning, and go on with the best plan so far.
-
-    Attributes
-    ----------
-    amount
-        The chosen amount of parts.
-    stretch
-        The chosen limit of the stretch.
-    edits
-        The changes by clicks, by the name of the object.
-    is_kept
-        Whether the artist has confirmed the parts.
-    """
+    """The parts of meshes while an artist changes them. Once it `is_enough`, planning stops, and the best plan so far is taken."""
 
     def __init__(
         self,
@@ -93,10 +66,10 @@ class LiveParts:
         self._search = search
         self._preview = preview
         self._is_enough = is_enough
-        self.amount = amount
-        self.stretch = stretch
-        self.edits: dict[str, PartEdits] = {}
-        self.is_kept = False
+        self.amount = amount  # of parts, from 0 to 1
+        self.stretch = stretch  # the limit, in percent
+        self.edits: dict[str, PartEdits] = {}  # the changes by clicks, by the name of the object
+        self.is_kept = False  # whether the artist has confirmed the parts
         self._dropped: dict[str, list[NDArray[np.int32]]] = {}
         self._counts: dict[float, int] = {}
         self._searches: deque[Search] = deque()
@@ -235,7 +208,6 @@ class LiveParts:
         self._begin(search)
 
     def _count(self, amount: float, progress: Progress) -> int:
-        """Return the number of parts for an amount."""
         if amount not in self._counts:
             self._counts[amount] = self._search.count(amount, self.edits, progress)
         return self._counts[amount]
@@ -267,12 +239,10 @@ class LiveParts:
             self._change_to(*found)
 
     def _find(self, progress: Progress) -> None:
-        """Find the parts that the artist asked for first."""
         with suppress(self._cancelled):
             self._found = self._searches[0](progress)
 
     def _change_to(self, amount: float, edits: dict[str, PartEdits]) -> None:
-        """Show parts that were found."""
         if edits != self.edits:
             self._counts.clear()
         elif amount == self.amount:
@@ -281,8 +251,7 @@ class LiveParts:
         self._change()
 
     def _edited(self, edits: PartEdits, at: Pointed) -> PartEdits:
-        """Return the edits of an object after a click."""
-        suggestion = next(each for each in self._search if each.mesh.obj.name_full == at.name)
+        suggestion = next(each for each in self._search if each.name == at.name)
         if at.border is None:
             return edits.part(int(suggestion.mesh.arrays.polygons[at.triangle]))
         if at.border < len(suggestion.borders):
@@ -305,12 +274,10 @@ class LiveParts:
 
     def _dim(self, suggestion: Suggestion) -> list[NDArray[np.int32]]:
         """Return the borders that the artist has dropped."""
-        name = suggestion.mesh.obj.name_full
-        dropped = self.edits.get(name, PartEdits()).dropped
-        return [chain for chain in self._dropped.get(name, ()) if edges_of(chain) <= dropped]
+        dropped = self.edits.get(suggestion.name, PartEdits()).dropped
+        return [chain for chain in self._dropped.get(suggestion.name, ()) if edges_of(chain) <= dropped]
 
     def _show(self, suggestion: Suggestion) -> None:
-        """Draw the borders of a mesh, and the seams that are planned for them."""
         plan, points = suggestion.best_so_far, suggestion.mesh.arrays.in_object
         curves = Curves(
             [points[chain] for chain in suggestion.borders], [points[chain] for chain in self._dim(suggestion)]
@@ -337,7 +304,6 @@ def _square_size(search: SeamSearch) -> float:
 
 
 def _in_units(length: float) -> str:
-    """Return a length in the scene's units."""
     units = bpy.context.scene.unit_settings
     if units.system == "NONE":
         return f"{length:.3g}"

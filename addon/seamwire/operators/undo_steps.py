@@ -26,8 +26,6 @@ HINT = "mesh.seamwire_show_hint"
 
 
 class _UndoStep:
-    """Pushes a step of undo for a chain."""
-
     bl_options: ClassVar[set[str]] = {"REGISTER", "UNDO", "INTERNAL"}
 
     def invoke(self, _context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:

@@ -21,23 +21,13 @@ class Term(NamedTuple):
 
 
 class Finishing(NamedTuple):
-    """The name of a finish, its tooltip, and what it does. Code asks this row, and does not compare names.
-
-    Parameters
-    ----------
-    on_wire
-        Whether the seam lies where the wire runs, instead of on the nearest edges.
-    edits
-        Whether it does more to the mesh than marking seams.
-    cuts
-        Whether it adds vertices. Otherwise it may move vertices, and keeps their numbers.
-    """
+    """The name of a finish, its tooltip, and what it does. Code asks this row, and does not compare names."""
 
     name: str
     tooltip: str
-    on_wire: bool = True
-    edits: bool = True
-    cuts: bool = False
+    on_wire: bool = True  # whether the seam lies where the wire runs, instead of on the nearest edges
+    edits: bool = True  # whether it does more to the mesh than marking seams
+    cuts: bool = False  # whether it adds vertices; otherwise it may move vertices, and keeps their numbers
 
 
 class Metric(NamedTuple):

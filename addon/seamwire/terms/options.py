@@ -47,37 +47,17 @@ SCANNED = Auto("SURFACE", "CUT")
 
 
 class Setting(NamedTuple):
-    """How Blender shows a setting.
-
-    Parameters
-    ----------
-    name, tooltip
-        Its words.
-    group
-        The panel that shows it: Drawing, Finish, Islands or Advanced, or Views.
-    limits
-        Of a number: smaller and larger values are moved to the limits.
-    choices
-        The table of its values.
-    auto
-        The tooltip of Auto, if that is the default in Blender. `Auto` has the value that it stands for.
-    matters
-        Whether it has an effect, for a way of running and a metric. Otherwise it is grayed out.
-    slider
-        Whether a number is shown as a slider.
-    others
-        More arguments of Blender's property.
-    """
+    """How Blender shows a setting. It is grayed out unless it `matters` for the way of running and the metric."""
 
     name: str
     tooltip: str
-    group: str
-    limits: tuple[float, float] | None = None
-    choices: Mapping[str, Term | Finishing | Metric] | None = None
-    auto: str = ""
+    group: str  # the panel that shows it: Drawing, Finish, Islands or Advanced, or Views
+    limits: tuple[float, float] | None = None  # smaller and larger numbers are moved to the limits
+    choices: Mapping[str, Term | Finishing | Metric] | None = None  # the table of its values
+    auto: str = ""  # the tooltip of Auto, if that is the default in Blender; `Auto` has the value that it stands for
     matters: Callable[[Along, MetricName], bool] = lambda _along, _metric: True
-    slider: bool = False
-    others: Mapping[str, object] = {}
+    slider: bool = False  # whether a number is shown as a slider
+    others: Mapping[str, object] = {}  # more arguments of Blender's property
 
 
 def _setting(default: object, *words: str, **others: object) -> Any:  # noqa: ANN401 - a field of any type
@@ -104,16 +84,8 @@ def _strength(along: Along) -> float:
 class Options:
     """A snapshot of the settings. Values beyond their limits are moved to the limits.
 
-    Parameters
-    ----------
-    mirror
-        The axes, 0 to 2, over which wires are mirrored. It is a setting of the mesh.
-    strength_edges, strength_surface
-        The metric's largest anisotropy, for each way of running.
-    clamp
-        The percentile of feature strengths that counts as the strongest.
-    stroke_radius
-        In the object's units; 0: ten rings of vertices.
+    A strength is the metric's largest anisotropy. The stroke radius is in the object's units. `mirror` has the axes, 0 to 2, over which
+    wires are mirrored. It is a setting of the mesh.
     """
 
     along: Along = _setting("EDGES", "Along", "How wires run on the mesh", "Drawing", choices=ALONG, auto=AUTO_ALONG)

@@ -42,7 +42,6 @@ _SPACE = {"space_type": "VIEW_3D", "region_type": "WINDOW"}
 
 
 def _add_keys() -> None:
-    """Add the key that chooses the tool in Edit Mode, and the keys of a chain."""
     try:
         _registered.extend(_add())
     except BaseException:

@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+from functools import cache
+from pathlib import Path
+
 import bpy
 
 from ..mesh.registration import classes, menu_entry, together
@@ -11,7 +14,7 @@ from ..operators import keymaps
 from ..operators.island_operators import ISLAND_ITEMS
 from ..operators.keymaps import HELP_PANEL
 from ..terms.options import SETTINGS
-from ..words.first_steps import STEPS, guide
+from ..words.corner import STEPS
 from .toolbar import VIEWS
 
 MENUS = ("VIEW3D_MT_edit_mesh_edges", "VIEW3D_MT_uv_map", "IMAGE_MT_uvs")
@@ -102,6 +105,18 @@ def _draw_entry(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
     _draw_tool(menu.layout)
 
 
+_GUIDES = ("guide/index.md", "../../docs/guide/index.md")
+"""Where the guide lies, in a package and in a checkout."""
+
+
+@cache
+def guide() -> str:
+    """Return the address of the guide; an empty string if it is missing."""
+    here = Path(__file__).parents[1]
+    found = next((path.resolve() for place in _GUIDES if (path := here / place).is_file()), None)
+    return "" if found is None else found.as_uri()
+
+
 class VIEW3D_PT_seamwire_help(bpy.types.Panel):
     """First steps, and all keys"""  # noqa: D400 - a tooltip
 
@@ -131,7 +146,6 @@ class VIEW3D_PT_seamwire_help(bpy.types.Panel):
 
 
 def _box(layout: bpy.types.UILayout, heading: str) -> bpy.types.UILayout:
-    """Return a column in a box below a heading."""
     column = layout.box().column(align=True)
     column.label(text=heading)
     column.separator()

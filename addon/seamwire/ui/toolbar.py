@@ -97,7 +97,6 @@ def draw_settings(context: bpy.types.Context, layout: bpy.types.UILayout) -> Non
 
 
 def _split(layout: bpy.types.UILayout) -> bpy.types.UILayout:
-    """Return the layout, with names at the left and values at the right."""
     layout.use_property_split = True
     layout.use_property_decorate = False
     return layout
@@ -227,7 +226,6 @@ def leave() -> None:
 
 
 def _remove_tool() -> None:
-    """Remove it."""
     if hasattr(SeamwireTool, "_bl_tool"):
         leave()
         keymap.empty(KEYMAP)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ..core.base import native
 from ..core.base.newest import Newest
 from ..core.fields.crests import Crests
 from .gpu_draw import Lines, blended
@@ -13,7 +14,6 @@ from .theme import Style
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from types import ModuleType
 
     import seamwire_core
 
@@ -26,24 +26,11 @@ _VALLEY = Style((0.20, 0.50, 1.0, 1.0), 2.0, halo=1.0, lift=4.0)
 
 
 class CrestView(Layer):
-    """The layer of ridges and valleys.
+    """The layer of ridges and valleys. `surface` returns the library's surface of the mesh. A thread calls it, where it may wait."""
 
-    Parameters
-    ----------
-    core
-        The library's module.
-    surface
-        Returns the library's surface of the mesh. Called in a thread, where it may wait.
-    pose
-        Where the mesh is seen.
+    def __init__(self, surface: Callable[[], seamwire_core.Surface], pose: Pose) -> None:
+        core = native.load()
 
-    Attributes
-    ----------
-    is_wanted
-        Whether the lines are needed even if they are not shown.
-    """
-
-    def __init__(self, core: ModuleType, surface: Callable[[], seamwire_core.Surface], pose: Pose) -> None:
         def make(_request: None) -> Crests:
             return Crests.on(core, surface(), lambda _fraction: not self._maker.superseded)
 
@@ -53,7 +40,7 @@ class CrestView(Layer):
         self._seen: Crests | None = None
         self._visible = False
         self._lines: tuple[Lines, ...] | None = None
-        self.is_wanted = False
+        self.is_wanted = False  # whether the lines are needed even if they are not shown
 
     @property
     def crests(self) -> Crests | None:

@@ -37,17 +37,8 @@ _MOST_IDLE = 1_000_000_000
 class EditedObjects:
     """The objects that are drawn on, by their names.
 
-    Attributes
-    ----------
-    front
-        The one that was pointed at last; None: none yet.
-    chain
-        Lets the chain that is being drawn look at a changed mesh; None if no chain is drawn. While there is a chain, it updates the
-        objects, and they are drawn with every tool.
-    covered
-        Whether something else is drawn in place of the objects.
-    timer
-        Looks after running work.
+    `chain` lets the chain that is being drawn look at a changed mesh. It is None if no chain is drawn. While there is a chain, it updates
+    the objects, and they are drawn with every tool.
     """
 
     def __init__(self) -> None:
@@ -55,10 +46,10 @@ class EditedObjects:
         self._was_front = ""  # the object that was in front until it had to be read anew
         self._waits = False  # whether a mesh may have to be read
         self._states: dict[int, tuple[str, bool]] = {}  # the mode of each window, and whether it shows the tool
-        self.front: ObjectView | None = None
+        self.front: ObjectView | None = None  # the one that was pointed at last
         self.timer = Timer(self.tick)
         self.chain: Callable[[], None] | None = None
-        self.covered = False
+        self.covered = False  # whether something else is drawn in place of the objects
 
     # What there is
 
@@ -67,10 +58,7 @@ class EditedObjects:
         return [view for view in self._views.values() if view.mesh.alive()]
 
     def of(self, obj: bpy.types.Object) -> ObjectView:
-        """Return an object in edit mode, read anew where it has changed.
-
-        Raises ValueError or NativeError where there is nothing to draw on, or nothing to draw with.
-        """
+        """Return an object in edit mode, read anew where it has changed. Raises as `ObjectView`."""
         name = obj.name_full
         view = self._views.get(name)
         if view is not None and not self.chain and not self._is_current(view, obj):
@@ -240,10 +228,7 @@ class EditedObjects:
             self.watch()
 
     def refresh(self, *_: object) -> None:
-        """Read changed meshes again, and forget meshes with a new topology.
-
-        A chain looks after its objects itself.
-        """
+        """Read changed meshes again, and forget meshes with a new topology. A chain looks after its objects itself."""
         if self.chain:
             return
         for name, view in tuple(self._views.items()):
@@ -407,7 +392,6 @@ class EditedObjects:
         return is_new
 
     def _drawn(self, space: bpy.types.SpaceView3D) -> Iterator[ObjectView]:
-        """Yield the objects that are drawn in a view."""
         for obj in _in_edit_mode():
             view = self._views.get(obj.name_full)
             if view is None or not view.mesh.alive() or not obj.visible_in_viewport_get(space):

@@ -33,6 +33,7 @@ _HIDDEN_WIDTH = 0.55
 """How wide a line is there, as part of its width elsewhere."""
 _MOST_DASHED = 20_000
 """Segments that are dashed there: of more, each move of the view would take long."""
+_MOST_DASHES = 200_000
 _OVER = 1.5
 """Pixels by which what is drawn over faces is nearer than they are."""
 
@@ -78,19 +79,7 @@ def blended(depth: str) -> Iterator[None]:
 class Eye:
     """From where an object is seen in the region that is being drawn.
 
-    Parameters
-    ----------
-    region_3d
-        The view.
-    model
-        (4, 4), takes what is drawn to world coordinates.
-
-    Attributes
-    ----------
-    to_clip
-        (4, 4), takes what is drawn to clip coordinates.
-    is_orthographic
-        Whether the view has no perspective.
+    `model`, (4, 4), takes what is drawn to world coordinates, and `to_clip`, (4, 4), to clip coordinates.
     """
 
     def __init__(self, region_3d: bpy.types.RegionView3D, model: Matrix) -> None:
@@ -143,15 +132,7 @@ class Eye:
 
 
 class Lines:
-    """Segments of one style, ready to be drawn.
-
-    Parameters
-    ----------
-    style
-        How they look.
-    ends
-        (k, 2, 3) their ends; those of a curve in order, so that dashes run on over its corners.
-    """
+    """Segments of one style, ready to be drawn, by their ends, (k, 2, 3); those of a curve in order: dashes run on over its corners."""
 
     def __init__(self, style: Style, ends: NDArray[np.float64]) -> None:
         self.style = style
@@ -182,7 +163,7 @@ class Lines:
             return
         style, passes = self.style, []
         if style.dash and self._seen_from != eye.key:
-            self._batch = self._make(dashes(self._ends, eye.on_screen, style.dash * eye.scale))
+            self._batch = self._make(dashes(self._ends, eye, style.dash * eye.scale))
             self._seen_from = eye.key
         if self._ground is not None and rim:
             passes.append((self._ground, (*HALO[:3], HALO[3] * opacity), (style.width + style.halo) * eye.scale))
@@ -200,12 +181,11 @@ class Lines:
             self.draw(eye, opacity, rim=False)
             return
         if self._hidden[0] != eye.key:
-            self._hidden = eye.key, self._make(dashes(self._ends, eye.on_screen, _HIDDEN_DASH * eye.scale))
+            self._hidden = eye.key, self._make(dashes(self._ends, eye, _HIDDEN_DASH * eye.scale))
         color = (*style.color[:3], style.color[3] * opacity)
         self._draw(eye, [(self._hidden[1], color, max(1.0, _HIDDEN_WIDTH * style.width) * eye.scale)])
 
     def _draw(self, eye: Eye, passes: Sequence[tuple[gpu.types.GPUBatch | None, Color, float]]) -> None:
-        """Draw batches one over the other, each in a color, with a width."""
         with gpu.matrix.push_pop():
             gpu.matrix.load_matrix(eye.lifted(self.style.lift))
             self._shader.bind()
@@ -234,19 +214,18 @@ def layers(style: Style, opacity: float, rim: bool) -> list[tuple[Color, float]]
     return [*found, ((*rgb, alpha * opacity), style.width)]
 
 
-def dashes(ends: NDArray[np.float64], on_screen: object, length: float, limit: int = 200_000) -> NDArray[np.float64]:
-    """Cut segments, (k, 2, 3), into dashes, (d, 2, 3), as long as the gaps between them, measured on the screen.
+def dashes(ends: NDArray[np.float64], eye: Eye, length: float) -> NDArray[np.float64]:
+    """Cut segments, (k, 2, 3), into dashes, (d, 2, 3), of a length in pixels, as long as the gaps between them.
 
-    `on_screen` takes (n, 3) points to (n, 2) pixels. If there were more than `limit` dashes of a length in pixels, the segments come back
-    as they are.
+    If there were more than `_MOST_DASHES`, the segments come back as they are.
     """
-    pixels = on_screen(ends.reshape(-1, 3)).reshape(-1, 2, 2)
+    pixels = eye.on_screen(ends.reshape(-1, 3)).reshape(-1, 2, 2)
     sizes = np.nan_to_num(np.linalg.norm(pixels[:, 1] - pixels[:, 0], axis=1))
     after = np.cumsum(sizes)
     before = after - sizes
     first = np.floor(before / (2.0 * length)).astype(np.int64)
     counts = np.floor(after / (2.0 * length)).astype(np.int64) - first + 1
-    if not len(ends) or counts.sum() > limit:
+    if not len(ends) or counts.sum() > _MOST_DASHES:
         return ends
     owner = np.repeat(np.arange(len(ends)), counts)
     number = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts) + first[owner]
@@ -326,13 +305,13 @@ class ColoredFaces:
         self._within.clear()
 
     def _make(self, eye: Eye) -> list[tuple[int, gpu.types.GPUBatch]]:
-        inside = eye.shows(self._places)
-        seen = ((color, whole(triangles, inside)) for color, triangles in self._pieces)
-        return [(color, self._batch(triangles)) for color, triangles in seen if len(triangles)]
-
-    def _batch(self, triangles: NDArray[np.integer]) -> gpu.types.GPUBatch:
-        indices = gpu.types.GPUIndexBuf(type="TRIS", seq=np.ascontiguousarray(triangles, dtype=np.uint32))
-        return gpu.types.GPUBatch(type="TRIS", buf=self._points, elem=indices)
+        inside, made = eye.shows(self._places), []
+        for color, triangles in self._pieces:
+            seen = np.ascontiguousarray(whole(triangles, inside), dtype=np.uint32)
+            if len(seen):
+                indices = gpu.types.GPUIndexBuf(type="TRIS", seq=seen)
+                made.append((color, gpu.types.GPUBatch(type="TRIS", buf=self._points, elem=indices)))
+        return made
 
     def draw(self, eye: Eye, colors: Sequence[Color], lift: float) -> None:
         """Draw those that the view's clipping border leaves whole, under the depth test that is set."""
@@ -363,8 +342,7 @@ def draw_over(draw: Callable[[float], None]) -> None:
 
 def text_size(scale: float) -> float:
     """Return the size of the interface's text, in pixels."""
-    points = bpy.context.preferences.ui_styles[0].widget.points
-    return points * scale
+    return bpy.context.preferences.ui_styles[0].widget.points * scale
 
 
 def set_text(size: float) -> None:
@@ -395,19 +373,12 @@ def draw_rectangle(low: tuple[float, float], high: tuple[float, float], color: C
     """Fill a rectangle, its corners rounded by so many pixels."""
     shader = gpu.shader.from_builtin("UNIFORM_COLOR")
     (left, bottom), (right, top) = low, high
-    turn = np.linspace(0.0, 0.5 * np.pi, 7)
-    corners = []
-    for i, (x, y) in enumerate(
-        (
-            (right - round_by, top - round_by),
-            (left + round_by, top - round_by),
-            (left + round_by, bottom + round_by),
-            (right - round_by, bottom + round_by),
-        )
-    ):
-        angle = turn + 0.5 * np.pi * i
-        corners.append(np.stack([x + round_by * np.cos(angle), y + round_by * np.sin(angle)], axis=1))
-    rim = np.concatenate(corners)
+    # Four arcs of seven points, counterclockwise from the right: around the corners, moved inwards.
+    angles = np.add.outer(0.5 * np.pi * np.arange(4), np.linspace(0.0, 0.5 * np.pi, 7))
+    x = np.array([right, left, left, right]) + round_by * np.array([-1, 1, 1, -1])
+    y = np.array([top, top, bottom, bottom]) + round_by * np.array([-1, -1, 1, 1])
+    rim = np.stack([x[:, None] + round_by * np.cos(angles), y[:, None] + round_by * np.sin(angles)], axis=2)
+    rim = rim.reshape(-1, 2)
     middle = np.broadcast_to(((left + right) / 2, (bottom + top) / 2), rim.shape)
     fan = np.stack([middle, rim, np.roll(rim, -1, axis=0)], axis=1).reshape(-1, 2)
     shader.bind()

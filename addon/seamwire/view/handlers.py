@@ -54,21 +54,18 @@ def _hand_on(method: str) -> Callable[..., None]:
 
 @persistent
 def _on_load(*_: object) -> None:
-    """Forget what belongs to the file before."""
     session = sys.modules.get(f"{__package__.rpartition('.')[0]}.mesh.object_session")
     if session is not None:
         session.forget_records()
 
 
 def _begin() -> None:
-    """Begin to draw in all 3D views."""
     if not bpy.app.background:
         add = bpy.types.SpaceView3D.draw_handler_add
         _handles.extend(add(_draw, (part,), "WINDOW", when) for when, part in _PARTS.items())
 
 
 def _end() -> None:
-    """Draw nothing any more."""
     _start.stop()
     while _handles:
         bpy.types.SpaceView3D.draw_handler_remove(_handles.pop(), "WINDOW")

@@ -30,24 +30,12 @@ _GROUND: Color = (0.07, 0.07, 0.08, 0.8)
 
 @dataclass(frozen=True)
 class Legend:
-    """One box.
+    """One box."""
 
-    Parameters
-    ----------
-    lines
-        The title, and further lines of text.
-    colors
-        From the least to the most; none: there is no bar.
-    marks
-        Numbers below the bar: each with where it is, 0 to 1.
-    swatches
-        Colors with what each means, one a line.
-    """
-
-    lines: tuple[str, ...]
-    colors: Sequence[Color] = ()
-    marks: tuple[tuple[float, str], ...] = ()
-    swatches: tuple[tuple[Color, str], ...] = ()
+    lines: tuple[str, ...]  # the title, and further lines of text
+    colors: Sequence[Color] = ()  # of a bar, from the least to the most; without them there is no bar
+    marks: tuple[tuple[float, str], ...] = ()  # numbers below the bar: each with where it is, 0 to 1
+    swatches: tuple[tuple[Color, str], ...] = ()  # colors with what each means, one a line
 
 
 def draw_legends(
@@ -68,7 +56,6 @@ def draw_legends(
 
 
 def _width(legend: Legend, size: float) -> float:
-    """Return the width of what a legend holds."""
     texts = [*legend.lines, *(f"      {text}" for _, text in legend.swatches)]
     return max(14.0 * size, *(gpu_draw.text_width(text) for text in texts))
 

@@ -13,8 +13,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from ..core.base import native
-from ..core.islands import islands
+from ..core.islands.islands import IslandMaker
 from ..core.network.network import edges_after
 from ..core.picking.picker import Picker
 from ..core.picking.plain import REACH
@@ -37,7 +36,7 @@ if TYPE_CHECKING:
 
     from ..core.drawing.picture import Picture
     from ..core.drawing.session import Session
-    from ..core.islands.islands import IslandMaker, Islands
+    from ..core.islands.islands import Islands
     from ..core.network.network import Snap
     from ..core.network.picks import Pick
     from ..core.network.strokes import Stroke
@@ -50,17 +49,7 @@ if TYPE_CHECKING:
 
 
 class ShownIslands:
-    """Follows the cuts of a session.
-
-    Parameters
-    ----------
-    maker
-        Computes islands.
-    session
-        Its wires are cuts.
-    seams
-        (s, 2) the edges that are seams.
-    """
+    """The islands that the wires of a session and seams, (s, 2), cut the mesh into."""
 
     def __init__(self, maker: IslandMaker, session: Session, seams: ArrayLike) -> None:
         self._maker = maker
@@ -72,8 +61,7 @@ class ShownIslands:
         self._meant: frozenset[int] = frozenset()
         self._told: object = None
         self._part = ("islands", object())
-        self.pointed: int | None = None
-        """The triangle under the mouse; None: it is elsewhere."""
+        self.pointed: int | None = None  # the triangle under the mouse; None: it is elsewhere
 
     @property
     def newest(self) -> Islands | None:
@@ -117,22 +105,22 @@ class ShownIslands:
     def _ask(self) -> None:
         try:
             self._maker.check()
-            self._want()
+            if self._stale:
+                self._want()
         except Exception:
             self._asked = self._cuts = None  # the next attempt asks anew
             raise
 
     def _want(self) -> None:
-        if self._stale:
-            self._asked = (self._session.drawing.network_revision, self._seams_read)
-            session = self._session
-            wanted = edges_after(self._seams, session.edges_to_mark(), session.edges_to_clear())
-            planned = (wire for wire in session.wires if wire.planned)
-            meant = frozenset(vertex for wire in planned for edge in wire.claims() for vertex in edge)
-            # A chain that ends turns cuts of wires into seams: the islands stay the same.
-            if self._cuts is None or meant != self._meant or not np.array_equal(wanted, self._cuts):
-                self._cuts, self._meant = wanted, meant
-                self._maker.ask(self._asked, wanted, meant)
+        session = self._session
+        self._asked = (session.drawing.network_revision, self._seams_read)
+        wanted = edges_after(self._seams, session.edges_to_mark(), session.edges_to_clear())
+        planned = (wire for wire in session.wires if wire.planned)
+        meant = frozenset(vertex for wire in planned for edge in wire.claims() for vertex in edge)
+        # A chain that ends turns cuts of wires into seams: the islands stay the same.
+        if self._cuts is None or meant != self._meant or not np.array_equal(wanted, self._cuts):
+            self._cuts, self._meant = wanted, meant
+            self._maker.ask(self._asked, wanted, meant)
 
 
 _BYTES_A_TRIANGLE = 1_150
@@ -156,29 +144,9 @@ def let_blender_tell() -> None:
 
 
 class ObjectView:
-    """One object that is drawn on, with its picker and its overlay.
+    """One object in edit mode that is drawn on, with its picker and its overlay. It is `stale` once Blender told of a change of the mesh.
 
-    Parameters
-    ----------
-    obj
-        A mesh object in edit mode.
-
-    Attributes
-    ----------
-    name
-        The object's, when it was read.
-    stroke
-        The stroke that is being drawn: its points, (k, 3), as the session has them, and whether wires will follow it.
-    stale
-        Whether Blender told of a change of the mesh since it was read.
-    turned
-        The wire that was given another path last, and where the mouse was; None: the mouse has moved since. Keys still act on this wire,
-        though it may run elsewhere now.
-
-    Raises
-    ------
-    ValueError
-        Where there is nothing to draw on.
+    Raises ValueError or NativeError where there is nothing to draw on, or nothing to draw with.
     """
 
     def __init__(self, obj: bpy.types.Object) -> None:
@@ -188,15 +156,17 @@ class ObjectView:
         arrays = self.mesh.arrays
         gaps = GapFinder(arrays.points, arrays.triangles, arrays.edges, arrays.partly_hidden)
         make = self.mesh.make_live
-        self._islands = islands.IslandMaker(arrays.triangles, make.face_segments, gaps, make.missing_cuts)
+        self._islands = IslandMaker(arrays.triangles, make.face_segments, gaps, make.missing_cuts)
         self.pose = Pose(arrays)
-        self.crest_view = CrestView(native.load(), self.mesh.make_live.wait, self.pose)
+        self.crest_view = CrestView(make.wait, self.pose)
         self.heat = StretchHeat(arrays, self._islands, self.pose)
         self._layers: list[Layer] = []
+        # The wire that was given another path last, and where the mouse was. Until it moves, keys act on this wire, wherever it runs now.
         self.turned: tuple[Wire, Place] | None = None
         self._has_moved = True
         self._posed_picker: Picker | None = None
         self.islands = ShownIslands(self._islands, self.session, arrays.seams)
+        # The stroke that is being drawn: its points, (k, 3), as the session has them, and whether wires will follow it.
         self.stroke: tuple[NDArray[np.float64], bool] | None = None
         self._front = True
         own = ref(self)  # what was prepared for a view is freed with it, and not when Python looks for cycles
@@ -209,7 +179,7 @@ class ObjectView:
             layers=self._layers,
         )
         self._strength: NDArray[np.float64] | None = None
-        self.name = obj.name_full
+        self.name = obj.name_full  # when it was read
         self.was_read()
         self.follow_pose()
         self.make_layers()
@@ -246,8 +216,8 @@ class ObjectView:
         """Let go of what works on threads."""
         self.session.cursor.loops.edges.stop_search()
         self._islands.close()
-        self._close_layers()
-        self.crest_view.close()
+        for layer in self._layers:
+            layer.close()
 
     def refresh(self, obj: bpy.types.Object) -> bool:
         """Take over what the mesh holds now; return False where it is another one, see `ObjectSession.refresh`."""
@@ -312,12 +282,9 @@ class ObjectView:
             failures.attempt(("layer made", self.name, make), partial(make, arrays, surface, self.pose))
             for make in makers
         ]
-        self._close_layers()
-        self._layers[:] = (self.heat, self.crest_view, *(layer for layer in made if layer is not None))
-
-    def _close_layers(self) -> None:
         for layer in self._layers[2:]:
             layer.close()
+        self._layers[:] = (self.heat, self.crest_view, *(layer for layer in made if layer is not None))
 
     def _follow_layers(self) -> None:
         session, options = self.session, self.options

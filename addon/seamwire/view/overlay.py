@@ -15,7 +15,6 @@ from ..core.drawing.picture import LIVE, Role, SeedRole
 from ..core.network.picks import place_of, undirected
 from ..terms.choices import FINISHES
 from ..words import corner
-from ..words.first_steps import FIRST_LINES
 from .failures import failures
 from .gpu_draw import ColoredFaces, Eye, Lines, blended, draw_dots, draw_text, set_text, text_size
 from .layers import Legend, draw_legends
@@ -37,7 +36,7 @@ if TYPE_CHECKING:
 _NO_ROOM = (0.0, 0.0, 0.0, 0.0)
 
 
-class _Sheet:
+class Sheet:
     """Lines and dots that are drawn together. Lines that are added first lie below, and dots lie above all lines."""
 
     def __init__(self, pose: Pose) -> None:
@@ -48,6 +47,7 @@ class _Sheet:
         self.dots: list[tuple[Style, NDArray[np.float64]]] = []
 
     def curve(self, style: Style, points: NDArray[np.float64]) -> None:
+        """Add a curve on the surface, through (k, 3) points of the mesh without modifiers."""
         if len(points) > 1:
             seen = self._pose.places(points)
             self._pieces.setdefault(style, []).append(np.stack([seen[:-1], seen[1:]], axis=1))
@@ -57,6 +57,7 @@ class _Sheet:
         self.edges(style, pairwise(vertices))
 
     def edges(self, style: Style, edges: Iterable[Edge]) -> None:
+        """Add edges of the mesh."""
         pairs = np.array(list(edges), dtype=np.int64).reshape(-1, 2)
         if len(pairs):
             self._pieces.setdefault(style, []).append(self._pose.points[pairs])
@@ -66,27 +67,32 @@ class _Sheet:
         self._places.setdefault(style, []).append(place_of(pick, self._pose.points))
 
     def finish(self) -> None:
+        """Prepare to draw what was added."""
         self.lines = [Lines(style, np.concatenate(parts)) for style, parts in self._pieces.items()]
         self.dots = [(style, np.array(places)) for style, places in self._places.items()]
+
+    def draw_lines(self, eye: Eye, hidden: bool, xray: bool = False) -> None:
+        """Draw the lines: what the mesh lies before, or the rest."""
+        for lines in self.lines:
+            if hidden:
+                lines.draw_hidden(eye, 1.0 if xray else lines.style.hidden)
+            else:
+                lines.draw(eye)
+
+    def draw_dots(self, eye: Eye, hidden: bool, xray: bool) -> None:
+        """Draw the dots: what the mesh lies before, or the rest."""
+        for style, places in self.dots:
+            inside = eye.shows(places)
+            shown = places if inside is None else places[inside]
+            if len(shown):
+                draw_dots(style, shown, eye, style.hidden if hidden and not xray else 1.0, rim=xray or not hidden)
 
 
 class Overlay:
     """The drawing of pictures over one object.
 
-    Parameters
-    ----------
-    picture
-        Returns what is to be seen now.
-    obj
-        Whose mesh it is.
-    pose
-        Where the mesh is seen.
-    to_object
-        (3, 3) takes those to object coordinates.
-    preferences
-        The add-on's, see `Looks`.
-    layers
-        What lies below the wires. The list may change.
+    `picture` returns what is to be seen now. `to_object`, (3, 3), takes places of the pose to object coordinates. The `layers` lie below
+    the wires, and the list may change.
     """
 
     def __init__(
@@ -106,7 +112,7 @@ class Overlay:
         self._layers = layers
         self._to_object = Matrix(to_object.tolist()).to_4x4()
         self._looks = self._current_looks()
-        self._sheets: dict[str, tuple[object, _Sheet]] = {}
+        self._sheets: dict[str, tuple[object, Sheet]] = {}
         self._strokes: list[tuple[NDArray[np.float64], bool]] = []
         self._faces: ColoredFaces | None = None
         self._tinted: object = None
@@ -142,9 +148,9 @@ class Overlay:
         for hidden in (True, False):
             with blended("GREATER" if hidden else "LESS_EQUAL"):
                 for sheet in sheets:
-                    _draw_lines(sheet, eye, hidden, xray)
+                    sheet.draw_lines(eye, hidden, xray)
                 for sheet in sheets:
-                    _draw_dots(sheet, eye, hidden, xray)
+                    sheet.draw_dots(eye, hidden, xray)
 
     def _ask_layers(self, method: str, *arguments: object) -> Iterator[object]:
         """Call a method of each layer, and yield what it returns. A layer that fails yields None, and the others are still drawn."""
@@ -178,12 +184,12 @@ class Overlay:
             if self._looks.text == "STEPS":
                 left, bottom, width, height = room
                 above = (left, high, width, height - (high - bottom))
-                draw_legends([Legend(FIRST_LINES)], above, scale, on_left=True)
+                draw_legends([Legend(corner.FIRST_LINES)], above, scale, on_left=True)
             draw_legends([box for boxes in self._ask_layers("legends") for box in boxes or ()], room, scale)
 
     # What there is to draw
 
-    def _current_sheets(self, picture: Picture) -> list[_Sheet]:
+    def _current_sheets(self, picture: Picture) -> list[Sheet]:
         """Return the sheets from the lowest to the highest, those made anew whose content has changed."""
         strokes = [(stroke.points, stroke.attracts) for stroke in picture.strokes]
         if picture.stroke is not None:
@@ -198,27 +204,25 @@ class Overlay:
             self._sheet("live", picture.revision, self._add_live, picture),
         ]
 
-    def _sheet(self, name: str, key: object, add: Callable[[_Sheet, object], None], what: object) -> _Sheet:
-        """Return a sheet, made anew if its key is another one."""
+    def _sheet(self, name: str, key: object, add: Callable[[Sheet, object], None], what: object) -> Sheet:
         if name not in self._sheets or self._sheets[name][0] != key:
-            sheet = _Sheet(self._pose)
+            sheet = Sheet(self._pose)
             add(sheet, what)
             sheet.finish()
             self._sheets[name] = key, sheet
         return self._sheets[name][1]
 
-    def _add_bands(self, sheet: _Sheet, strokes: Iterable[tuple[NDArray[np.float64], bool]]) -> None:
-        """Add the strokes, the one that is being drawn among them."""
+    def _add_bands(self, sheet: Sheet, strokes: Iterable[tuple[NDArray[np.float64], bool]]) -> None:
         for points, attracts in strokes:
             sheet.curve(self._looks.attracting if attracts else self._looks.repelling, points)
 
-    def _add_gaps(self, sheet: _Sheet, found: Islands | None) -> None:
+    def _add_gaps(self, sheet: Sheet, found: Islands | None) -> None:
         """Add what keeps islands from separating: ends of seams, and the way to what they nearly meet."""
         for gap in () if found is None else found.gaps:
             sheet.path(self._looks.gap, gap.path)
             sheet.dot(self._looks.open_end, gap.end)
 
-    def _add_kept(self, sheet: _Sheet, picture: Picture) -> None:
+    def _add_kept(self, sheet: Sheet, picture: Picture) -> None:
         """Add the kept wires: many, and seldom changed."""
         looks = self._looks
         kept = [shown for shown in picture.wires if shown.role is Role.KEPT]
@@ -230,7 +234,7 @@ class Overlay:
         for shown in kept:
             sheet.curve(looks.kept if shown.wire.marks else looks.clear, shown.wire.points)
 
-    def _add_live(self, sheet: _Sheet, picture: Picture) -> None:
+    def _add_live(self, sheet: Sheet, picture: Picture) -> None:
         """Add what changes with every move of the cursor."""
         looks = self._looks
         for shown in picture.wires:
@@ -248,7 +252,7 @@ class Overlay:
             sheet.dot(styles.get(seed.role, looks.seed), seed.pick)
         self._add_target(sheet, picture.target, picture.one(Role.OFFER))
 
-    def _add_live_wire(self, sheet: _Sheet, shown: ShownWire) -> None:
+    def _add_live_wire(self, sheet: Sheet, shown: ShownWire) -> None:
         looks, wire = self._looks, shown.wire
         styles = {Role.COMPUTING: looks.computing, Role.OFFER: looks.loop, Role.EXTENSION: looks.end}
         sheet.edges(looks.mirrored_live, shown.images)
@@ -259,7 +263,7 @@ class Overlay:
         if not wire.marks and wire.along == "EDGES":
             sheet.curve(looks.clear, wire.points)
 
-    def _add_target(self, sheet: _Sheet, snap: Snap | None, offer: Wire | None) -> None:
+    def _add_target(self, sheet: Sheet, snap: Snap | None, offer: Wire | None) -> None:
         looks = self._looks
         if snap is None or snap.to == "SEED":
             return
@@ -270,24 +274,6 @@ class Overlay:
             return
         styles = {"WIRE": looks.dot_on_seam, "SEAM": looks.dot_on_seam, "FEATURE": looks.dot_on_feature}
         sheet.dot(styles.get(snap.to, looks.dot), snap.pick)
-
-
-def _draw_lines(sheet: _Sheet, eye: Eye, hidden: bool, xray: bool) -> None:
-    """Draw the lines of a sheet: what the mesh lies before, or the rest."""
-    for lines in sheet.lines:
-        if hidden:
-            lines.draw_hidden(eye, 1.0 if xray else lines.style.hidden)
-        else:
-            lines.draw(eye)
-
-
-def _draw_dots(sheet: _Sheet, eye: Eye, hidden: bool, xray: bool) -> None:
-    """Draw the dots of a sheet: what the mesh lies before, or the rest."""
-    for style, places in sheet.dots:
-        inside = eye.shows(places)
-        shown = places if inside is None else places[inside]
-        if len(shown):
-            draw_dots(style, shown, eye, style.hidden if hidden and not xray else 1.0, rim=xray or not hidden)
 
 
 def _draw_corner(lines: Sequence[str], at: tuple[float, float], scale: float) -> float:

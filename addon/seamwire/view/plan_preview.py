@@ -6,8 +6,8 @@ from __future__ import annotations
 import functools
 from collections.abc import Sequence
 from contextlib import suppress
-from dataclasses import dataclass, fields, replace
-from functools import cached_property, partial
+from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import bpy
@@ -23,7 +23,8 @@ from ..mesh import settings as chosen
 from ..mesh.pose import Pose
 from .edited_objects import edited
 from .failures import failures
-from .gpu_draw import ColoredFaces, Eye, Lines, Within, blended, draw_over, sees_through
+from .gpu_draw import ColoredFaces, Eye, Within, blended, draw_over, sees_through
+from .overlay import Sheet
 from .theme import Looks, hue_colors, looks_of
 
 if TYPE_CHECKING:
@@ -68,15 +69,7 @@ def _checker_shader() -> gpu.types.GPUShader:
 
 
 class CheckedFaces:
-    """Triangles with a checker pattern, handed to the GPU once.
-
-    Parameters
-    ----------
-    corners
-        (m, 3, 3) the points of their corners.
-    squares
-        (m, 3, 2) where the corners lie in the pattern, in squares.
-    """
+    """Triangles, by the points of their corners, (m, 3, 3), with a checker pattern. The corners lie there at (m, 3, 2), in squares."""
 
     def __init__(self, corners: NDArray[np.float64], squares: NDArray[np.float64]) -> None:
         self._shader = _checker_shader()
@@ -119,45 +112,23 @@ _REACH = 10.0
 
 @dataclass(frozen=True)
 class Curves:
-    """The curves that are drawn over an object, (k, 3) each, in object coordinates.
+    """The curves that are drawn over an object, (k, 3) each, in object coordinates."""
 
-    Parameters
-    ----------
-    borders
-        Between parts.
-    dropped
-        Borders that the artist has dropped.
-    slits
-        Seams within parts. The mouse does not find them.
-    """
-
-    borders: Sequence[NDArray[np.float64]] = ()
-    dropped: Sequence[NDArray[np.float64]] = ()
-    slits: Sequence[NDArray[np.float64]] = ()
+    borders: Sequence[NDArray[np.float64]] = ()  # between parts
+    dropped: Sequence[NDArray[np.float64]] = ()  # borders that the artist has dropped
+    slits: Sequence[NDArray[np.float64]] = ()  # seams within parts; the mouse does not find them
 
 
 @dataclass(frozen=True)
 class Pointed:
-    """The border and the triangle under the mouse.
+    """The numbers of the border and the triangle under the mouse, or None if only one of them is there."""
 
-    Parameters
-    ----------
-    name
-        The full name of the object.
-    border
-        The number of the border, counting on with those that were dropped; None: there is no border.
-    triangle
-        The number of the triangle; None: only a border is there.
-    """
-
-    name: str
-    border: int | None
+    name: str  # the full name of the object
+    border: int | None  # counting on with those that were dropped
     triangle: int | None
 
 
 class _ObjectPreview:
-    """The drawing over one object."""
-
     def __init__(self, obj: bpy.types.Object, arrays: Arrays) -> None:
         core = native.load()
         self.obj = obj
@@ -166,8 +137,10 @@ class _ObjectPreview:
         self._pose.follow(obj)
         self._surface = self._posed_surface()  # threads prepare it
         self._islands = IslandMaker(arrays.triangles, lambda cuts: np.asarray(core.face_segments(arrays.surface, cuts)))
-        self._rest, self._curves = Curves(), Curves()  # on the mesh without modifiers, and as they are seen
-        self._lines: list[Lines] | None = None
+        self._curves = Curves()
+        self._seen: list[NDArray[np.float64]] = []  # the curves that the mouse finds, where the mesh is seen
+        self._segments = Segments(self._seen)
+        self._lines: Sheet | None = None
         self._faces: ColoredFaces | None = None
         self._squares: NDArray[np.float64] | None = None
         self._checks: CheckedFaces | None = None
@@ -186,7 +159,7 @@ class _ObjectPreview:
         self.repose()
         if squares is not self._squares:
             self._squares, self._checks = squares, None
-        self._rest = curves
+        self._curves = curves
         self._place_curves()
         self._count += 1
         self._islands.ask(self._count, cuts)
@@ -199,14 +172,11 @@ class _ObjectPreview:
             self._place_curves()
 
     def _place_curves(self) -> None:
-        kinds = {field.name: getattr(self._rest, field.name) for field in fields(Curves)}
-        before = self._found_by_mouse
-        self._curves = Curves(**{name: [self._pose.places(curve) for curve in own] for name, own in kinds.items()})
-        self._lines = None
-        after = self._found_by_mouse
-        if len(before) != len(after) or not all(map(np.array_equal, before, after)):
+        before, self._lines = self._seen, None
+        self._seen = [self._pose.places(curve) for curve in (*self._curves.borders, *self._curves.dropped)]
+        self._segments = Segments(self._seen)
+        if len(before) != len(self._seen) or not all(map(np.array_equal, before, self._seen)):
             self.hovered = None  # other slits alone leave the highlight where it is
-        self.__dict__.pop("_segments", None)
 
     def check(self) -> None:
         """Raise what went wrong while islands were computed."""
@@ -220,14 +190,6 @@ class _ObjectPreview:
 
     def _posed_surface(self) -> VisibleSurface:
         return VisibleSurface(replace(self._arrays, points=self._pose.points))
-
-    @cached_property
-    def _segments(self) -> Segments:
-        return Segments(self._found_by_mouse)
-
-    @property
-    def _found_by_mouse(self) -> list[NDArray[np.float64]]:
-        return [*self._curves.borders, *self._curves.dropped]
 
     def at(self, place: Place) -> tuple[float, Pointed] | None:
         """Return what is under the mouse, and how far away it is; None if it is nothing of the object."""
@@ -264,18 +226,19 @@ class _ObjectPreview:
                 self._checks = CheckedFaces(self._pose.points[self._arrays.triangles], self._squares)
             self._checks.draw_over(eye, _LIGHT, _DARK)
         if self._lines is None:
-            self._lines = [Lines(style, _pieces(curves)) for style, curves in self._styled(looks)]
-        for lines in self._lines:
-            with blended("GREATER"):
-                lines.draw_hidden(eye, lines.style.hidden)
-        for lines in self._lines:
-            with blended("LESS_EQUAL"):
-                lines.draw(eye)
+            self._lines = Sheet(self._pose)
+            for style, curves in self._styled(looks):
+                for curve in curves:
+                    self._lines.curve(style, curve)
+            self._lines.finish()
+        for hidden in (True, False):
+            with blended("GREATER" if hidden else "LESS_EQUAL"):
+                self._lines.draw_lines(eye, hidden)
 
     def _styled(self, looks: Looks) -> Iterator[tuple[Style, Sequence[NDArray[np.float64]]]]:
         """Yield the curves in the order in which they are drawn."""
         if self.hovered is not None:
-            yield looks.hovered, [self._found_by_mouse[self.hovered]]
+            yield looks.hovered, [[*self._curves.borders, *self._curves.dropped][self.hovered]]
         yield looks.mirrored, self._curves.slits  # thinner than borders, for clicks do not change them
         yield looks.clear, self._curves.dropped
         yield looks.kept, self._curves.borders
@@ -286,12 +249,6 @@ class _ObjectPreview:
             return False
         self.hovered, self._lines = border, None
         return True
-
-
-def _pieces(curves: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
-    """Return the segments of curves, (k, 2, 3)."""
-    pieces = [np.stack([curve[:-1], curve[1:]], axis=1) for curve in curves if len(curve) > 1]
-    return np.concatenate([np.empty((0, 2, 3)), *pieces])
 
 
 class PlanPreview:

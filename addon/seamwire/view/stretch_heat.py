@@ -48,17 +48,7 @@ class _Summary(NamedTuple):
 
 
 class StretchHeat(Layer):
-    """The stretch of one object's UV map.
-
-    Parameters
-    ----------
-    arrays
-        The mesh.
-    islands
-        Computes the islands of its triangles.
-    pose
-        Where the mesh is seen.
-    """
+    """The stretch of one object's UV map, and of the islands that a maker finds."""
 
     def __init__(self, arrays: Arrays, islands: IslandMaker, pose: Pose) -> None:
         self._arrays = arrays

@@ -27,59 +27,23 @@ _BRIGHTNESS = 0.5
 
 @dataclass(frozen=True)
 class Style:
-    """How a line or a dot looks; sizes in pixels at a display scale of 1.
+    """How a line or a dot looks; sizes in pixels at a display scale of 1."""
 
-    Parameters
-    ----------
-    color
-        Red, green, blue, opacity.
-    width
-        Of the line, or of the dot.
-    halo
-        How much wider the dark rim is.
-    hidden
-        How much of the opacity is left where the mesh lies before it.
-    lift
-        By how many pixels it is drawn before the surface.
-    dash
-        Length of a dash and of the gap after it; 0: a plain line.
-    ring
-        A ring of this width and color around a dot, inside the rim.
-    soft
-        Drawn as a band that fades towards its sides.
-    """
-
-    color: Color
+    color: Color  # red, green, blue, opacity
     width: float
-    halo: float = 0.0
-    hidden: float = 0.25
-    lift: float = 4.0
-    dash: float = 0.0
-    ring: tuple[float, Color] | None = None
-    soft: bool = False
+    halo: float = 0.0  # how much wider the dark rim is
+    hidden: float = 0.25  # how much of the opacity is left where the mesh lies before it
+    lift: float = 4.0  # by how many pixels it is drawn before the surface
+    dash: float = 0.0  # the length of a dash and of the gap after it; 0: a plain line
+    ring: tuple[float, Color] | None = None  # of this width and color around a dot, inside the rim
+    soft: bool = False  # whether it is a band that fades towards its sides
 
 
 class Looks:
-    """The styles of all that the overlay draws.
-
-    Parameters
-    ----------
-    kept
-        The color of kept wires.
-    line_width
-        How many times as wide lines are as usual.
-    tint
-        Opacity of islands.
-    text
-        Which text the view shows, as in the preferences.
-    """
+    """The styles of all that the overlay draws: the color of `kept` wires, and values of the preferences."""
 
     def __init__(
-        self,
-        kept: Color = (1.0, 0.2, 0.1, 1.0),
-        line_width: float = 1.0,
-        tint: float = 0.22,
-        text: str = "INFORMATION",
+        self, kept: Color = (1.0, 0.2, 0.1, 1.0), line_width: float = 1.0, tint: float = 0.22, text: str = "INFORMATION"
     ) -> None:
         active, other, loop = (1.0, 0.72, 0.05, 1.0), (0.45, 0.8, 1.0, 0.9), (0.3, 1.0, 0.55, 1.0)
         clear, white = (0.82, 0.86, 0.95, 1.0), (1.0, 1.0, 1.0, 1.0)
@@ -158,10 +122,7 @@ def vivid(color: Sequence[float]) -> Color:
 
 
 def hue_colors(opacity: float) -> list[Color]:
-    """Return the islands' colors; those next to each other in the list are far apart in hue.
-
-    From yellow-green to pink: red and orange are left to wires and seams.
-    """
+    """Return the islands' colors, each far from the next in hue, without red and orange, which are left to wires and seams."""
     hues = np.linspace(0.24, 0.88, HUES)
     return [(*_light(float(hues[place])), opacity) for place in PLACES]
 

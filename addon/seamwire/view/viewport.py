@@ -29,25 +29,13 @@ def clipping_planes(region_3d: bpy.types.RegionView3D) -> NDArray[np.float64]:
 
 @dataclass(frozen=True)
 class Place:
-    """A pixel of a 3D view.
-
-    Parameters
-    ----------
-    area, region
-        The view.
-    view
-        How it sees the world.
-    cursor
-        Pixels from the region's bottom left.
-    x, y
-        Pixels of the window.
-    """
+    """A pixel of a 3D view."""
 
     area: bpy.types.Area
     region: bpy.types.Region
-    view: Camera
-    cursor: tuple[float, float]
-    x: int
+    view: Camera  # how the view sees the world
+    cursor: tuple[float, float]  # from the region's bottom left
+    x: int  # in the window
     y: int
 
     def away(self, other: Place) -> int:
@@ -75,7 +63,9 @@ def place_of(window: bpy.types.Window, event: bpy.types.Event) -> Place | None:
 
 def place_in(area: bpy.types.Area, region: bpy.types.Region, location: tuple[int, int]) -> Place:
     """Return a pixel of a 3D view, counted from the bottom left of its region."""
-    region_3d = _region_3d(area, region)
+    windows = [one for one in area.regions if one.type == "WINDOW"]
+    quads = area.spaces.active.region_quadviews  # a quad view has four, other views have none
+    region_3d = quads[windows.index(region)] if quads else area.spaces.active.region_3d
     perspective = np.array(region_3d.perspective_matrix, dtype=np.float64)
     view = Camera(region.width, region.height, perspective, clipping_planes(region_3d))
     x, y = location
@@ -84,13 +74,3 @@ def place_in(area: bpy.types.Area, region: bpy.types.Region, location: tuple[int
 
 def _contains(box: bpy.types.Area | bpy.types.Region, x: int, y: int) -> bool:
     return box.x <= x < box.x + box.width and box.y <= y < box.y + box.height
-
-
-def _region_3d(area: bpy.types.Area, region: bpy.types.Region) -> bpy.types.RegionView3D:
-    """Return what a window region of a 3D view shows; a quad view has four."""
-    space = area.spaces.active
-    quads = space.region_quadviews
-    if not quads:
-        return space.region_3d
-    windows = [one for one in area.regions if one.type == "WINDOW"]
-    return quads[windows.index(region)]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the corner of the view says: what a click would take, how wires run, and what the seams have parted."""
+"""What the corner of the view says: the first steps, what a click would take, how wires run, and what the seams have parted."""
 
 from __future__ import annotations
 
@@ -10,20 +10,17 @@ from .reports import count
 
 if TYPE_CHECKING:
     from ..core.drawing.picture import Picture
-    from ..core.islands.islands import Islands
 
 
-def _islands(islands: Islands) -> str:
-    """Say how many islands there are, and how many seams end just before another one."""
-    found = count(islands.count, "island")
-    return f"{found}, {count(len(islands.gaps), 'gap')} in seams" if islands.gaps else found
-
-
-def _island(islands: Islands, number: int) -> str:
-    """Say which island that is, and what it needs to lie flat."""
-    size, cuts = int(islands.sizes[number]), int(islands.missing[number])
-    found = f"Island {number + 1}: {count(size, 'triangle')}"
-    return f"{found}, flat with {count(cuts, 'more cut')}" if cuts else found
+STEPS = (
+    ("MOUSE_LMB", "Click to begin, and click again to keep a wire"),
+    ("MOUSE_LMB_DRAG", "Drag to draw a seam by hand"),
+    ("MOUSE_LMB", "Hold Alt to pick a whole loop"),
+    ("MOUSE_LMB_DRAG", "Hold Shift and drag to guide the wires"),
+)
+"""Blender's icon of each gesture, and what it does."""
+FIRST_LINES = (*(text for _, text in STEPS), "Press F1 for all keys, and to hide these lines")
+"""The lines for newcomers."""
 
 
 def lines(picture: Picture) -> list[str]:
@@ -41,9 +38,13 @@ def lines(picture: Picture) -> list[str]:
             which = "Around the limb"
         found.append(f"{which} ({choice.number + 1} of {choice.count})")
     if islands is not None and islands.parted:
-        found.append(_islands(islands))
-        if picture.pointed_island is not None:
-            found.append(_island(islands, picture.pointed_island))
+        gaps = f", {count(len(islands.gaps), 'gap')} in seams" if islands.gaps else ""
+        found.append(f"{count(islands.count, 'island')}{gaps}")
+        number = picture.pointed_island
+        if number is not None:
+            cuts = int(islands.missing[number])
+            needs = f", flat with {count(cuts, 'more cut')}" if cuts else ""
+            found.append(f"Island {number + 1}: {count(int(islands.sizes[number]), 'triangle')}{needs}")
     way = "Along edges" if options.along == "EDGES" else "Across the surface"
     default = next(iter(METRICS))
     metric = "" if options.metric == default else METRICS[options.metric].name.lower()

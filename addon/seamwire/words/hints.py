@@ -47,34 +47,16 @@ _IDLE = (
 
 @dataclass(frozen=True)
 class Status:
-    """The state of a chain, as far as the status bar describes it.
+    """The state of a chain, as far as the status bar describes it."""
 
-    Parameters
-    ----------
-    picture
-        The picture of the object under the mouse.
-    keys
-        The action of each key.
-    message
-        The result of the last key.
-    mirror_offer
-        The letters of the axes that the mesh is symmetric over and that are not mirrored.
-    """
-
-    picture: Picture
+    picture: Picture  # of the object under the mouse
     keys: Bindings
-    message: str = ""
-    mirror_offer: str = ""
+    message: str = ""  # the result of the last key
+    mirror_offer: str = ""  # the letters of the axes that the mesh is symmetric over and that are not mirrored
 
 
 def idle_hints(keys: Mapping[str, Key]) -> list[Hint]:
-    """Return what a newcomer can do before the first click.
-
-    Parameters
-    ----------
-    keys
-        The keys of the tool by the names of what they begin with. Keys that are missing give no hint.
-    """
+    """Return what a newcomer can do before the first click, with the keys of the tool by the names of what they begin with."""
     found: list[Hint] = []
     for name, text, is_drag in _IDLE:
         key = keys.get(name)
@@ -99,13 +81,7 @@ def hints(status: Status) -> list[Hint]:
         found.append(("INFO", status.message))
     if picture.message:
         found.append(("ERROR", str(picture.message)))
-    deeds = [
-        *_click(picture),
-        (Action.END, "End Chain"),
-        (Action.KEYS, "Keys"),
-        *_wires(picture),
-        *_guides(status),
-    ]
+    deeds = [*_click(picture), (Action.END, "End Chain"), (Action.KEYS, "Keys"), *_wires(picture), *_guides(status)]
     for action, text in deeds:
         icon, before = keys.icon(action)
         if icon or before:

@@ -91,18 +91,9 @@ _ANY = {"ctrl": -1, "shift": -1, "alt": -1, "oskey": -1}
 
 
 class Action(Enum):
-    """Everything that keys can do.
+    """Everything that keys can do: its text in the preferences and in tables of keys, its number, the group of the table, its keys.
 
-    Parameters
-    ----------
-    text
-        Its name in the preferences and in the table of keys.
-    number
-        What Blender stores of it with the keys that a user has changed. A number is never given to another action.
-    group
-        Where the panel with all keys shows it.
-    keys
-        Its keys.
+    Blender stores the number with the keys that a user has changed. A number is never given to another action.
     """
 
     CLICK = ("Add Seed, Keep Wire, Join (drag: Draw Line, Move Seed)", 1, "Draw", Key("LEFTMOUSE"))
@@ -157,16 +148,9 @@ _NAMES = {
     "ACCENT_GRAVE": "`",
     "COMMA": ",",
     "PERIOD": ".",
-    "ONE": "1",
-    "TWO": "2",
-    "THREE": "3",
-    "FOUR": "4",
-    "FIVE": "5",
-    "SIX": "6",
-    "SEVEN": "7",
-    "EIGHT": "8",
-    "NINE": "9",
-    "ZERO": "0",
+    **dict(
+        zip(("ZERO", "ONE", "TWO", "THREE", "FOUR", "FIVE", "SIX", "SEVEN", "EIGHT", "NINE"), "0123456789", strict=True)
+    ),
 }
 _ICONS = {
     "LEFTMOUSE": "MOUSE_LMB",
@@ -183,13 +167,7 @@ WHEEL = ("WHEELUPMOUSE", "WHEELDOWNMOUSE")
 
 
 class Bindings:
-    """What each key does now.
-
-    Parameters
-    ----------
-    keys
-        Actions and their keys; the first that matches counts.
-    """
+    """What each key does now: actions and their keys, of which the first that matches counts."""
 
     def __init__(self, keys: Sequence[tuple[Action, Key]] = KEYS) -> None:
         # A double click is a press as well: those who want two come first.
@@ -256,17 +234,7 @@ class DoubleClicks:
         self._released: tuple[str, float, int, int] | None = None
 
     def is_second(self, event: Event, now: float, preferences: Preferences) -> bool:
-        """Whether an event is the second press of a double click. To be asked of every event of the mouse's buttons.
-
-        Parameters
-        ----------
-        event
-            Any; only the buttons of the mouse count.
-        now
-            Seconds, from any beginning.
-        preferences
-            For what counts as a double click and as the same place.
-        """
+        """Whether an event is the second press of a double click, `now` in seconds. To be asked of every event of the mouse's buttons."""
         if not event.type.endswith("MOUSE") or event.type.startswith("WHEEL"):
             return False
         pressed, self._pressed = self._pressed, (event.mouse_x, event.mouse_y) if event.value == "PRESS" else None

@@ -3,8 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -12,33 +11,18 @@ if TYPE_CHECKING:
 LEVELS = ("INFO", "WARNING", "ERROR")
 
 
-@dataclass(frozen=True)
-class Notice:
-    """Something to report.
-
-    Parameters
-    ----------
-    level
-        How Blender shows it.
-    text
-        The report.
-    """
+class Notice(NamedTuple):
+    """Something to report, and how Blender shows it."""
 
     level: Literal["INFO", "WARNING", "ERROR"]
     text: str
 
 
 class Notices:
-    """What waits to be reported, and what the status bar shows.
-
-    Attributes
-    ----------
-    hint
-        The result of the last key, for the status bar, or an empty text.
-    """
+    """What waits to be reported, and what the status bar shows."""
 
     def __init__(self) -> None:
-        self.hint = ""
+        self.hint = ""  # the result of the last key, for the status bar
         self._waiting: list[Notice] = []
 
     def add(self, level: Literal["INFO", "WARNING", "ERROR"], text: str) -> None:
@@ -54,5 +38,5 @@ class Notices:
 
     def tell(self, report: Callable[[set[str], str], None]) -> None:
         """Report what waits, once. `report` takes the level and the text, as operators of Blender do."""
-        for notice in self.take():
-            report({notice.level}, notice.text)
+        for level, text in self.take():
+            report({level}, text)

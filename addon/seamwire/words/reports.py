@@ -87,15 +87,7 @@ def is_beyond(stretch: float, wanted: float) -> bool:
 
 
 def not_reached(stretches: Sequence[float], wanted: float) -> str:
-    """Return the report that the maps of objects have more stretch than wanted, or an empty text.
-
-    Parameters
-    ----------
-    stretches
-        The stretch of each map, in percent.
-    wanted
-        The stretch that was asked for, in percent.
-    """
+    """Return the report that the maps of objects have more stretch than wanted, in percent, or an empty text."""
     beyond = sum(is_beyond(stretch, wanted) for stretch in stretches)
     if not beyond:
         return ""

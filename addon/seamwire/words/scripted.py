@@ -18,13 +18,7 @@ if TYPE_CHECKING:
 
 
 def draw_chain(session: Session, seeds: Iterable[Pick]) -> list[str]:
-    """Draw a chain of seeds, waiting for each wire.
-
-    Returns
-    -------
-    list of str
-        What could not be done, in words. The chain goes on from the last seed that was reached.
-    """
+    """Draw a chain of seeds, always on from the last one that was reached. Wait for each wire, and return what could not be done."""
     problems = []
     session.end_chain()
     for pick in seeds:
@@ -37,22 +31,7 @@ def draw_chain(session: Session, seeds: Iterable[Pick]) -> list[str]:
 
 
 def draw_loop(session: Session, pick: Pick, kind: LoopKind | None = None) -> str:
-    """Take the loop or strip through an edge, or the closed cut through a point of the surface.
-
-    Parameters
-    ----------
-    session
-        That draws along edges, or across the surface.
-    pick
-        The edge or point.
-    kind
-        The kind of loop through the edge, or None for the first one that a click offers.
-
-    Returns
-    -------
-    str
-        What could not be done, in words. An empty text if it was done.
-    """
+    """Take the loop through an edge, the first of its kind, or the closed cut through a point. Return what could not be done."""
     before = session.wires
     if kind is not None and isinstance(pick, tuple) and not _turn_to(session, pick, kind):
         return f"No {LOOPS[kind]} runs through {pick_name(pick)}"

@@ -31,37 +31,17 @@ def parts_text(amount: float, number: int, stretch: float) -> str:
 
 @dataclass(frozen=True)
 class Outcome:
-    """The result of a suggestion for all objects together.
-
-    Parameters
-    ----------
-    wires, marked
-        The numbers of wires and of marked edges.
-    missing
-        How many more cuts each island needs to become a disc. Islands may have holes.
-    islands_wanted
-        The number of islands that was asked for but not reached; 0 if it was reached.
-    stretch
-        The mean stretch of all maps in percent; None if there are no maps.
-    stretches
-        The stretch of each object's map in percent.
-    stretch_wanted
-        The stretch that was asked for in percent.
-    unwrapped
-        The number of unwrapped islands; None if nothing was to be unwrapped, or could be.
-    faults
-        The faults of these islands.
-    """
+    """The result of a suggestion for all objects together. Stretch is in percent."""
 
     wires: int
-    marked: int
-    missing: Sequence[int]
-    islands_wanted: int = 0
-    stretch: float | None = None
-    stretches: Sequence[float] = ()
+    marked: int  # edges
+    missing: Sequence[int]  # how many more cuts each island needs to become a disc; islands may have holes
+    islands_wanted: int = 0  # the number of islands that was asked for but not reached; 0 if it was reached
+    stretch: float | None = None  # the mean of all maps; None if there are no maps
+    stretches: Sequence[float] = ()  # of each object's map
     stretch_wanted: float = 0.0
-    unwrapped: int | None = None
-    faults: MapFaults = NO_FAULTS
+    unwrapped: int | None = None  # the number of islands; None if nothing was to be unwrapped, or could be
+    faults: MapFaults = NO_FAULTS  # of these islands
 
     @property
     def is_good(self) -> bool:
@@ -99,7 +79,6 @@ class Outcome:
         return parts
 
     def _problems(self) -> list[str]:
-        """Return what was asked for and not reached."""
         parts = []
         if self.islands_wanted:
             parts.append(f"fewer than {self.islands_wanted} because no island can be cut further")

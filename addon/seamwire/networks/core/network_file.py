@@ -10,7 +10,7 @@ from __future__ import annotations
 import itertools
 import json
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...core.network.network import Network
-    from ...core.network.picks import Edge
     from ...core.network.strokes import Stroke
     from ...core.network.wires import Wire
 
@@ -53,22 +52,12 @@ class Origin(NamedTuple):
 
 @dataclass(frozen=True)
 class Course:
-    """Where a wire runs, to be found on another mesh.
+    """Where a wire runs, to be found on another mesh. The first vertex does not come again in a closed wire."""
 
-    Parameters
-    ----------
-    record
-        The wire, see `serialization.wire_record`.
-    places, normals
-        (k, 3) of its vertices, in object coordinates; the first one does not come again in a closed wire.
-    creases
-        (k,) the largest angle between triangles at each, in degrees.
-    """
-
-    record: Record
-    places: NDArray[np.float64]
-    normals: NDArray[np.float64]
-    creases: NDArray[np.float64]
+    record: Record  # the wire, see `serialization.wire_record`
+    places: NDArray[np.float64]  # (k, 3) of its vertices, in object coordinates
+    normals: NDArray[np.float64]  # (k, 3)
+    creases: NDArray[np.float64]  # (k,) the largest angle between triangles at each, in degrees
 
     @property
     def spacing(self) -> float:
@@ -87,25 +76,13 @@ class Course:
 
 @dataclass(frozen=True)
 class NetworkFile:
-    """The content of a file.
-
-    Parameters
-    ----------
-    origin
-        The mesh it was drawn on.
-    metric, clamp
-        What wires are drawn by, and the percentile of feature strengths that counts as the strongest.
-    courses
-        The wires, by their vertices.
-    strokes
-        Records of strokes, see `serialization.stroke_record`.
-    """
+    """The content of a file."""
 
     origin: Origin
     metric: MetricName
-    clamp: float
-    courses: tuple[Course, ...]
-    strokes: tuple[Record, ...]
+    clamp: float  # the percentile of feature strengths that counts as the strongest
+    courses: tuple[Course, ...]  # by their vertices
+    strokes: tuple[Record, ...]  # see `serialization.stroke_record`
 
     @classmethod
     def of(
@@ -165,10 +142,7 @@ class NetworkFile:
 
     @classmethod
     def parse(cls, text: str) -> NetworkFile:
-        """Read what `text` wrote.
-
-        Raises NetworkFileError if it is not such a file, is damaged, or a later version wrote it. The message says where.
-        """
+        """Read what `text` wrote. Raises NetworkFileError if that is not so, a later version wrote it, or where it is damaged."""
         try:
             data = json.loads(text)
         except (ValueError, RecursionError) as error:
@@ -184,10 +158,10 @@ class NetworkFile:
             raise NetworkFileError("file-by-newer", version=version, known=VERSION)
         try:
             where = "mesh"
-            mesh = data["mesh"]
-            counts = [_count(mesh[key]) for key in ("vertices", "edges", "triangles")]
-            moments = Moments(_point(mesh["middle"]), _points(mesh["axes"], 3))
-            origin = Origin(str(mesh["name"]), *counts, moments)
+            stored = data["mesh"]
+            counts = [_count(stored[key]) for key in ("vertices", "edges", "triangles")]
+            moments = Moments(_points([stored["middle"]], 1)[0], _points(stored["axes"], 3))
+            origin = Origin(str(stored["name"]), *counts, moments)
             where = "metric"
             metric, clamp = data["metric"], float(data["clamp"])
             if metric not in METRICS or not 0.0 < clamp <= 100.0:
@@ -211,7 +185,9 @@ class NetworkFile:
             return Message.of("other-vertices", count=self.origin.vertices, here=len(shape.points))
         there = {undirected((one, two)) for one, two in shape.edges.tolist()}
         for course in self.courses:
-            for edge in _edges_of(course.record):
+            vertices = course.record["vertices"]
+            around = [*vertices, vertices[0]] if course.record["closed"] else vertices
+            for edge in map(undirected, itertools.pairwise(around)):
                 if edge not in there:
                     return Message.of("other-edges", pick=edge)
         return NOTHING
@@ -227,11 +203,6 @@ class NetworkFile:
             for record in self.strokes
         )
         return [stroke for stroke in found if stroke is not None]
-
-
-def _edges_of(record: Record) -> Iterable[Edge]:
-    around = [*record["vertices"], *(record["vertices"][:1] if record["closed"] else ())]
-    return (undirected(pair) for pair in itertools.pairwise(around))
 
 
 def _line(value: object) -> str:
@@ -272,10 +243,6 @@ def _points(stored: object, count: int) -> NDArray[np.float64]:
     if points.shape != (count, 3) or not np.isfinite(points).all():
         raise ValueError
     return points
-
-
-def _point(stored: object) -> NDArray[np.float64]:
-    return _points([stored], 1)[0]
 
 
 _PACKED = ("curve", "places", "ends", "faces")

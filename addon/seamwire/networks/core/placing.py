@@ -60,24 +60,12 @@ def within(progress: Progress, begin: float, end: float) -> Progress:
 
 @dataclass(frozen=True)
 class Shape:
-    """A mesh as arrays.
+    """A mesh as arrays."""
 
-    Parameters
-    ----------
-    points
-        (n, 3) vertices as sessions have them.
-    triangles
-        (m, 3)
-    edges
-        (e, 2) the edges that wires may run along.
-    to_object
-        (3, 3) takes `points` to object coordinates, ``points @ to_object.T``; None: they are such.
-    """
-
-    points: NDArray[np.float64]
-    triangles: NDArray[np.int32]
-    edges: NDArray[np.int32]
-    to_object: NDArray[np.float64] | None = None
+    points: NDArray[np.float64]  # (n, 3) vertices as sessions have them
+    triangles: NDArray[np.int32]  # (m, 3)
+    edges: NDArray[np.int32]  # (e, 2) the edges that wires may run along
+    to_object: NDArray[np.float64] | None = None  # (3, 3) takes `points` to object coordinates; None: they are such
 
     @cached_property
     def where(self) -> Places:
@@ -155,21 +143,11 @@ def doubt_between(way: Similarity, rival: Similarity) -> Message:
 
 @dataclass(frozen=True)
 class Placed:
-    """Points on a mesh.
+    """Points on a mesh."""
 
-    Parameters
-    ----------
-    triangles
-        (k,) the triangle of each point, or -1.
-    places
-        (k, 3) in object coordinates.
-    confidence
-        (k,) from 0, nothing is known, to 1, it is certain.
-    """
-
-    triangles: NDArray[np.int64]
-    places: NDArray[np.float64]
-    confidence: NDArray[np.float64]
+    triangles: NDArray[np.int64]  # (k,) the triangle of each point, or -1
+    places: NDArray[np.float64]  # (k, 3) in object coordinates
+    confidence: NDArray[np.float64]  # (k,) from 0, nothing is known, to 1, it is certain
 
 
 @dataclass(frozen=True)
@@ -223,22 +201,9 @@ class Similarity:
 
 
 class NearestSurface:
-    """Finds the points of a mesh that are nearest to places.
+    """Finds the points of a mesh that are nearest to places. Raises ValueError if it has no triangle."""
 
-    Parameters
-    ----------
-    shape
-        The mesh, with a triangle at least.
-    go_on
-        Is asked again and again, with any fraction, whether to continue. Where it returns False, `seamwire_core.Cancelled` is raised.
-
-    Raises
-    ------
-    ValueError
-        Where it has none.
-    """
-
-    def __init__(self, shape: Shape, go_on: Progress = lambda _: True) -> None:
+    def __init__(self, shape: Shape, go_on: Progress = lambda _: True) -> None:  # `go_on` gets any fraction
         if not len(shape.triangles):
             raise Refused("no-visible-faces")
         self._shape, self._go_on = shape, go_on
@@ -274,16 +239,8 @@ class NearestSurface:
         """Find what brings points of a mesh onto this one, and return a message if something else lays them elsewhere about as well.
 
         They stay where they are if they lie on it. Otherwise ICP starts there and from the four alignments of the principal axes without
-        a reflection (Besl, McKay, A method for registration of 3-D shapes, 1992). The best result is taken.
-
-        Parameters
-        ----------
-        points
-            (k, 3) in object coordinates.
-        moments
-            Of their mesh.
-        progress
-            See `transfer`.
+        a reflection (Besl, McKay, A method for registration of 3-D shapes, 1992). The best result is taken. The points, (k, 3) in object
+        coordinates, are of a mesh with these moments.
         """
         size = self._shape.size
         some = points[np.linspace(0, len(points) - 1, min(len(points), _SAMPLE)).astype(np.int64)]
@@ -366,19 +323,8 @@ class Landmarks:
     Poses change these little. Two places can have the same distances, such as both sides of a symmetric shape with all pairs in its
     plane. Then the nearer one counts after the pairs were aligned.
 
-    Parameters
-    ----------
-    source, target
-        The meshes.
-    pairs
-        (k, 2) a vertex of each that are the same point of the shape, three pairs at least.
-    progress
-        Is told the fraction done of measuring distances. Later it is asked whether to continue. See `transfer`.
-
-    Raises
-    ------
-    ValueError
-        Where there are fewer, or one is not there.
+    A pair, of (k, 2), is a vertex of each mesh, at the same point of the shape. Raises ValueError if there are fewer than three pairs, or
+    a vertex is not there. `progress` is told the fraction done of measuring distances. Later it is asked whether to continue.
     """
 
     _RESOLUTION = 0.02
@@ -428,8 +374,8 @@ class Landmarks:
                 best[row] = used[0]
                 continue
             # Near pairs say more: poses change long ways most.
-            off = (there[:, known] - wanted[known]) / (self._RESOLUTION * size + self._CHANGE * wanted[known])
-            square = (off**2).mean(axis=1)
+            usual = self._RESOLUTION * size + self._CHANGE * wanted[known]
+            square = (((there[:, known] - wanted[known]) / usual) ** 2).mean(axis=1)
             aside = ((target.places[used] - self._aligned[vertex]) ** 2).sum(axis=1) / size**2
             chosen = int(np.argmin(square + self._TIE * aside))
             best[row] = used[chosen]
@@ -437,7 +383,7 @@ class Landmarks:
             far = np.linalg.norm(target.places[used] - target.places[used[chosen]], axis=1) > 4.0 * edge
             rival = np.sqrt(square[far].min()) if far.any() else np.inf
             # Where the distances are off by more than edges are long, so is the place.
-            weights = (self._RESOLUTION * size + self._CHANGE * wanted[known]) ** -2.0
+            weights = usual**-2.0
             gaps = ((there[chosen, known] - wanted[known]) ** 2 * weights).sum() / weights.sum()
             exact = 1.0 / (1.0 + gaps / (2.0 * max(float(target.spacing[used[chosen]]), 1e-300)) ** 2)
             likely = _landmark_confidence(np.sqrt(square[chosen]), rival)
@@ -456,11 +402,11 @@ def _landmark_confidence(off: float, rival: float) -> float:
 def _distances(shape: Shape, vertices: NDArray[np.int64], progress: Progress) -> NDArray[np.float64]:
     """Return the distances along the surface from all vertices to some, (n, k), in object coordinates; inf: there is no way."""
     core = native.load()
-    steps = np.linspace(0.0, 1.0, 5 + len(vertices)).tolist()
+    steps = np.linspace(0.0, 1.0, 4 + len(vertices)).tolist()
     parts = iter([within(progress, *step) for step in itertools.pairwise(steps)])
     surface = core.Surface(shape.places, shape.triangles, shape.edges, progress=next(parts))
-    curvatures = core.principal_curvatures(surface, progress=next(parts))
-    flat = core.embed(surface, core.euclidean_metric(surface, curvatures, progress=next(parts)), progress=next(parts))
+    metric = core.make_metric(surface, core.MetricSpec("euclidean"), progress=next(parts))
+    flat = core.embed(surface, metric, progress=next(parts))
     # Several pairs at one vertex, and pairs on separate parts, each count.
     fields = [core.distance_field(flat, int(vertex), progress=next(parts)) for vertex in vertices]
     return np.stack([field.distances / surface.scale for field in fields], axis=1)

@@ -37,18 +37,9 @@ class _WalkStep:
 
 
 class Repeats:
-    """Finds the repeats of wires on one mesh.
+    """Finds the repeats of wires on one mesh, with vertices (n, 3), triangles (m, 3) that its polygons are cut into, and edges (e, 2).
 
     A dart is an edge with a direction: 2 e from the first vertex of edge e to the second, 2 e + 1 back.
-
-    Parameters
-    ----------
-    points
-        (n, 3) vertices of the mesh.
-    triangles
-        (m, 3) what its polygons are divided into.
-    edges
-        (e, 2) its edges.
     """
 
     def __init__(self, points: NDArray[np.float64], triangles: NDArray[np.int32], edges: NDArray[np.int32]) -> None:
@@ -85,9 +76,8 @@ class Repeats:
     def _walk(self, edges: list[int]) -> list[_WalkStep]:
         """Return a walk along all edges that hang together with the first one, breadth first."""
         left = set(edges[1:])
-        steps = [_WalkStep(2 * edges[0], -1, 0)]
         # The walk starts from both ends of the first edge. The way back to its other end counts as a step.
-        steps.append(_WalkStep(2 * edges[0] + 1, -1, 0))
+        steps = [_WalkStep(2 * edges[0], -1, 0), _WalkStep(2 * edges[0] + 1, -1, 0)]
         at = 0
         while at < len(steps):
             back = steps[at].dart ^ 1
@@ -141,10 +131,7 @@ class Repeats:
     def _look_around(self, count: int, triangles: NDArray[np.int32]) -> None:
         """Order the darts that leave each vertex counterclockwise; on the border the first one follows on it."""
         # Sides of triangles that are not edges have darts too, behind those of the edges. The walk turns past them.
-        tails, heads = (
-            triangles.astype(np.int64).reshape(-1),
-            np.roll(triangles, -1, axis=1).astype(np.int64).reshape(-1),
-        )
+        tails, heads = (each.astype(np.int64).reshape(-1) for each in (triangles, np.roll(triangles, -1, axis=1)))
         sides = np.minimum(tails, heads) * count + np.maximum(tails, heads)
         keys = np.sort(self._edges, axis=1).astype(np.int64) @ (count, 1)
         diagonals = np.setdiff1d(sides, keys)
@@ -192,7 +179,6 @@ class Repeats:
 
 
 def _moved(wire: Wire, to: dict[int, int], points: NDArray[np.float64]) -> Wire:
-    """Return a wire where its vertices are at another place."""
     vertices = tuple(to[vertex] for vertex in wire.vertices)
     around = [*vertices, *vertices[:1]] if wire.closed else list(vertices)
 

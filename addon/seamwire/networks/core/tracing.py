@@ -49,24 +49,12 @@ DEGREES = ((0.9, "SURE"), (0.6, "LIKELY"), (DOUBTFUL, "DOUBTFUL"), (0.0, "LOST")
 
 @dataclass(frozen=True)
 class PlacedSeed:
-    """A seed of the network on another mesh.
+    """A seed of the network on another mesh."""
 
-    Parameters
-    ----------
-    source
-        Its vertex on the mesh that it comes from.
-    mirrored
-        The axes over which it was mirrored before, 0 to 2.
-    vertex
-        Its vertex on the target, or None if it has no place.
-    confidence
-        From 0 to 1, see `DEGREES`.
-    """
-
-    source: int
-    mirrored: tuple[int, ...]
-    vertex: int | None
-    confidence: float
+    source: int  # its vertex on the mesh that it comes from
+    mirrored: tuple[int, ...]  # the axes over which it was mirrored before, 0 to 2
+    vertex: int | None  # its vertex on the target, or None if it has no place
+    confidence: float  # from 0 to 1, see `DEGREES`
 
     @property
     def degree(self) -> str:
@@ -84,28 +72,14 @@ class PlacedSeed:
 
 @dataclass
 class Transfer:
-    """A network on another mesh.
+    """A network on another mesh."""
 
-    Attributes
-    ----------
-    wires, strokes
-        The placed wires, connected as in the source, and the placed strokes.
-    seeds
-        All seeds of the network, each once.
-    lost
-        What could not be placed, and why.
-    doubts
-        What else the artist should check.
-    added
-        The number of seeds between those of the network.
-    """
-
-    wires: list[Wire] = field(default_factory=list)
+    wires: list[Wire] = field(default_factory=list)  # connected as in the source
     strokes: list[Stroke] = field(default_factory=list)
-    seeds: list[PlacedSeed] = field(default_factory=list)
-    lost: list[Message] = field(default_factory=list)
-    doubts: list[Message] = field(default_factory=list)
-    added: int = 0
+    seeds: list[PlacedSeed] = field(default_factory=list)  # all seeds of the network, each once
+    lost: list[Message] = field(default_factory=list)  # what could not be placed, and why
+    doubts: list[Message] = field(default_factory=list)  # what else the artist should check
+    added: int = 0  # the number of seeds between those of the network
 
     @property
     def degrees(self) -> dict[str, int]:
@@ -164,15 +138,7 @@ Key = tuple[tuple[int, ...], int]
 
 
 class Tracing:
-    """Draws the wires of a network on another mesh.
-
-    Parameters
-    ----------
-    progress
-        See `transfer`.
-    stray
-        How many edges wires may run beside their courses.
-    """
+    """Draws the wires of a network on another mesh. They may `stray` so many edges from their courses."""
 
     def __init__(
         self,
@@ -219,7 +185,9 @@ class Tracing:
             for group in groups([[(axes, vertex) for vertex in course.record["vertices"]] for course, axes in runs]):
                 self._keep_together(group, runs, placed, place_on)
         pieces = [_placed(*run, found) for run, found in zip(runs, placed, strict=True)]
-        self._find_seeds(pieces)
+        for piece in pieces:  # each vertex where wires end is placed once, so that what met meets
+            for row in () if piece.course.record["closed"] else (0, -1):
+                self._seed(piece, row)
         pieces = list(self._cut(pieces))
         for number, piece in enumerate(pieces):
             self._done = PLACED + (1.0 - PLACED) * number / len(pieces)
@@ -253,14 +221,6 @@ class Tracing:
             )
 
     # Seeds
-
-    def _find_seeds(self, pieces: Sequence[_CoursePart]) -> None:
-        """Place each vertex where wires end once, so that what met meets."""
-        for piece in pieces:
-            if piece.course.record["closed"]:
-                continue
-            for row in (0, -1):
-                self._seed(piece, row)
 
     def _seed(self, piece: _CoursePart, row: int) -> int | None:
         key = piece.axes, piece.vertices[row]

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from ...core.base import native
 from ...core.base.geometry import Moments
 from ...core.base.messages import NOTHING, Refused
+from ...core.base.nearest_vertices import NearestVertices
 from ...core.network.network import Network
 from ...core.network.symmetry import MirrorImages, Symmetry
 from ...core.solver.solver import LiveMaker
@@ -21,7 +21,6 @@ from .tracing import STRAY, PlacedSeed, Tracing, Transfer
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
-    from seamwire_core import NearestPoints
 
 Place = Literal["AUTO", "NUMBERS", "SURFACE", "PAIRS"]
 """How seeds are placed: by vertex numbers, on the nearest surface, or by distances to pairs of vertices. AUTO takes numbers if the topology
@@ -48,12 +47,6 @@ def transfer(
 
     Parameters
     ----------
-    file
-        The network.
-    target
-        The mesh.
-    place
-        How seeds are placed.
     mirror
         The axis, 0 to 2, over which the network is mirrored first, or None. Then it is placed on the surface.
     align
@@ -64,15 +57,13 @@ def transfer(
         (k, 2) vertices of the source and of the target that are the same point of the shape, three pairs at least.
     topology
         By numbers: whether mirror images are found by how the mesh is connected, see `Symmetry`.
-    live
-        Makes live wires on the target. None to make them here.
-    progress
-        Is told the fraction done; where it returns False, `seamwire_core.Cancelled` is raised.
 
     Raises
     ------
     ValueError
         If the mesh, the pairs or the choices do not fit.
+    seamwire_core.Cancelled
+        If `progress` returns False.
     """
     pairs = np.array(pairs, dtype=np.int64).reshape(-1, 2)
     if mirror is not None and place in {"NUMBERS", "PAIRS"}:
@@ -109,10 +100,9 @@ class _Told:
         return self._progress(self._done)
 
 
-def _check(file: NetworkFile, mesh: Shape) -> None:
+def _check(file: NetworkFile, shape: Shape) -> None:
     """Raise NetworkFileError if a network was drawn on another mesh."""
-    problem = file.problem_with(mesh)
-    if problem:
+    if problem := file.problem_with(shape):
         raise NetworkFileError(problem)
 
 
@@ -167,20 +157,15 @@ def _by_pairs(
     tell(progress, PLACED)
 
     @functools.cache
-    def vertices() -> NearestPoints:
-        # Triangles without area, so that vertices without faces are found as well.
-        triangles = np.repeat(np.arange(len(source.places)), 3).reshape(-1, 3)
-        return native.load().NearestPoints(source.places, triangles, progress=progress.go_on)
-
-    def nearest(points: NDArray[np.float64]) -> NDArray[np.int64]:
-        return vertices().find(points, progress=progress.go_on)[0].astype(np.int64)
+    def vertices() -> NearestVertices:
+        return NearestVertices(source.places)
 
     def place(course: Course, axes: tuple[int, ...]) -> Placed:
         if axes:
-            return landmarks.place(nearest(Similarity.mirroring(*axes).of(course.places)))
+            return stroke(Similarity.mirroring(*axes).of(course.places))
         return landmarks.place(np.array(course.record["vertices"], dtype=np.int64))
 
     def stroke(points: NDArray[np.float64]) -> Placed:
-        return landmarks.place(nearest(points))
+        return landmarks.place(vertices().find(points, np.inf))
 
     return Tracing(file, target, surface, live, progress, stray=2.0 * STRAY).run(place, stroke)
