@@ -13,7 +13,6 @@ from pathlib import Path
 import pytest
 from blender_refusal import BLENDERS
 from seamwire.terms.choices import FINISHES
-from seamwire.words.sentences import SENTENCES
 
 ROOT = Path(__file__).parent.parent / "seamwire"
 LAB = ROOT.parent / "seamwire_lab"
@@ -247,30 +246,6 @@ def test_the_core_holds_no_sentence_for_artists() -> None:
     ]
     # What only programmers read: arguments that do not fit each other.
     assert [one for one in found if "labels for" not in one and "neither points nor" not in one] == []
-
-
-def sent(tree: ast.Module) -> Iterator[str]:
-    """Yield the codes of the messages that a module sends."""
-    for node in strings(tree):
-        if re.fullmatch(r"[a-z]+(-[a-z]+)+", node.value):
-            yield node.value
-
-
-def test_each_message_has_words_and_all_words_are_used() -> None:
-    trees = [ast.parse(path.read_text(encoding="utf-8")) for path in modules() if path.stem != "sentences"]
-    codes = {code for tree in trees for code in sent(tree)}
-    called = {
-        node.args[0].value
-        for tree in trees
-        for node in ast.walk(tree)
-        if isinstance(node, ast.Call)
-        and getattr(node.func, "attr", getattr(node.func, "id", ""))
-        in {"_refuse", "Refused", "NativeError", "CutError"}
-        and node.args
-        and isinstance(node.args[0], ast.Constant)
-    }
-    assert called - SENTENCES.keys() == set()
-    assert SENTENCES.keys() - codes - {"library"} == set()
 
 
 def names_in(tree: ast.ClassDef) -> set[str]:

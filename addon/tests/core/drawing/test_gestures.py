@@ -46,21 +46,6 @@ def test_a_wire_that_another_metric_has_not_is_brought_forward_no_more() -> None
 # Kept wires that take their other way
 
 
-def test_a_wire_takes_its_other_way_as_soon_as_that_is_computed() -> None:
-    retrace = Retrace(Grid(fork_ready=(False, False)).drawing(Network((CORNER,))), CORNER)
-    assert retrace.commit() is retrace
-    (live,) = retrace.lives()
-    live.wait()
-    assert [one.vertices for one in retrace.commit().wires] == [(0, 6, 7)]
-
-
-def test_where_both_ways_are_one_there_is_no_other() -> None:
-    straight = wire(0, 1, 2)
-    retrace = Retrace(Grid().drawing(Network((straight,))), straight)
-    with pytest.raises(ValueError, match="All wires run along the same edges here"):
-        retrace.commit()
-
-
 def test_a_target_that_is_not_there_any_more_is_told_of() -> None:
     lost = wire(SIZE**2 - 1, SIZE**2 - 2)
     retrace = Retrace(Grid().drawing(Network((lost,))), lost)
@@ -77,19 +62,6 @@ def extension(network: Network, *seams: tuple[int, int]) -> Extension:
     return Extension(drawing, WireGesture(drawing))
 
 
-def test_without_a_direction_it_is_refused() -> None:
-    with pytest.raises(ValueError, match="Point at where the wire should run"):
-        extension(Network(seed=Seed(0))).commit()
-
-
-def test_it_ends_at_seams_and_kept_wires() -> None:
-    network = Network((wire(9, 15, 21),), Seed(6))
-    assert extension(network, (10, 16)).find(wire(6, 7)).vertices == (6, 7, 8, 9)
-    network = Network(seed=Seed(6))
-    assert extension(network, (10, 16)).find(wire(6, 7)).vertices == (6, 7, 8, 9, 10)
-    assert extension(network).find(wire(6, 7)).vertices == (6, 7, 8, 9, 10, 11)
-
-
 def test_showing_the_same_way_again_shows_nothing_new() -> None:
     one = extension(Network(seed=Seed((6, 7), forward=True, clicked=7)))
     assert not one.poll(), "nobody asks for it"
@@ -101,24 +73,6 @@ def test_showing_the_same_way_again_shows_nothing_new() -> None:
 
 
 # Seeds that are dragged
-
-
-def test_a_dragged_seed_takes_its_wires_along_once_they_are_computed() -> None:
-    drag = SeedDrag(Grid(fork_ready=(False, False)).drawing(Network((CORNER,))), Snap(7))
-    assert str(drag.aim(Snap(2))) == ""
-    assert not drag.final
-    assert not drag.poll()
-    assert drag.commit() is drag
-    drag.lives()[0].wait()
-    assert drag.poll()
-    assert [one.vertices for one in drag.moved] == [(0, 1, 2)]
-    assert not drag.poll(), "nothing new"
-    assert [one.vertices for one in drag.commit().wires] == [(0, 1, 2)]
-
-
-def test_only_a_seed_is_dragged() -> None:
-    with pytest.raises(ValueError, match="No seed to move at vertex 3"):
-        SeedDrag(Grid().drawing(Network((CORNER,))), Snap(3))
 
 
 def test_a_seed_that_was_not_moved_changes_nothing() -> None:

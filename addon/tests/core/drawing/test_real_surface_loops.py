@@ -94,19 +94,6 @@ def test_a_click_within_a_face_does_so_too(session: Session, triangles: NDArray[
     assert islands(session, triangles) == 2
 
 
-def test_its_seeds_can_be_dragged(session: Session, triangles: NDArray[np.int32]) -> None:
-    session.loop(WAIST)
-    session.queue.wait()
-    assert session.drag(Snap(WAIST, "SEED"))
-    to = WAIST + 3 * AROUND
-    session.cursor.drag_to(to)
-    session.queue.drag_end()
-    session.queue.wait()
-    assert to in session.seeds()
-    assert WAIST not in session.seeds()
-    assert islands(session, triangles) == 2
-
-
 def shows(session: Session, vertex: int, **how: bool) -> bool:
     """Return whether a cut is shown at a vertex once it is computed."""
     session.hover(vertex, **how)
@@ -273,15 +260,3 @@ def test_w_on_a_piece_of_a_cut_takes_its_other_paths_between_the_same_seeds(
     assert session.wires[0] is before[0], "the other pieces stay"
     while session.wires[1] is not before[1]:
         assert session.undo()
-
-
-def test_x_on_a_piece_of_a_cut_removes_that_piece(session: Session) -> None:
-    session.loop(WAIST)
-    session.queue.wait()
-    session.bend(WAIST + 4 * AROUND + 12)
-    session.queue.wait()
-    session.drop(session.wires[1])
-    assert len(session.wires) == 3
-    assert not is_closed(session.edges_to_mark())
-    assert session.undo()
-    assert is_closed(session.edges_to_mark())

@@ -11,7 +11,6 @@ from fake_live import FakeLive, grid_points, grid_triangles
 from seamwire.core.base.messages import Refused
 from seamwire.core.drawing import wire
 from seamwire.core.drawing.session import Session
-from seamwire.core.drawing.under_way import UnderWay
 from seamwire.core.fields.crests import Crests
 from seamwire.core.network.network import Snap
 from seamwire.core.network.wires import Wire
@@ -74,15 +73,6 @@ def test_a_double_click_takes_a_ridge_once() -> None:
     session.click((7, 8))
     session.loop((7, 8))
     assert courses(session) == [tuple(ROW)]
-
-
-def test_a_ridge_waits_behind_clicks() -> None:
-    session = with_ridge("SURFACE", ready=(False, False)).session
-    session.click(20)
-    session.click(22)
-    session.loop(7)
-    assert session.under_way.waiting == 2
-    assert session.wires == ()
 
 
 def test_after_a_ridge_the_triangles_are_told_of_that_its_wires_lead_around() -> None:
@@ -454,26 +444,3 @@ def test_a_held_seed_goes_back_when_something_else_begins() -> None:
     session.cursor.drag_to(Snap(4))
     session.click(35)
     assert courses(session) == [FIRST]
-
-
-def test_a_stroke_for_a_wire_that_closes_or_is_straight_acts_on_both() -> None:
-    session = Table(ready=(True, True)).session
-    session.click(0)
-    session.hover(14)
-    session.cursor.live.chosen = None
-    session.cursor.live.leading = 3  # the wire under the cursor before was straight in the view
-    session.cursor.live.cancel()
-    assert session.draw_stroke(vertices=[27, 28])
-    assert session.network.strokes[0].acts_on == "both"
-
-
-def test_a_look_at_running_work_reads_the_progress_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    table = Table(ready=(False, False))
-    session = table.session
-    session.click(0)
-    session.hover((14, 15), loop=True)
-    session.click(20)
-    read, count = UnderWay.read_progress, []
-    monkeypatch.setattr(UnderWay, "read_progress", lambda under_way: (count.append(1), read(under_way)))
-    session.queue.poll()
-    assert len(count) == 1

@@ -17,26 +17,8 @@ from seamwire.core.offers import part_borders
 from seamwire.core.offers.edge_loops import LoopOffers
 from seamwire.core.offers.part_borders import PartBorders
 
-EDGE = (14, 15)
-
-
 def loops(grid: Grid) -> LoopOffers:
     return LoopOffers(grid.engines, Stops([], symmetry()), POINTS)
-
-
-def test_each_offer_is_shown_in_turn() -> None:
-    offers = loops(Grid())
-    assert str(offers.advance()) == "No loop found yet"
-    offers.aim(EDGE)
-    assert offers.missing
-    assert offers.show(EDGE, offers.find(EDGE, Network()))
-    first = offers.wire
-    assert set(offers.kinds) >= {"CLOSED", "STRIP"}
-    assert str(offers.advance()) == ""
-    assert offers.wire is not first
-    for _ in offers.offers[1:]:
-        offers.advance()
-    assert offers.wire is first
 
 
 def halves(go_on: threading.Event | None = None) -> PartBorders:

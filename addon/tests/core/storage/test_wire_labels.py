@@ -499,26 +499,3 @@ def test_a_curve_stays_while_its_vertices_do_and_comes_back_with_them() -> None:
     mesh.write(Network((moved,)))
     mesh.places[1, 1] -= 0.5
     assert np.allclose(mesh.read().network.wires[0].points, lifted.points)
-
-
-def test_strokes_come_back_in_their_order() -> None:
-    session = Table().session
-    strokes = [[0, 7], [1, 8], [2, 9], [3, 10], [4, 11]]
-    for vertices in strokes:
-        session.draw_stroke(vertices=vertices)
-    mesh = paper()
-    mesh.write(session)
-    assert [one.vertices.tolist() for one in opened(mesh).network.strokes] == strokes
-    assert mesh.seams == set()
-
-
-def test_a_stroke_whose_ground_is_gone_is_none() -> None:
-    session = Table().session
-    session.draw_stroke(vertices=[0, 7])
-    mesh = paper()
-    mesh.write(session)
-    mesh.delete_vertices([7])
-    session = opened(mesh)
-    assert session.network.strokes == ()
-    mesh.write(session)
-    assert mesh.labels == {}
