@@ -99,6 +99,8 @@ def test_a_strip_ends_on_the_mirrors_plane_unless_it_runs_along_it() -> None:
     use(session, mirror=[0])
     assert show(session, (15, 16), "STRIP") == (14, 15, 16, 17)
     assert show(session, (14, 20), "STRIP") == COLUMN
+    use(session, mirror=[1])
+    assert show(session, (15, 16), "STRIP") == ROW, "the plane is another one"
 
 
 def test_of_an_edge_that_is_a_seam_already_the_whole_strip_is_offered() -> None:

@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
-from grid import wire
 from seamwire.core.network.network import History, Network
+from table import wire
 
 EMPTY = Network()
 ONE = Network((wire(0, 1),))

@@ -3,9 +3,9 @@
 
 from __future__ import annotations
 
-from grid import symmetry, wire
 from seamwire.core.network.network import Network
 from seamwire.core.network.symmetry import MirrorImages
+from table import symmetry, wire
 
 
 def test_a_wire_is_mirrored_as_it_was_when_it_was_kept() -> None:

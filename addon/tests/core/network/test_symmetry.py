@@ -4,26 +4,21 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
-from fake_live import grid_edges, grid_points, grid_triangles
+from fake_live import grid_edges, grid_triangles
 from seamwire.core.base.nearest_vertices import NearestVertices
 from seamwire.core.drawing.picture import Role
 from seamwire.core.network.symmetry import TOLERANCE, Symmetry
 from seamwire.core.network.wires import Wire
 from setting import insert, use
 from table import SIZE, Table, chain
+from table import centred_points as centred
+from table import wire as wire_of_table
 
-
-def centred(size: int = SIZE) -> np.ndarray:
-    return grid_points(size) - [(size - 1) / 2, (size - 1) / 2, 0.0]
-
-
-def wire(*vertices: int, closed: bool = False, points: np.ndarray | None = None) -> Wire:
-    points = centred() if points is None else points
-    around = vertices + vertices[:1] if closed else vertices
-    return Wire("EDGES", vertices, points[list(around)], vertices[0], vertices[-1], closed=closed)
+wire = partial(wire_of_table, points=centred())
 
 
 # Places

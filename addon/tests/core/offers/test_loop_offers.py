@@ -9,16 +9,17 @@ from collections.abc import Callable, Iterator
 import numpy as np
 import pytest
 from fake_live import grid_edges, grid_triangles
-from grid import POINTS, SIZE, Grid, symmetry
 from numpy.typing import NDArray
 from seamwire.core.network.network import Network, Snap
 from seamwire.core.network.stops import Stops
 from seamwire.core.offers import part_borders
 from seamwire.core.offers.edge_loops import LoopOffers
 from seamwire.core.offers.part_borders import PartBorders
+from table import POINTS, SIZE, Table, symmetry
 
-def loops(grid: Grid) -> LoopOffers:
-    return LoopOffers(grid.engines, Stops([], symmetry()), POINTS)
+
+def loops(*borders: PartBorders) -> LoopOffers:
+    return LoopOffers(Table().session.drawing.engines, Stops([], symmetry()), POINTS, *borders)
 
 
 def halves(go_on: threading.Event | None = None) -> PartBorders:
@@ -34,8 +35,8 @@ def halves(go_on: threading.Event | None = None) -> PartBorders:
 
 def test_borders_of_parts_are_offered_last() -> None:
     edge = (2, 2 + SIZE)
-    without = loops(Grid()).find(edge, Network())
-    offers = LoopOffers(Grid().engines, Stops([], symmetry()), POINTS, halves())
+    without = loops().find(edge, Network())
+    offers = loops(halves())
     found = offers.find(edge, Network())
     assert [one.kind for one in found] == [*(one.kind for one in without), "FLAT", "FLAT"]
     rows = range(SIZE)
@@ -51,7 +52,7 @@ def test_loops_do_not_wait_for_parts_and_parts_join_them(monkeypatch: pytest.Mon
     monkeypatch.setattr(part_borders, "AT_ONCE", 0)
     edge, go_on = (2, 2 + SIZE), threading.Event()
     parts = halves(go_on)
-    offers = LoopOffers(Grid().engines, Stops([], symmetry()), POINTS, parts)
+    offers = loops(parts)
     offers.point_at(Snap(edge))
     offers.aim(edge)
     while not offers.find(edge, Network()):
@@ -73,7 +74,7 @@ def test_a_motion_of_the_mouse_shows_parts_that_are_known_since(monkeypatch: pyt
     monkeypatch.setattr(part_borders, "AT_ONCE", 0)
     edge, go_on = (2, 2 + SIZE), threading.Event()
     parts = halves(go_on)
-    offers = LoopOffers(Grid().engines, Stops([], symmetry()), POINTS, parts)
+    offers = loops(parts)
     offers.point_at(Snap(edge))
     offers.aim(edge)
     while not (found := offers.find(edge, Network())):
@@ -101,7 +102,7 @@ def test_the_search_for_parts_ends_when_no_offers_are_asked_for(monkeypatch: pyt
 
     triangles = grid_triangles(SIZE)
     parts = PartBorders(POINTS, triangles, grid_edges(SIZE), find_parts=find)
-    offers = LoopOffers(Grid().engines, Stops([], symmetry()), POINTS, parts)
+    offers = loops(parts)
     offers.aim(edge)
     while not offers.find(edge, Network()):
         pass
