@@ -370,6 +370,15 @@ def test_the_same_number_of_vertices_moved_by_a_cell_is_the_same_mesh() -> None:
     assert sorted(courses(session)) == [(0, 1, 2, 3), (3, 9, 15, 21)]
 
 
+@pytest.mark.parametrize("seeds", [(0, 3), (3, 0)])
+def test_with_other_numbers_and_moved_along_itself_a_wire_has_its_direction(seeds: tuple[int, int]) -> None:
+    mesh, _ = drawn(seeds)
+    where = mesh.renumber(np.random.default_rng(1).permutation(SIZE**2))
+    mesh.places[:, 0] += 20.0
+    (wire,) = mesh.read().network.wires
+    assert (wire.start, wire.end) == tuple(where[list(seeds)])
+
+
 def test_of_wires_that_end_in_one_seed_each_goes_on_from_its_own() -> None:
     mesh = paper()
     session = Table().session
