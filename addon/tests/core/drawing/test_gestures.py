@@ -13,8 +13,8 @@ from seamwire.core.network.network import Network, Seed, Snap
 from table import SIZE, Table, wire
 
 
-def drawing(network: Network) -> Drawing:
-    made = Table().session.drawing
+def drawing(network: Network, **options: object) -> Drawing:
+    made = Table(**options).session.drawing
     made.network = network
     return made
 
@@ -68,6 +68,19 @@ def test_showing_the_same_way_again_shows_nothing_new() -> None:
     assert not one.poll()
     one.cancel()
     assert one.wire is None
+
+
+def test_a_dragged_seed_takes_its_wires_along_once_they_are_computed() -> None:
+    drag = SeedDrag(drawing(Network((wire(0, 1, 7),)), fork_ready=(False, False)), Snap(7))
+    assert str(drag.aim(Snap(2))) == ""
+    assert not drag.final
+    assert not drag.poll()
+    assert drag.commit() is drag
+    drag.lives()[0].wait()
+    assert drag.poll()
+    assert [one.vertices for one in drag.moved] == [(0, 1, 2)]
+    assert not drag.poll(), "nothing new"
+    assert [one.vertices for one in drag.commit().wires] == [(0, 1, 2)]
 
 
 def test_a_seed_that_was_not_moved_changes_nothing() -> None:
