@@ -120,16 +120,6 @@ def test_a_flattened_object_has_no_silhouette(desk: Desk) -> None:
     settings().property_unset("show_silhouette")
 
 
-def test_a_sheet_seen_from_above_has_no_silhouette(ui: driver.Ui) -> None:
-    desk = grid(ui)
-    settings().show_silhouette = True
-    desk.choose()
-    desk.ui.wait_until(shown)
-    screen(desk)
-    assert len(views()._made["silhouette"][1][1]._ends) == 0
-    settings().property_unset("show_silhouette")
-
-
 @pytest.mark.parametrize("perspective", ["ORTHO", "PERSP"])
 @pytest.mark.oldest_and_newest
 def test_the_silhouette_follows_the_view(desk: Desk, perspective: str) -> None:
