@@ -8,14 +8,6 @@ from seamwire.core.network.symmetry import MirrorImages
 from table import symmetry, wire
 
 
-def test_a_wire_is_mirrored_as_it_was_when_it_was_kept() -> None:
-    images = MirrorImages(symmetry())
-    kept, live = wire(0, 1, mirror=()), wire(6, 7)
-    network = Network((kept,), mirror=(0,))
-    assert images.of(kept, network) == []
-    assert [image.edges() for image in images.of(live, network)] == [[(10, 11)]]
-
-
 def test_wires_and_images_mark_and_clear_and_the_last_one_counts() -> None:
     images = MirrorImages(symmetry())
     network = images.complete(Network((wire(0, 1, mirror=(0,)), wire(4, 5, marks=False))))
