@@ -65,16 +65,6 @@ def test_a_run_that_waits_does_not_take_the_wire_that_merely_finishes_first() ->
     assert courses(session) == [(0, 1, 2, 8, 14, 20, 26, 32)]
 
 
-def test_a_double_click_takes_a_ridge_once() -> None:
-    session = with_ridge().session
-    session.hover((7, 8), loop=True)
-    session.click((7, 8))
-    session.hover((7, 8))
-    session.click((7, 8))
-    session.loop((7, 8))
-    assert courses(session) == [tuple(ROW)]
-
-
 def test_after_a_ridge_the_triangles_are_told_of_that_its_wires_lead_around() -> None:
     session = with_ridge("SURFACE", holes=(2, 1)).session
     session.hover(7, loop=True)
