@@ -38,11 +38,20 @@ def session_on(
     return Session(Drawing(make, points, edges=own, triangles=triangles, make_parts=parts, **options))
 
 
-def quads_between_rings() -> NDArray[np.int32]:
-    start = np.arange(AROUND)
+def quads_between_rings(rings: int = RINGS, around: int = AROUND) -> NDArray[np.int32]:
+    """Return the quads between rings of vertices; vertex ring * around + i."""
+    start = np.arange(around)
     after = np.roll(start, -1)
-    square = np.stack([start, after, after + AROUND, start + AROUND], axis=1)
-    return np.concatenate([square + ring * AROUND for ring in range(RINGS - 1)]).astype(np.int32)
+    square = np.stack([start, after, after + around, start + around], axis=1)
+    return np.concatenate([square + ring * around for ring in range(rings - 1)]).astype(np.int32)
+
+
+def caps(rings: int = RINGS, around: int = AROUND) -> NDArray[np.int32]:
+    """Return the triangles from the first and the last ring to two more vertices, the poles."""
+    first, low = np.arange(around), np.full(around, around * rings)
+    top = first + around * (rings - 1)
+    ends = np.stack([np.roll(first, -1), first, low], axis=1), np.stack([top, np.roll(top, -1), low + 1], axis=1)
+    return np.concatenate(ends).astype(np.int32)
 
 
 def halves(quads: NDArray[np.int32]) -> NDArray[np.int32]:
@@ -56,14 +65,11 @@ def sides(faces: NDArray[np.int32]) -> NDArray[np.int32]:
     return np.unique(np.sort(pairs, axis=1), axis=0)
 
 
-def circles(heights: NDArray[np.float64], radii: NDArray[np.float64]) -> NDArray[np.float64]:
-    angles = np.arange(AROUND) * 2.0 * np.pi / AROUND
-    return np.concatenate(
-        [
-            np.stack([r * np.cos(angles), r * np.sin(angles), np.full(AROUND, z)], axis=1)
-            for z, r in zip(heights, radii, strict=True)
-        ]
-    )
+def circles(heights: NDArray[np.float64], radii: NDArray[np.float64], around: int = AROUND) -> NDArray[np.float64]:
+    """Return the vertices of circles around z."""
+    angles = np.arange(around) * 2.0 * np.pi / around
+    x, y, z = np.outer(radii, np.cos(angles)), np.outer(radii, np.sin(angles)), np.repeat(heights, around)
+    return np.stack([x.ravel(), y.ravel(), z], axis=1)
 
 
 def tube(**options: object) -> Session:
@@ -77,13 +83,8 @@ def ball(**options: object) -> Session:
     angles = np.linspace(0.0, np.pi, RINGS + 2)[1:-1]
     points = np.vstack([circles(-np.cos(angles), np.sin(angles)), [0.0, 0.0, -1.0], [0.0, 0.0, 1.0]])
     quads = quads_between_rings()
-    first = np.arange(AROUND)
-    low = np.stack([np.roll(first, -1), first, np.full(AROUND, AROUND * RINGS)], axis=1)
-    top = first + AROUND * (RINGS - 1)
-    high = np.stack([top, np.roll(top, -1), np.full(AROUND, AROUND * RINGS + 1)], axis=1)
-    caps = np.concatenate([low, high]).astype(np.int32)
-    edges = np.unique(np.concatenate([sides(quads), sides(caps)]), axis=0)
-    return session_on(points, np.concatenate([halves(quads), caps]), edges, **options)
+    edges = np.unique(np.concatenate([sides(quads), sides(caps())]), axis=0)
+    return session_on(points, np.concatenate([halves(quads), caps()]), edges, **options)
 
 
 def meridian(at: int) -> list[int]:

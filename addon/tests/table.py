@@ -1,18 +1,28 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A session on a grid, with the live wires it has made."""
+"""A session on a grid, with the live wires it has made, and wires and symmetry there."""
 
 from __future__ import annotations
 
 import itertools
 
+import numpy as np
 from fake_live import FakeLive, grid_edges, grid_points, grid_triangles
+from numpy.typing import NDArray
 from paper_mesh import PaperMesh
 from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.session import Session
+from seamwire.core.network.symmetry import Symmetry
+from seamwire.core.network.wires import Wire
 from seamwire.terms.choices import Along
 from seamwire.terms.options import Options
 
 SIZE = 6
+POINTS = grid_points(SIZE)
+
+
+def centred_points(size: int = SIZE) -> NDArray[np.float64]:
+    """Return the vertices of a grid with its middle at the origin."""
+    return grid_points(size) - [(size - 1) / 2, (size - 1) / 2, 0.0]
 
 
 class Table:
@@ -27,9 +37,7 @@ class Table:
             self.lives[way] = FakeLive(SIZE, way, **options)
             return self.lives[way]
 
-        self.points = grid_points(SIZE)
-        if centred:
-            self.points[:, :2] -= (SIZE - 1) / 2
+        self.points = centred_points() if centred else grid_points(SIZE)
         self.session = Session(
             Drawing(
                 make,
@@ -52,10 +60,9 @@ class Table:
 
 def paper(centred: bool = False, **options: object) -> PaperMesh:
     """Return the mesh of a table."""
-    points = grid_points(SIZE)
-    if centred:
-        points[:, :2] -= (SIZE - 1) / 2
-    return PaperMesh(points, grid_edges(SIZE), triangles=grid_triangles(SIZE), **options)
+    return PaperMesh(
+        centred_points() if centred else grid_points(SIZE), grid_edges(SIZE), triangles=grid_triangles(SIZE), **options
+    )
 
 
 def chain(*vertices: int) -> list[tuple[int, int]]:
@@ -73,3 +80,15 @@ def corner(**options: object) -> Table:
 
 def courses(session: Session) -> list[tuple[int, ...]]:
     return [wire.vertices for wire in session.wires]
+
+
+def wire(*vertices: int, closed: bool = False, points: NDArray[np.float64] = POINTS, **options: object) -> Wire:
+    """Return a wire along edges of a table, or of other points."""
+    around = vertices + vertices[:1] if closed else vertices
+    ends = {"start": around[0], "end": around[-1], **options}
+    return Wire("EDGES", vertices, points[list(around)], closed=closed, **ends)
+
+
+def symmetry() -> Symmetry:
+    """Return the symmetry of a table from the middle."""
+    return Symmetry(centred_points(), grid_edges(SIZE))

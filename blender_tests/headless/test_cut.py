@@ -480,19 +480,6 @@ def test_an_image_is_cut_across_other_triangles(chains: str, capfd: pytest.Captu
     assert is_sound(obj)
 
 
-def test_all_images_of_a_wire_from_pole_to_pole_are_cut() -> None:
-    obj = add_unlike_halves(3)
-    with changing(obj) as bm:
-        for v in bm.verts:
-            if abs(v.co.z) < 0.9 and min(abs(v.co.x), abs(v.co.y)) < 0.3:
-                v.co *= 2.0  # the way down leads along a corner of the cube
-    top, bottom = (vertex_near(obj, (0.0, 0.0, z)) for z in (1.0, -1.0))
-    assert cut(f"{top} {bottom}", mirror={"X", "Y"}, strength=1.0)
-    assert island_count(obj) == 4
-    assert agree(obj)
-    assert is_sound(obj)
-
-
 def test_an_image_that_leaves_the_mesh_is_left_out() -> None:
     obj = add_grid(9)
     for v in obj.data.vertices:
@@ -521,20 +508,6 @@ def test_slid_wires_can_be_cut(chains: str) -> None:
     cuts = sum(edge.calc_length() for edge in bmesh.from_edit_mesh(obj.data).edges if edge.seam)
     assert cuts == pytest.approx(length, rel=0.01)
     assert is_sound(obj)
-
-
-def test_the_tool_tells_of_a_wire_that_is_not_cut() -> None:
-    obj = add_grid(9)
-    edit()
-    mark_wires(chains="0 16; 64 79", along="SURFACE")
-    mesh = session_on(obj)
-    before = mesh.session.network
-    wires = [replace(wire, finish="CUT", stored=0) for wire in before.wires]
-    wires[0] = replace(wires[0], points=wires[0].points * 3.0)
-    mesh.session.adopt(replace(before, wires=tuple(wires)), mesh.plain_seams)
-    _, done = finishes.apply(mesh, Change(before, mesh.session.network))
-    assert (done.cut.wires, done.cut.left_out, done.problem) == (1, 1, "")
-    assert 79 in joined(obj, 64) and 16 in joined(obj, 0), "the other stays snapped"
 
 
 def test_a_wire_that_leaves_the_mesh_where_a_cut_was_taken_back_is_kept(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -691,31 +664,12 @@ def test_a_closed_chain_of_places_cuts_an_island_out() -> None:
     assert agree(obj)
 
 
-def test_from_corner_to_corner_over_a_place_inside_the_only_face() -> None:
-    obj = add_grid(2)
-    edit()
-    assert cut("0 (0.1 0.4 0) 1")
-    assert island_count(obj) == 2
-    assert seam_places(obj) == {(-1.0, -1.0): 1, (0.1, 0.4): 2, (1.0, -1.0): 1}
-
-
 def test_a_wire_that_stays_inside_a_face_cuts_nothing_and_says_so() -> None:
     obj = add_grid(2)
     edit()
     with pytest.raises(ValueError, match="Nothing to cut: every wire stays inside one face"):
         cut("(-0.5 0 0) (0.2 0.3 0)")
     assert len(obj.data.polygons) == 1 and seams(obj) == []
-
-
-def test_places_are_mirrored() -> None:
-    obj = add_suzanne(1)
-    edit()
-    assert cut("(0.5 -0.8 0.4) (0.6 -0.5 -0.2) (0.3 -0.6 -0.6)", mirror={"X"})
-    assert agree(obj)
-    bm = bmesh.from_edit_mesh(obj.data)
-    middles = [sum((v.co for v in edge.verts), Vector()) / 2 for edge in bm.edges if edge.seam]
-    missing = [m for m in middles if not any((n - Vector((-m.x, m.y, m.z))).length < 0.02 for n in middles)]
-    assert middles and not missing
 
 
 def test_places_snap_to_the_vertices_nearest_to_them() -> None:
@@ -896,17 +850,6 @@ def test_a_wire_stays_whole_where_another_is_removed_from_their_seed_inside_a_fa
         assert after[name] == before[name], name
 
 
-def test_an_edge_that_held_the_end_of_a_wire_goes_once_another_wire_holds_it() -> None:
-    obj = chain_inside(True, INSIDE, 10)
-    remove(obj, 10)
-    assert left_over(obj) == 1
-    seed = at(obj, INSIDE)
-    assert cut(f"{seed} 53")
-    seed = at(obj, INSIDE)
-    assert joins(obj) == {frozenset((75, seed)), frozenset((seed, 53))}
-    assert left_over(obj) == 0
-
-
 def undone(_path: Path) -> None:
     bpy.ops.ed.undo_push(message="Cut")
     bpy.ops.ed.undo_push(message="Another step")
@@ -951,27 +894,6 @@ def test_removing_a_cut_wire_gives_the_mesh_back_whatever_blender_did_with_the_m
     after = content(obj)
     for layer in before:
         assert after[layer] == before[layer], layer
-
-
-@pytest.mark.every_blender
-@pytest.mark.parametrize("between", [undone, redone, saved], ids=lambda between: between.__name__)
-def test_dragging_a_seed_twice_leaves_no_old_cut_whatever_blender_did_with_the_mesh_meanwhile(
-    between: Callable[[Path], None], tmp_path: Path
-) -> None:
-    obj = add_grid(9)
-    name = obj.name
-    edit()
-    bpy.ops.ed.undo_push(message="Before")
-    cut("0 44")
-    for seed, to in ((44, 62), (62, 53)):
-        between(tmp_path)
-        obj = bpy.data.objects[name]
-        drag(obj, seed, to)
-    counts = [len(items) for items in (obj.data.vertices, obj.data.edges, obj.data.polygons)]
-    anew = add_grid(9)
-    edit()
-    cut("0 53")
-    assert counts == [len(items) for items in (anew.data.vertices, anew.data.edges, anew.data.polygons)]
 
 
 def add_triangles() -> bpy.types.Object:
@@ -1132,25 +1054,6 @@ def test_mirror_images_of_a_cut_follow_its_seed() -> None:
     assert {(-x + 0.0, y, z) for x, y, z in middles} == set(middles)
     straight = Vector((-0.75, -1.0, 0.0)) - Vector((-0.25, 0.5, 0.0))
     assert sum(e.calc_length() for e in bm.edges if e.seam) == pytest.approx(2.0 * straight.length, rel=1e-5)
-
-
-@pytest.mark.every_blender
-def test_undo_of_a_drag_brings_the_old_cut_back() -> None:
-    obj = add_grid(9)
-    edit()
-    cut("0 44")
-    bpy.ops.ed.undo_push(message="cut")
-    # What undo has brought back once has the normals that it brings back.
-    bpy.ops.ed.undo_push(message="again")
-    bpy.ops.ed.undo()
-    name = obj.name
-    obj = bpy.data.objects[name]
-    before = snapshot(obj)
-    drag(obj, 44, 62)
-    bpy.ops.ed.undo_push(message="dragged")
-    assert snapshot(obj) != before
-    bpy.ops.ed.undo()
-    assert snapshot(bpy.data.objects[name]) == before
 
 
 def lines(obj: bpy.types.Object, *ends: tuple[tuple[float, float], tuple[float, float]]) -> ObjectSession:

@@ -9,7 +9,6 @@ import bpy
 import pytest
 from scene import add_grid, add_object, changing, edit, seams, snapshot
 from seamwire.mesh.seam_islands import faces_to_cut, missing_cuts
-from seamwire.mesh.versions import IS_OLD
 
 pytestmark = pytest.mark.every_blender
 
@@ -98,24 +97,6 @@ def test_islands_are_stored_as_materials_beside_those_that_are_there() -> None:
         }
         assert len(sides) == 2
         assert {index for index, _ in sides} == {1, 2}
-
-
-def test_blender_marks_seams_as_sharp() -> None:
-    """The guide's recipe."""
-    obj = add_grid(9)
-    edit()
-    mark(obj, halves)
-    bpy.ops.mesh.select_mode(type="EDGE")
-    bpy.ops.mesh.select_all(action="DESELECT")
-    bm = bmesh.from_edit_mesh(obj.data)
-    seam = next(edge for edge in bm.edges if edge.seam)
-    seam.select = True
-    bm.select_history.add(seam)
-    assert bpy.ops.mesh.select_similar(type="SEAM" if IS_OLD else "EDGE_SEAM") == {"FINISHED"}
-    bpy.ops.mesh.mark_sharp()
-    bm = bmesh.from_edit_mesh(obj.data)
-    assert [edge.seam for edge in bm.edges] == [not edge.smooth for edge in bm.edges]
-    assert len(seams(obj)) == 8
 
 
 def test_hidden_faces_keep_what_they_have_and_nothing_visible_is_said() -> None:

@@ -243,15 +243,6 @@ def test_an_error_while_the_mesh_is_changed_is_told_apart_from_a_refusal(
     assert seams(obj) != []
 
 
-def test_an_error_while_an_operator_changes_the_mesh_is_told_apart_too(monkeypatch: pytest.MonkeyPatch) -> None:
-    obj = add_grid(5)
-    mark_wires("0 17", obj=obj, along="SURFACE", metric="euclidean")
-    monkeypatch.setattr(edit_mesh, "live_unwrap", fail)
-    with pytest.raises(RuntimeError, match="Stopped halfway"):
-        seamwire.cut(obj)
-    assert len(obj.data.vertices) > 25
-
-
 def test_without_the_compiled_part_every_function_raises_import_error(monkeypatch: pytest.MonkeyPatch) -> None:
     obj = add_grid(5)
     monkeypatch.setattr(native, "load", lambda *_: (_ for _ in ()).throw(native.NativeError("missing")))

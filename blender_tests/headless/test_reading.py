@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What is read of an edit mesh: the same as Blender itself tells of it, whatever its faces are like."""
 
+import bmesh
 import bpy
 import numpy as np
 import pytest
@@ -115,3 +116,26 @@ def test_a_mesh_of_edges_alone_is_read() -> None:
     arrays = edit_mesh.read(obj)
     assert arrays.triangles.shape == (0, 3)
     assert arrays.edges.tolist() == [[0, 1], [1, 2]]
+
+
+def test_numbers_that_other_operators_leave_in_the_mesh_do_not_count() -> None:
+    obj = add_grid(5)
+    edit()
+    bm = bmesh.from_edit_mesh(obj.data)
+    bm.verts.ensure_lookup_table()
+    bm.select_history.clear()
+    bm.select_history.add(bm.verts[7])
+    cage = edit_mesh.Cage(obj)
+    cage.write([(6, 7)], labels={(6, 7): 1})
+
+    def renumber() -> None:
+        # What Camera Selected does to vertices that are not selected.
+        for v in bm.verts:
+            v.index = -1
+
+    renumber()
+    assert cage.active_vertex() == 7
+    renumber()
+    assert np.sort(cage.labels().pairs).tolist() == [[6, 7]]
+    renumber()
+    assert [12, 13] in np.sort(edit_mesh.read(obj).edges).tolist()

@@ -145,20 +145,6 @@ def test_undo_and_redo_take_wires_back_and_bring_them_again() -> None:
 
 
 @pytest.mark.every_blender
-def test_what_was_undone_stays_undone_when_more_is_drawn() -> None:
-    name = add_grid(9).name
-    edit()
-    undo_step("Before")
-    mark("36 44")
-    undo_step("One")
-    bpy.ops.ed.undo()
-    mark("4 31")
-    obj = bpy.data.objects[name]
-    assert chains(obj) == [COLUMN]
-    assert seams(obj) == chain(*COLUMN)
-
-
-@pytest.mark.every_blender
 def test_undo_over_a_switch_of_modes_brings_them_back() -> None:
     name = add_grid(9).name
     edit()
@@ -246,17 +232,6 @@ def test_a_part_duplicated_in_edit_mode_has_its_wires_twice(drawn: bpy.types.Obj
     assert agree(drawn)
 
 
-def test_half_a_wire_duplicated_is_no_wire_and_stays_a_seam(drawn: bpy.types.Object) -> None:
-    before = chains(drawn)
-    # All of the column, and of the row's wires one edge each.
-    select(drawn, lambda face: abs(face.calc_center_median().x) < 0.2)
-    bpy.ops.mesh.duplicate_move(TRANSFORM_OT_translate={"value": (4.0, 0.0, 0.0)})
-    found = chains(drawn)
-    assert set(before) <= set(found)
-    assert len(found) == len(before) + 1
-    assert len(set(seams(drawn)) - set(wired(drawn))) == 2
-
-
 @pytest.mark.every_blender
 def test_a_separated_part_takes_its_wires_along(drawn: bpy.types.Object) -> None:
     select(drawn, lambda face: face.calc_center_median().y < -0.13)
@@ -327,24 +302,6 @@ def test_sorted_anew_their_vertices_have_other_numbers(drawn: bpy.types.Object) 
     row = vertices(drawn, *places)
     assert row != list(ROW)
     assert {edge for edge in wired(drawn) if edge[0] in row and edge[1] in row} == set(chain(*row))
-    assert agree(drawn)
-
-
-@pytest.mark.every_blender
-def test_a_shape_key_added_or_removed_changes_nothing(drawn: bpy.types.Object) -> None:
-    before = chains(drawn)
-    mode("OBJECT")
-    drawn.shape_key_add(name="Basis")
-    for point in drawn.shape_key_add(name="Bent").data:
-        point.co.z += point.co.x**2
-    drawn.active_shape_key_index = 1
-    edit()
-    assert chains(drawn) == before
-    mark("0 72")
-    mode("OBJECT")
-    drawn.shape_key_clear()
-    edit()
-    assert len(chains(drawn)) == len(before) + 1
     assert agree(drawn)
 
 

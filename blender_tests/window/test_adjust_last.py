@@ -9,10 +9,8 @@ from contextlib import suppress
 import bpy
 import pytest
 from desk import Desk, choose, dismiss, drag, draw, undo_steps
-from scene import chain, seams
+from scene import seams
 from seamwire.operators import undo_steps as undo_steps_of_chains
-
-MIDDLE = chain(*range(36, 45))
 
 
 def call(desk: Desk, name: str, **options: object) -> None:

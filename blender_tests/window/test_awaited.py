@@ -176,10 +176,6 @@ def test_undo_over_the_settings_is_the_chains(desk: Desk) -> None:
     end(desk)
 
 
-def new_chain(desk: Desk) -> None:
-    desk.ui.click(desk.at(0), ctrl=True)
-
-
 @pytest.mark.smoke
 @pytest.mark.parametrize("held", [{}, {"ctrl": True}], ids=["click", "Ctrl-click"])
 def test_a_press_while_a_chain_ends_begins_another_chain(desk: Desk, slow: Slow, held: dict[str, bool]) -> None:
@@ -258,26 +254,6 @@ def test_undo_by_a_script_takes_back_the_chain_before_and_keeps_what_was_drawn_s
     assert seams(desk.obj) == ROW, "and the wires before do not come back"
     assert len(desk.session.wires) == 1
     assert [notice.text for notice in reports if "1 wire" in notice.text] != []
-
-
-def test_a_seam_that_a_script_marks_leaves_the_second_chain_as_it_is(desk: Desk) -> None:
-    ui = desk.ui
-    session = desk.start()
-    ui.click(desk.at(36))
-    ui.click(desk.at(40))
-    ui.wait_until(lambda: len(session.wires) == 1)
-    ui.click(desk.at(0), ctrl=True)
-    bm = bmesh.from_edit_mesh(desk.obj.data)
-    bm.edges.ensure_lookup_table()
-    edge = next(edge for edge in bm.edges if {vertex.index for vertex in edge.verts} == {79, 80})
-    edge.seam = True
-    bmesh.update_edit_mesh(desk.obj.data)
-    ui.wait(4)
-    ui.click(desk.at(4))
-    ui.wait_until(lambda: len(session.wires) == 2)
-    assert desk.running
-    end(desk)
-    assert seams(desk.obj) == sorted([*chain(*range(5)), *ROW, (79, 80)])
 
 
 def test_x_removes_a_stroke_that_waits(desk: Desk, slow: Slow) -> None:

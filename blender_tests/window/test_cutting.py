@@ -157,22 +157,6 @@ def test_a_click_is_where_one_clicks(cutting: Desk) -> None:
     assert set(count[count > 0]) == {2}, "closed"
 
 
-def test_near_a_vertex_or_with_snap_a_click_takes_the_vertex(cutting: Desk) -> None:
-    session, ui = cutting.start(), cutting.ui
-    at = cutting.at(40)
-    ui.move((at[0] + 3.0, at[1] + 3.0))
-    ui.wait_until(lambda: session.cursor.target is not None)
-    assert session.cursor.target.pick == 40
-    ui.move(ui.on_screen((0.08, 0.09, 0.0)))
-    ui.wait_until(lambda: session.cursor.target.pick != 40)
-    assert not isinstance(session.cursor.target.pick, int)
-    settings().finish = "SNAP"
-    ui.move(ui.on_screen((0.09, 0.08, 0.0)))
-    ui.wait_until(lambda: isinstance(session.cursor.target.pick, int))
-    settings().finish = "CUT"
-    ui.key("ESC")
-
-
 def soften(cutting: Desk) -> None:
     """Take away what vertices do not slide off: creases, sharp edges, borders between materials."""
     with changing(cutting.obj) as bm:

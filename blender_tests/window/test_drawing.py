@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import bpy
 import pytest
 import ui as driver
-from desk import ORANGE, RED, WHITE, Desk, choose, near, shows, undo_steps
+from desk import ORANGE, RED, WHITE, Desk, choose, shows, undo_steps
 from mathutils import Euler
 from scene import add_grid, chain, seams, snapshot
 from seamwire.operators import chain_events
@@ -45,19 +45,6 @@ def test_wires_are_drawn_kept_and_marked(desk: Desk) -> None:
     choose(ui)
     ui.move(desk.at(21))
     assert shows(ui.pixels(), desk.at(36), WHITE), "with the tool the seeds are"
-
-
-def test_edges_are_lit_before_the_click_and_picked(desk: Desk) -> None:
-    session, ui = desk.start(), desk.ui
-    middle = desk.at(36, 37)
-    assert not shows(ui.pixels(), middle, WHITE)
-    ui.move(middle)
-    assert set(session.cursor.target.pick) == {36, 37}
-    assert shows(ui.pixels(), middle, WHITE)
-    ui.click(middle, ctrl=True)
-    ui.click(desk.at(42, 43))
-    ui.wait_until(lambda: len(session.wires) == 1)
-    assert session.edges_to_mark() == chain(*range(36, 44))
 
 
 @pytest.mark.smoke
@@ -104,32 +91,6 @@ def test_e_switches_to_the_surface_and_back(cone: Desk) -> None:
     assert {v for edge in marked for v in edge} >= {20, 24, 60}
     ui.key("RET")
     assert seams(cone.obj) == marked
-
-
-@pytest.mark.oldest_and_newest
-def test_wires_on_the_far_side_are_faint(desk: Desk) -> None:
-    session, ui = desk.start(), desk.ui
-    ui.click(desk.at(36), ctrl=True)
-    ui.click(desk.at(44))
-    ui.wait_until(lambda: len(session.wires) == 1)
-    at = desk.at(37, 38)
-    assert shows(ui.pixels(), at, RED)
-    # A second sheet above the first, as seen from the eye, is in Blender's way and not in the drawing's.
-    mesh = bpy.data.meshes.new("Cover")
-    mesh.from_pydata([(-3, -3, 1), (3, -3, 1), (3, 3, 1), (-3, 3, 1)], [], [(0, 1, 2, 3)])
-    cover = bpy.data.objects.new("Cover", mesh)
-    bpy.context.collection.objects.link(cover)
-    ui.wait(redraw=True)
-    pixels = ui.pixels()
-    assert not shows(pixels, at, RED)
-    surroundings = near(pixels, (at[0], at[1] + 25.0)).mean(axis=0)
-    faint = near(pixels, at, radius=1)
-    assert (faint[:, 0] - faint[:, 1]).max() > (surroundings[0] - surroundings[1]) + 0.05, "reddish still"
-    ui.key("RET")
-    choose(ui)
-    ui.move(desk.at(10))
-    seed = near(ui.pixels(), desk.at(44), radius=1).mean()
-    assert 0.2 < seed < 0.45, "a seed is faint too: it is not on this side"
 
 
 @pytest.mark.oldest_and_newest

@@ -3,23 +3,16 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
-
 import bpy
 import pytest
 from desk import Desk, draw
 from scene import chain, seams
 from seamwire.core.drawing.line import LineGesture
 from seamwire.mesh.settings import settings
-from seamwire.operators.chain_acts import act
-from seamwire.operators.chain_events import Given, Sign
 from seamwire.view.edited_objects import edited
-from seamwire.view.viewport import place_in
-from seamwire.words.keys import Action
 
 KEPT = chain(0, 1, 2, 3, 4)
 HELD = ("guide stroke", "avoid stroke", "line", "line that goes on", "seed")
-CANCELS = {Action.UNDO, Action.CANCEL}
 
 
 @pytest.fixture(autouse=True)
@@ -104,30 +97,6 @@ def test_backspace_drops_the_stroke_that_is_drawn_and_keeps_the_wire(desk: Desk)
 
 
 @pytest.mark.parametrize("what", HELD)
-def test_no_action_touches_the_chain_while_a_button_is_held(desk: Desk, what: str) -> None:
-    hand = Hand(desk, what)
-    hand.press()
-    before = hand.chain()
-    place = place_in(desk.ui.area, desk.ui.region, tuple(round(x) for x in desk.at(2)))
-    for action in Action:
-        if not hand.holds:
-            hand.press()
-            before = hand.chain()
-        event = SimpleNamespace(type="Q", value="PRESS", ctrl=False, shift=False, alt=False, oskey=False)
-        assert not act(desk.chain, Given(action, event, place)), action
-        assert hand.chain() == before, action
-        assert hand.holds == (action not in CANCELS), action
-        assert desk.running or action in CANCELS, action
-        if not hand.holds:
-            desk.ui.move(desk.at(2))  # the operator keeps a chain that is over
-        if action is Action.XRAY:
-            act(desk.chain, Given(action, event, place))
-    assert not act(desk.chain, Given(Sign.OTHER_TOOL, event, place)), "Blender's key waits as well"
-    assert hand.chain() == before
-    assert hand.holds
-
-
-@pytest.mark.parametrize("what", HELD)
 @pytest.mark.parametrize("is_away", [False, True])
 def test_keys_while_a_button_is_held(desk: Desk, what: str, is_away: bool) -> None:
     hand, ui = Hand(desk, what), desk.ui
@@ -140,6 +109,12 @@ def test_keys_while_a_button_is_held(desk: Desk, what: str, is_away: bool) -> No
         ("C", {}),
         ("F", {}),
         ("G", {}),
+        ("W", {}),
+        ("S", {}),
+        ("E", {}),
+        ("M", {}),
+        ("V", {}),
+        ("TAB", {"shift": True}),
         ("TAB", {}),
         ("RIGHTMOUSE", {}),
         ("ESC", {}),

@@ -19,7 +19,6 @@ from lab import disable_lab, enable_lab, of_lab, part
 from mathutils import Vector
 from scene import add_suzanne
 from seamwire.core.fields.color_maps import colors
-from seamwire.view import gpu_draw
 from seamwire.view.edited_objects import edited
 
 VIEWS = (
@@ -120,16 +119,6 @@ def test_a_flattened_object_has_no_silhouette(desk: Desk) -> None:
     settings().property_unset("show_silhouette")
 
 
-def test_a_sheet_seen_from_above_has_no_silhouette(ui: driver.Ui) -> None:
-    desk = grid(ui)
-    settings().show_silhouette = True
-    desk.choose()
-    desk.ui.wait_until(shown)
-    screen(desk)
-    assert len(views()._made["silhouette"][1][1]._ends) == 0
-    settings().property_unset("show_silhouette")
-
-
 @pytest.mark.parametrize("perspective", ["ORTHO", "PERSP"])
 @pytest.mark.oldest_and_newest
 def test_the_silhouette_follows_the_view(desk: Desk, perspective: str) -> None:
@@ -153,40 +142,6 @@ def test_the_silhouette_follows_the_view(desk: Desk, perspective: str) -> None:
     desk.ui.wait(3, redraw=True)
     assert views()._made["silhouette"][1][1] is turned
     settings().property_unset("show_silhouette")
-
-
-def test_turning_the_view_hands_nothing_to_the_gpu_again(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
-    made: list[str] = []
-    drawing, lab_views = part("shaded"), part("views")
-    places = {"ShadedFaces": drawing, "ColoredLines": drawing, "Lines": gpu_draw, "ColoredFaces": gpu_draw}
-    for name, home in places.items():
-        kind = getattr(home, name)
-
-        def counted(*arguments: object, kind: type = kind, name: str = name, **options: object) -> object:
-            made.append(name)
-            return kind(*arguments, **options)
-
-        monkeypatch.setattr(lab_views if home is drawing else part("tool").interface(), name, counted)
-    desk.choose()
-    draw(desk, 20, 300)
-    for name, value in VIEWS:
-        setattr(settings(), name, value)
-    desk.ui.wait_until(shown)
-    screen(desk)
-    assert set(made) == {"ShadedFaces", "ColoredLines", "Lines", "ColoredFaces"}
-    made.clear()
-    for step in range(8):
-        desk.ui.view.view_rotation = (0.7, 0.7, 0.02 * step, 0.0)
-        desk.ui.wait(redraw=True)
-    assert made == []
-    # Nor what is switched off and on again, or what others change.
-    for name in ("show_paths", "show_bands"):
-        setattr(settings(), name, False)
-        desk.ui.wait(redraw=True)
-        setattr(settings(), name, True)
-        desk.ui.wait_until(shown)
-        screen(desk)
-    assert made == []
 
 
 @pytest.mark.oldest_and_newest

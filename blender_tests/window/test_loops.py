@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What one click on an edge takes: with Alt held the offers are shown, the wheel and W turn from one to the next."""
 
-import bmesh
 import bpy
 import pytest
 from desk import GREEN, Desk, said, shows, undo_steps
@@ -75,18 +74,6 @@ def test_alt_over_a_vertex_takes_the_nearest_edge(desk: Desk) -> None:
     ui.event("LEFT_ALT", "RELEASE", (x + 3.0, y))
 
 
-def test_alt_with_another_key_is_blenders(desk: Desk) -> None:
-    desk.choose()
-    ui = desk.ui
-    ui.move(desk.at(40))
-    ui.event("LEFT_ALT", "PRESS", alt=True)
-    ui.event("A", "PRESS", alt=True)
-    ui.event("A", "RELEASE", alt=True)
-    ui.event("LEFT_ALT", "RELEASE")
-    assert not desk.running
-    assert not any(v.select for v in bmesh.from_edit_mesh(desk.obj.data).verts)
-
-
 def stub(desk: Desk) -> None:
     """Mark a seam that ends in the middle row."""
     set_seams(desk.obj, (34, 43))
@@ -128,19 +115,6 @@ def test_inside_a_face_the_border_of_its_part_comes_first(desk: Desk) -> None:
     assert seams(desk.obj) == []
     offer(desk, *corners[:2])
     assert desk.session.picture.offered.kind != "FLAT", "near an edge its loops come first"
-
-
-def test_a_taken_strip_is_changed_in_place(desk: Desk) -> None:
-    take(desk, "STRIP", 40, 41)
-    ui = desk.ui
-    assert seams(desk.obj) == chain(*range(36, 45))
-    ui.move(desk.at(38))
-    ui.key("W")
-    ui.wait_until(lambda: not desk.running)
-    assert len(desk.session.wires) == 1
-    assert seams(desk.obj) != chain(*range(36, 45))
-    ui.key("Z", ctrl=True)
-    assert seams(desk.obj) == chain(*range(36, 45)), "one step"
 
 
 def test_an_offer_of_one_edge_is_seen_though_the_edge_is_highlighted(desk: Desk) -> None:

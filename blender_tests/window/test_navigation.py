@@ -55,37 +55,6 @@ def test_the_middle_button_turns_moves_and_zooms(desk: Desk) -> None:
     finish(desk)
 
 
-def test_a_trackpad_turns_the_view(desk: Desk) -> None:
-    begin(desk)
-    ui = desk.ui
-    turned = ui.view.view_rotation.copy()
-    ui.event("TRACKPADPAN", "NOTHING", (desk.at(40)[0] + 60.0, desk.at(40)[1] + 20.0))
-    assert ui.view.view_rotation.rotation_difference(turned).angle > 0.01
-    finish(desk)
-
-
-@pytest.mark.parametrize("key", ["NUMPAD_1", "NUMPAD_3", "NUMPAD_8", "NUMPAD_6"])
-def test_the_number_pad_turns_the_view(desk: Desk, key: str) -> None:
-    begin(desk)
-    ui = desk.ui
-    turned = ui.view.view_rotation.copy()
-    ui.move(desk.at(40))
-    ui.key(key)
-    assert ui.view.view_rotation.rotation_difference(turned).angle > 0.1
-    assert desk.running
-    ui.key("NUMPAD_7")
-    assert ui.view.view_rotation.rotation_difference(turned).angle < 0.01
-    finish(desk)
-
-
-def test_the_number_pad_changes_the_projection(desk: Desk) -> None:
-    begin(desk)
-    before = desk.ui.view.view_perspective
-    desk.ui.key("NUMPAD_5")
-    assert desk.ui.view.view_perspective != before
-    finish(desk)
-
-
 def event(desk: Desk, kind: str, **held: bool) -> SimpleNamespace:
     """Return an event over the mesh as the drawing sees it."""
     x, y = desk.at(40)

@@ -12,7 +12,6 @@ from dataclasses import dataclass, fields, replace
 from itertools import pairwise
 from types import SimpleNamespace
 
-import bmesh
 import bpy
 import numpy as np
 import pytest
@@ -505,34 +504,6 @@ def test_where_blender_shows_all_layers_the_nearest_is_tinted_and_hidden_wires_a
         sight.remove()
 
 
-def halves(triangles: NDArray[np.int32], cuts: NDArray[np.int32]) -> NDArray[np.int32]:
-    """Label the triangles of the grid by the side of its middle row that they are on, where that row is cut."""
-    below = (triangles // SIDE).max(axis=1) <= 4
-    return (~below).astype(np.int32) if len(cuts) >= 8 else np.zeros(len(triangles), dtype=np.int32)
-
-
-def test_segments_are_tinted_apart_and_counted(sight: Sight) -> None:
-    triangles = sight.arrays.triangles
-    maker = IslandMaker(triangles, lambda cuts: halves(triangles, cuts))
-    sight.tint(maker)
-    inside = [tuple(np.add(sight.at(v, v + 10), (0.0, 0.0))) for v in (19, 55)]
-    plain = sight.pixels()
-    cut = sight.pixels(wires=(sight.wire(*range(36, 45)),))
-    below, above = (around(cut, at, 2)[..., :3].mean(axis=(0, 1)) for at in inside)
-    before = around(plain, inside[0], 2)[..., :3].mean(axis=(0, 1))
-    assert np.abs(below - before).max() > 0.03, "tinted"
-    assert np.abs(below - above).max() > 0.05, "each in its own hue"
-    assert np.abs(below - before).max() < 0.35, "softly"
-    one, two = text_pixels(plain), text_pixels(cut)
-    assert one.any(), "there is text in the corner"
-    assert (one != two).any(), "which counts the segments"
-
-
-def text_pixels(pixels: NDArray[np.float32]) -> NDArray[np.bool_]:
-    """Return which pixels of the lower left corner, beside the toolbar, are as light as text."""
-    return pixels[:90, 40:330, :3].min(axis=-1) > 0.6
-
-
 def test_styles_are_told_apart_by_more_than_their_hue() -> None:
     looks = Looks()
     styles: list[Style] = [looks.active, looks.other, looks.kept, looks.clear, looks.mirrored, looks.loop]
@@ -556,16 +527,3 @@ def test_a_picture_is_freed_when_another_one_is_drawn(sight: Sight) -> None:
     first = weakref.ref(sight.session.picture)
     sight.pixels(active=sight.wire(*range(3, 76, 9)))
     assert first() is None
-
-
-def test_the_overlay_follows_the_object(sight: Sight) -> None:
-    seen = sight.pixels(active=sight.wire(*range(36, 45)))
-    at = sight.at(38, 39)
-    assert has(seen, at, "orange")
-    sight.obj.location = (0.0, 0.4, 0.0)
-    bpy.context.view_layer.update()
-    moved = sight.pixels()
-    assert not has(moved, at, "orange")
-    x, y = sight.ui.on_screen(tuple(np.add(sight.arrays.points[[38, 39]].mean(axis=0), (0.0, 0.4, 0.0))))
-    assert has(moved, (x, y), "orange")
-    assert bmesh.from_edit_mesh(sight.obj.data).is_valid

@@ -10,7 +10,7 @@ import pytest
 import ui as driver
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 from desk import ORANGE, Desk, leave, shows
-from mathutils import Euler, Vector
+from mathutils import Vector
 from scene import add_object, seams
 from seamwire.core.network.wires import Wire
 from seamwire.mesh.settings import settings
@@ -76,20 +76,6 @@ def test_it_is_straight_on_the_screen_and_a_click_keeps_it(desk: Desk) -> None:
     ui.click(desk.at(END), button="RIGHTMOUSE")
     ui.wait_until(lambda: not desk.running)
     assert len(seams(desk.obj)) == len(session.wires[0].edges())
-
-
-def test_where_the_view_has_turned_it_is_straight_in_that(desk: Desk) -> None:
-    ui = desk.ui
-    desk.choose()
-    aim(desk)
-    ui.view.view_rotation = Euler((math.radians(35.0), 0.0, math.radians(20.0))).to_quaternion()
-    ui.wait(redraw=True)
-    place = desk.at(END)
-    ui.move((place[0] + 1.0, place[1]))
-    ui.move(place)
-    ui.wait_until(lambda: not desk.session.cursor.computing)
-    assert desk.session.picture.choice.straight
-    assert bend_on_screen(desk, desk.session.picture.active) < 0.05
 
 
 def test_the_key_that_closes_a_chain_closes_it_straight(desk: Desk) -> None:

@@ -141,23 +141,6 @@ def test_hidden_parts_of_the_mesh_are_not_drawn_on(fine: Desk) -> None:
     assert len(fine.session.network.strokes) == 1
 
 
-def test_while_it_is_drawn_a_stroke_is_shown_and_escape_drops_it(fine: Desk) -> None:
-    session, ui = fine.start(), fine.ui
-    computed(fine)
-    view = edited.front
-    ui.move(at(fine, (5.0, 15.0)), shift=True)
-    ui.event("LEFTMOUSE", "PRESS", shift=True)
-    for x in (10.0, 15.0, 20.0):
-        ui.move(at(fine, (x, 15.0)), shift=True)
-    points, attracts = view.stroke
-    assert attracts
-    assert len(points) > 10, "the hand moved less often than that"
-    ui.key("ESC")
-    assert view.stroke is None
-    ui.event("LEFTMOUSE", "RELEASE", shift=True)
-    assert session.network.strokes == ()
-
-
 def test_the_tools_reach_of_strokes_is_taken(fine: Desk) -> None:
     choose(fine.ui)
     settings().stroke_radius = 0.2

@@ -520,22 +520,6 @@ def test_the_wheel_ends_a_plan_that_is_being_made(ui: driver.Ui, suzanne: bpy.ty
     ui.wait_until(lambda: live().is_planned)
 
 
-@pytest.mark.smoke
-@pytest.mark.every_blender
-def test_escape_after_changes_leaves_all_as_it_was(
-    ui: driver.Ui, prism: bpy.types.Object, capfd: pytest.CaptureFixture[str]
-) -> None:
-    before, steps = snapshot(prism), undo_steps(capfd)
-    invoke(ui)
-    ui.wheel(True, ui.on_screen(TOP))
-    ui.click(ui.on_screen(FRONT_RIM))
-    ui.wait(10)
-    escape(ui)
-    assert snapshot(prism) == before
-    assert undo_steps(capfd) == steps
-    assert not edited.covered
-
-
 def test_an_error_while_slits_are_planned_ends_it(
     ui: driver.Ui, prism: bpy.types.Object, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -784,16 +768,21 @@ def test_its_window_may_be_closed(ui: driver.Ui, prism: bpy.types.Object) -> Non
 
 
 @pytest.mark.smoke
-@pytest.mark.oldest_and_newest
-def test_a_right_click_cancels(ui: driver.Ui, prism: bpy.types.Object) -> None:
-    before = snapshot(prism)
+@pytest.mark.every_blender
+@pytest.mark.parametrize("key", ["ESC", "RIGHTMOUSE"])
+def test_escape_or_a_right_click_after_changes_leaves_all_as_it_was(
+    ui: driver.Ui, prism: bpy.types.Object, key: str, capfd: pytest.CaptureFixture[str]
+) -> None:
+    before, steps = snapshot(prism), undo_steps(capfd)
     invoke(ui)
     ui.wheel(True, ui.on_screen(TOP))
+    ui.click(ui.on_screen(FRONT_RIM))
     ui.click(ui.on_screen(TOP), "RIGHTMOUSE", shift=True)
     assert searches, "Shift and a right click do something else"
-    ui.click(ui.on_screen(TOP), "RIGHTMOUSE")
+    ui.key(key)
     ui.wait_until(lambda: not searches)
     assert snapshot(prism) == before
+    assert undo_steps(capfd) == steps
     assert not edited.covered
 
 

@@ -90,27 +90,6 @@ def test_shift_alt_shows_the_cut_bent_to_the_cursor_and_a_click_keeps_it_in_its_
     assert seams(desk.obj) == []
 
 
-def test_escape_while_it_is_bent_leaves_the_cut_as_it_was(desk: Desk) -> None:
-    ui = desk.ui
-    place = offer(desk, WAIST)
-    ui.click(place, alt=True)
-    ui.event("LEFT_ALT", "RELEASE", place)
-    assert desk.left_clean()
-    before = seams(desk.obj)
-    away = desk.at(WAIST + 6 * AROUND + 3)
-    ui.move(away)
-    ui.event("LEFT_SHIFT", "PRESS", away, shift=True)
-    ui.event("LEFT_ALT", "PRESS", away, alt=True, shift=True)
-    session = desk.session
-    ui.wait_until(lambda: session.picture.one(Role.OFFER) is not None and not session.cursor.computing)
-    assert session.picture.offered.bends
-    ui.key("ESC", alt=True, shift=True)
-    ui.event("LEFT_ALT", "RELEASE", away, shift=True)
-    ui.event("LEFT_SHIFT", "RELEASE", away)
-    assert desk.left_clean()
-    assert seams(desk.obj) == before
-
-
 SECONDS = (WAIST + 6 * AROUND + 3, WAIST - 4 * AROUND + 2)
 
 

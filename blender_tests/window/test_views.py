@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import ui as driver
 from bpy_extras.view3d_utils import location_3d_to_region_2d
-from desk import ORANGE, WHITE, Desk, choose, draw, leave, shows
+from desk import WHITE, Desk, choose, draw, leave, shows
 from scene import add_grid, chain, edit, seams
 from seamwire.mesh.settings import settings
 from seamwire.operators.chain_state import running
@@ -28,26 +28,6 @@ def scaled(ui: driver.Ui) -> Iterator[driver.Ui]:
     yield ui
     view.ui_scale = 1.0
     ui.wait(4, redraw=True)
-
-
-@pytest.mark.oldest_and_newest
-def test_in_perspective_wires_lie_where_they_are_seen(desk: Desk) -> None:
-    ui = desk.ui
-    ui.look((0.9, 0.35, 0.1, 0.2), (0.0, 0.0, 0.0), 4.0)
-    ui.view.view_perspective = "PERSP"
-    ui.wait(redraw=True)
-    choose(ui)
-    ui.click(desk.at(36))
-    session = desk.session
-    ui.move(desk.at(44))
-    ui.wait_until(lambda: session.picture.active is not None)
-    assert session.picture.active.vertices == tuple(range(36, 45))
-    pixels = ui.pixels()
-    assert all(shows(pixels, desk.at(v, v + 1), ORANGE) for v in range(37, 43))
-    ui.click(desk.at(44))
-    ui.wait_until(lambda: len(session.wires) == 1)
-    ui.key("RET")
-    assert seams(desk.obj) == ROW
 
 
 def test_at_a_scale_of_one_and_three_quarters_it_draws_and_says_first_what_matters(scaled: driver.Ui) -> None:

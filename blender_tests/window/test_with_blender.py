@@ -12,7 +12,7 @@ import bpy
 import pytest
 import stored
 import ui as driver
-from desk import ORANGE, Desk, choose, dismiss, draw, second_window, shows, undo_steps
+from desk import Desk, choose, dismiss, draw, second_window
 from scene import chain, changing, edit, fail, mark_wires, seams, set_seams
 from seamwire.core.drawing.picture import Role, SeedRole, ShownSeed
 from seamwire.core.drawing.session import Session
@@ -23,7 +23,7 @@ from seamwire.operators import chain_record
 from seamwire.operators.chain_state import running
 from seamwire.view.edited_objects import edited
 from seamwire.view.object_view import ObjectView
-from seamwire.words.notices import Notices
+from seamwire.words.notices import Notice
 
 ROW = chain(*range(36, 45))
 
@@ -251,17 +251,6 @@ def test_escape_while_a_chain_waits_for_its_end_waits_for_nothing(desk: Desk, mo
     assert seams(desk.obj) == []
 
 
-def test_x_is_blenders_where_there_is_no_wire(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
-    asked = []
-    menu = bpy.types.VIEW3D_MT_edit_mesh_delete
-    monkeypatch.setattr(menu, "draw", lambda self, _context: (asked.append(1), self.layout.label(text="Delete"))[0])
-    desk.choose()
-    desk.ui.move(desk.at(60))
-    desk.ui.key("X")
-    desk.ui.wait_until(lambda: bool(asked))
-    desk.ui.key("ESC")
-
-
 def test_along_edges_a_click_with_shift_and_alt_is_blenders(desk: Desk) -> None:
     ui = desk.ui
     desk.choose()
@@ -447,26 +436,6 @@ def test_a_script_that_removes_the_object_ends_the_chain(desk: Desk) -> None:
     assert desk.left_clean()
 
 
-def test_a_script_that_changes_the_mesh_ends_the_chain(desk: Desk) -> None:
-    live(desk)
-    with changing(desk.obj) as bm:
-        bmesh.ops.delete(bm, geom=[bm.verts[0]], context="VERTS")
-    desk.ui.wait()
-    desk.ui.move((300.0, 300.0))
-    assert desk.left_clean()
-    assert seams(desk.obj) == [], "the vertices have other numbers: nothing is marked in a wrong place"
-
-
-def test_a_script_that_moves_vertices_ends_the_chain_and_its_wires_are_kept(desk: Desk) -> None:
-    live(desk)
-    with changing(desk.obj) as bm:
-        bm.verts[80].co.z += 0.1
-    desk.ui.wait()
-    desk.ui.move((300.0, 300.0))
-    assert desk.left_clean()
-    assert seams(desk.obj) == ROW
-
-
 def test_another_add_ons_seams_under_a_chain_are_heard_of(desk: Desk) -> None:
     session = live(desk)
     set_seams(desk.obj, (0, 1))
@@ -493,41 +462,26 @@ def test_an_exception_ends_the_chain_and_leaves_the_mesh_as_it_was(desk: Desk, m
     assert seams(desk.obj) == ROW, "the tool goes on"
 
 
-def test_wires_are_kept_with_a_step_of_undo_if_unwrapping_fails(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
-    def fail(*_: object, **__: object) -> None:
-        raise TypeError("as the test wants it")
-
-    monkeypatch.setattr(chain_record, "unwrap_after_chain", fail)
-    reports = []
-    monkeypatch.setattr(Notices, "add", lambda _, level, text: reports.append((level, text)))
-    desk.choose()
-    draw(desk, 36, 44)
-    dismiss(desk.ui)
-    assert seams(desk.obj) == ROW
-    assert (
-        "ERROR",
-        "Wires are kept, but unwrapping ended on an error, undo leads back: as the test wants it",
-    ) in reports
-    monkeypatch.undo()
-    desk.ui.key("Z", ctrl=True)
-    desk.ui.wait(3)
-    assert desk.unchanged()
-
-
-def test_wires_are_kept_with_a_step_of_undo_if_drawing_and_cutting_them_fail(
-    desk: Desk, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(
+    ("failing", "what"),
+    [
+        ([(chain_record, "unwrap_after_chain")], "unwrapping"),
+        ([(ObjectView, "renew"), (finishes, "apply")], "finishing them"),
+    ],
+)
+def test_wires_are_kept_with_a_step_of_undo_if_what_comes_after_them_fails(
+    desk: Desk, failing: list[tuple[object, str]], what: str, reports: list[Notice], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def fail(*_: object, **__: object) -> None:
-        raise TypeError("as the test wants it")
-
     desk.choose()
-    monkeypatch.setattr(ObjectView, "renew", fail)
-    monkeypatch.setattr(finishes, "apply", fail)
-    draw(desk, 36, 44)
-    monkeypatch.undo()
+    with monkeypatch.context() as broken:
+        for owner, name in failing:
+            broken.setattr(owner, name, fail)
+        draw(desk, 36, 44)
     dismiss(desk.ui)
     driver.take_errors()
     assert seams(desk.obj) == ROW
+    told = f"Wires are kept, but {what} ended on an error, undo leads back: as the test wants it"
+    assert Notice("ERROR", told) in reports
     desk.ui.key("Z", ctrl=True)
     desk.ui.wait(3)
     assert desk.unchanged()
@@ -602,36 +556,3 @@ def test_beside_a_chain_another_window_says_that_it_must_end_first(
         assert "A chain is being drawn in another window" in "".join(capfd.readouterr())
         assert len(running) == 1
         running[0].drop()
-
-
-@pytest.mark.oldest_and_newest
-def test_what_is_lit_goes_with_another_tool(desk: Desk) -> None:
-    with desk.ui.override():
-        bpy.ops.mesh.select_all(action="DESELECT")  # Blender's orange is not to be taken for ours
-    desk.choose()
-    desk.ui.click(desk.at(36))
-    desk.ui.move(desk.at(44))
-    session = desk.session
-    desk.ui.wait_until(lambda: session.picture.active is not None)
-    assert shows(desk.ui.pixels(), desk.at(37, 38), ORANGE)
-    desk.ui.key("ESC")
-    choose(desk.ui, "builtin.select_box")
-    assert not shows(desk.ui.pixels(), desk.at(37, 38), ORANGE)
-    assert edited.front is not None, "prepared still"
-
-
-def test_blenders_steps_of_undo_are_one_a_deed(desk: Desk, capfd: pytest.CaptureFixture[str]) -> None:
-    bpy.ops.ed.undo_push(message="Before")
-    desk.choose()
-    draw(desk, 36, 40)
-    draw(desk, 0, 8)
-    desk.ui.move(desk.at(4))
-    desk.ui.key("X")
-    assert undo_steps(capfd)[-3:] == ["Draw Seamwires", "Draw Seamwires", "Edit Seamwires"]
-    name = desk.obj.name
-    for expected in (chain(*range(9)) + chain(36, 37, 38, 39, 40), chain(36, 37, 38, 39, 40), []):
-        desk.ui.key("Z", ctrl=True)
-        assert seams(bpy.data.objects[name]) == sorted(expected)
-    for expected in (1, 2, 1):
-        desk.ui.key("Z", ctrl=True, shift=True)
-        assert len(desk.session.wires) == expected

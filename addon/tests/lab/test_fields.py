@@ -10,10 +10,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from seamwire.core.base.newest import Newest
-from seamwire.core.fields.color_maps import colors
 from seamwire.core.solver.solver import by_number, kinds_of
 from seamwire.terms.choices import METRICS
-from seamwire_lab import color_tables
 from seamwire_lab.fields import ELLIPSES, PATHS, FieldMaker, FieldRequest, Paths, at_vertices, band_levels, spread
 
 sw = pytest.importorskip("seamwire_core")
@@ -227,28 +225,3 @@ def test_bands_are_evenly_spaced_at_round_numbers(largest: float, step: float) -
     assert np.diff(levels) == pytest.approx(np.full(len(levels) - 1, step))
     assert levels[-1] <= largest < levels[-1] + 1.001 * step
     assert len(band_levels(0.0)) == 0
-
-
-@pytest.mark.parametrize("name", ["VIRIDIS", "PLASMA"])
-def test_unsigned_maps_rise_in_brightness_evenly(name: str) -> None:
-    lightness = _lightness(colors(np.linspace(0, 1, 33), getattr(color_tables, name)))
-    rises = np.diff(lightness)
-    assert rises.min() > 0.3 * rises.mean()
-    assert rises.max() < 2.0 * rises.mean()
-
-
-def test_the_signed_map_is_light_in_the_middle_and_as_dark_at_both_ends() -> None:
-    lightness = _lightness(colors(np.linspace(0, 1, 41), color_tables.PURPLE_ORANGE))
-    assert lightness.argmax() == 20
-    assert (np.diff(lightness)[:20] > 0).all()
-    assert (np.diff(lightness)[20:] < 0).all()
-    red, blue = colors(np.array([0.8, 0.2]), color_tables.PURPLE_ORANGE)[:, [0, 2]].T
-    assert red[0] > blue[0]
-    assert red[1] < blue[1]
-
-
-def _lightness(rgb: np.ndarray) -> np.ndarray:
-    """CIE 1976 L* of sRGB."""
-    linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
-    y = linear @ (0.2126, 0.7152, 0.0722)
-    return np.where(y > 0.008856, 116 * np.cbrt(y) - 16, 903.3 * y)

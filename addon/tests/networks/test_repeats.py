@@ -48,12 +48,6 @@ def turned(angle: float) -> NDArray[np.float64]:
 MIRROR = np.diag([-1.0, 1.0, 1.0])
 
 
-def test_a_chain_is_found_on_each_copy_at_the_same_vertices() -> None:
-    _, repeats = copies(np.eye(3), turned(1.0), turned(2.0) @ MIRROR)
-    found = list(repeats.maps(edges_of(CHAIN)))
-    assert sorted(found, key=lambda to: to[7]) == [{v: COUNT * copy + v for v in CHAIN} for copy in (1, 2)]
-
-
 def test_a_tree_of_edges_and_a_loop_are_found_too() -> None:
     _, repeats = copies(np.eye(3), MIRROR)
     tree = [*edges_of(CHAIN), (14, 20), (20, 26), (13, 14)]

@@ -109,13 +109,6 @@ def test_before_the_first_click_the_hints_teach_the_gestures() -> None:
     ]
 
 
-def test_before_the_first_click_the_hints_name_the_keys_as_they_are_bound() -> None:
-    assert idle_hints({"LOOP": Key("J", ctrl=1), "GUIDE": Key("PEN")})[:2] == [
-        ("EVENT_J", "Ctrl: Add Loop"),
-        ("NONE", "Pen: Draw Stroke"),
-    ]
-
-
 def test_the_hints_name_the_keys_as_they_are_bound(session: Session) -> None:
     keys = Bindings([(Action.CLEAR, Key("J", shift=1))])
     shown = hints(Status(session.picture, keys))

@@ -6,16 +6,6 @@ from __future__ import annotations
 import numpy as np
 from seamwire.core.base.incidence import Incidence
 
-EDGES = np.array([(4, 1), (0, 1), (2, 4), (1, 0), (3, 2)], dtype=np.int32)
-
-
-def test_rows_of_several_vertices_are_found_once_and_in_order() -> None:
-    incidence = Incidence(EDGES, 6)
-    assert incidence.rows([1]).tolist() == [0, 1, 3]
-    assert incidence.rows([4, 1]).tolist() == [0, 1, 2, 3]
-    assert incidence.rows([5]).tolist() == []
-    assert incidence.rows([]).tolist() == []
-
 
 def test_rows_and_pairs_are_those_that_a_look_at_the_whole_table_finds() -> None:
     dice = np.random.default_rng(5)

@@ -109,20 +109,6 @@ def test_one_click_takes_a_ridge_as_far_as_it_is_one(sheet: Sheet, finish: str) 
     assert session.wires == ()
 
 
-def test_its_seeds_can_be_dragged(sheet: Sheet) -> None:
-    session = sheet.session
-    session.cursor.use_crests(sheet.crests, True)
-    session.hover(sheet.pick(), loop=True)
-    session.click(sheet.pick())
-    session.wait()
-    end = session.wires[-1].end
-    assert session.drag(end)
-    session.cursor.drag_to(20 * (N + 1) + 5)
-    session.wait()
-    assert session.drag_end()
-    assert session.wires[-1].end == 20 * (N + 1) + 5
-
-
 def test_where_ridges_are_not_seen_they_come_last(sheet: Sheet) -> None:
     session = sheet.session
     session.cursor.use_crests(sheet.crests, False)
@@ -266,12 +252,3 @@ def test_a_ridge_leaves_the_chain_that_is_drawn_as_it_is(sheet: Sheet) -> None:
     session.wait()
     assert session.wires
     assert session.seed == 2 * (N + 1) + 3
-
-
-def test_away_from_ridges_nothing_is_said_of_them(sheet: Sheet) -> None:
-    session = sheet.session
-    session.cursor.use_crests(sheet.crests, True)
-    place: Pick = 20 * (N + 1) + 26 if session.options.along == "SURFACE" else (20 * (N + 1) + 26, 20 * (N + 1) + 27)
-    session.hover(place, loop=True)
-    session.wait()
-    assert "RIDGE" not in session.picture.offered.kinds

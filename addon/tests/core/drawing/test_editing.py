@@ -6,13 +6,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from fake_live import FakeLive
-from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.picture import Intent, Role, SeedRole, ShownSeed
-from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Network, Snap
 from setting import insert, use
-from table import SIZE, Table, chain, corner, courses, paper
+from table import Table, chain, corner, courses, paper
 
 # Joining and closing
 
@@ -338,27 +335,3 @@ def test_the_preview_of_the_end_can_be_let_go() -> None:
 
 
 # The effect of a click
-
-
-def test_a_preview_is_seen_and_not_kept() -> None:
-    class Previewing(FakeLive):
-        def wires(self, target: object) -> object:
-            ready, self.ready = self.ready, (True, True)
-            found = super().wires(target)
-            self.ready = ready
-            found.final = all(ready)
-            for wire, final in zip(found.wires, ready, strict=True):
-                wire.final = final
-            return found
-
-    live = Previewing(SIZE, ready=(False, False))
-    table = Table()
-    session = Session(Drawing(lambda _: live, table.points))
-    session.click(0)
-    session.hover(7)
-    assert session.picture.active.vertices == (0, 1, 7)
-    session.click(7)
-    assert session.wires == ()
-    live.ready = (True, True)
-    session.poll()
-    assert courses(session) == [(0, 1, 7)]

@@ -107,18 +107,6 @@ def test_where_it_is_not_to_be_cut_a_wire_that_meets_no_edge_is_not_kept() -> No
     assert [wire.vertices for wire in on.wires] == [(0, 1, 2)]
 
 
-def test_a_seed_is_dragged_from_point_to_point() -> None:
-    on = session()
-    middle = at(1.2, 0.7)
-    click(on, at(0.3, 0.2), middle, 8)
-    on.end_chain()
-    assert on.drag(Snap(middle, "SEED"))
-    on.cursor.drag_to(at(0.6, 1.6))
-    on.wait()
-    assert on.drag_end()
-    assert ends(on) == [([0.3, 0.2], [0.6, 1.6]), ([0.6, 1.6], [2.0, 2.0])]
-
-
 def test_along_edges_a_point_is_its_nearest_vertex() -> None:
     on = session()
     point = at(0.9, 0.8)

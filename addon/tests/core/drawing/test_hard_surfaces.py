@@ -15,7 +15,6 @@ from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Snap
 from seamwire.core.network.picks import Edge, undirected
-from setting import use
 
 pytest.importorskip("seamwire_core")
 
@@ -210,19 +209,6 @@ def test_over_an_edge_inside_a_flat_face_the_border_of_all_its_polygons_is_offer
     assert offers(session, Snap((8, 9)))[-1][1] != wall, "the cursor is beside the mesh"
 
 
-def test_a_border_that_was_taken_over_an_edge_inside_is_kept() -> None:
-    points, polygons = prism(circle(8), 2.0, rows=3)
-    session, arrays = session_of(points, polygons)
-    target = Snap((8, 9), triangle=int(np.flatnonzero(arrays.polygons == 2)[0]))
-    session.hover(target, loop=True)
-    session.wait()
-    for _ in range(session.picture.offered.kinds.index("FLAT")):
-        session.cursor.next_candidate()
-    assert session.loop(target)
-    session.wait()
-    assert frozenset(session.wires[0].edges()) == border((0, 1, 9, 17, 25, 24, 16, 8))
-
-
 def ring_of(row: int, sides: int) -> frozenset[Edge]:
     return border(tuple(range(row * sides, (row + 1) * sides)))
 
@@ -371,16 +357,6 @@ def test_inside_a_face_of_a_plank_its_border_comes_first_though_it_is_narrow() -
     assert offers(session, Snap((4, 5), triangle=triangle, inside=True))[0] == ("FLAT", border((4, 5, 6, 7)))
 
 
-@pytest.mark.parametrize("segments", [1, 2])
-def test_inside_a_flat_face_of_a_bevelled_box_its_border_is_offered(segments: int) -> None:
-    points, polygons = bevelled_box(segments)
-    session, arrays = session_of(points, polygons)
-    flat = next(i for i, quad in enumerate(polygons) if (np.ptp(points[list(quad)], axis=0) > 0.5).sum() == 2)
-    triangle = int(np.flatnonzero(arrays.polygons == flat)[0])
-    edge = min(border(polygons[flat]))
-    assert border(polygons[flat]) in [edges for _, edges in offers(session, Snap(edge, triangle=triangle, inside=True))]
-
-
 def test_inside_a_face_of_a_ball_the_offers_are_those_of_the_edge() -> None:
     session = ball()
     edge = (4 * AROUND, 4 * AROUND + 1)
@@ -388,18 +364,3 @@ def test_inside_a_face_of_a_ball_the_offers_are_those_of_the_edge() -> None:
     found = [offers(session, Snap(edge, crossing=crossing, triangle=64, inside=inside)) for inside in (False, True)]
     assert found[0] == found[1]
     assert found[0][0] == ("CLOSED", ring_of(4, AROUND))
-
-
-def test_a_rim_that_is_taken_inside_a_wall_is_mirrored_like_any_wire() -> None:
-    points, polygons = prism(circle(16), 2.0)
-    session, arrays = session_of(points + np.array([3.0, 0.0, 0.0]), polygons)
-    use(session, mirror=(0,))
-    target = Snap((18, 19), triangle=face_of(arrays, 2, 3, 19), inside=True)
-    session.hover(target, loop=True)
-    session.wait()
-    assert session.loop(target)
-    session.wait()
-    assert [frozenset(wire.edges()) for wire in session.wires] == [ring_of(1, 16)]
-    assert session.wires[0].mirror == (0,)
-    assert session.undo()
-    assert session.wires == ()

@@ -157,16 +157,6 @@ def test_a_line_that_is_cancelled_leaves_all_as_it_was() -> None:
     assert drawing.network == network
 
 
-def test_undo_forgets_a_line_before_it_undoes() -> None:
-    drawing = session()
-    draw(drawing, ROW[0], line((2, 5), (9, 5)))
-    drawing.line_begin(at(3, 7))
-    assert drawing.picture.can_undo
-    assert drawing.undo()
-    assert not drawing.cursor.held
-    assert len(drawing.wires) == 1
-
-
 def test_a_line_begun_elsewhere_ends_the_chain_and_one_begun_at_its_seed_goes_on_with_it() -> None:
     drawing = session()
     for pick in (at(1, 1), at(4, 1)):

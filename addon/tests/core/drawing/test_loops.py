@@ -3,9 +3,6 @@
 
 from __future__ import annotations
 
-import itertools
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points
@@ -13,12 +10,9 @@ from real_sessions import halves, session_on
 from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.picture import Intent, Role
 from seamwire.core.drawing.session import Session
-from seamwire.core.network.network import Network, Snap
-from seamwire.core.network.stops import Stops
-from seamwire.core.network.symmetry import Symmetry
-from seamwire.core.network.wires import Wire
+from seamwire.core.network.network import Snap
 from setting import insert, use
-from table import SIZE, Table, chain, paper
+from table import SIZE, Table, paper
 
 ROW = (12, 13, 14, 15, 16, 17)
 COLUMN = (2, 8, 14, 20, 26, 32)
@@ -105,6 +99,8 @@ def test_a_strip_ends_on_the_mirrors_plane_unless_it_runs_along_it() -> None:
     use(session, mirror=[0])
     assert show(session, (15, 16), "STRIP") == (14, 15, 16, 17)
     assert show(session, (14, 20), "STRIP") == COLUMN
+    use(session, mirror=[1])
+    assert show(session, (15, 16), "STRIP") == ROW, "the plane is another one"
 
 
 def test_of_an_edge_that_is_a_seam_already_the_whole_strip_is_offered() -> None:
@@ -162,15 +158,6 @@ def test_over_a_kept_loops_edge_the_cursor_finds_its_offers_and_a_click_replaces
     assert [wire.vertices for wire in session.wires] == [ROW]
 
 
-def test_clearing_takes_the_same_strip_away() -> None:
-    session = grid()
-    take(session, (14, 20), "STRIP")
-    use(session, clear=not session.options.clear)
-    take(session, (14, 20), "STRIP")
-    assert session.edges_to_mark() == []
-    assert session.edges_to_clear() == chain(*COLUMN)
-
-
 def test_a_double_click_takes_its_first_click_back() -> None:
     session = grid()
     session.click(0)
@@ -225,62 +212,6 @@ def test_a_seed_in_a_strip_makes_two_ordinary_wires_of_it() -> None:
     assert insert(session, session.wires[0], 14)
     assert [wire.vertices for wire in session.wires] == [(2, 8, 14), (14, 20, 26, 32)]
     assert [wire.offers for wire in session.wires] == [(), ()]
-
-
-def test_a_stored_loop_is_previewed_with_its_offers() -> None:
-    session = grid()
-    take(session, (14, 15))
-    mesh = paper()
-    mesh.write(session)
-    again = grid()
-    mesh.open(again)
-    show(again, (15, 14))
-    assert again.picture.offered.kinds[:2] == ("CLOSED", "STRIP")
-    assert take(again, (15, 14), "STRIP")
-    assert [wire.vertices for wire in again.wires] == [ROW], "in place, not beside it"
-
-
-@pytest.mark.parametrize("axes", [(), (0,), (0, 1)])
-def test_stops_are_the_vertices_of_seams_wires_and_their_images(axes: tuple[int, ...]) -> None:
-    points = grid_points(7) - [3.0, 3.0, 0.0]
-    edges = grid_edges(7)
-    symmetry = Symmetry(points, edges)
-    generator = np.random.default_rng(6)
-    seams = generator.permutation(edges)[:8][:, ::-1]
-
-    def images(*chain: int) -> list[tuple[int, ...]]:
-        """Return the mirror images of a chain; vertex 7 y + x has the images 7 y + 6 - x, 7 (6 - y) + x and 48 - v."""
-        across_x, across_y, across_both = (
-            [tuple(image(*divmod(v, 7)) for v in chain)]
-            for image in (lambda y, x: 7 * y + 6 - x, lambda y, x: 7 * (6 - y) + x, lambda y, x: 48 - 7 * y - x)
-        )
-        return {(): [], (0,): across_x, (0, 1): across_x + across_y + across_both}[axes]
-
-    def wire(*chain: int) -> Wire:
-        return Wire("EDGES", chain, points[list(chain)], chain[0], chain[-1])
-
-    def pairs_of(chains: list[tuple[int, ...]]) -> set[tuple[int, int]]:
-        return {(min(pair), max(pair)) for one in chains for pair in itertools.pairwise(one)}
-
-    kept_chains, live = [(1, 2, 9), (43, 36, 35)], (14, 15, 16)
-    kept = tuple(replace(wire(*one), images=tuple(sorted(pairs_of(images(*one))))) for one in kept_chains)
-    network = Network(kept, mirror=axes)
-    stops = Stops(seams, symmetry)
-
-    chains = [one for own in kept_chains for one in (own, *images(*own))]
-    pairs = {tuple(sorted(pair)) for pair in seams.tolist()} | pairs_of(chains)
-    expected = {vertex for pair in pairs for vertex in pair}
-    middle_column, middle_row = {3, 10, 17, 24, 31, 38, 45}, {21, 22, 23, 24, 25, 26, 27}
-    plane = {(): set(), (0,): middle_column, (0, 1): middle_column | middle_row}[axes]
-    assert stops.kept(network).tolist() == sorted(expected)
-    assert stops.of(network, None, (0, 1)).tolist() == sorted(expected | plane)
-    assert stops.of(network, None, (17, 24)).tolist() == sorted(expected), "along the plane"
-    assert not any((expected | plane).issuperset(one) for one in (live, *images(*live))), "each one adds stops"
-    both = expected.union(live, *images(*live))
-    assert stops.of(network, wire(*live), (0, 1)).tolist() == sorted(both | plane)
-    for edge in edges.tolist():
-        assert stops.taken(network, tuple(edge[::-1])) == (tuple(edge) in pairs)
-    assert Stops([], symmetry).of(Network(), None, (0, 1)).tolist() == []
 
 
 def test_a_single_offer_has_no_next() -> None:

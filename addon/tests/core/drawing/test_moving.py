@@ -146,19 +146,6 @@ def test_there_must_be_a_seed_to_drag() -> None:
     assert not session.cursor.let_go()
 
 
-def test_surface_wires_follow_to_vertices_only() -> None:
-    session = Table("SURFACE").session
-    for pick in (0, 3, 21):
-        session.click(pick)
-    session.drag(3)
-    assert not session.cursor.drag_to((3, 4))
-    assert "vertices" in str(session.drawing.message)
-    assert session.cursor.drag_to(4)
-    assert session.wires[1].points[0].tolist() == [4.0, 0.0, 0.0], "the curve runs from its start"
-    session.drag_end()
-    assert session.seeds() == [0, 4, 21]
-
-
 def test_while_a_seed_is_dragged_a_toggled_wire_stays_with_its_metric() -> None:
     session = Table().session
     session.click(0)

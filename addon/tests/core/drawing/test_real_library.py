@@ -9,7 +9,6 @@ from fake_live import grid_edges, grid_triangles
 from numpy.typing import NDArray
 from paper_mesh import PaperMesh
 from real_sessions import session_on
-from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Snap
 from seamwire.terms.choices import Along
@@ -146,29 +145,6 @@ def test_another_strength_is_computed_in_the_background() -> None:
     assert session.wires[0].vertices == straight(-4, -8, 8)
 
 
-def test_a_wire_runs_on_over_the_ridge_to_the_boundary() -> None:
-    session = draw()
-    click(session, at(0, -8))
-    session.hover(at(0, -4))
-    session.wait()
-    assert session.run_to_end(preview=True)
-    assert session.picture.one(Role.EXTENSION).vertices == straight(0, -8, 10)
-    assert session.run_to_end()
-    assert session.wires[0].vertices == straight(0, -8, 10)
-
-
-def test_mirrored_wires_lie_on_the_other_side_of_the_ridge() -> None:
-    session = draw()
-    assert 0 in session.drawing.symmetry.symmetric_axes
-    use(session, mirror=(0,))
-    click(session, at(3, -5), at(7, 5))
-    assert len(session.edges_to_mark()) == 2 * len(session.wires[0].edges())
-    session.start(at(0, -8))
-    session.wait()
-    click(session, at(0, 8))
-    assert session.mirrored(session.wires[1]) == []
-
-
 def test_wires_of_the_library_come_back_from_the_mesh_and_can_be_dragged() -> None:
     session = draw()
     mesh = PaperMesh(ridge(), grid_edges(SIZE))
@@ -195,12 +171,3 @@ def test_wires_of_the_library_come_back_from_the_mesh_and_can_be_dragged() -> No
     assert at(2, 8) in again.seeds()
     mesh.write(again)
     assert mesh.seams == set(again.edges_to_mark())
-
-
-def test_a_seed_off_the_surface_is_refused_in_words() -> None:
-    session = draw()
-    assert not session.click(SIZE * SIZE)
-    assert str(SIZE * SIZE) in str(session.drawing.message)
-    click(session, at(0, 0))
-    assert not session.click(SIZE * SIZE)
-    assert str(session.drawing.message)

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
-from paper_mesh import PaperMesh
 from real_sessions import AROUND, RINGS, ball, halves, meridian, session_on, sides, tube
 from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
@@ -118,15 +117,6 @@ def test_a_way_past_poles_that_meets_no_seam_closes_around_the_ball() -> None:
     assert (True, great_circle) in shown
 
 
-def test_a_kept_ring_ends_the_next_strip() -> None:
-    session = ball()
-    session.loop((4 * AROUND, 4 * AROUND + 1))
-    session.wait()
-    assert session.wires[0].closed
-    offers = dict(hovered(session, (2 * AROUND, 3 * AROUND)))
-    assert offers["STRIP"] == sorted([*meridian(0)[:5], AROUND * RINGS])
-
-
 def test_on_a_sheet_the_strip_comes_before_the_way_around_a_face() -> None:
     session = grid()
     middle = SIZE // 2 * SIZE + SIZE // 2
@@ -156,25 +146,6 @@ def test_on_triangles_strips_run_straight() -> None:
     assert offers["STRIP"] == list(range(size // 2 * size, size // 2 * size + size))
     diagonal = dict(hovered(session, (middle, middle + size + 1)))
     assert diagonal["STRIP"] == [i * (size + 1) for i in range(size)]
-
-
-def test_the_strip_of_a_stored_network_can_be_moved() -> None:
-    session = tube()
-    edge = (3 * AROUND + 2, 4 * AROUND + 2)
-    hovered(session, edge)
-    while session.picture.offered.kind != "STRIP":
-        session.cursor.next_candidate()
-    session.loop(edge)
-    points = session.drawing.points
-    mesh = PaperMesh(points, session.drawing.symmetry._edges)
-    mesh.write(session)
-    again = tube()
-    mesh.open(again)
-    assert again.drag(again.seeds()[0])
-    again.cursor.drag_to(4)
-    again.wait()
-    assert again.drag_end()
-    assert 4 in again.seeds()
 
 
 # Strokes
@@ -251,14 +222,6 @@ def test_along_edges_a_wire_follows_a_stroke_that_runs_askew_to_them() -> None:
     assert gaps.min(axis=0).max() < 1.0, "from end to end"
 
 
-def test_a_repelled_line_is_not_followed() -> None:
-    session = grid()
-    straight = np.column_stack([np.linspace(3.0, 27.0, 60), np.full(60, 15.2), np.zeros(60)])
-    assert session.draw_stroke(straight, faces_under(straight), attracts=False)
-    wire = wire_between(session, "SURFACE")
-    assert np.abs(wire[:, 1] - 15.0).max() > 1.5
-
-
 def test_the_live_wire_follows_a_stroke_while_it_is_live() -> None:
     session = grid()
     session.click(LEFT)
@@ -286,17 +249,6 @@ def test_strokes_reach_wires_whose_seeds_are_moved() -> None:
     session.drag_end()
     session.wait()
     assert set(map(tuple, session.wires[0].points[:, :2])) == GATE
-
-
-def test_a_stored_stroke_draws_the_same_wire() -> None:
-    session = grid()
-    session.draw_stroke(bow(), faces_under(bow()))
-    before = wire_between(session, "EDGES")
-    mesh = PaperMesh(grid_points(SIZE), grid_edges(SIZE), triangles=grid_triangles(SIZE))
-    mesh.write(session)
-    again = grid()
-    mesh.open(again)
-    assert np.array_equal(wire_between(again, "EDGES"), before)
 
 
 @pytest.mark.parametrize(

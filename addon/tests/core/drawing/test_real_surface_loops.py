@@ -8,7 +8,7 @@ from collections import Counter
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from real_sessions import session_on
+from real_sessions import caps, circles, halves, quads_between_rings, session_on
 from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Snap
@@ -26,28 +26,14 @@ WAIST = 20 * AROUND
 
 @pytest.fixture
 def triangles() -> NDArray[np.int32]:
-    i, j = np.meshgrid(np.arange(AROUND), np.arange(ROWS - 1))
-    a, b = (j * AROUND + i).ravel(), (j * AROUND + (i + 1) % AROUND).ravel()
-    ends, last = np.arange(AROUND), (ROWS - 1) * AROUND
-    after = np.roll(ends, -1)
-    tips = AROUND * ROWS + np.repeat([[0], [1]], AROUND, axis=1)
-    return np.concatenate(
-        [
-            np.stack([a, b, b + AROUND], axis=1),
-            np.stack([a, b + AROUND, a + AROUND], axis=1),
-            np.stack([tips[0], after, ends], axis=1),
-            np.stack([tips[1], last + ends, last + after], axis=1),
-        ]
-    ).astype(np.int32)
+    return np.concatenate([halves(quads_between_rings(ROWS, AROUND)), caps(ROWS, AROUND)])
 
 
 @pytest.fixture
 def session(triangles: NDArray[np.int32]) -> Session:
     along = np.linspace(-1.0, 1.0, ROWS)
     radius = 0.3 - 0.1 * np.exp(-((along / 0.25) ** 2))
-    angle = 2.0 * np.pi * np.arange(AROUND) / AROUND
-    rows = [np.outer(radius, np.cos(angle)), np.outer(radius, np.sin(angle)), np.repeat(along[:, None], AROUND, axis=1)]
-    points = np.concatenate([np.stack(rows, axis=-1).reshape(-1, 3), [[0.0, 0.0, -1.15], [0.0, 0.0, 1.15]]])
+    points = np.concatenate([circles(along, radius, AROUND), [[0.0, 0.0, -1.15], [0.0, 0.0, 1.15]]])
     return session_on(points, triangles, options=Options(along="SURFACE"))
 
 
@@ -91,19 +77,6 @@ def test_a_click_within_a_face_does_so_too(session: Session, triangles: NDArray[
     assert session.loop(place)
     session.wait()
     assert session.wires[0].start == session.wires[-1].end == place
-    assert islands(session, triangles) == 2
-
-
-def test_its_seeds_can_be_dragged(session: Session, triangles: NDArray[np.int32]) -> None:
-    session.loop(WAIST)
-    session.wait()
-    assert session.drag(Snap(WAIST, "SEED"))
-    to = WAIST + 3 * AROUND
-    session.cursor.drag_to(to)
-    session.drag_end()
-    session.wait()
-    assert to in session.seeds()
-    assert WAIST not in session.seeds()
     assert islands(session, triangles) == 2
 
 
@@ -273,15 +246,3 @@ def test_w_on_a_piece_of_a_cut_takes_its_other_paths_between_the_same_seeds(
     assert session.wires[0] is before[0], "the other pieces stay"
     while session.wires[1] is not before[1]:
         assert session.undo()
-
-
-def test_x_on_a_piece_of_a_cut_removes_that_piece(session: Session) -> None:
-    session.loop(WAIST)
-    session.wait()
-    session.bend(WAIST + 4 * AROUND + 12)
-    session.wait()
-    session.drop(session.wires[1])
-    assert len(session.wires) == 3
-    assert not is_closed(session.edges_to_mark())
-    assert session.undo()
-    assert is_closed(session.edges_to_mark())

@@ -6,7 +6,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
-from numpy.typing import NDArray
 from real_sessions import session_on
 from seamwire.core.drawing.session import Session
 from seamwire.core.offers.part_borders import AMOUNTS
@@ -18,23 +17,6 @@ COLUMN = np.array([[SIZE * row + 4, SIZE * (row + 1) + 4] for row in range(SIZE 
 
 def plate(**options: object) -> Session:
     return session_on(grid_points(SIZE), grid_triangles(SIZE), grid_edges(SIZE), **options)
-
-
-def parts_of(session: Session) -> list[NDArray[np.int32]]:
-    drawing = session.drawing
-    return [np.asarray(labels) for labels in drawing.find_parts(drawing.seams, lambda: True)]
-
-
-def test_existing_seams_part_the_mesh() -> None:
-    assert [len(np.unique(labels)) for labels in parts_of(plate())] == [1] * len(AMOUNTS)
-    session = plate(seams=COLUMN)
-    assert session.drawing.seams.tolist() == COLUMN.tolist()
-    for labels in parts_of(session):
-        is_left = (grid_triangles(SIZE) % SIZE).max(axis=1) <= 4
-        assert len(np.unique(labels)) == 2
-        assert len(np.unique(labels[is_left])) == len(np.unique(labels[~is_left])) == 1
-    session.adopt(session.network, ())
-    assert [len(np.unique(labels)) for labels in parts_of(session)] == [1] * len(AMOUNTS), "the seams are gone"
 
 
 def test_a_stopped_search_yields_nothing_more_and_is_not_measured_again(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -11,7 +11,6 @@ import pytest
 from blender_refusal import BlenderRefusal
 from fake_live import FakeLive, FakeWires
 from seamwire import core
-from seamwire.core.drawing.picture import Role
 from seamwire.core.network.network import Snap
 from seamwire.terms.choices import Along
 from setting import use
@@ -30,14 +29,6 @@ def test_who_asks_for_blender_is_noticed_even_if_that_may_fail(blender_refusal: 
         importlib.import_module("bpy.types")
     assert blender_refusal.asked == ["bpy"]
     blender_refusal.asked.clear()
-
-
-def test_a_click_without_a_seed_places_one() -> None:
-    session = Table().session
-    assert session.click(0)
-    assert session.seed == 0
-    assert session.seeds() == [0]
-    assert session.wires == ()
 
 
 def test_a_click_does_not_wait_for_wires_that_do_not_lead() -> None:
@@ -138,17 +129,6 @@ def test_undo_takes_back_wires_then_seeds_and_redo_brings_them_again() -> None:
     assert not session.redo()
 
 
-def test_undo_skips_a_seed_that_was_let_go() -> None:
-    session = Table().session
-    session.click(0)
-    session.click(2)
-    session.end_chain()
-    session.click(20)
-    session.end_chain()
-    session.undo()
-    assert session.wires == ()
-
-
 def test_a_double_click_may_find_its_edge_the_other_way_round() -> None:
     session = Table().session
     session.click((15, 14))
@@ -156,18 +136,6 @@ def test_a_double_click_may_find_its_edge_the_other_way_round() -> None:
     assert session.seed is None
     assert session.loop((15, 14))
     assert len(session.wires) == 1
-
-
-def test_the_loop_is_shown_only_while_asked_for() -> None:
-    session = Table().session
-    session.hover((14, 15), loop=True)
-    assert session.picture.one(Role.OFFER).closed
-    session.hover((15, 16), loop=True)
-    assert session.picture.one(Role.OFFER).start == (15, 16)
-    session.hover((15, 16))
-    assert session.picture.one(Role.OFFER) is None
-    session.hover(15, loop=True)
-    assert session.picture.one(Role.OFFER) is None, "a vertex has no loop"
 
 
 def test_across_the_surface_picks_are_vertices() -> None:
@@ -248,16 +216,6 @@ def test_a_click_keeps_the_wire_that_is_seen_though_the_other_one_is_not_compute
     session.hover(7)
     session.click(7)
     assert [wire.vertices for wire in session.wires] == [(0, 6, 7)]
-
-
-def test_undo_takes_back_waiting_clicks_first() -> None:
-    table = Table(ready=(False, False))
-    session = table.session
-    session.click(0)
-    session.click(2)
-    session.undo()
-    assert session.cursor.waiting == 0
-    assert session.seed == 0
 
 
 def test_what_no_wire_reaches_is_said() -> None:

@@ -66,25 +66,6 @@ def test_a_run_that_waits_does_not_take_the_wire_that_merely_finishes_first() ->
     assert courses(session) == [(0, 1, 2, 8, 14, 20, 26, 32)]
 
 
-def test_a_double_click_takes_a_ridge_once() -> None:
-    session = with_ridge().session
-    session.hover((7, 8), loop=True)
-    session.click((7, 8))
-    session.hover((7, 8))
-    session.click((7, 8))
-    session.loop((7, 8))
-    assert courses(session) == [tuple(ROW)]
-
-
-def test_a_ridge_waits_behind_clicks() -> None:
-    session = with_ridge("SURFACE", ready=(False, False)).session
-    session.click(20)
-    session.click(22)
-    session.loop(7)
-    assert session.cursor.waiting == 2
-    assert session.wires == ()
-
-
 def test_after_a_ridge_the_triangles_are_told_of_that_its_wires_lead_around() -> None:
     session = with_ridge("SURFACE", holes=(2, 1)).session
     session.hover(7, loop=True)
@@ -454,26 +435,3 @@ def test_a_held_seed_goes_back_when_something_else_begins() -> None:
     session.cursor.drag_to(Snap(4))
     session.click(35)
     assert courses(session) == [FIRST]
-
-
-def test_a_stroke_for_a_wire_that_closes_or_is_straight_acts_on_both() -> None:
-    session = Table(ready=(True, True)).session
-    session.click(0)
-    session.hover(14)
-    session.cursor.live.chosen = None
-    session.cursor.live.leading = 3  # the wire under the cursor before was straight in the view
-    session.cursor.live.cancel()
-    assert session.draw_stroke(vertices=[27, 28])
-    assert session.network.strokes[0].acts_on == "both"
-
-
-def test_a_look_at_running_work_reads_the_progress_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    table = Table(ready=(False, False))
-    session = table.session
-    session.click(0)
-    session.hover((14, 15), loop=True)
-    session.click(20)
-    read, count = Cursor.read_progress, []
-    monkeypatch.setattr(Cursor, "read_progress", lambda cursor: (count.append(1), read(cursor)))
-    session.poll()
-    assert len(count) == 1

@@ -134,15 +134,6 @@ def tinted(maker: IslandMaker, key: object, cuts: NDArray[np.int32]) -> NDArray[
     return maker.answer.hues[maker.answer.labels]
 
 
-def test_a_new_cut_recolors_only_what_it_cuts_off_and_dropping_it_nothing_else() -> None:
-    maker = IslandMaker(strip(30), labelled(30))
-    first = tinted(maker, 1, cut_at(30, 10))
-    second = tinted(maker, 2, cut_at(30, 10, 25))
-    assert (first[:50] == second[:50]).all()
-    assert (first[50:] != second[50:]).all()
-    assert (tinted(maker, 3, cut_at(30, 10)) == first).all()
-
-
 def test_hues_stay_whatever_is_cut_and_dropped_elsewhere() -> None:
     count = 200
     maker = IslandMaker(strip(count), labelled(count))

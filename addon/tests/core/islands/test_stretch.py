@@ -29,22 +29,6 @@ def stretch_of(uvs: np.ndarray, points: np.ndarray = POINTS, polygons: np.ndarra
     return stretch
 
 
-@pytest.mark.parametrize("turn", [0.0, 0.7])
-def test_a_similar_map_stretches_nothing(turn: float) -> None:
-    rotation = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
-    stretch = stretch_of(0.03 * PLACES @ rotation + (0.5, 0.2))
-    # UVs have single precision.
-    assert np.abs(stretch.angle).max() < 1e-2
-    assert np.abs(stretch.area).max() < 1e-4
-
-
-@pytest.mark.parametrize("mirrored", [1.0, -1.0])
-def test_twice_as_long_one_way_is_one_octave_of_angle_and_none_of_area(mirrored: float) -> None:
-    stretch = stretch_of(PLACES * (2.0 * mirrored, 1.0))
-    assert stretch.angle == pytest.approx(np.ones(len(TRIANGLES)), abs=1e-5)
-    assert stretch.area == pytest.approx(np.zeros(len(TRIANGLES)), abs=1e-5)
-
-
 def test_area_is_compared_with_the_mean_of_all() -> None:
     uvs = PLACES.copy()
     half = len(uvs) // 2

@@ -3,25 +3,11 @@
 
 from __future__ import annotations
 
-from grid import wire
 from seamwire.core.network.network import History, Network
+from table import wire
 
 EMPTY = Network()
 ONE = Network((wire(0, 1),))
-TWO = Network((*ONE.wires, wire(1, 2)))
-
-
-def test_steps_are_taken_back_and_done_again() -> None:
-    history = History()
-    history.step(EMPTY)
-    history.step(ONE)
-    assert history.steps == 2
-    assert history.back(TWO) == ONE
-    assert history.back(ONE) == EMPTY
-    assert history.back(EMPTY) is None
-    assert history.forth(EMPTY) == ONE
-    assert history.forth(ONE) == TWO
-    assert not history.can_redo
 
 
 def test_a_step_that_changed_nothing_is_passed_over() -> None:

@@ -3,17 +3,9 @@
 
 from __future__ import annotations
 
-from grid import symmetry, wire
 from seamwire.core.network.network import Network
 from seamwire.core.network.symmetry import MirrorImages
-
-
-def test_a_wire_is_mirrored_as_it_was_when_it_was_kept() -> None:
-    images = MirrorImages(symmetry())
-    kept, live = wire(0, 1, mirror=()), wire(6, 7)
-    network = Network((kept,), mirror=(0,))
-    assert images.of(kept, network) == []
-    assert [image.edges() for image in images.of(live, network)] == [[(10, 11)]]
+from table import symmetry, wire
 
 
 def test_wires_and_images_mark_and_clear_and_the_last_one_counts() -> None:

@@ -114,21 +114,6 @@ def test_triangles_without_an_area_take_a_point_to_their_corner() -> None:
 # Steps of a drawing
 
 
-def test_other_steps_leave_the_strokes_alone() -> None:
-    table = Table()
-    session = table.session
-    stroke(session, (0.5, 0.2), (4.5, 0.2))
-    session.click(0)
-    session.click(3)
-    session.loop((14, 15))
-    session.drag(3)
-    session.cursor.drag_to(4)
-    session.drag_end()
-    session.undo()
-    assert len(table.lives["EDGES"].strokes) == 1
-    assert len(session.network.strokes) == 1
-
-
 def test_an_erased_stroke_is_gone_until_undo() -> None:
     table = Table()
     session = table.session
@@ -189,19 +174,6 @@ def test_the_live_wire_follows_and_kept_ones_stay() -> None:
     assert not session.picture.one(Role.COMPUTING) is not None
     assert session.wires == kept
     assert session.seed == (2, 3)
-
-
-def test_a_waiting_click_goes_on_waiting_while_a_stroke_is_drawn() -> None:
-    table = Table(ready=(False, False), metric_ready=(False, False))
-    session = table.session
-    session.click(0)
-    session.click(3)
-    assert session.cursor.waiting == 1
-    stroke(session, (0.5, 0.2), (4.5, 0.2))
-    assert session.cursor.waiting == 2
-    table.compute()
-    assert [wire.vertices for wire in session.wires] == [(0, 1, 2, 3)]
-    assert len(session.network.strokes) == 1
 
 
 # As they are stored

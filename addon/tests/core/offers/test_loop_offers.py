@@ -9,34 +9,17 @@ from collections.abc import Callable, Iterator
 import numpy as np
 import pytest
 from fake_live import grid_edges, grid_triangles
-from grid import POINTS, SIZE, Grid, symmetry
 from numpy.typing import NDArray
 from seamwire.core.network.network import Network, Snap
 from seamwire.core.network.stops import Stops
 from seamwire.core.offers import part_borders
 from seamwire.core.offers.edge_loops import LoopOffers
 from seamwire.core.offers.part_borders import PartBorders
-
-EDGE = (14, 15)
-
-
-def loops(grid: Grid) -> LoopOffers:
-    return LoopOffers(grid.engines, Stops([], symmetry()), POINTS)
+from table import POINTS, SIZE, Table, symmetry
 
 
-def test_each_offer_is_shown_in_turn() -> None:
-    offers = loops(Grid())
-    assert str(offers.advance()) == "No loop found yet"
-    offers.aim(EDGE)
-    assert offers.missing
-    assert offers.show(EDGE, offers.find(EDGE, Network()))
-    first = offers.wire
-    assert set(offers.kinds) >= {"CLOSED", "STRIP"}
-    assert str(offers.advance()) == ""
-    assert offers.wire is not first
-    for _ in offers.offers[1:]:
-        offers.advance()
-    assert offers.wire is first
+def loops(*borders: PartBorders) -> LoopOffers:
+    return LoopOffers(Table().session.drawing.engines, Stops([], symmetry()), POINTS, *borders)
 
 
 def halves(go_on: threading.Event | None = None) -> PartBorders:
@@ -50,26 +33,11 @@ def halves(go_on: threading.Event | None = None) -> PartBorders:
     return PartBorders(POINTS, triangles, grid_edges(SIZE), find_parts=find)
 
 
-def test_borders_of_parts_are_offered_last() -> None:
-    edge = (2, 2 + SIZE)
-    without = loops(Grid()).find(edge, Network())
-    offers = LoopOffers(Grid().engines, Stops([], symmetry()), POINTS, halves())
-    found = offers.find(edge, Network())
-    assert [one.kind for one in found] == [*(one.kind for one in without), "FLAT", "FLAT"]
-    rows = range(SIZE)
-    sides = {(x, y) for x in range(3) for y in rows if x in {0, 2} or y in {0, SIZE - 1}}
-    assert {(vertex % SIZE, vertex // SIZE) for vertex in found[-2].vertices} == sides, "the shorter one first"
-    assert found[-2].closed
-    assert set(found[-2].edges()) == offers.part_border(edge[::-1])
-    assert offers.part_border((0, 1)) == offers.part_border(edge)
-    assert not offers.part_border((7, 8))
-
-
 def test_loops_do_not_wait_for_parts_and_parts_join_them(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(part_borders, "AT_ONCE", 0)
     edge, go_on = (2, 2 + SIZE), threading.Event()
     parts = halves(go_on)
-    offers = LoopOffers(Grid().engines, Stops([], symmetry()), POINTS, parts)
+    offers = loops(parts)
     offers.point_at(Snap(edge))
     offers.aim(edge)
     while not offers.find(edge, Network()):
@@ -91,7 +59,7 @@ def test_a_motion_of_the_mouse_shows_parts_that_are_known_since(monkeypatch: pyt
     monkeypatch.setattr(part_borders, "AT_ONCE", 0)
     edge, go_on = (2, 2 + SIZE), threading.Event()
     parts = halves(go_on)
-    offers = LoopOffers(Grid().engines, Stops([], symmetry()), POINTS, parts)
+    offers = loops(parts)
     offers.point_at(Snap(edge))
     offers.aim(edge)
     while not (found := offers.find(edge, Network())):
@@ -119,7 +87,7 @@ def test_the_search_for_parts_ends_when_no_offers_are_asked_for(monkeypatch: pyt
 
     triangles = grid_triangles(SIZE)
     parts = PartBorders(POINTS, triangles, grid_edges(SIZE), find_parts=find)
-    offers = LoopOffers(Grid().engines, Stops([], symmetry()), POINTS, parts)
+    offers = loops(parts)
     offers.aim(edge)
     while not offers.find(edge, Network()):
         pass

@@ -106,16 +106,6 @@ def test_an_edge_is_picked_along_its_middle_and_a_vertex_at_its_end(perspective:
     assert pick(view, HERE, pixel(view, (0.3, 0.03, 0.0)), vertices_only=True) == 13
 
 
-def test_every_edge_and_vertex_of_a_grid_can_be_picked() -> None:
-    arrays = grid(9)
-    pick, view = partial(picked, Picker(arrays)), from_above()
-    for vertex, place in enumerate(arrays.points):
-        assert pick(view, HERE, pixel(view, place), vertices_only=False) == vertex
-    for pair in arrays.edges:
-        middle = arrays.points[pair].mean(axis=0)
-        assert set(pick(view, HERE, pixel(view, middle), vertices_only=False)) == set(pair.tolist())
-
-
 def test_nothing_is_picked_far_from_the_mesh_and_the_rim_just_beside_it() -> None:
     pick, view = partial(picked, Picker(grid())), from_above()
     x, y = pixel(view, (1.0, 0.25, 0.0))
@@ -358,14 +348,6 @@ def test_a_wire_across_the_surface_is_found_by_its_curve() -> None:
     assert found == Snap(8, "WIRE", kept)
 
 
-def test_the_network_is_read_again_when_it_changes() -> None:
-    find, view = Picker(grid()), from_above()
-    session, at = Network(placed=(12,)), pixel(from_above(), (0.0, 0.0, 0.0))
-    assert find.snap(view, HERE, at, vertices_only=True, session=session).to == "SEED"
-    session.placed = (13,)
-    assert find.snap(view, HERE, at, vertices_only=True, session=session).to == "MESH"
-
-
 def test_a_dragged_seed_and_its_wires_are_not_found() -> None:
     find, view = Picker(grid()), from_above()
     kept, staying = wire(11, 12, 13), wire(21, 22, 23)
@@ -528,16 +510,3 @@ def test_a_corner_is_taken_before_a_stronger_point_of_a_ridge() -> None:
     far = beside(view, arrays.points[corner], -40.0, -1.0)
     strength[40 * 81 + 30] = 5.0
     assert find.snap(view, HERE, far, vertices_only=True, strength=strength) == Snap(40 * 81 + 30, "FEATURE")
-
-
-def test_of_two_corners_the_nearer_one_is_taken() -> None:
-    size = 0.03
-    square = np.array([[-size, -size], [size, -size], [size, size], [-size, size]])
-    low, high = (np.column_stack([square * part, np.full(4, z)]) for part, z in ((1.0, 0.0), (0.9, 0.1)))
-    polygons = [(4, 5, 6, 7), *((i, (i + 1) % 4, 4 + (i + 1) % 4, 4 + i) for i in range(4))]
-    find, view = Picker(arrays_of(np.concatenate([low, high]), polygons)), from_above()
-    strength = np.arange(8.0)
-    for corner in range(4, 8):
-        x, y, _ = np.concatenate([low, high])[corner]
-        at = pixel(view, (0.6 * x, 0.7 * y, 0.1))
-        assert find.snap(view, HERE, at, vertices_only=True, strength=strength) == Snap(corner, "FEATURE")

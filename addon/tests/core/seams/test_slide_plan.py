@@ -110,16 +110,6 @@ def test_no_face_turns_over_or_gets_thin(quads: bool) -> None:
         assert (u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]).min() > 0.05
 
 
-def test_mirrored_curves_move_vertices_to_mirrored_places() -> None:
-    mesh = grid(quads=True)
-    mirrored = np.arange(SIZE * SIZE).reshape(SIZE, SIZE)[:, ::-1].ravel()
-    chain = [19, 28, 29, 38, 39, 40, 49]
-    one = slid(mesh, plan(mesh, [(chain, straight((1, 2), (4, 5)))]))
-    other = slid(mesh, plan(mesh, [(mirrored[chain].tolist(), straight((7, 2), (4, 5)))]))
-    assert np.abs(one - mesh.points).max() > 0.1
-    assert other[mirrored] == pytest.approx(one * (-1, 1, 1) + (8, 0, 0), abs=1e-12)
-
-
 def test_where_two_curves_cross_is_where_their_vertex_goes() -> None:
     mesh = grid()
     across, up = [38, 39, 40, 41, 42], [22, 31, 40, 49, 58]

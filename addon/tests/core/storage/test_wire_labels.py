@@ -11,10 +11,9 @@ from paper_mesh import PaperMesh
 from seamwire.core.drawing.session import Session
 from seamwire.core.network.network import Network, Snap
 from seamwire.core.network.picks import Edge
-from seamwire.core.network.wires import Wire
 from seamwire.core.storage.serialization import WAS_SEAM
 from setting import use
-from table import SIZE, Table, chain, courses, paper
+from table import SIZE, Table, chain, courses, paper, wire
 
 
 def drawn(*chains: Iterable[object], mesh: PaperMesh | None = None, **options: object) -> tuple[PaperMesh, Session]:
@@ -46,13 +45,6 @@ def lines(*chains: Iterable[int]) -> set[Edge]:
     return {edge for one in chains for edge in chain(*one)}
 
 
-def edge_wire(mesh: PaperMesh, *vertices: int, **options: object) -> Wire:
-    around = vertices + vertices[:1] if options.get("closed") else vertices
-    end = vertices[0] if options.get("closed") else vertices[-1]
-    ends = {"start": vertices[0], "end": end, **options}
-    return Wire("EDGES", vertices, points=mesh.points[list(around)], **ends)
-
-
 # Writing
 
 
@@ -61,11 +53,11 @@ def test_a_wire_is_seams_and_labels_and_comes_back() -> None:
     assert mesh.seams == set(mesh.labels) == lines((0, 1, 2, 3), (3, 9, 15, 21))
     again = opened(mesh)
     assert sorted(courses(again)) == sorted(courses(session))
-    for wire in again.wires:
-        was = next(own for own in session.wires if own.vertices == wire.vertices)
+    for now in again.wires:
+        was = next(own for own in session.wires if own.vertices == now.vertices)
         for name in ("along", "start", "end", "closed", "marks", "heading", "follow", "strength", "stored", "images"):
-            assert getattr(wire, name) == getattr(was, name), name
-        assert np.array_equal(wire.points, was.points)
+            assert getattr(now, name) == getattr(was, name), name
+        assert np.array_equal(now.points, was.points)
     assert not again.picture.can_undo
 
 
@@ -378,6 +370,15 @@ def test_the_same_number_of_vertices_moved_by_a_cell_is_the_same_mesh() -> None:
     assert sorted(courses(session)) == [(0, 1, 2, 3), (3, 9, 15, 21)]
 
 
+@pytest.mark.parametrize("seeds", [(0, 3), (3, 0)])
+def test_with_other_numbers_and_moved_along_itself_a_wire_has_its_direction(seeds: tuple[int, int]) -> None:
+    mesh, _ = drawn(seeds)
+    where = mesh.renumber(np.random.default_rng(1).permutation(SIZE**2))
+    mesh.places[:, 0] += 20.0
+    (wire,) = mesh.read().network.wires
+    assert (wire.start, wire.end) == tuple(where[list(seeds)])
+
+
 def test_of_wires_that_end_in_one_seed_each_goes_on_from_its_own() -> None:
     mesh = paper()
     session = Table().session
@@ -459,12 +460,11 @@ def test_wires_that_touch_themselves_survive_other_numbers(vertices: tuple[int, 
     mesh = paper()
     if closed:
         vertices = (7, 8, 14, 20, 19, 13, 14, 15, 9, 8, 2, 1)  # an eight, and more
-    wire = edge_wire(mesh, *vertices, closed=closed)
-    mesh.write(Network((wire,)))
+    mesh.write(Network((wire(*vertices, closed=closed),)))
     assert mesh.read().network.wires[0].vertices == vertices
     where = mesh.renumber(np.random.default_rng(4).permutation(SIZE**2))
     (again,) = mesh.read().network.wires
-    assert sorted(again.edges()) == sorted(edge_wire(mesh, *where[list(vertices)].tolist(), closed=closed).edges())
+    assert sorted(again.edges()) == sorted(wire(*where[list(vertices)].tolist(), closed=closed).edges())
     if not closed:
         assert (again.start, again.end) == (where[vertices[0]], where[vertices[-1]])
     assert again.closed is closed
@@ -472,7 +472,7 @@ def test_wires_that_touch_themselves_survive_other_numbers(vertices: tuple[int, 
 
 def test_an_open_wire_back_to_its_first_vertex_survives_other_numbers() -> None:
     mesh = paper()
-    mesh.write(Network((edge_wire(mesh, 0, 1, 7, 6, 0, start=(0, 1)),)))
+    mesh.write(Network((wire(0, 1, 7, 6, 0, start=(0, 1)),)))
     mesh.delete_vertices([35])
     mesh.renumber(np.random.default_rng(4).permutation(SIZE**2 - 1))
     (again,) = mesh.read().network.wires
@@ -499,26 +499,3 @@ def test_a_curve_stays_while_its_vertices_do_and_comes_back_with_them() -> None:
     mesh.write(Network((moved,)))
     mesh.places[1, 1] -= 0.5
     assert np.allclose(mesh.read().network.wires[0].points, lifted.points)
-
-
-def test_strokes_come_back_in_their_order() -> None:
-    session = Table().session
-    strokes = [[0, 7], [1, 8], [2, 9], [3, 10], [4, 11]]
-    for vertices in strokes:
-        session.draw_stroke(vertices=vertices)
-    mesh = paper()
-    mesh.write(session)
-    assert [one.vertices.tolist() for one in opened(mesh).network.strokes] == strokes
-    assert mesh.seams == set()
-
-
-def test_a_stroke_whose_ground_is_gone_is_none() -> None:
-    session = Table().session
-    session.draw_stroke(vertices=[0, 7])
-    mesh = paper()
-    mesh.write(session)
-    mesh.delete_vertices([7])
-    session = opened(mesh)
-    assert session.network.strokes == ()
-    mesh.write(session)
-    assert mesh.labels == {}
