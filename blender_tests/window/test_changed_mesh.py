@@ -4,10 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 
 import bmesh
+import bpy
 import pytest
-from desk import RED, Desk, draw, shows
+from desk import RED, Desk, draw, shows, undo_steps
 from scene import chain, changing, seams
 from seamwire.mesh.settings import settings
 from seamwire.words.notices import Notice
@@ -91,6 +93,27 @@ def test_wires_that_cannot_be_kept_are_told_of_and_all_others_are_seen(
     ui.move(desk.at(60))
     ui.wait_until(lambda: len(desk.session.wires) == 1)
     assert shows(ui.pixels(), desk.at(*desk.session.wires[0].vertices[:2]), RED)
+
+
+@pytest.mark.parametrize("change", [delete_apart, delete_edge_of_wire])
+def test_wires_that_a_file_was_saved_with_stay_and_are_told_of(
+    desk: Desk, tmp_path: Path, change: Callable[[Desk], None], reports: list[Notice], capfd: pytest.CaptureFixture[str]
+) -> None:
+    open_chain(desk)
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "open.blend"), copy=True)
+    change(desk)
+    settled(desk)
+    assert reports[-1].level == "WARNING"
+    assert reports[-1].text.endswith("the wires of this chain are in the mesh as they were last saved")
+    left = len(FIRST + ROW) - (change is delete_edge_of_wire)
+    assert len(seams(desk.obj)) == left
+    assert undo_steps(capfd)[-1] == "Draw Seamwires"
+    ui = desk.ui
+    ui.move(desk.at(60))
+    ui.wait_until(lambda: len(desk.session.wires) == (1 if change is delete_edge_of_wire else 2))
+    ui.key("Z", ctrl=True)
+    ui.wait(5)
+    assert seams(desk.obj) == FIRST
 
 
 def test_wires_that_are_not_finished_are_told_of(desk: Desk, reports: list[Notice]) -> None:

@@ -364,6 +364,38 @@ def test_w_and_x_act_on_a_wire_that_w_moved_away_until_the_mouse_moves(
     assert asked == []
 
 
+@pytest.mark.parametrize("in_a_chain", [False, True])
+def test_w_and_x_act_on_the_wire_that_w_moved_although_another_lies_below(cone: Desk, in_a_chain: bool) -> None:
+    cone.choose()
+    draw(cone, 20, 61)
+    session, ui = draw(cone, 10, 16, at_vertices=False), cone.ui
+    upper, lower = session.wires
+    assert {13, 22} <= {*upper.vertices, *lower.vertices}
+    ui.look_from_top(distance=25.0)  # six pixels from one row of vertices to the next
+    place = cone.at(22)
+    ui.move(place)
+    assert session.picture.one(Role.HOVERED).id == upper.id
+    if in_a_chain:
+        cone.start()
+
+    def press(key: str) -> None:
+        ui.key(key)
+        ui.wait_until(lambda: in_a_chain or not cone.running)
+        ui.move((place[0] + 1.0, place[1]))  # a hand that rests
+
+    for _ in range(3):
+        before = session.network.find(upper).vertices
+        press("W")
+        ui.wait_until(lambda before=before: session.network.find(upper).vertices != before)
+        assert session.picture.one(Role.HOVERED).id == upper.id, "it is highlighted"
+        assert session.network.find(lower).vertices == lower.vertices
+    press("X")
+    assert [wire.id for wire in session.wires] == [lower.id]
+    assert session.picture.one(Role.HOVERED).id == lower.id, "the next X removes it"
+    press("X")
+    assert session.wires == ()
+
+
 def test_where_the_mouse_has_moved_since_x_is_blenders(cone: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     asked = asked_to_delete(monkeypatch)
     cone.choose()

@@ -211,10 +211,11 @@ class Chain:
         self.close(Cue.KEEP)
         return self.record.has_kept
 
-    def drop(self) -> None:
-        """Undo everything since the last step."""
-        self.record.drop()
+    def drop(self) -> bool:
+        """Undo everything since the last step. Return False if saved wires stay in the mesh."""
+        is_restored = self.record.drop()
         self.close()
+        return is_restored
 
     def close(self, cue: Cue = Cue.DROP) -> None:
         """Put everything back. More than once does no harm."""

@@ -41,7 +41,7 @@ def hover(chain: Chain, given: Given) -> None:
     """Show what a click would take."""
     assert given.place is not None
     loop, bend = (chain.keys.previews(action, given.event) for action in _OFFERED)
-    view, snap = edited.find(given.place, plain=loop or bend)
+    view, snap = edited.find(given.place, plain=True) if loop or bend else edited.find_or_turned(given.place)
     edited.point_at(view, given.place)
     if view is not None and view is not edited.front:
         chain.session.hover(None)
@@ -55,7 +55,7 @@ def hover(chain: Chain, given: Given) -> None:
 
 def rehover(chain: Chain, place: Place) -> None:
     """Show what a click would take now, after a change."""
-    view, snap = edited.find(place)
+    view, snap = edited.find_or_turned(place)
     chain.session.hover(snap if view is edited.front else None)
 
 

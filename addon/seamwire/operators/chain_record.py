@@ -169,13 +169,20 @@ class ChainRecord:
                 _write(self.drawn_on, adopt=False)
                 self._is_saved = True
 
-    def drop(self) -> None:
-        """Undo everything since the last step."""
+    def drop(self) -> bool:
+        """Undo everything since the last step.
+
+        Return False if wires that were saved stay in the mesh: after a change by others, the former wires cannot be written.
+        """
         view, self.drawn_on = self.drawn_on, None
-        if view is not None and view.mesh.alive():
-            view.mesh.drop_changes(self._before)
-            if self._is_saved:
-                _write(view, adopt=True)
+        if view is None:
+            return True
+        if not view.mesh.alive():
+            return not self._is_saved
+        view.mesh.drop_changes(self._before)
+        if self._is_saved:
+            _write(view, adopt=True)
+        return True
 
 
 def _changed(before: NDArray[np.int32], after: NDArray[np.int32]) -> tuple[NDArray[np.int32], NDArray[np.int32]]:

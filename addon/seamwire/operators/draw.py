@@ -167,9 +167,11 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
         try:
             has_kept = self._chain.finish()
         except ValueError as error:
-            self._chain.drop()
-            has_kept = False
-            self._chain.notices.add("WARNING", f"{error}: the wires of this chain were not kept")
+            has_kept = not self._chain.drop()
+            fate = "are in the mesh as they were last saved" if has_kept else "were not kept"
+            self._chain.notices.add("WARNING", f"{error}: the wires of this chain {fate}")
+            if has_kept:
+                undo_steps.push(undo_steps.DRAW)
         self._chain.notices.tell(self.report)
         if has_kept and next(_kept) >= _ENOUGH and preferences(context).text == "STEPS":
             preferences(context).text = "INFORMATION"
@@ -178,13 +180,12 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
 
     def _failed(self, error: Exception) -> set[str]:
         traceback.print_exc()
-        previews, restored = self._chain.stage is Stage.PEEKING, True
+        previews, restored = self._chain.stage is Stage.PEEKING, False
         try:
-            self._chain.drop()
+            restored = self._chain.drop()
         except Exception:
             traceback.print_exc()
             self._chain.close()
-            restored = False
         if previews:
             return {"CANCELLED", "PASS_THROUGH"}
         if not restored:

@@ -155,10 +155,10 @@ class EditedObjects:
         return (found[0], None) if found else (None, None)
 
     def find_or_turned(self, place: Place) -> tuple[ObjectView | None, Snap | None]:
-        """Return what `find` does, or the wire that was just given another path there."""
+        """Return what `find` does, or the wire that was just given another path there. While a wire is live, keys act on that wire."""
         for view in self.views():
             wire = view.turned_at(place)
-            if wire is not None:
+            if wire is not None and view.session.seed is None:
                 return view, Snap(wire.start, "WIRE", wire)
         return self.find(place)
 

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import itertools
+import threading
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
@@ -156,9 +157,16 @@ class ObjectView:
         arrays = self.mesh.arrays
         gaps = GapFinder(arrays.points, arrays.triangles, arrays.edges, arrays.partly_hidden)
         make = self.mesh.make_live
-        self._islands = IslandMaker(arrays.triangles, make.face_segments, gaps, make.missing_cuts)
+        closed = self._closed = threading.Event()
+
+        def goes_on(_fraction: float) -> bool:  # a method would keep the view
+            return not closed.is_set()
+
+        segments = partial(make.face_segments, progress=goes_on)
+        self._islands = IslandMaker(arrays.triangles, segments, gaps, make.missing_cuts)
         self.pose = Pose(arrays)
-        self.crest_view = CrestView(make.wait, self.pose)
+        self._surface = partial(make.wait, goes_on)
+        self.crest_view = CrestView(self._surface, self.pose)
         self.heat = StretchHeat(arrays, self._islands, self.pose)
         self._layers: list[Layer] = []
         # The wire that was given another path last, and where the mouse was. Until it moves, keys act on this wire, wherever it runs now.
@@ -218,6 +226,7 @@ class ObjectView:
         self._islands.close()
         for layer in self._layers:
             layer.close()
+        self._closed.set()
 
     def refresh(self, obj: bpy.types.Object) -> bool:
         """Take over what the mesh holds now; return False where it is another one, see `ObjectSession.refresh`."""
@@ -277,9 +286,8 @@ class ObjectView:
 
     def make_layers(self) -> None:
         """Make the layers anew, because others are to be drawn."""
-        arrays, surface = self.mesh.arrays, self.mesh.make_live.wait
         made = [
-            failures.attempt(("layer made", self.name, make), partial(make, arrays, surface, self.pose))
+            failures.attempt(("layer made", self.name, make), partial(make, self.mesh.arrays, self._surface, self.pose))
             for make in makers
         ]
         for layer in self._layers[2:]:

@@ -3,10 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <numbers>
 #include <utility>
 #include <vector>
 
 #include "seams/wire_touches.hpp"
+#include "shapes.hpp"
 
 namespace seamwire::detail {
 namespace {
@@ -72,6 +77,49 @@ TEST(WireTouches, WiresMayRunAlongTheRimOnlyWhereTheyLeaveIt) {
 }
 
 TEST(WireTouches, AWireDoesNotTouchItself) { EXPECT_EQ(touches({{0, 1, 2, 3, 1, 4}}, {0.1}), (Touches{{0, 1}})); }
+
+/// A wall that rises above a curved valley 0-1-2-3-4, and flat ground with the edge 0-4 beside the valley. The wall has
+/// rows 5 to 9, 10 to 14 and 15 to 19.
+shapes::Mesh wall_above_ground() {
+  constexpr std::int32_t kColumns = 5, kRows = 4;
+  shapes::Mesh mesh;
+  for (int row = 0; row < kRows; ++row) {
+    for (int i = 0; i < kColumns; ++i) {
+      const double along = 0.25 * i;
+      mesh.points.emplace_back(3.0 * along, -0.6 * std::sin(std::numbers::pi * along) - 0.05 * row, row);
+    }
+  }
+  for (std::int32_t row = 0; row + 1 < kRows; ++row) {
+    for (std::int32_t i = 0; i + 1 < kColumns; ++i) {
+      const std::int32_t a = row * kColumns + i, b = a + 1, c = b + kColumns, d = a + kColumns;
+      mesh.triangles.push_back({a, d, c});
+      mesh.triangles.push_back({a, c, b});
+    }
+  }
+  for (std::int32_t i = 1; i + 1 < kColumns; ++i) mesh.triangles.push_back({0, i, i + 1});
+  mesh.triangles.push_back({0, kColumns - 1, static_cast<std::int32_t>(mesh.points.size())});
+  mesh.points.emplace_back(1.5, 3.0, 0.0);
+  return mesh;
+}
+
+/// The chains that wires across the surface of that wall mark, for slits without seeds between their ends.
+Chains wires_on_wall(const Chains& paths) {
+  const SurfaceContext context(std::make_shared<const Surface>(wall_above_ground().surface()));
+  const PlanMesh mesh = plan_mesh(*context.surface());
+  const PlannedWires wires(context, Along::kSurface, {.max_anisotropy = 10.0}, {}, {});
+  SlitChains slits;
+  slits.chains = paths;
+  slits.size = 100.0;
+  Chains found;
+  for (const PlannedWire& wire : wires.along(mesh, std::vector{slits}, {})) found.push_back(wire.vertices);
+  return found;
+}
+
+TEST(PlannedWires, AWireOfAOneEdgeSlitIsLaidOnItsEdgeWhereItTouchesAnotherOne) {
+  const Chain slit = {0, 4}, valley = {0, 1, 2, 3, 4}, upwards = {2, 7, 12, 17};
+  EXPECT_EQ(wires_on_wall({slit}), (Chains{valley}));
+  EXPECT_EQ(wires_on_wall({slit, upwards}), (Chains{slit, upwards}));
+}
 
 }  // namespace
 }  // namespace seamwire::detail

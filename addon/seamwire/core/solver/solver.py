@@ -67,6 +67,8 @@ MOST_WAITS = 50
 """So often in a row the library may say that all its work is done although an answer is not final."""
 _SLICE = 0.005
 """Seconds of one wait."""
+_SURFACE_SLICE = 0.05
+"""Seconds of one wait for a surface: less than an artist notices."""
 
 
 Answer = TypeVar("Answer")
@@ -199,13 +201,15 @@ class LiveMaker:
         self._first = self._core.LiveWire(mesh.points, mesh.triangles, mesh.edges, **_options(along))
         return self._first
 
-    def wait(self) -> seamwire_core.Surface:
+    def wait(self, progress: Callable[[float], bool] = lambda _fraction: True) -> seamwire_core.Surface:
         """Wait for the surface, once there are live wires, and return it; any thread may.
 
-        Raises ValueError if wires cannot run on the mesh.
+        Raises ValueError if wires cannot run on the mesh, and `seamwire_core.Cancelled` where `progress` returns False.
         """
         assert self._first is not None
-        self._first.wait_for_surface()
+        while not self._first.wait_for_surface(_SURFACE_SLICE):
+            if not progress(0.0):
+                raise self._core.Cancelled
         return self._first.surface
 
     def part_finder(
@@ -217,12 +221,14 @@ class LiveMaker:
         raised where `progress` returns False.
         """
         return self._core.PartFinder(
-            self.wait(), mirror=mirror, marked=self._mesh.marked, seams=seams, progress=progress
+            self.wait(progress), mirror=mirror, marked=self._mesh.marked, seams=seams, progress=progress
         )
 
-    def face_segments(self, cuts: NDArray[np.int32]) -> NDArray[np.int32]:
-        """Return the island of each triangle where edges are cut; it waits for the surface."""
-        return self._core.face_segments(self.wait(), cuts)
+    def face_segments(
+        self, cuts: NDArray[np.int32], progress: Callable[[float], bool] = lambda _fraction: True
+    ) -> NDArray[np.int32]:
+        """Return the island of each triangle where edges are cut; it waits for the surface as `wait` does."""
+        return self._core.face_segments(self.wait(progress), cuts)
 
     def missing_cuts(self, cuts: NDArray[np.int32], islands: NDArray[np.int32]) -> NDArray[np.int32]:
         """Return how many more cuts each island needs to become a disc; it waits for the surface."""

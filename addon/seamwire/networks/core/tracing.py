@@ -391,7 +391,7 @@ class Tracing:
         key = record["along"], float(record["strength"])
         if key not in self._lives:
             live = self._make(key[0])
-            self._make.wait()
+            self._make.wait(lambda _fraction: self._progress(self._done))
             metric = self._file.metric, key[1] or STRENGTHS[key[0]], self._file.clamp
             if metric != ("feature", STRENGTHS[key[0]], CLAMP_PERCENTILE):
                 live.set_metric(metric[0], max_anisotropy=metric[1], clamp_percentile=metric[2])

@@ -10,7 +10,6 @@ import pytest
 from fake_live import FakeLive, grid_points, grid_triangles
 from seamwire.core.base.messages import Refused
 from seamwire.core.drawing import wire
-from seamwire.core.drawing.cursor import Cursor
 from seamwire.core.drawing.session import Session
 from seamwire.core.fields.crests import Crests
 from seamwire.core.network.network import Snap

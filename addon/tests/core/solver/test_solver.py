@@ -3,10 +3,16 @@
 
 from __future__ import annotations
 
+from functools import partial
+
+import numpy as np
 import pytest
 from fake_live import FakeLive, grid_points
+from polygon_meshes import arrays_of, grid_places, grid_polygons
+from seamwire.core.base import native
 from seamwire.core.network.strokes import ActsOn, Stroke, through_vertices
-from seamwire.core.solver.solver import Engines
+from seamwire.core.solver import solver
+from seamwire.core.solver.solver import Engines, LiveMaker
 from seamwire.terms.choices import METRICS, Along
 from seamwire.terms.options import CLAMP_PERCENTILE, STRENGTHS
 from table import SIZE
@@ -102,3 +108,18 @@ def test_for_closed_cuts_strokes_are_for_the_wires_of_the_concave_metric() -> No
 def test_metrics_have_the_names_that_the_library_gives_them() -> None:
     families = pytest.importorskip("seamwire_core").metric_families()
     assert set(METRICS) <= {family.name for family in families}
+
+
+def test_a_wait_for_the_surface_ends_when_it_is_stopped(monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("seamwire_core")
+    monkeypatch.setattr(solver, "_SURFACE_SLICE", 0.0)
+    make = LiveMaker(arrays_of(grid_places(100), grid_polygons(100)))
+    make("EDGES")
+    seams = np.empty((0, 2), dtype=np.int32)
+    stopped = native.load().Cancelled
+    for wait in (make.wait, partial(make.face_segments, seams), partial(make.part_finder, None, seams)):
+        with pytest.raises(stopped):
+            wait(lambda _fraction: False)
+    told = []
+    assert len(make.wait(lambda fraction: not told.append(fraction)).points) == 100 * 100
+    assert told, "it is asked while it waits"
