@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "detail/index.hpp"
+#include "detail/poll.hpp"
 #include "parameterization/box_grid.hpp"
 #include "parameterization/coverage.hpp"
 
@@ -41,14 +42,10 @@ bool Outline::covers_twice(std::span<const double> map, double tolerance, const 
   std::vector<OutlineSide> sides;
   sides.reserve(edges_.size());
   for (const auto& [a, b] : edges_) {
-    sides.push_back({{at(map, a)[0], at(map, a)[1]}, {at(map, b)[0], at(map, b)[1]}, a, b, 0});
+    sides.push_back({{at(map, a)[0], at(map, a)[1]}, {at(map, b)[0], at(map, b)[1]}, a, b});
   }
-  std::size_t begin = 0;
-  for (const std::size_t size : loop_sizes_) {
-    mark_longest(std::span(sides).subspan(begin, size));
-    begin += size;
-  }
-  return Coverage(std::move(sides), {}, tolerance, task).is_double();
+  Poll poll(task, 0.0, 0.0, 1);
+  return PieceOutline(std::move(sides), loop_sizes_, {0.0, 0.0}, 0.0, poll).is_double(tolerance, poll);
 }
 
 std::vector<Outline::Pair> Outline::close_pairs(std::span<const double> map, double factor) const {
