@@ -67,7 +67,7 @@ std::vector<Point> ends_of(std::span<const OutlineSide> sides) {
   return ends;
 }
 
-constexpr auto kNothing = [](const StripTree::Part&, const StripTree::Part&) { return false; };
+constexpr auto kSkipsNothing = [](const StripTree::Part&, const StripTree::Part&) { return false; };
 
 }  // namespace
 
@@ -159,7 +159,7 @@ bool PieceOutline::is_double(double tolerance, Poll& poll) const {
     many = 2 * touches.size();
     return is_any_double(touches, tolerance, poll, covers_twice);
   };
-  return ClosePairs(tree_, tree_, tolerance, kNothing, poll).any(crosses) ||
+  return ClosePairs(tree_, tree_, tolerance, kSkipsNothing, poll).any(crosses) ||
          is_any_double(std::move(touches), tolerance, poll, covers_twice);
 }
 
@@ -173,7 +173,7 @@ bool PieceOutline::overlaps(const PieceOutline& other, double tolerance, Poll& p
     add_touches(two, t, one, tolerance, of_other);
     return false;
   };
-  if (ClosePairs(tree_, other.tree_, tolerance, kNothing, poll).any(crosses)) return true;
+  if (ClosePairs(tree_, other.tree_, tolerance, kSkipsNothing, poll).any(crosses)) return true;
   const auto covers_twice = [&](const Point& point) {
     return winding(point, tolerance) != 0 && other.winding(point, tolerance) != 0;
   };
@@ -259,7 +259,7 @@ class DoneParts {
 bool do_any_overlap(std::span<IslandPiece> pieces, double tolerance, Poll& poll) {
   if (pieces.size() < 2) return false;
   const StripTree tree = tree_of(pieces, poll);
-  return ClosePairs(tree, tree, tolerance, kNothing, poll).any([&](std::int32_t i, std::int32_t j) {
+  return ClosePairs(tree, tree, tolerance, kSkipsNothing, poll).any([&](std::int32_t i, std::int32_t j) {
     return pieces[index(i)].outline->overlaps(*pieces[index(j)].outline, tolerance, poll);
   });
 }
