@@ -209,9 +209,9 @@ StripTree tree_of(std::span<IslandPiece> pieces, Poll& poll) {
     const Strip& strip = piece.outline->strip();
     const Point along = strip.half.x() * strip.axis, across = strip.half.y() * Point(-strip.axis.y(), strip.axis.x());
     corners.push_back(strip.middle - along - across);
-    corners.push_back(strip.middle + along - across);
     corners.push_back(strip.middle - along + across);
     corners.push_back(strip.middle + along + across);
+    corners.push_back(strip.middle + along - across);
   }
   return {corners, 4, poll};
 }

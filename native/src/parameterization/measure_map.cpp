@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "seamwire/parameterization/measure_map.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,7 +13,6 @@
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
 #include "detail/poll.hpp"
-#include "parameterization/box_grid.hpp"
 #include "parameterization/coverage.hpp"
 #include "parameterization/cut_open.hpp"
 #include "parameterization/measure_islands.hpp"
@@ -206,7 +206,7 @@ class OverlapTest {
     std::vector<std::int32_t> found;
     for (std::int32_t i = 0; index(i) < islands_.size(); ++i) {
       poll_.next();
-      const double tolerance = kTouching * islands_[index(i)].box.size();
+      const double tolerance = kTouching * islands_[index(i)].box.sizes().maxCoeff();
       std::vector<IslandPiece> pieces = pieces_of(i);
       const auto is_double = [&](const IslandPiece& piece) { return piece.outline->is_double(tolerance, pair_poll_); };
       if (is_bad[i] != 0 || islands_[index(i)].is_wound || std::ranges::any_of(pieces, is_double) ||
@@ -224,8 +224,8 @@ class OverlapTest {
       const std::vector<IslandPiece> own = pieces_of(i);
       pieces.insert(pieces.end(), own.begin(), own.end());
       if (own.empty()) continue;
-      const Box& box = islands_[index(i)].box;
-      for (std::size_t k = 0; k < 2; ++k) largest = std::max({largest, std::abs(box.low[k]), std::abs(box.high[k])});
+      const Eigen::AlignedBox2d& box = islands_[index(i)].box;
+      largest = std::max({largest, box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff()});
     }
     std::vector<std::uint8_t> is_colliding(islands_.size(), 0);
     mark_colliding(pieces, kTouching * largest, is_colliding, pair_poll_);
@@ -239,7 +239,7 @@ class OverlapTest {
  private:
   struct IslandOutline {
     std::vector<PieceOutline> pieces;
-    Box box;
+    Eigen::AlignedBox2d box;
     bool is_wound = false;  // closed, or around an inner vertex twice
   };
 
@@ -260,7 +260,7 @@ class OverlapTest {
       double longest = 0.0;
       for (std::size_t i = 0; i < 3; ++i) {
         own[index(piece.triangles[f][i])] = corners[i];
-        island.box.add(corners[i].data());
+        island.box.extend(corners[i]);
         longest = std::max(longest, (corners[(i + 1) % 3] - corners[i]).norm());
       }
       const double doubled = map_.cross(index(piece.faces[f]));

@@ -50,7 +50,7 @@ class StripTree {
   };
 
   StripTree() = default;
-  /// `points`: of the items, `of_each` of an item. The first two lie along it.
+  /// `points`: of the items, `of_each` of an item. An item lies along its first and last point.
   StripTree(std::span<const Eigen::Vector2d> points, std::size_t of_each, Poll& poll)
       : count_(points.size() / of_each) {
     if (count_ == 0) return;
@@ -72,7 +72,7 @@ class StripTree {
     // Directions are doubled, so that opposite ones are the same.
     double doubled_x = 0.0, doubled_y = 0.0;
     for (std::size_t i = 0; i < own.size(); i += of_each) {
-      const Eigen::Vector2d way = own[i + 1] - own[i];
+      const Eigen::Vector2d way = own[i + of_each - 1] - own[i];
       const double length = way.norm();
       if (!(length > 0.0)) continue;
       doubled_x += (way.x() - way.y()) * ((way.x() + way.y()) / length);
