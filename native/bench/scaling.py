@@ -104,12 +104,15 @@ def all_work() -> dict[str, tuple[Callable[[int], Work], float]]:
         points, triangles = torus(n)
         return points, triangles, sw.flatten(points, triangles, ring(n)).uvs
 
-    def stacked(n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        points = np.tile([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.0)], (n // 2, 1))
+    def rectangles(n: int, step: tuple[float, float], width: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        corners = [(0.0, 0.0, 0.0), (width, 0.0, 0.0), (width, 1.0, 0.0), (0.0, 1.0, 0.0)]
+        points = np.tile(corners, (n // 2, 1))
+        points[:, :2] += np.arange(n // 2).repeat(4)[:, None] * step
         first = 4 * np.arange(n // 2)[:, None, None]
         triangles = (first + np.array([(0, 1, 2), (0, 2, 3)])).reshape(-1, 3).astype(np.int32)
         points[:, 2] = np.arange(n // 2).repeat(4)
-        return points, triangles, points[triangles][:, :, :2]
+        turn = np.array([(0.8, 0.6), (-0.6, 0.8)])
+        return points, triangles, points[triangles][:, :, :2] @ turn
 
     def field(n: int) -> tuple[sw.DistanceField, int]:
         return sw.distance_field(embedded(n), 0), far(n)
@@ -186,7 +189,9 @@ def all_work() -> dict[str, tuple[Callable[[int], Work], float]]:
         "NearestPoints.find": after(places, lambda tree, near: tree.find(near)),
         "flatten": after(lambda n: (*torus(n), ring(n)), sw.flatten),
         "measure_map": after(flat, sw.measure_map),
-        "measure_map, stacked islands": after(stacked, sw.measure_map),
+        "measure_map, stacked islands": after(lambda n: rectangles(n, (0, 0), 1), sw.measure_map),
+        "measure_map, islands on each other": after(lambda n: rectangles(n, (1 / n, 0), 1), sw.measure_map),
+        "measure_map, long islands": after(lambda n: rectangles(n, (0, 2), n), sw.measure_map),
         "PartFinder": after(surface, sw.PartFinder),
         "PartFinder.find": after(lambda n: sw.PartFinder(surface(n)), lambda finder: finder.find(0.5)),
         "SeamPlanner.plan": seam_plan(torus),

@@ -6,75 +6,73 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
-#include "detail/csr.hpp"
-#include "parameterization/box_grid.hpp"
-#include "seamwire/task.hpp"
+#include "detail/poll.hpp"
+#include "parameterization/strip_tree.hpp"
 
 namespace seamwire::detail {
 
 /// A side of an outline in a map. The outlined part of the plane lies to its left.
 struct OutlineSide {
   Eigen::Vector2d from, to;
-  std::int32_t tail, tip;   ///< the vertices at its ends: sides with a common vertex do not cross each other
-  std::int32_t group;       ///< the island that it is a side of
-  bool is_longest = false;  ///< of its loop
+  std::int32_t tail, tip;  ///< the vertices at its ends: sides with a common vertex do not cross each other
 };
 
-void mark_longest(std::span<OutlineSide> loop);
-
-/// A point inside a piece of a group.
-struct InnerPoint {
-  Eigen::Vector2d place;
-  std::int32_t group;
-  double reach;  ///< its distance from the sides of the piece, at least
-};
-
-/// How often the closed outlines of islands cover the points of a plane, and where they cover it twice.
+/// The outline of a piece of a map, and which part of the plane the piece covers.
 ///
-/// Without flips, a point is covered as often as the outlines wind around it. Where that number is two, there is an
-/// outline that crosses or touches another one, a whole loop that is turned inside out, or a piece inside another one.
-/// So the number is looked up beside each part of each side that touches something, beside one side of each loop, and
-/// at one point inside each piece.
-class Coverage {
+/// Without flips, a piece covers a point as often as its outline winds around it. Where the plane is covered twice,
+/// there is a side that crosses or touches another one, a whole loop that is turned inside out, or a piece inside
+/// another one. So the number is looked up beside each part of each side that touches something, beside one side of
+/// each loop, and at one point inside each piece.
+class PieceOutline {
  public:
-  /// `tolerance`: sides that cross by less than this only touch. `inner`: one point inside each piece.
-  Coverage(std::vector<OutlineSide> sides, std::vector<InnerPoint> inner, double tolerance, const Task& task);
+  /// `loop_sizes`: the number of sides of each loop. Their sides follow each other. `inner`: a point inside the piece
+  /// with a distance of at least `inner_reach` from its sides.
+  PieceOutline(std::vector<OutlineSide> sides, std::span<const std::size_t> loop_sizes, const Eigen::Vector2d& inner,
+               double inner_reach, Poll& poll);
 
-  /// Whether a part of the plane is covered twice. Throws Cancelled.
-  bool is_double() const;
-  /// Sets the items of groups that cover a part of another group; it sees only groups whose items are not set. Throws
+  /// Whether the piece covers a part of the plane twice. Sides that cross by less than `tolerance` only touch. Throws
   /// Cancelled.
-  void mark_colliding(std::vector<std::uint8_t>& is_colliding) const;
+  bool is_double(double tolerance, Poll& poll) const;
+  /// Whether it covers a part of what another piece covers. Throws Cancelled.
+  bool overlaps(const PieceOutline& other, double tolerance, Poll& poll) const;
 
-  /// How often the outlines wind around a point.
-  int winding(const Eigen::Vector2d& point) const;
+  /// A rectangle that holds it.
+  const Strip& strip() const { return tree_.strip(tree_.root()); }
 
  private:
-  enum class Meeting : std::uint8_t { kApart, kTouching, kCrossing };
+  struct Touch;
+  using Touches = std::vector<Touch>;
 
-  Meeting meeting(const OutlineSide& one, const OutlineSide& other) const;
-  std::array<std::int32_t, 2> cell_of(const Eigen::Vector2d& point) const;
-  Eigen::Vector2d reference(std::int32_t column, std::int32_t row) const;
-  template <class Visit>
-  void for_each_cell(const OutlineSide& side, const Visit& visit) const;
-  void sum_up_references();
-  /// Looks at all pairs that `is_relevant(one, other)`, and at all points beside sides that touch another one, until
-  /// `crossing(one, other)` or `look(points)` returns true.
-  template <class IsRelevant, class Crossing, class Look>
-  bool find(const IsRelevant& is_relevant, const Crossing& crossing, const Look& look) const;
-  std::vector<std::int32_t> groups_at(const Eigen::Vector2d& point) const;
+  static void add_touches(const OutlineSide& one, std::int32_t number, const OutlineSide& other, double tolerance,
+                          Touches& touches);
+  /// `covers_twice(point)`: whether this piece or two of them cover a point twice. `touches`: where sides touch.
+  template <class CoversTwice>
+  bool is_any_double(Touches touches, double tolerance, Poll& poll, const CoversTwice& covers_twice) const;
+  /// How often the outline winds around a point. Parts of it that are farther than `reach` are looked at as a whole.
+  int winding(const Eigen::Vector2d& point, double reach) const { return winding(tree_.root(), point, reach); }
+  int winding(const StripTree::Part& part, const Eigen::Vector2d& point, double reach) const;
 
   std::vector<OutlineSide> sides_;
-  std::vector<InnerPoint> inner_;
-  double tolerance_;
-  const Task& task_;
-  std::array<double, 2> low_{}, cell_{1.0, 1.0};
-  std::array<std::int32_t, 2> counts_{1, 1};
-  Csr<std::int32_t> cells_;      // the sides in each cell
-  std::vector<int> references_;  // the winding number at a point of each cell
+  std::vector<std::int32_t> first_;    // of each side: the first side of its loop
+  std::vector<std::int32_t> longest_;  // sides of each loop
+  Eigen::Vector2d inner_;
+  double inner_reach_;
+  StripTree tree_;
 };
+
+/// A piece of an island.
+struct IslandPiece {
+  const PieceOutline* outline;
+  std::int32_t island;
+};
+
+/// Whether any two pieces overlap. Sorts them. Throws Cancelled.
+bool do_any_overlap(std::span<IslandPiece> pieces, double tolerance, Poll& poll);
+
+/// Sets the items of islands of which a piece overlaps a piece of another island. Sorts the pieces. Throws Cancelled.
+void mark_colliding(std::span<IslandPiece> pieces, double tolerance, std::vector<std::uint8_t>& is_colliding,
+                    Poll& poll);
 
 }  // namespace seamwire::detail

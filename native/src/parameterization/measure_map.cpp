@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "seamwire/parameterization/measure_map.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <numeric>
 #include <string>
@@ -13,7 +13,6 @@
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
 #include "detail/poll.hpp"
-#include "parameterization/box_grid.hpp"
 #include "parameterization/coverage.hpp"
 #include "parameterization/cut_open.hpp"
 #include "parameterization/measure_islands.hpp"
@@ -185,7 +184,10 @@ ScaledEnergies scaled_energies(const Surface& surface, const HalfEdgeMap& map, s
 class OverlapTest {
  public:
   OverlapTest(const Surface& surface, const HalfEdgeMap& map, const Task& task)
-      : map_(map), task_(task), outlines_(index(map.island_count())) {
+      : map_(map),
+        poll_(task, 0.5, 0.5, 1, Poll::kFewSteps),
+        pair_poll_(task, 0.5, 0.5, 1),
+        islands_(index(map.island_count())) {
     std::vector<std::uint8_t> is_cut(corner_fans(surface).twins.size(), 0);
     for (std::int32_t h = 0; index(h) < is_cut.size(); ++h) {
       const std::int32_t twin = corner_fans(surface).twins[h];
@@ -193,57 +195,40 @@ class OverlapTest {
       is_cut[h] = map.island(index(h / 3)) != map.island(index(twin / 3)) || !map.is_continuous(h) ? 1 : 0;
     }
     task.check(0.5);
-    std::int32_t vertices = 0;
     for (const Island& piece : cut_open(corner_fans(surface), is_cut)) {
       poll_.next();
-      add_piece(piece, vertices);
-      vertices += static_cast<std::int32_t>(piece.vertices.size());
+      add_piece(piece);
     }
   }
 
   /// `is_bad`: islands that are known to overlap.
-  std::vector<std::int32_t> overlapping(const std::vector<std::uint8_t>& is_bad) const {
+  std::vector<std::int32_t> overlapping(const std::vector<std::uint8_t>& is_bad) {
     std::vector<std::int32_t> found;
-    for (std::size_t i = 0; i < outlines_.size(); ++i) {
+    for (std::int32_t i = 0; index(i) < islands_.size(); ++i) {
       poll_.next();
-      const IslandOutline& outline = outlines_[i];
-      const auto is_double = [&] {
-        return Coverage(outline.sides, outline.inner, kTouching * outline.box.size(), task_).is_double();
-      };
-      if (is_bad[i] != 0 || outline.is_wound || (!outline.sides.empty() && is_double())) {
-        found.push_back(static_cast<std::int32_t>(i));
+      const double tolerance = kTouching * islands_[index(i)].box.sizes().maxCoeff();
+      std::vector<IslandPiece> pieces = pieces_of(i);
+      const auto is_double = [&](const IslandPiece& piece) { return piece.outline->is_double(tolerance, pair_poll_); };
+      if (is_bad[i] != 0 || islands_[index(i)].is_wound || std::ranges::any_of(pieces, is_double) ||
+          do_any_overlap(pieces, tolerance, pair_poll_)) {
+        found.push_back(i);
       }
     }
     return found;
   }
 
-  std::vector<std::int32_t> colliding() const {
+  std::vector<std::int32_t> colliding() {
     double largest = 0.0;
-    for (const IslandOutline& outline : outlines_) {
-      if (outline.sides.empty()) continue;
-      for (std::size_t k = 0; k < 2; ++k) {
-        largest = std::max({largest, std::abs(outline.box.low[k]), std::abs(outline.box.high[k])});
-      }
+    std::vector<IslandPiece> pieces;
+    for (std::int32_t i = 0; index(i) < islands_.size(); ++i) {
+      const std::vector<IslandPiece> own = pieces_of(i);
+      pieces.insert(pieces.end(), own.begin(), own.end());
+      if (own.empty()) continue;
+      const Eigen::AlignedBox2d& box = islands_[index(i)].box;
+      largest = std::max({largest, box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff()});
     }
-    std::vector<std::uint8_t> is_colliding(outlines_.size(), 0);
-    const std::vector<const IslandOutline*> outlines = without_stacked(kTouching * largest, is_colliding);
-    std::vector<Box> boxes;
-    for (const IslandOutline* outline : outlines) boxes.push_back(outline->box);
-    // Only islands whose boxes meet can collide.
-    std::vector<OutlineSide> sides;
-    std::vector<InnerPoint> inner;
-    const BoxGrid grid(boxes);
-    for (std::size_t i = 0; i < outlines.size(); ++i) {
-      poll_.next();
-      bool is_near = false;
-      grid.for_each_meeting(boxes[i], [&](std::int32_t other) { is_near = is_near || index(other) != i; });
-      if (!is_near) continue;
-      inner.insert(inner.end(), outlines[i]->inner.begin(), outlines[i]->inner.end());
-      sides.insert(sides.end(), outlines[i]->sides.begin(), outlines[i]->sides.end());
-    }
-    if (!sides.empty()) {
-      Coverage(std::move(sides), std::move(inner), kTouching * largest, task_).mark_colliding(is_colliding);
-    }
+    std::vector<std::uint8_t> is_colliding(islands_.size(), 0);
+    mark_colliding(pieces, kTouching * largest, is_colliding, pair_poll_);
     std::vector<std::int32_t> found;
     for (std::int32_t i = 0; index(i) < is_colliding.size(); ++i) {
       if (is_colliding[index(i)] != 0) found.push_back(i);
@@ -253,78 +238,51 @@ class OverlapTest {
 
  private:
   struct IslandOutline {
-    std::vector<OutlineSide> sides;
-    std::vector<InnerPoint> inner;
-    Box box;
+    std::vector<PieceOutline> pieces;
+    Eigen::AlignedBox2d box;
     bool is_wound = false;  // closed, or around an inner vertex twice
   };
 
-  /// The outlines of islands. The first one stands for those that lie exactly on each other. Islands that lie on each
-  /// other collide if they hold a point farther than the tolerance from their sides. Comparing all their sides with
-  /// each other would take long.
-  std::vector<const IslandOutline*> without_stacked(double tolerance, std::vector<std::uint8_t>& is_colliding) const {
-    std::vector<const IslandOutline*> outlines;
-    std::map<std::vector<std::array<double, 4>>, std::size_t> firsts;
-    for (std::size_t i = 0; i < outlines_.size(); ++i) {
-      poll_.next();
-      const IslandOutline& outline = outlines_[i];
-      if (outline.sides.empty()) continue;
-      const bool has_inside =
-          std::ranges::any_of(outline.inner, [&](const InnerPoint& inner) { return inner.reach > tolerance; });
-      if (has_inside) {
-        std::vector<std::array<double, 4>> places;
-        places.reserve(outline.sides.size());
-        for (const auto& side : outline.sides) {
-          places.push_back({side.from.x(), side.from.y(), side.to.x(), side.to.y()});
-        }
-        std::ranges::sort(places);
-        const auto [first, is_new] = firsts.try_emplace(std::move(places), i);
-        if (!is_new) {
-          is_colliding[first->second] = is_colliding[i] = 1;
-          continue;
-        }
-      }
-      outlines.push_back(&outline);
-    }
-    return outlines;
+  std::vector<IslandPiece> pieces_of(std::int32_t island) const {
+    std::vector<IslandPiece> pieces;
+    for (const PieceOutline& piece : islands_[index(island)].pieces) pieces.push_back({&piece, island});
+    return pieces;
   }
 
-  /// `first`: the number of the piece's first vertex.
-  void add_piece(const Island& piece, std::int32_t first) {
-    const std::int32_t island = map_.island(index(piece.faces.front()));
-    IslandOutline& outline = outlines_[index(island)];
+  void add_piece(const Island& piece) {
+    const std::int32_t number = map_.island(index(piece.faces.front()));
+    IslandOutline& island = islands_[index(number)];
     std::vector<Eigen::Vector2d> own(piece.vertices.size());
-    double largest = -1.0;
-    InnerPoint inner{.place = {0.0, 0.0}, .group = island, .reach = 0.0};
+    double largest = -1.0, inner_reach = 0.0;
+    Eigen::Vector2d inner(0.0, 0.0);
     for (std::size_t f = 0; f < piece.faces.size(); ++f) {
       const Corners corners = map_.placed_uvs(index(piece.faces[f]));
       double longest = 0.0;
       for (std::size_t i = 0; i < 3; ++i) {
         own[index(piece.triangles[f][i])] = corners[i];
-        outline.box.add(corners[i].data());
+        island.box.extend(corners[i]);
         longest = std::max(longest, (corners[(i + 1) % 3] - corners[i]).norm());
       }
       const double doubled = map_.cross(index(piece.faces[f]));
       if (!(doubled > largest)) continue;
       largest = doubled;
-      inner.place = corners[0] + ((corners[1] - corners[0]) + (corners[2] - corners[0])) / 3.0;
-      inner.reach = longest > 0.0 ? doubled / longest / 3.0 : 0.0;
+      inner = corners[0] + ((corners[1] - corners[0]) + (corners[2] - corners[0])) / 3.0;
+      inner_reach = longest > 0.0 ? doubled / longest / 3.0 : 0.0;
     }
-    outline.inner.push_back(inner);
     const std::vector<std::vector<std::int32_t>> boundaries = piece.boundaries();
-    outline.is_wound = outline.is_wound || boundaries.empty() || winds_around_a_vertex(piece, own);
-    for (const std::vector<std::int32_t>& loop : boundaries) {
+    island.is_wound = island.is_wound || boundaries.empty() || winds_around_a_vertex(piece, own);
+    if (boundaries.empty()) return;
+    std::vector<OutlineSide> sides;
+    std::vector<std::size_t> loop_sizes;
+    for (std::vector<std::int32_t> loop : boundaries) {
+      if (map_.is_mirrored(number)) std::ranges::reverse(loop);
       for (std::size_t i = 0; i < loop.size(); ++i) {
         const std::int32_t tail = loop[i], tip = loop[(i + 1) % loop.size()];
-        OutlineSide side{own[index(tail)], own[index(tip)], first + tail, first + tip, island};
-        if (map_.is_mirrored(island)) {
-          std::swap(side.from, side.to);
-          std::swap(side.tail, side.tip);
-        }
-        outline.sides.push_back(side);
+        sides.push_back({own[index(tail)], own[index(tip)], tail, tip});
       }
-      mark_longest(std::span(outline.sides).last(loop.size()));
+      loop_sizes.push_back(loop.size());
     }
+    island.pieces.emplace_back(std::move(sides), loop_sizes, inner, inner_reach, pair_poll_);
   }
 
   /// Whether the triangles around an inner vertex go around it more than once.
@@ -344,9 +302,8 @@ class OverlapTest {
   }
 
   const HalfEdgeMap& map_;
-  const Task& task_;
-  mutable Poll poll_{task_, 0.5, 0.5, 1, Poll::kFewSteps};
-  std::vector<IslandOutline> outlines_;
+  Poll poll_, pair_poll_;
+  std::vector<IslandOutline> islands_;
 };
 
 }  // namespace
@@ -386,7 +343,7 @@ MapReport detail::measure_islands(const Surface& surface, std::span<const Corner
     report.flipped.push_back(source);
     is_bad[map.island(f)] = 1;
   }
-  const OverlapTest test(surface, map, task);
+  OverlapTest test(surface, map, task);
   report.overlapping = test.overlapping(is_bad);
   if (are_placed) report.colliding = test.colliding();
   return report;

@@ -6,8 +6,9 @@
 #include <limits>
 
 #include "detail/index.hpp"
-#include "parameterization/box_grid.hpp"
+#include "detail/poll.hpp"
 #include "parameterization/coverage.hpp"
+#include "parameterization/strip_tree.hpp"
 
 namespace seamwire::detail {
 namespace {
@@ -41,34 +42,46 @@ bool Outline::covers_twice(std::span<const double> map, double tolerance, const 
   std::vector<OutlineSide> sides;
   sides.reserve(edges_.size());
   for (const auto& [a, b] : edges_) {
-    sides.push_back({{at(map, a)[0], at(map, a)[1]}, {at(map, b)[0], at(map, b)[1]}, a, b, 0});
+    sides.push_back({{at(map, a)[0], at(map, a)[1]}, {at(map, b)[0], at(map, b)[1]}, a, b});
   }
-  std::size_t begin = 0;
-  for (const std::size_t size : loop_sizes_) {
-    mark_longest(std::span(sides).subspan(begin, size));
-    begin += size;
+  Poll poll(task, 0.0, 0.0, 1);
+  return PieceOutline(std::move(sides), loop_sizes_, {0.0, 0.0}, 0.0, poll).is_double(tolerance, poll);
+}
+
+/// Calls visit(vertex, edge) for the vertices and edges that may be closer than `reach`, on their ways by `most` times
+/// a direction.
+template <class Visit>
+void Outline::for_each_close(std::span<const double> map, std::span<const double> direction, double most, double reach,
+                             const Visit& visit) const {
+  std::vector<Eigen::Vector2d> points;
+  for (const Edge& edge : edges_) {
+    for (const std::int32_t v : edge) {
+      points.emplace_back(at(map, v)[0], at(map, v)[1]);
+      if (most > 0.0)
+        points.emplace_back(points.back() + most * Eigen::Vector2d(at(direction, v)[0], at(direction, v)[1]));
+    }
   }
-  return Coverage(std::move(sides), {}, tolerance, task).is_double();
+  const Task task;
+  Poll poll(task, 0.0, 0.0, 1);
+  const StripTree tree(points, most > 0.0 ? 4 : 2, poll);
+  constexpr auto kSkipsNothing = [](const StripTree::Part&, const StripTree::Part&) { return false; };
+  const auto visit_vertex = [&](const Edge& one, const Edge& other) {
+    const Pair pair{one[0], other[0], other[1]};
+    if (pair.vertex != pair.a && pair.vertex != pair.b) visit(pair);
+  };
+  ClosePairs(tree, tree, reach, kSkipsNothing, poll).any([&](std::int32_t e, std::int32_t other) {
+    visit_vertex(edges_[index(e)], edges_[index(other)]);
+    visit_vertex(edges_[index(other)], edges_[index(e)]);
+    return false;
+  });
 }
 
 std::vector<Outline::Pair> Outline::close_pairs(std::span<const double> map, double factor) const {
-  std::vector<Box> boxes(edges_.size());
-  for (std::size_t e = 0; e < edges_.size(); ++e) {
-    for (const std::int32_t v : edges_[e]) boxes[e].add(at(map, v), factor * reach_);
-  }
-  const BoxGrid grid(boxes);
   std::vector<Pair> pairs;
-  for (const auto& [vertex, next] : edges_) {
-    Box box;
-    box.add(at(map, vertex));
-    grid.for_each_meeting(box, [&, vertex = vertex](std::int32_t e) {
-      const auto& [a, b] = edges_[index(e)];
-      if (vertex == a || vertex == b) return;
-      const Pair pair{vertex, a, b};
-      const double distance = nearest_on_edge(at(map, vertex), at(map, a), at(map, b)).distance;
-      if (distance < factor * reach_) pairs.push_back(pair);
-    });
-  }
+  for_each_close(map, {}, 0.0, factor * reach_, [&](const Pair& pair) {
+    const double distance = nearest_on_edge(at(map, pair.vertex), at(map, pair.a), at(map, pair.b)).distance;
+    if (distance < factor * reach_) pairs.push_back(pair);
+  });
   return pairs;
 }
 
@@ -94,20 +107,9 @@ Outline::Slope Outline::slope(const Pair& pair, std::span<const double> map) con
 }
 
 double Outline::first_contact(std::span<const double> map, std::span<const double> direction, double most) const {
-  std::vector<Box> boxes(edges_.size());
-  const auto add_way = [&](Box& box, std::int32_t v) {
-    const double* from = at(map, v);
-    const double* by = at(direction, v);
-    const std::array<double, 2> to{from[0] + most * by[0], from[1] + most * by[1]};
-    box.add(from);
-    box.add(to.data());
-  };
-  for (std::size_t e = 0; e < edges_.size(); ++e) {
-    for (const std::int32_t v : edges_[e]) add_way(boxes[e], v);
-  }
-  const BoxGrid grid(boxes);
   double least = most;
-  const auto try_pair = [&](std::int32_t vertex, std::int32_t a, std::int32_t b) {
+  const auto try_pair = [&](const Pair& pair) {
+    const auto& [vertex, a, b] = pair;
     const auto difference = [](const double* to, const double* from) {
       return std::array<double, 2>{to[0] - from[0], to[1] - from[1]};
     };
@@ -132,14 +134,7 @@ double Outline::first_contact(std::span<const double> map, std::span<const doubl
       if (along >= -kSlack * squared && along <= (1.0 + kSlack) * squared) least = root;
     }
   };
-  for (const auto& [vertex, next] : edges_) {
-    Box box;
-    add_way(box, vertex);
-    grid.for_each_meeting(box, [&, vertex = vertex](std::int32_t e) {
-      const auto& [a, b] = edges_[index(e)];
-      if (vertex != a && vertex != b) try_pair(vertex, a, b);
-    });
-  }
+  for_each_close(map, direction, most, 0.0, try_pair);
   return least;
 }
 

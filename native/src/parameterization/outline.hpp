@@ -44,6 +44,10 @@ class Outline {
   double first_contact(std::span<const double> map, std::span<const double> direction, double most) const;
 
  private:
+  template <class Visit>
+  void for_each_close(std::span<const double> map, std::span<const double> direction, double most, double reach,
+                      const Visit& visit) const;
+
   std::vector<Edge> edges_;  // own vertices, in the direction of the loops
   std::vector<std::size_t> loop_sizes_;
   double reach_;
