@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "context/embedded_surface.hpp"
+#include "seamwire/context/embedded_surface.hpp"
 
 #include <algorithm>
 #include <string>

@@ -7,12 +7,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <queue>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "detail/epoch_map.hpp"
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
 #include "detail/poll.hpp"
@@ -28,6 +29,23 @@ namespace seamwire {
 using namespace detail;
 
 namespace {
+
+/// Values for some of the numbers below `size`, all of which can be forgotten at once, in constant time.
+class EpochMap {
+ public:
+  explicit EpochMap(std::size_t size) : slots_(size) {}
+  void clear() { ++epoch_; }
+  bool has(std::int32_t i) const { return slots_[i].epoch == epoch_; }
+  std::uint32_t at(std::int32_t i) const { return slots_[i].value; }
+  void set(std::int32_t i, std::size_t value) { slots_[i] = {epoch_, static_cast<std::uint32_t>(value)}; }
+
+ private:
+  struct Slot {
+    std::uint32_t epoch = 0, value = 0;
+  };
+  std::vector<Slot> slots_;
+  std::uint32_t epoch_ = 1;
+};
 
 // A point may be this far from its face, as a fraction of the model's longest side: a smoothed stroke leaves the faces
 // a little, coordinates of another space are far off.

@@ -12,8 +12,8 @@
 #include "detail/run_on_threads.hpp"
 #include "search/distortion_peaks.hpp"
 #include "search/slit_solver.hpp"
-#include "slits/slit_edits.hpp"
-#include "slits/slit_finder.hpp"
+#include "slits/slit_paths.hpp"
+#include "slits/slit_plan.hpp"
 #include "tuning/constants.hpp"
 
 namespace seamwire::detail {

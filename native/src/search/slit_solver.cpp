@@ -12,7 +12,7 @@
 #include "detail/index.hpp"
 #include "detail/run_on_threads.hpp"
 #include "parameterization/open_island.hpp"
-#include "slits/slit_edits.hpp"
+#include "slits/slit_plan.hpp"
 #include "tuning/constants.hpp"
 
 namespace seamwire::detail {

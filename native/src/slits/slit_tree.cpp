@@ -12,8 +12,8 @@
 #include "detail/index.hpp"
 #include "detail/shortest_paths.hpp"
 #include "slits/piece_body.hpp"
-#include "slits/slit_edits.hpp"
-#include "slits/slit_finder.hpp"
+#include "slits/slit_paths.hpp"
+#include "slits/slit_plan.hpp"
 #include "tuning/constants.hpp"
 
 namespace seamwire::detail {
