@@ -94,14 +94,6 @@ constexpr std::size_t kLaterBudget = 16, kLeastLaterBudget = 200'000;
 // A smaller max_error than this may take more triangles, in proportion.
 constexpr double kErrorOfBudget = 0.005;
 
-void check_size(const Surface& surface, const Metric& metric) {
-  const std::size_t n = surface.vertex_count();
-  if (metric.tensors.size() != n || metric.normals.size() != n) {
-    throw InvalidInput("metric of " + std::to_string(metric.size()) + " vertices for a surface of " +
-                       std::to_string(n));
-  }
-}
-
 void check_metric(const Surface& surface, const Metric& metric) {
   check_size(surface, metric);
   check_finite(metric);

@@ -48,16 +48,49 @@ constexpr std::size_t kStepsBetweenChecks = 2048;
 /// precision is enough, because distances only tell where to look for a path.
 class DeltaStepping {
  public:
-  DeltaStepping(const GeodesicMesh& mesh, std::int32_t seed);
+  DeltaStepping(const GeodesicMesh& mesh, std::int32_t seed) : mesh_(mesh), reached_(mesh.vertex_count()) {
+    const float longest = mesh.longest_hop();
+    width_ = std::max(mesh.mean_hop(), longest / static_cast<float>(kMostBuckets - 2));
+    if (!(width_ > 0)) width_ = 1.0F;
+    per_width_ = 1.0F / width_;
+    buckets_.resize(static_cast<std::size_t>(longest * per_width_) + 3);
+    relax(seed, 0.0F, -1);
+  }
 
   /// Goes on until the distance of `vertex` is final, or nothing is left to be reached.
-  void reach(std::int32_t vertex, const Task& task);
+  void reach(std::int32_t vertex, const Task& task) {
+    std::size_t work = 0;
+    while (waiting_ > 0 && !(at(vertex) < radius())) {
+      std::vector<Entry>& entries = bucket(current_);
+      // The bucket may grow while it is read.
+      while (done_ < entries.size()) {
+        if (done_ + kAhead < entries.size()) prefetch_vertex(entries[done_ + kAhead].vertex);
+        const Entry entry = entries[done_++];
+        --waiting_;
+        if (entry.distance > at(entry.vertex)) continue;
+        for (const auto& [to, length] : mesh_.hops(entry.vertex)) {
+          relax(to, entry.distance + length, entry.vertex);
+        }
+        if (++work % kStepsBetweenChecks == 0) task.check(0.0);
+      }
+      entries.clear();
+      done_ = 0;
+      ++current_;
+    }
+  }
 
   /// Final where it is below radius(), else an upper bound; infinite where nothing led yet.
   float at(std::int32_t vertex) const { return reached_[vertex].distance; }
+
   /// A shortest chain of hops from the seed to a vertex whose distance is final. Of the path only the points are set, a
   /// vertex each.
-  IntrinsicPath chain(std::int32_t vertex) const;
+  IntrinsicPath chain(std::int32_t vertex) const {
+    IntrinsicPath path;
+    for (std::int32_t v = vertex; v >= 0; v = reached_[v].from) path.points.push_back({.vertex = v});
+    std::reverse(path.points.begin(), path.points.end());
+    return path;
+  }
+
   float radius() const { return static_cast<float>(current_) * width_; }
 
  private:
@@ -72,8 +105,19 @@ class DeltaStepping {
 
   std::vector<Entry>& bucket(std::size_t number) { return buckets_[number % buckets_.size()]; }
   std::size_t bucket_of(float distance) const { return static_cast<std::size_t>(distance * per_width_); }
-  void relax(std::int32_t vertex, float distance, std::int32_t from);
-  void prefetch_vertex(std::int32_t vertex) const;
+
+  void relax(std::int32_t vertex, float distance, std::int32_t from) {
+    Reached& known = reached_[vertex];
+    if (!(distance < known.distance)) return;
+    known = {distance, from};
+    bucket(std::max(bucket_of(distance), current_)).push_back({distance, vertex});
+    ++waiting_;
+  }
+
+  void prefetch_vertex(std::int32_t vertex) const {
+    prefetch(&reached_[vertex]);
+    prefetch(mesh_.hops(vertex).data());
+  }
 
   const GeodesicMesh& mesh_;
   std::vector<Reached> reached_;
@@ -83,56 +127,6 @@ class DeltaStepping {
               done_ = 0;     ///< the first bucket that may not be empty, and how many of its entries are done
   std::size_t waiting_ = 0;  ///< entries not done
 };
-
-DeltaStepping::DeltaStepping(const GeodesicMesh& mesh, std::int32_t seed) : mesh_(mesh), reached_(mesh.vertex_count()) {
-  const float longest = mesh.longest_hop();
-  width_ = std::max(mesh.mean_hop(), longest / static_cast<float>(kMostBuckets - 2));
-  if (!(width_ > 0)) width_ = 1.0F;
-  per_width_ = 1.0F / width_;
-  buckets_.resize(static_cast<std::size_t>(longest * per_width_) + 3);
-  relax(seed, 0.0F, -1);
-}
-
-void DeltaStepping::relax(std::int32_t vertex, float distance, std::int32_t from) {
-  Reached& known = reached_[vertex];
-  if (!(distance < known.distance)) return;
-  known = {distance, from};
-  bucket(std::max(bucket_of(distance), current_)).push_back({distance, vertex});
-  ++waiting_;
-}
-
-void DeltaStepping::prefetch_vertex(std::int32_t vertex) const {
-  prefetch(&reached_[vertex]);
-  prefetch(mesh_.hops(vertex).data());
-}
-
-void DeltaStepping::reach(std::int32_t vertex, const Task& task) {
-  std::size_t work = 0;
-  while (waiting_ > 0 && !(at(vertex) < radius())) {
-    std::vector<Entry>& entries = bucket(current_);
-    // The bucket may grow while it is read.
-    while (done_ < entries.size()) {
-      if (done_ + kAhead < entries.size()) prefetch_vertex(entries[done_ + kAhead].vertex);
-      const Entry entry = entries[done_++];
-      --waiting_;
-      if (entry.distance > at(entry.vertex)) continue;
-      for (const auto& [to, length] : mesh_.hops(entry.vertex)) {
-        relax(to, entry.distance + length, entry.vertex);
-      }
-      if (++work % kStepsBetweenChecks == 0) task.check(0.0);
-    }
-    entries.clear();
-    done_ = 0;
-    ++current_;
-  }
-}
-
-IntrinsicPath DeltaStepping::chain(std::int32_t vertex) const {
-  IntrinsicPath path;
-  for (std::int32_t v = vertex; v >= 0; v = reached_[v].from) path.points.push_back({.vertex = v});
-  std::reverse(path.points.begin(), path.points.end());
-  return path;
-}
 
 /// A corridor holds no vertex over which the path is longer than the shortest one by this factor, however short that
 /// is.

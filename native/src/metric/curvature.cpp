@@ -24,6 +24,7 @@
 #include "surface/corner_fans.hpp"
 #include "surface/exact_unit.hpp"
 #include "surface/face_height.hpp"
+#include "metric/metric_check.hpp"
 
 namespace seamwire {
 
@@ -463,11 +464,7 @@ Curvature principal_curvatures(const Surface& surface, const Task& task) {
 
 Curvature smoothed_curvatures(const Surface& surface, const Curvature& curvature, double radius, const Task& task) {
   const std::size_t count = surface.vertex_count();
-  if (curvature.k1.size() != count || curvature.k2.size() != count || curvature.d1.size() != count ||
-      curvature.normals.size() != count) {
-    throw InvalidInput("curvature of " + std::to_string(curvature.k1.size()) + " vertices for a surface of " +
-                       std::to_string(count));
-  }
+  check_size(surface, curvature);
   if (!(std::isfinite(radius) && radius > 0.0)) {
     throw InvalidInput("radius is " + text(radius) + ", not a finite number above 0");
   }

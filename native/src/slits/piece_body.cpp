@@ -16,23 +16,6 @@
 #include "tuning/constants.hpp"
 
 namespace seamwire::detail {
-namespace {
-
-Island first_island(const SlitProblem& problem, std::int32_t number) {
-  const SlitProblem::Piece& piece = problem.by_piece[number];
-  std::vector<std::uint8_t> is_cut(piece.twins.size(), 0);
-  for (std::size_t k = 0; k < piece.faces.size(); ++k) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      is_cut[3 * k + i] = problem.is_seam[problem.mesh.edge_of[3 * static_cast<std::size_t>(piece.faces[k]) + i]];
-    }
-  }
-  Island island = std::move(cut_open(piece, is_cut).front());
-  for (std::int32_t& face : island.faces) face = piece.faces[face];
-  return island;
-}
-
-}  // namespace
-
 IslandGraph::IslandGraph(const Island& island, std::span<const Vector> points) : areas(island.vertices.size(), 0.0) {
   std::vector<std::pair<std::int32_t, Neighbor>> pairs;
   for (std::size_t k = 0; k < island.triangles.size(); ++k) {
@@ -118,7 +101,7 @@ std::vector<std::int32_t> IslandGraph::peaks(std::span<const double> heights, do
 
 PieceBody::PieceBody(const SlitProblem& problem, std::int32_t piece)
     : size(std::sqrt(problem.by_piece[piece].area)),
-      island(first_island(problem, piece)),
+      island(std::move(islands_of(problem, problem.is_seam, piece).front())),
       graph(island, problem.mesh.points) {
   for (const std::vector<std::int32_t>& loop : island.boundaries()) {
     std::vector<std::int32_t> vertices;

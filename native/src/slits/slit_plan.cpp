@@ -119,20 +119,23 @@ std::vector<std::int32_t> pieces_of(const SlitProblem& problem, const Slit& slit
   return found;
 }
 
-std::optional<Island> open_piece(const SlitProblem& problem, const Cut& cut, std::int32_t piece) {
+std::vector<Island> islands_of(const SlitProblem& problem, std::span<const std::uint8_t> is_cut, std::int32_t piece) {
   const SlitProblem::Piece& part = problem.by_piece[piece];
-  std::vector<std::uint8_t> is_cut(part.twins.size(), 0);
-  for (std::size_t k = 0; k < part.faces.size(); ++k) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      is_cut[3 * k + i] = cut.is_cut[problem.mesh.edge_of[3 * static_cast<std::size_t>(part.faces[k]) + i]];
-    }
+  std::vector<std::uint8_t> is_cut_half_edge;
+  for (const std::int32_t f : part.faces) {
+    for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) is_cut_half_edge.push_back(is_cut[problem.mesh.edge_of[h]]);
   }
-  std::vector<Island> islands = cut_open(part, is_cut);
-  if (islands.size() != 1) return std::nullopt;
-  Island& island = islands.front();
-  for (std::int32_t& face : island.faces) face = part.faces[face];
-  if (!is_planar(island)) return std::nullopt;
-  return std::move(island);
+  std::vector<Island> islands = cut_open(part, is_cut_half_edge);
+  for (Island& island : islands) {
+    for (std::int32_t& face : island.faces) face = part.faces[face];
+  }
+  return islands;
+}
+
+std::optional<Island> open_piece(const SlitProblem& problem, const Cut& cut, std::int32_t piece) {
+  std::vector<Island> islands = islands_of(problem, cut.is_cut, piece);
+  if (islands.size() != 1 || !is_planar(islands.front())) return std::nullopt;
+  return std::move(islands.front());
 }
 
 std::vector<Point2> carried_over(const PieceMap& from, const Island& to) {
@@ -143,9 +146,9 @@ std::vector<Point2> carried_over(const PieceMap& from, const Island& to) {
   return uvs;
 }
 
-PieceMap piece_map(std::span<const Vector> points, Island island, IslandMap map) {
+std::shared_ptr<const PieceMap> piece_map(std::span<const Vector> points, Island island, IslandMap map) {
   std::vector<double> energies = triangle_energies(island, points, map.uvs);
-  return {std::move(island), std::move(map), std::move(energies)};
+  return std::make_shared<const PieceMap>(PieceMap{std::move(island), std::move(map), std::move(energies)});
 }
 
 double mean_energy(std::vector<std::pair<double, double>> energies) {

@@ -68,7 +68,7 @@ struct PieceMap {
   IslandMap map;
   std::vector<double> energies;  ///< E_d of each triangle
 };
-PieceMap piece_map(std::span<const Vector> points, Island island, IslandMap map);
+std::shared_ptr<const PieceMap> piece_map(std::span<const Vector> points, Island island, IslandMap map);
 
 /// A state of the search: slits, and the maps of all pieces with them.
 struct SlitPlan {
@@ -86,6 +86,9 @@ bool crosses_face(const SlitProblem& problem, const Slit& slit);
 
 /// The pieces in which a slit lies, ascending.
 std::vector<std::int32_t> pieces_of(const SlitProblem& problem, const Slit& slit);
+
+/// The islands into which a cut parts a piece. `is_cut`: of each edge.
+std::vector<Island> islands_of(const SlitProblem& problem, std::span<const std::uint8_t> is_cut, std::int32_t piece);
 
 /// The island of a piece with a cut; nullopt if it is not a disc, or a disc with holes.
 std::optional<Island> open_piece(const SlitProblem& problem, const Cut& cut, std::int32_t piece);
