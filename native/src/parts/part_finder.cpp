@@ -21,7 +21,6 @@
 #include "parts/halving.hpp"
 #include "prices/border_odds.hpp"
 #include "prices/plan_mesh.hpp"
-#include "prices/polygons.hpp"
 #include "prices/reflection.hpp"
 #include "prices/visibility.hpp"
 #include "seamwire/errors.hpp"
