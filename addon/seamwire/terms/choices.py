@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What artists choose from: a table for each choice. The keys are the codes of the core, of files and of scripts.
 
-Add new rows at the end of a table, because Blender stores the number of the row. `KINDS` has the order of candidates instead: *euclidean* stays
-last.
+Add new rows at the end of a table, because Blender stores the number of the row. In `KINDS` rows have the order of candidates instead, and
+*euclidean* stays last.
 """
 
 from __future__ import annotations
