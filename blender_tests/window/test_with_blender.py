@@ -19,7 +19,7 @@ from seamwire.core.drawing.session import Session
 from seamwire.core.storage.serialization import Archive
 from seamwire.mesh import edit_mesh, finishes
 from seamwire.mesh.settings import TOOL
-from seamwire.operators import chain_record
+from seamwire.operators import chain as chain_module
 from seamwire.operators.chain_state import running
 from seamwire.view.edited_objects import edited
 from seamwire.view.object_view import ObjectView
@@ -497,7 +497,7 @@ def test_wires_are_kept_with_a_step_of_undo_if_unwrapping_fails(desk: Desk, monk
     def fail(*_: object, **__: object) -> None:
         raise TypeError("as the test wants it")
 
-    monkeypatch.setattr(chain_record, "unwrap_after_chain", fail)
+    monkeypatch.setattr(chain_module, "unwrap_after_chain", fail)
     reports = []
     monkeypatch.setattr(Notices, "add", lambda _, level, text: reports.append((level, text)))
     desk.choose()
