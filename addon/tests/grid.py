@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from fake_live import FakeLive, grid_edges, grid_points
+from fake_live import FakeLive, grid_edges, grid_points, grid_triangles
 from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.network.network import Network
 from seamwire.core.network.symmetry import Symmetry
@@ -32,7 +32,14 @@ class Grid:
         """Return a drawing with a network, on the grid with its middle at the origin."""
         points = POINTS.copy()
         points[:, :2] -= (SIZE - 1) / 2
-        drawing = Drawing(self.make, points, edges=grid_edges(SIZE), seams=seams, make_stroke=lambda stroke: stroke)
+        drawing = Drawing(
+            self.make,
+            points,
+            edges=grid_edges(SIZE),
+            triangles=grid_triangles(SIZE),
+            seams=seams,
+            make_stroke=lambda stroke: stroke,
+        )
         drawing.network = network
         return drawing
 

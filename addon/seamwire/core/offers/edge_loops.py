@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from ..network.network import Network, Snap
     from ..network.picks import Edge, Pick
     from ..network.stops import Stops
-    from ..network.wires import Wire
     from ..solver.solver import Engines, LiveWire
     from .part_borders import PartBorders, VertexChain
 

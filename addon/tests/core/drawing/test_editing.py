@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from fake_live import FakeLive
+from fake_live import FakeLive, grid_edges, grid_triangles
 from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.picture import Intent, Role, SeedRole, ShownSeed
 from seamwire.core.drawing.session import Session
@@ -353,7 +353,7 @@ def test_a_preview_is_seen_and_not_kept() -> None:
 
     live = Previewing(SIZE, ready=(False, False))
     table = Table()
-    session = Session(Drawing(lambda _: live, table.points))
+    session = Session(Drawing(lambda _: live, table.points, edges=grid_edges(SIZE), triangles=grid_triangles(SIZE)))
     session.click(0)
     session.hover(7)
     assert session.picture.active.vertices == (0, 1, 7)
