@@ -21,7 +21,8 @@ EDGE = (14, 15)
 
 
 def loops(grid: Grid) -> LoopOffers:
-    return LoopOffers(grid.engines, Stops([], symmetry()), POINTS)
+    parts = PartBorders(POINTS, grid_triangles(SIZE), grid_edges(SIZE))
+    return LoopOffers(grid.engines, Stops([], symmetry()), POINTS, parts)
 
 
 def test_each_offer_is_shown_in_turn() -> None:
