@@ -39,11 +39,6 @@ TICK = 0.008
 class Chain:
     """A chain that is being drawn in a window.
 
-    Parameters
-    ----------
-    context
-        With the 3D view to draw in.
-
     Attributes
     ----------
     stage
@@ -56,14 +51,8 @@ class Chain:
         The object that is drawn on. None if nothing has been drawn since the last step of undo.
     has_kept
         Whether the chain has changed a mesh.
-    keys
-        What each key does.
-    clicks
-        Finds double clicks.
     notices
         What there is to report when the chain ends, and the hint about the last key.
-    window, workspace, manager
-        Blender's.
     """
 
     def __init__(self, context: bpy.types.Context) -> None:
