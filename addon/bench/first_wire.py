@@ -64,7 +64,11 @@ def first_wire(obj: bpy.types.Object, along: str) -> dict[str, tuple[float, floa
     edit_mesh.Cage(obj)  # as the tool does
     arrays = edit_mesh.read(obj)
     steps["read"] = watch.lap()
-    wires = session.Session(drawing.Drawing(LiveMaker(arrays), arrays.points, Options(along=along)))
+    wires = session.Session(
+        drawing.Drawing(
+            LiveMaker(arrays), arrays.points, Options(along=along), edges=arrays.edges, triangles=arrays.triangles
+        )
+    )
     Picker(arrays).depth(Camera(1.0, 1.0, np.eye(4)), obj.matrix_world, (0.5, 0.5))
     steps["begun"] = watch.lap()
     wires.wait()

@@ -69,7 +69,7 @@ def session() -> Session:
     obj = add_grid(9)
     edit()
     arrays = edit_mesh.read(obj)
-    session = Session(Drawing(LiveMaker(arrays), arrays.points))
+    session = Session(Drawing(LiveMaker(arrays), arrays.points, edges=arrays.edges, triangles=arrays.triangles))
     session.wait()
     return session
 

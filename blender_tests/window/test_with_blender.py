@@ -19,7 +19,7 @@ from seamwire.core.drawing.session import Session
 from seamwire.core.storage.serialization import Archive
 from seamwire.mesh import edit_mesh, finishes
 from seamwire.mesh.settings import TOOL
-from seamwire.operators import chain_record
+from seamwire.operators import chain as chain_module
 from seamwire.operators.chain_state import running
 from seamwire.view.edited_objects import edited
 from seamwire.view.object_view import ObjectView
@@ -465,7 +465,7 @@ def test_an_exception_ends_the_chain_and_leaves_the_mesh_as_it_was(desk: Desk, m
 @pytest.mark.parametrize(
     ("failing", "what"),
     [
-        ([(chain_record, "unwrap_after_chain")], "unwrapping"),
+        ([(chain_module, "unwrap_after_chain")], "unwrapping"),
         ([(ObjectView, "renew"), (finishes, "apply")], "finishing them"),
     ],
 )

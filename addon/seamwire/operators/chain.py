@@ -1,26 +1,37 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A chain in a window, from the click that begins it until it is closed, joined or ended."""
+"""A chain in a window, from the click that begins it until its wires are in the mesh, or dropped."""
 
 from __future__ import annotations
 
-from contextlib import ExitStack
-from typing import TYPE_CHECKING
+import traceback
+from contextlib import ExitStack, suppress
+from typing import TYPE_CHECKING, TypeVar
 
 import bpy
+import numpy as np
 
-from ..core.network.network import Snap
+from ..core.base.messages import NOTHING
+from ..core.drawing.change import Change
+from ..core.network.network import Network, Snap, edges_after
+from ..mesh import finishes
 from ..mesh import settings as chosen
 from ..view.edited_objects import edited
+from ..view.object_view import let_blender_tell
 from ..words.keys import DoubleClicks
 from ..words.notices import Notices
-from . import keymaps
-from .chain_record import ChainRecord
+from ..words.reports import count, summary
+from . import keymaps, undo_steps
 from .chain_state import TRANSITIONS, Cue, Stage, running, status_makers
+from .unwrap_islands import unwrap_after_chain
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from ..core.drawing.session import Session
     from ..view.object_view import ObjectView
     from .drag_handlers import Hold
+
+_Result = TypeVar("_Result")
 
 TICK = 0.008
 """Seconds between two looks at running work, half of what a screen shows a picture for: a wire is drawn with the next one."""
@@ -28,11 +39,6 @@ TICK = 0.008
 
 class Chain:
     """A chain that is being drawn in a window.
-
-    Parameters
-    ----------
-    context
-        With the 3D view to draw in.
 
     Attributes
     ----------
@@ -42,23 +48,24 @@ class Chain:
         The thing that a pressed button drags; None: no button is held.
     peek
         The key that shows the loop under the mouse while it is held, or an empty text.
-    record
-        The object that is drawn on, and its wires since the last step of undo.
-    keys
-        What each key does.
-    clicks
-        Finds double clicks.
+    drawn_on
+        The object that is drawn on. None if nothing has been drawn since the last step of undo.
+    has_kept
+        Whether the chain has changed a mesh.
     notices
         What there is to report when the chain ends, and the hint about the last key.
-    window, workspace, manager
-        Blender's.
     """
 
     def __init__(self, context: bpy.types.Context) -> None:
         self.window, self.workspace, self.manager = context.window, context.workspace, context.window_manager
         self.keys, self.clicks = keymaps.keys(context), DoubleClicks()
         self.notices = Notices()
-        self.record = ChainRecord(self.notices)
+        self.drawn_on: ObjectView | None = None
+        self.has_kept = False
+        self._before = Network()  # what the object that is drawn on had at the last step
+        self._seams = np.empty((0, 2), dtype=np.int32)  # its seams then
+        self._titles: set[str] = set()
+        self._is_saved = False
         self.stage = Stage.READY
         self.hold: Hold | None = None
         self.peek = ""
@@ -171,14 +178,19 @@ class Chain:
     def draw_on(self, view: ObjectView) -> None:
         """Draw on this object. Wires drawn on another object become a separate chain."""
         edited.front = view
-        if self.record.drawn_on is not view:
-            if self.record.drawn_on is not None:
+        if self.drawn_on is not view:
+            if self.drawn_on is not None:
                 self.keep()
-            self.record.begin(view)
+            self.drawn_on, self._before = view, view.session.network
+            self._seams = view.mesh.arrays.seams
+
+    def note(self, title: str) -> None:
+        """Note what was done, by a title of `undo_steps`."""
+        self._titles.add(title)
 
     def keep(self) -> None:
         """Keep what was drawn as a separate step of undo, and go on."""
-        self.record.keep(bpy.context)
+        self._keep_wires()
         self.find_front()
 
     def trouble(self, context: bpy.types.Context) -> str:
@@ -189,7 +201,24 @@ class Chain:
             reason = "Edit mode was left"
         elif context.workspace != self.workspace:
             reason = "Another workspace was opened"
-        return self.record.trouble(reason)
+        return self._follow_mesh(reason)
+
+    def _follow_mesh(self, reason: str = "") -> str:
+        """Follow a change of the mesh by others, and return why the chain cannot go on, or another reason for that."""
+        view = self.drawn_on
+        if view is None or not (view.stale or not view.mesh.alive()):
+            return reason
+        # Blender reports a change of the mesh. Others may mark seams.
+        obj = bpy.data.objects.get(view.name)
+        if obj is None:
+            self.drawn_on = None
+            return "The object was removed"
+        known, found = self._before, view.mesh.follow_change(obj, self._before)
+        if found is None:
+            return reason or "The mesh was changed"
+        self._before = found
+        view.renew()
+        return reason or ("" if found is known else "Undo has changed the wires of the mesh")
 
     # How it ends
 
@@ -207,15 +236,88 @@ class Chain:
             If an edge is gone. Then the mesh is unchanged.
         """
         self.let_go()
-        self.record.keep(bpy.context, at_once)
+        self._keep_wires(at_once)
         self.close(Cue.KEEP)
-        return self.record.has_kept
+        return self.has_kept
+
+    def _keep_wires(self, at_once: bool = False) -> None:
+        """End the chains of all objects after their last wires are computed, and write what was drawn as a step of Blender's undo.
+
+        It reports clicks that waited and could not be done. `at_once` is that of `finish`, and so are the errors.
+        """
+        # The object that is drawn on comes first, because outside Edit Mode it is not among the views.
+        drawn_on = [] if self.drawn_on is None else [self.drawn_on]
+        for view in dict.fromkeys((*drawn_on, *edited.views())):
+            view.session.end_chain(wait=not at_once)
+            drawing = view.session.drawing
+            for told in (drawing.failure, drawing.warning):
+                if told:
+                    self.notices.add("WARNING", str(told))
+            drawing.failure = drawing.warning = NOTHING
+        view = self.drawn_on
+        change = None if view is None else Change(self._before, view.session.network)
+        title = undo_steps.EDIT if self._titles == {undo_steps.EDIT} else undo_steps.DRAW
+        self._titles.clear()
+        if view is None or change is None or not (self._is_saved or change):
+            self.drawn_on = None
+            return
+        try:
+            view.mesh.write(view.mesh.plan())
+        except ValueError:
+            raise
+        except Exception:
+            self._is_saved = True  # the mesh may have a part of the wires: dropping the chain writes the former ones
+            raise
+        self.drawn_on, self._is_saved = None, False
+        # Saving within the chain may have marked some of them already.
+        before, after = self._seams, view.mesh.arrays.seams
+        marked, cleared = len(edges_after(after, (), before)), len(edges_after(before, (), after))
+        # The wires are in the mesh by now. Whatever fails, a step of undo must lead back.
+        self._try("drawing them", view, view.renew)
+        done = self._try("finishing them", view, lambda: _apply(view, change)) or ""
+        problem = ""
+        if not at_once:
+            if (marked or cleared or done) and bpy.context.mode == "EDIT_MESH":
+                problem = self._try("unwrapping", view, lambda: unwrap_after_chain(bpy.context)) or ""
+            undo_steps.push(title)
+        self.has_kept = True
+        told = f"{title}: {done or summary(change, marked, cleared)}"
+        self.notices.add("WARNING" if problem else "INFO", f"{told}. {problem}" if problem else told)
+
+    def _try(self, what: str, view: ObjectView, work: Callable[[], _Result]) -> _Result | None:
+        """Do some of the work on a mesh that has its wires already. Report an error instead of raising it, and return None."""
+        try:
+            return work()
+        except Exception as error:
+            traceback.print_exc()
+            edited.forget(view)
+            self.notices.add("ERROR", f"Wires are kept, but {what} ended on an error, undo leads back: {error}")
+            return None
+
+    def save(self) -> None:
+        """Write the wires so far to the mesh, so that Blender saves them. The chain goes on."""
+        if self.drawn_on is None:
+            return
+        let_blender_tell()
+        self._follow_mesh()
+        if self.drawn_on is not None:
+            with suppress(ValueError):  # the mesh has other vertices: the chain ends at its next event
+                _write(self.drawn_on, adopt=False)
+                self._is_saved = True
 
     def drop(self) -> bool:
-        """Undo everything since the last step. Return False if saved wires stay in the mesh."""
-        is_restored = self.record.drop()
+        """Undo everything since the last step.
+
+        Return False if wires that were saved stay in the mesh: after a change by others, the former wires cannot be written.
+        """
+        view, self.drawn_on = self.drawn_on, None
+        is_alive = view is not None and view.mesh.alive()
+        if is_alive:
+            view.mesh.drop_changes(self._before)
+            if self._is_saved:
+                _write(view, adopt=True)
         self.close()
-        return is_restored
+        return view is None or is_alive or not self._is_saved
 
     def close(self, cue: Cue = Cue.DROP) -> None:
         """Put everything back. More than once does no harm."""
@@ -297,3 +399,19 @@ def _leave_objects() -> None:
         turned = None if view.turned is None else view.turned_at(view.turned[1])
         view.session.hover(None if turned is None else Snap(turned.start, "WIRE", turned))  # the next key acts on it
     edited.show()
+
+
+def _write(view: ObjectView, adopt: bool) -> None:
+    view.mesh.write(view.mesh.plan(), adopt)
+    view.renew()
+
+
+def _apply(view: ObjectView, change: Change) -> str:
+    """Let the mesh do what a change asks, and return what was done, in words."""
+    if not view.mesh.alive():
+        left = sum(map(change.finishes, change.after.wires))
+        return f"{count(left, 'wire')} kept along edges, because the mesh was changed meanwhile" if left else ""
+    _, done = finishes.apply(view.mesh, change)
+    if done.text:
+        edited.forget(view)
+    return done.text

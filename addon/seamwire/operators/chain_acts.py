@@ -96,7 +96,7 @@ def release(chain: Chain, given: Given) -> None:
     elif hold.is_drag and (not (isinstance(hold, LineHold) and hold.starts_chain()) or _keep_chain(chain)):
         title = hold.end()
     if title:
-        chain.record.note(title)
+        chain.note(title)
     elif isinstance(hold, StrokeHold):
         chain.say("Drag over the mesh to draw a stroke")
     if given.place is not None:
@@ -139,13 +139,13 @@ def click(chain: Chain, given: Given) -> None:
     if action is Action.NEW_CHAIN:
         session.start(snap)
         session.hover(snap)
-        chain.record.note(undo_steps.DRAW)
+        chain.note(undo_steps.DRAW)
     elif action is Action.BEND:
         session.bend(snap)
-        chain.record.note(undo_steps.EDIT)
+        chain.note(undo_steps.EDIT)
     elif action is Action.LOOP and _is_loop(chain, session, snap, event):
         session.loop(snap)
-        chain.record.note(undo_steps.DRAW)
+        chain.note(undo_steps.DRAW)
     elif not session.cursor.will_be_live and snap.to in {"SEED", "WIRE"}:
         # Whether it is a click or the beginning of a drag is known when the button or the mouse has moved.
         session.hover(snap)
@@ -154,7 +154,7 @@ def click(chain: Chain, given: Given) -> None:
         chain.go(Cue.PRESS, LineHold(event.type, view, place, snap))
     else:
         session.click(snap)
-        chain.record.note(undo_steps.DRAW)
+        chain.note(undo_steps.DRAW)
 
 
 def _is_loop(chain: Chain, session: Session, snap: Snap, event: bpy.types.Event) -> bool:
@@ -215,7 +215,7 @@ def remove(chain: Chain, given: Given) -> bool:
         view.session.drop(wire)
     else:
         view.session.erase(stroke)
-    chain.record.note(undo_steps.EDIT)
+    chain.note(undo_steps.EDIT)
     rehover(chain, given.place)
     return True
 
@@ -230,7 +230,7 @@ def retrace(chain: Chain, given: Given) -> bool:
     view.session.hover(Snap(wire.start, "WIRE", wire))
     view.session.retrace(wire)
     view.turned = wire, given.place
-    chain.record.note(undo_steps.EDIT)
+    chain.note(undo_steps.EDIT)
     return True
 
 

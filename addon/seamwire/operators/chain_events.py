@@ -55,17 +55,7 @@ class Sign(Enum):
 
 @dataclass(frozen=True)
 class Given:
-    """An event and its meaning.
-
-    Parameters
-    ----------
-    what
-        The meaning.
-    event
-        Blender's event.
-    place
-        The place in a 3D view under the mouse, or None.
-    """
+    """Blender's event, its meaning, and the place in a 3D view under the mouse, if there is one."""
 
     what: Action | Sign
     event: bpy.types.Event

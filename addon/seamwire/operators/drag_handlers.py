@@ -29,23 +29,9 @@ CLOSE_LENGTH = 6.0
 
 
 class Hold:
-    """The thing that a pressed button drags.
+    """The thing that a pressed button drags on an object.
 
-    Parameters
-    ----------
-    button
-        The button.
-    view
-        The object that is drawn on.
-    place
-        Where the button was pressed.
-    snap
-        The pick there. A stroke has none.
-
-    Attributes
-    ----------
-    is_drag
-        Whether the mouse has moved beyond the threshold. Otherwise it is a click at `snap`.
+    Once the mouse has moved beyond the threshold it `is_drag`. Until then it is a click at `snap`, which a stroke does not have.
     """
 
     def __init__(self, button: str, view: ObjectView, place: Place, snap: Snap | None = None) -> None:
@@ -106,25 +92,9 @@ class SeedHold(Hold):
 
 
 class Trail:
-    """Where a hand has gone over an object's surface while it held a button.
+    """Where a hand has gone over an object's surface while it held a button: points in the session's coordinates, with their triangles.
 
-    Parameters
-    ----------
-    view
-        The object.
-    place
-        Where the button was pressed.
-    ends_at_rim
-        Whether all is over where the hand leaves the surface. Otherwise it may come back.
-
-    Attributes
-    ----------
-    points, triangles
-        Places on the surface, as the session has them, and the triangle of each.
-    left
-        Whether the hand went over the rim.
-    last
-        Where it is now.
+    If it `ends_at_rim`, all is over once the hand has left the surface. Otherwise the hand may come back.
     """
 
     def __init__(self, view: ObjectView, place: Place, ends_at_rim: bool) -> None:
@@ -208,18 +178,12 @@ class LineHold(Hold):
 
 
 class StrokeHold(Hold):
-    """A stroke that is drawn while a button is held.
-
-    Attributes
-    ----------
-    attracts
-        Whether wires are to follow the stroke, rather than keep off it.
-    scale
-        The scale of the display.
-    """
+    """A stroke that is drawn while a button is held."""
 
     attracts = True
+    """Whether wires are to follow the stroke, rather than keep off it."""
     scale = 1.0
+    """The scale of the display."""
     _trail: Trail | None = None
     _farthest = 0.0
 

@@ -217,7 +217,7 @@ def tell_mirrored(operator: bpy.types.Operator) -> None:
 def _on_save(*_: object) -> None:
     """Let files hold what is drawn so far."""
     for chain in running:
-        chain.record.save()
+        chain.save()
 
 
 @persistent

@@ -60,7 +60,6 @@ SENTENCES = {
     "no-run-across": "Extend to End works along edges, not across the surface",
     "no-seed-moves": "No seed is being moved",
     "no-seed-to-move": "No seed to move at {pick}",
-    "no-triangles": "Lines across the surface need the triangles of the mesh",
     "no-visible-faces": "The mesh has no visible faces to place wires on",
     "no-result": "The computation ended without a result: this step was dropped",
     "no-way": "{wire}: no wire leads from {start} to {end}",

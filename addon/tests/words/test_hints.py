@@ -21,7 +21,7 @@ pytest.importorskip("seamwire_core")
 def session() -> Session:
     """A session on a grid; vertex y * 9 + x is column x of row y."""
     arrays = arrays_of(grid_places(9), grid_polygons(9))
-    session = Session(Drawing(LiveMaker(arrays), arrays.points))
+    session = Session(Drawing(LiveMaker(arrays), arrays.points, edges=arrays.edges, triangles=arrays.triangles))
     session.wait()
     return session
 

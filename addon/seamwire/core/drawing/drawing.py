@@ -45,13 +45,13 @@ class Drawing:
     points
         (n, 3) coordinates of the mesh's vertices.
     edges
-        (e, 2) the visible edges. If None, any two vertices may share an edge.
+        (e, 2) the visible edges.
+    triangles
+        (m, 3) the triangles that the surface was made of.
     seams
         (k, 2) the edges that are seams but no wires: wires that run straight on end there.
     to_object
         (3, 3) takes `points` to object coordinates, where mirroring happens. If None, they are object coordinates.
-    triangles
-        (m, 3) the triangles that the surface was made of. If None, strokes run through vertices only.
     topology
         Whether mirrored vertices are found by the connections of the mesh, see `Symmetry`.
     make_parts
@@ -78,10 +78,10 @@ class Drawing:
         points: NDArray[np.float64],
         options: Options = Options(),  # noqa: B008 - it cannot be changed
         *,
-        edges: NDArray[np.int32] | None = None,
+        edges: NDArray[np.int32],
+        triangles: NDArray[np.int32],
         seams: ArrayLike = (),
         to_object: NDArray[np.float64] | None = None,
-        triangles: NDArray[np.int32] | None = None,
         make_stroke: Callable[[Stroke], object] = for_library,
         topology: bool = False,
         make_parts: Callable[[int | None, NDArray[np.int32], Callable[[float], bool]], PartFinder] | None = None,

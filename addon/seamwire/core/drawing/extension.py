@@ -40,7 +40,7 @@ class Extension(Gesture):
         """Show the extended wire while it is asked for. Return whether it runs elsewhere than before."""
         if not self.wanted:
             return False
-        before, self.wire = self.wire, self.find(self._live.active)
+        before, self.wire = self.wire, self._find()
         if before is None or self.wire is None:
             return before is not self.wire
         return not before.like(self.wire)
@@ -50,7 +50,7 @@ class Extension(Gesture):
         if self._live.target is not None and self._live.waits:
             self.wanted = False
             return self
-        wire = self.find(self._live.active)
+        wire = self._find()
         if wire is None:
             raise Refused(self.message or Message.of("no-way-on"))
         return replace(self._drawing.with_wires(wire), seed=None)
@@ -63,9 +63,9 @@ class Extension(Gesture):
         """Show nothing, and ask for nothing."""
         self.wanted, self.wire = False, None
 
-    def find(self, active: Wire | None) -> Wire | None:
-        """Return a live wire, or the seed, with its way to the end, or None if there is no way or no direction."""
-        drawing = self._drawing
+    def _find(self) -> Wire | None:
+        """Return the live wire, or the seed, with its way to the end, or None if there is no way or no direction."""
+        drawing, active = self._drawing, self._live.active
         network, seed = drawing.network, drawing.network.seed
         self.message = NOTHING
         if seed is None:

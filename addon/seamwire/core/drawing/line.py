@@ -55,8 +55,6 @@ class LineGesture(Gesture):
         if drawing.options.along == "SURFACE":
             if isinstance(pick, tuple):
                 raise Refused(only_vertices(pick))
-            if drawing.triangles is None:
-                raise Refused("no-triangles")
             place = pick if seed is None else seed.begins("SURFACE")
             return SurfaceLine(drawing.engines, drawing.points, drawing.triangles, place, drawing.options.into_faces)
         vertex = pick if isinstance(pick, int) and not self._apart else None

@@ -44,8 +44,7 @@ class LoopGesture(Gesture):
         self._drawing = drawing
         self._live = live
         points, triangles, edges = drawing.points, drawing.triangles, drawing.edges
-        is_known = triangles is not None and edges is not None
-        parts = PartBorders(points, triangles, edges, lambda: drawing.seams, drawing.find_parts) if is_known else None
+        parts = PartBorders(points, triangles, edges, lambda: drawing.seams, drawing.find_parts)
         self.edges = LoopOffers(drawing.engines, drawing.stops, points, parts)
         self.cuts = SurfaceLoops(drawing.engines, triangles)
         self.problem = NOTHING
@@ -232,7 +231,7 @@ class LoopGesture(Gesture):
         """Return the line along the ridge or valley at a pick, which waits in place of the loop."""
         drawing = self._drawing
         number = None if self._crests is None else self._crests.line_at(pick)
-        if self._crests is None or number is None or drawing.triangles is None:
+        if self._crests is None or number is None:
             raise Refused("no-crest-at", pick=pick)
         points, triangles = self._crests.line(number)
         first = FacePoint.at(points[0], int(triangles[0]), drawing.triangles, drawing.points)

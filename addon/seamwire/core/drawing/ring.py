@@ -34,12 +34,9 @@ _LEAST_BACK = 4
 
 
 class RingSearch:
-    """Finds the wire from the end of a chain of one wire around a limb to the chain's beginning.
+    """Finds the wire from the end of a chain of one wire around a limb to the chain's beginning."""
 
-    Without edges, no ring is found along edges.
-    """
-
-    def __init__(self, engines: Engines, points: NDArray[np.float64], edges: NDArray[np.int32] | None) -> None:
+    def __init__(self, engines: Engines, points: NDArray[np.float64], edges: NDArray[np.int32]) -> None:
         self._engines = engines
         self._points = points
         self._edges = edges
@@ -106,7 +103,6 @@ class RingSearch:
 
     def _home(self, live: LiveWire, begin: Edge, chain: Wire) -> Generator[None, None, tuple[int, ...]]:
         """Return the vertices of a wire from the end of an edge to the beginning of a chain, not along the chain."""
-        assert self._edges is not None
         first = chain.vertices[0]
         vertices = yield from _wire_between(live, begin, True, first)
         if set(vertices[:-1]).isdisjoint(chain.vertices):
@@ -129,8 +125,6 @@ class RingSearch:
 
     def _edges_at(self, chain: Wire, middle: int) -> list[Edge]:
         """Return an edge of a chain at one of its vertices, and the edge that crosses it most squarely there."""
-        if self._edges is None:
-            return []
         at = max(1, chain.vertices.index(middle))
         own = chain.vertices[at - 1], chain.vertices[at]
         pairs = self._edges[(self._edges == middle).any(axis=1)]

@@ -88,7 +88,7 @@ class Session:
                 return self.run_to_end()
             if self.cursor.loops.takes(target):
                 return self.bend(target) if self.cursor.loops.bends else self.loop(target)
-        self.leave_seed()
+        self._leave_seed()
         self._last_click = None
         if not self.cursor.queue:
             if self.drawing.network.seed is None:
@@ -101,7 +101,7 @@ class Session:
     def start(self, snap: Snap | Pick) -> bool:
         """Begin a new chain, which ends the one before. Gestures that wait are done first."""
         target = Snap.of(snap)
-        self.finish()
+        self._finish()
         try:
             done = self.step(self.cursor.live.begun(target))
         except Refused as error:
@@ -119,7 +119,7 @@ class Session:
         why = loops.aim(target)
         if why:
             return self.drawing.refuse(why)
-        self.leave_seed()
+        self._leave_seed()
         if self.options.along == "EDGES":
             if loops.is_crest_taken(target.pick):
                 return True  # the first press of a double click took the ridge
@@ -136,14 +136,14 @@ class Session:
         why = gesture.aim(target)
         if why:
             return self.drawing.refuse(why)
-        self.leave_seed()
+        self._leave_seed()
         self._last_click = None
         return self.commit(gesture, target)
 
     def close(self, seen_along: tuple[float, float, float] | None = None) -> bool:
         """Lead the live wire back to the chain's first seed, and keep it. `seen_along` is that of `Snap`."""
         if self.drawing.network.closing_point is None:
-            self.finish()
+            self._finish()
         first = self.drawing.network.closing_point
         if first is None:
             return self.drawing.refuse("no-chain-to-close")
@@ -159,7 +159,7 @@ class Session:
         why = extension.aim(target)
         if why:
             return self.drawing.refuse(why)
-        self.leave_seed()
+        self._leave_seed()
         if preview:
             extension.wanted = True
             self.cursor.show_extension()
@@ -191,7 +191,7 @@ class Session:
 
     def retrace(self, wire: Wire) -> bool:
         """Let a kept wire take its next way: that of another metric, or the next offer of the click that took it."""
-        self.finish()
+        self._finish()
         own = self.drawing.network.find(wire)
         if own is None:
             return self.drawing.refuse("wire-is-gone")
@@ -211,7 +211,7 @@ class Session:
 
     def drop(self, wire: Wire) -> bool:
         """Remove a kept wire."""
-        self.finish()
+        self._finish()
         own = self.drawing.network.find(wire)
         if own is None:
             return self.drawing.refuse("wire-is-gone")
@@ -219,7 +219,7 @@ class Session:
 
     def drag(self, snap: Snap | Pick) -> bool:
         """Take hold of a seed, or of a wire (``Snap.to == "WIRE"``), which gets a seed there. `Cursor.drag_to` moves it."""
-        self.finish()
+        self._finish()
         return self.cursor.hold(SeedDrag, Snap.of(snap))
 
     def drag_end(self) -> bool:
@@ -249,7 +249,7 @@ class Session:
     def line_begin(self, snap: Snap | Pick) -> bool:
         """Begin a line over the surface, which `Cursor.line_to` draws. At the live wire's seed it continues the chain."""
         begin = Snap.of(snap)
-        self.leave_seed()
+        self._leave_seed()
         self._last_click = None
         self.cursor.stop_preview()
         return self.cursor.hold(LineGesture, begin, self.goes_on_from(begin))
@@ -271,7 +271,7 @@ class Session:
 
     def erase(self, stroke: Stroke) -> bool:
         """Remove a stroke."""
-        self.finish()
+        self._finish()
         network = self.drawing.network
         rest = tuple(own for own in network.strokes if own.id != stroke.id)
         if len(rest) == len(network.strokes):
@@ -328,15 +328,15 @@ class Session:
 
     # What waits
 
-    def finish(self) -> None:
+    def _finish(self) -> None:
         """Do what waits, because what comes now begins with the wires that it makes."""
         self.drawing.failure = NOTHING
         if self.cursor.queue:
             self.wait(until_committed=True)
-        self.leave_seed()
+        self._leave_seed()
         self.calm()
 
-    def leave_seed(self) -> None:
+    def _leave_seed(self) -> None:
         """Wait for the wires of a seed that was released. A seed that is held still goes back."""
         drag = self.cursor.drag
         if drag is not None and drag.ending:
@@ -499,7 +499,7 @@ class Session:
 
     def redo(self) -> bool:
         """Bring back the step that undo took. Gestures that wait are done first, and after a new step there is nothing to redo."""
-        self.finish()
+        self._finish()
         network = self.drawing.history.forth(self.drawing.network)
         return self.drawing.refuse("nothing-to-redo") if network is None else self._restore(network)
 

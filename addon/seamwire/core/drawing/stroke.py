@@ -51,7 +51,7 @@ class StrokeGesture(Gesture):
         self._drawing = drawing
         if vertices is not None:
             course = through_vertices(vertices, drawing.points)
-        elif points is None or faces is None or drawing.triangles is None:
+        elif points is None or faces is None:
             raise TypeError("neither points nor vertices")
         else:
             course = drawn(points, faces, drawing.points, drawing.triangles)

@@ -155,15 +155,12 @@ def into_triangles(places: NDArray[np.float64], triangles: NDArray[np.float64]) 
     return np.einsum("ij,ijk->ik", weights, triangles)
 
 
-def on_mesh(stroke: Stroke, mesh: NDArray[np.float64], triangles: NDArray[np.int32] | None) -> Stroke:
-    """Return a stroke with its points in the triangles between its corners, or else at the nearest of those.
-
-    The mesh has vertices, (k, 3), and triangles, (m, 3), unless these are not known.
-    """
+def on_mesh(stroke: Stroke, mesh: NDArray[np.float64], triangles: NDArray[np.int32]) -> Stroke:
+    """Return a stroke with its points in the triangles, (m, 3), between its corners, or else at the nearest of those."""
     corners = np.sort(stroke.corners, axis=1)
     at_vertex = corners[:, 0] == corners[:, 2]
     number_of: dict[tuple[int, ...], int] = {}
-    if triangles is not None and not at_vertex.all():
+    if not at_vertex.all():
         touched = np.zeros(len(mesh), dtype=bool)
         touched[corners[~at_vertex]] = True
         rows = np.flatnonzero(touched[triangles].all(axis=1))

@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from ..network.network import Network, Snap
     from ..network.picks import Edge, Pick
     from ..network.stops import Stops
-    from ..network.wires import Wire
     from ..solver.solver import Engines, LiveWire
     from .part_borders import PartBorders, VertexChain
 
@@ -104,13 +103,11 @@ _MOST_PIECES = 64
 
 
 class LoopOffers(Offers):
-    """The loops that a click on the edge under the cursor may add. Without `parts`, no borders of parts and flat faces are offered."""
+    """The loops that a click on the edge under the cursor may add."""
 
     SINGLE = Message.of("nothing-else-through-edge")
 
-    def __init__(
-        self, engines: Engines, stops: Stops, points: NDArray[np.float64], parts: PartBorders | None = None
-    ) -> None:
+    def __init__(self, engines: Engines, stops: Stops, points: NDArray[np.float64], parts: PartBorders) -> None:
         super().__init__()
         self._engines = engines
         self._stops = stops
@@ -128,21 +125,16 @@ class LoopOffers(Offers):
         before, self._snap = self._snap, snap
         if before is not None and snap is not None and self.edge == undirected(snap.pick):
             same = (before.crossing, before.triangle, before.inside) == (snap.crossing, snap.triangle, snap.inside)
-            self.final = self.final and same and self._with_parts == self._knows_parts
+            self.final = self.final and same and self._with_parts == self._parts.is_complete
 
     def wait(self) -> None:
         """Wait for what the offers need beside the library."""
-        if self._parts is not None:
-            self._parts.wait()
-            self.final = self.final and self._with_parts == self._knows_parts
+        self._parts.wait()
+        self.final = self.final and self._with_parts == self._parts.is_complete
 
     @property
     def _live(self) -> LiveWire:
         return self._engines.get("EDGES")
-
-    @property
-    def _knows_parts(self) -> bool:
-        return self._parts is not None and self._parts.is_complete
 
     def aim(self, pick: Pick | None) -> bool:
         """Ask for the offers for a pick, or for none; return whether others vanish because of that."""
@@ -166,13 +158,11 @@ class LoopOffers(Offers):
     def forget(self) -> None:
         """Forget what was found: the seams of the mesh may be others now."""
         self._known.clear()
-        if self._parts is not None:
-            self._parts.renew()
+        self._parts.renew()
 
     def stop_search(self) -> None:
         """Let the search for parts end: nobody asks for them any more."""
-        if self._parts is not None:
-            self._parts.stop()
+        self._parts.stop()
 
     def takes(self, pick: Pick) -> bool:
         """Whether it is an edge."""
@@ -180,7 +170,7 @@ class LoopOffers(Offers):
 
     def part_border(self, edge: Edge) -> set[Edge]:
         """Return the edges of the likeliest border of a part beside an edge, or nothing."""
-        return set(_sides(next(self._parts.borders(edge), ()))) if self._parts is not None else set()
+        return set(_sides(next(self._parts.borders(edge), ())))
 
     def find(self, pick: Pick, network: Network, kept: Wire | None = None) -> tuple[Wire, ...]:
         """Return what a click on an edge may take; nothing, too, while it is computed, see `final`.
@@ -210,9 +200,8 @@ class LoopOffers(Offers):
         The library computes one loop at a time. The loops found are remembered as long as nothing else changes.
         """
         engines = self._engines
-        if self._parts is not None:
-            self._parts.ready()  # begins the search again if it was stopped
-        self._with_parts = self._knows_parts
+        self._parts.ready()  # begins the search again if it was stopped
+        self._with_parts = self._parts.is_complete
         metric = network, engines.metric, engines.strengths["EDGES"], engines.clamp, self._with_parts
         if metric != self._metric or len(self._known) > _MOST_KNOWN:
             self._metric = metric
@@ -232,7 +221,7 @@ class LoopOffers(Offers):
         """
         live, parts = self._live, self._parts
         loop = live.loop(edge)
-        is_known = parts is None or parts.ready()
+        is_known = parts.ready()
         if not (loop.final and is_known):
             return None
         found = [self._wire("CLOSED", loop.vertices, True, edge)]
@@ -245,10 +234,8 @@ class LoopOffers(Offers):
             found.append(self._wire("PAST", *past_poles(live, edge, stops), edge))
         chain = live.edge_loop(edge, ())
         found.append(self._wire("WHOLE", chain.vertices, chain.closed, edge))
-        slit = None
-        if parts is not None:
-            slit = self._slit(edge, stops)
-            found += [slit, *(self._wire("FLAT", border, True, edge) for border in parts.borders(edge))]
+        slit = self._slit(edge, stops)
+        found += [slit, *(self._wire("FLAT", border, True, edge) for border in parts.borders(edge))]
         edges: frozenset[Edge] = frozenset(() if slit is None else slit.edges())
         return self._likeliest_first(_distinct(found), network, edges), edges
 
@@ -290,7 +277,7 @@ class LoopOffers(Offers):
 
         The exceptions are edge loops, which may be narrow, such as those around a mouth, and borders of parts.
         """
-        if self._parts is None or not wire.closed or wire.kind == "FLAT" or wire.through is None:
+        if not wire.closed or wire.kind == "FLAT" or wire.through is None:
             return False
         ring = self._live.edge_loop(wire.through, ())
         if ring.closed and set(map(int, ring.vertices)) == set(wire.vertices):
@@ -326,7 +313,7 @@ class LoopOffers(Offers):
     def _with_face(self, edge: Edge, offers: tuple[Wire, ...], network: Network) -> tuple[Wire, ...]:
         """Return offers with the border of the flat face under the cursor, even if the edge lies inside that face."""
         triangle = self._triangle_at(edge)
-        if self._parts is None or triangle is None or not offers:
+        if triangle is None or not offers:
             return offers
         border = self._parts.flat_face(triangle)
         wire = self._border(border, edge)
@@ -343,7 +330,7 @@ class LoopOffers(Offers):
         those of finer and coarser parts.
         """
         triangle, snap = self._triangle_at(edge), self._snap
-        if self._parts is None or snap is None or triangle is None or not snap.inside or not offers:
+        if snap is None or triangle is None or not snap.inside or not offers:
             return offers
         nearest_first = [
             sorted(chains, key=lambda chain: self._gaps(_sides(chain), edge).min())

@@ -155,15 +155,12 @@ class CutMemory:
 
 
 class SurfaceLoops(Offers):
-    """The closed cuts through the point under the cursor, while they are asked for; or, to be bent, the one taken last through it too.
-
-    Without triangles, nothing is offered.
-    """
+    """The closed cuts through the point under the cursor, while they are asked for; or, to be bent, the one taken last through it too."""
 
     SINGLE = Message.of("nothing-else-here")
     NONE = Message.of("no-closed-cut")
 
-    def __init__(self, engines: Engines, triangles: NDArray[np.int32] | None) -> None:
+    def __init__(self, engines: Engines, triangles: NDArray[np.int32]) -> None:
         super().__init__()
         self._engines = engines
         self._triangles = triangles
@@ -177,7 +174,7 @@ class SurfaceLoops(Offers):
 
     def takes(self, pick: Pick) -> bool:
         """Whether it is a point of the surface."""
-        return self._triangles is not None and not isinstance(pick, tuple)
+        return not isinstance(pick, tuple)
 
     def find(self, pick: Pick, network: Network, kept: Wire | None = None) -> tuple[Wire, ...]:
         """Return the closed cuts through a pick, each as one wire to be shown; nothing, too, while they are computed.
@@ -286,7 +283,6 @@ class SurfaceLoops(Offers):
         self._taken, self.wanted = pick, False
 
     def _pieces_of(self, cut: ClosedCut, pick: Pick) -> tuple[Wire, ...]:
-        assert self._triangles is not None
         joints: list[Pick] = []
         for joint in cut.joints:
             if isinstance(joint, int):

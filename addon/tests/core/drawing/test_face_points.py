@@ -134,6 +134,7 @@ def test_over_a_mirror_a_wire_without_edges_has_its_image() -> None:
             centred,
             Options(along="SURFACE"),
             edges=grid_edges(SIZE),
+            triangles=TRIANGLES,
         )
     )
     use(on, finish="CUT")

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from fake_live import grid_edges, grid_points
+from fake_live import grid_edges, grid_points, grid_triangles
 from real_sessions import halves, session_on
 from seamwire.core.drawing.drawing import Drawing
 from seamwire.core.drawing.picture import Intent, Role
@@ -235,7 +235,7 @@ def test_an_edge_that_is_none_is_refused_in_words() -> None:
 
     table = Table()
     live = table.lives["EDGES"]
-    session = Session(Drawing(lambda _: NoEdge(), table.points))
+    session = Session(Drawing(lambda _: NoEdge(), table.points, edges=grid_edges(SIZE), triangles=grid_triangles(SIZE)))
     assert not session.loop((0, 20))
     assert "no edge" in str(session.drawing.message)
     session.hover((0, 20), loop=True)

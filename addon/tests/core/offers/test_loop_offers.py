@@ -18,8 +18,8 @@ from seamwire.core.offers.part_borders import PartBorders
 from table import POINTS, SIZE, Table, symmetry
 
 
-def loops(*borders: PartBorders) -> LoopOffers:
-    return LoopOffers(Table().session.drawing.engines, Stops([], symmetry()), POINTS, *borders)
+def loops(borders: PartBorders) -> LoopOffers:
+    return LoopOffers(Table().session.drawing.engines, Stops([], symmetry()), POINTS, borders)
 
 
 def halves(go_on: threading.Event | None = None) -> PartBorders:
