@@ -46,7 +46,7 @@ class Cut:
     """The result of a cut."""
 
     edges: tuple[Edge, ...]  # those that the wires run along
-    seeds: Mapping[int | FacePoint, int]  # what was asked for, and the numbers of the vertices there
+    seeds: Mapping[int | FacePoint, int]  # those asked for, with the numbers of their vertices
     vertices: int  # how many are new
     uncut: int  # how many faces could not be cut
     wires: int = 0  # how many were cut

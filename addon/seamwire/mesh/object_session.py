@@ -106,7 +106,7 @@ class ObjectSession:
         )
         self.notices = Notices()  # problems with the wires that are stored with the mesh
         self.plain_seams: NDArray[np.int32] = self.arrays.seams
-        self.symmetric: tuple[int, ...] | None = None  # over these axes; None while that is not known
+        self.symmetric: tuple[int, ...] | None = None  # the axes of its symmetry; None while they are not known
         self._auto: Auto | None = None
         self._symmetry_error: Exception | None = None
         self._looking: threading.Thread | None = None

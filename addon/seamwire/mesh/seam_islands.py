@@ -129,7 +129,7 @@ class Worst:
     value: float  # octaves, see `Stretch`
     faces: NDArray[np.int32]
     count: int  # of all islands of the mesh
-    facing: NDArray[np.float64]  # (3,) mean direction in the object, as long as the projected part of the area
+    facing: NDArray[np.float64]  # (3,) mean direction in object coordinates; its length is projected area / area
 
 
 def worst_island(obj: bpy.types.Object, kind: str) -> Worst | None:

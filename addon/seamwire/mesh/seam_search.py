@@ -102,10 +102,9 @@ class Suggestion:
         self.part_count = 0  # islands that are not to be cut included
         self.best: seamwire_core.SeamPlan | None = None  # the plan to carry out
         self.straight_cost = STRAIGHT_COST  # of `Layout`, so that the plan stays within its limit
-        self.layout: NDArray[np.float64] | None = (
-            None  # (m, 3, 2) its map as unwrapping lays it out, in the object's units
-        )
         self.slits: list[Wire] = []  # its wires
+        # Its map as unwrapping lays it out, (m, 3, 2) in the object's units.
+        self.layout: NDArray[np.float64] | None = None
         self.marked = 0  # how many edges `write` made seams
 
     def _islands_with(self, faces: NDArray[np.integer] | None) -> tuple[NDArray[np.bool_] | None, int]:

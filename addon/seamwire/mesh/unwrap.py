@@ -239,7 +239,7 @@ class _Map:
         return shaped_islands(self._arrays.in_object, corners.vertices, edges, corners.following, labels)
 
     def new_islands(self, density: float) -> list[tuple[NDArray[np.int64], NewIsland]]:
-        """Return the corners of each unwrapped island that needs a place, and what it has become; with a `density` for new ones."""
+        """Return the corners of each unwrapped island that needs a place, and what it is now. A `density` is for those without one."""
         densities = self.densities(density)
         after = uv_map.read_uvs(self.obj)
         islands = []

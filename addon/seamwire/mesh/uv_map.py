@@ -54,7 +54,7 @@ def copied(obj: bpy.types.Object) -> Iterator[bpy.types.Mesh]:
 
 
 def aspect(obj: bpy.types.Object) -> float:
-    """Return the aspect of the image that Blender unwraps for: the active one of the active or first face's material; 1 without one."""
+    """Return width / height of the image that Blender unwraps for, in the material of the active or first face. 1 without an image."""
     bm = edit_mesh.edit_bmesh(obj.data)
     if not len(bm.faces):
         return 1.0

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def draw_chain(session: Session, seeds: Iterable[Pick]) -> list[str]:
-    """Draw a chain of seeds, always on from the last one that was reached. Wait for each wire, and return what could not be done."""
+    """Draw a chain of seeds, and return what could not be done. After a failure, it goes on from the last seed that was reached."""
     problems = []
     session.end_chain()
     for pick in seeds:
@@ -31,7 +31,7 @@ def draw_chain(session: Session, seeds: Iterable[Pick]) -> list[str]:
 
 
 def draw_loop(session: Session, pick: Pick, kind: LoopKind | None = None) -> str:
-    """Take the loop through an edge, the first of its kind, or the closed cut through a point. Return what could not be done."""
+    """Take the loop of a kind, or the first one, through an edge, or the closed cut through a point. Return what could not be done."""
     before = session.wires
     if kind is not None and isinstance(pick, tuple) and not _turn_to(session, pick, kind):
         return f"No {LOOPS[kind]} runs through {pick_name(pick)}"

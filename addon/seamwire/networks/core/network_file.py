@@ -142,7 +142,7 @@ class NetworkFile:
 
     @classmethod
     def parse(cls, text: str) -> NetworkFile:
-        """Read what `text` wrote. Raises NetworkFileError if that is not so, a later version wrote it, or where it is damaged."""
+        """Read what `text` wrote. Raises NetworkFileError if it is something else, damaged, or from a later version."""
         try:
             data = json.loads(text)
         except (ValueError, RecursionError) as error:

@@ -65,7 +65,7 @@ class Shape:
     points: NDArray[np.float64]  # (n, 3) vertices as sessions have them
     triangles: NDArray[np.int32]  # (m, 3)
     edges: NDArray[np.int32]  # (e, 2) the edges that wires may run along
-    to_object: NDArray[np.float64] | None = None  # (3, 3) takes `points` to object coordinates; None: they are such
+    to_object: NDArray[np.float64] | None = None  # (3, 3) takes `points` to object coordinates
 
     @cached_property
     def where(self) -> Places:
