@@ -100,3 +100,11 @@ def test_an_error_before_the_first_change_leaves_no_step_of_undo(
             bpy.ops.mesh.seamwire_take_over("EXEC_DEFAULT", True)
     bpy.ops.object.mode_set(mode="OBJECT")
     assert not bpy.data.objects[grids[0]].data.attributes.get(".seamwire")
+
+
+def test_all_meshes_are_planned_before_the_first_one_changes(grids: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    before = states(grids)
+    monkeypatch.setattr(ObjectSession, "plan", fail_at(2, ObjectSession.plan))
+    with pytest.raises(RuntimeError, match="as the test wants it"):
+        bpy.ops.mesh.seamwire_take_over()
+    assert states(grids) == before

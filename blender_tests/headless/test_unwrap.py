@@ -108,7 +108,11 @@ def test_a_mesh_without_uvs_is_flattened_and_packed() -> None:
     obj.data.uv_layers.remove(obj.data.uv_layers[0])
     edit()
     cut_at(obj, "x")
+    bpy.ops.mesh.select_all(action="DESELECT")
+    with changing(obj) as bm:
+        bm.faces[3].select = True
     assert unwrap() == {"FINISHED"}
+    assert selected(obj) == [3]
     assert not flipped(obj)
     assert not overlapping_pairs(obj)
     assert in_square(obj)

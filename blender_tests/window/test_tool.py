@@ -13,6 +13,7 @@ from seamwire.mesh.settings import TOOL
 from seamwire.operators import draw
 from seamwire.operators.chain_state import running
 from seamwire.view.edited_objects import edited
+from seamwire.view.viewport import place_in
 from seamwire.words import corner
 
 
@@ -161,6 +162,24 @@ def test_other_objects_may_have_nothing_to_draw_on(two: Two) -> None:
     ui.click(two.at(two.left, 14))
     ui.wait_until(lambda: len(edited.front.session.wires) == 1)
     assert two.names() == ["Left"]
+
+
+@pytest.mark.smoke
+def test_an_object_outside_the_local_view_is_not_pointed_at(two: Two) -> None:
+    ui = two.ui
+    ui.wait_until(lambda: len(two.names()) == 2)
+    with ui.override():
+        bpy.ops.view3d.localview(frame_selected=False)
+    two.right.local_view_set(ui.space, False)
+    try:
+        ui.wait(4, redraw=True)
+        at = two.at(two.right, 12)
+        assert edited.find(place_in(ui.area, ui.region, (round(at[0]), round(at[1]))))[1] is None
+    finally:
+        with ui.override():
+            bpy.ops.view3d.localview(frame_selected=False)
+    ui.move(two.at(two.right, 13))
+    ui.wait_until(lambda: edited.front.name == "Right" and edited.front.session.cursor.target is not None)
 
 
 def test_one_of_several_objects_may_leave_edit_mode(two: Two) -> None:

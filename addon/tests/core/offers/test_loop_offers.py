@@ -33,6 +33,19 @@ def halves(go_on: threading.Event | None = None) -> PartBorders:
     return PartBorders(POINTS, triangles, grid_edges(SIZE), find_parts=find)
 
 
+def test_borders_of_parts_are_offered_last() -> None:
+    edge = (2, 2 + SIZE)
+    without = loops().find(edge, Network())
+    offers = loops(halves())
+    found = offers.find(edge, Network())
+    assert [one.kind for one in found] == [*(one.kind for one in without), "FLAT", "FLAT"]
+    rows = range(SIZE)
+    sides = {(x, y) for x in range(3) for y in rows if x in {0, 2} or y in {0, SIZE - 1}}
+    assert {(vertex % SIZE, vertex // SIZE) for vertex in found[-2].vertices} == sides, "the shorter one first"
+    assert found[-2].closed
+    assert set(found[-2].edges()) == offers.part_border(edge[::-1])
+
+
 def test_loops_do_not_wait_for_parts_and_parts_join_them(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(part_borders, "AT_ONCE", 0)
     edge, go_on = (2, 2 + SIZE), threading.Event()
