@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Networks are placed beside the interface: the view can be moved meanwhile, and Esc changes nothing."""
+"""Networks are placed, and wires repeated, beside the interface: the view can be moved meanwhile, and Esc changes nothing."""
 
 from __future__ import annotations
 
@@ -13,16 +13,27 @@ import stored
 import ui as driver
 from desk import leave, undo_steps
 from scene import add_suzanne, changing, edit, head, mark_wires, seams, snapshot
+from seamwire.networks.core.repeats import Repeats
 from seamwire.networks.core.tracing import Tracing
 from seamwire.operators.steps import running
 
 
 class Gate:
-    """Keeps transfers from drawing their first wire."""
+    """Keeps transfers from drawing their first wire, and repeats from their first place."""
 
     def __init__(self) -> None:
         self.has_begun = threading.Event()
         self._may_go_on = threading.Event()
+
+    def guard(self, owner: type, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+        """Let a method wait until the gate is open."""
+        method = getattr(owner, name)
+
+        def waiting(*arguments: object) -> object:
+            self.wait()
+            return method(*arguments)
+
+        monkeypatch.setattr(owner, name, waiting)
 
     def open(self) -> None:
         """Let wires be drawn."""
@@ -37,13 +48,9 @@ class Gate:
 @pytest.fixture
 def gate(monkeypatch: pytest.MonkeyPatch) -> Iterator[Gate]:
     """A gate that is closed."""
-    made, best = Gate(), Tracing._best
-
-    def waiting(self: Tracing, *arguments: object) -> object:
-        made.wait()
-        return best(self, *arguments)
-
-    monkeypatch.setattr(Tracing, "_best", waiting)
+    made = Gate()
+    made.guard(Tracing, "_best", monkeypatch)
+    made.guard(Repeats, "_matched", monkeypatch)
     yield made
     made.open()
 
@@ -66,19 +73,30 @@ def target(ui: driver.Ui, tmp_path: Path) -> Iterator[bpy.types.Object]:
     leave(ui)
 
 
-def begin(ui: driver.Ui, gate: Gate) -> None:
+def begin(ui: driver.Ui, gate: Gate, operator: str = "seamwire_transfer") -> None:
     with ui.override():
-        assert bpy.ops.mesh.seamwire_transfer("INVOKE_DEFAULT", True) == {"RUNNING_MODAL"}
+        assert getattr(bpy.ops.mesh, operator)("INVOKE_DEFAULT", True) == {"RUNNING_MODAL"}
     ui.wait_until(gate.has_begun.is_set)
+
+
+def mark_on(ui: driver.Ui, target: bpy.types.Object) -> None:
+    """Draw a wire on one half of the target."""
+    with ui.override():
+        mark_wires(chains=" ".join(map(str, head(target, 2))))
+        bpy.ops.ed.undo_push(message="Marked")
 
 
 @pytest.mark.smoke
 @pytest.mark.every_blender
-def test_escape_ends_a_transfer_and_leaves_the_mesh_as_it_was(
-    ui: driver.Ui, target: bpy.types.Object, gate: Gate, capfd: pytest.CaptureFixture[str]
+@pytest.mark.parametrize("operator", ["seamwire_transfer", "seamwire_repeat"])
+def test_escape_ends_the_work_and_leaves_the_mesh_as_it_was(
+    ui: driver.Ui, target: bpy.types.Object, gate: Gate, capfd: pytest.CaptureFixture[str], operator: str
 ) -> None:
+    if operator == "seamwire_repeat":
+        mark_on(ui, target)
     before, steps = snapshot(target), undo_steps(capfd)
-    begin(ui, gate)
+    ui.look_from_top(distance=4.0)
+    begin(ui, gate, operator)
     rotation = ui.view.view_rotation.copy()
     ui.move((0.5 * ui.region.width, 0.5 * ui.region.height))
     ui.key("NUMPAD_1")
@@ -108,6 +126,24 @@ def test_a_transfer_that_ends_marks_seams_and_one_undo_takes_it_back(
     with ui.override():
         bpy.ops.ed.undo()
     assert snapshot(bpy.context.active_object) == before
+
+
+@pytest.mark.smoke
+def test_a_repeat_that_ends_marks_seams_and_one_undo_takes_it_back(
+    ui: driver.Ui, target: bpy.types.Object, gate: Gate, capfd: pytest.CaptureFixture[str]
+) -> None:
+    mark_on(ui, target)
+    before = seams(target)
+    begin(ui, gate, "seamwire_repeat")
+    gate.open()
+    ui.wait_until(lambda: not running)
+    ui.wait(5)
+    assert len(seams(target)) > len(before), "on the other half"
+    assert stored.agree(target)
+    assert undo_steps(capfd)[-1] == "Repeat Seamwires"
+    with ui.override():
+        bpy.ops.ed.undo()
+    assert seams(bpy.context.active_object) == before
 
 
 @pytest.mark.parametrize("change", ["subdivide", "move"])

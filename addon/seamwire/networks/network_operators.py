@@ -69,8 +69,7 @@ class _Placing(Stepwise):
         mirror = None if self.mirror == "NONE" else "XYZ".index(self.mirror)
         work = carry_over(mesh, source, place=self.place, mirror=mirror, align=self.align, pairs=pairs)
         found = yield from _done("Placing wires", work)
-        if self.is_beside and not (mesh.alive() and mesh.refresh(mesh.obj)):
-            raise ValueError("The mesh changed while wires were placed")
+        _read_again(self, mesh)
         return self._write(context, mesh, found)
 
     def _write(self, context: bpy.types.Context, mesh: ObjectSession, found: Transfer) -> set[str]:
@@ -104,6 +103,12 @@ def _done(text: str, work: Callable[..., object]) -> Generator[Step, None, objec
     found = []
     yield Step(text, lambda progress: found.append(work(progress=progress)))
     return found[0]
+
+
+def _read_again(operator: Stepwise, mesh: ObjectSession) -> None:
+    """Read a mesh again after steps beside the interface. Raise ValueError if wires would run on it in another way."""
+    if operator.is_beside and not (mesh.alive() and mesh.refresh(mesh.obj)):
+        raise ValueError("The mesh changed while wires were placed")
 
 
 def _pairs(text: str) -> list[tuple[int, int]]:
@@ -241,7 +246,7 @@ class MESH_OT_seamwire_save_network(EditMeshOperator, bpy.types.Operator, Export
         return {"FINISHED"}
 
 
-class MESH_OT_seamwire_repeat(EditMeshOperator, bpy.types.Operator):
+class MESH_OT_seamwire_repeat(Stepwise, bpy.types.Operator):
     """Repeat all wires, or those with selected edges, wherever edges match"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_repeat"
@@ -253,24 +258,16 @@ class MESH_OT_seamwire_repeat(EditMeshOperator, bpy.types.Operator):
         default=False,
     )
 
-    def run(self, context: bpy.types.Context) -> set[str]:
-        """Find matching places on the active object, and add the missing wires."""
-        from .core.repeats import Repeats
+    def steps(self, context: bpy.types.Context) -> Generator[Step, None, set[str]]:
+        """Find matching places on the active object, then add the missing wires."""
+        from .core.repeats import missing_wires
 
         mesh = self.open_mesh(context.active_object)
         groups = self._groups(mesh)
         if not groups:
             raise ValueError(f"No {'selected wire' if self.selected else 'wire'} along edges to repeat")
-        arrays = mesh.arrays
-        repeats = Repeats(arrays.points, arrays.triangles, arrays.edges)
-        taken = {(min(pair), max(pair)) for pair in arrays.seams.tolist()}
-        places, new = 0, []
-        for group in groups:
-            for place in repeats.of(group, arrays.points):
-                wires = [wire for wire in place if not taken.issuperset(wire.edges())]
-                places += bool(wires)
-                new += wires
-                taken.update(edge for wire in wires for edge in wire.edges())
+        places, new = yield from _done("Finding matching places", partial(missing_wires, groups, mesh.arrays))
+        _read_again(self, mesh)
         if not new:
             self.report({"INFO"}, "No other unmarked place matches these wires")
             return {"CANCELLED"}

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
+from seamwire.core.base import native
 from seamwire.core.network.picks import Edge
 from seamwire.core.network.wires import Wire
 from seamwire.networks.core.repeats import Repeats, connected_groups
@@ -112,3 +113,14 @@ def test_groups_are_wires_that_share_vertices_and_each_comes_once() -> None:
     assert connected_groups([three], wires) == [[one, two, three]]
     assert connected_groups([one, three, apart], wires) == [[one, two, three], [apart]]
     assert connected_groups([], wires) == []
+
+
+def test_the_search_tells_how_much_is_done_and_can_be_stopped() -> None:
+    points, repeats = copies(np.eye(3), turned(1.0), MIRROR)
+    drawn = Wire("EDGES", CHAIN, points[list(CHAIN)], 7, 21)
+    told: list[float] = []
+    assert len(list(repeats.of([drawn], points, lambda fraction: not told.append(fraction)))) == 2
+    assert told == sorted(told)
+    assert 0.0 <= told[0] < told[-1] <= 1.0
+    with pytest.raises(native.load().Cancelled):
+        list(repeats.of([drawn], points, lambda _: False))

@@ -93,8 +93,9 @@ class GapFinder:
             length = length_of(points[chain])
             for end in {chain[0], chain[-1]} - on_border.union(meant):
                 if len(cuts.beside(end)) == 1:
-                    gap = _gap_at(self._mesh, cuts, end, longest * length, most_looked_at)
-                    if gap is not None and (len(gap.path) == 2 or gap.length <= longest_of_several * length):
+                    several = min(longest, longest_of_several)
+                    gap = _gap_at(self._mesh, cuts, end, longest * length, several * length, most_looked_at)
+                    if gap is not None:
                         found.setdefault(frozenset((gap.end, gap.target)), gap)
         return sorted(found.values(), key=lambda gap: (gap.length, gap.end))
 
@@ -131,10 +132,13 @@ class _Ways:
         """Return the vertices that share an edge with one."""
         return self._heads[self._begin[vertex] : self._begin[vertex + 1]]
 
-    def nearest(self, start: int, longest: float, before: dict[int, int] | None = None) -> Iterator[tuple[int, float]]:
+    def nearest(
+        self, start: int, longest: float, longest_of_several: float, before: dict[int, int] | None = None
+    ) -> Iterator[tuple[int, float]]:
         """Yield vertices and their distances from one, nearest first (Dijkstra's algorithm), up to a distance.
 
-        Where `before` is given, it is filled with the vertex before each on the shortest way to it.
+        The distance is another one for ways of several edges. Where `before` is given, it is filled with the vertex before each on the
+        shortest way to it.
         """
         reached, done = {start: 0.0}, set()
         queue = [(0.0, start)]
@@ -145,23 +149,26 @@ class _Ways:
             done.add(vertex)
             yield vertex, distance
             beside = self.beside(vertex)
+            most = longest if vertex == start else longest_of_several
             # A vertex has few neighbors: calls of NumPy would take longer than the sums.
             x, y, z = self._points[vertex].tolist()
             for other, (a, b, c) in zip(beside.tolist(), self._points[beside].tolist(), strict=True):
                 a, b, c = a - x, b - y, c - z
                 so_far = distance + math.sqrt(a * a + b * b + c * c)
-                if so_far <= longest and so_far < reached.get(other, np.inf):
+                if so_far <= most and so_far < reached.get(other, np.inf):
                     reached[other] = so_far
                     if before is not None:
                         before[other] = vertex
                     heapq.heappush(queue, (so_far, other))
 
 
-def _gap_at(mesh: _Ways, cuts: _Ways, end: int, longest: float, most_looked_at: int) -> Gap | None:
-    """Return the gap at the end of a cut, or None if there is no gap up to that length."""
-    along = dict(cuts.nearest(end, _DETOUR * longest))
+def _gap_at(
+    mesh: _Ways, cuts: _Ways, end: int, longest: float, longest_of_several: float, most_looked_at: int
+) -> Gap | None:
+    """Return the gap at the end of a cut, or None if there is no gap of one edge or several edges up to these lengths."""
+    along = dict(cuts.nearest(end, _DETOUR * longest, _DETOUR * longest))
     before: dict[int, int] = {}
-    for vertex, distance in islice(mesh.nearest(end, longest, before), most_looked_at):
+    for vertex, distance in islice(mesh.nearest(end, longest, longest_of_several, before), most_looked_at):
         if len(cuts.beside(vertex)) and along.get(vertex, np.inf) > _DETOUR * distance:
             path = [vertex]
             while path[-1] != end:

@@ -14,14 +14,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...core.base.components import groups
+from .placing import tell, within
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
 
     from numpy.typing import NDArray
 
+    from ...core.base.mesh_arrays import Arrays
     from ...core.network.picks import Edge, Pick
     from ...core.network.wires import Wire
+    from .placing import Progress
 
 _TOLERANCES = (0.01, 0.05)
 """Parts by which lengths of edges may differ; the second is asked where with the first nothing is found."""
@@ -49,22 +52,28 @@ class Repeats:
         self._numbers = {(min(pair), max(pair)): number for number, pair in enumerate(edges.tolist())}
         self._look_around(len(points), triangles)
 
-    def of(self, wires: Iterable[Wire], points: NDArray[np.float64]) -> list[list[Wire]]:
-        """Return for each repeat of connected wires along edges its wires. Edges that the walk does not reach are ignored."""
+    def of(
+        self, wires: Iterable[Wire], points: NDArray[np.float64], progress: Progress = lambda _: True
+    ) -> Iterator[list[Wire]]:
+        """Yield for each repeat of connected wires along edges its wires. Edges that the walk does not reach are ignored."""
         wires = list(wires)
-        return [
-            [_moved(wire, to, points) for wire in wires if set(wire.vertices) <= to.keys()]
-            for to in self.maps({edge for wire in wires for edge in wire.edges()})
-        ]
+        for to in self.maps({edge for wire in wires for edge in wire.edges()}, progress):
+            yield [_moved(wire, to, points) for wire in wires if set(wire.vertices) <= to.keys()]
 
-    def maps(self, edges: Iterable[Edge]) -> Iterator[dict[int, int]]:
-        """Yield for each repeat of a connected set of edges where its vertices are there; no two have all edges in common."""
+    def maps(self, edges: Iterable[Edge], progress: Progress = lambda _: True) -> Iterator[dict[int, int]]:
+        """Yield for each repeat of a connected set of edges where its vertices are there; no two have all edges in common.
+
+        Raises `seamwire_core.Cancelled` where `progress` returns False.
+        """
         known = [self._numbers[pair] for pair in edges]
         steps = self._walk(known)
         seen = {frozenset(known)}
-        for tolerance in _TOLERANCES:
-            for found in (self._follow(steps, tolerance, sense) for sense in (1, -1)):
-                for darts in found.tolist():
+        for number, tolerance in enumerate(_TOLERANCES):
+            for half, sense in enumerate((1, -1)):
+                part = within(progress, 0.5 * number + 0.25 * half, 0.5 * number + 0.25 * (half + 1))
+                found = self._follow(steps, tolerance, sense, part)
+                for row, darts in enumerate(found.tolist()):
+                    tell(part, 0.5 + 0.5 * row / len(found))
                     whole = frozenset(dart >> 1 for dart in darts)
                     to = self._matched(steps, darts)
                     if whole not in seen and to is not None:
@@ -90,11 +99,12 @@ class Repeats:
             at += 1
         return steps
 
-    def _follow(self, steps: list[_WalkStep], tolerance: float, sense: int) -> NDArray[np.int64]:
-        """Return the darts, (k, steps), of all walks that are like one, counterclockwise or mirrored."""
+    def _follow(self, steps: list[_WalkStep], tolerance: float, sense: int, progress: Progress) -> NDArray[np.int64]:
+        """Return the darts, (k, steps), of all walks that are like one, counterclockwise or mirrored: half of the progress."""
         begin = np.arange(len(self._tails))
         darts = np.empty((len(begin), len(steps)), dtype=np.int64)
         for number, step in enumerate(steps):
+            tell(progress, 0.5 * number / len(steps))
             if step.parent < 0:
                 darts[:, number] = begin[: len(darts)] if number == 0 else darts[:, 0] ^ 1
             else:
@@ -200,6 +210,26 @@ def _moved(wire: Wire, to: dict[int, int], points: NDArray[np.float64]) -> Wire:
         kind=wire.kind if ends else None,
         through=(ends[0], ends[1]) if ends else None,
     )
+
+
+def missing_wires(
+    groups: Sequence[list[Wire]], arrays: Arrays, progress: Progress = lambda _: True
+) -> tuple[int, list[Wire]]:
+    """Return at how many places a mesh repeats groups of connected wires, and the wires there that are no seams yet.
+
+    Raises `seamwire_core.Cancelled` where `progress` returns False.
+    """
+    repeats = Repeats(arrays.points, arrays.triangles, arrays.edges)
+    taken = {(min(pair), max(pair)) for pair in arrays.seams.tolist()}
+    places, new = 0, []
+    for number, group in enumerate(groups):
+        part = within(progress, number / len(groups), (number + 1) / len(groups))
+        for place in repeats.of(group, arrays.points, part):
+            wires = [wire for wire in place if not taken.issuperset(wire.edges())]
+            places += bool(wires)
+            new += wires
+            taken.update(edge for wire in wires for edge in wire.edges())
+    return places, new
 
 
 def connected_groups(wanted: Iterable[Wire], wires: Sequence[Wire]) -> list[list[Wire]]:

@@ -94,6 +94,15 @@ def test_while_seams_are_drawn_an_end_some_edges_from_another_cut_is_no_gap_yet(
     assert finder.find(drawn, longest=2.0, longest_of_several=0.2) == []
 
 
+def test_a_gap_of_one_edge_counts_although_several_edges_lead_to_a_nearer_cut() -> None:
+    points = grid_points(SIZE)
+    points[45:, 1] += 1.5
+    finder = GapFinder(points, grid_triangles(SIZE), grid_edges(SIZE))
+    drawn = seams((4, 13, 22, 31, 40), range(2, 81, 9), range(45, 54))
+    assert finder.find(drawn, longest=0.7) == [Gap(40, 38, 2.0)]
+    assert finder.find(drawn, longest=0.7, longest_of_several=0.2) == [Gap(40, 49, 2.5)]
+
+
 def test_a_cut_that_ends_on_purpose_has_no_gap_there() -> None:
     finder = GapFinder(grid_points(SIZE), grid_triangles(SIZE), grid_edges(SIZE))
     maker = IslandMaker(grid_triangles(SIZE), lambda _: np.zeros(2 * (SIZE - 1) ** 2, dtype=np.int32), gaps=finder)
