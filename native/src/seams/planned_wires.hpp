@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "seams/candidate_wires.hpp"
+#include "seams/wire_touches.hpp"
 #include "seamwire/seams/seam_planner.hpp"
 #include "seamwire/task.hpp"
 #include "slits/slit_plan.hpp"
@@ -28,10 +29,8 @@ struct SlitChains {
 /// Makes wires of slits: between seeds where slits meet, end, and bend.
 class PlannedWires {
  public:
-  /// Prepares the metrics of wires across the surface. `rim`: as find_touches() takes it. Throws InvalidInput for a
-  /// strength; Cancelled.
-  PlannedWires(const SurfaceContext& context, Along along, const Strength& strength, std::vector<Edge> rim,
-               const Task& task);
+  /// Prepares the metrics of wires across the surface. Throws InvalidInput for a strength; Cancelled.
+  PlannedWires(const SurfaceContext& context, Along along, const Strength& strength, Rim rim, const Task& task);
 
   bool are_across() const { return across_ != nullptr; }
   /// Along edges, wires are the slits. Across the surface, they are the shortest curves between seeds of the slits,
@@ -46,7 +45,7 @@ class PlannedWires {
   std::vector<PlannedWire> along_edges(const PlanMesh& mesh, const SlitChains& slits) const;
 
   std::shared_ptr<const Surface> surface_;
-  std::vector<Edge> rim_;
+  Rim rim_;
   std::unique_ptr<const CandidateWires> across_;  // null along edges
 };
 
