@@ -73,14 +73,17 @@ PlanMesh plan_mesh(const Surface& surface) {
   return mesh;
 }
 
+FaceFrame face_frame(const PlanMesh& mesh, const Triangle& triangle) {
+  const auto& [a, b, c] = triangle;
+  const Vector doubled = (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]);
+  const double size = doubled.norm();
+  return {size > 0.0 ? Vector(doubled / size) : Vector(Vector::Zero()), 0.5 * size};
+}
+
 std::vector<FaceFrame> face_frames(const PlanMesh& mesh) {
   std::vector<FaceFrame> frames;
   frames.reserve(mesh.face_count());
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const Vector doubled = (mesh.points[b] - mesh.points[a]).cross(mesh.points[c] - mesh.points[a]);
-    const double size = doubled.norm();
-    frames.push_back({size > 0.0 ? Vector(doubled / size) : Vector(Vector::Zero()), 0.5 * size});
-  }
+  for (const Triangle& triangle : mesh.triangles) frames.push_back(face_frame(mesh, triangle));
   return frames;
 }
 

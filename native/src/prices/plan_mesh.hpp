@@ -49,11 +49,12 @@ PlanMesh plan_mesh(const Surface& surface);
 /// vertices of the mesh, sorted, the smaller vertex first; empty: all are real.
 void connect(PlanMesh& mesh, std::span<const Edge> real_edges);
 
-/// Area and unit normal of each triangle; the normal of a triangle without area is zero.
+/// Area and unit normal of a triangle; the normal of a triangle without area is zero.
 struct FaceFrame {
   Vector normal = Vector::Zero();
   double area = 0.0;
 };
+FaceFrame face_frame(const PlanMesh& mesh, const Triangle& triangle);
 std::vector<FaceFrame> face_frames(const PlanMesh& mesh);
 
 /// Unit normals at vertices, weighted by the angles at corners.

@@ -153,16 +153,16 @@ void add_split(const Open& slit, std::size_t at, std::vector<Open>& parts) {
 
 /// Takes out wires that touch others or the rim. Returns their slits, split where they touch. A slit of a single edge
 /// cannot be split: its wire is laid by `along_edges`.
-std::vector<Open> take_touching(const PlanMesh& mesh, const Surface& surface, std::span<const Edge> rim,
+std::vector<Open> take_touching(const PlanMesh& mesh, const Surface& surface, const Rim& rim,
                                 std::span<const PlannedWire> others, std::vector<Laid>& laid,
-                                const std::function<PlannedWire(const Chain&)>& along_edges) {
+                                const std::function<PlannedWire(const Chain&)>& along_edges, const Task& task) {
   std::vector<MarkedChain> marked;
   marked.reserve(laid.size() + others.size());
   for (const Laid& one : laid) marked.push_back({one.wire.vertices, one.away});
   for (const PlannedWire& wire : others) marked.push_back({wire.vertices, 0.0});
   std::vector<Open> parts;
   bool is_again = false;
-  for (const auto& [wire, vertex] : find_touches(marked, rim)) {
+  for (const auto& [wire, vertex] : find_touches(marked, rim, task)) {
     if (wire >= laid.size()) continue;
     const Chain& chain = laid[wire].slit.chain;
     if (chain.size() < 3) {
@@ -178,7 +178,7 @@ std::vector<Open> take_touching(const PlanMesh& mesh, const Surface& surface, st
     laid[wire].slit.chain.clear();
   }
   std::erase_if(laid, [](const Laid& one) { return one.slit.chain.empty(); });
-  if (parts.empty() && is_again) return take_touching(mesh, surface, rim, others, laid, along_edges);
+  if (parts.empty() && is_again) return take_touching(mesh, surface, rim, others, laid, along_edges, task);
   return parts;
 }
 
@@ -228,7 +228,7 @@ SlitChains::SlitChains(std::span<const Slit> slits) {
   }
 }
 
-PlannedWires::PlannedWires(const SurfaceContext& context, Along along, const Strength& strength, std::vector<Edge> rim,
+PlannedWires::PlannedWires(const SurfaceContext& context, Along along, const Strength& strength, Rim rim,
                            const Task& task)
     : surface_(context.surface(task)), rim_(std::move(rim)) {
   if (along == Along::kSurface) across_ = std::make_unique<const CandidateWires>(context, strength, task);
@@ -298,7 +298,7 @@ std::vector<PlannedWire> PlannedWires::along(const PlanMesh& mesh, std::span<con
       laid.push_back({std::move(open[i]), std::move(wire), away});
     }
     const auto on_edges = [&](const Chain& chain) { return along_edges(mesh, chain); };
-    open = again.empty() ? take_touching(mesh, *surface_, rim_, wires, laid, on_edges) : std::move(again);
+    open = again.empty() ? take_touching(mesh, *surface_, rim_, wires, laid, on_edges, task) : std::move(again);
   }
   for (Laid& one : laid) wires.push_back(std::move(one.wire));
   return wires;

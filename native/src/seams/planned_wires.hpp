@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "seams/wire_touches.hpp"
 #include "seamwire/context/surface_context.hpp"
 #include "seamwire/seams/seam_planner.hpp"
 #include "seamwire/task.hpp"
@@ -30,10 +31,8 @@ class CandidateWires;
 /// Makes wires of slits: between seeds where slits meet, end, and bend.
 class PlannedWires {
  public:
-  /// Prepares the metrics of wires across the surface. `rim`: as find_touches() takes it. Throws InvalidInput for a
-  /// strength; Cancelled.
-  PlannedWires(const SurfaceContext& context, Along along, const Strength& strength, std::vector<Edge> rim,
-               const Task& task);
+  /// Prepares the metrics of wires across the surface. Throws InvalidInput for a strength; Cancelled.
+  PlannedWires(const SurfaceContext& context, Along along, const Strength& strength, Rim rim, const Task& task);
 
   ~PlannedWires();
 
@@ -50,7 +49,7 @@ class PlannedWires {
   std::vector<PlannedWire> along_edges(const PlanMesh& mesh, const SlitChains& slits) const;
 
   std::shared_ptr<const Surface> surface_;
-  std::vector<Edge> rim_;
+  Rim rim_;
   std::unique_ptr<const CandidateWires> across_;  // null along edges
 };
 

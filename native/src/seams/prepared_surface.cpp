@@ -13,7 +13,6 @@
 #include "prices/visibility.hpp"
 #include "seams/piece_groups.hpp"
 #include "simplified/decimation.hpp"
-#include "surface/real_edges.hpp"
 #include "tuning/constants.hpp"
 
 namespace seamwire::detail {
@@ -29,17 +28,15 @@ Visibility at_places(const Visibility& from, std::span<const std::int32_t> verti
   return found;
 }
 
-/// The edges on the boundary and along seams, vertices of the surface, sorted.
-std::vector<Edge> rim_of(const PlanMesh& mesh, const std::vector<Edge>& seams) {
+/// The edges on the boundary and along seams, vertices of the surface.
+Rim rim_of(const PlanMesh& mesh, const std::vector<Edge>& seams) {
   const std::vector<std::uint8_t> is_seam = marked_edges(mesh, seams);
   std::vector<Edge> rim;
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     const std::int32_t h = mesh.half_edge_of[e];
-    if (is_seam[e] != 0 || mesh.is_boundary(e))
-      rim.push_back(ascending(mesh.sources[mesh.tail(h)], mesh.sources[mesh.tip(h)]));
+    if (is_seam[e] != 0 || mesh.is_boundary(e)) rim.push_back({mesh.sources[mesh.tail(h)], mesh.sources[mesh.tip(h)]});
   }
-  std::ranges::sort(rim);
-  return rim;
+  return Rim(std::move(rim));
 }
 
 }  // namespace

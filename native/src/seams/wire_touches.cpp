@@ -5,8 +5,9 @@
 #include <ranges>
 #include <tuple>
 #include <unordered_map>
-#include <unordered_set>
+#include <utility>
 
+#include "detail/poll.hpp"
 #include "surface/real_edges.hpp"
 
 namespace seamwire::detail {
@@ -22,11 +23,9 @@ std::size_t shared_edges(const auto& chain, std::span<const std::int32_t> other)
 }
 
 /// How many edges at the start of a chain are on the rim.
-std::size_t rim_edges(const auto& chain, std::span<const Edge> rim) {
+std::size_t rim_edges(const auto& chain, const Rim& rim) {
   std::size_t count = 0;
-  while (count + 1 < chain.size() && std::ranges::binary_search(rim, ascending(chain[count], chain[count + 1]))) {
-    ++count;
-  }
+  while (count + 1 < chain.size() && rim.has_edge(chain[count], chain[count + 1])) ++count;
   return count;
 }
 
@@ -42,9 +41,18 @@ struct Inner {
 
 }  // namespace
 
-std::vector<WireTouch> find_touches(std::span<const MarkedChain> wires, std::span<const Edge> rim) {
-  std::unordered_set<std::int32_t> on_rim;
-  for (const Edge& edge : rim) on_rim.insert(edge.begin(), edge.end());
+Rim::Rim(std::vector<Edge> edges) : edges_(std::move(edges)) {
+  for (Edge& edge : edges_) {
+    edge = ascending(edge[0], edge[1]);
+    vertices_.insert(edge.begin(), edge.end());
+  }
+  std::ranges::sort(edges_);
+}
+
+bool Rim::has_edge(std::int32_t a, std::int32_t b) const { return std::ranges::binary_search(edges_, ascending(a, b)); }
+
+std::vector<WireTouch> find_touches(std::span<const MarkedChain> wires, const Rim& rim, const Task& task) {
+  Poll poll(task, 0.0, 0.0, 1, Poll::kFewSteps);
   std::unordered_map<std::int32_t, std::vector<std::size_t>> wires_at;
   for (std::size_t i = 0; i < wires.size(); ++i) {
     for (const std::int32_t v : wires[i].vertices) wires_at[v].push_back(i);
@@ -62,9 +70,10 @@ std::vector<WireTouch> find_touches(std::span<const MarkedChain> wires, std::spa
     const auto backwards = std::views::reverse(chain);
     const Inner off_rim(edges, rim_edges(chain, rim), rim_edges(backwards, rim));
     for (std::size_t k = 0; k < chain.size(); ++k) {
+      poll.next();
       const std::int32_t v = chain[k];
       const bool is_touch =
-          (off_rim.has(k) && on_rim.contains(v)) || std::ranges::any_of(wires_at[v], [&](std::size_t j) {
+          (off_rim.has(k) && rim.has_vertex(v)) || std::ranges::any_of(wires_at[v], [&](std::size_t j) {
             if (i == j) return std::ranges::count(wires_at[v], i) > 1 && 0 < k && k < edges;
             const std::span<const std::int32_t> other = wires[j].vertices;
             const bool is_same = other.size() == chain.size();

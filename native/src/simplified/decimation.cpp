@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <queue>
+#include <unordered_map>
 #include <utility>
 
 #include "detail/index.hpp"
@@ -45,32 +45,47 @@ double longest_square(const std::array<Vector, 3>& corners) {
 /// A mesh whose edges are being collapsed.
 class Collapsing {
  public:
-  Collapsing(const PlanMesh& mesh, std::span<const std::uint8_t> is_seam, const Reflection* reflection)
+  Collapsing(const PlanMesh& mesh, std::span<const std::uint8_t> is_seam, const Reflection* reflection,
+             const Task& task)
       : mesh_(mesh),
         reflection_(reflection != nullptr && reflection->is_exact ? reflection : nullptr),
-        triangles_(mesh.triangles),
+        triangles_(copied(mesh.triangles, task, 0.0)),
         is_gone_(mesh.face_count(), 0),
-        faces_(mesh.vertex_count()),
-        valences_(mesh.vertex_count()),
-        quadrics_(mesh.vertex_count()),
+        first_corner_(mesh.vertex_count(), -1),
+        valences_(mesh.vertex_count(), 0),
+        listed_(mesh.vertex_count(), 0),
         version_(mesh.vertex_count(), 0),
-        features_(mesh.vertex_count()),
         left_(mesh.face_count()) {
+    resize(next_corner_, 3 * mesh.face_count(), task, 0.0);
+    resize(quadrics_, mesh.vertex_count(), task, 0.0);
+    const Poll poll(task, 0.0, 0.0, 1);
     for (std::int32_t f = 0; index(f) < mesh.face_count(); ++f) {
-      for (const std::int32_t v : triangles_[f]) add_face(v, f);
+      poll.at(index(f));
+      const FaceFrame frame = face_frame(mesh, triangles_[f]);
+      for (std::int32_t i = 0; i < 3; ++i) {
+        const std::int32_t v = triangles_[f][i];
+        add_corner(v, 3 * f + i);
+        quadrics_[v].add_plane(frame.normal, mesh.points[triangles_[f][0]], frame.area);
+      }
     }
-    add_quadrics(is_seam);
+    for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+      poll.at(index(e));
+      if (is_seam[e] != 0 || mesh.is_boundary(e)) add_feature(mesh.half_edge_of[e]);
+    }
+    queue_all(poll);
   }
 
   void run(std::size_t goal, const Task& task) {
-    queue_all(task);
     const Poll poll(task, 0.0, 1.0, mesh_.vertex_count(), Poll::kFewSteps);
     for (std::size_t step = 0; left_ > goal && !queue_.empty(); ++step) {
       poll.at(step);
-      const Entry entry = queue_.top();
-      queue_.pop();
-      if (entry.version != version_[entry.from] + version_[entry.to]) continue;
+      const Entry entry = queue_.front();
+      std::pop_heap(queue_.begin(), queue_.end());
+      queue_.pop_back();
+      if (!is_valid(entry)) continue;
       collapse_with_image(entry.from, entry.to);
+      const Entry back = this->entry(entry.to, entry.from);
+      if (is_valid(entry) && back < entry) push(back);
     }
   }
 
@@ -80,44 +95,67 @@ class Collapsing {
   struct Entry {
     double error = 0.0;
     std::int32_t from = -1, to = -1;
-    std::int64_t version = 0;
+    std::int32_t version = 0;
     bool operator<(const Entry& other) const {  // least error on top, then lesser numbers
       return std::tie(other.error, other.from, other.to) < std::tie(error, from, to);
     }
   };
 
-  void add_quadrics(std::span<const std::uint8_t> is_seam);
-  void add_face(std::int32_t v, std::int32_t face) {
-    faces_[v].push_back(face);
+  void add_feature(std::int32_t half_edge);
+  void add_corner(std::int32_t v, std::int32_t corner) {
+    next_corner_[corner] = first_corner_[v];
+    first_corner_[v] = corner;
     ++valences_[v];
+    ++listed_[v];
   }
   /// Takes a removed triangle from a vertex. Its list is put in order when half of it is gone, so a step of a collapse
   /// does not depend on the number of triangles around the vertex.
   void drop_face(std::int32_t v) {
     --valences_[v];
-    if (2 * valences_[v] < faces_[v].size()) std::erase_if(faces_[v], [&](std::int32_t f) { return is_gone_[f] != 0; });
+    if (2 * valences_[v] >= listed_[v]) return;
+    std::int32_t corner = std::exchange(first_corner_[v], -1);
+    valences_[v] = listed_[v] = 0;
+    while (corner >= 0) {
+      const std::int32_t next = next_corner_[corner];
+      if (is_gone_[corner / 3] == 0) add_corner(v, corner);
+      corner = next;
+    }
+  }
+  /// Whether a triangle around a vertex fulfills a condition.
+  template <class Condition>
+  bool any_face(std::int32_t v, const Condition& condition) const {
+    for (std::int32_t corner = first_corner_[v]; corner >= 0; corner = next_corner_[corner]) {
+      if (is_gone_[corner / 3] == 0 && condition(corner / 3)) return true;
+    }
+    return false;
   }
   bool has_corner(std::int32_t face, std::int32_t v) const {
-    return is_gone_[face] == 0 && std::ranges::find(triangles_[face], v) != triangles_[face].end();
+    return std::ranges::find(triangles_[face], v) != triangles_[face].end();
   }
   bool are_neighbors(std::int32_t a, std::int32_t b) const {
     if (valences_[b] < valences_[a]) std::swap(a, b);
-    return std::ranges::any_of(faces_[a], [&](std::int32_t f) { return has_corner(f, b); });
+    return any_face(a, [&](std::int32_t f) { return has_corner(f, b); });
   }
   std::vector<std::int32_t> neighbors(std::int32_t v) const {
     std::vector<std::int32_t> found;
-    for (const std::int32_t f : faces_[v]) {
-      if (is_gone_[f] != 0) continue;
+    any_face(v, [&](std::int32_t f) {
       for (const std::int32_t other : triangles_[f]) {
         if (other != v) found.push_back(other);
       }
-    }
+      return false;
+    });
     std::ranges::sort(found);
     found.erase(std::unique(found.begin(), found.end()), found.end());
     return found;
   }
+  /// The neighbors of a vertex over boundary edges and seams.
+  std::span<const std::int32_t> features(std::int32_t v) const {
+    const auto found = features_.find(v);
+    return found == features_.end() ? std::span<const std::int32_t>() : found->second;
+  }
   bool is_feature(std::int32_t a, std::int32_t b) const {
-    return std::ranges::find(features_[a], b) != features_[a].end();
+    const std::span<const std::int32_t> of_a = features(a);
+    return std::ranges::find(of_a, b) != of_a.end();
   }
   bool may_collapse(std::int32_t from, std::int32_t to) const;
   bool folds(std::int32_t from, std::int32_t to) const;
@@ -129,22 +167,31 @@ class Collapsing {
     const double error = std::max(sum.at(mesh_.points[to]), 0.0);
     return {error, from, to, version_[from] + version_[to]};
   }
-  /// Queues each directed edge once.
-  void queue_all(const Task& task) {
-    std::vector<Entry> entries;
-    const Poll poll(task, 0.0, 0.0, mesh_.vertex_count());
+  bool is_valid(const Entry& entry) const { return entry.version == version_[entry.from] + version_[entry.to]; }
+  /// The collapse of an edge that comes first. The one in the other direction is queued once this one is not possible.
+  Entry better_entry(std::int32_t a, std::int32_t b) const { return std::max(entry(a, b), entry(b, a)); }
+  void queue_all(const Poll& poll) {
+    queue_.reserve(mesh_.edge_count() + mesh_.edge_count() / 4 + 64);
     for (std::int32_t v = 0; index(v) < mesh_.vertex_count(); ++v) {
       poll.at(index(v));
-      for (const std::int32_t other : neighbors(v)) entries.push_back(entry(v, other));
+      for (const std::int32_t other : neighbors(v)) {
+        if (v < other) queue_.push_back(better_entry(v, other));
+      }
     }
-    queue_ = std::priority_queue<Entry>({}, std::move(entries));
+    std::make_heap(queue_.begin(), queue_.end());
   }
-  /// Queues the edges of a vertex again, in both directions.
-  void push_all(std::int32_t v) {
-    for (const std::int32_t other : neighbors(v)) {
-      queue_.push(entry(v, other));
-      queue_.push(entry(other, v));
+  void push(const Entry& entry) {
+    if (queue_.size() == queue_.capacity()) {
+      // Most entries are of edges that have changed since.
+      std::erase_if(queue_, [&](const Entry& old) { return !is_valid(old); });
+      std::make_heap(queue_.begin(), queue_.end());
     }
+    queue_.push_back(entry);
+    std::push_heap(queue_.begin(), queue_.end());
+  }
+  /// Queues the edges of a vertex again.
+  void push_all(std::int32_t v) {
+    for (const std::int32_t other : neighbors(v)) push(better_entry(v, other));
   }
   std::int32_t image(std::int32_t v) const { return reflection_ != nullptr ? reflection_->images[v] : v; }
   bool is_on_plane(std::int32_t v) const { return reflection_ != nullptr && reflection_->sides[v] == 0; }
@@ -153,55 +200,53 @@ class Collapsing {
   const Reflection* reflection_;
   std::vector<Triangle> triangles_;
   std::vector<std::uint8_t> is_gone_;
-  std::vector<std::vector<std::int32_t>> faces_;  // of each vertex, with some that are gone
-  std::vector<std::size_t> valences_;             // of each vertex: how many faces it has
+  // The corners at each vertex are a list, with some of faces that are gone.
+  std::vector<std::int32_t> first_corner_, next_corner_;
+  std::vector<std::int32_t> valences_, listed_;  // of each vertex: how many faces it has, and how many are in its list
   std::vector<Quadric> quadrics_;
-  std::vector<std::int64_t> version_;
-  std::vector<std::vector<std::int32_t>> features_;  // neighbors over boundary edges and seams
-  std::priority_queue<Entry> queue_;
+  std::vector<std::int32_t> version_;
+  std::unordered_map<std::int32_t, std::vector<std::int32_t>> features_;  // see features()
+  std::vector<Entry> queue_;                                              // a heap
   std::size_t left_;
 };
 
-void Collapsing::add_quadrics(std::span<const std::uint8_t> is_seam) {
+/// Notes that an edge has to stay on the boundary or a seam.
+void Collapsing::add_feature(std::int32_t half_edge) {
   constexpr double kFeatureWeight = 10.0;  // of planes through boundaries and seams
-  const std::vector<FaceFrame> frames = face_frames(mesh_);
-  for (std::size_t f = 0; f < mesh_.face_count(); ++f) {
-    for (const std::int32_t v : triangles_[f]) {
-      quadrics_[v].add_plane(frames[f].normal, mesh_.points[triangles_[f][0]], frames[f].area);
-    }
-  }
-  for (std::int32_t e = 0; index(e) < mesh_.edge_count(); ++e) {
-    if (is_seam[e] == 0 && !mesh_.is_boundary(e)) continue;
-    const std::int32_t h = mesh_.half_edge_of[e], a = mesh_.tail(h), b = mesh_.tip(h);
-    features_[a].push_back(b);
-    features_[b].push_back(a);
-    const Vector along = mesh_.points[b] - mesh_.points[a];
-    const Vector across = along.cross(frames[h / 3].normal);
-    const double size = across.norm();
-    if (!(size > 0.0)) continue;
-    for (const std::int32_t v : {a, b}) {
-      quadrics_[v].add_plane(across / size, mesh_.points[a], kFeatureWeight * along.squaredNorm());
-    }
+  const std::int32_t a = mesh_.tail(half_edge), b = mesh_.tip(half_edge);
+  features_[a].push_back(b);
+  features_[b].push_back(a);
+  const Vector along = mesh_.points[b] - mesh_.points[a];
+  const Vector across = along.cross(face_frame(mesh_, mesh_.triangles[half_edge / 3]).normal);
+  const double size = across.norm();
+  if (!(size > 0.0)) return;
+  for (const std::int32_t v : {a, b}) {
+    quadrics_[v].add_plane(across / size, mesh_.points[a], kFeatureWeight * along.squaredNorm());
   }
 }
 
 /// Whether the topology allows it, and features and the mirror plane stay.
 bool Collapsing::may_collapse(std::int32_t from, std::int32_t to) const {
-  constexpr std::size_t kMostMoved = 64, kFewFaces = 6;  // vertices with more faces have more than three neighbors
+  constexpr std::int32_t kMostMoved = 64, kFewFaces = 6;  // vertices with more faces have more than three neighbors
   if (is_on_plane(from) && !is_on_plane(to)) return false;
-  if (!features_[from].empty() && (features_[from].size() != 2 || !is_feature(from, to))) return false;
+  const bool is_at_feature = !features(from).empty();
+  if (is_at_feature && (features(from).size() != 2 || !is_feature(from, to))) return false;
   // Vertices with many triangles stay, and get no more of them: each collapse there takes long.
   if (valences_[from] > kMostMoved || valences_[to] > kMostMoved) return false;
-  const auto shared = std::ranges::count_if(faces_[from], [&](std::int32_t f) { return has_corner(f, to); });
+  std::size_t shared = 0;
+  any_face(from, [&](std::int32_t f) {
+    if (has_corner(f, to)) ++shared;
+    return false;
+  });
   if (shared == 0) return false;
   std::vector<std::int32_t> common = neighbors(from);
   std::erase_if(common, [&](std::int32_t v) { return v == to || !are_neighbors(v, to); });
   // Link condition: the ends have only the corners of the edge's triangles in common.
-  if (common.size() != static_cast<std::size_t>(shared)) return false;
+  if (common.size() != shared) return false;
   // A feature may not be folded onto another one.
   if (std::ranges::any_of(common, [&](std::int32_t v) { return is_feature(from, v) && is_feature(to, v); }))
     return false;
-  if (features_[from].empty() && std::ranges::any_of(common, [&](std::int32_t v) {
+  if (!is_at_feature && std::ranges::any_of(common, [&](std::int32_t v) {
         return valences_[v] <= kFewFaces && neighbors(v).size() <= 3;
       })) {
     return false;
@@ -212,9 +257,9 @@ bool Collapsing::may_collapse(std::int32_t from, std::int32_t to) const {
 /// Whether a triangle would turn over, or become needle-thin and thinner than it is.
 bool Collapsing::folds(std::int32_t from, std::int32_t to) const {
   constexpr double kLeastCosine = 0.2, kLeastShape = 0.02;
-  for (const std::int32_t f : faces_[from]) {
+  return any_face(from, [&](std::int32_t f) {
     const Triangle& t = triangles_[f];
-    if (is_gone_[f] != 0 || has_corner(f, to)) continue;
+    if (has_corner(f, to)) return false;
     std::array<Vector, 3> before, after;
     for (std::size_t i = 0; i < 3; ++i) {
       before[i] = mesh_.points[t[i]];
@@ -224,35 +269,35 @@ bool Collapsing::folds(std::int32_t from, std::int32_t to) const {
     const Vector is = (after[1] - after[0]).cross(after[2] - after[0]);
     const bool is_thin = is.norm() <= kLeastShape * longest_square(after);
     const bool is_thinner = is.norm() * longest_square(before) <= was.norm() * longest_square(after);
-    if ((is_thin && is_thinner) || was.dot(is) < kLeastCosine * was.norm() * is.norm()) return true;
-  }
-  return false;
+    return (is_thin && is_thinner) || was.dot(is) < kLeastCosine * was.norm() * is.norm();
+  });
 }
 
 void Collapsing::collapse(std::int32_t from, std::int32_t to) {
-  for (const std::int32_t f : faces_[from]) {
-    if (is_gone_[f] != 0) continue;
+  for (std::int32_t corner = std::exchange(first_corner_[from], -1); corner >= 0;) {
+    const std::int32_t f = corner / 3, next = next_corner_[corner];
     Triangle& t = triangles_[f];
-    if (has_corner(f, to)) {
+    if (is_gone_[f] == 0 && has_corner(f, to)) {
       is_gone_[f] = 1;
       --left_;
       for (const std::int32_t v : t) {
         if (v != from) drop_face(v);
       }
-      continue;
+    } else if (is_gone_[f] == 0) {
+      t[corner % 3] = to;
+      add_corner(to, corner);
     }
-    std::ranges::replace(t, from, to);
-    add_face(to, f);
+    corner = next;
   }
-  faces_[from].clear();
-  valences_[from] = 0;
-  for (const std::int32_t other : features_[from]) {
-    std::erase(features_[other], from);
-    if (other == to) continue;
-    features_[other].push_back(to);
-    features_[to].push_back(other);
+  valences_[from] = listed_[from] = 0;
+  if (const auto found = features_.extract(from)) {
+    for (const std::int32_t other : found.mapped()) {
+      std::erase(features_[other], from);
+      if (other == to) continue;
+      features_[other].push_back(to);
+      features_[to].push_back(other);
+    }
   }
-  features_[from].clear();
   quadrics_[to] += quadrics_[from];
   ++version_[to];
   ++version_[from];
@@ -315,7 +360,7 @@ DecimatedMesh Collapsing::result() const {
 
 DecimatedMesh decimate(const PlanMesh& mesh, std::span<const std::uint8_t> is_seam, const Reflection* reflection,
                        std::size_t triangles, const Task& task) {
-  Collapsing collapsing(mesh, is_seam, reflection);
+  Collapsing collapsing(mesh, is_seam, reflection, task);
   collapsing.run(triangles, task);
   return collapsing.result();
 }

@@ -46,7 +46,7 @@ std::vector<std::pair<std::size_t, std::int32_t>> touches(const Chains& chains, 
   std::vector<MarkedChain> wires;
   for (std::size_t i = 0; i < chains.size(); ++i) wires.push_back({chains[i], away[i]});
   std::vector<std::pair<std::size_t, std::int32_t>> found;
-  for (const WireTouch& touch : find_touches(wires, rim)) found.emplace_back(touch.wire, touch.vertex);
+  for (const WireTouch& touch : find_touches(wires, Rim(rim), {})) found.emplace_back(touch.wire, touch.vertex);
   return found;
 }
 using Touches = std::vector<std::pair<std::size_t, std::int32_t>>;
@@ -74,6 +74,13 @@ TEST(WireTouches, WiresMayRunAlongTheRimOnlyWhereTheyLeaveIt) {
   EXPECT_EQ(touches({{6, 5, 3, 4}}, {0.1}, rim), Touches());
   EXPECT_EQ(touches({{0, 5, 2, 6}}, {0.1}, rim), (Touches{{0, 2}}));
   EXPECT_EQ(touches({{0, 1, 2}}, {0.1}, rim), (Touches{{0, 1}})) << "it would cut nothing";
+}
+
+TEST(WireTouches, CanBeCancelled) {
+  const Chains chains{{0, 1, 2}};
+  const std::vector<MarkedChain> wires{{chains[0], 0.0}};
+  const Task task{.stop = {}, .progress = [](double) { return false; }};
+  EXPECT_THROW(find_touches(wires, Rim({}), task), Cancelled);
 }
 
 TEST(WireTouches, AWireDoesNotTouchItself) { EXPECT_EQ(touches({{0, 1, 2, 3, 1, 4}}, {0.1}), (Touches{{0, 1}})); }

@@ -146,5 +146,14 @@ TEST(Decimation, IsCancelled) {
   EXPECT_THROW(decimate(problem.mesh, problem.is_seam, nullptr, 100, task), Cancelled);
 }
 
+TEST(Decimation, AsksItsTaskWhileItStarts) {
+  const PlanMesh mesh = plan_mesh(shapes::icosphere(6).surface());
+  std::size_t looks = 0;
+  const Task task{.stop = {}, .progress = [&](double) { return ++looks > 0; }};
+  decimate(mesh, std::vector<std::uint8_t>(mesh.edge_count(), 0), nullptr, mesh.face_count(), task);
+  // Over its triangles, edges and vertices, with a look at the task once in 4096 steps.
+  EXPECT_GE(looks, (mesh.face_count() + mesh.edge_count() + mesh.vertex_count()) / 4096);
+}
+
 }  // namespace
 }  // namespace seamwire
