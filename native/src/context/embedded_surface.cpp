@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "context/embedded_surface.hpp"
+#include "seamwire/context/embedded_surface.hpp"
 
 #include <algorithm>
 #include <string>
@@ -7,6 +7,7 @@
 
 #include "context/surface_context.hpp"
 #include "detail/index.hpp"
+#include "metric/metric_check.hpp"
 
 namespace seamwire {
 
@@ -58,10 +59,7 @@ EmbeddedSurface::EmbeddedSurface(const SurfaceContext& context, std::shared_ptr<
 EmbeddedSurface::EmbeddedSurface(const SurfaceContext& context, std::shared_ptr<const Metric> metric,
                                  Embedding embedding)
     : data_(std::make_shared<Data>(context, std::move(metric), embedding.options, Task{})) {
-  if (data_->metric->size() != data_->surface->vertex_count()) {
-    throw InvalidInput("metric of " + std::to_string(data_->metric->size()) + " vertices for a surface of " +
-                       std::to_string(data_->surface->vertex_count()));
-  }
+  check_size(*data_->surface, *data_->metric);
   data_->embedding = std::make_shared<const Embedding>(std::move(embedding));
   points();  // it says what embedding is not of the surface
 }

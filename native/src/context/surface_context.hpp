@@ -6,12 +6,26 @@
 #include <optional>
 #include <vector>
 
-#include "context/embedded_surface.hpp"
 #include "detail/computed_once.hpp"
 #include "detail/thread_safety.hpp"
+#include "seamwire/context/embedded_surface.hpp"
 #include "seamwire/context/surface_context.hpp"
 
 namespace seamwire {
+
+struct EmbeddedSurface::Data {
+  /// Throws InvalidInput if there is no metric; what SurfaceContext::surface() throws.
+  Data(const SurfaceContext& of, std::shared_ptr<const Metric> in, const EmbedOptions& with, const Task& task);
+
+  const SurfaceContext context;
+  const std::shared_ptr<const Surface> surface;
+  const std::shared_ptr<const Metric> metric;
+  const EmbedOptions options;
+  std::optional<MetricSpec> spec;              // set before others know of this
+  std::shared_ptr<const Embedding> embedding;  // set before others know of this
+  detail::ComputedOnce<ExactGeodesics> geodesics;
+  detail::ComputedOnce<EmbeddedPoints> points;
+};
 
 struct SurfaceContext::Data {
   /// The arguments of Surface's constructor.

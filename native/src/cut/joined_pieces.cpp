@@ -175,13 +175,100 @@ class SliverSearch {
   SliverSearch(const CutMesh& mesh, const NodeTable& nodes, std::span<const Piece> pieces, const CurveEnds& ends)
       : mesh_(mesh), nodes_(nodes), pieces_(pieces), ends_(ends), beside_(pieces_beside(pieces)) {}
 
-  std::set<std::int32_t> slivers();
+  std::set<std::int32_t> slivers() {
+    std::set<std::int32_t> left_out;
+    std::vector<std::int32_t> waiting;
+    for (const auto& [node, own] : beside_) {
+      if (own.size() > 2) waiting.push_back(node);
+    }
+    while (!waiting.empty()) {
+      const std::int32_t start = waiting.back();
+      waiting.pop_back();
+      std::vector<Route> routes;
+      for (const std::int32_t first : beside_[start]) {
+        Route route = route_from(start, first);
+        const std::int32_t end = route.nodes.back();
+        if (end != start && !(ends_.contains(start) && ends_.contains(end))) routes.push_back(std::move(route));
+      }
+      const Route* const longer = longer_of_close(routes);
+      if (longer == nullptr) continue;
+      for (const std::int32_t number : longer->pieces) {
+        beside_[pieces_[number].one].erase(number);
+        beside_[pieces_[number].two].erase(number);
+        left_out.insert(number);
+      }
+      waiting.push_back(start);
+      waiting.push_back(longer->nodes.back());
+    }
+    return left_out;
+  }
 
  private:
-  Route route_from(std::int32_t start, std::int32_t first) const;
-  bool are_close(const Route& one, const Route& other) const;
-  double mean_height(const Route& one, const Route& other) const;
-  const Route* longer_of_close(std::span<const Route> routes) const;
+  Route route_from(std::int32_t start, std::int32_t first) const {
+    Route route{.nodes = {start}, .pieces = {first}, .places = {}};
+    for (;;) {
+      const Piece& last = pieces_[route.pieces.back()];
+      const std::int32_t here = last.one == route.nodes.back() ? last.two : last.one;
+      route.nodes.push_back(here);
+      const std::set<std::int32_t>& around = beside_.at(here);
+      if (around.size() != 2 || here == start || ends_.contains(here)) break;
+      route.pieces.push_back(*around.begin() == route.pieces.back() ? *around.rbegin() : *around.begin());
+    }
+    for (const std::int32_t n : route.nodes) {
+      route.places.push_back(place_of(nodes_[n], mesh_));
+      if (route.places.size() > 1) route.length += (route.places.back() - route.places[route.places.size() - 2]).norm();
+    }
+    return route;
+  }
+
+  /// Whether two routes between the same nodes are so close that they enclose next to nothing.
+  bool are_close(const Route& one, const Route& other) const {
+    const auto is_in_other = [&other](std::int32_t number) {
+      return std::ranges::find(other.pieces, number) != other.pieces.end();
+    };
+    if (std::ranges::any_of(one.pieces, is_in_other)) return false;
+    const double widest = kWide * mean_height(one, other);
+    const auto lies_along = [widest](const Route& here, const Route& there) {
+      return std::ranges::all_of(here.places, [&](const Vector& place) {
+        for (std::size_t i = 1; i < there.places.size(); ++i) {
+          if (to_segment(place, there.places[i - 1], there.places[i]).norm() <= widest) return true;
+        }
+        return false;
+      });
+    };
+    return lies_along(one, other) && lies_along(other, one);
+  }
+
+  /// The mean height, over its longest side, of the triangles that two routes pass.
+  double mean_height(const Route& one, const Route& other) const {
+    std::set<std::int32_t> polygons;
+    for (const Route* route : {&one, &other}) {
+      for (const std::int32_t number : route->pieces) polygons.insert(pieces_[number].polygon);
+    }
+    double sum = 0.0;
+    std::int32_t count = 0;
+    for (const std::int32_t polygon : polygons) {
+      const Rows rows = mesh_.rows_of(polygon);
+      for (std::int32_t row = rows.first; row < rows.last; ++row) {
+        const auto [a, b, c] = mesh_.corners_of_triangle(row);
+        const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+        if (longest > 0.0) sum += (b - a).cross(c - a).norm() / longest;
+        ++count;
+      }
+    }
+    return sum / count;
+  }
+
+  /// Returns the longer one of the first two close routes between the same nodes; null without such routes.
+  const Route* longer_of_close(std::span<const Route> routes) const {
+    for (std::size_t i = 0; i < routes.size(); ++i) {
+      for (std::size_t j = i + 1; j < routes.size(); ++j) {
+        if (routes[i].nodes.back() != routes[j].nodes.back() || !are_close(routes[i], routes[j])) continue;
+        return routes[j].length > routes[i].length ? &routes[j] : &routes[i];
+      }
+    }
+    return nullptr;
+  }
 
   const CutMesh& mesh_;
   const NodeTable& nodes_;
@@ -189,100 +276,6 @@ class SliverSearch {
   const CurveEnds& ends_;
   std::map<std::int32_t, std::set<std::int32_t>> beside_;
 };
-
-Route SliverSearch::route_from(std::int32_t start, std::int32_t first) const {
-  Route route{.nodes = {start}, .pieces = {first}, .places = {}};
-  for (;;) {
-    const Piece& last = pieces_[route.pieces.back()];
-    const std::int32_t here = last.one == route.nodes.back() ? last.two : last.one;
-    route.nodes.push_back(here);
-    const std::set<std::int32_t>& around = beside_.at(here);
-    if (around.size() != 2 || here == start || ends_.contains(here)) break;
-    route.pieces.push_back(*around.begin() == route.pieces.back() ? *around.rbegin() : *around.begin());
-  }
-  for (const std::int32_t n : route.nodes) {
-    route.places.push_back(place_of(nodes_[n], mesh_));
-    if (route.places.size() > 1) route.length += (route.places.back() - route.places[route.places.size() - 2]).norm();
-  }
-  return route;
-}
-
-/// The mean height, over its longest side, of the triangles that two routes pass.
-double SliverSearch::mean_height(const Route& one, const Route& other) const {
-  std::set<std::int32_t> polygons;
-  for (const Route* route : {&one, &other}) {
-    for (const std::int32_t number : route->pieces) polygons.insert(pieces_[number].polygon);
-  }
-  double sum = 0.0;
-  std::int32_t count = 0;
-  for (const std::int32_t polygon : polygons) {
-    const Rows rows = mesh_.rows_of(polygon);
-    for (std::int32_t row = rows.first; row < rows.last; ++row) {
-      const auto [a, b, c] = mesh_.corners_of_triangle(row);
-      const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-      if (longest > 0.0) sum += (b - a).cross(c - a).norm() / longest;
-      ++count;
-    }
-  }
-  return sum / count;
-}
-
-/// Whether two routes between the same nodes are so close that they enclose next to nothing.
-bool SliverSearch::are_close(const Route& one, const Route& other) const {
-  const auto is_in_other = [&other](std::int32_t number) {
-    return std::ranges::find(other.pieces, number) != other.pieces.end();
-  };
-  if (std::ranges::any_of(one.pieces, is_in_other)) return false;
-  const double widest = kWide * mean_height(one, other);
-  const auto lies_along = [widest](const Route& here, const Route& there) {
-    return std::ranges::all_of(here.places, [&](const Vector& place) {
-      for (std::size_t i = 1; i < there.places.size(); ++i) {
-        if (to_segment(place, there.places[i - 1], there.places[i]).norm() <= widest) return true;
-      }
-      return false;
-    });
-  };
-  return lies_along(one, other) && lies_along(other, one);
-}
-
-/// Returns the longer one of the first two close routes between the same nodes; null without such routes.
-const Route* SliverSearch::longer_of_close(std::span<const Route> routes) const {
-  for (std::size_t i = 0; i < routes.size(); ++i) {
-    for (std::size_t j = i + 1; j < routes.size(); ++j) {
-      if (routes[i].nodes.back() != routes[j].nodes.back() || !are_close(routes[i], routes[j])) continue;
-      return routes[j].length > routes[i].length ? &routes[j] : &routes[i];
-    }
-  }
-  return nullptr;
-}
-
-std::set<std::int32_t> SliverSearch::slivers() {
-  std::set<std::int32_t> left_out;
-  std::vector<std::int32_t> waiting;
-  for (const auto& [node, own] : beside_) {
-    if (own.size() > 2) waiting.push_back(node);
-  }
-  while (!waiting.empty()) {
-    const std::int32_t start = waiting.back();
-    waiting.pop_back();
-    std::vector<Route> routes;
-    for (const std::int32_t first : beside_[start]) {
-      Route route = route_from(start, first);
-      const std::int32_t end = route.nodes.back();
-      if (end != start && !(ends_.contains(start) && ends_.contains(end))) routes.push_back(std::move(route));
-    }
-    const Route* const longer = longer_of_close(routes);
-    if (longer == nullptr) continue;
-    for (const std::int32_t number : longer->pieces) {
-      beside_[pieces_[number].one].erase(number);
-      beside_[pieces_[number].two].erase(number);
-      left_out.insert(number);
-    }
-    waiting.push_back(start);
-    waiting.push_back(longer->nodes.back());
-  }
-  return left_out;
-}
 
 }  // namespace
 

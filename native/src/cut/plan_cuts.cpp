@@ -57,8 +57,46 @@ void check_curve(const PolygonMesh& mesh, std::span<const CutCurve> curves, std:
 /// Leads cuts straight over a polygon, without vertices inside, where they hardly bend and nothing is in the way.
 class Straightener {
  public:
-  Straightener(const PolygonShape& shape, const NodeTable& nodes, std::span<const Cut> cuts);
-  std::vector<Cut> straightened();
+  Straightener(const PolygonShape& shape, const NodeTable& nodes, std::span<const Cut> cuts)
+      : shape_(shape), nodes_(nodes) {
+    for (const auto& [one, two] : cuts) {
+      beside_[one].push_back(two);
+      beside_[two].push_back(one);
+    }
+    for (const auto& [node, neighbors] : beside_) {
+      if (neighbors.size() == 2 && !shape.is_on_rim(node)) inner_.insert(node);
+    }
+    for (const auto& [one, two] : cuts) {
+      if (!inner_.contains(one) && !inner_.contains(two)) kept_.insert(key(one, two));
+    }
+  }
+
+  std::vector<Cut> straightened() {
+    std::vector<Chain> waiting = chains();
+    for (const Chain& chain : waiting) for_each_cut(chain, [this](const auto& cut) { bent_.insert(cut); });
+    while (!waiting.empty()) {
+      const Chain chain = std::move(waiting.back());
+      waiting.pop_back();
+      for_each_cut(chain, [this](const auto& cut) { bent_.erase(cut); });
+      const auto line = key(chain.front(), chain.back());
+      if (chain.size() == 2) {
+        kept_.insert(line);
+        continue;
+      }
+      const std::ptrdiff_t farthest = shape_.farthest(chain);
+      if (farthest < 0 && (kept_.contains(line) || is_free(chain.front(), chain.back()))) {
+        kept_.insert(line);
+        continue;
+      }
+      const auto middle = farthest < 0 ? static_cast<std::ptrdiff_t>(chain.size() / 2) : farthest;
+      waiting.emplace_back(chain.begin(), chain.begin() + middle + 1);
+      waiting.emplace_back(chain.begin() + middle, chain.end());
+      for_each_cut(chain, [this](const auto& cut) { bent_.insert(cut); });
+    }
+    std::vector<Cut> cuts;
+    for (const auto& [one, two] : kept_) cuts.push_back({one, two});
+    return cuts;
+  }
 
  private:
   static std::pair<std::int32_t, std::int32_t> key(std::int32_t one, std::int32_t two) { return std::minmax(one, two); }
@@ -66,9 +104,50 @@ class Straightener {
   static void for_each_cut(std::span<const std::int32_t> chain, const Visit& visit) {
     for (std::size_t i = 1; i < chain.size(); ++i) visit(key(chain[i - 1], chain[i]));
   }
-  std::vector<Chain> chains() const;
-  Chain chain_from(std::int32_t start, std::int32_t following) const;
-  bool is_free(std::int32_t one, std::int32_t two) const;
+
+  /// The chains over inner nodes, the longest last.
+  std::vector<Chain> chains() const {
+    std::set<Chain> known;
+    std::vector<Chain> found;
+    for (const auto& [node, neighbors] : beside_) {
+      if (inner_.contains(node)) continue;
+      for (const std::int32_t following : neighbors) {
+        if (!inner_.contains(following)) continue;
+        Chain chain = chain_from(node, following);
+        if (chain.front() != chain.back() && known.insert(chain).second) found.push_back(std::move(chain));
+      }
+    }
+    std::ranges::stable_sort(found, {}, &Chain::size);
+    return found;
+  }
+
+  /// The chain over inner nodes that begins at a node. It is the same from both its ends.
+  Chain chain_from(std::int32_t start, std::int32_t following) const {
+    Chain chain{start, following};
+    while (inner_.contains(chain.back())) {
+      const Chain& ends = beside_.at(chain.back());
+      chain.push_back(ends[0] == chain[chain.size() - 2] ? ends[1] : ends[0]);
+    }
+    Chain reversed(chain.rbegin(), chain.rend());
+    const auto comes_first = [this](std::int32_t one, std::int32_t other) {
+      return std::tie(nodes_[one].vertices, nodes_[one].weights) <
+             std::tie(nodes_[other].vertices, nodes_[other].weights);
+    };
+    return std::ranges::lexicographical_compare(reversed, chain, comes_first) ? reversed : chain;
+  }
+
+  /// Whether the straight line between two nodes lies inside, and meets no other cut.
+  bool is_free(std::int32_t one, std::int32_t two) const {
+    if (!shape_.holds_line(one, two)) return false;
+    const Vector a = shape_.seen(one), b = shape_.seen(two);
+    for (const CutSet* cuts : {&kept_, &bent_}) {
+      for (const auto& [c, d] : *cuts) {
+        if (c == one || c == two || d == one || d == two) continue;
+        if (crossing_of(a, b, shape_.seen(c), shape_.seen(d))) return false;
+      }
+    }
+    return true;
+  }
 
   const PolygonShape& shape_;
   const NodeTable& nodes_;
@@ -76,91 +155,6 @@ class Straightener {
   std::set<std::int32_t> inner_;          // the nodes inside the polygon where a cut only bends
   CutSet kept_, bent_;                    // the cuts that stay, and those still to be straightened
 };
-
-Straightener::Straightener(const PolygonShape& shape, const NodeTable& nodes, std::span<const Cut> cuts)
-    : shape_(shape), nodes_(nodes) {
-  for (const auto& [one, two] : cuts) {
-    beside_[one].push_back(two);
-    beside_[two].push_back(one);
-  }
-  for (const auto& [node, neighbors] : beside_) {
-    if (neighbors.size() == 2 && !shape.is_on_rim(node)) inner_.insert(node);
-  }
-  for (const auto& [one, two] : cuts) {
-    if (!inner_.contains(one) && !inner_.contains(two)) kept_.insert(key(one, two));
-  }
-}
-
-/// The chain over inner nodes that begins at a node. It is the same from both its ends.
-Chain Straightener::chain_from(std::int32_t start, std::int32_t following) const {
-  Chain chain{start, following};
-  while (inner_.contains(chain.back())) {
-    const Chain& ends = beside_.at(chain.back());
-    chain.push_back(ends[0] == chain[chain.size() - 2] ? ends[1] : ends[0]);
-  }
-  Chain reversed(chain.rbegin(), chain.rend());
-  const auto comes_first = [this](std::int32_t one, std::int32_t other) {
-    return std::tie(nodes_[one].vertices, nodes_[one].weights) <
-           std::tie(nodes_[other].vertices, nodes_[other].weights);
-  };
-  return std::ranges::lexicographical_compare(reversed, chain, comes_first) ? reversed : chain;
-}
-
-/// The chains over inner nodes, the longest last.
-std::vector<Chain> Straightener::chains() const {
-  std::set<Chain> known;
-  std::vector<Chain> found;
-  for (const auto& [node, neighbors] : beside_) {
-    if (inner_.contains(node)) continue;
-    for (const std::int32_t following : neighbors) {
-      if (!inner_.contains(following)) continue;
-      Chain chain = chain_from(node, following);
-      if (chain.front() != chain.back() && known.insert(chain).second) found.push_back(std::move(chain));
-    }
-  }
-  std::ranges::stable_sort(found, {}, &Chain::size);
-  return found;
-}
-
-/// Whether the straight line between two nodes lies inside, and meets no other cut.
-bool Straightener::is_free(std::int32_t one, std::int32_t two) const {
-  if (!shape_.holds_line(one, two)) return false;
-  const Vector a = shape_.seen(one), b = shape_.seen(two);
-  for (const CutSet* cuts : {&kept_, &bent_}) {
-    for (const auto& [c, d] : *cuts) {
-      if (c == one || c == two || d == one || d == two) continue;
-      if (crossing_of(a, b, shape_.seen(c), shape_.seen(d))) return false;
-    }
-  }
-  return true;
-}
-
-std::vector<Cut> Straightener::straightened() {
-  std::vector<Chain> waiting = chains();
-  for (const Chain& chain : waiting) for_each_cut(chain, [this](const auto& cut) { bent_.insert(cut); });
-  while (!waiting.empty()) {
-    const Chain chain = std::move(waiting.back());
-    waiting.pop_back();
-    for_each_cut(chain, [this](const auto& cut) { bent_.erase(cut); });
-    const auto line = key(chain.front(), chain.back());
-    if (chain.size() == 2) {
-      kept_.insert(line);
-      continue;
-    }
-    const std::ptrdiff_t farthest = shape_.farthest(chain);
-    if (farthest < 0 && (kept_.contains(line) || is_free(chain.front(), chain.back()))) {
-      kept_.insert(line);
-      continue;
-    }
-    const auto middle = farthest < 0 ? static_cast<std::ptrdiff_t>(chain.size() / 2) : farthest;
-    waiting.emplace_back(chain.begin(), chain.begin() + middle + 1);
-    waiting.emplace_back(chain.begin() + middle, chain.end());
-    for_each_cut(chain, [this](const auto& cut) { bent_.insert(cut); });
-  }
-  std::vector<Cut> cuts;
-  for (const auto& [one, two] : kept_) cuts.push_back({one, two});
-  return cuts;
-}
 
 /// Numbers the nodes that edits name, each once.
 class UsedNodes {

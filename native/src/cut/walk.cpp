@@ -165,8 +165,87 @@ class Walker {
  public:
   Walker(const CutMesh& mesh, const CutCurve& curve, NodeTable& nodes) : mesh_(mesh), curve_(curve), nodes_(nodes) {}
 
-  std::optional<std::vector<Piece>> in_named_triangles();
-  Walk cheapest();
+  /// Returns the pieces if the curve runs in the triangles that it names. Two segments meet in a node of both
+  /// triangles.
+  std::optional<std::vector<Piece>> in_named_triangles() {
+    const std::vector<std::int32_t>& faces = curve_.faces;
+    const auto is_row = [this](std::int32_t row) { return is_index(row, mesh_.triangle_count()); };
+    if (faces.empty() || !std::ranges::all_of(faces, is_row)) return std::nullopt;
+    std::vector<CutNode> passed;
+    std::vector<Found> before, here;
+    for (std::size_t i = 0; i < curve_.points.size(); ++i) {
+      const bool is_last = i == faces.size();
+      const std::int32_t row = faces[is_last ? i - 1 : i];
+      std::optional<CutNode> on;
+      if (i == 0 || is_last) {
+        if (i == 0 || curve_.end) on = end_node(mesh_, i == 0 ? curve_.start : *curve_.end, curve_.points[i]);
+        const std::int32_t polygon = mesh_.polygon_of(row);
+        if (on && !(on->polygon < 0 ? has_vertices(mesh_.corners(polygon), *on) : on->polygon == polygon)) {
+          return std::nullopt;
+        }
+      }
+      here.clear();
+      find_in_triangle(mesh_, row, curve_.points[i], here);
+      std::erase_if(here, [](const Found& at) { return at.off > 0.0; });
+      if (i > 0 && !is_last && faces[i - 1] != row) {
+        before.clear();
+        find_in_triangle(mesh_, faces[i - 1], curve_.points[i], before);
+        std::erase_if(here, [&before](const Found& at) {
+          return std::ranges::none_of(before, [&at](const Found& other) {
+            return other.off == 0.0 && other.on.vertices == at.on.vertices && other.on.polygon == at.on.polygon;
+          });
+        });
+      }
+      if (here.empty()) return std::nullopt;
+      passed.push_back(moved(mesh_, on ? *on : here.front().on));
+    }
+    std::vector<Piece> found;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      if (passed[i] == passed[i + 1]) continue;
+      found.push_back({nodes_.add(passed[i]), nodes_.add(passed[i + 1]), mesh_.polygon_of(faces[i])});
+    }
+    return found;
+  }
+
+  Walk cheapest() {
+    const std::vector<Vector>& points = curve_.points;
+    const std::optional<CutNode> first = end_node(mesh_, curve_.start, points.front());
+    std::optional<CutNode> goal;
+    if (curve_.end) goal = end_node(mesh_, *curve_.end, points.back());
+    Step begin{.number = first ? 1U : 0U,
+               .on = first ? *first : node_at_vertex(vertex_near(mesh_, curve_.start)),
+               .place = points.front(),
+               .here = std::nullopt};
+    if (first) begin.here = moved(mesh_, *first);
+    steps_.push_back(begin);
+    push(0.0, 0, 0);
+    std::int32_t farthest = 0, arrived = -1;
+    double most = kInfinity;
+    std::set<std::tuple<std::size_t, std::array<std::int32_t, 3>, std::int32_t>> done;
+    while (!queue_.empty()) {
+      const Waiting next = queue_.top();
+      queue_.pop();
+      if (next.cost > most) break;
+      const Step step = steps_[next.step];
+      if (next.way == 0) {
+        if (!done.emplace(step.number, step.on.vertices, step.on.polygon).second) continue;
+        if (step.number > steps_[farthest].number) farthest = next.step;
+        if (step.number == points.size()) {
+          if (!goal || step.on.vertices == goal->vertices) return {.pieces = pieces(step.trail)};
+          // Several vertices and edges may lie in one place: the requested one may be found a little later, or never.
+          if (arrived < 0) {
+            arrived = next.step;
+            most = next.cost + kReach;
+          }
+        }
+      }
+      go_on(next.cost, step, next.way);
+      // Most walks need only the first way on. The others are tried only when the walk has come to their cost.
+      if (next.way < 2 && step.here) push(next.cost + (next.way == 0 ? kHop : kStraight), next.step, next.way + 1);
+    }
+    if (arrived < 0) return {.pieces = {}, .left_near = steps_[farthest].on.vertices[0]};
+    return {.pieces = pieces(steps_[arrived].trail)};
+  }
 
  private:
   struct Trail {
@@ -184,14 +263,83 @@ class Walker {
   };
 
   void push(double cost, std::int32_t step, int way) { queue_.push({cost, steps_[step].number, order_++, step, way}); }
+
   void push_step(double cost, const Step& from, std::size_t number, std::int32_t polygon, const CutNode& on,
-                 const Vector& place);
-  void go_on(double cost, const Step& step, int way);
-  void forward(double cost, const Step& step);
-  void in_place(double cost, const Step& step);
-  void straight_on(double cost, const Step& step);
-  bool is_in(std::int32_t row, const Step& step) const;
-  std::vector<Piece> pieces(std::int32_t trail) const;
+                 const Vector& place) {
+    Step step{.number = number, .on = on, .place = place, .here = moved(mesh_, on), .trail = from.trail};
+    if (from.here && *step.here != *from.here) {
+      step.trail = static_cast<std::int32_t>(trails_.size());
+      trails_.push_back({.one = *from.here, .two = *step.here, .polygon = polygon, .before = from.trail});
+    }
+    steps_.push_back(std::move(step));
+    push(cost, static_cast<std::int32_t>(steps_.size()) - 1, 0);
+  }
+
+  void go_on(double cost, const Step& step, int way) {
+    if (way == 0) {
+      forward(cost, step);
+    } else if (way == 1) {
+      in_place(cost, step);
+    } else {
+      straight_on(cost, step);
+    }
+  }
+
+  /// Adds the steps to the curve's next point in a polygon beside.
+  void forward(double cost, const Step& step) {
+    if (step.number == curve_.points.size()) return;
+    const Vector& place = curve_.points[step.number];
+    for (const Found& at : find_in(mesh_, polygons_beside(mesh_, step.on), place)) {
+      const double leap = step.here && !is_in(at.row, step) ? kLeap : 0.0;
+      push_step(cost + at.off + leap, step, step.number + 1, at.polygon, at.on, place);
+    }
+  }
+
+  /// Adds the steps to other vertices and edges of the polygons beside that lie in the same place.
+  void in_place(double cost, const Step& step) {
+    for (const Found& at : find_in(mesh_, polygons_beside(mesh_, step.on), step.place)) {
+      if (at.on.polygon >= 0 || at.on.vertices == step.on.vertices) continue;
+      push_step(cost + at.off, step, step.number, at.polygon, at.on, step.place);
+    }
+  }
+
+  /// Adds the steps toward the curve's next point to where that way leaves a triangle beside.
+  void straight_on(double cost, const Step& step) {
+    if (step.number == 0 || step.number == curve_.points.size()) return;
+    const Vector &goal = curve_.points[step.number], &before = curve_.points[step.number - 1];
+    std::vector<Found> found;
+    for (const std::int32_t polygon : polygons_beside(mesh_, step.on)) {
+      const Rows rows = mesh_.rows_of(polygon);
+      for (std::int32_t row = rows.first; row < rows.last; ++row) {
+        const std::array<Vector, 3> corners = mesh_.corners_of_triangle(row);
+        const std::optional<Vector> exit = exit_of(corners, step.place, goal);
+        if (!exit || (goal - *exit).norm() >= (goal - step.place).norm()) continue;
+        const double gap = to_segment(*exit, before, goal).norm(), longest = longest_side(corners);
+        if (gap > kOff * longest) continue;
+        found.clear();
+        find_in_triangle(mesh_, row, *exit, found);
+        for (const Found& at : found) {
+          push_step(cost + at.off + gap / longest, step, step.number, polygon, at.on, *exit);
+        }
+      }
+    }
+  }
+
+  bool is_in(std::int32_t row, const Step& step) const {
+    if (has_vertices(mesh_.triangle(row), step.on)) return true;
+    std::vector<Found> found;
+    find_in_triangle(mesh_, row, step.place, found);
+    return std::ranges::any_of(found, [](const Found& at) { return at.off == 0.0; });
+  }
+
+  std::vector<Piece> pieces(std::int32_t trail) const {
+    std::vector<const Trail*> found;
+    for (; trail >= 0; trail = trails_[trail].before) found.push_back(&trails_[trail]);
+    std::ranges::reverse(found);
+    std::vector<Piece> pieces;
+    for (const Trail* one : found) pieces.push_back({nodes_.add(one->one), nodes_.add(one->two), one->polygon});
+    return pieces;
+  }
 
   const CutMesh& mesh_;
   const CutCurve& curve_;
@@ -201,164 +349,6 @@ class Walker {
   std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> queue_;
   std::int32_t order_ = 0;  // of steps that cost the same the older one is first
 };
-
-/// Returns the pieces if the curve runs in the triangles that it names. Two segments meet in a node of both triangles.
-std::optional<std::vector<Piece>> Walker::in_named_triangles() {
-  const std::vector<std::int32_t>& faces = curve_.faces;
-  const auto is_row = [this](std::int32_t row) { return is_index(row, mesh_.triangle_count()); };
-  if (faces.empty() || !std::ranges::all_of(faces, is_row)) return std::nullopt;
-  std::vector<CutNode> passed;
-  std::vector<Found> before, here;
-  for (std::size_t i = 0; i < curve_.points.size(); ++i) {
-    const bool is_last = i == faces.size();
-    const std::int32_t row = faces[is_last ? i - 1 : i];
-    std::optional<CutNode> on;
-    if (i == 0 || is_last) {
-      if (i == 0 || curve_.end) on = end_node(mesh_, i == 0 ? curve_.start : *curve_.end, curve_.points[i]);
-      const std::int32_t polygon = mesh_.polygon_of(row);
-      if (on && !(on->polygon < 0 ? has_vertices(mesh_.corners(polygon), *on) : on->polygon == polygon)) {
-        return std::nullopt;
-      }
-    }
-    here.clear();
-    find_in_triangle(mesh_, row, curve_.points[i], here);
-    std::erase_if(here, [](const Found& at) { return at.off > 0.0; });
-    if (i > 0 && !is_last && faces[i - 1] != row) {
-      before.clear();
-      find_in_triangle(mesh_, faces[i - 1], curve_.points[i], before);
-      std::erase_if(here, [&before](const Found& at) {
-        return std::ranges::none_of(before, [&at](const Found& other) {
-          return other.off == 0.0 && other.on.vertices == at.on.vertices && other.on.polygon == at.on.polygon;
-        });
-      });
-    }
-    if (here.empty()) return std::nullopt;
-    passed.push_back(moved(mesh_, on ? *on : here.front().on));
-  }
-  std::vector<Piece> found;
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    if (passed[i] == passed[i + 1]) continue;
-    found.push_back({nodes_.add(passed[i]), nodes_.add(passed[i + 1]), mesh_.polygon_of(faces[i])});
-  }
-  return found;
-}
-
-Walk Walker::cheapest() {
-  const std::vector<Vector>& points = curve_.points;
-  const std::optional<CutNode> first = end_node(mesh_, curve_.start, points.front());
-  std::optional<CutNode> goal;
-  if (curve_.end) goal = end_node(mesh_, *curve_.end, points.back());
-  Step begin{.number = first ? 1U : 0U,
-             .on = first ? *first : node_at_vertex(vertex_near(mesh_, curve_.start)),
-             .place = points.front(),
-             .here = std::nullopt};
-  if (first) begin.here = moved(mesh_, *first);
-  steps_.push_back(begin);
-  push(0.0, 0, 0);
-  std::int32_t farthest = 0, arrived = -1;
-  double most = kInfinity;
-  std::set<std::tuple<std::size_t, std::array<std::int32_t, 3>, std::int32_t>> done;
-  while (!queue_.empty()) {
-    const Waiting next = queue_.top();
-    queue_.pop();
-    if (next.cost > most) break;
-    const Step step = steps_[next.step];
-    if (next.way == 0) {
-      if (!done.emplace(step.number, step.on.vertices, step.on.polygon).second) continue;
-      if (step.number > steps_[farthest].number) farthest = next.step;
-      if (step.number == points.size()) {
-        if (!goal || step.on.vertices == goal->vertices) return {.pieces = pieces(step.trail)};
-        // Several vertices and edges may lie in one place: the requested one may be found a little later, or never.
-        if (arrived < 0) {
-          arrived = next.step;
-          most = next.cost + kReach;
-        }
-      }
-    }
-    go_on(next.cost, step, next.way);
-    // Most walks need only the first way on. The others are tried only when the walk has come to their cost.
-    if (next.way < 2 && step.here) push(next.cost + (next.way == 0 ? kHop : kStraight), next.step, next.way + 1);
-  }
-  if (arrived < 0) return {.pieces = {}, .left_near = steps_[farthest].on.vertices[0]};
-  return {.pieces = pieces(steps_[arrived].trail)};
-}
-
-void Walker::go_on(double cost, const Step& step, int way) {
-  if (way == 0) {
-    forward(cost, step);
-  } else if (way == 1) {
-    in_place(cost, step);
-  } else {
-    straight_on(cost, step);
-  }
-}
-
-void Walker::push_step(double cost, const Step& from, std::size_t number, std::int32_t polygon, const CutNode& on,
-                       const Vector& place) {
-  Step step{.number = number, .on = on, .place = place, .here = moved(mesh_, on), .trail = from.trail};
-  if (from.here && *step.here != *from.here) {
-    step.trail = static_cast<std::int32_t>(trails_.size());
-    trails_.push_back({.one = *from.here, .two = *step.here, .polygon = polygon, .before = from.trail});
-  }
-  steps_.push_back(std::move(step));
-  push(cost, static_cast<std::int32_t>(steps_.size()) - 1, 0);
-}
-
-/// Adds the steps to the curve's next point in a polygon beside.
-void Walker::forward(double cost, const Step& step) {
-  if (step.number == curve_.points.size()) return;
-  const Vector& place = curve_.points[step.number];
-  for (const Found& at : find_in(mesh_, polygons_beside(mesh_, step.on), place)) {
-    const double leap = step.here && !is_in(at.row, step) ? kLeap : 0.0;
-    push_step(cost + at.off + leap, step, step.number + 1, at.polygon, at.on, place);
-  }
-}
-
-bool Walker::is_in(std::int32_t row, const Step& step) const {
-  if (has_vertices(mesh_.triangle(row), step.on)) return true;
-  std::vector<Found> found;
-  find_in_triangle(mesh_, row, step.place, found);
-  return std::ranges::any_of(found, [](const Found& at) { return at.off == 0.0; });
-}
-
-/// Adds the steps to other vertices and edges of the polygons beside that lie in the same place.
-void Walker::in_place(double cost, const Step& step) {
-  for (const Found& at : find_in(mesh_, polygons_beside(mesh_, step.on), step.place)) {
-    if (at.on.polygon >= 0 || at.on.vertices == step.on.vertices) continue;
-    push_step(cost + at.off, step, step.number, at.polygon, at.on, step.place);
-  }
-}
-
-/// Adds the steps toward the curve's next point to where that way leaves a triangle beside.
-void Walker::straight_on(double cost, const Step& step) {
-  if (step.number == 0 || step.number == curve_.points.size()) return;
-  const Vector &goal = curve_.points[step.number], &before = curve_.points[step.number - 1];
-  std::vector<Found> found;
-  for (const std::int32_t polygon : polygons_beside(mesh_, step.on)) {
-    const Rows rows = mesh_.rows_of(polygon);
-    for (std::int32_t row = rows.first; row < rows.last; ++row) {
-      const std::array<Vector, 3> corners = mesh_.corners_of_triangle(row);
-      const std::optional<Vector> exit = exit_of(corners, step.place, goal);
-      if (!exit || (goal - *exit).norm() >= (goal - step.place).norm()) continue;
-      const double gap = to_segment(*exit, before, goal).norm(), longest = longest_side(corners);
-      if (gap > kOff * longest) continue;
-      found.clear();
-      find_in_triangle(mesh_, row, *exit, found);
-      for (const Found& at : found) {
-        push_step(cost + at.off + gap / longest, step, step.number, polygon, at.on, *exit);
-      }
-    }
-  }
-}
-
-std::vector<Piece> Walker::pieces(std::int32_t trail) const {
-  std::vector<const Trail*> found;
-  for (; trail >= 0; trail = trails_[trail].before) found.push_back(&trails_[trail]);
-  std::ranges::reverse(found);
-  std::vector<Piece> pieces;
-  for (const Trail* one : found) pieces.push_back({nodes_.add(one->one), nodes_.add(one->two), one->polygon});
-  return pieces;
-}
 
 }  // namespace
 

@@ -94,7 +94,27 @@ class ChainFit {
   ChainFit(const Surface& surface, const EdgeAdjacency& adjacency, const DrawnLine& drawn, double h)
       : surface_(surface), adjacency_(adjacency), h_(h), line_(drawn.points, h / kPointsPerEdge) {}
 
-  FittedChain find(std::int32_t begin, std::int32_t end, double begin_gap, double end_gap);
+  FittedChain find(std::int32_t begin, std::int32_t end, double begin_gap, double end_gap) {
+    const auto [squared, along] = line_.nearest(point(begin), 0.0, 2.0 * begin_gap + h_);
+    labels_.push_back({0.0, along, squared, -1, -1});
+    open_.push({0.0, 0});
+    const double ends_from = line_.length() - 2.0 * end_gap - h_;
+    std::int32_t farthest = 0;
+    while (!open_.empty() && labels_.size() < kMostLabels) {
+      const std::int32_t number = open_.top().label;
+      open_.pop();
+      Label& label = labels_[number];
+      if (label.settled) continue;
+      label.settled = true;
+      const std::int32_t v = label.edge < 0 ? begin : adjacency_.head(label.edge);
+      if (v == end && label.along >= ends_from) return chain_to(number, begin);
+      if (label.along > labels_[farthest].along) farthest = number;
+      for (std::int32_t out = adjacency_.begin(v); out < adjacency_.end(v); ++out) {
+        relax(number, out, begin, point(end));
+      }
+    }
+    return chain_to(farthest, begin);
+  }
 
  private:
   /// A directed edge that a chain has arrived over, at a place on the line.
@@ -113,8 +133,51 @@ class ChainFit {
   };
 
   const Vector& point(std::int32_t v) const { return surface_.points()[v]; }
-  void relax(std::int32_t from, std::int32_t over, std::int32_t begin, const Vector& goal);
-  FittedChain chain_to(std::int32_t label, std::int32_t begin) const;
+
+  void relax(std::int32_t from, std::int32_t over, std::int32_t begin, const Vector& goal) {
+    const Label here = labels_[from];
+    const std::int32_t v = here.edge < 0 ? begin : adjacency_.head(here.edge), w = adjacency_.head(over);
+    const double length = (point(w) - point(v)).norm();
+    const double low = here.along - kBack * h_ - kBackOfEdge * length;
+    const double high = here.along + kAhead * h_ + kAheadOfEdge * length;
+    const double widest = kCorridor * std::max(h_, length);
+    const auto [squared, along] = line_.nearest(point(w), low, high);
+    if (squared > widest * widest) return;
+    const double middle = line_.nearest(0.5 * (point(v) + point(w)), low, high).squared;
+    const double off = (here.squared + middle + squared) / 3.0;
+    const double turn = here.edge < 0 ? 0.0 : adjacency_.turn(adjacency_.twin(here.edge), over);
+    const double cost = here.cost + length * (1.0 + kOffLine * off / (h_ * h_)) + kTurning * h_ * turn;
+    const auto bucket = static_cast<std::uint64_t>(along / (kSamePlace * h_));
+    const std::uint64_t key = bucket * adjacency_.directed_count() + static_cast<std::uint64_t>(over);
+    const auto next = static_cast<std::int32_t>(labels_.size());
+    const auto [known, is_new] = newest_.try_emplace(key, next);
+    if (!is_new && !(cost < labels_[known->second].cost)) return;
+    if (!is_new) labels_[known->second].settled = true;  // a cheaper one is there
+    known->second = next;
+    labels_.push_back({cost, along, squared, over, from});
+    open_.push({cost + (goal - point(w)).norm(), next});
+  }
+
+  /// The chain up to a label, without what it passes both ways.
+  FittedChain chain_to(std::int32_t label, std::int32_t begin) const {
+    std::vector<std::int32_t> steps;
+    for (; label >= 0; label = labels_[label].before) steps.push_back(label);
+    std::ranges::reverse(steps);
+    FittedChain chain;
+    for (const std::int32_t step : steps) {
+      const Label& at = labels_[step];
+      const std::int32_t v = at.edge < 0 ? begin : adjacency_.head(at.edge);
+      const std::size_t count = chain.vertices.size();
+      if (count >= 2 && chain.vertices[count - 2] == v) {
+        chain.vertices.pop_back();
+        chain.places.pop_back();
+        continue;
+      }
+      chain.vertices.push_back(v);
+      chain.places.push_back(line_.place(at.along));
+    }
+    return chain.vertices.size() < 2 ? FittedChain{} : chain;
+  }
 
   const Surface& surface_;
   const EdgeAdjacency& adjacency_;
@@ -124,73 +187,6 @@ class ChainFit {
   std::unordered_map<std::uint64_t, std::int32_t> newest_;  // by directed edge and place
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open_;
 };
-
-void ChainFit::relax(std::int32_t from, std::int32_t over, std::int32_t begin, const Vector& goal) {
-  const Label here = labels_[from];
-  const std::int32_t v = here.edge < 0 ? begin : adjacency_.head(here.edge), w = adjacency_.head(over);
-  const double length = (point(w) - point(v)).norm();
-  const double low = here.along - kBack * h_ - kBackOfEdge * length;
-  const double high = here.along + kAhead * h_ + kAheadOfEdge * length;
-  const double widest = kCorridor * std::max(h_, length);
-  const auto [squared, along] = line_.nearest(point(w), low, high);
-  if (squared > widest * widest) return;
-  const double middle = line_.nearest(0.5 * (point(v) + point(w)), low, high).squared;
-  const double off = (here.squared + middle + squared) / 3.0;
-  const double turn = here.edge < 0 ? 0.0 : adjacency_.turn(adjacency_.twin(here.edge), over);
-  const double cost = here.cost + length * (1.0 + kOffLine * off / (h_ * h_)) + kTurning * h_ * turn;
-  const auto bucket = static_cast<std::uint64_t>(along / (kSamePlace * h_));
-  const std::uint64_t key = bucket * adjacency_.directed_count() + static_cast<std::uint64_t>(over);
-  const auto next = static_cast<std::int32_t>(labels_.size());
-  const auto [known, is_new] = newest_.try_emplace(key, next);
-  if (!is_new && !(cost < labels_[known->second].cost)) return;
-  if (!is_new) labels_[known->second].settled = true;  // a cheaper one is there
-  known->second = next;
-  labels_.push_back({cost, along, squared, over, from});
-  open_.push({cost + (goal - point(w)).norm(), next});
-}
-
-FittedChain ChainFit::find(std::int32_t begin, std::int32_t end, double begin_gap, double end_gap) {
-  const auto [squared, along] = line_.nearest(point(begin), 0.0, 2.0 * begin_gap + h_);
-  labels_.push_back({0.0, along, squared, -1, -1});
-  open_.push({0.0, 0});
-  const double ends_from = line_.length() - 2.0 * end_gap - h_;
-  std::int32_t farthest = 0;
-  while (!open_.empty() && labels_.size() < kMostLabels) {
-    const std::int32_t number = open_.top().label;
-    open_.pop();
-    Label& label = labels_[number];
-    if (label.settled) continue;
-    label.settled = true;
-    const std::int32_t v = label.edge < 0 ? begin : adjacency_.head(label.edge);
-    if (v == end && label.along >= ends_from) return chain_to(number, begin);
-    if (label.along > labels_[farthest].along) farthest = number;
-    for (std::int32_t out = adjacency_.begin(v); out < adjacency_.end(v); ++out) {
-      relax(number, out, begin, point(end));
-    }
-  }
-  return chain_to(farthest, begin);
-}
-
-/// The chain up to a label, without what it passes both ways.
-FittedChain ChainFit::chain_to(std::int32_t label, std::int32_t begin) const {
-  std::vector<std::int32_t> steps;
-  for (; label >= 0; label = labels_[label].before) steps.push_back(label);
-  std::ranges::reverse(steps);
-  FittedChain chain;
-  for (const std::int32_t step : steps) {
-    const Label& at = labels_[step];
-    const std::int32_t v = at.edge < 0 ? begin : adjacency_.head(at.edge);
-    const std::size_t count = chain.vertices.size();
-    if (count >= 2 && chain.vertices[count - 2] == v) {
-      chain.vertices.pop_back();
-      chain.places.pop_back();
-      continue;
-    }
-    chain.vertices.push_back(v);
-    chain.places.push_back(line_.place(at.along));
-  }
-  return chain.vertices.size() < 2 ? FittedChain{} : chain;
-}
 
 /// The median length of the edges at the corners of the line's faces; 0 without edges.
 double median_edge(const Surface& surface, const EdgeAdjacency& adjacency, const DrawnLine& line) {

@@ -44,22 +44,173 @@ class DegenerateFaces {
   }
 
   /// The faces given, in ascending order, and others that become degenerate.
-  CleanMesh remove(std::vector<FaceHandle> degenerate);
+  CleanMesh remove(std::vector<FaceHandle> degenerate) {
+    const auto is_done = [&](FaceHandle f) { return is_removed(f) || !is_degenerate(f); };
+    bool progress = !degenerate.empty();
+    for (int pass = 0; progress && pass < kMostPasses; ++pass) {
+      progress = false;
+      for (std::size_t i = 0, count = degenerate.size(); i < count; ++i) {
+        if (is_done(degenerate[i])) continue;
+        if (collapse_needle(degenerate[i])) {
+          progress = true;
+        } else if (const FaceHandle beyond = flip_cap(degenerate[i]); beyond.is_valid()) {
+          progress = true;
+          degenerate.push_back(beyond);
+        }
+      }
+      std::erase_if(degenerate, is_done);
+      std::sort(degenerate.begin(), degenerate.end());
+      degenerate.erase(std::unique(degenerate.begin(), degenerate.end()), degenerate.end());
+    }
+    CleanMesh clean;
+    for (const FaceHandle f : mesh_.faces()) clean.origins.push_back(origins_[f.idx()]);
+    for (const FaceHandle f : degenerate) clean.degenerate.push_back(origins_[f.idx()]);
+    std::ranges::sort(clean.degenerate);
+    for (std::int32_t& name : names_) name = same_edges_.find(name);
+    clean.names = std::move(names_);
+    clean.merged = std::move(merged_);
+    clean.vertex_of_fan = std::move(vertex_of_fan_);
+    clean.mesh = std::move(mesh_);
+    return clean;
+  }
 
  private:
-  std::array<HalfedgeHandle, 3> sides(FaceHandle f) const;
+  // From the face's first corner on, as OpenMesh lists its vertices.
+  std::array<HalfedgeHandle, 3> sides(FaceHandle f) const {
+    const HalfedgeHandle a = mesh_.halfedge_handle(f), b = mesh_.next_halfedge_handle(a);
+    return {b, mesh_.next_halfedge_handle(b), a};
+  }
+
   std::int32_t vertex(VertexHandle fan) const { return vertex_of_fan_[fan.idx()]; }
-  std::vector<VertexHandle> fans_of(std::int32_t vertex) const;
-  Vector vector(HalfedgeHandle h) const;
-  bool is_degenerate(FaceHandle f) const;
+
+  // The corner fans of a vertex that have faces.
+  std::vector<VertexHandle> fans_of(std::int32_t vertex) const {
+    std::vector<VertexHandle> fans;
+    const auto add = [&](VertexHandle fan) {
+      const bool is_left = !mesh_.status(fan).deleted() && !mesh_.is_isolated(fan);
+      if (is_left && this->vertex(fan) == vertex) fans.push_back(fan);
+    };
+    const std::vector<std::int32_t>& all = corner_fans(surface_).vertices;
+    // Not std::ranges::equal_range: Clang 14 cannot read what libstdc++ 12 returns.
+    const auto [begin, end] = std::equal_range(all.begin(), all.end(), vertex);
+    for (auto at = begin; at != end; ++at) add(VertexHandle(static_cast<int>(at - all.begin())));
+    if (const auto more = fans_merged_.find(vertex); more != fans_merged_.end())
+      std::ranges::for_each(more->second, add);
+    return fans;
+  }
+
+  // A half-edge in the unit cube.
+  Vector vector(HalfedgeHandle h) const {
+    return (mesh_.point(mesh_.to_vertex_handle(h)) - mesh_.point(mesh_.from_vertex_handle(h))) * surface_.scale();
+  }
+
+  bool is_degenerate(FaceHandle f) const {
+    const auto [a, b, c] = sides(f);
+    return !has_area(vector(a), vector(b), vector(c));
+  }
+
   bool is_removed(FaceHandle f) const { return has_collapsed_ && mesh_.status(f).deleted(); }
-  void join_siblings();
-  std::vector<HalfedgeHandle> edges_between(std::int32_t from, std::int32_t to) const;
-  bool can_collapse(HalfedgeHandle h);
-  bool merge(std::int32_t from, std::int32_t to);
-  void collapse(HalfedgeHandle h);
-  bool collapse_needle(FaceHandle f);
-  FaceHandle flip_cap(FaceHandle f);
+
+  // The edges of all faces at one edge of the surface are one.
+  void join_siblings() {
+    if (names_.empty()) return;
+    const std::vector<HalfedgeHandle> half_edges = half_edges_of_faces(mesh_);
+    const std::vector<std::int32_t>& siblings = corner_fans(surface_).siblings;
+    for (std::size_t h = 0; h < siblings.size(); ++h) {
+      if (siblings[h] >= 0) same_edges_.join(half_edges[h].idx() / 2, half_edges[index(siblings[h])].idx() / 2);
+    }
+  }
+
+  // The half-edges from the corner fans of one vertex to those of another.
+  std::vector<HalfedgeHandle> edges_between(std::int32_t from, std::int32_t to) const {
+    std::vector<HalfedgeHandle> edges;
+    for (const VertexHandle fan : fans_of(from)) {
+      for (const HalfedgeHandle h : mesh_.voh_range(fan)) {
+        if (vertex(mesh_.to_vertex_handle(h)) == to) edges.push_back(h);
+      }
+    }
+    return edges;
+  }
+
+  bool can_collapse(HalfedgeHandle h) {
+    if (!mesh_.is_collapse_ok(h)) return false;
+    // A second edge between the two would become a loop.
+    return std::ranges::count(mesh_.vv_range(mesh_.from_vertex_handle(h)), mesh_.to_vertex_handle(h)) == 1;
+  }
+
+  // Merges a vertex into another one at its place, with all its corner fans: in those that have an edge to the other
+  // one, by collapsing that edge. False where that is impossible.
+  bool merge(std::int32_t from, std::int32_t to) {
+    if (from == to) return false;
+    const std::vector<HalfedgeHandle> edges = edges_between(from, to);
+    if (!std::ranges::all_of(edges, [&](HalfedgeHandle h) { return can_collapse(h); })) return false;
+    merged_.push_back({from, to, edge_length(surface_, metric_, from, to)});
+    // What has been collapsed may make a later edge impossible to collapse: then its fan keeps its vertex.
+    for (const HalfedgeHandle h : edges) {
+      if (can_collapse(h)) collapse(h);
+    }
+    const std::vector<VertexHandle> fans_left = fans_of(from);
+    for (const VertexHandle fan : fans_left) {
+      const auto is_to = [&](VertexHandle neighbor) { return vertex(neighbor) == to; };
+      if (std::ranges::any_of(mesh_.vv_range(fan), is_to)) continue;
+      vertex_of_fan_[fan.idx()] = to;
+      mesh_.set_point(fan, surface_.points()[to]);
+      fans_merged_[to].push_back(fan);
+    }
+    return true;
+  }
+
+  // Collapses a half-edge. The two other sides of each face at it become one edge.
+  void collapse(HalfedgeHandle h) {
+    for (const HalfedgeHandle side : {h, mesh_.opposite_halfedge_handle(h)}) {
+      if (names_.empty() || mesh_.is_boundary(side)) continue;
+      const HalfedgeHandle next = mesh_.next_halfedge_handle(side), last = mesh_.next_halfedge_handle(next);
+      same_edges_.join(names_[next.idx() / 2], names_[last.idx() / 2]);
+    }
+    mesh_.collapse(h);
+  }
+
+  // Collapses the shortest edge of a needle; false for other faces, and where that is impossible.
+  bool collapse_needle(FaceHandle f) {
+    const auto by_length = [&](HalfedgeHandle a, HalfedgeHandle b) {
+      return vector(a).squaredNorm() < vector(b).squaredNorm();
+    };
+    const auto all = sides(f);
+    const auto [shortest, longest] = std::minmax_element(all.begin(), all.end(), by_length);
+    if (vector(*shortest).norm() > kNoArea * vector(*longest).norm()) return false;
+    if (!has_collapsed_) {
+      mesh_.request_vertex_status();
+      mesh_.request_halfedge_status();
+      mesh_.request_edge_status();
+      mesh_.request_face_status();
+      has_collapsed_ = true;
+    }
+    const HalfedgeHandle h = *shortest;
+    const std::int32_t a = vertex(mesh_.from_vertex_handle(h)), b = vertex(mesh_.to_vertex_handle(h));
+    return merge(a, b) || merge(b, a);
+  }
+
+  // Flips the longest edge of a cap if that leaves fewer degenerate faces, or shorter edges. Returns the face that was
+  // beyond it; an invalid handle where nothing was flipped.
+  FaceHandle flip_cap(FaceHandle f) {
+    HalfedgeHandle h = sides(f)[0];
+    for (const HalfedgeHandle side : sides(f)) {
+      if (vector(side).squaredNorm() > vector(h).squaredNorm()) h = side;
+    }
+    const HalfedgeHandle opposite = mesh_.opposite_halfedge_handle(h);
+    const EdgeHandle e = mesh_.edge_handle(h);
+    if (mesh_.is_boundary(opposite) || !mesh_.is_flip_ok(e)) return FaceHandle();
+    const FaceHandle beyond = mesh_.face_handle(opposite);
+    const auto apex = [&](HalfedgeHandle side) {
+      return mesh_.point(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(side)));
+    };
+    const double flipped = (apex(opposite) - apex(h)).norm() * surface_.scale();
+    if (is_degenerate(beyond) && !(flipped < vector(h).norm() * (1 - kEqual))) return FaceHandle();
+    mesh_.flip(e);
+    if (!names_.empty()) names_[e.idx()] = same_edges_.add();
+    origins_[f.idx()] = origins_[beyond.idx()];
+    return beyond;
+  }
 
   const Surface& surface_;
   const Metric& metric_;
@@ -72,168 +223,6 @@ class DegenerateFaces {
   std::vector<LooseEdge> merged_;
   bool has_collapsed_ = false;
 };
-
-CleanMesh DegenerateFaces::remove(std::vector<FaceHandle> degenerate) {
-  const auto is_done = [&](FaceHandle f) { return is_removed(f) || !is_degenerate(f); };
-  bool progress = !degenerate.empty();
-  for (int pass = 0; progress && pass < kMostPasses; ++pass) {
-    progress = false;
-    for (std::size_t i = 0, count = degenerate.size(); i < count; ++i) {
-      if (is_done(degenerate[i])) continue;
-      if (collapse_needle(degenerate[i])) {
-        progress = true;
-      } else if (const FaceHandle beyond = flip_cap(degenerate[i]); beyond.is_valid()) {
-        progress = true;
-        degenerate.push_back(beyond);
-      }
-    }
-    std::erase_if(degenerate, is_done);
-    std::sort(degenerate.begin(), degenerate.end());
-    degenerate.erase(std::unique(degenerate.begin(), degenerate.end()), degenerate.end());
-  }
-  CleanMesh clean;
-  for (const FaceHandle f : mesh_.faces()) clean.origins.push_back(origins_[f.idx()]);
-  for (const FaceHandle f : degenerate) clean.degenerate.push_back(origins_[f.idx()]);
-  std::ranges::sort(clean.degenerate);
-  for (std::int32_t& name : names_) name = same_edges_.find(name);
-  clean.names = std::move(names_);
-  clean.merged = std::move(merged_);
-  clean.vertex_of_fan = std::move(vertex_of_fan_);
-  clean.mesh = std::move(mesh_);
-  return clean;
-}
-
-// From the face's first corner on, as OpenMesh lists its vertices.
-std::array<HalfedgeHandle, 3> DegenerateFaces::sides(FaceHandle f) const {
-  const HalfedgeHandle a = mesh_.halfedge_handle(f), b = mesh_.next_halfedge_handle(a);
-  return {b, mesh_.next_halfedge_handle(b), a};
-}
-
-// A half-edge in the unit cube.
-Vector DegenerateFaces::vector(HalfedgeHandle h) const {
-  return (mesh_.point(mesh_.to_vertex_handle(h)) - mesh_.point(mesh_.from_vertex_handle(h))) * surface_.scale();
-}
-
-bool DegenerateFaces::is_degenerate(FaceHandle f) const {
-  const auto [a, b, c] = sides(f);
-  return !has_area(vector(a), vector(b), vector(c));
-}
-
-// The corner fans of a vertex that have faces.
-std::vector<VertexHandle> DegenerateFaces::fans_of(std::int32_t vertex) const {
-  std::vector<VertexHandle> fans;
-  const auto add = [&](VertexHandle fan) {
-    const bool is_left = !mesh_.status(fan).deleted() && !mesh_.is_isolated(fan);
-    if (is_left && this->vertex(fan) == vertex) fans.push_back(fan);
-  };
-  const std::vector<std::int32_t>& all = corner_fans(surface_).vertices;
-  // Not std::ranges::equal_range: Clang 14 cannot read what libstdc++ 12 returns.
-  const auto [begin, end] = std::equal_range(all.begin(), all.end(), vertex);
-  for (auto at = begin; at != end; ++at) add(VertexHandle(static_cast<int>(at - all.begin())));
-  if (const auto more = fans_merged_.find(vertex); more != fans_merged_.end()) std::ranges::for_each(more->second, add);
-  return fans;
-}
-
-// The edges of all faces at one edge of the surface are one.
-void DegenerateFaces::join_siblings() {
-  if (names_.empty()) return;
-  const std::vector<HalfedgeHandle> half_edges = half_edges_of_faces(mesh_);
-  const std::vector<std::int32_t>& siblings = corner_fans(surface_).siblings;
-  for (std::size_t h = 0; h < siblings.size(); ++h) {
-    if (siblings[h] >= 0) same_edges_.join(half_edges[h].idx() / 2, half_edges[index(siblings[h])].idx() / 2);
-  }
-}
-
-// The half-edges from the corner fans of one vertex to those of another.
-std::vector<HalfedgeHandle> DegenerateFaces::edges_between(std::int32_t from, std::int32_t to) const {
-  std::vector<HalfedgeHandle> edges;
-  for (const VertexHandle fan : fans_of(from)) {
-    for (const HalfedgeHandle h : mesh_.voh_range(fan)) {
-      if (vertex(mesh_.to_vertex_handle(h)) == to) edges.push_back(h);
-    }
-  }
-  return edges;
-}
-
-bool DegenerateFaces::can_collapse(HalfedgeHandle h) {
-  if (!mesh_.is_collapse_ok(h)) return false;
-  // A second edge between the two would become a loop.
-  return std::ranges::count(mesh_.vv_range(mesh_.from_vertex_handle(h)), mesh_.to_vertex_handle(h)) == 1;
-}
-
-// Collapses a half-edge. The two other sides of each face at it become one edge.
-void DegenerateFaces::collapse(HalfedgeHandle h) {
-  for (const HalfedgeHandle side : {h, mesh_.opposite_halfedge_handle(h)}) {
-    if (names_.empty() || mesh_.is_boundary(side)) continue;
-    const HalfedgeHandle next = mesh_.next_halfedge_handle(side), last = mesh_.next_halfedge_handle(next);
-    same_edges_.join(names_[next.idx() / 2], names_[last.idx() / 2]);
-  }
-  mesh_.collapse(h);
-}
-
-// Merges a vertex into another one at its place, with all its corner fans: in those that have an edge to the other one,
-// by collapsing that edge. False where that is impossible.
-bool DegenerateFaces::merge(std::int32_t from, std::int32_t to) {
-  if (from == to) return false;
-  const std::vector<HalfedgeHandle> edges = edges_between(from, to);
-  if (!std::ranges::all_of(edges, [&](HalfedgeHandle h) { return can_collapse(h); })) return false;
-  merged_.push_back({from, to, edge_length(surface_, metric_, from, to)});
-  // What has been collapsed may make a later edge impossible to collapse: then its fan keeps its vertex.
-  for (const HalfedgeHandle h : edges) {
-    if (can_collapse(h)) collapse(h);
-  }
-  const std::vector<VertexHandle> fans_left = fans_of(from);
-  for (const VertexHandle fan : fans_left) {
-    const auto is_to = [&](VertexHandle neighbor) { return vertex(neighbor) == to; };
-    if (std::ranges::any_of(mesh_.vv_range(fan), is_to)) continue;
-    vertex_of_fan_[fan.idx()] = to;
-    mesh_.set_point(fan, surface_.points()[to]);
-    fans_merged_[to].push_back(fan);
-  }
-  return true;
-}
-
-// Collapses the shortest edge of a needle; false for other faces, and where that is impossible.
-bool DegenerateFaces::collapse_needle(FaceHandle f) {
-  const auto by_length = [&](HalfedgeHandle a, HalfedgeHandle b) {
-    return vector(a).squaredNorm() < vector(b).squaredNorm();
-  };
-  const auto all = sides(f);
-  const auto [shortest, longest] = std::minmax_element(all.begin(), all.end(), by_length);
-  if (vector(*shortest).norm() > kNoArea * vector(*longest).norm()) return false;
-  if (!has_collapsed_) {
-    mesh_.request_vertex_status();
-    mesh_.request_halfedge_status();
-    mesh_.request_edge_status();
-    mesh_.request_face_status();
-    has_collapsed_ = true;
-  }
-  const HalfedgeHandle h = *shortest;
-  const std::int32_t a = vertex(mesh_.from_vertex_handle(h)), b = vertex(mesh_.to_vertex_handle(h));
-  return merge(a, b) || merge(b, a);
-}
-
-// Flips the longest edge of a cap if that leaves fewer degenerate faces, or shorter edges. Returns the face that was
-// beyond it; an invalid handle where nothing was flipped.
-FaceHandle DegenerateFaces::flip_cap(FaceHandle f) {
-  HalfedgeHandle h = sides(f)[0];
-  for (const HalfedgeHandle side : sides(f)) {
-    if (vector(side).squaredNorm() > vector(h).squaredNorm()) h = side;
-  }
-  const HalfedgeHandle opposite = mesh_.opposite_halfedge_handle(h);
-  const EdgeHandle e = mesh_.edge_handle(h);
-  if (mesh_.is_boundary(opposite) || !mesh_.is_flip_ok(e)) return FaceHandle();
-  const FaceHandle beyond = mesh_.face_handle(opposite);
-  const auto apex = [&](HalfedgeHandle side) {
-    return mesh_.point(mesh_.to_vertex_handle(mesh_.next_halfedge_handle(side)));
-  };
-  const double flipped = (apex(opposite) - apex(h)).norm() * surface_.scale();
-  if (is_degenerate(beyond) && !(flipped < vector(h).norm() * (1 - kEqual))) return FaceHandle();
-  mesh_.flip(e);
-  if (!names_.empty()) names_[e.idx()] = same_edges_.add();
-  origins_[f.idx()] = origins_[beyond.idx()];
-  return beyond;
-}
 
 }  // namespace
 

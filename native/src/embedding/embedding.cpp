@@ -2,17 +2,20 @@
 #include "seamwire/embedding/embedding.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "detail/index.hpp"
 #include "detail/text.hpp"
 #include "embedding/bisection.hpp"
 #include "embedding/deviation.hpp"
 #include "embedding/length_repair.hpp"
-#include "embedding/re_embedding.hpp"
 #include "metric/metric_check.hpp"
 #include "surface/corner_fans.hpp"
 #include "surface/face_height.hpp"
@@ -23,6 +26,66 @@ using namespace detail;
 
 namespace {
 
+// The faces at the vertices where two metrics differ, ascending. The surface's fans have the numbers of its vertices.
+std::vector<std::int32_t> changed_faces(const Surface& surface, const Metric& former, const Metric& metric) {
+  std::vector<std::int32_t> faces;
+  for (std::int32_t v = 0; index(v) < surface.vertex_count(); ++v) {
+    if (former.tensors[v] == metric.tensors[v]) continue;
+    corner_fans(surface).for_each_leaving(v, [&](std::int32_t h) { faces.push_back(h / 3); });
+  }
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
+}
+
+/// Whether a face of the surface's corner fans is valid in a metric as it is.
+bool is_valid_as_given(const Surface& surface, const Metric& metric, std::int32_t face) {
+  Triangle corners = corner_fans(surface).triangles[face];
+  for (std::int32_t& v : corners) v = corner_fans(surface).vertices[v];
+  const auto [a, b, c] = corners;
+  std::array lengths{edge_length(surface, metric, a, b), edge_length(surface, metric, b, c),
+                     edge_length(surface, metric, c, a)};
+  std::ranges::sort(lengths);
+  return lengths[2] < (lengths[0] + lengths[1]) * (1 - kValidityMargin);
+}
+
+/// re_embed() for an embedding that is local; normals of the two metrics must be equal. At most `most` triangles are
+/// added to the surface's. Nothing where that is not enough, or longest-edge bisection does not end well. Throws
+/// Cancelled.
+std::optional<Embedding> re_embed_locally(const Surface& surface, const Metric& former, const Metric& metric,
+                                          Embedding&& old, const EmbedOptions& options, const Task& task,
+                                          std::size_t most) {
+  std::vector<std::int32_t> seeds = changed_faces(surface, former, metric);
+  std::size_t invalid_before = old.invalid_before;
+  for (const std::int32_t face : seeds) {
+    invalid_before += is_valid_as_given(surface, former, face);
+    invalid_before -= is_valid_as_given(surface, metric, face);
+  }
+  BisectedMesh former_mesh(surface, metric, std::move(old));
+  ActiveFaces active(former_mesh);
+  Bisection bisection(std::move(former_mesh), options, Scheme::kLongestEdge, &active);
+  BisectedMesh& mesh = bisection.mesh();
+  double progress = 0;
+  while (true) {
+    const std::vector<std::int32_t> faces = mesh.undo(seeds);
+    active.reset(faces);
+    for (const std::int32_t face : faces) active.activate(mesh, face);
+    for (const std::int32_t face : faces) {
+      for (std::int32_t h = 3 * face; h < 3 * face + 3; ++h) mesh.set_length(h, mesh.measure(h));
+    }
+    for (const std::int32_t face : faces) bisection.consider(face);
+    if (!bisection.work_off(task, most, progress)) return std::nullopt;
+    if (!active.has_conflicts()) break;
+    // All else is done. What took part in a conflict begins anew, both sides of it together.
+    seeds = active.take_conflicts(mesh);
+  }
+  if (bisection.has_decayed()) return std::nullopt;
+  Embedding out = std::move(bisection).to_embedding();
+  out.invalid_before = invalid_before;
+  out.faces_embedded = active.activations();
+  return out;
+}
+
 // Longest-edge bisection, the paper's scheme, may add this many triangles for each of the surface's, and this many in
 // any case. Where it ends, it mostly ends below one for each.
 constexpr std::size_t kBudget = 4, kLeastBudget = 20'000;
@@ -30,14 +93,6 @@ constexpr std::size_t kBudget = 4, kLeastBudget = 20'000;
 constexpr std::size_t kLaterBudget = 16, kLeastLaterBudget = 200'000;
 // A smaller max_error than this may take more triangles, in proportion.
 constexpr double kErrorOfBudget = 0.005;
-
-void check_size(const Surface& surface, const Metric& metric) {
-  const std::size_t n = surface.vertex_count();
-  if (metric.tensors.size() != n || metric.normals.size() != n) {
-    throw InvalidInput("metric of " + std::to_string(metric.size()) + " vertices for a surface of " +
-                       std::to_string(n));
-  }
-}
 
 void check_metric(const Surface& surface, const Metric& metric) {
   check_size(surface, metric);

@@ -13,6 +13,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <utility>
@@ -20,14 +22,113 @@
 
 #include "detail/index.hpp"
 #include "detail/indexed_heap.hpp"
-#include "geodesics/delta_stepping.hpp"
+#include "detail/prefetch.hpp"
 #include "geodesics/geodesic_mesh.hpp"
 #include "geodesics/path_tracing.hpp"
 #include "geodesics/wavefront.hpp"
+#include "seamwire/geodesics/distance_field.hpp"
+#include "seamwire/task.hpp"
 
 namespace seamwire {
 
 using namespace detail;
+
+namespace detail {
+
+/// Distances along hops (GeodesicMesh::hops) from a seed, computed outwards as far as they are asked for.
+/// Delta-stepping keeps buckets of distances instead of a heap. The vertices of a bucket are settled in any order, and
+/// again if necessary (Meyer, Sanders, "Delta-stepping: a parallelizable shortest path algorithm", 2003). Single
+/// precision is enough, because distances only tell where to look for a path.
+class DeltaStepping {
+ public:
+  DeltaStepping(const GeodesicMesh& mesh, std::int32_t seed) : mesh_(mesh), reached_(mesh.vertex_count()) {
+    const float longest = mesh.longest_hop();
+    width_ = std::max(mesh.mean_hop(), longest / static_cast<float>(kMostBuckets - 2));
+    if (!(width_ > 0)) width_ = 1.0F;
+    per_width_ = 1.0F / width_;
+    buckets_.resize(static_cast<std::size_t>(longest * per_width_) + 3);
+    relax(seed, 0.0F, -1);
+  }
+
+  /// Goes on until the distance of `vertex` is final, or nothing is left to be reached.
+  void reach(std::int32_t vertex, const Task& task) {
+    std::size_t work = 0;
+    while (waiting_ > 0 && !(at(vertex) < radius())) {
+      std::vector<Entry>& entries = bucket(current_);
+      // The bucket may grow while it is read.
+      while (done_ < entries.size()) {
+        if (done_ + kAhead < entries.size()) prefetch_vertex(entries[done_ + kAhead].vertex);
+        const Entry entry = entries[done_++];
+        --waiting_;
+        if (entry.distance > at(entry.vertex)) continue;
+        for (const auto& [to, length] : mesh_.hops(entry.vertex)) {
+          relax(to, entry.distance + length, entry.vertex);
+        }
+        if (++work % kStepsBetweenChecks == 0) task.check(0.0);
+      }
+      entries.clear();
+      done_ = 0;
+      ++current_;
+    }
+  }
+
+  /// Final where it is below radius(), else an upper bound; infinite where nothing led yet.
+  float at(std::int32_t vertex) const { return reached_[vertex].distance; }
+
+  /// A shortest chain of hops from the seed to a vertex whose distance is final. Of the path only the points are set, a
+  /// vertex each.
+  IntrinsicPath chain(std::int32_t vertex) const {
+    IntrinsicPath path;
+    for (std::int32_t v = vertex; v >= 0; v = reached_[v].from) path.points.push_back({.vertex = v});
+    std::reverse(path.points.begin(), path.points.end());
+    return path;
+  }
+
+  float radius() const { return static_cast<float>(current_) * width_; }
+
+ private:
+  /// Of the ring; where the longest edge is longer than that many mean ones, buckets are wider.
+  static constexpr std::size_t kMostBuckets = 4096;
+  /// Entries of a bucket that memory is asked for in advance.
+  static constexpr std::size_t kAhead = 8;
+  /// Vertices between two looks at the task: some 0.1 ms.
+  static constexpr std::size_t kStepsBetweenChecks = 2048;
+
+  struct Reached {
+    float distance = std::numeric_limits<float>::infinity();
+    std::int32_t from = -1;
+  };
+  struct Entry {
+    float distance;
+    std::int32_t vertex;
+  };
+
+  std::vector<Entry>& bucket(std::size_t number) { return buckets_[number % buckets_.size()]; }
+  std::size_t bucket_of(float distance) const { return static_cast<std::size_t>(distance * per_width_); }
+
+  void relax(std::int32_t vertex, float distance, std::int32_t from) {
+    Reached& known = reached_[vertex];
+    if (!(distance < known.distance)) return;
+    known = {distance, from};
+    bucket(std::max(bucket_of(distance), current_)).push_back({distance, vertex});
+    ++waiting_;
+  }
+
+  void prefetch_vertex(std::int32_t vertex) const {
+    prefetch(&reached_[vertex]);
+    prefetch(mesh_.hops(vertex).data());
+  }
+
+  const GeodesicMesh& mesh_;
+  std::vector<Reached> reached_;
+  std::vector<std::vector<Entry>> buckets_;  ///< a ring: no hop is longer than all but one of them
+  float width_ = 1.0F, per_width_ = 1.0F;
+  std::size_t current_ = 0,
+              done_ = 0;     ///< the first bucket that may not be empty, and how many of its entries are done
+  std::size_t waiting_ = 0;  ///< entries not done
+};
+
+}  // namespace detail
 
 namespace {
 

@@ -14,7 +14,6 @@
 #include "detail/infinity.hpp"
 #include "live/candidates.hpp"
 #include "live/closed_cut_search.hpp"
-#include "live/event_count.hpp"
 #include "live/mailbox.hpp"
 #include "live/prepared_metrics.hpp"
 #include "live/right_of_way.hpp"

@@ -7,8 +7,7 @@
 #include <utility>
 
 #include "surface/real_edges.hpp"
-#include "wires/nearby_wires.hpp"
-#include "wires/refined_wire.hpp"
+#include "wires/local_wires.hpp"
 
 namespace seamwire::detail {
 namespace {

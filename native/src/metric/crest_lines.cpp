@@ -17,6 +17,7 @@
 #include "detail/edge_chains.hpp"
 #include "detail/poll.hpp"
 #include "detail/text.hpp"
+#include "metric/metric_check.hpp"
 #include "metric/tangent_frame.hpp"
 #include "seamwire/errors.hpp"
 #include "surface/corner_fans.hpp"
@@ -39,12 +40,7 @@ constexpr int kMostFaces = 500;
 constexpr std::size_t kBridged = 3;
 
 void check(const Surface& surface, const Curvature& curvature, const CrestLineOptions& options) {
-  const std::size_t count = surface.vertex_count();
-  if (curvature.k1.size() != count || curvature.k2.size() != count || curvature.d1.size() != count ||
-      curvature.d2.size() != count || curvature.normals.size() != count) {
-    throw InvalidInput("curvature of " + std::to_string(curvature.k1.size()) + " vertices for a surface of " +
-                       std::to_string(count));
-  }
+  check_size(surface, curvature);
   if (!(std::isfinite(options.least_strength) && options.least_strength >= 0.0)) {
     throw InvalidInput("least_strength is " + text(options.least_strength) + ", not a finite number of 0 or more");
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <string>
 
 #include "detail/infinity.hpp"
@@ -28,14 +29,17 @@ constexpr double kSmallestBeta = 1e-12;
 // The concave metric's: gamma, how short the deepest creases become, and the curvature at which they are near to it.
 constexpr double kCreaseGamma = 0.03, kDeepest = 0.3, kConcavity = 16;
 
-void check_curvature(const Surface& surface, const Curvature& curvature, const Task& task) {
-  const std::size_t n = surface.vertex_count();
-  for (const std::size_t size :
-       {curvature.k1.size(), curvature.k2.size(), curvature.d1.size(), curvature.d2.size(), curvature.normals.size()}) {
-    if (size != n) {
-      throw InvalidInput("curvature of " + std::to_string(size) + " vertices for a surface of " + std::to_string(n));
-    }
+void check_sizes(const Surface& surface, const std::string& what, std::initializer_list<std::size_t> sizes) {
+  for (const std::size_t size : sizes) {
+    if (size == surface.vertex_count()) continue;
+    throw InvalidInput(what + " of " + std::to_string(size) + " vertices for a surface of " +
+                       std::to_string(surface.vertex_count()));
   }
+}
+
+void check_curvature(const Surface& surface, const Curvature& curvature, const Task& task) {
+  check_size(surface, curvature);
+  const std::size_t n = surface.vertex_count();
   const Poll poll(task, 0.0, 0.2, n);
   for (std::size_t v = 0; v < n; ++v) {
     poll.at(v);
@@ -145,6 +149,15 @@ void check_strength(const Strength& strength, double smallest_parameter) {
   if (strength.clamp_percentile && !(*strength.clamp_percentile > 0 && *strength.clamp_percentile <= 100)) {
     throw InvalidInput("percentile to clamp at is " + text(*strength.clamp_percentile) + ", not in (0, 100]");
   }
+}
+
+void detail::check_size(const Surface& surface, const Curvature& curvature) {
+  const auto& [k1, k2, d1, d2, normals] = curvature;
+  check_sizes(surface, "curvature", {k1.size(), k2.size(), d1.size(), d2.size(), normals.size()});
+}
+
+void detail::check_size(const Surface& surface, const Metric& metric) {
+  check_sizes(surface, "metric", {metric.normals.size(), metric.tensors.size()});
 }
 
 void detail::check_finite(const Metric& metric) {

@@ -7,6 +7,10 @@
 
 namespace seamwire::detail {
 
+/// Throws InvalidInput where there are more or fewer curvatures, or tensors, than a surface has vertices.
+void check_size(const Surface& surface, const Curvature& curvature);
+void check_size(const Surface& surface, const Metric& metric);
+
 /// Throws InvalidInput where a tensor or a normal is not finite, or an eigenvalue above kLargestEigenvalue.
 void check_finite(const Metric& metric);
 /// The same for one vertex.

@@ -7,16 +7,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <queue>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "detail/epoch_map.hpp"
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
 #include "detail/poll.hpp"
 #include "detail/text.hpp"
+#include "metric/metric_check.hpp"
 #include "metric/scribble_points.hpp"
 #include "metric/tangent_frame.hpp"
 #include "surface/corner_fans.hpp"
@@ -28,6 +30,23 @@ namespace seamwire {
 using namespace detail;
 
 namespace {
+
+/// Values for some of the numbers below `size`, all of which can be forgotten at once, in constant time.
+class EpochMap {
+ public:
+  explicit EpochMap(std::size_t size) : slots_(size) {}
+  void clear() { ++epoch_; }
+  bool has(std::int32_t i) const { return slots_[i].epoch == epoch_; }
+  std::uint32_t at(std::int32_t i) const { return slots_[i].value; }
+  void set(std::int32_t i, std::size_t value) { slots_[i] = {epoch_, static_cast<std::uint32_t>(value)}; }
+
+ private:
+  struct Slot {
+    std::uint32_t epoch = 0, value = 0;
+  };
+  std::vector<Slot> slots_;
+  std::uint32_t epoch_ = 1;
+};
 
 // A point may be this far from its face, as a fraction of the model's longest side: a smoothed stroke leaves the faces
 // a little, coordinates of another space are far off.
@@ -210,16 +229,192 @@ class Scribbler {
         marks_(surface.vertex_count()),
         poll_(task, 1.0, 1.0, 1, Poll::kFewSteps) {}
 
-  void apply(const Scribble& given);
+  void apply(const Scribble& given) {
+    Scribble scribble = given;
+    for (Vector& p : scribble.points) p *= unit_;
+    if (scribble.radius) *scribble.radius *= unit_;
+    const DrawnLine line(scribble.points);
+    if (!(line.length() > 0)) return;
+    std::vector<Reached> ring = along(given, scribble.points, line);
+    marks_.clear();
+    std::size_t known = 0;
+    for (const Reached& reached : ring) {
+      marks_.set(reached.vertex, known++);
+      set(scribble, reached, 1);
+    }
+    for (int r = 1; !ring.empty() && (scribble.radius || r < scribble.rings); ++r) {
+      ring = next_ring(ring, line, known);
+      known += ring.size();
+      if (scribble.radius) std::erase_if(ring, [&](const Reached& v) { return v.foot.distance >= *scribble.radius; });
+      for (const Reached& reached : ring) {
+        set(scribble, reached,
+            1 - (scribble.radius ? reached.foot.distance / *scribble.radius : static_cast<double>(r) / scribble.rings));
+      }
+    }
+  }
 
  private:
   /// In the unit of exact_unit(), as all lengths here.
   Vector point(std::int32_t v) const { return unit_ * surface_.points()[v]; }
-  std::vector<std::int32_t> join(std::int32_t from, std::int32_t to, const DrawnLine& line, std::size_t segment);
-  std::vector<Reached> along(const Scribble& given, const std::vector<Vector>& points, const DrawnLine& line);
-  bool direct(const DrawnLine& line, Reached& reached) const;
-  void set(const Scribble& scribble, const Reached& reached, double weight);
-  std::vector<Reached> next_ring(const std::vector<Reached>& ring, const DrawnLine& line, std::size_t known);
+
+  // The chain of vertices from one to another that stays nearest to a segment of the line, by A*; empty where none
+  // leads there within the corridor.
+  std::vector<std::int32_t> join(std::int32_t from, std::int32_t to, const DrawnLine& line, std::size_t segment) {
+    if (from == to) return {from};
+    struct Node {
+      std::int32_t vertex, before;
+      double cost;
+      bool is_done;
+    };
+    struct Open {
+      double bound;
+      std::int32_t vertex;
+      bool operator>(const Open& other) const {
+        return bound != other.bound ? bound > other.bound : vertex > other.vertex;
+      }
+    };
+    std::vector<Node> nodes;
+    std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
+    marks_.clear();
+    const Vector target = point(to);
+    const double span = (target - point(from)).norm();
+    const auto reach = [&](std::int32_t v, std::int32_t before, double cost) {
+      if (!marks_.has(v)) {
+        marks_.set(v, nodes.size());
+        nodes.push_back({v, before, cost, false});
+      } else {
+        Node& node = nodes[marks_.at(v)];
+        if (node.is_done || !(cost < node.cost)) return;
+        node.cost = cost;
+        node.before = before;
+      }
+      open.push({cost + (target - point(v)).norm(), v});
+    };
+    reach(from, -1, 0);
+    while (!open.empty() && nodes.size() < kMostLookedAt) {
+      poll_.next();
+      const std::int32_t v = open.top().vertex;
+      open.pop();
+      const std::uint32_t here = marks_.at(v);
+      if (nodes[here].is_done) continue;
+      nodes[here].is_done = true;
+      if (v == to) {
+        std::vector<std::int32_t> chain;
+        for (std::int32_t u = v; u >= 0; u = nodes[marks_.at(u)].before) chain.push_back(u);
+        std::reverse(chain.begin(), chain.end());
+        return chain;
+      }
+      const double cost = nodes[here].cost;
+      neighbors_.vertices(v, [&](std::int32_t w) {
+        const double length = (point(w) - point(v)).norm();
+        const double off = line.foot(point(w), segment).distance;
+        if (off > span + kCorridor * length) return;
+        reach(w, v, cost + length + kOffLine * off);
+      });
+    }
+    return {};
+  }
+
+  // The corners of the triangles that the stroke crosses, and the vertices it runs along, each once. All corners count,
+  // not only the nearest ones. If the tensors at the corners of a triangle differ, the metric in it follows neither of
+  // them, and the wire would leave the stroke by most of an edge.
+  std::vector<Reached> along(const Scribble& given, const std::vector<Vector>& points, const DrawnLine& line) {
+    std::vector<Reached> reached;
+    std::vector<std::pair<std::int32_t, std::size_t>> found;  // a vertex and the segment it was found for
+    for (std::size_t i = 0; i < line.segment_count(); ++i) {
+      const std::int32_t from = nearest_vertex(surface_, given, i), to = nearest_vertex(surface_, given, i + 1);
+      std::vector<std::int32_t> chain = join(from, to, line, i);
+      if (chain.empty()) chain = {from, to};
+      const std::array segment{points[i], points[i + 1]};
+      for (const std::int32_t v : chain) {
+        poll_.next();
+        found.emplace_back(v, i);
+        neighbors_.triangles(v, [&](const Triangle& t) {
+          if (!crosses(segment, {point(t[0]), point(t[1]), point(t[2])})) return;
+          for (const std::int32_t corner : t) found.emplace_back(corner, i);
+        });
+      }
+    }
+    marks_.clear();
+    for (const auto& [v, segment] : found) {
+      poll_.next();
+      const DrawnLine::Foot foot = line.foot_near(point(v), segment);
+      if (!marks_.has(v)) {
+        marks_.set(v, reached.size());
+        reached.push_back({v, foot, Vector::Zero()});
+      } else if (Reached& known = reached[marks_.at(v)]; foot.distance <= known.foot.distance) {
+        known.foot = foot;
+      }
+    }
+    std::erase_if(reached, [&](Reached& r) { return !direct(line, r); });
+    return reached;
+  }
+
+  // The stroke's direction at a vertex, over a chord as long as two edges there; false where it has none.
+  bool direct(const DrawnLine& line, Reached& reached) const {
+    const Vector& normal = metric_.normals[reached.vertex];
+    if (normal.isZero(0)) return false;
+    double sum = 0;
+    int count = 0;
+    neighbors_.vertices(reached.vertex, [&](std::int32_t w) {
+      sum += (point(w) - point(reached.vertex)).norm();
+      ++count;
+    });
+    const Vector chord = line.chord(reached.foot.at, count > 0 ? sum / count : 0);
+    const Vector tangent = chord - chord.dot(normal) * normal;
+    const double length = tangent.norm();
+    if (!(length > kNoDirection * chord.norm())) return false;
+    reached.direction = tangent / length;
+    return true;
+  }
+
+  void set(const Scribble& scribble, const Reached& reached, double weight) {
+    const Vector& along = reached.direction;
+    const Vector across = metric_.normals[reached.vertex].cross(along);
+    const double l_along = scribble.attracts ? 1 / scribble.eta : scribble.eta;
+    const Eigen::Matrix3d drawn = l_along * along * along.transpose() + 1 / l_along * across * across.transpose();
+    Eigen::Matrix3d& tensor = metric_.tensors[reached.vertex];
+    tensor = weight < 1 ? Eigen::Matrix3d(weight * drawn + (1 - weight) * tensor) : drawn;
+  }
+
+  // The vertices next to a ring, with the mean of the directions there. Directions are lines without a sense, turned
+  // onto the tangent plane of each vertex. marks_ numbers the `known` vertices of all rings so far.
+  std::vector<Reached> next_ring(const std::vector<Reached>& ring, const DrawnLine& line, std::size_t known) {
+    struct Sum {
+      Vector u, v;                    // basis of the tangent plane
+      double uu = 0, uv = 0, vv = 0;  // sum of the directions' squares
+    };
+    std::vector<Reached> next;
+    std::vector<Sum> sums;
+    for (const Reached& from : ring) {
+      poll_.next();
+      const Vector& m = metric_.normals[from.vertex];
+      neighbors_.vertices(from.vertex, [&](std::int32_t w) {
+        const Vector& n = metric_.normals[w];
+        if (n.isZero(0) || (marks_.has(w) && marks_.at(w) < known)) return;
+        const DrawnLine::Foot foot = line.foot_near(point(w), from.foot.segment);
+        if (!marks_.has(w)) {
+          marks_.set(w, known + next.size());
+          next.push_back({w, foot, Vector::Zero()});
+          const TangentFrame frame = tangent_frame(n);
+          sums.push_back({frame.u, frame.v()});
+        }
+        Reached& to = next[marks_.at(w) - known];
+        Sum& sum = sums[marks_.at(w) - known];
+        if (foot.distance < to.foot.distance) to.foot = foot;
+        const Vector d = turned_by_least_rotation(from.direction, m, n);
+        const double x = d.dot(sum.u), y = d.dot(sum.v);
+        sum.uu += x * x;
+        sum.uv += x * y;
+        sum.vv += y * y;
+      });
+    }
+    for (std::size_t i = 0; i < next.size(); ++i) {
+      const double angle = std::atan2(2 * sums[i].uv, sums[i].uu - sums[i].vv) / 2;
+      next[i].direction = std::cos(angle) * sums[i].u + std::sin(angle) * sums[i].v;
+    }
+    return next;
+  }
 
   const Surface& surface_;
   Metric& metric_;
@@ -228,190 +423,6 @@ class Scribbler {
   EpochMap marks_;  // of vertices: their positions in a list
   Poll poll_;       // of vertices looked at
 };
-
-// The chain of vertices from one to another that stays nearest to a segment of the line, by A*; empty where none leads
-// there within the corridor.
-std::vector<std::int32_t> Scribbler::join(std::int32_t from, std::int32_t to, const DrawnLine& line,
-                                          std::size_t segment) {
-  if (from == to) return {from};
-  struct Node {
-    std::int32_t vertex, before;
-    double cost;
-    bool is_done;
-  };
-  struct Open {
-    double bound;
-    std::int32_t vertex;
-    bool operator>(const Open& other) const {
-      return bound != other.bound ? bound > other.bound : vertex > other.vertex;
-    }
-  };
-  std::vector<Node> nodes;
-  std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
-  marks_.clear();
-  const Vector target = point(to);
-  const double span = (target - point(from)).norm();
-  const auto reach = [&](std::int32_t v, std::int32_t before, double cost) {
-    if (!marks_.has(v)) {
-      marks_.set(v, nodes.size());
-      nodes.push_back({v, before, cost, false});
-    } else {
-      Node& node = nodes[marks_.at(v)];
-      if (node.is_done || !(cost < node.cost)) return;
-      node.cost = cost;
-      node.before = before;
-    }
-    open.push({cost + (target - point(v)).norm(), v});
-  };
-  reach(from, -1, 0);
-  while (!open.empty() && nodes.size() < kMostLookedAt) {
-    poll_.next();
-    const std::int32_t v = open.top().vertex;
-    open.pop();
-    const std::uint32_t here = marks_.at(v);
-    if (nodes[here].is_done) continue;
-    nodes[here].is_done = true;
-    if (v == to) {
-      std::vector<std::int32_t> chain;
-      for (std::int32_t u = v; u >= 0; u = nodes[marks_.at(u)].before) chain.push_back(u);
-      std::reverse(chain.begin(), chain.end());
-      return chain;
-    }
-    const double cost = nodes[here].cost;
-    neighbors_.vertices(v, [&](std::int32_t w) {
-      const double length = (point(w) - point(v)).norm();
-      const double off = line.foot(point(w), segment).distance;
-      if (off > span + kCorridor * length) return;
-      reach(w, v, cost + length + kOffLine * off);
-    });
-  }
-  return {};
-}
-
-// The corners of the triangles that the stroke crosses, and the vertices it runs along, each once. All corners count,
-// not only the nearest ones. If the tensors at the corners of a triangle differ, the metric in it follows neither of
-// them, and the wire would leave the stroke by most of an edge.
-std::vector<Reached> Scribbler::along(const Scribble& given, const std::vector<Vector>& points, const DrawnLine& line) {
-  std::vector<Reached> reached;
-  std::vector<std::pair<std::int32_t, std::size_t>> found;  // a vertex and the segment it was found for
-  for (std::size_t i = 0; i < line.segment_count(); ++i) {
-    const std::int32_t from = nearest_vertex(surface_, given, i), to = nearest_vertex(surface_, given, i + 1);
-    std::vector<std::int32_t> chain = join(from, to, line, i);
-    if (chain.empty()) chain = {from, to};
-    const std::array segment{points[i], points[i + 1]};
-    for (const std::int32_t v : chain) {
-      poll_.next();
-      found.emplace_back(v, i);
-      neighbors_.triangles(v, [&](const Triangle& t) {
-        if (!crosses(segment, {point(t[0]), point(t[1]), point(t[2])})) return;
-        for (const std::int32_t corner : t) found.emplace_back(corner, i);
-      });
-    }
-  }
-  marks_.clear();
-  for (const auto& [v, segment] : found) {
-    poll_.next();
-    const DrawnLine::Foot foot = line.foot_near(point(v), segment);
-    if (!marks_.has(v)) {
-      marks_.set(v, reached.size());
-      reached.push_back({v, foot, Vector::Zero()});
-    } else if (Reached& known = reached[marks_.at(v)]; foot.distance <= known.foot.distance) {
-      known.foot = foot;
-    }
-  }
-  std::erase_if(reached, [&](Reached& r) { return !direct(line, r); });
-  return reached;
-}
-
-// The stroke's direction at a vertex, over a chord as long as two edges there; false where it has none.
-bool Scribbler::direct(const DrawnLine& line, Reached& reached) const {
-  const Vector& normal = metric_.normals[reached.vertex];
-  if (normal.isZero(0)) return false;
-  double sum = 0;
-  int count = 0;
-  neighbors_.vertices(reached.vertex, [&](std::int32_t w) {
-    sum += (point(w) - point(reached.vertex)).norm();
-    ++count;
-  });
-  const Vector chord = line.chord(reached.foot.at, count > 0 ? sum / count : 0);
-  const Vector tangent = chord - chord.dot(normal) * normal;
-  const double length = tangent.norm();
-  if (!(length > kNoDirection * chord.norm())) return false;
-  reached.direction = tangent / length;
-  return true;
-}
-
-// The vertices next to a ring, with the mean of the directions there. Directions are lines without a sense, turned onto
-// the tangent plane of each vertex. marks_ numbers the `known` vertices of all rings so far.
-std::vector<Reached> Scribbler::next_ring(const std::vector<Reached>& ring, const DrawnLine& line, std::size_t known) {
-  struct Sum {
-    Vector u, v;                    // basis of the tangent plane
-    double uu = 0, uv = 0, vv = 0;  // sum of the directions' squares
-  };
-  std::vector<Reached> next;
-  std::vector<Sum> sums;
-  for (const Reached& from : ring) {
-    poll_.next();
-    const Vector& m = metric_.normals[from.vertex];
-    neighbors_.vertices(from.vertex, [&](std::int32_t w) {
-      const Vector& n = metric_.normals[w];
-      if (n.isZero(0) || (marks_.has(w) && marks_.at(w) < known)) return;
-      const DrawnLine::Foot foot = line.foot_near(point(w), from.foot.segment);
-      if (!marks_.has(w)) {
-        marks_.set(w, known + next.size());
-        next.push_back({w, foot, Vector::Zero()});
-        const TangentFrame frame = tangent_frame(n);
-        sums.push_back({frame.u, frame.v()});
-      }
-      Reached& to = next[marks_.at(w) - known];
-      Sum& sum = sums[marks_.at(w) - known];
-      if (foot.distance < to.foot.distance) to.foot = foot;
-      const Vector d = turned_by_least_rotation(from.direction, m, n);
-      const double x = d.dot(sum.u), y = d.dot(sum.v);
-      sum.uu += x * x;
-      sum.uv += x * y;
-      sum.vv += y * y;
-    });
-  }
-  for (std::size_t i = 0; i < next.size(); ++i) {
-    const double angle = std::atan2(2 * sums[i].uv, sums[i].uu - sums[i].vv) / 2;
-    next[i].direction = std::cos(angle) * sums[i].u + std::sin(angle) * sums[i].v;
-  }
-  return next;
-}
-
-void Scribbler::set(const Scribble& scribble, const Reached& reached, double weight) {
-  const Vector& along = reached.direction;
-  const Vector across = metric_.normals[reached.vertex].cross(along);
-  const double l_along = scribble.attracts ? 1 / scribble.eta : scribble.eta;
-  const Eigen::Matrix3d drawn = l_along * along * along.transpose() + 1 / l_along * across * across.transpose();
-  Eigen::Matrix3d& tensor = metric_.tensors[reached.vertex];
-  tensor = weight < 1 ? Eigen::Matrix3d(weight * drawn + (1 - weight) * tensor) : drawn;
-}
-
-void Scribbler::apply(const Scribble& given) {
-  Scribble scribble = given;
-  for (Vector& p : scribble.points) p *= unit_;
-  if (scribble.radius) *scribble.radius *= unit_;
-  const DrawnLine line(scribble.points);
-  if (!(line.length() > 0)) return;
-  std::vector<Reached> ring = along(given, scribble.points, line);
-  marks_.clear();
-  std::size_t known = 0;
-  for (const Reached& reached : ring) {
-    marks_.set(reached.vertex, known++);
-    set(scribble, reached, 1);
-  }
-  for (int r = 1; !ring.empty() && (scribble.radius || r < scribble.rings); ++r) {
-    ring = next_ring(ring, line, known);
-    known += ring.size();
-    if (scribble.radius) std::erase_if(ring, [&](const Reached& v) { return v.foot.distance >= *scribble.radius; });
-    for (const Reached& reached : ring) {
-      set(scribble, reached,
-          1 - (scribble.radius ? reached.foot.distance / *scribble.radius : static_cast<double>(r) / scribble.rings));
-    }
-  }
-}
 
 }  // namespace
 
@@ -467,10 +478,7 @@ void detail::check_scribble(const Surface& surface, const Scribble& scribble, st
 
 Metric apply_scribbles(const Surface& surface, const Metric& metric, std::span<const Scribble> scribbles,
                        std::optional<MetricKind> kind, const Task& task) {
-  if (metric.normals.size() != surface.vertex_count() || metric.tensors.size() != surface.vertex_count()) {
-    throw InvalidInput("metric of " + std::to_string(metric.size()) + " vertices for a surface of " +
-                       std::to_string(surface.vertex_count()));
-  }
+  check_size(surface, metric);
   Metric result{.normals = copied(metric.normals, task, 0.0), .tensors = copied(metric.tensors, task, 0.5)};
   if (scribbles.empty()) return result;
   Scribbler scribbler(surface, result, task);

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "seams/candidate_wires.hpp"
+#include "seamwire/context/surface_context.hpp"
 #include "seamwire/seams/seam_planner.hpp"
 #include "seamwire/task.hpp"
 #include "slits/slit_plan.hpp"
@@ -25,6 +25,8 @@ struct SlitChains {
   static constexpr int kClosest = 2;
 };
 
+class CandidateWires;
+
 /// Makes wires of slits: between seeds where slits meet, end, and bend.
 class PlannedWires {
  public:
@@ -32,6 +34,8 @@ class PlannedWires {
   /// strength; Cancelled.
   PlannedWires(const SurfaceContext& context, Along along, const Strength& strength, std::vector<Edge> rim,
                const Task& task);
+
+  ~PlannedWires();
 
   bool are_across() const { return across_ != nullptr; }
   /// Along edges, wires are the slits. Across the surface, they are the shortest curves between seeds of the slits,

@@ -12,8 +12,8 @@
 #include "detail/run_on_threads.hpp"
 #include "search/distortion_peaks.hpp"
 #include "search/slit_solver.hpp"
-#include "slits/slit_edits.hpp"
-#include "slits/slit_finder.hpp"
+#include "slits/slit_paths.hpp"
+#include "slits/slit_plan.hpp"
 #include "tuning/constants.hpp"
 
 namespace seamwire::detail {
@@ -106,21 +106,241 @@ class Search {
     for (const double one : steps) steps_ += one;
   }
 
-  std::vector<Slit> candidates(const SlitPlan& plan, bool is_thorough) const;
-  double gain_ratio(const SlitPlan& before, const Trial& after, double bound) const;
-  bool grow_once(SlitPlan& plan, double bound, bool is_thorough);
-  void grow(SlitPlan& plan, double bound);
-  void grow_finer(SlitPlan& plan);
-  SlitPlan cut_back(const SlitPlan& plan, std::size_t slit, double share, const Task& task) const;
-  std::vector<Cutback> first_cutbacks(const SlitPlan& plan) const;
-  void look_at_best(const SlitPlan& plan, std::vector<Cutback>& cutbacks);
+  /// Slits that might be added.
+  std::vector<Slit> candidates(const SlitPlan& plan, bool is_thorough) const {
+    const Cut cut = solver_.cut(plan.slits);
+    const PlanMesh& mesh = problem_.mesh;
+    std::vector<std::int32_t> ends;
+    std::vector<std::int32_t> places = distortion_peaks(problem_, plan, cut.is_on_cut);
+    if (is_thorough) {
+      const std::vector<std::int32_t> more = spread_vertices(problem_, cut.is_on_cut, tuning::kThoroughPlaces);
+      places.insert(places.end(), more.begin(), more.end());
+    }
+    for (std::int32_t v : places) {
+      if (problem_.reflection && problem_.reflection->sides[v] < 0 && problem_.reflection->images[v] >= 0) {
+        v = problem_.reflection->images[v];
+      }
+      const bool is_new = std::ranges::all_of(
+          ends, [&](std::int32_t end) { return (mesh.points[v] - mesh.points[end]).norm() > tuning::kSameCandidate; });
+      if (is_new && cut.is_on_cut[v] == 0) ends.push_back(v);
+    }
+    std::vector<Slit> found;
+    const SlitFinder cheap(problem_, cut.is_on_cut, cut.is_on_cut), direct(problem_, cut.is_on_cut, cut.is_on_cut, 0.5);
+    for (const std::int32_t v : ends) {
+      for (const SlitFinder* finder : {&cheap, &direct}) {
+        std::optional<Slit> slit = finder->slit_to(v);
+        const bool is_new = slit && (goal_.may_cross_faces || !crosses_face(problem_, *slit)) &&
+                            std::ranges::none_of(found, [&](const Slit& one) { return one.path == slit->path; });
+        if (is_new) found.push_back(std::move(*slit));
+      }
+    }
+    const auto starts_here = [&](const std::vector<std::int32_t>& chain) {
+      return chain.empty() ||
+             (cut.is_on_cut[chain.front()] != 0 &&
+              std::all_of(chain.begin() + 1, chain.end(), [&](std::int32_t v) { return cut.is_on_cut[v] == 0; }));
+    };
+    for (const Slit& tail : tails_) {
+      if (starts_here(tail.path) && starts_here(tail.image)) found.push_back(tail);
+    }
+    return found;
+  }
+
+  /// The gain of a plan over another one, down to a bound on the energy, divided by the additional cost.
+  double gain_ratio(const SlitPlan& before, const Trial& after, double bound) const {
+    const double price = std::max(after.price - before.price, 0.0) + tuning::kChoicePrice * problem_.prices.of_slit;
+    const double whole = (before.energy - after.energy) / price;
+    return whole > problem_.prices.bargain ? whole
+                                           : std::max(before.energy - std::max(after.energy, bound), 0.0) / price;
+  }
+
+  bool grow_once(SlitPlan& plan, double bound, bool is_thorough) {
+    const std::vector<Slit> slits = candidates(plan, is_thorough);
+    const SlitPlan loose = solver_.relaxed(plan, own_task());
+    steps_ += loose.work;
+    std::vector<Trial> trials(slits.size());
+    in_parallel(slits.size(), [&](std::size_t i, const Task& own) {
+      own.check(0.0);
+      const SlitPlan trial = solver_.try_out(loose, slits[i], own);
+      trials[i] = {trial.energy, trial.price, trial.overlaps};
+      return trial.work;
+    });
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < slits.size(); ++i) {
+      // The barrier against overlaps raises the present energy. Trials have no barrier, so their gain is measured from
+      // the relaxed plan.
+      const double gain = loose.energy - trials[i].energy;
+      const bool is_repaired = plan.overlaps && !trials[i].overlaps;
+      if (!(gain >= least_gain_) && !is_repaired) continue;
+      double ratio = gain_ratio(plan, {plan.energy - gain, trials[i].price, trials[i].overlaps}, bound);
+      if (trials[i].overlaps && !loose.overlaps) ratio *= tuning::kOverlappingGain;
+      if (is_repaired) ratio = std::max(ratio, 0.0) + 1.0;
+      if (ratio > 0.0) order.push_back({-ratio, i});
+    }
+    std::ranges::sort(order);
+    // A trial may overlap itself, or be far from its minimum. So the most promising ones are solved.
+    for (std::size_t begin = 0; begin < order.size() && !is_spent(); begin += kFullSolves) {
+      std::vector<SlitPlan> full(std::min(kFullSolves, order.size() - begin));
+      in_parallel(full.size(), [&](std::size_t k, const Task& own) {
+        full[k] = solver_.extend(plan, slits[order[begin + k].second], own);
+        return full[k].work;
+      });
+      std::size_t best = full.size();
+      double most = 0.0;
+      for (std::size_t k = 0; k < full.size(); ++k) {
+        if ((full[k].overlaps && !plan.overlaps) || !(plan.energy - full[k].energy >= least_gain_)) continue;
+        const double ratio = plan.overlaps && !full[k].overlaps
+                                 ? kInfinity
+                                 : gain_ratio(plan, {full[k].energy, full[k].price, full[k].overlaps}, bound);
+        if (ratio <= most) continue;
+        most = ratio;
+        best = k;
+      }
+      if (best == full.size()) continue;
+      plan = std::move(full[best]);
+      return true;
+    }
+    return false;
+  }
+
+  void grow(SlitPlan& plan, double bound) {
+    while (!is_spent()) {
+      const bool is_grown = grow_once(plan, bound, false) || (!is_within(plan) && grow_once(plan, bound, true));
+      if (!is_grown) return;
+      offer(plan);
+    }
+  }
+
+  /// Grows, and takes slits that gain less while the bound is not reached.
+  void grow_finer(SlitPlan& plan) {
+    least_gain_ = tuning::kLeastGain;
+    grow(plan, goal_.energy - tuning::kGrowBelow);
+    while (!is_within(plan) && !is_spent() && least_gain_ > tuning::kFinestGain) {
+      least_gain_ = std::max(0.25 * least_gain_, tuning::kFinestGain);
+      grow(plan, goal_.energy - tuning::kGrowBelow);
+    }
+    least_gain_ = tuning::kLeastGain;
+  }
+
+  SlitPlan cut_back(const SlitPlan& plan, std::size_t slit, double share, const Task& task) const {
+    std::vector<Slit> slits = plan.slits;
+    const Shortened parts = shortened(problem_.mesh, slits[slit], share);
+    if (parts.left) {
+      slits[slit] = *parts.left;
+    } else {
+      slits.erase(slits.begin() + static_cast<std::ptrdiff_t>(slit));
+    }
+    return solver_.solve_changed(std::move(slits), plan, pieces_of(problem_, plan.slits[slit]), goal_.energy, task);
+  }
+
+  std::vector<Cutback> first_cutbacks(const SlitPlan& plan) const {
+    std::vector<Cutback> cutbacks(plan.slits.size());
+    for (std::size_t k = 0; k < cutbacks.size(); ++k) {
+      cutbacks[k].needed = needed_share(problem_.mesh, plan.slits, k);
+      cutbacks[k].skip_useless_shares();
+    }
+    return cutbacks;
+  }
+
+  /// Looks at the cutbacks with the highest ratios that were not looked at for this plan, several at once.
+  void look_at_best(const SlitPlan& plan, std::vector<Cutback>& cutbacks) {
+    std::vector<std::size_t> order;
+    for (std::size_t k = 0; k < cutbacks.size(); ++k) {
+      if (cutbacks[k].is_open() && !cutbacks[k].plan) order.push_back(k);
+    }
+    std::ranges::stable_sort(order, std::ranges::greater(), [&](std::size_t k) { return cutbacks[k].ratio; });
+    order.resize(std::min(order.size(), kBatch));
+    in_parallel(order.size(), [&](std::size_t i, const Task& own) {
+      own.check(0.0);
+      Cutback& cutback = cutbacks[order[i]];
+      SlitPlan result = cut_back(plan, order[i], cutback.share(), own);
+      const double work = result.work, saved = plan.price - result.price;
+      const double ratio = saved / std::max(result.energy - plan.energy, 1e-4);
+      if (is_within(result) && saved > 0.0 && ratio * problem_.prices.bargain > 1.0) {
+        cutback.ratio = ratio;
+        cutback.plan = std::move(result);
+      } else {
+        cutback.fail();
+      }
+      return work;
+    });
+  }
+
   void keep_tail(Slit tail) {
     const bool is_new = std::ranges::none_of(tails_, [&](const Slit& one) { return one.path == tail.path; });
     if (is_new) tails_.push_back(std::move(tail));
   }
-  void shrink(SlitPlan& plan);
-  std::vector<std::size_t> worst_bargains(const SlitPlan& plan);
-  bool exchange(const SlitPlan& plan);
+
+  /// Lazy greedy: the ratios of the last look say which slits are worth another one.
+  void shrink(SlitPlan& plan) {
+    if (!is_within(plan)) return;
+    std::vector<Cutback> cutbacks = first_cutbacks(plan);
+    while (!is_spent()) {
+      std::size_t best = cutbacks.size();
+      for (std::size_t k = 0; k < cutbacks.size(); ++k) {
+        if (cutbacks[k].is_open() && (best == cutbacks.size() || cutbacks[k].ratio > cutbacks[best].ratio)) best = k;
+      }
+      if (best == cutbacks.size()) return;
+      if (!cutbacks[best].plan) {
+        look_at_best(plan, cutbacks);
+        continue;
+      }
+      keep_tail(shortened(problem_.mesh, plan.slits[best], cutbacks[best].share()).tail);
+      SlitPlan next = std::move(*cutbacks[best].plan);
+      if (next.slits.size() < plan.slits.size()) cutbacks.erase(cutbacks.begin() + static_cast<std::ptrdiff_t>(best));
+      plan = std::move(next);
+      offer(plan);
+      for (std::size_t k = 0; k < cutbacks.size(); ++k) {
+        const double needed = needed_share(problem_.mesh, plan.slits, k);
+        const bool is_freed = needed < cutbacks[k].needed;
+        if (is_freed) cutbacks[k] = {.needed = needed};
+        cutbacks[k].plan.reset();
+        cutbacks[k].skip_useless_shares();
+      }
+    }
+  }
+
+  /// The slits that cost most for what they gain, without those that others need.
+  std::vector<std::size_t> worst_bargains(const SlitPlan& plan) {
+    std::vector<std::size_t> free;
+    for (std::size_t k = 0; k < plan.slits.size(); ++k) {
+      if (without_slit(plan.slits, k).size() < plan.slits.size()) free.push_back(k);
+    }
+    std::vector<std::pair<double, std::size_t>> order(free.size());
+    in_parallel(free.size(), [&](std::size_t i, const Task& own) {
+      own.check(0.0);
+      std::vector<Slit> slits = without_slit(plan.slits, free[i]);
+      std::vector<std::int32_t> pieces = pieces_of(problem_, plan.slits[free[i]]);
+      const SlitPlan result = solver_.solve_changed(std::move(slits), plan, pieces, kInfinity, own);
+      const double gained = std::max(result.energy - plan.energy, 1e-4);
+      order[i] = {-(plan.price - result.price) / gained, free[i]};
+      return result.work;
+    });
+    std::ranges::sort(order);
+    std::vector<std::size_t> worst;
+    worst.reserve(order.size());
+    for (const auto& [ratio, k] : order) worst.push_back(k);
+    return worst;
+  }
+
+  /// Tries others in the place of the worst slits; whether that made a better plan.
+  bool exchange(const SlitPlan& plan) {
+    const SlitPlan before =
+        plan;  // NOLINT(performance-unnecessary-copy-initialization): `plan` is replaced by better ones
+    if (is_spent()) return false;
+    std::size_t tries = 0;
+    for (const std::size_t k : worst_bargains(before)) {
+      if (tries++ == tuning::kExchanges || is_spent()) return false;
+      SlitPlan next = solver_.solve(without_slit(before.slits, k), own_task());
+      steps_ += next.work;
+      grow(next, goal_.energy - tuning::kGrowBelow);
+      shrink(next);
+      if (is_within(next) && next.price < before.price - tuning::kLeastSaving) {
+        offer(next);
+        return true;
+      }
+    }
+    return false;
+  }
 
   const SlitProblem& problem_;
   SlitSolver solver_;
@@ -132,236 +352,6 @@ class Search {
   double steps_ = 0.0;
   double least_gain_ = tuning::kLeastGain;
 };
-
-/// Slits that might be added.
-std::vector<Slit> Search::candidates(const SlitPlan& plan, bool is_thorough) const {
-  const Cut cut = solver_.cut(plan.slits);
-  const PlanMesh& mesh = problem_.mesh;
-  std::vector<std::int32_t> ends;
-  std::vector<std::int32_t> places = distortion_peaks(problem_, plan, cut.is_on_cut);
-  if (is_thorough) {
-    const std::vector<std::int32_t> more = spread_vertices(problem_, cut.is_on_cut, tuning::kThoroughPlaces);
-    places.insert(places.end(), more.begin(), more.end());
-  }
-  for (std::int32_t v : places) {
-    if (problem_.reflection && problem_.reflection->sides[v] < 0 && problem_.reflection->images[v] >= 0) {
-      v = problem_.reflection->images[v];
-    }
-    const bool is_new = std::ranges::all_of(
-        ends, [&](std::int32_t end) { return (mesh.points[v] - mesh.points[end]).norm() > tuning::kSameCandidate; });
-    if (is_new && cut.is_on_cut[v] == 0) ends.push_back(v);
-  }
-  std::vector<Slit> found;
-  const SlitFinder cheap(problem_, cut.is_on_cut, cut.is_on_cut), direct(problem_, cut.is_on_cut, cut.is_on_cut, 0.5);
-  for (const std::int32_t v : ends) {
-    for (const SlitFinder* finder : {&cheap, &direct}) {
-      std::optional<Slit> slit = finder->slit_to(v);
-      const bool is_new = slit && (goal_.may_cross_faces || !crosses_face(problem_, *slit)) &&
-                          std::ranges::none_of(found, [&](const Slit& one) { return one.path == slit->path; });
-      if (is_new) found.push_back(std::move(*slit));
-    }
-  }
-  const auto starts_here = [&](const std::vector<std::int32_t>& chain) {
-    return chain.empty() ||
-           (cut.is_on_cut[chain.front()] != 0 &&
-            std::all_of(chain.begin() + 1, chain.end(), [&](std::int32_t v) { return cut.is_on_cut[v] == 0; }));
-  };
-  for (const Slit& tail : tails_) {
-    if (starts_here(tail.path) && starts_here(tail.image)) found.push_back(tail);
-  }
-  return found;
-}
-
-/// The gain of a plan over another one, down to a bound on the energy, divided by the additional cost.
-double Search::gain_ratio(const SlitPlan& before, const Trial& after, double bound) const {
-  const double price = std::max(after.price - before.price, 0.0) + tuning::kChoicePrice * problem_.prices.of_slit;
-  const double whole = (before.energy - after.energy) / price;
-  return whole > problem_.prices.bargain ? whole : std::max(before.energy - std::max(after.energy, bound), 0.0) / price;
-}
-
-bool Search::grow_once(SlitPlan& plan, double bound, bool is_thorough) {
-  const std::vector<Slit> slits = candidates(plan, is_thorough);
-  const SlitPlan loose = solver_.relaxed(plan, own_task());
-  steps_ += loose.work;
-  std::vector<Trial> trials(slits.size());
-  in_parallel(slits.size(), [&](std::size_t i, const Task& own) {
-    own.check(0.0);
-    const SlitPlan trial = solver_.try_out(loose, slits[i], own);
-    trials[i] = {trial.energy, trial.price, trial.overlaps};
-    return trial.work;
-  });
-  std::vector<std::pair<double, std::size_t>> order;
-  for (std::size_t i = 0; i < slits.size(); ++i) {
-    // The barrier against overlaps raises the present energy. Trials have no barrier, so their gain is measured from
-    // the relaxed plan.
-    const double gain = loose.energy - trials[i].energy;
-    const bool is_repaired = plan.overlaps && !trials[i].overlaps;
-    if (!(gain >= least_gain_) && !is_repaired) continue;
-    double ratio = gain_ratio(plan, {plan.energy - gain, trials[i].price, trials[i].overlaps}, bound);
-    if (trials[i].overlaps && !loose.overlaps) ratio *= tuning::kOverlappingGain;
-    if (is_repaired) ratio = std::max(ratio, 0.0) + 1.0;
-    if (ratio > 0.0) order.push_back({-ratio, i});
-  }
-  std::ranges::sort(order);
-  // A trial may overlap itself, or be far from its minimum. So the most promising ones are solved.
-  for (std::size_t begin = 0; begin < order.size() && !is_spent(); begin += kFullSolves) {
-    std::vector<SlitPlan> full(std::min(kFullSolves, order.size() - begin));
-    in_parallel(full.size(), [&](std::size_t k, const Task& own) {
-      full[k] = solver_.extend(plan, slits[order[begin + k].second], own);
-      return full[k].work;
-    });
-    std::size_t best = full.size();
-    double most = 0.0;
-    for (std::size_t k = 0; k < full.size(); ++k) {
-      if ((full[k].overlaps && !plan.overlaps) || !(plan.energy - full[k].energy >= least_gain_)) continue;
-      const double ratio = plan.overlaps && !full[k].overlaps
-                               ? kInfinity
-                               : gain_ratio(plan, {full[k].energy, full[k].price, full[k].overlaps}, bound);
-      if (ratio <= most) continue;
-      most = ratio;
-      best = k;
-    }
-    if (best == full.size()) continue;
-    plan = std::move(full[best]);
-    return true;
-  }
-  return false;
-}
-
-void Search::grow(SlitPlan& plan, double bound) {
-  while (!is_spent()) {
-    const bool is_grown = grow_once(plan, bound, false) || (!is_within(plan) && grow_once(plan, bound, true));
-    if (!is_grown) return;
-    offer(plan);
-  }
-}
-
-/// Grows, and takes slits that gain less while the bound is not reached.
-void Search::grow_finer(SlitPlan& plan) {
-  least_gain_ = tuning::kLeastGain;
-  grow(plan, goal_.energy - tuning::kGrowBelow);
-  while (!is_within(plan) && !is_spent() && least_gain_ > tuning::kFinestGain) {
-    least_gain_ = std::max(0.25 * least_gain_, tuning::kFinestGain);
-    grow(plan, goal_.energy - tuning::kGrowBelow);
-  }
-  least_gain_ = tuning::kLeastGain;
-}
-
-SlitPlan Search::cut_back(const SlitPlan& plan, std::size_t slit, double share, const Task& task) const {
-  std::vector<Slit> slits = plan.slits;
-  const Shortened parts = shortened(problem_.mesh, slits[slit], share);
-  if (parts.left) {
-    slits[slit] = *parts.left;
-  } else {
-    slits.erase(slits.begin() + static_cast<std::ptrdiff_t>(slit));
-  }
-  return solver_.solve_changed(std::move(slits), plan, pieces_of(problem_, plan.slits[slit]), goal_.energy, task);
-}
-
-std::vector<Cutback> Search::first_cutbacks(const SlitPlan& plan) const {
-  std::vector<Cutback> cutbacks(plan.slits.size());
-  for (std::size_t k = 0; k < cutbacks.size(); ++k) {
-    cutbacks[k].needed = needed_share(problem_.mesh, plan.slits, k);
-    cutbacks[k].skip_useless_shares();
-  }
-  return cutbacks;
-}
-
-/// Looks at the cutbacks with the highest ratios that were not looked at for this plan, several at once.
-void Search::look_at_best(const SlitPlan& plan, std::vector<Cutback>& cutbacks) {
-  std::vector<std::size_t> order;
-  for (std::size_t k = 0; k < cutbacks.size(); ++k) {
-    if (cutbacks[k].is_open() && !cutbacks[k].plan) order.push_back(k);
-  }
-  std::ranges::stable_sort(order, std::ranges::greater(), [&](std::size_t k) { return cutbacks[k].ratio; });
-  order.resize(std::min(order.size(), kBatch));
-  in_parallel(order.size(), [&](std::size_t i, const Task& own) {
-    own.check(0.0);
-    Cutback& cutback = cutbacks[order[i]];
-    SlitPlan result = cut_back(plan, order[i], cutback.share(), own);
-    const double work = result.work, saved = plan.price - result.price;
-    const double ratio = saved / std::max(result.energy - plan.energy, 1e-4);
-    if (is_within(result) && saved > 0.0 && ratio * problem_.prices.bargain > 1.0) {
-      cutback.ratio = ratio;
-      cutback.plan = std::move(result);
-    } else {
-      cutback.fail();
-    }
-    return work;
-  });
-}
-
-/// Lazy greedy: the ratios of the last look say which slits are worth another one.
-void Search::shrink(SlitPlan& plan) {
-  if (!is_within(plan)) return;
-  std::vector<Cutback> cutbacks = first_cutbacks(plan);
-  while (!is_spent()) {
-    std::size_t best = cutbacks.size();
-    for (std::size_t k = 0; k < cutbacks.size(); ++k) {
-      if (cutbacks[k].is_open() && (best == cutbacks.size() || cutbacks[k].ratio > cutbacks[best].ratio)) best = k;
-    }
-    if (best == cutbacks.size()) return;
-    if (!cutbacks[best].plan) {
-      look_at_best(plan, cutbacks);
-      continue;
-    }
-    keep_tail(shortened(problem_.mesh, plan.slits[best], cutbacks[best].share()).tail);
-    SlitPlan next = std::move(*cutbacks[best].plan);
-    if (next.slits.size() < plan.slits.size()) cutbacks.erase(cutbacks.begin() + static_cast<std::ptrdiff_t>(best));
-    plan = std::move(next);
-    offer(plan);
-    for (std::size_t k = 0; k < cutbacks.size(); ++k) {
-      const double needed = needed_share(problem_.mesh, plan.slits, k);
-      const bool is_freed = needed < cutbacks[k].needed;
-      if (is_freed) cutbacks[k] = {.needed = needed};
-      cutbacks[k].plan.reset();
-      cutbacks[k].skip_useless_shares();
-    }
-  }
-}
-
-/// The slits that cost most for what they gain, without those that others need.
-std::vector<std::size_t> Search::worst_bargains(const SlitPlan& plan) {
-  std::vector<std::size_t> free;
-  for (std::size_t k = 0; k < plan.slits.size(); ++k) {
-    if (without_slit(plan.slits, k).size() < plan.slits.size()) free.push_back(k);
-  }
-  std::vector<std::pair<double, std::size_t>> order(free.size());
-  in_parallel(free.size(), [&](std::size_t i, const Task& own) {
-    own.check(0.0);
-    std::vector<Slit> slits = without_slit(plan.slits, free[i]);
-    std::vector<std::int32_t> pieces = pieces_of(problem_, plan.slits[free[i]]);
-    const SlitPlan result = solver_.solve_changed(std::move(slits), plan, pieces, kInfinity, own);
-    const double gained = std::max(result.energy - plan.energy, 1e-4);
-    order[i] = {-(plan.price - result.price) / gained, free[i]};
-    return result.work;
-  });
-  std::ranges::sort(order);
-  std::vector<std::size_t> worst;
-  worst.reserve(order.size());
-  for (const auto& [ratio, k] : order) worst.push_back(k);
-  return worst;
-}
-
-/// Tries others in the place of the worst slits; whether that made a better plan.
-bool Search::exchange(const SlitPlan& plan) {
-  const SlitPlan before =
-      plan;  // NOLINT(performance-unnecessary-copy-initialization): `plan` is replaced by better ones
-  if (is_spent()) return false;
-  std::size_t tries = 0;
-  for (const std::size_t k : worst_bargains(before)) {
-    if (tries++ == tuning::kExchanges || is_spent()) return false;
-    SlitPlan next = solver_.solve(without_slit(before.slits, k), own_task());
-    steps_ += next.work;
-    grow(next, goal_.energy - tuning::kGrowBelow);
-    shrink(next);
-    if (is_within(next) && next.price < before.price - tuning::kLeastSaving) {
-      offer(next);
-      return true;
-    }
-  }
-  return false;
-}
 
 }  // namespace
 

@@ -12,7 +12,7 @@
 #include "detail/index.hpp"
 #include "detail/run_on_threads.hpp"
 #include "parameterization/open_island.hpp"
-#include "slits/slit_edits.hpp"
+#include "slits/slit_plan.hpp"
 #include "tuning/constants.hpp"
 
 namespace seamwire::detail {
@@ -58,8 +58,7 @@ SlitPlan SlitSolver::solve_changed(std::vector<Slit> slits, const SlitPlan& befo
     IslandMap map = map_island(*island, problem_.mesh.points, options, own_task);
     const double steps = static_cast<double>(map.steps) * own;
     if (!map.uvs.empty()) {
-      plan.maps[p] =
-          std::make_shared<const PieceMap>(piece_map(problem_.mesh.points, std::move(*island), std::move(map)));
+      plan.maps[p] = piece_map(problem_.mesh.points, std::move(*island), std::move(map));
     }
     return steps;
   });
@@ -94,7 +93,7 @@ SlitPlan SlitSolver::relaxed(const SlitPlan& plan, const Task& task) const {
     const PieceMap& before = *plan.maps[p];
     IslandMap map = continue_map(before.island, problem_.mesh.points, before.map.uvs, options, own);
     const double steps = static_cast<double>(map.steps) * problem_.by_piece[p].area;
-    loose.maps[p] = std::make_shared<const PieceMap>(piece_map(problem_.mesh.points, before.island, std::move(map)));
+    loose.maps[p] = piece_map(problem_.mesh.points, before.island, std::move(map));
     return steps;
   });
   sum_up(problem_, loose);
@@ -117,8 +116,7 @@ SlitPlan SlitSolver::continued(const SlitPlan& before, const Slit& slit, const M
     if (!island || !before.maps[p]) return plan;
     IslandMap map = continue_map(*island, problem_.mesh.points, carried_over(*before.maps[p], *island), options, task);
     plan.work += static_cast<double>(map.steps) * problem_.by_piece[p].area;
-    plan.maps[p] =
-        std::make_shared<const PieceMap>(piece_map(problem_.mesh.points, std::move(*island), std::move(map)));
+    plan.maps[p] = piece_map(problem_.mesh.points, std::move(*island), std::move(map));
   }
   sum_up(problem_, plan);
   return plan;
@@ -147,7 +145,7 @@ CutMaps solve_cut(const PlanMesh& mesh, std::span<const std::uint8_t> is_cut, co
     if (!is_planar(islands[i])) return;
     IslandMap map = map_island(islands[i], mesh.points, options, own);
     if (map.uvs.empty()) return;
-    found.maps[i] = std::make_shared<const PieceMap>(piece_map(mesh.points, std::move(islands[i]), std::move(map)));
+    found.maps[i] = piece_map(mesh.points, std::move(islands[i]), std::move(map));
   });
   return found;
 }

@@ -5,9 +5,8 @@
 #include <set>
 
 #include "detail/index.hpp"
-#include "slits/slit_edits.hpp"
-#include "slits/slit_finder.hpp"
 #include "slits/slit_paths.hpp"
+#include "slits/slit_plan.hpp"
 
 namespace seamwire::detail {
 namespace {

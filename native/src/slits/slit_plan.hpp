@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -67,7 +68,7 @@ struct PieceMap {
   IslandMap map;
   std::vector<double> energies;  ///< E_d of each triangle
 };
-PieceMap piece_map(std::span<const Vector> points, Island island, IslandMap map);
+std::shared_ptr<const PieceMap> piece_map(std::span<const Vector> points, Island island, IslandMap map);
 
 /// A state of the search: slits, and the maps of all pieces with them.
 struct SlitPlan {
@@ -86,6 +87,9 @@ bool crosses_face(const SlitProblem& problem, const Slit& slit);
 /// The pieces in which a slit lies, ascending.
 std::vector<std::int32_t> pieces_of(const SlitProblem& problem, const Slit& slit);
 
+/// The islands into which a cut parts a piece. `is_cut`: of each edge.
+std::vector<Island> islands_of(const SlitProblem& problem, std::span<const std::uint8_t> is_cut, std::int32_t piece);
+
 /// The island of a piece with a cut; nullopt if it is not a disc, or a disc with holes.
 std::optional<Island> open_piece(const SlitProblem& problem, const Cut& cut, std::int32_t piece);
 
@@ -97,5 +101,26 @@ double mean_energy(std::vector<std::pair<double, double>> energies);
 
 /// Sums up the maps.
 void sum_up(const SlitProblem& problem, SlitPlan& plan);
+
+/// A slit that was cut shorter, and what was taken off.
+struct Shortened {
+  std::optional<Slit> left;  ///< nullopt if nothing is left
+  Slit tail;                 ///< starts where the rest ends
+};
+
+/// The length of a chain of vertices.
+double chain_length(const PlanMesh& mesh, std::span<const std::int32_t> chain);
+
+/// Keeps a share of a slit's length, from 0 to 1. The mirror image starts where the path leaves the mirror plane.
+Shortened shortened(const PlanMesh& mesh, const Slit& slit, double share);
+
+/// The least share of a slit's length that has to stay, because other slits start on it.
+double needed_share(const PlanMesh& mesh, std::span<const Slit> slits, std::size_t which);
+
+/// Slits with one more, which is appended to the slit that ends where it starts, if there is one.
+std::vector<Slit> with_slit(const PlanMesh& mesh, std::span<const Slit> slits, const Slit& slit);
+
+/// Slits without one, and without those that start on it. All of them if one of these is needed.
+std::vector<Slit> without_slit(std::span<const Slit> slits, std::size_t which);
 
 }  // namespace seamwire::detail

@@ -12,8 +12,8 @@
 #include "detail/index.hpp"
 #include "detail/shortest_paths.hpp"
 #include "slits/piece_body.hpp"
-#include "slits/slit_edits.hpp"
-#include "slits/slit_finder.hpp"
+#include "slits/slit_paths.hpp"
+#include "slits/slit_plan.hpp"
 #include "tuning/constants.hpp"
 
 namespace seamwire::detail {
@@ -105,40 +105,37 @@ class HandleLoops {
     return before_[island_.tail(h)] == island_.tip(h) || before_[island_.tip(h)] == island_.tail(h);
   }
 
-  void find_tree(std::int32_t root);
-  std::vector<std::int32_t> loop_through(std::int32_t h) const;
+  void find_tree(std::int32_t root) {
+    std::vector<std::pair<std::int32_t, std::pair<std::int32_t, double>>> pairs;
+    for (std::int32_t h = 0; index(h) < island_.twins.size(); ++h) {
+      const double price = edge_price(h);
+      if ((island_.twins[h] >= 0 && island_.twins[h] < h) || !std::isfinite(price)) continue;
+      pairs.push_back({island_.tail(h), {island_.tip(h), price}});
+      pairs.push_back({island_.tip(h), {island_.tail(h), price}});
+    }
+    const Csr<std::pair<std::int32_t, double>> neighbors(price_.size(), pairs);
+    find_shortest_paths(std::array{root}, price_, [&](std::int32_t v, const auto& step) {
+      for (const auto& [next, price] : neighbors[v]) {
+        if (step(next, price)) before_[next] = v;
+      }
+    });
+  }
+
+  std::vector<std::int32_t> loop_through(std::int32_t h) const {
+    std::vector<std::int32_t> there, back;
+    for (std::int32_t v = island_.tail(h); v >= 0; v = before_[v]) there.push_back(v);
+    for (std::int32_t v = island_.tip(h); v >= 0; v = before_[v]) back.push_back(v);
+    std::ranges::reverse(there);
+    there.insert(there.end(), back.begin(), back.end());
+    for (std::int32_t& v : there) v = island_.vertices[v];
+    return there;
+  }
 
   const SlitProblem& problem_;
   const Island& island_;
   std::vector<double> price_;
   std::vector<std::int32_t> before_;
 };
-
-void HandleLoops::find_tree(std::int32_t root) {
-  std::vector<std::pair<std::int32_t, std::pair<std::int32_t, double>>> pairs;
-  for (std::int32_t h = 0; index(h) < island_.twins.size(); ++h) {
-    const double price = edge_price(h);
-    if ((island_.twins[h] >= 0 && island_.twins[h] < h) || !std::isfinite(price)) continue;
-    pairs.push_back({island_.tail(h), {island_.tip(h), price}});
-    pairs.push_back({island_.tip(h), {island_.tail(h), price}});
-  }
-  const Csr<std::pair<std::int32_t, double>> neighbors(price_.size(), pairs);
-  find_shortest_paths(std::array{root}, price_, [&](std::int32_t v, const auto& step) {
-    for (const auto& [next, price] : neighbors[v]) {
-      if (step(next, price)) before_[next] = v;
-    }
-  });
-}
-
-std::vector<std::int32_t> HandleLoops::loop_through(std::int32_t h) const {
-  std::vector<std::int32_t> there, back;
-  for (std::int32_t v = island_.tail(h); v >= 0; v = before_[v]) there.push_back(v);
-  for (std::int32_t v = island_.tip(h); v >= 0; v = before_[v]) back.push_back(v);
-  std::ranges::reverse(there);
-  there.insert(there.end(), back.begin(), back.end());
-  for (std::int32_t& v : there) v = island_.vertices[v];
-  return there;
-}
 
 /// Slits along loops of handles. A loop that comes back to itself, or to a slit before, ends there.
 std::vector<Slit> handle_slits(const SlitProblem& problem, const std::vector<std::vector<std::int32_t>>& loops) {

@@ -14,6 +14,11 @@ inline double nearest_on_segment(const Vector& p, const Vector& a, const Vector&
   return squared > 0 ? std::clamp((p - a).dot(e) / squared, 0.0, 1.0) : 0.0;
 }
 
+/// The distance of p to the segment from a to b.
+inline double distance_to_segment(const Vector& p, const Vector& a, const Vector& b) {
+  return (p - a - nearest_on_segment(p, a, b) * (b - a)).norm();
+}
+
 /// From p to the nearest point of the segment from a to b.
 inline Vector to_segment(const Vector& p, const Vector& a, const Vector& b) {
   return a + nearest_on_segment(p, a, b) * (b - a) - p;

@@ -145,97 +145,92 @@ class Sides {
 /// to the same sheet, or where the line crosses it to the other one. Of the faces that are left the k-th one is k on
 /// the sheet of its first corner being the first one, and k + m else.
 struct DoubleCover {
-  DoubleCover(const IntrinsicMesh& below, const std::vector<std::int32_t>& half_edges, const Crossed& line);
+  DoubleCover(const IntrinsicMesh& below, const std::vector<std::int32_t>& half_edges, const Crossed& line)
+      : vertex_count(below.vertex_count), number(below.face_count(), -1) {
+    std::vector<std::uint8_t> is_crossed(3 * below.face_count(), 0);
+    for (std::size_t e = 0; e < half_edges.size(); ++e) {
+      is_crossed[half_edges[e]] = line.edges[e];
+      if (const std::int32_t twin = below.twins[half_edges[e]]; twin >= 0) is_crossed[twin] = line.edges[e];
+    }
+    for (std::int32_t f = 0; index(f) < below.face_count(); ++f) {
+      if (std::ranges::count(line.places, f) > 0) continue;
+      number[f] = static_cast<std::int32_t>(kept.size());
+      kept.push_back(f);
+    }
+    // Whether the beginning of a half-edge is on another sheet than the first corner of its face.
+    const auto is_other = [&](std::int32_t h) {
+      const std::int32_t first = h - h % 3;
+      return h % 3 == 0 ? false : h % 3 == 1 ? is_crossed[first] != 0 : is_crossed[first] != is_crossed[first + 1];
+    };
+    const auto face_count = static_cast<std::int32_t>(kept.size());
+    // What lies above a half-edge of an edge, on the sheet where a corner of its face at that edge is.
+    const auto above = [&](std::int32_t h, std::int32_t corner, bool corner_is_other) {
+      return 3 * (number[h / 3] + (corner_is_other != is_other(corner) ? face_count : 0)) + h % 3;
+    };
+    mesh.vertex_count = 2 * vertex_count;
+    if (!below.siblings.empty()) mesh.siblings.reserve(6 * kept.size());
+    for (const bool other : {false, true}) {
+      for (const std::int32_t f : kept) {
+        Triangle corners{};
+        for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
+          corners[index(h % 3)] = below.tail(h) + (is_other(h) != other ? vertex_count : 0);
+          const std::int32_t twin = below.twins[h];
+          mesh.lengths.push_back(below.lengths[h]);
+          if (!below.siblings.empty()) {  // the next one that is left
+            std::int32_t s = below.siblings[h];
+            while (s >= 0 && s != h && number[s / 3] < 0) s = below.siblings[s];
+            const bool tail_is_other = is_other(h) != other;
+            const bool is_alone = s < 0 || s == h;
+            mesh.siblings.push_back(
+                is_alone ? -1 : above(s, below.tail(s) == below.tail(h) ? s : next_in_face(s), tail_is_other));
+          }
+          if (twin < 0 || number[twin / 3] < 0) {
+            mesh.twins.push_back(-1);
+            continue;
+          }
+          const bool twin_other =
+              (is_other(next_in_face(h)) != other) != is_other(twin);  // they share a vertex of a sheet
+          mesh.twins.push_back(3 * (number[twin / 3] + (twin_other ? face_count : 0)) + twin % 3);
+        }
+        mesh.triangles.push_back(corners);
+      }
+      for (const LooseEdge& edge : below.loose_edges) {
+        const std::int32_t shift = other ? vertex_count : 0;
+        mesh.loose_edges.push_back({edge.a + shift, edge.b + shift, edge.length});
+      }
+    }
+  }
 
   /// A point on either sheet; -1 where its face was taken out.
-  SurfacePoint lifted(SurfacePoint point, bool other) const;
+  SurfacePoint lifted(SurfacePoint point, bool other) const {
+    if (point.vertex >= 0) {
+      point.vertex += other ? vertex_count : 0;
+    } else {
+      point.face = number[point.face];
+      if (point.face >= 0 && other) point.face += static_cast<std::int32_t>(kept.size());
+    }
+    return point;
+  }
+
   /// What lies below a path.
-  IntrinsicPath projected(IntrinsicPath path) const;
+  IntrinsicPath projected(IntrinsicPath path) const {
+    const auto face_below = [this](std::int32_t f) { return kept[index(f) % kept.size()]; };
+    for (PathPoint& at : path.points) {
+      if (at.vertex >= 0) at.vertex %= vertex_count;
+      if (at.half_edge >= 0) at.half_edge = 3 * face_below(at.half_edge / 3) + at.half_edge % 3;
+      if (at.face >= 0) at.face = face_below(at.face);
+    }
+    for (std::int32_t& f : path.faces) {
+      if (f >= 0) f = face_below(f);
+    }
+    return path;
+  }
 
   std::int32_t vertex_count;
   std::vector<std::int32_t> kept;    ///< the faces that are left
   std::vector<std::int32_t> number;  ///< of a face among them, -1
   IntrinsicMesh mesh;
 };
-
-DoubleCover::DoubleCover(const IntrinsicMesh& below, const std::vector<std::int32_t>& half_edges, const Crossed& line)
-    : vertex_count(below.vertex_count), number(below.face_count(), -1) {
-  std::vector<std::uint8_t> is_crossed(3 * below.face_count(), 0);
-  for (std::size_t e = 0; e < half_edges.size(); ++e) {
-    is_crossed[half_edges[e]] = line.edges[e];
-    if (const std::int32_t twin = below.twins[half_edges[e]]; twin >= 0) is_crossed[twin] = line.edges[e];
-  }
-  for (std::int32_t f = 0; index(f) < below.face_count(); ++f) {
-    if (std::ranges::count(line.places, f) > 0) continue;
-    number[f] = static_cast<std::int32_t>(kept.size());
-    kept.push_back(f);
-  }
-  // Whether the beginning of a half-edge is on another sheet than the first corner of its face.
-  const auto is_other = [&](std::int32_t h) {
-    const std::int32_t first = h - h % 3;
-    return h % 3 == 0 ? false : h % 3 == 1 ? is_crossed[first] != 0 : is_crossed[first] != is_crossed[first + 1];
-  };
-  const auto face_count = static_cast<std::int32_t>(kept.size());
-  // What lies above a half-edge of an edge, on the sheet where a corner of its face at that edge is.
-  const auto above = [&](std::int32_t h, std::int32_t corner, bool corner_is_other) {
-    return 3 * (number[h / 3] + (corner_is_other != is_other(corner) ? face_count : 0)) + h % 3;
-  };
-  mesh.vertex_count = 2 * vertex_count;
-  if (!below.siblings.empty()) mesh.siblings.reserve(6 * kept.size());
-  for (const bool other : {false, true}) {
-    for (const std::int32_t f : kept) {
-      Triangle corners{};
-      for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
-        corners[index(h % 3)] = below.tail(h) + (is_other(h) != other ? vertex_count : 0);
-        const std::int32_t twin = below.twins[h];
-        mesh.lengths.push_back(below.lengths[h]);
-        if (!below.siblings.empty()) {  // the next one that is left
-          std::int32_t s = below.siblings[h];
-          while (s >= 0 && s != h && number[s / 3] < 0) s = below.siblings[s];
-          const bool tail_is_other = is_other(h) != other;
-          const bool is_alone = s < 0 || s == h;
-          mesh.siblings.push_back(
-              is_alone ? -1 : above(s, below.tail(s) == below.tail(h) ? s : next_in_face(s), tail_is_other));
-        }
-        if (twin < 0 || number[twin / 3] < 0) {
-          mesh.twins.push_back(-1);
-          continue;
-        }
-        const bool twin_other =
-            (is_other(next_in_face(h)) != other) != is_other(twin);  // they share a vertex of a sheet
-        mesh.twins.push_back(3 * (number[twin / 3] + (twin_other ? face_count : 0)) + twin % 3);
-      }
-      mesh.triangles.push_back(corners);
-    }
-    for (const LooseEdge& edge : below.loose_edges) {
-      const std::int32_t shift = other ? vertex_count : 0;
-      mesh.loose_edges.push_back({edge.a + shift, edge.b + shift, edge.length});
-    }
-  }
-}
-
-SurfacePoint DoubleCover::lifted(SurfacePoint point, bool other) const {
-  if (point.vertex >= 0) {
-    point.vertex += other ? vertex_count : 0;
-  } else {
-    point.face = number[point.face];
-    if (point.face >= 0 && other) point.face += static_cast<std::int32_t>(kept.size());
-  }
-  return point;
-}
-
-IntrinsicPath DoubleCover::projected(IntrinsicPath path) const {
-  const auto face_below = [this](std::int32_t f) { return kept[index(f) % kept.size()]; };
-  for (PathPoint& at : path.points) {
-    if (at.vertex >= 0) at.vertex %= vertex_count;
-    if (at.half_edge >= 0) at.half_edge = 3 * face_below(at.half_edge / 3) + at.half_edge % 3;
-    if (at.face >= 0) at.face = face_below(at.face);
-  }
-  for (std::int32_t& f : path.faces) {
-    if (f >= 0) f = face_below(f);
-  }
-  return path;
-}
 
 Vector position(const Embedding& embedding, const SurfacePoint& point) {
   return detail::position(embedding,

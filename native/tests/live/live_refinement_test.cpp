@@ -14,7 +14,7 @@
 #include "seamwire/live/livewire.hpp"
 #include "shapes.hpp"
 #include "thread_sanitizer.hpp"
-#include "wires/refined_wire.hpp"
+#include "wires/local_wires.hpp"
 
 namespace seamwire {
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "detail/deadline.hpp"
-#include "live/event_count.hpp"
 #include "live/live_wires.hpp"
+#include "live/mailbox.hpp"
 #include "live/right_of_way.hpp"
 #include "live/seed_solver.hpp"
 #include "seamwire/context/surface_context.hpp"

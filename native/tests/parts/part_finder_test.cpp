@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "prices/polygons.hpp"
+#include "prices/border_odds.hpp"
 #include "seamwire/surface/segments.hpp"
 #include "shapes.hpp"
 

@@ -10,7 +10,7 @@
 #include "parts/neck_rings.hpp"
 #include "seam_problems.hpp"
 #include "simplified/decimation.hpp"
-#include "slits/slit_edits.hpp"
+#include "slits/slit_plan.hpp"
 #include "slits/slit_tree.hpp"
 
 namespace seamwire {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "slits/slit_edits.hpp"
+#include "slits/slit_plan.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "seam_problems.hpp"
-#include "slits/slit_finder.hpp"
 
 namespace seamwire {
 

@@ -13,7 +13,7 @@
 #include "search/distortion_peaks.hpp"
 #include "search/slit_solver.hpp"
 #include "slits/piece_body.hpp"
-#include "slits/slit_edits.hpp"
+#include "slits/slit_plan.hpp"
 
 namespace seamwire {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "wires/nearby_wires.hpp"
+#include "wires/local_wires.hpp"
 
 #include <gtest/gtest.h>
 
