@@ -33,14 +33,7 @@ namespace seamwire {
 
 using namespace detail;
 
-namespace {
-
-/// Of the ring; where the longest edge is longer than that many mean ones, buckets are wider.
-constexpr std::size_t kMostBuckets = 4096;
-/// Entries of a bucket that memory is asked for in advance.
-constexpr std::size_t kAhead = 8;
-/// Vertices between two looks at the task: some 0.1 ms.
-constexpr std::size_t kStepsBetweenChecks = 2048;
+namespace detail {
 
 /// Distances along hops (GeodesicMesh::hops) from a seed, computed outwards as far as they are asked for.
 /// Delta-stepping keeps buckets of distances instead of a heap. The vertices of a bucket are settled in any order, and
@@ -94,6 +87,13 @@ class DeltaStepping {
   float radius() const { return static_cast<float>(current_) * width_; }
 
  private:
+  /// Of the ring; where the longest edge is longer than that many mean ones, buckets are wider.
+  static constexpr std::size_t kMostBuckets = 4096;
+  /// Entries of a bucket that memory is asked for in advance.
+  static constexpr std::size_t kAhead = 8;
+  /// Vertices between two looks at the task: some 0.1 ms.
+  static constexpr std::size_t kStepsBetweenChecks = 2048;
+
   struct Reached {
     float distance = std::numeric_limits<float>::infinity();
     std::int32_t from = -1;
@@ -127,6 +127,10 @@ class DeltaStepping {
               done_ = 0;     ///< the first bucket that may not be empty, and how many of its entries are done
   std::size_t waiting_ = 0;  ///< entries not done
 };
+
+}  // namespace detail
+
+namespace {
 
 /// A corridor holds no vertex over which the path is longer than the shortest one by this factor, however short that
 /// is.

@@ -17,11 +17,11 @@
 #include "detail/edge_chains.hpp"
 #include "detail/poll.hpp"
 #include "detail/text.hpp"
+#include "metric/metric_check.hpp"
 #include "metric/tangent_frame.hpp"
 #include "seamwire/errors.hpp"
 #include "surface/corner_fans.hpp"
 #include "surface/face_height.hpp"
-#include "metric/metric_check.hpp"
 
 namespace seamwire {
 

@@ -19,12 +19,12 @@
 #include "detail/poll.hpp"
 #include "detail/prefetch.hpp"
 #include "detail/text.hpp"
+#include "metric/metric_check.hpp"
 #include "metric/tangent_frame.hpp"
 #include "seamwire/errors.hpp"
 #include "surface/corner_fans.hpp"
 #include "surface/exact_unit.hpp"
 #include "surface/face_height.hpp"
-#include "metric/metric_check.hpp"
 
 namespace seamwire {
 

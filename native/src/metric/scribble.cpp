@@ -18,12 +18,12 @@
 #include "detail/infinity.hpp"
 #include "detail/poll.hpp"
 #include "detail/text.hpp"
+#include "metric/metric_check.hpp"
 #include "metric/scribble_points.hpp"
 #include "metric/tangent_frame.hpp"
 #include "surface/corner_fans.hpp"
 #include "surface/exact_unit.hpp"
 #include "surface/point_segment.hpp"
-#include "metric/metric_check.hpp"
 
 namespace seamwire {
 

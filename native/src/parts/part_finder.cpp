@@ -34,7 +34,7 @@ namespace seamwire {
 
 using namespace detail;
 
-namespace {
+namespace detail {
 
 /// A region. Lengths are in diagonals of the piece of surface in which it lies, areas in squared diagonals.
 struct Region {
@@ -42,6 +42,10 @@ struct Region {
   double least_area = 0.0;  ///< a smaller region joins a neighbor, unless a sharp rim encloses it
   std::int32_t image = -1;  ///< the region on the other side of a mirror plane; -1 if it has none
 };
+
+}  // namespace detail
+
+namespace {
 
 /// A border between two regions, in the same units.
 struct RegionBorder {

@@ -58,8 +58,7 @@ SlitPlan SlitSolver::solve_changed(std::vector<Slit> slits, const SlitPlan& befo
     IslandMap map = map_island(*island, problem_.mesh.points, options, own_task);
     const double steps = static_cast<double>(map.steps) * own;
     if (!map.uvs.empty()) {
-      plan.maps[p] =
-          piece_map(problem_.mesh.points, std::move(*island), std::move(map));
+      plan.maps[p] = piece_map(problem_.mesh.points, std::move(*island), std::move(map));
     }
     return steps;
   });
@@ -117,8 +116,7 @@ SlitPlan SlitSolver::continued(const SlitPlan& before, const Slit& slit, const M
     if (!island || !before.maps[p]) return plan;
     IslandMap map = continue_map(*island, problem_.mesh.points, carried_over(*before.maps[p], *island), options, task);
     plan.work += static_cast<double>(map.steps) * problem_.by_piece[p].area;
-    plan.maps[p] =
-        piece_map(problem_.mesh.points, std::move(*island), std::move(map));
+    plan.maps[p] = piece_map(problem_.mesh.points, std::move(*island), std::move(map));
   }
   sum_up(problem_, plan);
   return plan;

@@ -310,7 +310,7 @@ TEST(EdgeWires, RefuseWrongInputWithItsNumbers) {
   EXPECT_TRUE(contains(message_of([&] { shortest_cycle(*graph, {0, -1}); }), "vertex -1"));
   Metric metric = plain_metric(surface);
   metric.tensors.pop_back();
-  EXPECT_TRUE(contains(message_of([&] { make_edge_graph(surface, metric); }), "8 tensors"));
+  EXPECT_TRUE(contains(message_of([&] { make_edge_graph(surface, metric); }), "metric of 8 vertices"));
   const std::vector<Scribble> elsewhere = {{.points = {{0, 0, 0}, {1, 0, 0}}, .faces = {0, 100'000}, .vertices = {}}};
   EXPECT_TRUE(contains(message_of([&] { make_edge_graph(surface, plain_metric(surface), nullptr, elsewhere); }),
                        "face 100000"));
