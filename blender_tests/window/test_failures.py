@@ -108,7 +108,7 @@ def test_wires_are_drawn_while_islands_fail_and_islands_are_back_after_a_change(
     draw(desk, 36, 44)
     view = edited.front
     desk.ui.wait_until(lambda: view.islands.newest is not None and view.islands.newest.count == 2)
-    broken = Broken(IslandMaker, "want", monkeypatch)
+    broken = Broken(IslandMaker, "ask", monkeypatch)
     draw(desk, 4, 13)
     desk.ui.wait(4, redraw=True)
     assert told() == 1
