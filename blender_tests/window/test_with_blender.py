@@ -23,6 +23,7 @@ from seamwire.operators import chain as chain_module
 from seamwire.operators.chain_state import running
 from seamwire.view.edited_objects import edited
 from seamwire.view.object_view import ObjectView
+from seamwire.view.overlay import Overlay
 from seamwire.words.notices import Notice
 
 ROW = chain(*range(36, 45))
@@ -522,9 +523,8 @@ def test_an_exception_in_the_first_click_leaves_blender_alive(desk: Desk, monkey
 
 
 def test_an_exception_in_the_overlay_ends_the_chain(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
-    session = live(desk)
-
-    monkeypatch.setattr(session, "seeds", fail)
+    live(desk)
+    monkeypatch.setattr(Overlay, "draw_in_scene", fail)
     desk.ui.move(desk.at(54))
     desk.ui.wait(redraw=True)
     desk.ui.move(desk.at(50))
