@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 _FIRST = (
     ("NONE", "Nothing", "Wait for the next click", 0),
-    ("CLICK", "Click", "Place the first seed, or grab a seed or a wire", 1),
+    ("CLICK", "Begin Chain", "Place the first seed, or grab a seed or a wire", 1),
     ("LOOP", "Loop", "Add the loop through the edge", 2),
     ("GUIDE", "Guide Stroke", "Draw a stroke that attracts wires", 3),
     ("AVOID", "Avoid Stroke", "Draw a stroke that repels wires", 4),

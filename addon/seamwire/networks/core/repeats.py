@@ -215,7 +215,7 @@ def _moved(wire: Wire, to: dict[int, int], points: NDArray[np.float64]) -> Wire:
 def missing_wires(
     groups: Sequence[list[Wire]], arrays: Arrays, progress: Progress = lambda _: True
 ) -> tuple[int, list[Wire]]:
-    """Return at how many places a mesh repeats groups of connected wires, and the wires there that are no seams yet.
+    """Find the places where a mesh repeats groups of connected wires. Return how many lack seams, and the wires to add there.
 
     Raises `seamwire_core.Cancelled` where `progress` returns False.
     """
