@@ -171,6 +171,7 @@ class Collapsing {
   /// The collapse of an edge that comes first. The one in the other direction is queued once this one is not possible.
   Entry better_entry(std::int32_t a, std::int32_t b) const { return std::max(entry(a, b), entry(b, a)); }
   void queue_all(const Poll& poll) {
+    // Never more entries are valid than there are edges, so push() seldom sorts out.
     queue_.reserve(mesh_.edge_count() + mesh_.edge_count() / 4 + 64);
     for (std::int32_t v = 0; index(v) < mesh_.vertex_count(); ++v) {
       poll.at(index(v));
