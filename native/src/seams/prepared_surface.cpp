@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "detail/index.hpp"
+#include "detail/poll.hpp"
 #include "prices/visibility.hpp"
 #include "seams/piece_groups.hpp"
 #include "simplified/decimation.hpp"
