@@ -8,8 +8,8 @@
 #include <stop_token>
 #include <vector>
 
+#include "live/candidates.hpp"
 #include "live/prepared_metrics.hpp"
-#include "live/wire_end.hpp"
 #include "seamwire/live/livewire.hpp"
 #include "seamwire/wires/bent_wires.hpp"
 #include "seamwire/wires/closed_wires.hpp"

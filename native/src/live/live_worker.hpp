@@ -18,7 +18,6 @@
 #include "live/prepared_metrics.hpp"
 #include "live/right_of_way.hpp"
 #include "live/seed_solver.hpp"
-#include "live/wire_end.hpp"
 
 namespace seamwire::detail {
 

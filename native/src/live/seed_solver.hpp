@@ -12,7 +12,6 @@
 #include "live/mailbox.hpp"
 #include "live/prepared_metrics.hpp"
 #include "live/right_of_way.hpp"
-#include "live/wire_end.hpp"
 #include "seamwire/geodesics/corridor_paths.hpp"
 #include "seamwire/task.hpp"
 

@@ -18,7 +18,7 @@
 #include "detail/edge_chains.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
-#include "parts/halving.hpp"
+#include "parts/parting_cuts.hpp"
 #include "prices/border_odds.hpp"
 #include "prices/plan_mesh.hpp"
 #include "prices/reflection.hpp"

@@ -11,6 +11,11 @@
 
 namespace seamwire::detail {
 
+/// Marks the edges of a cut that parts a piece into two connected parts, and of its mirror image in another piece. Each
+/// part has a fifth of the area or more if such a cut is found. A piece that is its own mirror image is cut
+/// symmetrically. Returns whether there is a cut. Throws Cancelled.
+bool mark_half(const SlitProblem& problem, std::int32_t piece, std::vector<std::uint8_t>& is_marked, const Task& task);
+
 /// Cuts along the rims of large regions that are flat, or that sharp edges surround, such as the ends of a cylinder. A
 /// rim with many corners needs this: a slit to each corner would be too many. `pieces`: the pieces in which to look.
 std::vector<Slit> rim_cuts(const SlitProblem& problem, std::span<const std::int32_t> pieces);
