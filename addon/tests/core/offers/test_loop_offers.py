@@ -35,7 +35,7 @@ def halves(go_on: threading.Event | None = None) -> PartBorders:
 
 def test_borders_of_parts_are_offered_last() -> None:
     edge = (2, 2 + SIZE)
-    without = loops().find(edge, Network())
+    without = loops(PartBorders(POINTS, grid_triangles(SIZE), grid_edges(SIZE))).find(edge, Network())
     offers = loops(halves())
     found = offers.find(edge, Network())
     assert [one.kind for one in found] == [*(one.kind for one in without), "FLAT", "FLAT"]
