@@ -248,6 +248,35 @@ def test_the_core_holds_no_sentence_for_artists() -> None:
     assert [one for one in found if "labels for" not in one and "neither points nor" not in one] == []
 
 
+def names_in(tree: ast.ClassDef) -> set[str]:
+    """Return the private names that a class gives to its methods and attributes."""
+    names = {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
+    for node in ast.walk(tree):
+        own = isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store) and ast.unparse(node.value) == "self"
+        names |= {node.attr} if own else set()
+    return {name for name in names if name.startswith("_") and not name.startswith("__")}
+
+
+def test_no_class_takes_a_private_name_of_a_class_that_it_inherits() -> None:
+    trees = [ast.parse(path.read_text(encoding="utf-8")) for path in modules()]
+    classes = {node.name: node for tree in trees for node in ast.walk(tree) if isinstance(node, ast.ClassDef)}
+
+    def inherited(node: ast.ClassDef) -> Iterator[ast.ClassDef]:
+        for base in node.bases:
+            above = classes.get(ast.unparse(base).split(".")[-1])
+            if above is not None:
+                yield above
+                yield from inherited(above)
+
+    taken = {
+        f"{node.name}.{name} of {above.name}"
+        for node in classes.values()
+        for above in inherited(node)
+        for name in names_in(node) & names_in(above)
+    }
+    assert taken == set()
+
+
 READERS = {"read", "refresh", "follow", "follow_pose", "poll", "to_mesh", "from_edit_mesh", "hover", "aim", "show"} | {
     "column",
     "edit_bmesh",

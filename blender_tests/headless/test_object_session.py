@@ -12,6 +12,7 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
+from mathutils import Matrix
 from scene import add_grid, add_layers, chain, changing, edit, fail, mark_wires, seams, set_seams, snapshot
 from seamwire.core.network.network import Snap
 from seamwire.core.solver.solver import LiveMaker
@@ -21,7 +22,7 @@ from seamwire.mesh.settings import settings
 from seamwire.view import edited_objects
 from seamwire.view.edited_objects import edited
 from seamwire.view.failures import failures
-from stored import agree, chains, session_on, write
+from stored import agree, chains, forget, session_on, write
 
 ROW = tuple(range(36, 45))
 LAYER = edit_mesh.LABELS
@@ -353,3 +354,56 @@ def test_after_reading_the_mesh_tells_which_edges_have_a_label() -> None:
     found = mesh.cage.labels(was_read=True)
     assert len(found.labels) == 16
     assert found.same_as(mesh.cage.labels())
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
+def test_wires_drawn_moved_and_removed_change_seams_and_nothing_else(grid: bpy.types.Object, along: str) -> None:
+    before = snapshot(grid)
+    rest = snapshot(grid, with_seams=False)
+    mesh = session_on(grid)
+    mesh.session.follow(replace(mesh.session.options, along=along))
+    draw(mesh, 36, 40, 44)
+    assert seams(grid) == chain(*ROW)
+    assert snapshot(grid, with_seams=False) == rest, "drawn"
+    assert mesh.session.drag(40)
+    mesh.session.cursor.drag_to(49)
+    mesh.session.wait()
+    mesh.session.drag_end()
+    mesh.session.wait()
+    write(mesh)
+    assert agree(grid)
+    assert 49 in {vertex for edge in seams(grid) for vertex in edge}
+    assert snapshot(grid, with_seams=False) == rest, "moved"
+    for wire in mesh.session.wires:
+        mesh.session.drop(wire)
+    write(mesh)
+    assert snapshot(grid) == before, "removed"
+    assert not has_labels(grid)
+    assert grid.data.seamwire_wires == ""
+
+
+# What is found again
+
+
+@pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
+def test_wires_do_not_mind_the_objects_scale(
+    grid: bpy.types.Object, along: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    mesh = session_on(grid)
+    mesh.session.follow(replace(mesh.session.options, along=along))
+    assert mesh.session.draw_stroke(vertices=[38, 42])
+    draw(mesh, 36, 40, 44)
+    stroke = mesh.session.network.strokes[0].points @ mesh.arrays.to_object.T
+    curves = {wire.vertices: wire.points @ mesh.arrays.to_object.T for wire in mesh.session.wires}
+    grid.matrix_world = Matrix.Diagonal((1.0, 4.0, 0.5, 1.0))
+    bpy.context.view_layer.update()
+    assert not mesh.refresh(grid), "lengths are others"
+    forget(monkeypatch)
+    again = session_on(grid)
+    assert chains(grid) == [(36, 37, 38, 39, 40), (40, 41, 42, 43, 44)]
+    for wire in again.session.wires:
+        np.testing.assert_allclose(wire.points @ again.arrays.to_object.T, curves[wire.vertices], atol=1e-5)
+    found = again.session.network.strokes[0].points
+    np.testing.assert_allclose(found @ again.arrays.to_object.T, stroke, atol=1e-5)
+    assert agree(grid)

@@ -188,6 +188,23 @@ def test_saving_within_a_chain_takes_nothing_from_its_end(desk: Desk, tmp_path: 
 
 
 @pytest.mark.smoke
+def test_seams_that_a_script_marks_within_a_chain_are_not_the_chains(desk: Desk, reports: list[Notice]) -> None:
+    desk.choose()
+    session = desk.start()
+    desk.ui.click(desk.at(36))
+    desk.ui.click(desk.at(44))
+    desk.ui.wait_until(lambda: len(session.wires) == 1)
+    with changing(desk.obj) as bm:
+        for vertex in range(4):
+            bm.edges.get((bm.verts[vertex], bm.verts[vertex + 1])).seam = True
+    desk.ui.wait(4)
+    desk.ui.click(desk.at(44), button="RIGHTMOUSE")
+    desk.ui.wait_until(lambda: not desk.running)
+    assert seams(desk.obj) == sorted([*chain(*range(5)), *chain(*range(36, 45))])
+    assert [notice.text for notice in reports] == ["Draw Seamwires: 1 wire, 8 edges marked"]
+
+
+@pytest.mark.smoke
 def test_the_worst_island_is_one_key_away(desk: Desk) -> None:
     with changing(desk.obj) as bm:
         for edge in bm.edges:

@@ -93,7 +93,10 @@ def apply(mesh: ObjectSession, change: Change) -> tuple[ObjectSession | None, Fi
 
 
 def slide(mesh: ObjectSession, wires: Collection[Wire]) -> tuple[ObjectSession, int]:
-    """Slide the vertices of snapped wires, and of their mirror images, onto the wires. The mesh has these wires."""
+    """Slide the vertices of snapped wires, and of their mirror images, onto the wires. The mesh has these wires.
+
+    Returns the session that goes on, and the number of moved vertices.
+    """
     own = {wire: [wire, *mesh.session.mirrored(wire)] for wire in wires}
     courses = [(image.vertices, image.points) for images in own.values() for image in images]
     seams = {edge for images in own.values() for image in images for edge in image.edges()}

@@ -201,8 +201,8 @@ class Suggestion:
     def plan(self, energy: float, islands: int, progress: Progress, is_enough: Callable[[], bool]) -> None:
         """Find wires in the chosen parts, better and better ones.
 
-        The map has at most an `energy`, and the islands to be cut become at least so many. Once it `is_enough`, go on with the best plan
-        so far. The first one is waited for.
+        The symmetric Dirichlet energy of the map is at most `energy`, and what is to be cut becomes at least so many `islands`. As soon as
+        `is_enough` returns True, the best plan so far counts. The first one is waited for.
         """
         # Other parts may be chosen meanwhile, which drops the planner.
         self._planner = planner = self._core.SeamPlanner(
@@ -315,7 +315,7 @@ class Suggestion:
 
     def write(self) -> None:
         """Keep the wires with the mesh, and finish them. Only borders are kept if the others are to be cut."""
-        self.mesh.add(self.wires[: len(self.borders)] if self.cuts else self.wires)
+        self.mesh.add(border_wires(self.borders, self.mesh.arrays.points) if self.cuts else self.wires)
         marked, _ = self.mesh.write(self.mesh.plan())
         self.marked += marked
         if self.along == "SURFACE":

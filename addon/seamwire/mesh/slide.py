@@ -109,7 +109,7 @@ def _mean(values: Sequence[Value], weights: Sequence[float]) -> Value:
 
 
 def _keys_that_follow(obj: bpy.types.Object) -> set[int]:
-    """Return the numbers of the shape keys that Blender moves with the edited one: those relative to it, since 4.2 also indirectly."""
+    """Return the numbers of the shape keys that Blender moves with the edited one: relative to it, in newer versions also indirectly."""
     keys = obj.data.shape_keys
     if keys is None or not keys.use_relative:
         return set()

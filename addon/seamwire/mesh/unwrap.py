@@ -392,7 +392,7 @@ def _faults(maps: Sequence[_Map]) -> MapFaults:
 
 
 def _unwrap_by_blender(context: bpy.types.Context, maps: Sequence[_Map], method: str) -> None:
-    """Unwrap the other islands with Blender's method, and let it pack them; raises ValueError if it cannot."""
+    """Unwrap the changed islands that are not `flat` with a method of Blender, and let it pack them; raises ValueError if it cannot."""
     islands = {found: np.setdiff1d(found.changed, found.flat) for found in maps}
     faces = {found: found.faces(labels) for found, labels in islands.items() if len(labels)}
     if not faces:

@@ -204,18 +204,21 @@ class Chain:
         return self._follow_mesh(reason)
 
     def _follow_mesh(self, reason: str = "") -> str:
-        """Follow a change of the mesh by others, and return why the chain cannot go on, or another reason for that."""
+        """Follow a change of the mesh by others, and return why the chain cannot go on, if only for a `reason` that is known already."""
         view = self.drawn_on
         if view is None or not (view.stale or not view.mesh.alive()):
             return reason
         # Blender reports a change of the mesh. Others may mark seams.
         obj = bpy.data.objects.get(view.name)
         if obj is None:
-            self.drawn_on = None
+            self.drawn_on, self._is_saved = None, False
             return "The object was removed"
-        known, found = self._before, view.mesh.follow_change(obj, self._before)
+        seams, known = view.mesh.arrays.seams, self._before
+        found = view.mesh.follow_change(obj, known)
         if found is None:
             return reason or "The mesh was changed"
+        after = view.mesh.arrays.seams
+        self._seams = edges_after(self._seams, edges_after(after, (), seams), edges_after(seams, (), after))
         self._before = found
         view.renew()
         return reason or ("" if found is known else "Undo has changed the wires of the mesh")
@@ -243,7 +246,7 @@ class Chain:
     def _keep_wires(self, at_once: bool = False) -> None:
         """End the chains of all objects after their last wires are computed, and write what was drawn as a step of Blender's undo.
 
-        It reports clicks that waited and could not be done. `at_once` is that of `finish`, and so are the errors.
+        It reports clicks that waited and could not be done. `at_once` is that of `finish`, and it raises as `finish` does.
         """
         # The object that is drawn on comes first, because outside Edit Mode it is not among the views.
         drawn_on = [] if self.drawn_on is None else [self.drawn_on]
@@ -269,7 +272,7 @@ class Chain:
             self._is_saved = True  # the mesh may have a part of the wires: dropping the chain writes the former ones
             raise
         self.drawn_on, self._is_saved = None, False
-        # Saving within the chain may have marked some of them already.
+        # Not what `write` has changed: saving within the chain may have marked edges already.
         before, after = self._seams, view.mesh.arrays.seams
         marked, cleared = len(edges_after(after, (), before)), len(edges_after(before, (), after))
         # The wires are in the mesh by now. Whatever fails, a step of undo must lead back.
@@ -311,13 +314,13 @@ class Chain:
         Return False if wires that were saved stay in the mesh: after a change by others, the former wires cannot be written.
         """
         view, self.drawn_on = self.drawn_on, None
-        is_alive = view is not None and view.mesh.alive()
-        if is_alive:
+        if view is not None and view.mesh.alive():
             view.mesh.drop_changes(self._before)
             if self._is_saved:
                 _write(view, adopt=True)
+                self._is_saved = False
         self.close()
-        return view is None or is_alive or not self._is_saved
+        return not self._is_saved
 
     def close(self, cue: Cue = Cue.DROP) -> None:
         """Put everything back. More than once does no harm."""

@@ -38,7 +38,7 @@ _OFFERED = (Action.LOOP, Action.BEND)
 
 
 def hover(chain: Chain, given: Given) -> None:
-    """Show what a click would take."""
+    """Show what a click, or a key after *W*, would take."""
     assert given.place is not None
     loop, bend = (chain.keys.previews(action, given.event) for action in _OFFERED)
     view, snap = edited.find(given.place, plain=True) if loop or bend else edited.find_or_turned(given.place)
@@ -54,7 +54,7 @@ def hover(chain: Chain, given: Given) -> None:
 
 
 def rehover(chain: Chain, place: Place) -> None:
-    """Show what a click would take now, after a change."""
+    """Show what a click, or a key after *W*, would take now."""
     view, snap = edited.find_or_turned(place)
     chain.session.hover(snap if view is edited.front else None)
 
@@ -277,16 +277,15 @@ def extend(chain: Chain, _given: Given) -> None:
     chain.session.run_to_end(preview=chain.session.picture.one(Role.EXTENSION) is None)
 
 
-def toggle(name: str) -> None:
-    """Change a setting that is on or off."""
-    setattr(settings(), name, not getattr(settings(), name))
+def toggle(name: str) -> Callable[[Chain, Given], None]:
+    """Return the function that changes a setting which is on or off."""
 
+    def act(chain: Chain, given: Given) -> None:
+        setattr(settings(), name, not getattr(settings(), name))
+        if chain.hold is None and given.place is not None:
+            rehover(chain, given.place)
 
-def toggle_snap(chain: Chain, given: Given) -> None:
-    """Snap to features, or no longer."""
-    assert given.place is not None
-    toggle("snap")
-    rehover(chain, given.place)
+    return act
 
 
 def switch(chain: Chain, given: Given) -> None:
@@ -378,11 +377,11 @@ ACTS: dict[Action | Sign, Callable[[Chain, Given], bool | None]] = {
     Action.WEAKER: change_strength,
     Action.CLOSE: close,
     Action.EXTEND: extend,
-    Action.CLEAR: lambda *_: toggle("clear"),
-    Action.XRAY: lambda *_: toggle("xray"),
+    Action.CLEAR: toggle("clear"),
+    Action.XRAY: toggle("xray"),
     Action.MIRROR: cycle_mirror,
     Action.SWITCH: switch,
-    Action.SNAP: toggle_snap,
+    Action.SNAP: toggle("snap"),
     Action.KEYS: show_keys,
     Action.UNDO: undo,
     Action.REDO: redo,

@@ -65,7 +65,7 @@ class Given:
 def read(chain: Chain, context: bpy.types.Context, event: bpy.types.Event) -> Given:
     """Return what an event means in the chain's state.
 
-    The state changes first if the event ends what a key or a button holds without being a release for the chain.
+    An event may tell that a key or button is no longer held, although its release went elsewhere. Then the chain lets go first.
     """
     is_released = event.type == chain.peek and event.value == "RELEASE"
     if chain.stage is Stage.PEEKING and (is_released or event.type == "WINDOW_DEACTIVATE"):

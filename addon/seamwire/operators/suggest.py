@@ -171,7 +171,7 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         return SeamSearch(context.objects_in_mode_unique_data, options, self.selected)
 
     def _change(self, context: bpy.types.Context, search: SeamSearch) -> set[str]:
-        """Write or cut the wires, unwrap, and report. Unwrap although no seam is needed."""
+        """Write or cut the wires, unwrap, and report. It unwraps even if no seam is needed."""
         if not search.has_wires:
             unwrapped = self._unwrap(context, search) if self.unwrap else 0
             self._report_outcome(search)

@@ -182,7 +182,7 @@ class EditedObjects:
             return None
 
     def hover(self, place: Place | None) -> None:
-        """Light up what a click would take, while no chain is being drawn."""
+        """Light up what a click, or a key after *W*, would take, while no chain is being drawn."""
         failures.attempt(("hover",), partial(self._hover, place))
 
     def _hover(self, place: Place | None) -> None:

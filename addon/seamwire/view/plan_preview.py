@@ -121,7 +121,7 @@ class Curves:
 
 @dataclass(frozen=True)
 class Pointed:
-    """The numbers of the border and the triangle under the mouse, or None if only one of them is there."""
+    """A border, a triangle, or both, under the mouse."""
 
     name: str  # the full name of the object
     border: int | None  # counting on with those that were dropped

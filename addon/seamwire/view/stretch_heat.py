@@ -48,7 +48,7 @@ class _Summary(NamedTuple):
 
 
 class StretchHeat(Layer):
-    """The stretch of one object's UV map, and of the islands that a maker finds."""
+    """The stretch of the UV map of an object, as colors, and which island is stretched most."""
 
     def __init__(self, arrays: Arrays, islands: IslandMaker, pose: Pose) -> None:
         self._arrays = arrays

@@ -31,7 +31,7 @@ enum class Scheme {
 /// Bisections between two looks at the task: about a millisecond.
 inline constexpr std::size_t kBisectionsBetweenChecks = 1024;
 
-/// The faces of the surface that take part where only a part of it is embedded anew (re_embedding.cpp). A face that was
+/// The faces of the surface that take part where only a part of it is embedded anew (embedding.cpp). A face that was
 /// bisected in the former metric must not be bisected on; where that would be needed, there is a conflict.
 class ActiveFaces {
  public:

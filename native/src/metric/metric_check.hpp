@@ -7,7 +7,7 @@
 
 namespace seamwire::detail {
 
-/// Throws InvalidInput where there are more or fewer curvatures, or tensors, than a surface has vertices.
+/// Throws InvalidInput unless there are as many curvatures, or tensors and normals, as the surface has vertices.
 void check_size(const Surface& surface, const Curvature& curvature);
 void check_size(const Surface& surface, const Metric& metric);
 

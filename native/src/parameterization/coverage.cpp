@@ -69,6 +69,15 @@ std::vector<Point> ends_of(std::span<const OutlineSide> sides) {
 
 constexpr auto kSkipsNothing = [](const StripTree::Part&, const StripTree::Part&) { return false; };
 
+/// Touches after which a list is sorted out, for each side. Where many sides meet, most of them are equal.
+constexpr std::size_t kManyTouches = 64;
+
+void sort_out(auto& touches) {
+  std::ranges::sort(touches);
+  const auto equal = std::ranges::unique(touches);
+  touches.erase(equal.begin(), equal.end());
+}
+
 }  // namespace
 
 /// A place on a side at which another one touches it.
@@ -91,7 +100,7 @@ PieceOutline::PieceOutline(std::vector<OutlineSide> sides, std::span<const std::
   }
 }
 
-/// Adds the places at which another side touches a side, with the ends of that side.
+/// Adds the places at which `other` touches `one`, and the ends of `one`.
 void PieceOutline::add_touches(const OutlineSide& one, std::int32_t number, const OutlineSide& other, double tolerance,
                                Touches& touches) {
   const double least = tolerance / (one.to - one.from).norm();
@@ -146,7 +155,7 @@ bool PieceOutline::is_double(double tolerance, Poll& poll) const {
   Touches touches;
   // If the plane is covered many times, sides may touch each other very often. Then it is looked at before all is
   // known.
-  std::size_t many = 64 * sides_.size();
+  std::size_t many = kManyTouches * sides_.size();
   const auto covers_twice = [&](const Point& point) { return winding(point, tolerance) > 1; };
   const auto crosses = [&](std::int32_t s, std::int32_t t) {
     const OutlineSide &one = sides_[index(s)], &other = sides_[index(t)];
@@ -156,7 +165,8 @@ bool PieceOutline::is_double(double tolerance, Poll& poll) const {
     add_touches(one, s, other, tolerance, touches);
     add_touches(other, t, one, tolerance, touches);
     if (touches.size() < many) return false;
-    many = 2 * touches.size();
+    sort_out(touches);
+    many = std::max(many, 2 * touches.size());
     return is_any_double(touches, tolerance, poll, covers_twice);
   };
   return ClosePairs(tree_, tree_, tolerance, kSkipsNothing, poll).any(crosses) ||
@@ -165,12 +175,18 @@ bool PieceOutline::is_double(double tolerance, Poll& poll) const {
 
 bool PieceOutline::overlaps(const PieceOutline& other, double tolerance, Poll& poll) const {
   Touches touches, of_other;
+  std::size_t many = kManyTouches * (sides_.size() + other.sides_.size());
   const auto crosses = [&](std::int32_t s, std::int32_t t) {
     const OutlineSide &one = sides_[index(s)], &two = other.sides_[index(t)];
     const Meeting meets = meeting(one, two, tolerance);
     if (meets != Meeting::kTouching) return meets == Meeting::kCrossing;
     add_touches(one, s, two, tolerance, touches);
     add_touches(two, t, one, tolerance, of_other);
+    if (touches.size() + of_other.size() >= many) {
+      sort_out(touches);
+      sort_out(of_other);
+      many = std::max(many, 2 * (touches.size() + of_other.size()));
+    }
     return false;
   };
   if (ClosePairs(tree_, other.tree_, tolerance, kSkipsNothing, poll).any(crosses)) return true;

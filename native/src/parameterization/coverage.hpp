@@ -16,7 +16,8 @@ namespace seamwire::detail {
 /// A side of an outline in a map. The outlined part of the plane lies to its left.
 struct OutlineSide {
   Eigen::Vector2d from, to;
-  std::int32_t tail, tip;  ///< the vertices at its ends: sides with a common vertex do not cross each other
+  std::int32_t tail,
+      tip;  ///< the vertices at its ends, by their numbers in one piece: sides with a common vertex do not cross
 };
 
 /// The outline of a piece of a map, and which part of the plane the piece covers.

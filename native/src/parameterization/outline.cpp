@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "detail/index.hpp"
 #include "detail/poll.hpp"

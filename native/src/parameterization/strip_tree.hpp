@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -20,7 +19,7 @@ namespace seamwire::detail {
 struct Strip {
   Eigen::Vector2d middle, axis, half;  // half: half of its size along the axis and across
 
-  /// Whether something closer than `reach` to both strips is possible.
+  /// Whether the strips may be closer to each other than `reach`.
   bool is_near(const Strip& other, double reach) const {
     const double along = std::abs(axis.dot(other.axis)), across = std::abs(cross(axis, other.axis));
     const Eigen::Vector2d way = other.middle - middle;
@@ -49,7 +48,6 @@ class StripTree {
     bool is_item() const { return end - begin == 1; }
   };
 
-  StripTree() = default;
   /// `points`: of the items, `of_each` of an item. An item lies along its first and last point.
   StripTree(std::span<const Eigen::Vector2d> points, std::size_t of_each, Poll& poll)
       : count_(points.size() / of_each) {
@@ -97,8 +95,8 @@ class StripTree {
   std::vector<Strip> strips_;  // a part, its first half with all its parts, its second half
 };
 
-/// Finds the items of two trees, or of one, that are closer to each other than `reach`. `is_skipped(one, other)` tells
-/// of two parts whether their items are of no interest.
+/// Finds the items of two trees, or of one, that may be closer to each other than `reach`. `is_skipped(one, other)`
+/// tells of two parts whether their items are of no interest.
 template <class IsSkipped>
 class ClosePairs {
  public:

@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <unordered_map>
 #include <utility>
@@ -321,7 +320,7 @@ void Collapsing::collapse_with_image(std::int32_t from, std::int32_t to) {
   collapse(from, to);
   if (may_collapse(from_image, to_image)) collapse(from_image, to_image);
   push_all(to);
-  push_all(to_image);
+  if (to_image != to) push_all(to_image);
 }
 
 DecimatedMesh Collapsing::result() const {

@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <unordered_map>

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 class Gesture:
     """One way to change the network with the cursor. It knows the drawing and no session.
 
-    The session aims it, polls it while the library computes, and goes on to its network.
+    The session or its cursor aims it. The session polls it while the library computes, and goes on to its network.
     """
 
     keeps_active: int | None = None

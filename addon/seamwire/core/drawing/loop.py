@@ -131,7 +131,7 @@ class LoopGesture(Gesture):
         return self.offers.wanted
 
     def find(self, pick: Pick, kept: Wire | None = None) -> tuple[Wire, ...]:
-        """Return what a click on a pick may take, or nothing while it is computed. A wire that such a click took comes first.
+        """Return what a click on a pick may take, or nothing while it is computed. The wire that such a click took and `kept` comes first.
 
         An edge has the offers along edges, even if wires run across the surface.
         """
@@ -264,7 +264,7 @@ class LoopGesture(Gesture):
 
 
 class NextOffer(Gesture):
-    """A wire that a click on an edge took becomes an offer of that click that is some `steps` further."""
+    """Replaces the wire that a click on an edge took by another offer of that click, `steps` further in their order."""
 
     needs_offers = True
 

@@ -337,7 +337,7 @@ class Session:
         self.calm()
 
     def _leave_seed(self) -> None:
-        """Wait for the wires of a seed that was released. A seed that is held still goes back."""
+        """Wait for the wires of a seed that was released. A seed that is still held goes back."""
         drag = self.cursor.drag
         if drag is not None and drag.ending:
             self.wait(until_committed=True)

@@ -33,7 +33,8 @@ _NO_EDGES = np.empty((0, 2), dtype=np.int32)
 class Gap:
     """Where a cut ends, and the vertex that it nearly meets: the nearest along edges that the cut does not lead to soon.
 
-    That is a vertex of a cut or of the border. The path and its length are those of the shortest way there along edges.
+    It is a vertex of a cut or of the border, within the limits of `find`. The path and its length are those of the shortest way there along
+    edges.
     """
 
     end: int
@@ -137,7 +138,7 @@ class _Ways:
     ) -> Iterator[tuple[int, float]]:
         """Yield vertices and their distances from one, nearest first (Dijkstra's algorithm), up to a distance.
 
-        The distance is another one for ways of several edges. Where `before` is given, it is filled with the vertex before each on the
+        Ways of several edges have a separate limit. Where `before` is given, it is filled with the vertex before each on the
         shortest way to it.
         """
         reached, done = {start: 0.0}, set()

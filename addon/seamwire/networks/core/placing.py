@@ -323,8 +323,8 @@ class Landmarks:
     Poses change these little. Two places can have the same distances, such as both sides of a symmetric shape with all pairs in its
     plane. Then the nearer one counts after the pairs were aligned.
 
-    A pair, of (k, 2), is a vertex of each mesh, at the same point of the shape. Raises ValueError if there are fewer than three pairs, or
-    a vertex is not there. `progress` is told the fraction done of measuring distances. Later it is asked whether to continue.
+    Pairs are (k, 2): each has a vertex of each mesh, at the same point of the shape. Raises ValueError for fewer than three pairs, or if a
+    vertex is not there. `progress` is told the fraction done of measuring distances. Later it is asked whether to continue.
     """
 
     _RESOLUTION = 0.02

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
+from ...core.base import native
 from ...core.base.geometry import Moments
 from ...core.base.messages import NOTHING, Refused
-from ...core.base.nearest_vertices import NearestVertices
 from ...core.network.network import Network
 from ...core.network.symmetry import MirrorImages, Symmetry
 from ...core.solver.solver import LiveMaker
@@ -21,6 +21,7 @@ from .tracing import STRAY, PlacedSeed, Tracing, Transfer
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
+    from seamwire_core import NearestPoints
 
 Place = Literal["AUTO", "NUMBERS", "SURFACE", "PAIRS"]
 """How seeds are placed: by vertex numbers, on the nearest surface, or by distances to pairs of vertices. AUTO takes numbers if the topology
@@ -157,15 +158,20 @@ def _by_pairs(
     tell(progress, PLACED)
 
     @functools.cache
-    def vertices() -> NearestVertices:
-        return NearestVertices(source.places)
+    def vertices() -> NearestPoints:
+        # Triangles without area, so that vertices without faces are found as well.
+        triangles = np.repeat(np.arange(len(source.places)), 3).reshape(-1, 3)
+        return native.load().NearestPoints(source.places, triangles, progress=progress.go_on)
+
+    def nearest(points: NDArray[np.float64]) -> NDArray[np.int64]:
+        return vertices().find(points, progress=progress.go_on)[0].astype(np.int64)
 
     def place(course: Course, axes: tuple[int, ...]) -> Placed:
         if axes:
-            return stroke(Similarity.mirroring(*axes).of(course.places))
+            return landmarks.place(nearest(Similarity.mirroring(*axes).of(course.places)))
         return landmarks.place(np.array(course.record["vertices"], dtype=np.int64))
 
     def stroke(points: NDArray[np.float64]) -> Placed:
-        return landmarks.place(vertices().find(points, np.inf))
+        return landmarks.place(nearest(points))
 
     return Tracing(file, target, surface, live, progress, stray=2.0 * STRAY).run(place, stroke)
