@@ -367,7 +367,7 @@ class SeamSearch:
         )
 
     def choose(self, amount: float, edits: Mapping[str, PartEdits], progress: Progress = lambda _: True) -> None:
-        """Choose the parts for an amount from 0 to 1, as `count` finds them."""
+        """Choose the parts for an amount from 0 to 1. Those that were counted last are not searched again."""
         for suggestion, share in self._shares(progress):
             suggestion.choose(amount, edits.get(suggestion.name, _NO_EDITS), share)
 

@@ -69,7 +69,10 @@ class Layout:
 
 
 class _Map:
-    """The UV map of one edit mesh, by the islands that seams make. Those to unwrap are `changed`, and the library maps `flat`."""
+    """The UV map of one edit mesh, by the islands that seams make. Those to unwrap are `changed`.
+
+    The library maps `flat`, and Blender the others: all of them if its method is chosen, otherwise those with pins.
+    """
 
     def __init__(self, obj: bpy.types.Object, every: bool, by_library: bool) -> None:
         self.obj = obj

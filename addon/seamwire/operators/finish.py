@@ -68,6 +68,7 @@ def cut_wires(
 
     Wires that do not run over their mesh are left out. If no wire of a mesh can be cut, a warning names the mesh, and the others are
     cut. Every cut is tried on a copy before the first mesh changes. Raises `Halfway` if an error comes after that.
+    With `live_unwrap`, Blender's Live Unwrap follows, if it is on.
 
     `kept` and `crumb` are those of `finishes.cut`. `first` changes meshes before they are cut, and must not renumber them. The
     sessions that are given end.

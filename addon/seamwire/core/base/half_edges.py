@@ -16,6 +16,7 @@ class HalfEdges:
     """The half-edges of triangles: half-edge 3 t + i leads from corner i of triangle t to the next one.
 
     Sides of triangles, (m, 3), that are not among the edges of the mesh, (e, 2), lie within polygons. `count` is the number of vertices.
+    `tails` and `tips` are (3m,).
     """
 
     def __init__(self, triangles: NDArray[np.int32], edges: NDArray[np.int32], count: int) -> None:

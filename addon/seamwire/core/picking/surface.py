@@ -45,6 +45,7 @@ class VisibleSurface:
         self.to_object = arrays.to_object
         self.to_points = np.linalg.inv(arrays.to_object)
         self._rays = native.load().RayTree(arrays.points, arrays.triangles)
+        # The rows of triangles, or of edges, at a vertex.
         self.triangles_at = Incidence(arrays.triangles, len(arrays.points))
         self.edges_at = Incidence(arrays.edges, len(arrays.points))
 

@@ -201,7 +201,10 @@ class Similarity:
 
 
 class NearestSurface:
-    """Finds the points of a mesh that are nearest to places. Raises ValueError if it has no triangle."""
+    """Finds the points of a mesh that are nearest to places.
+
+    Raises ValueError if it has no triangle, and Cancelled where `go_on` returns False.
+    """
 
     def __init__(self, shape: Shape, go_on: Progress = lambda _: True) -> None:  # `go_on` gets any fraction
         if not len(shape.triangles):
