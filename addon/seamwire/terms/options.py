@@ -22,7 +22,6 @@ from .choices import (
     Metric,
     MetricName,
     Term,
-    ignores_shape,
 )
 
 STRENGTHS: Mapping[Along, float] = {"EDGES": 10.0, "SURFACE": 20.0}
@@ -121,7 +120,7 @@ class Options:
         "Clip feature strength at this percentile, so that noise does not dominate",
         "Advanced",
         limits=(50.0, 100.0),
-        matters=lambda _, metric: not ignores_shape(metric),
+        matters=lambda _, metric: "min" in METRICS[metric].follows,
         slider=True,
         others={"precision": 1},
     )

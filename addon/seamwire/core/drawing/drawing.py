@@ -160,8 +160,8 @@ class Drawing:
 
     @property
     def seams(self) -> NDArray[np.int32]:
-        """The edges, (k, 2), that are seams, or will be because of the kept wires. Sorted, the smaller vertex first."""
-        drawn = [edge for wire in self.network.wires if wire.marks for edge in wire.edges()]
+        """The edges, (k, 2), that are seams, or will be because of the kept wires and their images. Sorted, the smaller vertex first."""
+        drawn = [edge for wire in self.network.wires if wire.marks for edge in wire.claims()]
         known = np.sort(np.concatenate([self.stops.seams, np.array(drawn, dtype=np.int32).reshape(-1, 2)]), axis=1)
         return np.unique(known, axis=0)
 

@@ -92,6 +92,7 @@ def test_a_strip_ends_at_images_of_kept_wires() -> None:
     session.click(25)
     session.end_chain()
     assert show(session, (14, 15), "STRIP") == (13, 14, 15, 16)
+    assert [16, 22] in session.drawing.seams.tolist(), "parts end there too"
 
 
 def test_a_strip_ends_on_the_mirrors_plane_unless_it_runs_along_it() -> None:

@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import pytest
 from seamwire.core.drawing.picture import Intent
+from seamwire.terms.choices import METRICS
+from seamwire.terms.options import SETTINGS
 from setting import stronger, use
 from table import Table, chain, corner, courses
 
@@ -93,3 +95,9 @@ def test_the_metric_stays_while_a_seed_moves() -> None:
     assert session.drawing.strength == 10.0
     session.cursor.let_go()
     assert session.drawing.strength == 12.5, "it is taken over when the seed is let go"
+
+
+def test_the_percentile_matters_where_the_library_clamps() -> None:
+    families = pytest.importorskip("seamwire_core").metric_families()
+    clamped = {family.name for family in families if family.has_clamp and family.name in METRICS}
+    assert {name for name in METRICS if SETTINGS["clamp"].matters("SURFACE", name)} == clamped
