@@ -204,7 +204,7 @@ class Chain:
         return self._follow_mesh(reason)
 
     def _follow_mesh(self, reason: str = "") -> str:
-        """Follow a change of the mesh by others, and return why the chain cannot go on, if only for a `reason` that is known already."""
+        """Follow a change of the mesh by others. Return why the chain cannot go on: because of the change, or for the given `reason`."""
         view = self.drawn_on
         if view is None or not (view.stale or not view.mesh.alive()):
             return reason
