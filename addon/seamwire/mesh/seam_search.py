@@ -99,11 +99,11 @@ class Suggestion:
         self.had_seams = len(arrays.seams) > 0  # before `write`
         # The chosen borders between parts, as chains of vertices. A closed chain ends with its first vertex.
         self.borders: list[NDArray[np.int32]] = []
-        self.part_count = 0  # islands that are not to be cut included
+        self.part_count = 0  # with the islands that are not to be cut
         self.best: seamwire_core.SeamPlan | None = None  # the plan to carry out
-        self.straight_cost = STRAIGHT_COST  # of `Layout`, so that the plan stays within its limit
-        self.slits: list[Wire] = []  # its wires
-        # Its map as unwrapping lays it out, (m, 3, 2) in the object's units.
+        self.straight_cost = STRAIGHT_COST  # for `Layout`: less, if the plan would exceed its limit otherwise
+        self.slits: list[Wire] = []  # the wires of this plan
+        # The map of this plan as unwrapping lays it out, (m, 3, 2) in the object's units.
         self.layout: NDArray[np.float64] | None = None
         self.marked = 0  # how many edges `write` made seams
 
@@ -367,7 +367,7 @@ class SeamSearch:
         )
 
     def choose(self, amount: float, edits: Mapping[str, PartEdits], progress: Progress = lambda _: True) -> None:
-        """Choose the parts for an amount from 0 to 1. Those that were counted last are not searched again."""
+        """Choose the parts for an amount from 0 to 1. Parts that were counted last are not searched again."""
         for suggestion, share in self._shares(progress):
             suggestion.choose(amount, edits.get(suggestion.name, _NO_EDITS), share)
 
