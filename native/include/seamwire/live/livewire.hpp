@@ -181,11 +181,11 @@ class SEAMWIRE_API LiveWire {
   LiveWire& operator=(LiveWire&& other) noexcept;  ///< stops the work that was running
   ~LiveWire();                                     ///< stops the work that was running
 
-  /// Make another object with the same metrics and no seed.
+  /// Return another object with the same metrics and no seed.
   ///
   /// They share metrics that are still being computed. A later set_metrics() of one does not change the other.
   LiveWire fork() const;
-  /// Make another object on the same surface, with other options.
+  /// Return another object on the same surface, with other options.
   ///
   /// They share the surface, the curvatures, and whatever else does not depend on the options. The new object has its
   /// own metrics, no strokes and no seed.

@@ -47,26 +47,34 @@ struct SEAMWIRE_API MetricSpec {
   /// 1) / 19. For kEuclidean, nothing is set.
   Strength strength = {};
 
-  /// Describe the feature metric.
+  /// Return the feature metric.
   ///
+  /// \param follow the principal directions that are short
+  /// \param strength the strength
   /// \see Zhuang et al. 2014, eq. 5
   static MetricSpec feature(Follow follow, const Strength& strength = {.parameter = 0.1});
-  /// Describe Campen's metric.
+  /// Return Campen's metric.
   ///
+  /// \param follow the principal directions that are short
+  /// \param strength the strength
   /// \see Zhuang et al. 2014, eq. 3
   static MetricSpec campen(Follow follow, const Strength& strength);
-  /// Describe the metric of Pottmann and Kovacs.
+  /// Return the metric of Pottmann and Kovacs.
   ///
+  /// \param follow the principal directions that are short
+  /// \param strength the strength
   /// \see Zhuang et al. 2014, eq. 4
   static MetricSpec pottmann_kovacs(Follow follow, const Strength& strength);
-  /// Describe the metric of concave creases, on curvatures smoothed over 0.01.
+  /// Return the metric of concave creases, on curvatures smoothed over 0.01.
+  ///
+  /// \param strength the strength
   static MetricSpec concave(const Strength& strength = {.parameter = 1.0});
-  /// Describe the metric of concave creases that is as strong as a feature metric.
+  /// Return the metric of concave creases that is as strong as a feature metric.
   ///
   /// \param feature the strength of a feature metric
-  /// \returns the metric with the parameter gamma / 0.1, or with the same maximum anisotropy
+  /// \returns its parameter is gamma / 0.1, or its maximum anisotropy is the same
   static MetricSpec concave_like(const Strength& feature);
-  /// Describe the Euclidean metric.
+  /// Return the Euclidean metric.
   static MetricSpec euclidean() { return {}; }
 
   /// Return what the paths of the metric follow.

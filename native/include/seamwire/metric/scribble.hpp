@@ -37,6 +37,8 @@ struct Scribble {
   std::optional<MetricKind> meant_for = std::nullopt;
 
   /// Return whether the stroke changes metrics of a kind.
+  ///
+  /// \param kind the kind
   bool acts_on(MetricKind kind) const { return !meant_for || *meant_for == kind; }
   /// Compare member by member.
   friend bool operator==(const Scribble&, const Scribble&) = default;

@@ -16,7 +16,7 @@ struct SurfacePoint {
   std::array<double, 3> barycentric{};  ///< each 0 or more; their sum is 1 within 1e-9, and they are divided by it
   std::int32_t vertex = -1;  ///< a vertex, with or without a face; -1 if the point is given by `face` and `barycentric`
 
-  /// Make the point of a vertex.
+  /// Return the point of a vertex.
   ///
   /// \param v the vertex
   static SurfacePoint at_vertex(std::int32_t v) { return {.vertex = v}; }

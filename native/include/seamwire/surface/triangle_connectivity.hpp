@@ -26,12 +26,20 @@ struct SEAMWIRE_API TriangleConnectivity {
   /// Return the number of triangles.
   std::size_t face_count() const { return triangles.size(); }
   /// Return the vertex where a half-edge begins.
+  ///
+  /// \param half_edge the half-edge
   std::int32_t tail(std::int32_t half_edge) const { return corner(half_edge / 3, half_edge % 3); }
   /// Return the vertex where a half-edge ends.
+  ///
+  /// \param half_edge the half-edge
   std::int32_t tip(std::int32_t half_edge) const { return corner(half_edge / 3, (half_edge + 1) % 3); }
   /// Return the vertex opposite to a half-edge, in its triangle.
+  ///
+  /// \param half_edge the half-edge
   std::int32_t apex(std::int32_t half_edge) const { return corner(half_edge / 3, (half_edge + 2) % 3); }
   /// Return whether a half-edge has siblings.
+  ///
+  /// \param half_edge the half-edge
   bool has_siblings(std::int32_t half_edge) const {
     return !siblings.empty() && siblings[static_cast<std::size_t>(half_edge)] >= 0;
   }
@@ -52,12 +60,12 @@ struct SEAMWIRE_API TriangleConnectivity {
   /// Return the Euler characteristic V - E + F. Siblings count as separate edges.
   ///
   /// \param vertex_count V, which the triangles alone do not tell
-  /// \returns the characteristic
   std::int64_t euler_characteristic(std::size_t vertex_count) const;
-  /// Return the boundary loops: vertices in the direction of the triangles along them.
+  /// Find the boundary loops.
   ///
   /// \param vertex_count the number of vertices. At most one boundary half-edge begins at each of them.
-  /// \returns the loops, ordered by their smallest vertex. Each loop begins with its smallest vertex.
+  /// \returns for each loop its vertices in the direction of the triangles along it, beginning with the smallest. Loops
+  ///          are ordered by their smallest vertex.
   std::vector<std::vector<std::int32_t>> boundary_loops(std::size_t vertex_count) const;
 
  private:
