@@ -14,6 +14,7 @@
 // - Both times until all metrics are prepared.
 // - The memory of the process above that of the arrays, when all wires are final, and at most until then. The first run
 //   also has both after N seeds (20 by default), whose wires lead to vertices nearby.
+// - Both times until all metrics of another live wire are prepared, which has no seed.
 #include <Eigen/Geometry>
 #include <chrono>
 #include <cmath>
@@ -100,17 +101,36 @@ struct Lap {
   double clock = 0.0, processor = 0.0;
 };
 
-void measure(const Surface& surface, const Options& options, bool with_seeds) {
-  const LiveWireOptions how{.metrics = live_metrics(MetricFamily::kFeature,
-                                                    {.max_anisotropy = options.anisotropy, .clamp_percentile = 99.0})};
+/// From the arrays on.
+class Stopwatch {
+ public:
+  Lap lap() const {
+    return {std::chrono::duration<double>(Clock::now() - begun_).count(), process_seconds() - worked_};
+  }
+
+ private:
+  Clock::time_point begun_ = Clock::now();
+  double worked_ = process_seconds();
+};
+
+bool is_ready(const LiveWire& live) {
+  return std::ranges::all_of(live.embeddings(), [](const auto& each) { return each.has_value(); });
+}
+
+void measure_without_seed(const Surface& surface, const LiveWireOptions& how) {
+  const Stopwatch watch;
+  const LiveWire live(surface.points(), surface.triangles(), std::nullopt, how);
+  while (!is_ready(live)) std::this_thread::sleep_for(kBetweenRequests);
+  const Lap ready = watch.lap();
+  std::printf("  ready without a seed %.2f / %.2f s\n", ready.clock, ready.processor);
+}
+
+void measure(const Surface& surface, const LiveWireOptions& how, const Options& options, bool with_seeds) {
   const std::int32_t target = vertex_near(surface, 0);
   const auto faces = static_cast<double>(surface.face_count());
   forget_most_memory();
-  const double memory_before = memory("VmRSS"), worked = process_seconds();
-  const Clock::time_point begun = Clock::now();
-  const auto lap = [&] {
-    return Lap{std::chrono::duration<double>(Clock::now() - begun).count(), process_seconds() - worked};
-  };
+  const double memory_before = memory("VmRSS");
+  const Stopwatch watch;
   LiveWire live(surface.points(), surface.triangles(), std::nullopt, how);
   live.seed({0});
   std::vector<std::optional<Lap>> seen(how.metrics.wires.size());
@@ -121,11 +141,10 @@ void measure(const Surface& surface, const Options& options, bool with_seeds) {
     found = live.wires({target});
     for (std::size_t i = 0; i < seen.size(); ++i) {
       if (seen[i] || found.wires[i].points.empty()) continue;
-      seen[i] = lap();
+      seen[i] = watch.lap();
       lengths[i] = found.wires[i].length;
     }
-    const auto embeddings = live.embeddings();
-    if (!ready && std::ranges::all_of(embeddings, [](const auto& each) { return each.has_value(); })) ready = lap();
+    if (!ready && is_ready(live)) ready = watch.lap();
     std::this_thread::sleep_for(kBetweenRequests);
   } while (!found.final());
   for (std::size_t i = 0; i < seen.size(); ++i) {
@@ -147,8 +166,6 @@ void measure(const Surface& surface, const Options& options, bool with_seeds) {
     std::printf("  after %d seeds %.0f, at most %.0f", options.seeds, (memory("VmRSS") - memory_before) / faces,
                 (memory("VmHWM") - memory_before) / faces);
   }
-  std::printf("\n");
-  std::fflush(stdout);
 }
 
 void measure_mesh(const std::string& mesh, const Options& options) {
@@ -156,7 +173,13 @@ void measure_mesh(const std::string& mesh, const Options& options) {
   if (options.noise > 0) surface = with_noise(surface, options.noise);
   std::printf("%s  %zu faces; times: clock / processor of all threads\n", mesh_name(mesh, options.loop).c_str(),
               surface.face_count());
-  for (int i = 0; i < options.repeats; ++i) measure(surface, options, i == 0);
+  const LiveWireOptions how{.metrics = live_metrics(MetricFamily::kFeature,
+                                                    {.max_anisotropy = options.anisotropy, .clamp_percentile = 99.0})};
+  for (int i = 0; i < options.repeats; ++i) {
+    measure(surface, how, options, i == 0);
+    measure_without_seed(surface, how);
+    std::fflush(stdout);
+  }
 }
 
 int measure_all(int argc, char** argv) {

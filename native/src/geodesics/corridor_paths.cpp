@@ -35,7 +35,7 @@ using namespace detail;
 
 namespace detail {
 
-/// Distances along hops (GeodesicMesh::hops) from a seed, computed outwards as far as they are asked for.
+/// Distances along hops (GeodesicMesh::for_each_hop) from a seed, computed outwards as far as they are asked for.
 /// Delta-stepping keeps buckets of distances instead of a heap. The vertices of a bucket are settled in any order, and
 /// again if necessary (Meyer, Sanders, "Delta-stepping: a parallelizable shortest path algorithm", 2003). Single
 /// precision is enough, because distances only tell where to look for a path.
@@ -43,7 +43,7 @@ class DeltaStepping {
  public:
   DeltaStepping(const GeodesicMesh& mesh, std::int32_t seed) : mesh_(mesh), reached_(mesh.vertex_count()) {
     const float longest = mesh.longest_hop();
-    width_ = std::max(mesh.mean_hop(), longest / static_cast<float>(kMostBuckets - 2));
+    width_ = std::max(mesh.mean_edge(), longest / static_cast<float>(kMostBuckets - 2));
     if (!(width_ > 0)) width_ = 1.0F;
     per_width_ = 1.0F / width_;
     buckets_.resize(static_cast<std::size_t>(longest * per_width_) + 3);
@@ -57,13 +57,13 @@ class DeltaStepping {
       std::vector<Entry>& entries = bucket(current_);
       // The bucket may grow while it is read.
       while (done_ < entries.size()) {
-        if (done_ + kAhead < entries.size()) prefetch_vertex(entries[done_ + kAhead].vertex);
+        if (done_ + 2 * kAhead < entries.size()) prefetch_vertex(entries[done_ + 2 * kAhead].vertex);
+        if (done_ + kAhead < entries.size()) prefetch_faces(entries[done_ + kAhead].vertex);
         const Entry entry = entries[done_++];
         --waiting_;
         if (entry.distance > at(entry.vertex)) continue;
-        for (const auto& [to, length] : mesh_.hops(entry.vertex)) {
-          relax(to, entry.distance + length, entry.vertex);
-        }
+        mesh_.for_each_hop(entry.vertex,
+                           [&](std::int32_t to, float length) { relax(to, entry.distance + length, entry.vertex); });
         if (++work % kStepsBetweenChecks == 0) task.check(0.0);
       }
       entries.clear();
@@ -116,7 +116,10 @@ class DeltaStepping {
 
   void prefetch_vertex(std::int32_t vertex) const {
     prefetch(&reached_[vertex]);
-    prefetch(mesh_.hops(vertex).data());
+    prefetch(mesh_.out(vertex).data());
+  }
+  void prefetch_faces(std::int32_t vertex) const {
+    for (const std::int32_t h : mesh_.out(vertex)) mesh_.prefetch_half_edge(h);
   }
 
   const GeodesicMesh& mesh_;
@@ -234,7 +237,7 @@ void CorridorPaths::Impl::find_corridor(const PlacedPoint& to, const Task& task)
     corridor.push_back(v);
     if (corridor.size() % kWorkBetweenChecks == 0) task.check(0.0);
     has_source = has_source || v == seed_corner;
-    for (const auto& [head, hop] : mesh->hops(v)) relax(head, to_target[v] + hop);
+    mesh->for_each_hop(v, [&](std::int32_t head, float hop) { relax(head, to_target[v] + hop); });
   }
   for (const PlacedPoint* end : std::array<const PlacedPoint*, 2>{&seed, &to}) {
     for (const PlacedPoint::InFace& in : end->faces) corridor.push_back(mesh->half_edge(3 * in.face).tail);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 
@@ -19,15 +18,34 @@ namespace {
 /// needs. The error behind a vertex with 1e-7 too much is of second order, 1e-14 of the length.
 constexpr double kFlatness = 1e-7;
 
+/// A sum of angles from 0 to pi, as a product of complex numbers: a tenth of the time of computing each angle.
+class TotalAngle {
+ public:
+  void add(double cosine, double sine) {
+    const bool was_past_half = is_past_half();
+    const double c = cosine_ * cosine - sine_ * sine;
+    sine_ = cosine_ * sine + sine_ * cosine;
+    cosine_ = c;
+    if (was_past_half && !is_past_half()) ++turns_;
+  }
+  /// Whether it is more than 2 pi, and not by rounding.
+  bool is_beyond_flat() const {
+    return turns_ > 1 || (turns_ == 1 && (cosine_ < 0 || std::abs(sine_) > kFlatness * cosine_));
+  }
+
+ private:
+  bool is_past_half() const { return sine_ < 0 || (sine_ == 0 && cosine_ < 0); }
+
+  double cosine_ = 1.0, sine_ = 0.0;  // of what is beyond whole turns
+  std::size_t turns_ = 0;
+};
+
 /// Lengths computed from coordinates may miss the triangle inequality by rounding where the corners are in line.
 constexpr double kRounding = 1e-12;
 
 /// Lengths above this are refused, and meshes whose longest edge is shorter than the inverse. The square of a
 /// triangle's area is a product of four lengths, which would overflow or underflow.
 constexpr double kLongest = 1e76;
-
-/// There is a hop over an edge if it is shorter than this part of the path along two edges.
-constexpr double kShortcut = 0.95;
 
 using seamwire::text;
 std::string text(std::int32_t number) { return std::to_string(number); }
@@ -155,19 +173,9 @@ double four_areas(double a, double b, double c) {
   return std::sqrt(std::max(product, 0.0));
 }
 
-/// Hops have a separate unit if the longest is longer than 2 to this power, or shorter than the inverse. 2^80 times the
-/// number of vertices is still far below 2^128, where single precision ends.
+/// Hops have a separate unit if the longest edge is longer than 2 to this power, or shorter than the inverse. 2^80
+/// times the number of vertices is still far below 2^128, where single precision ends.
 constexpr int kMostHopExponent = 80;
-
-/// What lengths are multiplied by to give those of hops: a power of two; 1, unless sums of them might leave the range
-/// of single precision.
-double unit_of_hops(const IntrinsicMesh& mesh) {
-  double longest = mesh.lengths.empty() ? 0.0 : *std::ranges::max_element(mesh.lengths);
-  for (const LooseEdge& edge : mesh.loose_edges) longest = std::max(longest, edge.length);
-  if (longest == 0.0) return 1.0;
-  const int exponent = std::ilogb(longest);
-  return std::abs(exponent) > kMostHopExponent ? std::ldexp(1.0, -exponent) : 1.0;
-}
 
 /// Where more than one in so many faces has changed, building anew is no slower than patching.
 constexpr std::size_t kFacesPerChange = 4;
@@ -203,7 +211,7 @@ GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh, const Task& task) {
   set_siblings(mesh);
   out_ = leaving(vertex_count(), corners, task);
   list_loose_edges(mesh);
-  list_hops(mesh, task);
+  measure_edges();
   find_pseudo_sources(task);
 }
 
@@ -257,60 +265,19 @@ Csr<std::int32_t> GeodesicMesh::leaving(std::size_t vertex_count, const std::vec
   });
 }
 
-/// Calls add(to, length) for each hop from a vertex.
-template <class Add>
-void GeodesicMesh::each_hop(std::int32_t vertex, const Add& add) const {
-  const std::vector<std::int32_t>& all = out_.items();
-  std::size_t leaving = index(out_.offset(vertex));  // of `all`, half-edges looked at
-  for (const std::int32_t h : out(vertex)) {
-    if (++leaving + 2 * kAhead < all.size()) {
-      prefetch_half_edge(all[leaving + 2 * kAhead]);
-      if (const std::int32_t over = half_edge(all[leaving + kAhead]).right; over >= 0) prefetch_half_edge(over);
-    }
-    const HalfEdge edge = half_edge(h);
-    add(edge.tip, edge.length);
-    // On the boundary no half-edge leaves the vertex along the edge that arrives here.
-    if (edge.left < 0) add(edge.apex, half_edge(previous_in_face(h)).length);
-    // Over the opposite edge, from below it in the frame of the half-edge entered.
-    const std::int32_t opposite = next_in_face(h);
-    const HalfEdge back = half_edge(opposite);
-    for_each_beyond(opposite, [&](std::int32_t entered) {
-      const HalfEdge over = half_edge(entered);
-      const bool is_turned = is_mirrored(opposite, entered);
-      const double x = is_turned ? back.apex_x : over.length - back.apex_x, y = -back.apex_y;
-      const double dx = over.apex_x - x, dy = over.apex_y - y, foot = x * dy - dx * y;  // times dy, which is positive
-      if (!(foot > 0 && foot < over.length * dy)) return;
-      const double length = std::sqrt(dx * dx + dy * dy);
-      const double around = is_turned ? std::min(edge.length + over.left_length, edge.left_length + over.right_length)
-                                      : std::min(edge.length + over.right_length, edge.left_length + over.left_length);
-      if (length < kShortcut * around) add(over.apex, length);
-    });
-  }
-  for (const auto& [to, length] : loose(vertex)) add(to, length);
-}
-
-void GeodesicMesh::list_hops(const IntrinsicMesh& mesh, const Task& task) {
-  hops_.reserve(vertex_count(), 2 * half_edge_count() + loose_.items().size());
-  hop_unit_ = unit_of_hops(mesh);
-  const auto add = [&](std::int32_t to, double length) { hops_.push({to, static_cast<float>(length * hop_unit_)}); };
-  const Poll poll(task, 0.7, 0.9, vertex_count());
-  for (std::int32_t v = 0; v < static_cast<std::int32_t>(vertex_count()); ++v) {
-    poll.at(index(v));
-    each_hop(v, add);
-    hops_.end_row();
-  }
-  measure_hops();
-}
-
-void GeodesicMesh::measure_hops() {
-  double sum = 0.0;
-  longest_hop_ = 0.0F;
-  for (const Hop& hop : hops_.items()) {
-    sum += static_cast<double>(hop.length);
-    longest_hop_ = std::max(longest_hop_, hop.length);
-  }
-  const std::size_t count = hops_.items().size();
-  mean_hop_ = count > 0 ? static_cast<float>(sum / static_cast<double>(count)) : 0.0F;
+void GeodesicMesh::measure_edges() {
+  double sum = 0.0, longest = 0.0;
+  const auto measure = [&](double length) {
+    sum += length;
+    longest = std::max(longest, length);
+  };
+  for (std::size_t f = 0; f < faces_.size(); ++f) std::ranges::for_each(faces_[f].lengths, measure);
+  for (const Loose& edge : loose_.items()) measure(edge.length);
+  if (longest == 0.0) return;
+  const int exponent = std::ilogb(longest);
+  hop_unit_ = std::abs(exponent) > kMostHopExponent ? std::ldexp(1.0, -exponent) : 1.0;
+  mean_edge_ = static_cast<float>(hop_unit_ * sum / static_cast<double>(half_edge_count() + loose_.items().size()));
+  longest_hop_ = static_cast<float>(2.0 * hop_unit_ * longest);
 }
 
 /// Breadth first over the triangles, a component after the other; a face gets its number with its first vertex.
@@ -350,10 +317,11 @@ void GeodesicMesh::renumber(const IntrinsicMesh& mesh, std::vector<std::int32_t>
 bool GeodesicMesh::may_bend(std::int32_t vertex) const {
   const auto leaving = out(vertex);
   bool bends = !loose(vertex).empty();
-  double angle = 0.0;
+  TotalAngle angle;
   for (const std::int32_t h : leaving) {
-    angle += this->angle(h);
-    bends = bends || twin(h) < 0 || half_edge(h).left < 0;
+    const HalfEdge edge = half_edge(h);
+    angle.add(edge.apex_x / edge.left_length, edge.apex_y / edge.left_length);
+    bends = bends || twin(h) < 0 || edge.left < 0;
   }
   if (!bends && !leaving.empty()) {
     // Around one closed umbrella; whatever is not met belongs to another.
@@ -365,7 +333,7 @@ bool GeodesicMesh::may_bend(std::int32_t vertex) const {
     } while (h != leaving.front());
     bends = met != leaving.size();
   }
-  return bends || angle > 2 * std::numbers::pi + kFlatness;
+  return bends || angle.is_beyond_flat();
 }
 
 void GeodesicMesh::find_pseudo_sources(const Task& task) {
@@ -432,7 +400,7 @@ std::optional<GeodesicMesh> GeodesicMesh::patched(const IntrinsicMesh& before, c
   }
   const std::size_t count = mesh.triangles.size(), former_count = before.triangles.size();
   const std::size_t common = std::min(count, former_count), most = count / kFacesPerChange;
-  if (hop_unit_ != 1.0 || std::max(count, former_count) - common > most) return std::nullopt;
+  if (std::max(count, former_count) - common > most) return std::nullopt;
   if (!are_same(before.loose_edges, mesh.loose_edges)) return std::nullopt;
   if (!before.siblings.empty() || !mesh.siblings.empty()) return std::nullopt;
   const auto vertices = index(mesh.vertex_count), former_vertices = vertex_count();
@@ -455,7 +423,7 @@ std::optional<GeodesicMesh> GeodesicMesh::patched(const IntrinsicMesh& before, c
   for (std::size_t f = common; f < former_count; ++f) former_faces.push_back(static_cast<std::int32_t>(f));
   for (const std::int32_t f : faces.numbers()) check_corners(mesh, index(f));
 
-  GeodesicMesh out;  // rows of half-edges and hops are copied when they are patched
+  GeodesicMesh out;  // rows of half-edges are copied when they are patched
   out.faces_ = faces_;
   out.is_pseudo_source_ = is_pseudo_source_;
   out.external_vertex_ = external_vertex_;
@@ -469,7 +437,7 @@ std::optional<GeodesicMesh> GeodesicMesh::patched(const IntrinsicMesh& before, c
       if (const std::int32_t f = external_face_[h / 3]; index(f) < count) faces.insert(f);
     }
   }
-  // And the faces around, for the hops over them, and what they name.
+  // And the faces around, for what they name.
   const auto add_neighbors = [&](const IntrinsicMesh& of, std::int32_t f) {
     for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
       if (const std::int32_t twin = of.twins[h]; twin >= 0 && index(twin / 3) < count) faces.insert(twin / 3);
@@ -479,12 +447,8 @@ std::optional<GeodesicMesh> GeodesicMesh::patched(const IntrinsicMesh& before, c
   for (const std::int32_t f : former_faces) add_neighbors(before, f);
   for (std::size_t i = 0; i < own; ++i) add_neighbors(mesh, faces.numbers()[i]);
 
-  const double longest = std::ldexp(1.0, kMostHopExponent), shortest = std::ldexp(1.0, -kMostHopExponent);
   for (const std::int32_t f : faces.numbers()) {
-    for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
-      check_half_edge(mesh, h);
-      if (mesh.lengths[h] > longest || mesh.lengths[h] < shortest) return std::nullopt;
-    }
+    for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) check_half_edge(mesh, h);
   }
   for (const std::int32_t f : faces.numbers()) check_triangle_inequality(mesh, index(f));
 
@@ -509,12 +473,13 @@ std::optional<GeodesicMesh> GeodesicMesh::patched(const IntrinsicMesh& before, c
   std::ranges::sort(rows);
   task.check(0.6);
   out.patch_rows(*this, faces.numbers(), rows);
+  out.measure_edges();
   out.is_pseudo_source_.resize(vertices);
   for (const std::int32_t v : rows) out.is_pseudo_source_[v] = out.may_bend(v) ? kPseudoSource : 0;
   return out;
 }
 
-/// Rows of half-edges and hops: made anew for some vertices, ascending, whose faces, by external numbers, may be
+/// Rows of half-edges: made anew for some vertices, ascending, whose faces, by external numbers, may be
 /// others; the rest is that of the former mesh.
 void GeodesicMesh::patch_rows(const GeodesicMesh& former, const std::vector<std::int32_t>& faces,
                               const std::vector<std::int32_t>& vertices) {
@@ -536,11 +501,6 @@ void GeodesicMesh::patch_rows(const GeodesicMesh& former, const std::vector<std:
   out_ = former.out_.with_rows(vertex_count(), vertices, [&](std::int32_t v, const auto& add) {
     for (; next != leaving.end() && next->first == v; ++next) add(next->second);
   });
-
-  hops_ = former.hops_.with_rows(vertex_count(), vertices, [&](std::int32_t v, const auto& add) {
-    each_hop(v, [&](std::int32_t to, double length) { add(Hop{to, static_cast<float>(length)}); });
-  });
-  measure_hops();
 }
 
 }  // namespace seamwire::detail

@@ -41,23 +41,17 @@ class GeodesicMesh {
     std::int32_t to;
     double length;
   };
-  /// A straight line to a vertex nearby, along an edge, or over one through two triangles. Lengths are in single
-  /// precision, and where those of the mesh are huge or tiny, in another unit: they say where to look for a path.
-  struct Hop {
-    std::int32_t to;
-    float length;
-  };
 
   /// Throws as ExactGeodesics does.
   explicit GeodesicMesh(const IntrinsicMesh& mesh, const Task& task = {});
 
   /// Makes the mesh anew after a change. `before` is the IntrinsicMesh that this one was made of, `mesh` the new one.
   /// Most faces and vertices, by their numbers, should be the same in both. They are shared, and only the others are
-  /// made anew. The time is that of comparing the two and of copying the hops. The result equals one made from scratch,
-  /// except for internal numbers; faces and vertices that keep their external number mostly keep the internal one.
+  /// made anew. The time is that of comparing the two. The result equals one made from scratch, except for internal
+  /// numbers; faces and vertices that keep their external number mostly keep the internal one.
   ///
-  /// Nothing if too much has changed, if loose edges have changed, if edges have siblings, or if lengths are huge or
-  /// tiny. Throws as the constructor does.
+  /// Nothing if too much has changed, if loose edges have changed, or if edges have siblings. Throws as the constructor
+  /// does.
   std::optional<GeodesicMesh> patched(const IntrinsicMesh& before, const IntrinsicMesh& mesh,
                                       const Task& task = {}) const;
 
@@ -109,10 +103,16 @@ class GeodesicMesh {
     }
     for (const auto& [to, length] : loose(vertex)) see(to, -1, length);
   }
-  /// The hops from a vertex: along each of its edges, those without a face too, and over the edges opposite to it where
-  /// that is a shortcut. Without the latter, distances along hops on a regular mesh are up to 41 % too long.
-  std::span<const Hop> hops(std::int32_t vertex) const { return hops_[vertex]; }
-  float mean_hop() const { return mean_hop_; }
+  /// Calls see(to, length) for each hop from a vertex. Hops are straight lines along each of its edges, those without a
+  /// face too, and over the edges opposite to it where that is a shortcut. Without the latter, distances along hops on
+  /// a regular mesh are up to 41 % too long.
+  ///
+  /// Lengths are in single precision, and where those of the mesh are huge or tiny, in another unit: they say where to
+  /// look for a path.
+  template <class See>
+  void for_each_hop(std::int32_t vertex, const See& see) const;
+  /// In the unit of hops: the mean length of edges, and a length that no hop exceeds.
+  float mean_edge() const { return mean_edge_; }
   float longest_hop() const { return longest_hop_; }
   /// Shortest paths may bend here: a total angle of more than 2 pi, a boundary, several umbrellas, or a loose edge.
   bool is_pseudo_source(std::int32_t vertex) const { return is_pseudo_source_[vertex] != 0; }
@@ -144,11 +144,8 @@ class GeodesicMesh {
                                    const Task& task = {});
   void set_face(const IntrinsicMesh& mesh, std::int32_t external);
   void list_loose_edges(const IntrinsicMesh& mesh);
-  template <class Add>
-  void each_hop(std::int32_t vertex, const Add& add) const;
-  void list_hops(const IntrinsicMesh& mesh, const Task& task);
-  /// Finds the mean and the longest of all hops.
-  void measure_hops();
+  /// Chooses the unit of hops, and measures edges in it.
+  void measure_edges();
   void patch_rows(const GeodesicMesh& former, const std::vector<std::int32_t>& faces,
                   const std::vector<std::int32_t>& vertices);
   bool may_bend(std::int32_t vertex) const;
@@ -156,13 +153,14 @@ class GeodesicMesh {
   void find_pseudo_sources(const Task& task);
 
   static constexpr std::uint8_t kPseudoSource = 1, kBranching = 2;
+  /// There is a hop over an edge if it is shorter than this part of the path along two edges.
+  static constexpr double kShortcut = 0.95;
 
   PagedArray<Face> faces_;
   Csr<std::int32_t> out_;
   Csr<Loose> loose_;
-  Csr<Hop> hops_;
   double hop_unit_ = 1.0;
-  float mean_hop_ = 0.0F, longest_hop_ = 0.0F;
+  float mean_edge_ = 0.0F, longest_hop_ = 0.0F;
   std::vector<std::uint8_t> is_pseudo_source_;  ///< 0, kPseudoSource, or that and kBranching
   std::vector<std::int32_t> siblings_;          ///< empty without any
   std::vector<std::int32_t> external_vertex_, internal_vertex_, external_face_, internal_face_;
@@ -192,6 +190,32 @@ SEAMWIRE_INLINE GeodesicMesh::HalfEdge GeodesicMesh::half_edge(std::int32_t h) c
           .apex = face.corners[before],
           .left = face.twins[before],
           .right = face.twins[after]};
+}
+
+template <class See>
+void GeodesicMesh::for_each_hop(std::int32_t vertex, const See& see) const {
+  const auto hop = [&](std::int32_t to, double length) { see(to, static_cast<float>(length * hop_unit_)); };
+  for (const std::int32_t h : out(vertex)) {
+    const HalfEdge edge = half_edge(h);
+    hop(edge.tip, edge.length);
+    // On the boundary no half-edge leaves the vertex along the edge that arrives here.
+    if (edge.left < 0) hop(edge.apex, edge.left_length);
+    // Over the opposite edge, from below it in the frame of the half-edge entered.
+    const std::int32_t opposite = next_in_face(h);
+    const HalfEdge back = half_edge(opposite);
+    for_each_beyond(opposite, [&](std::int32_t entered) {
+      const HalfEdge over = half_edge(entered);
+      const bool is_turned = is_mirrored(opposite, entered);
+      const double x = is_turned ? back.apex_x : over.length - back.apex_x, y = -back.apex_y;
+      const double dx = over.apex_x - x, dy = over.apex_y - y, foot = x * dy - dx * y;  // times dy, which is positive
+      if (!(foot > 0 && foot < over.length * dy)) return;
+      const double length = std::sqrt(dx * dx + dy * dy);
+      const double around = is_turned ? std::min(edge.length + over.left_length, edge.left_length + over.right_length)
+                                      : std::min(edge.length + over.right_length, edge.left_length + over.left_length);
+      if (length < kShortcut * around) hop(over.apex, length);
+    });
+  }
+  for (const auto& [to, length] : loose(vertex)) hop(to, length);
 }
 
 }  // namespace seamwire::detail

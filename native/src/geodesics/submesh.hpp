@@ -11,8 +11,8 @@
 
 namespace seamwire::detail {
 
-/// Some triangles of a mesh as a separate mesh, without hops. Its external numbers are its internal ones. Paths may
-/// bend at its border as at any other boundary; on the whole mesh they are paths all the same.
+/// Some triangles of a mesh as a separate mesh, whose edges are not measured for hops. Its external numbers are its
+/// internal ones. Paths may bend at its border as at any other boundary; on the whole mesh they are paths all the same.
 struct Submesh {
   std::shared_ptr<const GeodesicMesh> mesh;
   std::vector<std::int32_t> vertices, faces;  ///< the number of each in the whole mesh

@@ -227,7 +227,8 @@ EdgeChain LiveWorker::find_cycle(const Edge& edge, const std::stop_token& stop) 
 void LiveWorker::tell_right_of_way() {
   if (which_ != 0) return;
   right_of_way_->update([this] {
-    const bool leads = seeds_.newest()->metrics->first_leads();
+    const std::shared_ptr<const SeedRequest> newest = seeds_.newest();
+    const bool leads = newest->seed && newest->metrics->first_leads();
     return leads && !has_failed_ && !quit_.stop_requested() && !seeds_.is_finished();
   });
 }

@@ -119,16 +119,15 @@ Prepared prepare(const SurfaceContext& context, Along along, MetricSet& metrics,
     return prepared;
   }
   std::shared_ptr<const Metric> from_scratch;  // a former embedding is changed at once
-  const auto preview = [&](double) {
+  const auto preview = [&] {
     if (from_scratch) steps.preview(prepared, from_scratch);
-    return true;
   };
   const Task task{.stop = stop, .progress = [&](double done) {
                     fraction = (kEmbedBegins + (kSolveBegins - kEmbedBegins) * done) / kSolveBegins;
-                    steps.make_way();
-                    return preview(done);
+                    preview();
+                    steps.make_way(preview);
+                    return true;
                   }};
-  steps.make_way();
   Metric own = make_metric(context, spec, silent);
   if (scribbled) own = apply_scribbles(*surface, own, metrics.scribbles, spec.kind(), silent);
   if (!on_surface) {
@@ -138,8 +137,8 @@ Prepared prepare(const SurfaceContext& context, Along along, MetricSet& metrics,
   const auto metric = std::make_shared<const Metric>(std::move(own));
   const std::shared_ptr<const Prepared> former = metrics.former(which);
   if (!former) from_scratch = metric;
-  steps.make_way();
-  preview(0.0);
+  preview();
+  steps.make_way(preview);
   std::optional<EmbeddedSurface> embedded;  // previews get the rest meanwhile
   if (former) {
     embedded = former->embedded->with_metric(metric, task);
@@ -150,7 +149,10 @@ Prepared prepare(const SurfaceContext& context, Along along, MetricSet& metrics,
   }
   embedded->points();
   // Whoever finds the embedding waits for its geodesics.
-  embedded->geodesics({.stop = stop, .progress = preview});
+  embedded->geodesics({.stop = stop, .progress = [&](double) {
+                         preview();
+                         return true;
+                       }});
   prepared.embedded = std::move(embedded);
   return prepared;
 }

@@ -69,9 +69,9 @@ class MetricSet {
 
 /// Functions that prepare() calls now and then, and that may take their time.
 struct PreparationSteps {
-  /// Lets another thread go first. It is not called while the geodesics are built, which other live wires of the
-  /// surface may find.
-  std::function<void()> make_way = [] {};
+  /// Lets another thread go first, and calls meanwhile() now and then until it returns. It is not called while the
+  /// geodesics are built, which other live wires of the surface may find.
+  std::function<void(const std::function<void()>&)> make_way = [](const auto&) {};
   /// Shows what can be seen before the metric is prepared. It receives the data so far, without `embedded`, and the
   /// metric that is being embedded from scratch.
   std::function<void(const Prepared&, const std::shared_ptr<const Metric>&)> preview = [](const auto&, const auto&) {};

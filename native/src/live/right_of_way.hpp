@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <stop_token>
 
@@ -19,10 +20,12 @@ class RightOfWay {
     is_busy_ = is_busy();
     changed_.notify_all();
   }
-  /// Waits until that thread has nothing to do, or `stop` is requested.
-  void wait(const std::stop_token& stop) {
+  /// Waits until that thread has nothing to do, or `stop` is requested, but not longer than `duration`. Returns whether
+  /// there is nothing more to wait for.
+  bool wait_for(std::chrono::milliseconds duration, const std::stop_token& stop) {
     MutexLock lock(mutex_);
-    changed_.wait(lock, stop, [this]() SEAMWIRE_REQUIRES(mutex_) { return !is_busy_; });
+    const auto is_free = [this]() SEAMWIRE_REQUIRES(mutex_) { return !is_busy_; };
+    return changed_.wait_for(lock, stop, duration, is_free) || stop.stop_requested();
   }
 
  private:

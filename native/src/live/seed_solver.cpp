@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <thread>
 #include <utility>
 
@@ -16,6 +17,8 @@ namespace {
 constexpr std::size_t kLeastFacesForNearby = 200'000;
 /// And no more than one in so many faces is embedded for it.
 constexpr std::size_t kFacesPerNearby = 5;
+/// A thread that makes way looks that often whether another preview is asked for.
+constexpr std::chrono::milliseconds kBetweenPreviews{10};
 
 bool is_missing_edge(const Surface& surface, const WireEnd& end) {
   const auto* pick = std::get_if<Pick>(&end);
@@ -64,7 +67,7 @@ std::shared_ptr<const SeedSolution> SeedSolver::solve(const SeedBox::Job& job,
       metrics.prepared[metric_]->get({.stop = preparing, .progress = {}}, [&](const Task&) {
         Nearby nearby;
         return prepare(context_, settings_.along, metrics, metric_, preparing,
-                       {.make_way = [&] { make_way(preparing); },
+                       {.make_way = [&](const auto& meanwhile) { make_way(preparing, meanwhile); },
                         .preview =
                             [&](const Prepared& so_far, const std::shared_ptr<const Metric>& metric) {
                               make_nearby_preview(seeds, so_far, metric, preparing, nearby);
@@ -82,8 +85,9 @@ std::shared_ptr<const SeedSolution> SeedSolver::solve(const SeedBox::Job& job,
   return settings_.along == Along::kSurface ? find_field(job, prepared, task) : find_chains(job, prepared, task, seeds);
 }
 
-void SeedSolver::make_way(const std::stop_token& stop) {
-  if (makes_way_) right_of_way_->wait(stop);
+/// Calls meanwhile() now and then.
+void SeedSolver::make_way(const std::stop_token& stop, const std::function<void()>& meanwhile) {
+  while (makes_way_ && !right_of_way_->wait_for(kBetweenPreviews, stop)) meanwhile();
 }
 
 /// Finds the wire from the newest seed to the newest target around the seed. A newer seed stops it.
@@ -131,16 +135,15 @@ std::shared_ptr<const SeedSolution> SeedSolver::find_field(const SeedBox::Job& j
   if (!seed)
     return std::make_shared<const SeedSolution>(
         SeedSolution{.prepared = prepared, .seed = *job.request->seed, .field = {}, .wires = {}});
-  make_way(job.stop);
-  task.check(0.0);
   CorridorPaths paths(on.geodesics(), *seed);
   std::int64_t answered = -1;
-  make_preview(job, *prepared, paths, answered);
+  const auto preview = [&] { make_preview(job, *prepared, paths, answered); };
   task.progress = [&, report = std::move(task.progress)](double done) {
-    make_way(job.stop);
-    make_preview(job, *prepared, paths, answered);
+    preview();
+    make_way(job.stop, preview);
     return report(done);
   };
+  task.check(0.0);
   DistanceField field = on.geodesics().solve(std::array{*seed}, {}, task);
   return std::make_shared<const SeedSolution>(
       SeedSolution{.prepared = prepared, .seed = *job.request->seed, .field = std::move(field), .wires = std::nullopt});

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -69,7 +70,7 @@ class SeedSolver {
   std::shared_ptr<const SeedSolution> find_chains(const SeedBox::Job& job,
                                                   const std::shared_ptr<const Prepared>& prepared, const Task& task,
                                                   SeedBox& seeds);
-  void make_way(const std::stop_token& stop);
+  void make_way(const std::stop_token& stop, const std::function<void()>& meanwhile);
   struct Nearby;
   void make_nearby_preview(const SeedBox& seeds, const Prepared& prepared, const std::shared_ptr<const Metric>& metric,
                            const std::stop_token& stop, Nearby& nearby);

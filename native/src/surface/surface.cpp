@@ -296,8 +296,13 @@ std::vector<bool> find_flips(const Faces& faces, const Gluing& gluing, const std
                              const Task& task) {
   const std::vector<Index>& twin = gluing.twin;
   const Index count = faces.count();
-  std::vector<bool> visited(count, false);
   std::vector<bool> flipped(count, false);
+  Index agreed = 0;  // sides that agree as given
+  while (agreed < faces.side_count() && (twin[agreed] < agreed || faces.tail(agreed) == faces.tip(twin[agreed]))) {
+    ++agreed;
+  }
+  if (agreed == faces.side_count()) return flipped;
+  std::vector<bool> visited(count, false);
   std::vector<Index> component;
   std::vector<Index> agreeing;     // stack of faces whose neighbors are to be looked at
   std::vector<Index> disagreeing;  // sides to cross once no agreeing face is left
@@ -547,7 +552,7 @@ Surface::Surface(std::vector<Vector> points, std::vector<Triangle> triangles, st
   for (std::size_t v = 0; v < used.size(); ++v) {
     if (!used[v]) report_.isolated_vertices.push_back(static_cast<Index>(v));
   }
-  report_.components = count_components(used, {&gluing.carried, &connecting}, task);
+  report_.components = count_components(used, {&gluing.carried, &loose_edges_}, task);
 
   task.check(0.5);
   const std::vector<double> areas = face_areas(points_, faces, scale_, report_, task);

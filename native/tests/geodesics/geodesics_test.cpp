@@ -11,6 +11,7 @@
 #include <string>
 #include <thread>
 
+#include "geodesics/geodesic_mesh.hpp"
 #include "intrinsic.hpp"
 #include "paths.hpp"
 #include "reference_geodesics.hpp"
@@ -88,6 +89,35 @@ Eigen::Matrix3d stretch(double factor, double angle) {
 }
 
 // Equal distances everywhere: a queue or a filter that mishandles ties loses vertices here.
+/// Paths bend at vertices of more than a full turn. Triangles around a vertex, each with the same angle there.
+TEST(GeodesicMesh, FindsAnglesBeyondAFullTurn) {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  for (const int count : {3, 4, 6, 7, 13, 200}) {
+    IntrinsicMesh mesh;
+    mesh.vertex_count = count + 1;
+    for (std::int32_t f = 0; f < count; ++f) {
+      const std::int32_t next = (f + 1) % count, before = (f + count - 1) % count;
+      mesh.triangles.push_back({0, f + 1, next + 1});
+      mesh.twins.insert(mesh.twins.end(), {3 * before + 2, -1, 3 * next});
+    }
+    const auto may_bend = [&](double angle) {
+      const double opposite = std::min(2.0, 2 * std::sin(angle / count / 2));
+      mesh.lengths.clear();
+      for (int f = 0; f < count; ++f) mesh.lengths.insert(mesh.lengths.end(), {1.0, opposite, 1.0});
+      const detail::GeodesicMesh made(mesh);
+      return made.is_pseudo_source(made.internal_vertex(0));
+    };
+    const double most = std::numbers::pi * count;  // where the triangles have no height
+    for (const double turns : {0.3, 0.5, 0.9, 1.0, 1.1, 1.5, 1.9, 2.0, 2.1, 2.6, 3.0, 50.3}) {
+      if (turns * kTurn >= most) continue;
+      EXPECT_EQ(may_bend(turns * kTurn), turns > 1) << count << " triangles, " << turns << " turns";
+    }
+    EXPECT_FALSE(may_bend(kTurn + 1e-8)) << "by rounding alone";
+    EXPECT_TRUE(may_bend(kTurn + 1e-6));
+    EXPECT_TRUE(may_bend(most)) << count << " flat triangles";
+  }
+}
+
 TEST(Geodesics, RegularGridHasEuclideanDistances) {
   const shapes::Mesh grid = shapes::grid(32);
   for (const std::int32_t seed : {0, 16 * 33 + 16, 5 * 33 + 30, 33 * 33 - 1}) {

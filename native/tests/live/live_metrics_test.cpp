@@ -56,7 +56,7 @@ TEST(LiveWire, AThreadNeverMakesWayWhileOthersMayWaitForIt) {
   MetricSet metrics({.wires = {spec}}, {});
   int made_way = 0, shown = 0;
   const PreparationSteps steps{.make_way =
-                                   [&] {
+                                   [&](const auto&) {
                                      ++made_way;
                                      EXPECT_FALSE(is_embedded(context, spec)) << "others wait for its geodesics";
                                    },

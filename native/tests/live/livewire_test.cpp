@@ -101,19 +101,15 @@ TEST(LiveWire, WhereTheLeadingWireIsFinalTheOthersNeedNotBeWaitedFor) {
 }
 
 TEST(RightOfWay, IsWaitedForUntilItIsGivenUpOrTheWaitIsStopped) {
+  constexpr std::chrono::hours kLong{1};
   RightOfWay right_of_way;
-  right_of_way.wait({});  // nobody has it
+  EXPECT_TRUE(right_of_way.wait_for(kLong, {})) << "nobody has it";
   right_of_way.update([] { return true; });
+  EXPECT_FALSE(right_of_way.wait_for(std::chrono::milliseconds(1), {})) << "the time is over";
   std::stop_source stop;
   std::atomic<int> through = 0;
-  std::jthread stopped([&] {
-    right_of_way.wait(stop.get_token());
-    ++through;
-  });
-  std::jthread patient([&] {
-    right_of_way.wait({});
-    through += 10;
-  });
+  std::jthread stopped([&] { through += right_of_way.wait_for(kLong, stop.get_token()) ? 1 : 0; });
+  std::jthread patient([&] { through += right_of_way.wait_for(kLong, {}) ? 10 : 0; });
   EXPECT_EQ(through, 0);
   stop.request_stop();
   stopped.join();

@@ -7,15 +7,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <stop_token>
 #include <thread>
 #include <vector>
 
-#include "detail/deadline.hpp"
+#include "context/interactive_embedding.hpp"
 #include "live/live_wires.hpp"
 #include "live/mailbox.hpp"
 #include "live/right_of_way.hpp"
 #include "live/seed_solver.hpp"
+#include "seamwire/context/embedded_surface.hpp"
 #include "seamwire/context/surface_context.hpp"
 #include "seamwire/live/livewire.hpp"
 #include "shapes.hpp"
@@ -35,7 +35,7 @@ std::shared_ptr<const Surface> large_torus() {
   return live_wires::shared(shapes::bumpy(shapes::torus(kSide, kSide), 0.01));
 }
 
-TEST(NearbyPreviews, LetTheThreadWithTheRightOfWayGoFirst) {
+TEST(NearbyPreviews, AreMadeByAThreadThatMakesWayAndEmbedsLater) {
   const auto surface = large_torus();
   const std::size_t metric = std::max(1U, std::thread::hardware_concurrency());
   const SurfaceContext context(surface);
@@ -49,18 +49,20 @@ TEST(NearbyPreviews, LetTheThreadWithTheRightOfWayGoFirst) {
   const LiveSettings settings{.along = Along::kSurface, .turning = 0.0, .loop_turning = {}, .max_error = 0.0};
   SeedSolver solver(metric, context, settings, right_of_way, targets);
   const LiveMetrics metrics{.wires = std::vector(metric + 1, MetricSpec::euclidean())};
-  seeds.post(
-      {.metrics = std::make_shared<MetricSet>(metrics, std::vector<Scribble>()), .preparing = {}, .seed = Pick{0}});
+  const auto set = std::make_shared<MetricSet>(metrics, std::vector<Scribble>());
+  seeds.post({.metrics = set, .preparing = {}, .seed = Pick{0}});
   targets.post(Pick{kTarget});
   const SeedBox::Job job = seeds.take().value();
-  const std::uint64_t seen = events.count();
   const std::jthread thread([&] { seeds.answer(job, [&] { return solver.solve(job, nullptr, seeds); }); });
-  EXPECT_FALSE(events.wait_beyond(seen, deadline_after(1.0))) << "no preview is shown";
+  const auto wait_for_preview = [&] {
+    while (!targets.read().is_newest) std::this_thread::yield();
+  };
+  wait_for_preview();
+  targets.post(Pick{kHalfway});
+  wait_for_preview();
+  EXPECT_FALSE(EmbeddedSurface::find(context, MetricSpec::euclidean(), interactive_options(*surface)));
   right_of_way->update([] { return false; });
-  events.wait_beyond(seen);
-  EXPECT_TRUE(targets.read().answer) << "now it is";
-  std::stop_source preparing = job.request->preparing;
-  preparing.request_stop();
+  while (!set->peek(metric)) std::this_thread::yield();
   seeds.close();
 }
 
