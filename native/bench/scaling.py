@@ -138,13 +138,45 @@ def all_work() -> dict[str, tuple[Callable[[int], Work], float]]:
     def seam_plan(make: Callable[[int], tuple[np.ndarray, np.ndarray]]) -> Callable[[int], Work]:
         return after(lambda n: sw.Surface(*make(n)), lambda on: sw.SeamPlanner(on, along="edges").plan(steps=1))
 
-    def live(n: int) -> object:
-        points, triangles = torus(n)
-        wires = sw.LiveWire(points, triangles, along="edges")
+    def shown(wires: sw.LiveWire, n: int) -> object:
+        """Wait for the wire from vertex 0 to one far away."""
         wires.wait_for_surface()
         wires.seed(0)
+        wires.wires(far(n))
         wires.wait()
-        return wires.wires(len(points) // 2)
+        return wires.wires(far(n))
+
+    def live(along: str) -> Callable[[int], Work]:
+        return after(lambda n: (*torus(n), n), lambda *mesh: shown(sw.LiveWire(*mesh[:2], along=along), mesh[2]))
+
+    def after_live(along: str, call: Callable[[sw.LiveWire, int], object]) -> Callable[[int], Work]:
+        def prepare(n: int) -> tuple[sw.LiveWire, int]:
+            wires = sw.LiveWire(*torus(n), along=along)
+            shown(wires, n)
+            return wires, n
+
+        return after(prepare, call)
+
+    def settled(wires: sw.LiveWire, call: Callable[[], object]) -> object:
+        """Wait for the answer of a call that starts a search."""
+        call()
+        wires.wait()
+        return call()
+
+    def stroke(n: int) -> sw.Scribble:
+        vertices = np.arange(32)
+        return sw.Scribble(torus(n)[0][vertices], vertices=vertices)
+
+    def strokes(n: int) -> tuple[sw.Surface, sw.Metric, list[sw.Scribble]]:
+        return *metric(n), [stroke(n)]
+
+    def curved(n: int) -> tuple[sw.Surface, sw.Curvature]:
+        on = surface(n)
+        return on, sw.principal_curvatures(on)
+
+    def bent(n: int) -> tuple[sw.BentWires, int]:
+        distances, to = field(n)
+        return distances.bend(distances.closed_wires(1)[0]), to
 
     def cut(n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, list[sw.CutCurve]]:
         points, triangles = torus(n)
@@ -152,25 +184,31 @@ def all_work() -> dict[str, tuple[Callable[[int], Work], float]]:
         curve = sw.CutCurve(section[0], 0, far(n), section[1])
         return points, triangles, np.arange(len(triangles), dtype=np.int32), [curve]
 
-    def proportional(
-        prepare: Callable[[int], Work], growth: float = MOST_GROWTH
-    ) -> tuple[Callable[[int], Work], float]:
-        return prepare, growth
-
     work = {
         "Surface": after(torus, sw.Surface),
         "principal_curvatures": after(surface, sw.principal_curvatures),
-        "smoothed_curvatures": after(
-            lambda n: (on := surface(n), sw.principal_curvatures(on), 0.01), sw.smoothed_curvatures
-        ),
+        "smoothed_curvatures": after(curved, sw.smoothed_curvatures),
         "make_metric": after(lambda n: (surface(n), feature), sw.make_metric),
-        "crest_lines": after(lambda n: (on := surface(n), sw.principal_curvatures(on)), sw.crest_lines),
+        "feature_metric": after(curved, lambda *on: sw.feature_metric(*on, max_anisotropy=10, clamp_percentile=99)),
+        "campen_metric": after(curved, lambda *on: sw.campen_metric(*on, max_anisotropy=10)),
+        "pottmann_kovacs_metric": after(curved, lambda *on: sw.pottmann_kovacs_metric(*on, max_anisotropy=10)),
+        "concave_metric": after(curved, sw.concave_metric),
+        "euclidean_metric": after(curved, sw.euclidean_metric),
+        "Metric.ellipses": after(metric, lambda _, by: by.ellipses()),
+        "apply_scribbles": after(strokes, sw.apply_scribbles),
+        "crest_lines": after(curved, sw.crest_lines),
         "embed": after(metric, sw.embed),
+        "embed, max_error": after(metric, lambda *on: sw.embed(*on, max_error=0.01)),
+        "Embedding.with_lengths": after(embedded, lambda on: on.with_lengths(on.lengths)),
         "invalid_faces": after(metric, sw.invalid_faces),
         "metric_lengths": after(metric, sw.metric_lengths),
         "DistanceField.trace": after(field, lambda distances, to: distances.trace(to)),
+        "DistanceField.trace_many": after(field, lambda distances, to: distances.trace_many(range(to, to + 100))),
+        "DistanceField.trace_to": after(field, lambda distances, to: distances.trace_to(to, [0.2, 0.3, 0.5])),
+        "DistanceField.distance": after(field, lambda distances, to: distances.distance(to, [0.2, 0.3, 0.5])),
         "snap_to_edges": after(wire, sw.snap_to_edges),
         "edge_wires": after(lambda n: (*metric(n), 0), sw.edge_wires),
+        "EdgeWires.trace": after(lambda n: (sw.edge_wires(*metric(n), 0), far(n)), lambda wires, to: wires.trace(to)),
         "shortest_cycle": after(lambda n: (*metric(n), (0, 1)), sw.shortest_cycle),
         "fit_chain": after(line, sw.fit_chain),
         "isolines": after(lambda n: (on := surface(n), on.points[:, 2], [-0.1, 0.0, 0.1]), sw.isolines),
@@ -181,6 +219,10 @@ def all_work() -> dict[str, tuple[Callable[[int], Work], float]]:
             lambda n: (torus(n)[0], torus(n)[1].ravel(), np.full(len(torus(n)[1]), 3, np.int32)), sw.cut_polygons
         ),
         "plan_cuts": after(cut, sw.plan_cuts),
+        "CutPlan.node_at": after(
+            lambda n: (sw.plan_cuts(*cut(n)), torus(n)[1][0]),
+            lambda plan, corners: plan.node_at(corners, [0.2, 0.3, 0.5]),
+        ),
         "RayTree": after(torus, lambda points, triangles: sw.RayTree(points, triangles).wait()),
         "RayTree.first_hit": after(
             hits, lambda tree: [tree.first_hit([3, y, 0.1], [-1, 0, 0]) for y in np.linspace(-1, 1, 999)]
@@ -189,6 +231,7 @@ def all_work() -> dict[str, tuple[Callable[[int], Work], float]]:
         "NearestPoints.find": after(places, lambda tree, near: tree.find(near)),
         "flatten": after(lambda n: (*torus(n), ring(n)), sw.flatten),
         "measure_map": after(flat, sw.measure_map),
+        "map_energy": after(flat, sw.map_energy),
         "measure_map, stacked islands": after(lambda n: rectangles(n, (0, 0), 1), sw.measure_map),
         "measure_map, islands on each other": after(lambda n: rectangles(n, (1 / n, 0), 1), sw.measure_map),
         "measure_map, long islands": after(lambda n: rectangles(n, (0, 2), n), sw.measure_map),
@@ -197,13 +240,31 @@ def all_work() -> dict[str, tuple[Callable[[int], Work], float]]:
         "SeamPlanner.plan": seam_plan(torus),
         "SeamPlanner.plan, boxes": seam_plan(boxes),
         "SeamPlanner.plan, a fan": seam_plan(fan),
-        "LiveWire along edges": lambda n: lambda: live(n),
+        "LiveWire, edges": live("edges"),
+        "LiveWire.set_metric, edges": after_live("edges", lambda on, n: (on.set_metric("campen"), shown(on, n))),
+        "LiveWire.set_scribbles, edges": after_live(
+            "edges", lambda on, n: (on.set_scribbles([stroke(n)]), shown(on, n))
+        ),
+        "LiveWire.loop": after_live("edges", lambda on, _: settled(on, lambda: on.loop((0, 1)))),
+        "LiveWire.edge_loop": after_live("edges", lambda on, _: on.edge_loop((0, 1))),
+        "LiveWire.extend_straight": after_live("edges", lambda on, _: on.extend_straight((0, 1))),
+        "LiveWire.fit_chain": after_live("edges", lambda on, n: on.fit_chain(*line(n)[1:])),
     }
     return {
         **{name: (prepare, MOST_GROWTH) for name, prepare in work.items()},
         # Each window crosses as many triangles as the surface is wide, so an exact front has up to n^1.5 windows.
         "distance_field": (after(embedded, lambda on: sw.distance_field(on, 0)), 1.5),
         "closed_wires": (after(field, lambda distances, _: distances.closed_wires()), 1.5),
+        "DistanceField.bend": (after(field, lambda on, _: on.bend(on.closed_wires(1)[0])), 1.5),
+        "BentWires.through": (after(bent, lambda wires, to: wires.through(to)), 1.5),
+        "LiveWire, surface": (live("surface"), 1.5),
+        "LiveWire.set_metric": (after_live("surface", lambda on, n: (on.set_metric("campen"), shown(on, n))), 1.5),
+        "LiveWire.set_scribbles": (
+            after_live("surface", lambda on, n: (on.set_scribbles([stroke(n)]), shown(on, n))),
+            1.5,
+        ),
+        "LiveWire.closed_wires": (after_live("surface", lambda on, _: settled(on, lambda: on.closed_wires(0))), 1.5),
+        "LiveWire.bent_wire": (after_live("surface", lambda on, n: settled(on, lambda: on.bent_wire(0, far(n)))), 1.5),
     }
 
 

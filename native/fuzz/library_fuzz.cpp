@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -46,9 +46,9 @@
 namespace seamwire {
 namespace {
 
-/// From when on one input's work is told to stop. Meshes of spikes take long; that they hear it is what is tested: what
-/// goes on all the same is a timeout of libFuzzer's.
-constexpr std::chrono::seconds kPatience{3};
+/// From when on one input's work is told to stop, in seconds of processor time. Meshes of spikes take long; that they
+/// hear it is what is tested: what goes on all the same is a timeout of libFuzzer's.
+constexpr std::clock_t kPatience = 3;
 
 void require(bool holds, const char* what) {
   if (holds) return;
@@ -307,13 +307,13 @@ class Patience {
     Task task;
     task.progress = [end = end_](double fraction) {
       require(fraction >= 0.0 && fraction <= 1.0, "progress is a fraction");
-      return std::chrono::steady_clock::now() < end;
+      return std::clock() < end;
     };
     return task;
   }
 
  private:
-  std::chrono::steady_clock::time_point end_ = std::chrono::steady_clock::now() + kPatience;
+  std::clock_t end_ = std::clock() + kPatience * CLOCKS_PER_SEC;
 };
 
 /// Distances are lengths of paths: none is longer than where its edges lead.
@@ -358,7 +358,7 @@ std::optional<IntrinsicMesh> own_lengths(const Surface& surface) {
 /// Exact geodesics on the triangles as they are, over every edge.
 void check_geodesics(const Patience& patience, const Surface& surface) {
   const std::optional<IntrinsicMesh> mesh = own_lengths(surface);
-  if (!mesh || mesh->triangles.empty()) return;
+  if (!mesh || mesh->triangles.empty()) throw InvalidInput("the triangles are too thin for a metric of their own");
   const ExactGeodesics solver(*mesh);
   const std::int32_t seed = mesh->triangles.front()[0], other = mesh->triangles.back()[2];
   const DistanceField field = solver.solve(seed, patience.task()), back = solver.solve(other, patience.task());
@@ -522,20 +522,15 @@ void check_map(Bytes& from, const Patience& patience, const Surface& surface) {
 
 void check_rays(Bytes& from, const Mesh& mesh) {
   const RayTree tree(mesh.points, mesh.triangles);
-  const Vector origin(from.number(), from.number(), from.number());
-  const Vector direction(from.number(), from.number(), from.number());
+  const Vector origin{from.number(), from.number(), from.number()};
+  const Vector direction{from.number(), from.number(), from.number()};
   const RayHit before = tree.first_hit(origin, direction);
   tree.wait();
   const RayHit after = tree.first_hit(origin, direction);
   require(before.triangle == after.triangle, "the tree finds what looking at all triangles does");
 }
 
-void check(Bytes& from) {
-  const Patience patience;
-  const Mesh mesh = mesh_from(from);
-  check_rays(from, mesh);
-  const Surface surface(mesh.points, mesh.triangles, mesh.edges);
-  check_geodesics(patience, surface);
+void check_curvature(const Surface& surface) {
   const Curvature curvature = principal_curvatures(surface);
   for (std::size_t v = 0; v < curvature.k1.size(); ++v) {
     require(std::isfinite(curvature.k1[v]) && std::isfinite(curvature.k2[v]), "curvatures are finite");
@@ -549,23 +544,50 @@ void check(Bytes& from) {
     for (const Vector& point : lines.points) require(point.allFinite(), "crest lines are finite");
   }
   face_segments(surface, surface.edges());
+}
+
+/// What an input tries on its mesh. Its first byte chooses.
+enum class Room : std::uint8_t { kSurface, kGeodesics, kEdgeWires, kWires, kMap, kPlan };
+constexpr std::array kRoomNames{"surface", "geodesics", "edge wires", "wires", "map", "plan"};
+
+void check(Bytes& from, Room room) {
+  const Patience patience;
+  const Mesh mesh = mesh_from(from);
+  if (room == Room::kSurface) check_rays(from, mesh);
+  const Surface surface(mesh.points, mesh.triangles, mesh.edges);
+  if (room == Room::kSurface) return check_curvature(surface);
+  if (room == Room::kGeodesics) return check_geodesics(patience, surface);
+  if (room == Room::kMap) return check_map(from, patience, surface);
+  if (room == Room::kPlan) return check_plan(from, patience, surface);
   const Follow follow = from.coin() ? Follow::kMin : Follow::kMax;
-  Metric metric = metric_from(from, surface, curvature, follow);
+  Metric metric = metric_from(from, surface, principal_curvatures(surface), follow);
   std::vector<Scribble> scribbles;
   for (std::int32_t left = from.below(3); left > 0; --left) scribbles.push_back(scribble_from(from, surface));
   metric = apply_scribbles(surface, metric, scribbles);
-  check_edge_wires(from, patience, surface, metric, scribbles);
+  if (room == Room::kEdgeWires) return check_edge_wires(from, patience, surface, metric, scribbles);
   check_wires(from, patience, surface, metric);
-  if (from.coin()) check_map(from, patience, surface);
-  if (from.coin()) check_plan(from, patience, surface);
 }
 
-/// Prints how many inputs ran, and what became of them, when the program ends.
 struct Outcomes {
   std::size_t at_the_end = 0, refused = 0, out_of_time = 0;
-  ~Outcomes() {
-    std::fprintf(stderr, "%zu inputs: %zu reached the end, %zu were refused, %zu ran out of time\n",
+  void print(const char* room) const {
+    std::fprintf(stderr, "%-10s %8zu inputs: %zu reached the end, %zu were refused, %zu ran out of time\n", room,
                  at_the_end + refused + out_of_time, at_the_end, refused, out_of_time);
+  }
+};
+
+/// Prints what became of the inputs of each room, and of all, when the program ends.
+struct Tally {
+  std::array<Outcomes, kRoomNames.size()> rooms;
+  ~Tally() {
+    Outcomes all;
+    for (std::size_t i = 0; i < rooms.size(); ++i) {
+      rooms[i].print(kRoomNames[i]);
+      all.at_the_end += rooms[i].at_the_end;
+      all.refused += rooms[i].refused;
+      all.out_of_time += rooms[i].out_of_time;
+    }
+    all.print("all");
   }
 };
 
@@ -574,10 +596,12 @@ struct Outcomes {
 
 // NOLINTNEXTLINE(readability-identifier-naming): libFuzzer calls it so
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static seamwire::Outcomes outcomes;
+  static seamwire::Tally tally;
   seamwire::Bytes bytes(data, size);
+  const std::int32_t room = bytes.below(seamwire::kRoomNames.size());
+  seamwire::Outcomes& outcomes = tally.rooms[static_cast<std::size_t>(room)];
   try {
-    seamwire::check(bytes);
+    seamwire::check(bytes, static_cast<seamwire::Room>(room));
     ++outcomes.at_the_end;
   } catch (const seamwire::InvalidInput&) {
     ++outcomes.refused;

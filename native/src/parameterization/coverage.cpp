@@ -74,8 +74,8 @@ constexpr std::size_t kManyTouches = 64;
 
 void sort_out(auto& touches) {
   std::ranges::sort(touches);
-  const auto equal = std::ranges::unique(touches);
-  touches.erase(equal.begin(), equal.end());
+  // Clang 14 cannot read std::ranges::unique.
+  touches.erase(std::unique(touches.begin(), touches.end()), touches.end());
 }
 
 }  // namespace

@@ -2,10 +2,10 @@
 #include "seams/wire_touches.hpp"
 
 #include <algorithm>
-#include <ranges>
 #include <tuple>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "detail/poll.hpp"
 #include "surface/real_edges.hpp"
@@ -14,16 +14,16 @@ namespace seamwire::detail {
 namespace {
 
 /// How many edges two chains share from the start of the first one, if the second one starts or ends there.
-std::size_t shared_edges(const auto& chain, std::span<const std::int32_t> other) {
-  const auto count = [&](const auto& same) {
-    const auto [end, _] = std::ranges::mismatch(chain, same);
-    return static_cast<std::size_t>(std::max<std::ptrdiff_t>(end - chain.begin() - 1, 0));
+std::size_t shared_edges(std::span<const std::int32_t> chain, std::span<const std::int32_t> other) {
+  const auto count = [&](auto begin, auto end) {
+    const auto differs = std::mismatch(chain.begin(), chain.end(), begin, end).first;
+    return static_cast<std::size_t>(std::max<std::ptrdiff_t>(differs - chain.begin() - 1, 0));
   };
-  return std::max(count(other), count(std::views::reverse(other)));
+  return std::max(count(other.begin(), other.end()), count(other.rbegin(), other.rend()));
 }
 
 /// How many edges at the start of a chain are on the rim.
-std::size_t rim_edges(const auto& chain, const Rim& rim) {
+std::size_t rim_edges(std::span<const std::int32_t> chain, const Rim& rim) {
   std::size_t count = 0;
   while (count + 1 < chain.size() && rim.has_edge(chain[count], chain[count + 1])) ++count;
   return count;
@@ -67,7 +67,7 @@ std::vector<WireTouch> find_touches(std::span<const MarkedChain> wires, const Ri
   for (std::size_t i = 0; i < wires.size(); ++i) {
     const std::span<const std::int32_t> chain = wires[i].vertices;
     const std::size_t edges = chain.size() - 1;
-    const auto backwards = std::views::reverse(chain);
+    const std::vector<std::int32_t> backwards(chain.rbegin(), chain.rend());
     const Inner off_rim(edges, rim_edges(chain, rim), rim_edges(backwards, rim));
     for (std::size_t k = 0; k < chain.size(); ++k) {
       poll.next();
