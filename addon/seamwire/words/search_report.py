@@ -57,7 +57,7 @@ class Outcome:
         if self.marked:
             parts.append(f"{count(self.marked, 'edge')} marked")
         parts.append(count(len(self.missing), "island"))
-        if any(self.missing):  # a cut to an eye would cross the face
+        if any(self.missing):  # a cut to an eye would be in full view
             parts.append(f"{sum(cuts > 0 for cuts in self.missing)} with holes")
         return ", ".join([*parts, *self._of_map(), *self._problems()])
 

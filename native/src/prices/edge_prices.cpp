@@ -49,8 +49,8 @@ std::vector<double> openness(const PlanMesh& mesh, const Visibility& visibility,
 /// The price of a place, by its visibility.
 double price_at(double open) {
   const double seen = tuning::kHidden + (1.0 - tuning::kHidden) * std::pow(open, 3);
-  const double face = ramp(open, tuning::kFace, tuning::kFaceWidth);
-  return seen * (1.0 + tuning::kFacePrice * face * face);
+  const double exposed = ramp(open, tuning::kExposed, tuning::kExposedWidth);
+  return seen * (1.0 + tuning::kExposedPrice * exposed * exposed);
 }
 
 /// The price of a seam along each edge for its length, by the shape of the surface. It is 1 in a flat place.
@@ -90,7 +90,7 @@ double hardness(const PlanMesh& mesh, std::span<const double> bends) {
 
 EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const std::optional<Reflection>& reflection,
                        std::span<const double> weights) {
-  EdgePrices prices{.of_edge = {}, .visibility = openness(mesh, visibility, reflection), .is_face = {}};
+  EdgePrices prices{.of_edge = {}, .visibility = openness(mesh, visibility, reflection), .is_exposed = {}};
   const std::vector<FaceFrame> frames = face_frames(mesh);
   const Polygons polygons = find_polygons(mesh, frames);
   const PieceSizes sizes = measure_pieces(mesh, frames);
@@ -101,10 +101,10 @@ EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const
   const std::vector<double> odds =
       border_odds(mesh, polygons, sizes, bends, even, none, reflection ? &*reflection : nullptr, tuning::kSlitOnPlane);
   const std::vector<double> shapes = shape_prices(mesh, bends, odds);
-  // On machine parts sharp edges hide seams on every side, and nothing is a face.
+  // On machine parts sharp edges hide seams on every side, and no place is exposed.
   const double hard = hardness(mesh, bends.own);
   for (const double open : prices.visibility) {
-    prices.is_face.push_back(open >= tuning::kFace + tuning::kFaceWidth && hard < 0.5 ? 1 : 0);
+    prices.is_exposed.push_back(open >= tuning::kExposed + tuning::kExposedWidth && hard < 0.5 ? 1 : 0);
   }
   double sum = 0.0, length = 0.0;
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {

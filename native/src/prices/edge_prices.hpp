@@ -16,13 +16,14 @@ namespace seamwire::detail {
 /// The price of a seam along each edge of a mesh.
 ///
 /// The price is the edge's length times how visible it is. Sharp edges, ridges of thin parts and hollows are cheaper.
-/// Faces with eyes, lips and a nose are open to the front and to the sky alike, and are several times as expensive.
+/// Exposed places are open to the front and to the sky alike, and are several times as expensive. The eyes, lips and
+/// nose of a head are such places.
 struct EdgePrices {
-  std::vector<double> of_edge;        ///< infinity where no seam may run
-  std::vector<double> visibility;     ///< of each vertex; 1 on average
-  std::vector<std::uint8_t> is_face;  ///< of each vertex: 1 where a seam would run across a face, or what is as open
-  double turning = 0.0;               ///< what a seam pays for a turn by 90 degrees
-  double of_slit = 0.0;               ///< what each slit costs beside its edges, so that there are few long ones
+  std::vector<double> of_edge;           ///< infinity where no seam may run
+  std::vector<double> visibility;        ///< of each vertex; 1 on average
+  std::vector<std::uint8_t> is_exposed;  ///< of each vertex: 1 in an exposed place
+  double turning = 0.0;                  ///< what a seam pays for a turn by 90 degrees
+  double of_slit = 0.0;                  ///< what each slit costs beside its edges, so that there are few long ones
   /// A slit that gains more energy than this for its price is worth it even below the bound on the energy. That is so
   /// on machine parts, where sharp edges are nearly free.
   double bargain = kInfinity;

@@ -210,7 +210,7 @@ std::vector<PieceGroup> find_groups(const PlanMesh& whole, std::span<const std::
 bool are_alike(const SlitProblem& one, const SlitProblem& other) {
   if (one.mesh.triangles != other.mesh.triangles || one.mesh.twins != other.mesh.twins) return false;
   if (one.is_seam != other.is_seam || one.mesh.is_real != other.mesh.is_real) return false;
-  if (one.prices.is_face != other.prices.is_face || one.reflection.has_value() != other.reflection.has_value()) {
+  if (one.prices.is_exposed != other.prices.is_exposed || one.reflection.has_value() != other.reflection.has_value()) {
     return false;
   }
   if (one.reflection &&

@@ -321,7 +321,7 @@ class Planning {
                    [&](std::size_t g, const Task& own) { plans_[g].grow(is_bounded, own); });
     tell();
     const double bound = bound_of_groups();
-    const SlitGoal aim{.energy = bound, .may_cross_faces = goal_.distortion < tuning::kLowStretch, .budget = budget};
+    const SlitGoal aim{.energy = bound, .may_be_exposed = goal_.distortion < tuning::kLowStretch, .budget = budget};
     for_each_group(part_of(task_, kTreesEnd, search_end), [&](std::size_t g, const Task& own) {
       plans_[g].search(
           aim, is_small(g) ? std::function<void()>() : [&] { tell(); }, own);

@@ -61,10 +61,11 @@ class Search {
     offer(plan);
     if (std::isfinite(goal_.energy)) {  // without a bound, the tree is all that is asked for
       grow_finer(plan);
-      // Faces are cut only if the bound is out of reach otherwise.
-      const bool has_faces = std::ranges::any_of(problem_.prices.is_face, [](std::uint8_t face) { return face != 0; });
-      if (!is_within(plan) && !goal_.may_cross_faces && has_faces) {
-        goal_.may_cross_faces = true;
+      // Exposed places are cut only if the bound is out of reach otherwise.
+      const bool has_exposed =
+          std::ranges::any_of(problem_.prices.is_exposed, [](std::uint8_t exposed) { return exposed != 0; });
+      if (!is_within(plan) && !goal_.may_be_exposed && has_exposed) {
+        goal_.may_be_exposed = true;
         grow_finer(plan);
       }
       shrink(plan);
@@ -129,7 +130,7 @@ class Search {
     for (const std::int32_t v : ends) {
       for (const SlitFinder* finder : {&cheap, &direct}) {
         std::optional<Slit> slit = finder->slit_to(v);
-        const bool is_new = slit && (goal_.may_cross_faces || !crosses_face(problem_, *slit)) &&
+        const bool is_new = slit && (goal_.may_be_exposed || !is_exposed(problem_, *slit)) &&
                             std::ranges::none_of(found, [&](const Slit& one) { return one.path == slit->path; });
         if (is_new) found.push_back(std::move(*slit));
       }

@@ -12,9 +12,9 @@ namespace seamwire::detail {
 
 /// What search_slits() aims at.
 struct SlitGoal {
-  double energy = 4.2;           ///< the bound on E_d
-  bool may_cross_faces = false;  ///< whether slits may lead across faces, see EdgePrices
-  double budget = 4000.0;        ///< how many Newton steps on the whole mesh the search takes at most, about
+  double energy = 4.2;          ///< the bound on E_d
+  bool may_be_exposed = false;  ///< whether slits may lead through exposed places, see EdgePrices
+  double budget = 4000.0;       ///< how many Newton steps on the whole mesh the search takes at most, about
 };
 
 /// Searches for the cheapest slits whose map stays within a bound on the symmetric Dirichlet energy.

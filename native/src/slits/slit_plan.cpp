@@ -103,8 +103,8 @@ Cut cut_of(const SlitProblem& problem, std::span<const Slit> slits, std::span<co
   return cut;
 }
 
-bool crosses_face(const SlitProblem& problem, const Slit& slit) {
-  return std::ranges::any_of(slit.path, [&](std::int32_t v) { return problem.prices.is_face[v] != 0; });
+bool is_exposed(const SlitProblem& problem, const Slit& slit) {
+  return std::ranges::any_of(slit.path, [&](std::int32_t v) { return problem.prices.is_exposed[v] != 0; });
 }
 
 std::vector<std::int32_t> pieces_of(const SlitProblem& problem, const Slit& slit) {

@@ -81,8 +81,8 @@ struct SlitPlan {
   double work = 0.0;  ///< Newton steps that it took to get here from another plan, each times its share of the area
 };
 
-/// Whether a slit leads across a face, see EdgePrices.
-bool crosses_face(const SlitProblem& problem, const Slit& slit);
+/// Whether a slit leads through an exposed place, see EdgePrices.
+bool is_exposed(const SlitProblem& problem, const Slit& slit);
 
 /// The pieces in which a slit lies, ascending.
 std::vector<std::int32_t> pieces_of(const SlitProblem& problem, const Slit& slit);

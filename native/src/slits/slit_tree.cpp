@@ -193,7 +193,7 @@ class TreeGrowth {
     const std::vector<double> distances = body.graph.mean_distances(task_);
     std::int32_t root = -1;
     std::vector<std::vector<std::int32_t>> loops = body.loops;
-    if (has_tips_) state.holes = leave_holes_in_faces(body, distances, loops);
+    if (has_tips_) state.holes = leave_exposed_holes(body, distances, loops);
     if (loops.empty()) {
       root = find_root(problem_, body, distances);
       tree_.roots.push_back(root);
@@ -236,12 +236,14 @@ class TreeGrowth {
     return area > tuning::kLeastAround * length * length;
   }
 
-  /// Takes out and returns the holes that a slit from the hidden middle of the piece could only reach across a face. An
-  /// eye stays a hole of its island.
-  std::vector<std::vector<std::int32_t>> leave_holes_in_faces(const PieceBody& body, std::span<const double> distances,
-                                                              std::vector<std::vector<std::int32_t>>& loops) const {
-    const auto is_face = [this](std::int32_t v) { return problem_.prices.is_face[v] != 0; };
-    if (loops.empty() || std::ranges::none_of(body.island.vertices, is_face)) return {};
+  /// Takes out and returns the holes that a slit from the hidden middle of the piece could only reach through an
+  /// exposed place. An eye stays a hole of its island.
+  std::vector<std::vector<std::int32_t>> leave_exposed_holes(const PieceBody& body, std::span<const double> distances,
+                                                             std::vector<std::vector<std::int32_t>>& loops) const {
+    const std::vector<std::uint8_t>& exposed = problem_.prices.is_exposed;
+    if (loops.empty() || std::ranges::none_of(body.island.vertices, [&](std::int32_t v) { return exposed[v] != 0; })) {
+      return {};
+    }
     std::vector<std::uint8_t> from(problem_.mesh.vertex_count(), 0);
     from[find_root(problem_, body, distances)] = 1;
     const SlitFinder finder(problem_, from, from);
@@ -250,7 +252,7 @@ class TreeGrowth {
       if (!is_hole(body, loop)) return false;
       const std::int32_t nearest = cheapest(finder, {loop, true}).second;
       const std::optional<Slit> slit = nearest < 0 ? std::nullopt : finder.slit_to(nearest);
-      const bool is_left = slit && crosses_face(problem_, *slit);
+      const bool is_left = slit && is_exposed(problem_, *slit);
       if (is_left) holes.push_back(std::move(loop));
       return is_left;
     });
@@ -375,7 +377,7 @@ class TreeGrowth {
     if (best.second >= 0) slit = finder.slit_to(best.second);
     const Terminal reached = std::move(terminals[which]);
     terminals.erase(terminals.begin() + static_cast<std::ptrdiff_t>(which));
-    if (!slit || (!reached.is_loop && crosses_face(problem_, *slit))) {  // out of reach, or across an exposed area
+    if (!slit || (!reached.is_loop && is_exposed(problem_, *slit))) {  // out of reach, or through an exposed place
       return !terminals.empty();
     }
     slit->is_needed = reached.is_loop;

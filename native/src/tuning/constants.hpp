@@ -19,18 +19,18 @@ inline constexpr int kSkyRays = 24;
 
 // Price of a place, by its visibility. Without it seams would be short, but as visible as any other line.
 
-/// Share of the front in the visibility, the rest is open sky. With open sky alone, seams crossed the faces of both
+/// Share of the front in the visibility, the rest is open sky. With open sky alone, seams ran over the front of both
 /// heads on which the planner was tuned.
 inline constexpr double kFrontShare = 0.7;
 /// Price of a place that nobody sees, in that of an average place. With 0.12, seams were longer and crossed the
 /// middle of wings.
 inline constexpr double kHidden = 0.25;
-/// Visibility from which a place counts as part of a face: a little above the mean, where eyes, nose and lips are.
-inline constexpr double kFace = 1.1;
-/// By how much more visibility a place counts fully as part of a face.
-inline constexpr double kFaceWidth = 0.35;
-/// Times that a place in a face costs more. Without it, slits ran through eyes and noses.
-inline constexpr double kFacePrice = 8.0;
+/// Visibility from which a place is exposed: a little above the mean, where the eyes, nose and lips of a head are.
+inline constexpr double kExposed = 1.1;
+/// By how much more visibility a place is fully exposed.
+inline constexpr double kExposedWidth = 0.35;
+/// Times that an exposed place costs more. Without it, slits ran through eyes and noses.
+inline constexpr double kExposedPrice = 8.0;
 
 // Price of an edge, by the shape of the surface.
 
@@ -253,7 +253,8 @@ inline constexpr std::array<double, 3> kShorterShares{0.0, 0.6, 0.85};
 
 /// Newton steps on the whole surface that a search takes at most.
 inline constexpr double kBudget = 4000.0;
-/// Bound on the energy below which faces may be cut. At 4.1, one head needed a slit from the throat to the lip.
+/// Bound on the energy below which exposed places may be cut. At 4.1, one head needed a slit from the throat to the
+/// lip.
 inline constexpr double kLowStretch = 4.15;
 /// Triangles above which a surface is planned on simplified meshes. A Newton step on 28,000 triangles takes 40 ms.
 inline constexpr std::size_t kMostTriangles = 9000;

@@ -42,7 +42,7 @@ GroupProblem group_on(const Surface& surface, bool is_large, const std::vector<s
 GroupPlanning::Result planned(const GroupProblem& group, double budget) {
   GroupPlanning planning(group);
   planning.grow(true, {});
-  planning.search({.energy = kBound, .may_cross_faces = false, .budget = budget}, {}, {});
+  planning.search({.energy = kBound, .may_be_exposed = false, .budget = budget}, {}, {});
   return planning.result();
 }
 

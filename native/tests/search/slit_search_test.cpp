@@ -16,9 +16,9 @@ using namespace detail;
 
 namespace {
 
-TEST(SlitSearch, FacesAreCutIfTheBoundIsOutOfReachOtherwise) {
+TEST(SlitSearch, ExposedPlacesAreCutIfTheBoundIsOutOfReachOtherwise) {
   SlitProblem problem = problem_on(shapes::icosphere(2).surface());
-  std::ranges::fill(problem.prices.is_face, 1);
+  std::ranges::fill(problem.prices.is_exposed, 1);
   SlitTree tree = grow_tree(problem, true, {});
   SlitPlan start = SlitSolver(problem, tree.roots).solve(std::move(tree.slits), {});
   const SlitGoal goal{.energy = 4.1};

@@ -25,7 +25,7 @@ EdgePrices by_length(const PlanMesh& mesh) {
     if (mesh.is_real[e] == 0) prices.of_edge[e] = kInfinity;
   }
   prices.visibility.assign(mesh.vertex_count(), 1.0);
-  prices.is_face.assign(mesh.vertex_count(), 0);
+  prices.is_exposed.assign(mesh.vertex_count(), 0);
   return prices;
 }
 

@@ -142,8 +142,9 @@ TEST(SlitTree, CutsATubeWhoseRimsAreOneSeam) {
   for (const bool has_tips : {true, false}) expect_discs(problem, grow_tree(problem, has_tips, {}));
 }
 
-TEST(SlitTree, AnOpenSeamInAFaceStaysAHole) {
-  // Slits from a seam around half the ball would all begin in the face. The tree grows where the ball is hidden.
+TEST(SlitTree, AnOpenSeamInAnExposedPlaceStaysAHole) {
+  // Slits from a seam around half the ball would all begin in the exposed part. The tree grows where the ball is
+  // hidden.
   const Surface surface = shapes::icosphere(3).surface();
   std::vector<Edge> seams;
   for (const Edge& edge : surface.edges()) {
@@ -153,12 +154,12 @@ TEST(SlitTree, AnOpenSeamInAFaceStaysAHole) {
   ASSERT_GE(seams.size(), 8U);
   SlitProblem problem = problem_on(surface, {.seams = seams});
   for (std::size_t v = 0; v < problem.mesh.vertex_count(); ++v) {
-    problem.prices.is_face[v] = problem.mesh.points[v].x() > -0.1 ? 1 : 0;
+    problem.prices.is_exposed[v] = problem.mesh.points[v].x() > -0.1 ? 1 : 0;
   }
   const SlitTree tree = grow_tree(problem, true, {});
   EXPECT_EQ(tree.roots.size(), 1U);
   EXPECT_FALSE(tree.slits.empty());
-  for (const std::int32_t root : tree.roots) EXPECT_EQ(problem.prices.is_face[root], 0);
+  for (const std::int32_t root : tree.roots) EXPECT_EQ(problem.prices.is_exposed[root], 0);
 }
 
 TEST(SlitTree, ReachesTips) {
