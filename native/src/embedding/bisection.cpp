@@ -6,7 +6,6 @@
 
 #include "detail/poll.hpp"
 #include "embedding/deviation.hpp"
-#include "embedding/length_repair.hpp"
 
 namespace seamwire::detail {
 namespace {
@@ -167,29 +166,11 @@ bool Bisection::refine(std::int32_t f, std::size_t most) {
 void Bisection::bisect(std::int32_t h) {
   parts_.assign(1, h / 3);
   mesh_.for_each_beyond(h, [&](std::int32_t o) { parts_.push_back(o / 3); });
-  if (watches_unrepaired_) unrepaired_ -= count_unrepaired(parts_);
   const std::size_t halved = parts_.size();
   auto count = static_cast<std::int32_t>(mesh_.face_count());
   mesh_.bisect(h);
   for (std::size_t i = 0; i < halved; ++i) parts_.insert(parts_.begin() + std::ptrdiff_t(2 * i + 1), count++);
   for (const std::int32_t part : parts_) consider(part);
-  if (!watches_unrepaired_) return;
-  unrepaired_ += count_unrepaired(parts_);
-  if (unrepaired_ >= least_unrepaired_) return;
-  least_unrepaired_ = unrepaired_;
-  least_unrepaired_at_ = mesh_.faces_added();
-}
-
-void Bisection::watch_unrepaired() {
-  watches_unrepaired_ = true;
-  unrepaired_ = least_unrepaired_ = count_needing_repair(mesh_, options_);
-  least_unrepaired_at_ = mesh_.faces_added();
-}
-
-std::size_t Bisection::count_unrepaired(const std::vector<std::int32_t>& triangles) const {
-  std::size_t count = 0;
-  for (const std::int32_t f : triangles) count += needs_length_repair(mesh_, options_, f) ? 1 : 0;
-  return count;
 }
 
 bool Bisection::run(const Task& task, std::size_t most, double& progress) {

@@ -75,10 +75,6 @@ class Bisection {
   bool work_off(const Task& task, std::size_t most, double& progress);
   /// Queues a triangle if it is to be bisected.
   void consider(std::int32_t f);
-  /// From here on, remember when there were fewest triangles that need length repair, and how many had been added then.
-  void watch_unrepaired();
-  std::size_t least_unrepaired() const { return least_unrepaired_; }
-  std::size_t least_unrepaired_at() const { return least_unrepaired_at_; }
 
   BisectedMesh& mesh() { return mesh_; }
   const BisectedMesh& mesh() const { return mesh_; }
@@ -114,7 +110,6 @@ class Bisection {
   bool is_stale(const Candidate& candidate) const;
   bool refine(std::int32_t f, std::size_t most);
   void bisect(std::int32_t h);
-  std::size_t count_unrepaired(const std::vector<std::int32_t>& triangles) const;
 
   BisectedMesh mesh_;
   const EmbedOptions& options_;
@@ -127,8 +122,6 @@ class Bisection {
   std::size_t first_newest_ = 0;          // vertices from here on are of newest-vertex bisection; 0: it has not begun
   std::size_t invalid_before_ = 0, newest_bisections_ = 0;
   bool has_decayed_ = false, hit_cap_ = false, were_all_valid_ = false;
-  bool watches_unrepaired_ = false;
-  std::size_t unrepaired_ = 0, least_unrepaired_ = 0, least_unrepaired_at_ = 0;
 };
 
 }  // namespace seamwire::detail

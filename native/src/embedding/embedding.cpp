@@ -159,26 +159,12 @@ Embedding finished(Bisection&& bisection, const LengthRepair& repair, const Task
   return out;
 }
 
-// Length repair alone; or longest-edge bisection as far as it leaves fewest invalid triangles, if these are fewer.
-Embedding embed_by_repair(const EmbeddingInput& input, const Task& task, std::size_t first_most, double progress) {
-  const EmbedOptions& options = input.options;
-  Bisection none(BisectedMesh(input, task, progress), options, Scheme::kNone);
+// Each bisection of length repair leaves fewer invalid triangles, so a larger cap never leaves more.
+Embedding embed_by_repair(const EmbeddingInput& input, const Task& task, double progress) {
+  Bisection none(BisectedMesh(input, task, progress), input.options, Scheme::kNone);
   none.run(task, 0, progress);
-  const LengthRepair repair = repair_lengths(none.mesh(), options, task, progress);
-  if (repair.is_complete) return finished(std::move(none), repair, task);
-  // Each bisection of length repair leaves fewer invalid triangles, those of the paper's scheme now more, now fewer. So
-  // that a larger cap never leaves more, what counts is when the latter has left fewest.
-  Bisection again(BisectedMesh(input, task, progress), options, Scheme::kLongestEdge);
-  again.watch_unrepaired();
-  again.run(task, first_most, progress);
-  if (again.least_unrepaired() >= count_needing_repair(none.mesh(), options)) {
-    return finished(std::move(none), repair, task);
-  }
-  Bisection best(BisectedMesh(input, task, progress), options, Scheme::kLongestEdge);
-  best.run(task, again.least_unrepaired_at(), progress);
-  Embedding out = finished(std::move(best), {}, task);
-  out.hit_cap = repair.hit_cap;
-  return out;
+  const LengthRepair repair = repair_lengths(none.mesh(), input.options, task, progress);
+  return finished(std::move(none), repair, task);
 }
 
 // With triangles that resolve the metric, as far as the budget goes. Nothing if invalid ones use it up.
@@ -221,7 +207,7 @@ Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions
     }
     return finished(std::move(bisection), repair, task);
   }
-  return embed_by_repair(input, task, first_most, progress);
+  return embed_by_repair(input, task, progress);
 }
 
 Embedding re_embed(const Surface& surface, const Metric& former, const Metric& metric, Embedding old,
@@ -229,10 +215,10 @@ Embedding re_embed(const Surface& surface, const Metric& former, const Metric& m
   check_size(surface, former);
   check(EmbeddingInput(surface, metric, options));
   const std::size_t faces = surface.face_count();
+  const bool has_all_faces = old.mesh.face_count() == faces + old.faces_added;
   const bool is_of_surface =
       options.faces ||
-      (old.points.size() >= surface.vertex_count() &&
-       old.mesh.face_count() + old.invalid_left >= corner_fans(surface).triangles.size() + old.faces_added &&
+      (old.points.size() >= surface.vertex_count() && (has_all_faces || !old.is_local) &&
        std::ranges::all_of(old.source_face, [&](std::int32_t f) { return f >= 0 && index(f) < faces; }));
   if (!is_of_surface) throw InvalidInput("the former embedding is of another surface");
   const auto embedded_anew = [&, mean_edge_length = old.mean_edge_length] {

@@ -19,6 +19,12 @@ constexpr double kMargin = 1.0 / 16;
 // precision.
 constexpr double kNeedle = 1e-8;
 
+// Whether a triangle is invalid, and is neither left out for sigma nor a part of a degenerate face.
+bool needs_length_repair(const BisectedMesh& mesh, const EmbedOptions& options, std::int32_t f) {
+  if (mesh.is_valid(f) || mesh.perimeter(f, options.perimeter) < options.sigma) return false;
+  return !mesh.is_of_degenerate_face(f);
+}
+
 bool is_repairable(const BisectedMesh& mesh, const EmbedOptions& options, std::int32_t f) {
   const double *l = &mesh.lengths[3 * index(f)], least = std::min({l[0], l[1], l[2]});
   return needs_length_repair(mesh, options, f) && least > kNeedle * std::max({l[0], l[1], l[2]});
@@ -66,17 +72,6 @@ void bisect_clamped(BisectedMesh& mesh, std::int32_t h, const std::vector<Side>&
 }
 
 }  // namespace
-
-bool needs_length_repair(const BisectedMesh& mesh, const EmbedOptions& options, std::int32_t f) {
-  if (mesh.is_valid(f) || mesh.perimeter(f, options.perimeter) < options.sigma) return false;
-  return !mesh.is_of_degenerate_face(f);
-}
-
-std::size_t count_needing_repair(const BisectedMesh& mesh, const EmbedOptions& options) {
-  std::size_t count = 0;
-  for (std::int32_t f = 0; index(f) < mesh.face_count(); ++f) count += needs_length_repair(mesh, options, f) ? 1 : 0;
-  return count;
-}
 
 LengthRepair repair_lengths(BisectedMesh& mesh, const EmbedOptions& options, const Task& task, double progress) {
   LengthRepair repair;

@@ -20,10 +20,6 @@ struct LengthRepair {
   std::vector<std::int32_t> faces;  ///< those of the surface's corner fans that such edges lie in, each once or more
 };
 
-/// Whether a triangle is invalid, and is neither left out for sigma nor a part of a degenerate face.
-bool needs_length_repair(const BisectedMesh& mesh, const EmbedOptions& options, std::int32_t f);
-std::size_t count_needing_repair(const BisectedMesh& mesh, const EmbedOptions& options);
-
 /// Bisects each triangle that needs it once more, at its longest edge. Clamps the lengths of the new edges so that its
 /// parts are valid (docs/method/embedding.md, "Why it ends"). Throws Cancelled.
 LengthRepair repair_lengths(BisectedMesh& mesh, const EmbedOptions& options, const Task& task, double progress);

@@ -119,6 +119,12 @@ TEST(ReEmbed, TakesSurfacesThatAreCutOpenAndOtherNormals) {
   const Metric random = random_metric(grid, 10, 3);
   const Metric identity = identity_metric(grid);
   expect_same(grid, re_embed(grid, random, identity, embed(grid, random)), embed(grid, identity));
+  Mesh needles = shapes::grid(12);
+  needles.points[30] = needles.points[31];
+  const Surface degenerate = needles.surface();
+  ASSERT_FALSE(degenerate.report().zero_area_faces.empty());
+  expect_same(degenerate, re_embed(degenerate, random, identity, embed(degenerate, random)),
+              embed(degenerate, identity));
   EXPECT_THROW(re_embed(grid, random, random, embed(surface, former)), InvalidInput);
   EXPECT_THROW(re_embed(grid, random, former, embed(grid, random)), InvalidInput);
 }
