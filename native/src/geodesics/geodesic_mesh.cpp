@@ -29,9 +29,7 @@ class TotalAngle {
     if (was_past_half && !is_past_half()) ++turns_;
   }
   /// Whether it is more than 2 pi, and not by rounding.
-  bool is_beyond_flat() const {
-    return turns_ > 1 || (turns_ == 1 && (cosine_ < 0 || std::abs(sine_) > kFlatness * cosine_));
-  }
+  bool is_beyond_flat() const { return turns_ > 1 || (turns_ == 1 && (is_past_half() || sine_ > kFlatness * cosine_)); }
 
  private:
   bool is_past_half() const { return sine_ < 0 || (sine_ == 0 && cosine_ < 0); }

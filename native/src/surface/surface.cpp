@@ -297,7 +297,7 @@ std::vector<bool> find_flips(const Faces& faces, const Gluing& gluing, const std
   const std::vector<Index>& twin = gluing.twin;
   const Index count = faces.count();
   std::vector<bool> flipped(count, false);
-  Index agreed = 0;  // sides that agree as given
+  Index agreed = 0;  // every side before it agrees with its twin as given
   while (agreed < faces.side_count() && (twin[agreed] < agreed || faces.tail(agreed) == faces.tip(twin[agreed]))) {
     ++agreed;
   }
