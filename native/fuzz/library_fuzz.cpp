@@ -546,7 +546,7 @@ void check_curvature(const Surface& surface) {
   face_segments(surface, surface.edges());
 }
 
-/// What an input tries on its mesh. Its first byte chooses.
+/// Each input tries one part of the library on its mesh. Its first byte chooses.
 enum class Room : std::uint8_t { kSurface, kGeodesics, kEdgeWires, kWires, kMap, kPlan };
 constexpr std::array kRoomNames{"surface", "geodesics", "edge wires", "wires", "map", "plan"};
 
