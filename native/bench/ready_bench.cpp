@@ -111,7 +111,7 @@ void measure(const Surface& surface, const Options& options, bool with_seeds) {
   const auto lap = [&] {
     return Lap{std::chrono::duration<double>(Clock::now() - begun).count(), process_seconds() - worked};
   };
-  LiveWire live(surface.points(), surface.triangles(), std::nullopt, how);
+  LiveWire live({surface.points(), surface.triangles()}, how);
   live.seed({0});
   std::vector<std::optional<Lap>> seen(how.metrics.wires.size());
   std::vector<double> lengths(seen.size());

@@ -141,7 +141,7 @@ std::shared_ptr<const SeedSolution> SeedSolver::find_field(const SeedBox::Job& j
     make_preview(job, *prepared, paths, answered);
     return report(done);
   };
-  DistanceField field = on.geodesics().solve(std::array{*seed}, {}, task);
+  DistanceField field = on.geodesics().solve(*seed, task);
   return std::make_shared<const SeedSolution>(
       SeedSolution{.prepared = prepared, .seed = *job.request->seed, .field = std::move(field), .wires = std::nullopt});
 }

@@ -51,14 +51,6 @@ struct SEAMWIRE_API MetricSpec {
   ///
   /// \see Zhuang et al. 2014, eq. 5
   static MetricSpec feature(Follow follow, const Strength& strength = {.parameter = 0.1});
-  /// Describe Campen's metric.
-  ///
-  /// \see Zhuang et al. 2014, eq. 3
-  static MetricSpec campen(Follow follow, const Strength& strength);
-  /// Describe the metric of Pottmann and Kovacs.
-  ///
-  /// \see Zhuang et al. 2014, eq. 4
-  static MetricSpec pottmann_kovacs(Follow follow, const Strength& strength);
   /// Describe the metric of concave creases, on curvatures smoothed over 0.01.
   static MetricSpec concave(const Strength& strength = {.parameter = 1.0});
   /// Describe the metric of concave creases that is as strong as a feature metric.
