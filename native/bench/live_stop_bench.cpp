@@ -44,7 +44,7 @@ void measure(const std::string& file, const Options& options) {
     std::vector<double> clock, processor;
     for (int i = 0; i < options.repeats; ++i) {
       std::optional<LiveWire> live(
-          std::in_place, surface.points(), surface.triangles(), std::nullopt,
+          std::in_place, SurfaceContext(surface.points(), surface.triangles()),
           LiveWireOptions{.along = along,
                           .metrics = live_metrics(MetricFamily::kFeature, {.max_anisotropy = 20.0}, along)});
       live->seed({0});

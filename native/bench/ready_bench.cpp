@@ -131,7 +131,7 @@ void measure(const Surface& surface, const LiveWireOptions& how, const Options& 
   forget_most_memory();
   const double memory_before = memory("VmRSS");
   const Stopwatch watch;
-  LiveWire live(surface.points(), surface.triangles(), std::nullopt, how);
+  LiveWire live({surface.points(), surface.triangles()}, how);
   live.seed({0});
   std::vector<std::optional<Lap>> seen(how.metrics.wires.size());
   std::vector<double> lengths(seen.size());

@@ -22,20 +22,20 @@ int main() {
   //! [field]
 
   //! [points]
-  const SurfacePoint inside{.face = 15000, .barycentric = {0.2, 0.3, 0.5}};
+  const SurfacePoint inside{15000, {0.2, 0.3, 0.5}};
   std::printf("distance of a point in a face: %g\n", field.distance(inside));
   const Wire to_it = field.wire(inside);
   //! [points]
   std::printf("its wire has the length %g\n", to_it.length);
 
   //! [seeds]
-  const std::vector<SurfacePoint> seeds{SurfacePoint::at_vertex(start), inside};
+  const std::vector<SurfacePoint> seeds{start, inside};
   const EmbeddedField nearest = embedded.field(seeds);
   //! [seeds]
-  std::printf("distance from the nearest seed: %g\n", nearest.distance(SurfacePoint::at_vertex(end)));
+  std::printf("distance from the nearest seed: %g\n", nearest.distance(end));
 
   //! [early]
-  const EmbeddedField near = embedded.field(seeds, {.targets = {SurfacePoint::at_vertex(start + 9)}});
+  const EmbeddedField near = embedded.field(seeds, {.targets = {start + 9}});
   const EmbeddedField limited = embedded.field(seeds, {.max_distance = 0.1, .targets = {}});
   //! [early]
   std::printf("complete up to %g and %g\n", near.distances().radius(), limited.distances().radius());

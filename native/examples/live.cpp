@@ -12,7 +12,7 @@ int main() {
   auto [points, triangles] = sheet();
   const std::int32_t start = 10 * 101 + 44, end = 140 * 101 + 56;
   //! [live]
-  LiveWire live(std::move(points), std::move(triangles));  // returns at once, and builds the surface itself
+  LiveWire live({std::move(points), std::move(triangles)});  // returns at once, and builds the surface itself
   live.seed({.a = start});
   LiveWires found = live.wires({.a = end});  // returns at once
   live.wait();
@@ -35,7 +35,7 @@ int main() {
 
   //! [loops]
   auto [ring, ring_triangles] = torus();
-  LiveWire tube(std::move(ring), std::move(ring_triangles), std::nullopt, {.along = Along::kEdges});
+  LiveWire tube({std::move(ring), std::move(ring_triangles)}, {.along = Along::kEdges});
   tube.wait();
   tube.loop({0, 1});  // starts the search
   tube.wait();

@@ -36,13 +36,12 @@ int main() {
 
   //! [bent]
   const BentWires bent = field.bend(cuts.front());
-  const std::optional<BentWire> through = bent.through(SurfacePoint::at_vertex(12));
+  const std::optional<BentWire> through = bent.through(12);
   //! [bent]
   if (through) std::printf("%g there, %g back\n", through->there.length, through->back.length);
 
   //! [section]
-  const PlaneSection section =
-      plane_section(embedded.surface(), SurfacePoint::at_vertex(start), SurfacePoint::at_vertex(end), Vector(0, 0, 1));
+  const PlaneSection section = plane_section(embedded.surface(), start, end, Vector(0, 0, 1));
   //! [section]
   std::printf("a straight cut of length %g\n", section.length);
 
@@ -50,10 +49,7 @@ int main() {
   //! [cut]
   std::vector<std::int32_t> polygons(surface.face_count());
   std::iota(polygons.begin(), polygons.end(), 0);  // each triangle is a polygon
-  const std::vector<CutCurve> curves{{.points = wire.points,
-                                      .start = SurfacePoint::at_vertex(start),
-                                      .end = SurfacePoint::at_vertex(end),
-                                      .faces = wire.faces}};
+  const std::vector<CutCurve> curves{{.points = wire.points, .start = start, .end = end, .faces = wire.faces}};
   const CutPlan plan =
       plan_cuts({.points = surface.points(), .triangles = surface.triangles(), .polygons = polygons}, curves);
   std::printf("%zu edges and %zu polygons are cut\n", plan.splits.size(), plan.across.size());

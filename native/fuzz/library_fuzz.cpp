@@ -395,7 +395,7 @@ void check_wires(Bytes& from, const Patience& patience, const Surface& surface, 
             "a closed wire is closed");
     require(std::isfinite(loop.wire.length), "a closed wire has a length");
     const BentWires bent(held(surface), held(embedding), solver, field, loop, patience.task());
-    const SurfacePoint second = SurfacePoint::at_vertex(from.below(surface.vertex_count()));
+    const SurfacePoint second = SurfacePoint(from.below(surface.vertex_count()));
     if (const std::optional<BentWire> found = bent.through(second, patience.task())) {
       require(found->there.points.back() == found->back.points.front() &&
                   found->back.points.back() == found->there.points.front(),

@@ -282,7 +282,7 @@ ValueError
 }  // namespace
 
 const EmbeddingObject::Edges& EmbeddingObject::edges() const {
-  return edges_.get(Task{}, [this] { return list_edges(embedding.mesh); });
+  return *edges_.get({}, [this](const Task&) { return list_edges(embedding.mesh); });
 }
 
 std::shared_ptr<EmbeddingObject> EmbeddingObject::with_lengths(const std::vector<double>& lengths) const {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "lazy.hpp"
+#include "detail/computed_once.hpp"
 #include "seamwire/context/embedded_surface.hpp"
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
@@ -41,7 +41,7 @@ struct EmbeddingObject {
   const Embedding& embedding;
 
  private:
-  Lazy<Edges> edges_;
+  mutable detail::ComputedOnce<Edges> edges_;
 };
 
 }  // namespace seamwire::python

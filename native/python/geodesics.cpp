@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "arrays.hpp"
+#include "detail/index.hpp"
 #include "embedding.hpp"
 #include "held.hpp"
 #include "picks.hpp"
@@ -54,6 +55,7 @@ py::tuple trace_many(const FieldObject& object, const py::object& vertices, cons
   Watch(progress).run([&](const Task& task) {
     for (std::size_t i = 0; i < targets.size(); ++i) {
       task.check(static_cast<double>(i) / static_cast<double>(targets.size()));
+      detail::check_index(targets[i], on.surface->vertex_count(), "vertex");
       const Wire wire = trace_wire(*on.surface, on.embedding, object.field, targets[i], task);
       points.insert(points.end(), wire.points.begin(), wire.points.end());
       starts.push_back(static_cast<std::int32_t>(points.size()));

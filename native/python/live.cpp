@@ -145,8 +145,8 @@ HeldLiveWire live_wire_of(const py::object& points, const py::object& triangles,
   auto t = triangles_from(triangles, "triangles");
   auto e = edges.is_none() ? std::nullopt : std::optional(edges_from(edges, "edges"));
   const std::size_t vertex_count = p.size(), face_count = t.size();
-  auto live =
-      without_gil([&] { return std::make_unique<LiveWire>(std::move(p), std::move(t), std::move(e), options); });
+  auto live = without_gil(
+      [&] { return std::make_unique<LiveWire>(SurfaceContext(std::move(p), std::move(t), std::move(e)), options); });
   return make_live_wire(vertex_count, face_count, options.along, std::move(live));
 }
 

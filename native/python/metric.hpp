@@ -6,7 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "lazy.hpp"
+#include "detail/computed_once.hpp"
+#include "detail/thread_safety.hpp"
 #include "seamwire/edges/edge_wires.hpp"
 #include "seamwire/metric/curvature.hpp"
 #include "seamwire/metric/metric.hpp"
@@ -34,15 +35,29 @@ struct MetricObject {
 
   /// Returns the graph of a surface's edges in this metric, and keeps that of the last surface. Call without the GIL.
   std::shared_ptr<const EdgeGraph> edge_graph(const std::shared_ptr<const Surface>& surface, const Task& task) const {
-    return graph_.get(surface, task,
-                      [&] { return make_edge_graph(*surface, metric, nullptr, {}, std::nullopt, task); });
+    std::shared_ptr<Graph> graph;
+    {
+      const detail::MutexLock lock(mutex_);
+      if (!graph_ || graph_->surface.lock() != surface) graph_ = std::make_shared<Graph>(surface);
+      graph = graph_;
+    }
+    return *graph->made.get(
+        task, [&](const Task& own) { return make_edge_graph(*surface, metric, nullptr, {}, std::nullopt, own); });
   }
 
   std::shared_ptr<const Metric> shared;
   const Metric& metric;
 
  private:
-  OfLastSurface<EdgeGraph> graph_;
+  struct Graph {
+    explicit Graph(const std::shared_ptr<const Surface>& of) : surface(of) {}
+
+    std::weak_ptr<const Surface> surface;
+    detail::ComputedOnce<std::shared_ptr<const EdgeGraph>> made;
+  };
+
+  mutable detail::Mutex mutex_;
+  mutable std::shared_ptr<Graph> graph_ SEAMWIRE_GUARDED_BY(mutex_);
 };
 
 }  // namespace seamwire::python

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "seamwire/context/along.hpp"
 #include "seamwire/metric/metric.hpp"
 #include "seamwire/metric/scribble.hpp"
+#include "seamwire/wires/wire.hpp"
 
 /// The names that Python uses for values of the library, and numbers as text.
 namespace seamwire::python {

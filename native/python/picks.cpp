@@ -56,7 +56,8 @@ std::int32_t vertex_from(py::handle value, std::size_t count, const std::string&
 
 SurfacePoint face_point_from(py::handle face, py::handle barycentric, std::size_t face_count, const std::string& name) {
   const PythonCall calling;
-  SurfacePoint point{.face = element_from(face, face_count, name, "face", "faces")};
+  SurfacePoint point;
+  point.face = element_from(face, face_count, name, "face", "faces");
   const std::vector<Vector> weights = points_from(py::make_tuple(barycentric), name + ": barycentric coordinates");
   for (std::size_t i = 0; i < 3; ++i) point.barycentric[i] = weights.front()[static_cast<Eigen::Index>(i)];
   return point;
@@ -64,7 +65,7 @@ SurfacePoint face_point_from(py::handle face, py::handle barycentric, std::size_
 
 SurfacePoint surface_point_from(py::handle value, const Surface& surface, const std::string& name) {
   const PythonCall calling;
-  if (is_integer(value)) return SurfacePoint::at_vertex(vertex_from(value, surface.vertex_count(), name));
+  if (is_integer(value)) return SurfacePoint(vertex_from(value, surface.vertex_count(), name));
   if (!is_face_point(value)) {
     throw InvalidInput(name + ": expected a vertex number, or a face number with three coordinates, got a " +
                        type_name(value));
@@ -119,7 +120,7 @@ SurfacePoint place_from(py::handle value, std::size_t vertex_count, std::size_t 
   if (std::get<Pick>(at).is_edge()) {
     throw InvalidInput(name + ": expected a vertex or a point of a triangle, not an edge");
   }
-  return SurfacePoint::at_vertex(std::get<Pick>(at).a);
+  return SurfacePoint(std::get<Pick>(at).a);
 }
 
 }  // namespace seamwire::python

@@ -94,7 +94,8 @@ inline IntrinsicMesh insert(const IntrinsicMesh& mesh, const SurfacePoint& point
   const std::int32_t g = split(f, on, to_tail, to_tip, away[index((on + 2) % 3)]);
   out.twins[index(3 * f)] = out.twins[index(3 * g)] = -1;
   if (twin < 0) return out;
-  SurfacePoint beyond{.face = twin / 3};
+  SurfacePoint beyond;
+  beyond.face = twin / 3;
   beyond.barycentric[index(twin % 3)] = point.barycentric[index((on + 1) % 3)];
   beyond.barycentric[index((twin % 3 + 1) % 3)] = point.barycentric[index(on)];
   const double across = to_corner(mesh, beyond, index((twin % 3 + 2) % 3));
@@ -123,9 +124,7 @@ struct Named {
 inline std::vector<Named> all_kinds(const IntrinsicMesh& mesh, unsigned seed) {
   std::mt19937 random(seed);
   const auto any_face = [&] { return draw_below(random, mesh.face_count()); };
-  const auto at = [](std::int32_t face, double a, double b, double c) {
-    return SurfacePoint{.face = face, .barycentric = {a, b, c}};
-  };
+  const auto at = [](std::int32_t face, double a, double b, double c) { return SurfacePoint{face, {a, b, c}}; };
   const double s = draw(random, 0.05, 0.95), t = draw(random, 0.05, 0.95);
   std::vector<Named> out{{"within a face", at(any_face(), s * t, s * (1 - t), 1 - s)},
                          {"close to a corner", at(any_face(), 1 - 3e-6, 1e-6, 2e-6)},
@@ -135,7 +134,8 @@ inline std::vector<Named> all_kinds(const IntrinsicMesh& mesh, unsigned seed) {
                          {"on an edge, close to its end", at(any_face(), 1e-7, 1 - 1e-7, 0)}};
   for (std::int32_t h = 0; index(h) < mesh.twins.size(); ++h) {
     if (mesh.twins[index(h)] >= 0 || mesh.twins.size() < 60) continue;
-    SurfacePoint point{.face = h / 3};
+    SurfacePoint point;
+    point.face = h / 3;
     point.barycentric[index(h % 3)] = s;
     point.barycentric[index((h % 3 + 1) % 3)] = 1 - s;
     out.push_back({"on the boundary", point});

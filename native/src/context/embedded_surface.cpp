@@ -117,9 +117,8 @@ SurfacePoint EmbeddedSurface::locate(const SurfacePoint& point, const std::strin
   throw InvalidInput(face + " has no area, so the embedding leaves it out: name a vertex or another face");
 }
 
-EmbeddedField EmbeddedSurface::field(std::int32_t seed, const Task& task) const {
-  check_index(seed, surface().vertex_count(), "seed");
-  return {*this, geodesics(beginning(task)).solve(seed, task)};
+EmbeddedField EmbeddedSurface::field(const SurfacePoint& seed, const Task& task) const {
+  return field({&seed, 1}, {}, task);
 }
 
 EmbeddedField EmbeddedSurface::field(std::span<const SurfacePoint> sources, const SolveOptions& options,
@@ -138,10 +137,6 @@ EmbeddedField EmbeddedSurface::bounded_field(std::int32_t seed, std::uint32_t wi
 
 double EmbeddedField::distance(const SurfacePoint& point, const Task& task) const {
   return distances_.distance(on_.locate(point), task);
-}
-
-Wire EmbeddedField::wire(std::int32_t vertex, const Task& task) const {
-  return trace_wire(on_.surface(), on_.embedding(), distances_, vertex, task);
 }
 
 Wire EmbeddedField::wire(const SurfacePoint& point, const Task& task) const {

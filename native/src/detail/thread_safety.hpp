@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <chrono>
 #include <mutex>
 
 /// Defined where ThreadSanitizer watches the code.
@@ -27,7 +26,6 @@
 #define SEAMWIRE_GUARDED_BY(mutex) SEAMWIRE_THREAD_ANNOTATION(guarded_by(mutex))
 #define SEAMWIRE_REQUIRES(...) SEAMWIRE_THREAD_ANNOTATION(requires_capability(__VA_ARGS__))
 #define SEAMWIRE_ACQUIRE(...) SEAMWIRE_THREAD_ANNOTATION(acquire_capability(__VA_ARGS__))
-#define SEAMWIRE_TRY_ACQUIRE(...) SEAMWIRE_THREAD_ANNOTATION(try_acquire_capability(__VA_ARGS__))
 #define SEAMWIRE_RELEASE(...) SEAMWIRE_THREAD_ANNOTATION(release_capability(__VA_ARGS__))
 
 namespace seamwire::detail {
@@ -40,18 +38,6 @@ class SEAMWIRE_CAPABILITY("mutex") Mutex {
 
  private:
   std::mutex mutex_;
-};
-
-/// std::recursive_timed_mutex, annotated in the same way.
-class SEAMWIRE_CAPABILITY("mutex") RecursiveTimedMutex {
- public:
-  bool try_lock_for(std::chrono::milliseconds duration) SEAMWIRE_TRY_ACQUIRE(true) {
-    return mutex_.try_lock_for(duration);
-  }
-  void unlock() SEAMWIRE_RELEASE() { mutex_.unlock(); }
-
- private:
-  std::recursive_timed_mutex mutex_;
 };
 
 /// Holds a Mutex as long as it lives. lock() and unlock() are for std::condition_variable_any, which gives the mutex up

@@ -244,11 +244,6 @@ void CorridorPaths::Impl::find_corridor(const PlacedPoint& to, const Task& task)
   }
 }
 
-CorridorPaths::CorridorPaths(const ExactGeodesics& geodesics, std::int32_t seed, const CorridorPathOptions& options) {
-  check_index(seed, geodesics.mesh_->vertex_count(), "seed");
-  impl_ = std::make_unique<Impl>(geodesics.mesh_, SurfacePoint::at_vertex(seed), options);
-}
-
 CorridorPaths::CorridorPaths(const ExactGeodesics& geodesics, const SurfacePoint& seed,
                              const CorridorPathOptions& options)
     : impl_(std::make_unique<Impl>(geodesics.mesh_, seed, options)) {}
@@ -259,11 +254,6 @@ CorridorPaths& CorridorPaths::operator=(CorridorPaths&&) noexcept = default;
 
 std::int32_t CorridorPaths::seed() const {
   return impl_->seed.vertex < 0 ? -1 : impl_->mesh->external_vertex(impl_->seed.vertex);
-}
-
-IntrinsicPath CorridorPaths::path(std::int32_t target, const Task& task) {
-  check_index(target, impl_->mesh->vertex_count(), "target");
-  return path(SurfacePoint::at_vertex(target), task);
 }
 
 IntrinsicPath CorridorPaths::path(const SurfacePoint& target, const Task& task) {

@@ -72,11 +72,6 @@ bool DistanceField::fits(const IntrinsicMesh& mesh) const {
 std::weak_ptr<const void> DistanceField::mesh_id() const { return data_->mesh; }
 const std::vector<double>& DistanceField::distances() const { return data_->distances; }
 
-IntrinsicPath DistanceField::trace(std::int32_t vertex, const Task& task) const {
-  check_index(vertex, data_->distances.size(), "vertex");
-  return trace(SurfacePoint::at_vertex(vertex), task);
-}
-
 IntrinsicPath DistanceField::trace(const SurfacePoint& point, const Task& task) const {
   const GeodesicMesh& mesh = *data_->mesh;
   const PlacedPoint target = PlacedPoint::of(mesh, point, "point");
@@ -114,9 +109,8 @@ ExactGeodesics::ExactGeodesics(const ExactGeodesics& former, const IntrinsicMesh
                   : std::make_shared<const GeodesicMesh>(mesh, task);
 }
 
-DistanceField ExactGeodesics::solve(std::int32_t seed, const Task& task) const {
-  check_index(seed, mesh_->vertex_count(), "seed");
-  return run(std::array{SurfacePoint::at_vertex(seed)}, {}, 0, task);
+DistanceField ExactGeodesics::solve(const SurfacePoint& seed, const Task& task) const {
+  return run({&seed, 1}, {}, 0, task);
 }
 
 DistanceField ExactGeodesics::solve(std::span<const SurfacePoint> sources, const SolveOptions& options,
@@ -131,7 +125,7 @@ DistanceField ExactGeodesics::solve(std::span<const SurfacePoint> sources, const
 DistanceField ExactGeodesics::solve_bounded(std::int32_t seed, std::uint32_t windows, const Task& task) const {
   if (windows == 0) throw InvalidInput("windows must be at least 1");
   check_index(seed, mesh_->vertex_count(), "seed");
-  return run(std::array{SurfacePoint::at_vertex(seed)}, {}, windows, task);
+  return run(std::array{SurfacePoint(seed)}, {}, windows, task);
 }
 
 DistanceField ExactGeodesics::run(std::span<const SurfacePoint> sources, const SolveOptions& options,

@@ -24,7 +24,7 @@ using WireEnd = std::variant<Pick, SurfacePoint>;
 /// The point of an end across the surface.
 inline SurfacePoint point_of(const WireEnd& end) {
   const auto* pick = std::get_if<Pick>(&end);
-  return pick != nullptr ? SurfacePoint::at_vertex(pick->a) : std::get<SurfacePoint>(end);
+  return pick != nullptr ? SurfacePoint(pick->a) : std::get<SurfacePoint>(end);
 }
 
 /// A vertex itself; of another point the corner of its face with the largest barycentric coordinate.

@@ -39,12 +39,7 @@ std::optional<SurfacePoint> point_in_face(const Surface& surface, std::int32_t f
   double sum = 0.0;
   for (double& weight : weights) sum += weight = std::max(weight, 0.0);
   for (double& weight : weights) weight /= sum;
-  return SurfacePoint{.face = face, .barycentric = weights};
-}
-
-std::int32_t nearest_corner(const Surface& surface, const SurfacePoint& point) {
-  const auto most = std::ranges::max_element(point.barycentric) - point.barycentric.begin();
-  return surface.triangles()[point.face][static_cast<std::size_t>(most)];
+  return SurfacePoint{face, weights};
 }
 
 /// A wire cut into `count` pieces of about the same length, which begin and end within faces. There are fewer pieces if
@@ -79,7 +74,7 @@ std::vector<WirePiece> cut_in_pieces(const Surface& surface, const Wire& wire, s
         piece.points.push_back(place);
         piece.vertices.push_back(-1);
         piece.faces.push_back(face);
-        end_piece(nearest_corner(surface, *end), from + t * (to - from), *end);
+        end_piece(nearest_vertex(surface, *end), from + t * (to - from), *end);
         piece.points.push_back(place);
         piece.vertices.push_back(-1);
       }
@@ -128,7 +123,7 @@ const ClosedCutSearch::InMetric* ClosedCutSearch::in_metric(const WireEnd& point
     const std::optional<SurfacePoint> seed = on.points().find(point_of(point), "through");
     if (!seed) return nullptr;
     const Task task{.stop = stop, .progress = {}};
-    DistanceField field = on.geodesics().solve(std::array{*seed}, {}, task);
+    DistanceField field = on.geodesics().solve(*seed, task);
     std::vector<ClosedWire> cuts = closed_wires(on.surface(), on.embedding(), field, kClosedWires, task);
     in = InMetric{.prepared = by, .field = std::move(field), .cuts = std::move(cuts)};
   }

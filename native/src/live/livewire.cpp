@@ -240,13 +240,6 @@ LiveWire::LiveWire(const SurfaceContext& context, const LiveWireOptions& options
   impl_ = std::make_unique<Impl>(context, new_metrics(options), settings_of(options));
 }
 
-LiveWire::LiveWire(std::shared_ptr<const Surface> surface, const LiveWireOptions& options)
-    : LiveWire(SurfaceContext(std::move(surface)), options) {}
-
-LiveWire::LiveWire(std::vector<Vector> points, std::vector<Triangle> triangles, std::optional<std::vector<Edge>> edges,
-                   const LiveWireOptions& options)
-    : LiveWire(SurfaceContext(std::move(points), std::move(triangles), std::move(edges)), options) {}
-
 LiveWire::LiveWire(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 LiveWire::LiveWire(LiveWire&& other) noexcept = default;
 LiveWire& LiveWire::operator=(LiveWire&& other) noexcept = default;

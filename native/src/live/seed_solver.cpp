@@ -144,7 +144,7 @@ std::shared_ptr<const SeedSolution> SeedSolver::find_field(const SeedBox::Job& j
     return report(done);
   };
   task.check(0.0);
-  DistanceField field = on.geodesics().solve(std::array{*seed}, {}, task);
+  DistanceField field = on.geodesics().solve(*seed, task);
   return std::make_shared<const SeedSolution>(
       SeedSolution{.prepared = prepared, .seed = *job.request->seed, .field = std::move(field), .wires = std::nullopt});
 }

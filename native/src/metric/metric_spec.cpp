@@ -45,14 +45,6 @@ MetricSpec MetricSpec::feature(Follow follow, const Strength& strength) {
   return {.family = MetricFamily::kFeature, .follow = follow, .strength = strength};
 }
 
-MetricSpec MetricSpec::campen(Follow follow, const Strength& strength) {
-  return {.family = MetricFamily::kCampen, .follow = follow, .strength = strength};
-}
-
-MetricSpec MetricSpec::pottmann_kovacs(Follow follow, const Strength& strength) {
-  return {.family = MetricFamily::kPottmannKovacs, .follow = follow, .strength = strength};
-}
-
 MetricSpec MetricSpec::concave(const Strength& strength) {
   return {.family = MetricFamily::kConcave, .follow = std::nullopt, .strength = strength};
 }

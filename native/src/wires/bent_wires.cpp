@@ -110,7 +110,7 @@ class Sides {
     }
     std::vector<SurfacePoint> sources;
     for (std::int32_t v = 0; v < mesh_.vertex_count; ++v) {
-      if (seen[v] == 3) sources.push_back(SurfacePoint::at_vertex(v));
+      if (seen[v] == 3) sources.push_back(SurfacePoint(v));
     }
     const DistanceField field = geodesics.solve(sources, {}, task);
     if (!field.fits(mesh_)) throw InvalidInput("the geodesics are of another embedding");
@@ -282,7 +282,7 @@ BentWires::BentWires(std::shared_ptr<const Surface> surface, std::shared_ptr<con
             .field = std::nullopt};
   const SurfacePoint seed = made.cover.lifted(field.sources().front(), false);
   if (seed.vertex >= 0 || seed.face >= 0) {
-    made.field = ExactGeodesics(made.cover.mesh, task).solve(std::array{seed}, {}, task);
+    made.field = ExactGeodesics(made.cover.mesh, task).solve(seed, task);
   }
   impl_ = std::make_unique<const Impl>(std::move(made));
 }

@@ -87,12 +87,6 @@ Vector point_at(const std::vector<Vector>& line, double distance) {
   return line.back();
 }
 
-double length_of(const std::vector<Vector>& line) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < line.size(); ++i) length += (line[i] - line[i - 1]).norm();
-  return length;
-}
-
 /// Faces at an edge with siblings count as one. Empty without such edges.
 DisjointSets joined_over_siblings(const IntrinsicMesh& mesh, std::size_t count) {
   DisjointSets joined(mesh.siblings.empty() ? 0 : count);
@@ -423,11 +417,11 @@ class CutLocus {
           crossings.push_back(at);
         }
       }
-      for (const std::array<double, 3>& at : crossings) found.push_back({.face = face, .barycentric = at});
+      for (const std::array<double, 3>& at : crossings) found.push_back({face, at});
       if (crossings.size() == 2) {
         std::array<double, 3> middle{};
         for (std::size_t i = 0; i < 3; ++i) middle[i] = 0.5 * (crossings[0][i] + crossings[1][i]);
-        found.push_back({.face = face, .barycentric = middle});
+        found.push_back({face, middle});
       }
       if (next >= first_faces) continue;
       const std::int32_t h = next == 0 ? half_edge : mesh_.twins[half_edge];
@@ -438,7 +432,7 @@ class CutLocus {
       at[index(h % 3)] = (1.0 - t) * at_tail;
       at[index((h % 3 + 1) % 3)] = (1.0 - t) * (1.0 - at_tail);
       at[index((h % 3 + 2) % 3)] = t;
-      found.push_back({.face = face, .barycentric = at});
+      found.push_back({face, at});
     }
     return found;
   }

@@ -100,7 +100,7 @@ std::optional<SurfacePoint> EmbeddedPoints::find(const SurfacePoint& point, cons
   const Weights at = checked_barycentric(point.barycentric, what);
   for (std::size_t i = 0; i < 3; ++i) {
     if (at[(i + 1) % 3] == 0 && at[(i + 2) % 3] == 0) {
-      return SurfacePoint::at_vertex(surface.triangles()[point.face][i]);
+      return SurfacePoint(surface.triangles()[point.face][i]);
     }
   }
   SurfacePoint best;
@@ -118,7 +118,7 @@ std::optional<SurfacePoint> EmbeddedPoints::find(const SurfacePoint& point, cons
     const double inside = std::min({within[0], within[1], within[2]});
     if (!(inside > best_inside)) continue;
     best_inside = inside;
-    best = {.face = part, .barycentric = within};
+    best = {part, within};
   }
   if (best.face < 0) return std::nullopt;
   double sum = 0.0;

@@ -15,6 +15,8 @@
 #include "geodesics/placed_point.hpp"
 #include "seamwire/errors.hpp"
 #include "surface/corner_fans.hpp"
+#include "surface/face_height.hpp"
+#include "wires/polyline.hpp"
 
 namespace seamwire {
 
@@ -34,7 +36,7 @@ struct End {
 class Section {
  public:
   Section(const Surface& surface, const SurfacePoint& from, const SurfacePoint& to, const Vector& direction)
-      : surface_(surface), from_(end(from, "from")), to_(end(to, "to")) {
+      : surface_(surface), fans_(corner_fans(surface)), from_(end(from, "from")), to_(end(to, "to")) {
     if (!direction.allFinite()) throw InvalidInput("direction is not finite");
     const Vector between = to_.place - from_.place;
     if (between.isZero(0.0)) throw InvalidInput("both points are the same");
@@ -71,9 +73,7 @@ class Section {
   }
 
  private:
-  std::int32_t tail(std::int32_t half_edge) const {
-    return corner_fans(surface_).vertices[corner_fans(surface_).tail(half_edge)];
-  }
+  std::int32_t tail(std::int32_t half_edge) const { return fans_.vertices[fans_.tail(half_edge)]; }
   std::int32_t head(std::int32_t half_edge) const { return tail(next_in_face(half_edge)); }
 
   End end(const SurfacePoint& point, const std::string& what) const {
@@ -91,23 +91,21 @@ class Section {
         if (weights[(i + 1) % 3] == 0.0 && weights[(i + 2) % 3] == 0.0) end.vertex = corners[i];
       }
       if (end.vertex == -1) {
-        const std::vector<std::int32_t>& source = corner_fans(surface_).faces;
-        const auto at = std::ranges::lower_bound(source, point.face);
-        if (at == source.end() || *at != point.face) return end;  // a face that was left out
-        const auto face = static_cast<std::int32_t>(at - source.begin());
-        end.faces.push_back(face);
+        end.faces = half_edge_faces(surface_, {point.face});
+        if (end.faces.empty()) return end;  // a face that was left out
+        const std::int32_t face = end.faces.front();
         for (std::int32_t side = 3 * face; side < 3 * face + 3; ++side) {
           const std::int32_t apex = tail(next_in_face(next_in_face(side)));
           const auto corner = std::ranges::find(corners, apex) - corners.begin();
           // Where the edge lies in the plane but for rounding, the curve may run on its other side alone.
           if (weights[corner] != 0.0) continue;
-          for_each_beyond(side, [&](std::int32_t other) { end.faces.push_back(other / 3); });
+          fans_.for_each_beyond(side, [&](std::int32_t other) { end.faces.push_back(other / 3); });
         }
         return end;
       }
     }
     end.place = surface_.points()[end.vertex];
-    for (std::size_t f = 0; f < corner_fans(surface_).triangles.size(); ++f) {
+    for (std::size_t f = 0; f < fans_.triangles.size(); ++f) {
       const auto side = static_cast<std::int32_t>(3 * f);
       if (tail(side) == end.vertex || tail(side + 1) == end.vertex || tail(side + 2) == end.vertex) {
         end.faces.push_back(side / 3);
@@ -132,14 +130,13 @@ class Section {
   void add(PlaneSection& section, const Vector& place, std::int32_t face) const {
     if (place == section.points.back()) return;
     section.points.push_back(place);
-    section.faces.push_back(corner_fans(surface_).faces[face]);
+    section.faces.push_back(fans_.faces[face]);
   }
 
   // Within a face that has both points: it may lie in the plane as a whole, and is crossed nowhere then.
   PlaneSection straight(std::int32_t face) const {
-    return {.points = {from_.place, to_.place},
-            .faces = {corner_fans(surface_).faces[face]},
-            .length = (to_.place - from_.place).norm()};
+    return {
+        .points = {from_.place, to_.place}, .faces = {fans_.faces[face]}, .length = (to_.place - from_.place).norm()};
   }
 
   // A curve that has come to a face and leaves it over one of its sides.
@@ -187,10 +184,10 @@ class Section {
       if (to_.vertex == -1 && std::ranges::find(to_.faces, branch.face) != to_.faces.end()) break;
       add(branch.section, crossing(side), branch.face);
       if (to_.vertex != -1 && (tail(side) == to_.vertex || head(side) == to_.vertex)) break;
-      const std::int32_t twin = corner_fans(surface_).twins[side];
+      const std::int32_t twin = fans_.twins[side];
       if (twin == -1) {
-        branch.length = length_of(branch.section);
-        for_each_beyond(side, enter);
+        branch.length = length_of(branch.section.points);
+        fans_.for_each_beyond(side, enter);
         return;
       }
       if (twin / 3 == first) return;
@@ -198,28 +195,11 @@ class Section {
       branch.side = next_side(twin);
     }
     add(branch.section, to_.place, branch.face);
-    branch.section.length = length_of(branch.section);
-  }
-
-  static double length_of(const PlaneSection& section) {
-    double length = 0.0;
-    for (std::size_t i = 1; i < section.points.size(); ++i) {
-      length += (section.points[i] - section.points[i - 1]).norm();
-    }
-    return length;
-  }
-
-  // Calls visit(other) for each other half-edge of an edge.
-  template <class Visit>
-  void for_each_beyond(std::int32_t side, const Visit& visit) const {
-    if (corner_fans(surface_).twins[side] != -1) visit(corner_fans(surface_).twins[side]);
-    if (corner_fans(surface_).siblings.empty() || corner_fans(surface_).siblings[side] == -1) return;
-    for (auto other = corner_fans(surface_).siblings[side]; other != side;
-         other = corner_fans(surface_).siblings[other])
-      visit(other);
+    branch.section.length = length_of(branch.section.points);
   }
 
   const Surface& surface_;
+  const CornerFans& fans_;
   End from_, to_;
   std::vector<double> heights_;
   bool is_zero_above_ = true;

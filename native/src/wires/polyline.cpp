@@ -20,6 +20,12 @@ double fraction(std::size_t sample) { return (static_cast<double>(sample) + 0.5)
 
 }  // namespace
 
+double length_of(const std::vector<Vector>& points) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
+  return length;
+}
+
 Polyline::Polyline(const std::vector<Vector>& points) {
   segments_.reserve(points.size());
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {

@@ -10,6 +10,9 @@
 
 namespace seamwire::detail {
 
+/// The length of the polyline through points.
+double length_of(const std::vector<Vector>& points);
+
 /// A line of straight segments, which tells how far points and edges are from it, by a tree of boxes over its segments.
 class Polyline {
  public:

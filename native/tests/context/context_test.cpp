@@ -31,6 +31,10 @@ std::shared_ptr<const Surface> shared(const shapes::Mesh& mesh) {
 
 std::shared_ptr<const Surface> bumpy_torus() { return shared(shapes::bumpy(shapes::torus(32, 20), 0.02)); }
 
+MetricSpec spec_of(MetricFamily family, Follow follow, const Strength& strength) {
+  return {.family = family, .follow = follow, .strength = strength};
+}
+
 template <class Call>
 std::string message_of(const Call& call) {
   try {
@@ -46,7 +50,7 @@ TEST(MetricSpecs, AreEqualExactlyIfAllTheirValuesAre) {
   EXPECT_EQ(one, MetricSpec::feature(Follow::kMin, {.max_anisotropy = 20.0}));
   EXPECT_NE(one, MetricSpec::feature(Follow::kMax, {.max_anisotropy = 20.0}));
   EXPECT_NE(one, MetricSpec::feature(Follow::kMin, {.max_anisotropy = 21.0}));
-  EXPECT_NE(one, MetricSpec::campen(Follow::kMin, {.max_anisotropy = 20.0}));
+  EXPECT_NE(one, spec_of(MetricFamily::kCampen, Follow::kMin, {.max_anisotropy = 20.0}));
   EXPECT_EQ(MetricSpec::euclidean(), MetricSpec{});
 }
 
@@ -60,8 +64,8 @@ TEST(MetricSpecs, OfOneFamilyAndStrengthAreCounterpartsIfTheyFollowDifferentDire
 }
 
 TEST(MetricSpecs, KnowWhatTheirPathsFollow) {
-  EXPECT_EQ(MetricSpec::campen(Follow::kMin, {.parameter = 2.0}).kind(), MetricKind::kMin);
-  EXPECT_EQ(MetricSpec::pottmann_kovacs(Follow::kMax, {.parameter = 2.0}).kind(), MetricKind::kMax);
+  EXPECT_EQ(spec_of(MetricFamily::kCampen, Follow::kMin, {.parameter = 2.0}).kind(), MetricKind::kMin);
+  EXPECT_EQ(spec_of(MetricFamily::kPottmannKovacs, Follow::kMax, {.parameter = 2.0}).kind(), MetricKind::kMax);
   EXPECT_EQ(MetricSpec::concave().kind(), MetricKind::kConcave);
   EXPECT_EQ(MetricSpec::euclidean().kind(), MetricKind::kEuclidean);
 }
@@ -87,7 +91,7 @@ TEST(MetricSpecs, ThatDescribeNoMetricAreRefused) {
   EXPECT_EQ(message_of([] { check_metric({.strength = {.parameter = 1.0}}); }),
             "the metric 'euclidean' has no strength");
   EXPECT_THROW(check_metric(MetricSpec::concave({.parameter = -1.0})), InvalidInput);
-  EXPECT_THROW(check_metric(MetricSpec::campen(Follow::kMin, {.parameter = 0.5})), InvalidInput);
+  EXPECT_THROW(check_metric(spec_of(MetricFamily::kCampen, Follow::kMin, {.parameter = 0.5})), InvalidInput);
   EXPECT_THROW(check_metric(MetricSpec::feature(Follow::kMin, {})), InvalidInput);
   EXPECT_EQ(message_of([] { check_metric({.family = static_cast<MetricFamily>(9)}); }), "metric: there is no family 9");
 }
@@ -102,9 +106,9 @@ TEST(MetricSpecs, DescribeTheMetricsOfTheFunctionsOfTheirFamilies) {
   for (const Follow follow : {Follow::kMin, Follow::kMax}) {
     EXPECT_EQ(tensors(MetricSpec::feature(follow, strength)),
               feature_metric(*surface, curvature, follow, strength).tensors);
-    EXPECT_EQ(tensors(MetricSpec::campen(follow, strength)),
+    EXPECT_EQ(tensors(spec_of(MetricFamily::kCampen, follow, strength)),
               campen_metric(*surface, curvature, follow, strength).tensors);
-    EXPECT_EQ(tensors(MetricSpec::pottmann_kovacs(follow, strength)),
+    EXPECT_EQ(tensors(spec_of(MetricFamily::kPottmannKovacs, follow, strength)),
               pottmann_kovacs_metric(*surface, curvature, follow, strength).tensors);
   }
   EXPECT_EQ(tensors(MetricSpec::euclidean()), euclidean_metric(*surface, curvature).tensors);
@@ -255,14 +259,14 @@ TEST(EmbeddedSurface, HasTheDistancesAndWiresOfItsParts) {
   const Wire wire = field.wire(333), traced = trace_wire(*surface, embedding, expected, 333);
   EXPECT_EQ(wire.points, traced.points);
   EXPECT_EQ(wire.length, traced.length);
-  const SurfacePoint inside{.face = 500, .barycentric = {0.2, 0.3, 0.5}};
+  const SurfacePoint inside{500, {0.2, 0.3, 0.5}};
   const SurfacePoint located = *EmbeddedPoints(surface, embedded.shared_embedding()).find(inside);
   EXPECT_EQ(embedded.locate(inside), located);
   EXPECT_EQ(field.distance(inside), expected.distance(located));
   EXPECT_EQ(field.wire(inside).points, trace_wire(*surface, embedding, expected, located).points);
   EXPECT_EQ(embedded.bounded_field(7, 4).distances().distances(),
             ExactGeodesics(embedding.mesh).solve_bounded(7, 4).distances());
-  const EmbeddedField nearest = embedded.field(std::array{inside, SurfacePoint::at_vertex(7)});
+  const EmbeddedField nearest = embedded.field(std::array{inside, SurfacePoint(7)});
   EXPECT_LE(nearest.distances().distances()[333], field.distances().distances()[333]);
 }
 
@@ -273,7 +277,7 @@ TEST(EmbeddedSurface, FindsAndBendsClosedWires) {
   const std::vector<ClosedWire> cuts = field.closed_wires();
   ASSERT_FALSE(cuts.empty());
   EXPECT_EQ(cuts[0].wire.points, closed_wires(*surface, embedded.embedding(), field.distances())[0].wire.points);
-  const std::optional<BentWire> bent = field.bend(cuts[0]).through(SurfacePoint::at_vertex(103));
+  const std::optional<BentWire> bent = field.bend(cuts[0]).through(SurfacePoint(103));
   ASSERT_TRUE(bent);
   EXPECT_EQ(bent->there.points.back(), surface->points()[103]);
   const EmbeddedSurface other(embedded.context(), MetricSpec::euclidean(), {.max_faces_added = 10});
@@ -334,7 +338,7 @@ TEST(EmbeddedSurface, RefusesWhatIsNotPartOfIt) {
   const EmbeddedSurface embedded(context, MetricSpec::euclidean());
   EXPECT_THROW(embedded.field(25), InvalidInput);
   EXPECT_THROW(embedded.field(std::vector<SurfacePoint>()), InvalidInput);
-  EXPECT_THROW(embedded.locate({.face = 99, .barycentric = {1, 0, 0}}), InvalidInput);
+  EXPECT_THROW(embedded.locate({99, {1, 0, 0}}), InvalidInput);
   EXPECT_THROW(embedded.field(0).wire(25), InvalidInput);
   EXPECT_THROW(EmbeddedSurface(context, MetricSpec::concave({})), InvalidInput);
   EXPECT_THROW(EmbeddedSurface(context, std::shared_ptr<const Metric>()), InvalidInput);
@@ -350,14 +354,14 @@ TEST(EmbeddedSurface, SaysWhyAFaceHasNoPoints) {
   const EmbeddedSurface embedded(SurfaceContext(shared(mesh)), MetricSpec::euclidean());
   ASSERT_EQ(embedded.embedding().invalid_left, 1U);
   EXPECT_EQ(message_of([&] {
-              embedded.locate({.face = 1, .barycentric = {0.2, 0.3, 0.5}}, "seed");
+              embedded.locate({1, {0.2, 0.3, 0.5}}, "seed");
             }),
             "seed: face 1 is a hole of the embedding there");
   const EmbedOptions options{.faces = std::vector<std::int32_t>{1}};
   const SurfaceContext grid(shared(shapes::grid(2)));
   const EmbeddedSurface part(grid, MetricSpec::euclidean(), options);
   EXPECT_EQ(message_of([&] {
-              part.locate({.face = 2, .barycentric = {0.2, 0.3, 0.5}}, "seed");
+              part.locate({2, {0.2, 0.3, 0.5}}, "seed");
             }),
             "seed: face 2 is not among the faces that were embedded");
 }

@@ -32,9 +32,8 @@ struct Row {
 
 /// A curve from the lower left corner of a row of two quads to the upper right one.
 CutCurve across_two() {
-  return {.points = {{0.0, 0.0, 0.0}, {1.0, 0.5, 0.0}, {2.0, 1.0, 0.0}},
-          .start = SurfacePoint::at_vertex(0),
-          .end = SurfacePoint::at_vertex(5)};
+  return {
+      .points = {{0.0, 0.0, 0.0}, {1.0, 0.5, 0.0}, {2.0, 1.0, 0.0}}, .start = SurfacePoint(0), .end = SurfacePoint(5)};
 }
 
 TEST(PlanCuts, SplitsTheEdgeBetweenTwoQuadsAndBothQuads) {
@@ -61,8 +60,8 @@ TEST(PlanCuts, PolygonsBackToBackAreCutEach) {
   const std::vector<std::int32_t> polygons{0, 0, 1, 1};
   const auto diagonal = [&](std::int32_t from, std::int32_t to, std::vector<std::int32_t> faces) {
     return CutCurve{.points = {points[from], 0.5 * (points[from] + points[to]), points[to]},
-                    .start = SurfacePoint::at_vertex(from),
-                    .end = SurfacePoint::at_vertex(to),
+                    .start = SurfacePoint(from),
+                    .end = SurfacePoint(to),
                     .faces = std::move(faces)};
   };
   const std::vector<CutCurve> curves{diagonal(0, 2, {0, 1}), diagonal(2, 0, {2, 2})};
@@ -120,11 +119,11 @@ TEST(PlanCuts, RefusesWhatIsOutOfRange) {
   Row row(2);
   const auto plan = [&row](CutCurve curve) { return plan_cuts(row.mesh(), {&curve, 1}); };
   CutCurve curve = across_two();
-  curve.start = SurfacePoint::at_vertex(6);
+  curve.start = SurfacePoint(6);
   EXPECT_THROW(plan(curve), InvalidInput);
-  curve.start = {.face = 4, .barycentric = {1.0, 0.0, 0.0}};
+  curve.start = {4, {1.0, 0.0, 0.0}};
   EXPECT_THROW(plan(curve), InvalidInput);
-  curve.start = {.face = 0, .barycentric = {1.0, 1.0, 0.0}};
+  curve.start = {0, {1.0, 1.0, 0.0}};
   EXPECT_THROW(plan(curve), InvalidInput);
   curve = across_two();
   curve.faces = {0};

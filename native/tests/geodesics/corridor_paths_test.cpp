@@ -116,7 +116,7 @@ void expect_paths_between_points(const IntrinsicMesh& mesh, double longest, cons
     const DistanceField field = geodesics.solve(std::array{seed});
     CorridorPaths quick(geodesics, seed, options);
     EXPECT_EQ(quick.seed(), -1);
-    std::vector<SurfacePoint> targets{seed, {.face = seed.face, .barycentric = {0.1, 0.2, 0.7}}};
+    std::vector<SurfacePoint> targets{seed, {seed.face, {0.1, 0.2, 0.7}}};
     for (const unsigned draw : {22U, 23U, 24U}) {
       for (const auto& [other_kind, target] : points::all_kinds(mesh, draw)) targets.push_back(target);
     }

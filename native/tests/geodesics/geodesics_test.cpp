@@ -570,7 +570,7 @@ void expect_invalid(const IntrinsicMesh& mesh, const std::string& part_of_messag
 
 TEST(Geodesics, LengthsMayBeInAnyUnit) {
   const IntrinsicMesh mesh = intrinsic(shapes::bumpy(shapes::grid(6), 0.05));
-  const SurfacePoint point{.face = 11, .barycentric = {0.2, 0.3, 0.5}};
+  const SurfacePoint point{11, {0.2, 0.3, 0.5}};
   const DistanceField expected = ExactGeodesics(mesh).solve(0);
   for (const int exponent : {-250, 250}) {  // about 1e-75 and 1e75
     IntrinsicMesh scaled = mesh;

@@ -44,7 +44,7 @@ std::vector<Named> meshes() {
   return out;
 }
 
-SurfacePoint at(std::int32_t face, double a, double b, double c) { return {.face = face, .barycentric = {a, b, c}}; }
+SurfacePoint at(std::int32_t face, double a, double b, double c) { return {face, {a, b, c}}; }
 
 /// Two ends of a path name the same point: by a face and its coordinates, or by a half-edge and a part of it.
 void expect_is(const IntrinsicMesh& mesh, const PathPoint& end, const SurfacePoint& point) {
@@ -77,7 +77,7 @@ TEST(SurfacePoints, TargetsHaveTheDistancesOfInsertedVertices) {
         const double expected = ExactGeodesics(points::insert(mesh, point)).solve(seed).distances().back();
         if (std::isinf(expected)) continue;  // a vertex without a face
         EXPECT_NEAR(field.distance(point), expected, kTolerance * expected);
-        expect_path(mesh, field.trace(point), expected, SurfacePoint::at_vertex(seed), point);
+        expect_path(mesh, field.trace(point), expected, SurfacePoint(seed), point);
       }
     }
   }
@@ -102,7 +102,7 @@ TEST(SurfacePoints, SourcesGiveTheDistancesOfInsertedVertices) {
             continue;
           }
           ASSERT_NEAR(field.distances()[index(v)], distance, kTolerance * distance) << "vertex " << v;
-          expect_path(mesh, field.trace(v), distance, point, SurfacePoint::at_vertex(v));
+          expect_path(mesh, field.trace(v), distance, point, SurfacePoint(v));
         }
         EXPECT_EQ(field.distance(point), 0.0);
         EXPECT_EQ(field.trace(point).points.size(), 1U);
@@ -182,7 +182,7 @@ TEST(SurfacePoints, NextToAnEdgeIsAsGoodAsOnIt) {
         const double distance = edge_field.distances()[index(v)];
         if (std::isinf(distance)) continue;
         ASSERT_NEAR(field.distances()[index(v)], distance, kTolerance);
-        expect_path(mesh, field.trace(v), distance, beside, SurfacePoint::at_vertex(v));
+        expect_path(mesh, field.trace(v), distance, beside, SurfacePoint(v));
       }
     }
   }
@@ -288,7 +288,7 @@ TEST(SurfacePoints, CoordinatesThatAreAVertexAreThatVertexToTheBit) {
     const ExactGeodesics geodesics(mesh);
     const std::int32_t v = mesh.triangles[5][1];
     const DistanceField expected = geodesics.solve(v);
-    for (const SurfacePoint& same : {at(5, 0, 1, 0), SurfacePoint::at_vertex(v)}) {
+    for (const SurfacePoint& same : {at(5, 0, 1, 0), SurfacePoint(v)}) {
       const DistanceField field = geodesics.solve(std::array{same});
       EXPECT_EQ(field.distances(), expected.distances()) << name;
     }
@@ -302,7 +302,7 @@ TEST(SurfacePoints, OfSeveralSourcesTheNearestCounts) {
     const ExactGeodesics geodesics(mesh);
     std::vector<SurfacePoint> sources;
     for (const auto& [kind, point] : points::all_kinds(mesh, 21)) sources.push_back(point);
-    sources.push_back(SurfacePoint::at_vertex(mesh.triangles[7][2]));
+    sources.push_back(SurfacePoint(mesh.triangles[7][2]));
     sources.push_back(at(sources.front().face, 0.1, 0.1, 0.8));  // two in one face
     std::vector<DistanceField> each;
     for (const SurfacePoint& source : sources) each.push_back(geodesics.solve(std::array{source}));
@@ -324,7 +324,7 @@ TEST(SurfacePoints, OfSeveralSourcesTheNearestCounts) {
       });
       if (!is_tie) expect_path(mesh, field.trace(target), expected, sources[nearest], target);
     };
-    for (std::int32_t v = 0; v < mesh.vertex_count; ++v) check(SurfacePoint::at_vertex(v));
+    for (std::int32_t v = 0; v < mesh.vertex_count; ++v) check(SurfacePoint(v));
     for (const unsigned draw : {31U, 32U, 33U}) {
       for (const auto& [kind, point] : points::all_kinds(mesh, draw)) check(point);
     }
@@ -385,7 +385,7 @@ TEST(SurfacePoints, ASolveThatStopsKnowsWhatItWasFor) {
       compare(field);
     }
     for (const auto& [kind, target] : points::all_kinds(mesh, 61)) {
-      const DistanceField field = geodesics.solve(source, {.targets = {target, SurfacePoint::at_vertex(3)}});
+      const DistanceField field = geodesics.solve(source, {.targets = {target, SurfacePoint(3)}});
       EXPECT_NEAR(field.distances()[3], whole.distances()[3], kTolerance * whole.distances()[3]);
       EXPECT_NEAR(field.distance(target), whole.distance(target), kTolerance * whole.distance(target));
       compare(field);
@@ -415,7 +415,7 @@ TEST(SurfacePoints, BoundedFieldsGiveRealPathsToPoints) {
       EXPECT_EQ(bounded.distance(point), path.length);
       EXPECT_GE(path.length, exact.distance(point) * (1 - kTolerance));
       EXPECT_LE(path.length, exact.distance(point) * 1.1);
-      expect_path(mesh, path, path.length, SurfacePoint::at_vertex(0), point);
+      expect_path(mesh, path, path.length, SurfacePoint(0), point);
     }
   }
 }
@@ -454,7 +454,7 @@ TEST(SurfacePoints, WhatIsNoPointIsRefused) {
   const std::vector<std::pair<SurfacePoint, std::string>> wrong{
       {at(8, 1, 0, 0), "face 8 is out of range: there are 8 faces"},
       {at(-1, 1, 0, 0), "face -1 is out of range: there are 8 faces"},
-      {SurfacePoint::at_vertex(9), "vertex 9 is out of range: there are 9 vertices"},
+      {SurfacePoint(9), "vertex 9 is out of range: there are 9 vertices"},
       {at(3, 0.5, 0.6, -0.1), "a barycentric coordinate is -0.1, not finite and 0 or more"},
       {at(3, nan, 0.5, 0.5), "a barycentric coordinate is nan, not finite and 0 or more"},
       {at(3, kInfinity, 0, 0), "a barycentric coordinate is inf, not finite and 0 or more"},

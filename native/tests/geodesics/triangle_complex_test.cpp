@@ -109,7 +109,8 @@ std::vector<SurfacePoint> points_of(const IntrinsicMesh& mesh, unsigned seed) {
   for (std::int32_t h = 0; index(h) < mesh.siblings.size(); ++h) {
     if (mesh.siblings[index(h)] < 0 || random() % 16U != 0) continue;
     const double t = points::draw(random, 0.1, 0.9);
-    SurfacePoint point{.face = h / 3};
+    SurfacePoint point;
+    point.face = h / 3;
     point.barycentric[index(h % 3)] = 1 - t;
     point.barycentric[index((h % 3 + 1) % 3)] = t;
     points.push_back(point);
@@ -132,12 +133,12 @@ TEST(TriangleComplexes, PathsOverTheSpineOfABookAreStraightLines) {
     for (const std::int32_t seed : {0, mesh.vertex_count / 2 + 3, mesh.vertex_count - 1}) {
       const DistanceField field = geodesics.solve(seed);
       for (std::int32_t v = 0; v < mesh.vertex_count; ++v) {
-        const double expected = book.distance(SurfacePoint::at_vertex(seed), SurfacePoint::at_vertex(v));
+        const double expected = book.distance(SurfacePoint(seed), SurfacePoint(v));
         EXPECT_NEAR(field.distances()[index(v)], expected, kExact) << seed << " to " << v;
         expect_path(mesh, field.trace(v), expected);
       }
       for (const SurfacePoint& point : points_of(mesh, 3)) {
-        const double expected = book.distance(SurfacePoint::at_vertex(seed), point);
+        const double expected = book.distance(SurfacePoint(seed), point);
         EXPECT_NEAR(field.distance(point), expected, 1e-11);
         EXPECT_NEAR(paths::length_of(mesh, field.trace(point)), expected, 1e-11);
       }
@@ -192,7 +193,7 @@ void expect_no_needle_matters(const Book& book, std::size_t needles) {
   for (std::int32_t seed = 0; seed < embedding.mesh.vertex_count; seed += 7) {
     const DistanceField field = geodesics.solve(seed);
     for (std::int32_t v = 0; v < embedding.mesh.vertex_count; ++v) {
-      const double expected = book.distance(SurfacePoint::at_vertex(seed), SurfacePoint::at_vertex(v));
+      const double expected = book.distance(SurfacePoint(seed), SurfacePoint(v));
       ASSERT_NEAR(field.distances()[index(v)] / surface.scale(), expected, kExact) << seed << " to " << v;
     }
   }
@@ -241,7 +242,7 @@ TEST(TriangleComplexes, PathsFromPointsOnAndOffTheSpineOfABookAreStraightLines) 
   for (const SurfacePoint& from : points) {
     const DistanceField field = geodesics.solve(std::array{from});
     for (std::int32_t v = 0; v < mesh.vertex_count; ++v) {
-      const double expected = book.distance(from, SurfacePoint::at_vertex(v));
+      const double expected = book.distance(from, SurfacePoint(v));
       EXPECT_NEAR(field.distances()[index(v)], expected, 1e-11) << v;
       EXPECT_NEAR(paths::length_of(mesh, field.trace(v)), expected, 1e-11) << v;
     }
@@ -257,12 +258,12 @@ TEST(TriangleComplexes, TheNearestOfSeveralSourcesIsFoundOverTheSpineOfABook) {
   const Book book(3, 5, 0.2);
   const IntrinsicMesh mesh = shapes::intrinsic(book.mesh);
   std::vector<SurfacePoint> sources = points_of(mesh, 9);
-  sources.push_back(SurfacePoint::at_vertex(mesh.vertex_count - 1));
+  sources.push_back(SurfacePoint(mesh.vertex_count - 1));
   const DistanceField field = ExactGeodesics(mesh).solve(sources);
   for (std::int32_t v = 0; v < mesh.vertex_count; ++v) {
     double expected = reference::kInfinity;
     for (const SurfacePoint& source : sources) {
-      expected = std::min(expected, book.distance(source, SurfacePoint::at_vertex(v)));
+      expected = std::min(expected, book.distance(source, SurfacePoint(v)));
     }
     EXPECT_NEAR(field.distances()[index(v)], expected, 1e-11);
   }
@@ -272,10 +273,10 @@ TEST(TriangleComplexes, ASolveThatStopsEarlyKnowsWhatItWasAskedForOverTheSpine) 
   const Book book(3, 12, 0.2);
   const IntrinsicMesh mesh = shapes::intrinsic(book.mesh);
   const ExactGeodesics geodesics(mesh);
-  const SurfacePoint seed = SurfacePoint::at_vertex(12), target = SurfacePoint::at_vertex(mesh.vertex_count - 40);
+  const SurfacePoint seed = SurfacePoint(12), target = SurfacePoint(mesh.vertex_count - 40);
   const DistanceField near = geodesics.solve(std::array{seed}, {.max_distance = 0.7, .targets = {}});
   for (std::int32_t v = 0; v < mesh.vertex_count; ++v) {
-    const double expected = book.distance(seed, SurfacePoint::at_vertex(v));
+    const double expected = book.distance(seed, SurfacePoint(v));
     if (expected < 0.7 - 1e-9) {
       EXPECT_NEAR(near.distances()[index(v)], expected, kExact);
     }
@@ -292,7 +293,7 @@ TEST(TriangleComplexes, PathsOfFewWindowsAndAtOnceAreRealAndNoShorter) {
   const DistanceField bounded = geodesics.solve_bounded(seed, 4);
   CorridorPaths quick(geodesics, seed), narrow(geodesics, seed, {.corridor_vertices = 30, .windows = 0});
   for (std::int32_t v = 0; v < mesh.vertex_count; v += 5) {
-    const double distance = book.distance(SurfacePoint::at_vertex(seed), SurfacePoint::at_vertex(v));
+    const double distance = book.distance(SurfacePoint(seed), SurfacePoint(v));
     for (const IntrinsicPath& path : {bounded.trace(v), quick.path(v), narrow.path(v)}) {
       EXPECT_NEAR(paths::length_of(mesh, path), path.length, kExact);
       EXPECT_GE(path.length, distance - kExact);
@@ -303,7 +304,7 @@ TEST(TriangleComplexes, PathsOfFewWindowsAndAtOnceAreRealAndNoShorter) {
   for (const SurfacePoint& point : points_of(mesh, 4)) {
     const IntrinsicPath path = quick.path(point);
     EXPECT_NEAR(paths::length_of(mesh, path), path.length, kExact);
-    EXPECT_GE(path.length, book.distance(SurfacePoint::at_vertex(seed), point) - 1e-11);
+    EXPECT_GE(path.length, book.distance(SurfacePoint(seed), point) - 1e-11);
   }
 }
 

@@ -117,7 +117,7 @@ TEST(WithoutThreads, ALiveWireThatCannotBeMadeSaysSo) {
 TEST(WithoutMemory, ALiveWireThatBuildsItsSurfaceSaysSo) {
   shapes::Mesh mesh = some_mesh();
   memory_left = kLarge;
-  LiveWire live(std::move(mesh.points), std::move(mesh.triangles));
+  LiveWire live({std::move(mesh.points), std::move(mesh.triangles)});
   EXPECT_THROW(live.wait(), std::bad_alloc);
   memory_left = std::numeric_limits<std::size_t>::max();
   EXPECT_THROW(live.seed({0}), std::bad_alloc) << "for good";
@@ -148,7 +148,7 @@ void change_under_watch(LiveWire& live, const Change& change) {
 TEST(FreeingInput, OfASurfaceThatIsBuiltIsDoneByAWorkerWithoutTheLock) {
   freed_by_caller = freed_by_workers = freed_with_the_lock = 0;
   shapes::Mesh mesh = some_mesh();
-  LiveWire live(std::move(mesh.points), std::move(mesh.triangles));
+  LiveWire live({std::move(mesh.points), std::move(mesh.triangles)});
   change_under_watch(live, [&] { live.seed({7}); });
   EXPECT_GT(freed_by_workers, 0);
   EXPECT_EQ(freed_by_caller, 0);

@@ -27,7 +27,7 @@ namespace {
 
 /// A live wire that builds the mesh's surface itself.
 LiveWire live_on(const shapes::Mesh& mesh, const LiveWireOptions& options = kPlain) {
-  return {mesh.points, mesh.triangles, std::nullopt, options};
+  return LiveWire({mesh.points, mesh.triangles}, options);
 }
 
 /// A mesh whose surface takes long enough to build for a caller to have something in the meantime.
@@ -54,7 +54,7 @@ TEST(LiveWireBuildingItsSurface, GivesTheWiresOfOneOnThatSurface) {
 
 TEST(LiveWireBuildingItsSurface, RunsAlongTheRealEdgesThatItIsGiven) {
   const Surface quads = shapes::quad_cylinder(12, 6, 0.5, 1.0).surface();
-  const LiveWire live(quads.points(), quads.triangles(), quads.edges(), kAlongEdges);
+  const LiveWire live({quads.points(), quads.triangles(), quads.edges()}, kAlongEdges);
   ASSERT_TRUE(live.wait());
   EXPECT_EQ(live.surface()->edges(), quads.edges());
   EXPECT_EQ(live.extend_straight({0, 12}, {}).vertices, (std::vector<std::int32_t>{12, 24, 36, 48, 60, 72}));
@@ -205,7 +205,7 @@ TEST(LiveWireBuildingItsSurface, EveryCallThrowsWhyItCannotBeBuilt) {
       why = error.what();
     }
     ASSERT_FALSE(why.empty());
-    LiveWire live(mesh.points, mesh.triangles, edges, kAlongEdges);
+    LiveWire live({mesh.points, mesh.triangles, edges}, kAlongEdges);
     std::optional<LiveWire> fork;
     try {
       fork = live.fork();

@@ -90,10 +90,10 @@ TEST(LiveWire, TheSecondClosedWireIsTheFirstOfTheEuclideanMetric) {
   const ClosedInBoth both(surface);
   std::size_t of_second_metric = 0;
   for (const std::int32_t through : {0, 100, 350, 500, 900}) {  // without a seed, the newest counts
-    live.closed_wires(SurfacePoint::at_vertex(7));
-    live.closed_wires(SurfacePoint::at_vertex(through));
+    live.closed_wires(SurfacePoint(7));
+    live.closed_wires(SurfacePoint(through));
     ASSERT_TRUE(live.wait());
-    const LiveClosedWires found = live.closed_wires(SurfacePoint::at_vertex(through));
+    const LiveClosedWires found = live.closed_wires(SurfacePoint(through));
     ASSERT_TRUE(found.final);
     const auto closed = both.closed(through);
     const std::vector<ClosedCutId> expected = choose_closed_wires(closed);
@@ -114,7 +114,7 @@ TEST(LiveWire, TheClosedWiresOfTheFirstMetricAreThereBeforeThoseOfTheSecond) {
   const auto surface = shared(shapes::bumpy(shapes::torus(120, 80), 0.01));
   LiveWire live(surface, kConcave);
   live.wait();
-  const SurfacePoint through = SurfacePoint::at_vertex(100);
+  const SurfacePoint through = SurfacePoint(100);
   LiveClosedWires early = live.closed_wires(through);
   while (early.cuts.empty() && !early.final) {
     std::this_thread::yield();
@@ -135,7 +135,7 @@ TEST(LiveWire, OnALargeSurfaceClosedWiresAreThereBeforeTheyAreFinal) {
   if (sized(false, true)) GTEST_SKIP() << "takes minutes under ThreadSanitizer";
   const auto surface = shared(shapes::torus(300, 200));
   LiveWire live(surface, in(MetricFamily::kEuclidean));
-  const SurfacePoint through = SurfacePoint::at_vertex(0);
+  const SurfacePoint through = SurfacePoint(0);
   live.wait();
   LiveClosedWires early = live.closed_wires(through);
   while (early.cuts.empty() && !early.final) early = live.closed_wires(through);
@@ -151,25 +151,25 @@ TEST(LiveWire, OnALargeSurfaceClosedWiresAreThereBeforeTheyAreFinal) {
 TEST(LiveWire, ClosedWiresLeadThroughPointsOfTheSurface) {
   const auto surface = shared(shapes::torus(24, 16));
   LiveWire live(surface, kPlain), along_edges(surface, kAlongEdges);
-  EXPECT_THROW(live.closed_wires(SurfacePoint::at_vertex(24 * 16)), InvalidInput);
-  EXPECT_THROW(live.closed_wires({.face = -1, .barycentric = {1, 0, 0}}), InvalidInput);
-  EXPECT_THROW(along_edges.closed_wires(SurfacePoint::at_vertex(0)), InvalidInput);
+  EXPECT_THROW(live.closed_wires(SurfacePoint(24 * 16)), InvalidInput);
+  EXPECT_THROW(live.closed_wires({-1, {1, 0, 0}}), InvalidInput);
+  EXPECT_THROW(along_edges.closed_wires(SurfacePoint(0)), InvalidInput);
 }
 
 TEST(LiveWire, AClosedWireIsBentToASecondPointInItsMetric) {
   const auto surface = shared(shapes::torus(40, 24));
   LiveWire live(surface, kConcave);
   const ClosedInBoth both(surface);
-  const SurfacePoint through = SurfacePoint::at_vertex(100);
+  const SurfacePoint through = SurfacePoint(100);
   const auto closed = both.closed(100);
   for (const std::size_t metric : {0U, 1U, 0U}) {
     ASSERT_FALSE(closed[metric].empty());
     const BentWires bent(surface, std::make_shared<const Embedding>(both.embeddings[metric]), both.solvers[metric],
                          both.solvers[metric].solve(100), closed[metric][0]);
     for (const std::int32_t vertex : {103, 420, 500}) {
-      const SurfacePoint second = SurfacePoint::at_vertex(vertex);
+      const SurfacePoint second = SurfacePoint(vertex);
       const ClosedCutId id{.metric = metric};
-      live.bent_wire(through, SurfacePoint::at_vertex(7), id);  // the newest counts
+      live.bent_wire(through, SurfacePoint(7), id);  // the newest counts
       live.bent_wire(through, second, id);
       ASSERT_TRUE(live.wait());
       const LiveClosedWires found = live.bent_wire(through, second, id);
@@ -187,12 +187,12 @@ TEST(LiveWire, AClosedWireIsBentToASecondPointInItsMetric) {
   }
   for (const ClosedCutId& id :
        {ClosedCutId{0, closed[0].size()}, ClosedCutId{1, closed[1].size()}, ClosedCutId{2, 0}}) {
-    live.bent_wire(through, SurfacePoint::at_vertex(420), id);
+    live.bent_wire(through, SurfacePoint(420), id);
     ASSERT_TRUE(live.wait());
-    const LiveClosedWires none = live.bent_wire(through, SurfacePoint::at_vertex(420), id);
+    const LiveClosedWires none = live.bent_wire(through, SurfacePoint(420), id);
     EXPECT_TRUE(none.final && none.cuts.empty()) << "there is no cut of that number";
   }
-  EXPECT_THROW(live.bent_wire(through, SurfacePoint::at_vertex(40 * 24)), InvalidInput);
+  EXPECT_THROW(live.bent_wire(through, SurfacePoint(40 * 24)), InvalidInput);
 }
 
 TEST(LiveWire, FindsTheRingsOfADenseMesh) {

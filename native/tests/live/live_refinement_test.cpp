@@ -68,9 +68,9 @@ TEST(LiveRefinement, WiresAreFinalOnceTheyAreRefinedAndNotBefore) {
     EXPECT_TRUE(plain.wires({target}).final());
     const LiveWires late = final_wires(live, target);
     EXPECT_TRUE(late.final() && late.settled);
-    const std::optional<Wire> expected = refined_wire(
-        surface, metric, trace_wire(*surface, embedding, field, target), SurfacePoint::at_vertex(7),
-        SurfacePoint::at_vertex(target), {.max_error = 0.01, .mean_edge_length = embedding.mean_edge_length});
+    const std::optional<Wire> expected =
+        refined_wire(surface, metric, trace_wire(*surface, embedding, field, target), SurfacePoint(7),
+                     SurfacePoint(target), {.max_error = 0.01, .mean_edge_length = embedding.mean_edge_length});
     ASSERT_TRUE(expected);
     const auto is_refined = [&](const LiveCandidate& wire) { return wire.points == expected->points; };
     EXPECT_TRUE(std::ranges::any_of(late.wires, is_refined)) << "that in M_min";

@@ -100,7 +100,7 @@ TEST_P(LiveWireForThreads, AnswersAllOfThemAndEndsWithWhatWasSetLast) {
     if (GetParam() == Along::kEdges) {
       live.loop({i % 20, i % 20 + 1});
     } else {
-      live.closed_wires(SurfacePoint::at_vertex(i % 20));
+      live.closed_wires(SurfacePoint(i % 20));
     }
     live.wait(0.001);
   };

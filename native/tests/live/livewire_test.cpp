@@ -128,7 +128,7 @@ std::int32_t nearest_corner(const Surface& surface, const SurfacePoint& point) {
 
 TEST(LiveWire, FromPointsOfFacesGivesTheGeodesicsBetweenThem) {
   const auto surface = shared(shapes::torus(32, 20));
-  const SurfacePoint seed{.face = 40, .barycentric = {0.2, 0.5, 0.3}};
+  const SurfacePoint seed{40, {0.2, 0.5, 0.3}};
   LiveWire live(surface, kPlain);
   live.seed_at(seed);
   ASSERT_TRUE(live.wait());
@@ -138,10 +138,8 @@ TEST(LiveWire, FromPointsOfFacesGivesTheGeodesicsBetweenThem) {
     const Embedding& embedding = *shared_embedding;
     const EmbeddedPoints points(surface, shared_embedding);
     const DistanceField field = ExactGeodesics(embedding.mesh).solve(std::array{*points.find(seed)});
-    const std::array targets{SurfacePoint{.face = 40, .barycentric = {0.6, 0.1, 0.3}},
-                             SurfacePoint{.face = 900, .barycentric = {0.1, 0.8, 0.1}},
-                             SurfacePoint{.face = 517, .barycentric = {0.0, 0.4, 0.6}},
-                             SurfacePoint{.face = 3, .barycentric = {0.0, 1.0, 0.0}}, SurfacePoint::at_vertex(100)};
+    const std::array targets{SurfacePoint{40, {0.6, 0.1, 0.3}}, SurfacePoint{900, {0.1, 0.8, 0.1}},
+                             SurfacePoint{517, {0.0, 0.4, 0.6}}, SurfacePoint{3, {0.0, 1.0, 0.0}}, SurfacePoint(100)};
     for (const SurfacePoint& target : targets) {
       const LiveCandidate got = live.wires_to(target).wires[i];
       const Wire expected = trace_wire(*surface, embedding, field, *points.find(target));
@@ -154,8 +152,8 @@ TEST(LiveWire, FromPointsOfFacesGivesTheGeodesicsBetweenThem) {
       EXPECT_EQ(got.vertices.back(), target.vertex >= 0 ? target.vertex : nearest_corner(*surface, target));
     }
   }
-  EXPECT_EQ(live.wires_to(SurfacePoint::at_vertex(100)).wires[0].points, live.wires({100}).wires[0].points);
-  live.seed_at(SurfacePoint::at_vertex(7));
+  EXPECT_EQ(live.wires_to(SurfacePoint(100)).wires[0].points, live.wires({100}).wires[0].points);
+  live.seed_at(SurfacePoint(7));
   ASSERT_TRUE(live.wait());
   expect_equal(live.wires({100}), fresh_wires(surface, kPlain, {7}, {100}));
 }
@@ -163,28 +161,26 @@ TEST(LiveWire, FromPointsOfFacesGivesTheGeodesicsBetweenThem) {
 TEST(LiveWire, AlongEdgesAPointAtAVertexIsThatVertex) {
   const auto surface = shared(shapes::torus(8, 6));
   LiveWire live(surface, kAlongEdges);
-  live.seed_at(SurfacePoint::at_vertex(3));
+  live.seed_at(SurfacePoint(3));
   ASSERT_TRUE(live.wait());
-  const LiveWires there = live.wires_to(SurfacePoint::at_vertex(20));
+  const LiveWires there = live.wires_to(SurfacePoint(20));
   ASSERT_FALSE(there.wires[0].vertices.empty());
   EXPECT_EQ(there.wires[0].vertices.front(), 3);
   EXPECT_EQ(there.wires[0].vertices.back(), 20);
   expect_equal(there, fresh_wires(surface, kAlongEdges, {3}, {20}));
-  EXPECT_THROW(live.seed_at(SurfacePoint::at_vertex(48)), InvalidInput);
-  EXPECT_THROW(live.wires_to(SurfacePoint::at_vertex(48)), InvalidInput);
-  EXPECT_THROW(live.wires_to({.face = 3, .barycentric = {1.0, 0.0, 0.0}}), InvalidInput);
+  EXPECT_THROW(live.seed_at(SurfacePoint(48)), InvalidInput);
+  EXPECT_THROW(live.wires_to(SurfacePoint(48)), InvalidInput);
+  EXPECT_THROW(live.wires_to({3, {1.0, 0.0, 0.0}}), InvalidInput);
 }
 
 TEST(LiveWire, PointsThatAreNoneAreRefused) {
   const auto surface = shared(shapes::torus(8, 6));  // 96 triangles
   LiveWire live(surface, kPlain), along_edges(surface, kAlongEdges);
-  const SurfacePoint right{.face = 3, .barycentric = {0.2, 0.5, 0.3}};
+  const SurfacePoint right{3, {0.2, 0.5, 0.3}};
   EXPECT_THROW(along_edges.seed_at(right), InvalidInput);
   live.seed_at(right);
-  for (const SurfacePoint& wrong :
-       {SurfacePoint{.face = 96, .barycentric = {1, 0, 0}}, SurfacePoint{},
-        SurfacePoint{.face = 3, .barycentric = {0.5, 0.6, -0.1}},
-        SurfacePoint{.face = 3, .barycentric = {0.5, 0.6, 0.1}}, SurfacePoint::at_vertex(48)}) {
+  for (const SurfacePoint& wrong : {SurfacePoint{96, {1, 0, 0}}, SurfacePoint{}, SurfacePoint{3, {0.5, 0.6, -0.1}},
+                                    SurfacePoint{3, {0.5, 0.6, 0.1}}, SurfacePoint(48)}) {
     EXPECT_THROW(live.seed_at(wrong), InvalidInput);
     EXPECT_THROW(live.wires_to(wrong), InvalidInput);
   }
@@ -199,21 +195,21 @@ TEST(LiveWire, FromAFaceWithoutAreaNoWireBegins) {
   mesh.triangles.push_back({0, 1, 1});
   const auto surface = std::make_shared<const Surface>(mesh.points, mesh.triangles);
   LiveWire live(surface, kPlain);
-  live.seed_at({.face = flat, .barycentric = {0.2, 0.5, 0.3}});
+  live.seed_at({flat, {0.2, 0.5, 0.3}});
   ASSERT_TRUE(live.wait());
   const LiveWires none = live.wires({20});
   EXPECT_TRUE(none.final());
   EXPECT_TRUE(none.wires[0].points.empty());
   live.seed({20});
   ASSERT_TRUE(live.wait());
-  EXPECT_TRUE(live.wires_to({.face = flat, .barycentric = {0.2, 0.5, 0.3}}).wires[1].points.empty());
+  EXPECT_TRUE(live.wires_to({flat, {0.2, 0.5, 0.3}}).wires[1].points.empty());
 }
 
 TEST(LiveWire, BeforeItIsFinalAWireLeadsFromPointToPoint) {
   const auto surface = shared(shapes::torus(160, 120));
   LiveWire live(surface, kPlain);
-  const SurfacePoint target{.face = 9000, .barycentric = {0.3, 0.3, 0.4}};
-  live.seed_at({.face = 77, .barycentric = {0.6, 0.3, 0.1}});
+  const SurfacePoint target{9000, {0.3, 0.3, 0.4}};
+  live.seed_at({77, {0.6, 0.3, 0.1}});
   std::array<LiveCandidate, 3> early;
   LiveWires wires = live.wires_to(target);
   for (; !wires.final(); wires = live.wires_to(target)) {

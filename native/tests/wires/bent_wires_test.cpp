@@ -84,7 +84,7 @@ TEST(BentWires, AroundAnOpenTubeBothWaysLeadAsStraightAsTheyCan) {
     for (const int row : {12, 15, 19}) {
       if (steps == 0 && row == 15) continue;
       const std::int32_t second = kAround * row + steps;
-      const std::optional<BentWire> found = bent.through(SurfacePoint::at_vertex(second));
+      const std::optional<BentWire> found = bent.through(SurfacePoint(second));
       ASSERT_TRUE(found) << steps << " " << row;
       expect_joined(cut, *found, cut.point(second));
       const double length = (found->there.euclidean_length + found->back.euclidean_length) / cut.surface.scale();
@@ -107,7 +107,7 @@ TEST(BentWires, AroundAClosedLimbTooAndThroughAPointWithinAFace) {
   for (const std::int32_t face : {2 * kAround * 14 + 5, 2 * kAround * 20 + 30, 2 * kAround * 26 + 11}) {
     const auto& [a, b, c] = cut.surface.triangles()[face];
     const Vector second = 0.2 * cut.point(a) + 0.3 * cut.point(b) + 0.5 * cut.point(c);
-    const std::optional<BentWire> found = bent.through({.face = face, .barycentric = {0.2, 0.3, 0.5}});
+    const std::optional<BentWire> found = bent.through({face, {0.2, 0.3, 0.5}});
     ASSERT_TRUE(found) << face;
     expect_joined(cut, *found, second);
     EXPECT_NEAR(std::abs(turns(loop(*found), around_axis)), 1.0, 1e-9) << face;
@@ -119,7 +119,7 @@ TEST(BentWires, AroundAHandleItGoesAroundTheSameHandle) {
   ASSERT_FALSE(cut.cuts.at(0).separates);
   const BentWires bent = cut.bent();
   for (const std::int32_t second : {2 + 60 * 10, 57 + 60 * 15, 5, 60 * 22 + 1}) {
-    const std::optional<BentWire> found = bent.through(SurfacePoint::at_vertex(second));
+    const std::optional<BentWire> found = bent.through(SurfacePoint(second));
     ASSERT_TRUE(found) << second;
     expect_joined(cut, *found, cut.point(second));
     EXPECT_NEAR(std::abs(turns(loop(*found), around_tube)), 1.0, 1e-9) << second;
@@ -129,7 +129,7 @@ TEST(BentWires, AroundAHandleItGoesAroundTheSameHandle) {
 
 TEST(BentWires, ThroughAPointOfTheCutItIsTheCut) {
   const Cut cut(shapes::cylinder(kAround, 30), kAround * 15);
-  const std::optional<BentWire> found = cut.bent().through(SurfacePoint::at_vertex(kAround * 15 + 10));
+  const std::optional<BentWire> found = cut.bent().through(SurfacePoint(kAround * 15 + 10));
   ASSERT_TRUE(found);
   EXPECT_NEAR((found->there.euclidean_length + found->back.euclidean_length) / cut.surface.scale(),
               on_prism(0.25, 10, 0.0), 1e-9);
@@ -143,7 +143,7 @@ TEST(BentWires, AHoleBesideTheCutDoesNotKeepItFromLeadingAround) {
   ASSERT_FALSE(cut.cuts.empty());
   ASSERT_NEAR(std::abs(turns(cut.cuts[0].wire.points, around_axis)), 1.0, 1e-9);
   const std::int32_t second = kAround * 21 + 13;
-  const std::optional<BentWire> found = cut.bent().through(SurfacePoint::at_vertex(second));
+  const std::optional<BentWire> found = cut.bent().through(SurfacePoint(second));
   ASSERT_TRUE(found);
   EXPECT_NEAR(std::abs(turns(loop(*found), around_axis)), 1.0, 1e-9);
 }
@@ -154,15 +154,15 @@ TEST(BentWires, NoneLeadsToAnotherPartOfTheSurface) {
   for (const Vector& p : {Vector(3, 0, 0), Vector(4, 0, 0), Vector(3, 1, 0)}) mesh.points.push_back(p);
   mesh.triangles.push_back({other, other + 1, other + 2});
   const Cut cut(mesh, kAround * 15);
-  EXPECT_FALSE(cut.bent().through(SurfacePoint::at_vertex(other)));
-  EXPECT_FALSE(cut.bent().through(SurfacePoint::at_vertex(kAround * 15))) << "the seed itself";
+  EXPECT_FALSE(cut.bent().through(SurfacePoint(other)));
+  EXPECT_FALSE(cut.bent().through(SurfacePoint(kAround * 15))) << "the seed itself";
 }
 
 TEST(BentWires, WhatIsOfSomethingElseIsRefused) {
   const Cut cut(shapes::cylinder(kAround, 30), kAround * 15);
   EXPECT_THROW(BentWires(unowned(cut.surface), unowned(cut.embedding), cut.geodesics, cut.field, ClosedWire{}),
                InvalidInput);
-  const DistanceField two = cut.geodesics.solve(std::vector{SurfacePoint::at_vertex(0), SurfacePoint::at_vertex(5)});
+  const DistanceField two = cut.geodesics.solve(std::vector{SurfacePoint(0), SurfacePoint(5)});
   EXPECT_THROW(BentWires(unowned(cut.surface), unowned(cut.embedding), cut.geodesics, two, cut.cuts[0]), InvalidInput);
   const Cut beside(shapes::cylinder(kAround, 30), kAround * 16), finer(shapes::cylinder(kAround, 31), kAround * 15);
   EXPECT_THROW(BentWires(unowned(cut.surface), unowned(cut.embedding), cut.geodesics, cut.field, beside.cuts[0]),
@@ -177,12 +177,12 @@ TEST(BentWires, WhatIsOfSomethingElseIsRefused) {
                InvalidInput);
   EXPECT_THROW(closed_wires(cut.surface, finer.embedding, finer.field), InvalidInput);
   EXPECT_THROW(closed_wires(cut.surface, cut.embedding, finer.field), InvalidInput);
-  EXPECT_THROW(cut.bent().through(SurfacePoint::at_vertex(100'000)), InvalidInput);
-  EXPECT_THROW(cut.bent().through({.face = 100'000, .barycentric = {1, 0, 0}}), InvalidInput);
+  EXPECT_THROW(cut.bent().through(SurfacePoint(100'000)), InvalidInput);
+  EXPECT_THROW(cut.bent().through({100'000, {1, 0, 0}}), InvalidInput);
   const BentWires bent = cut.bent();
   for (std::int32_t face = 0; face < static_cast<std::int32_t>(cut.embedding.mesh.face_count()); ++face) {
     // Of all faces, those that the deepest places took out too.
-    EXPECT_THROW(bent.through({.face = face, .barycentric = {9, 9, 9}}), InvalidInput);
+    EXPECT_THROW(bent.through({face, {9, 9, 9}}), InvalidInput);
   }
 }
 

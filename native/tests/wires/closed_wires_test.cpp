@@ -33,7 +33,7 @@ struct Solved {
     return closed_wires(surface, embedding, field(seed), count);
   }
   std::vector<ClosedWire> loops(std::int32_t seed, std::size_t count = 3) const {
-    return loops(SurfacePoint::at_vertex(seed), count);
+    return loops(SurfacePoint(seed), count);
   }
 
   Surface surface;
@@ -142,7 +142,7 @@ TEST(ClosedWires, FromWithinAFaceItIsTheRingToo) {
   const std::int32_t face = 2 * 24 * 30 + 7;
   const auto& [a, b, c] = solved.surface.triangles()[face];
   const std::vector<Vector>& points = solved.surface.points();
-  const std::vector<ClosedWire> loops = solved.loops({.face = face, .barycentric = {0.2, 0.3, 0.5}});
+  const std::vector<ClosedWire> loops = solved.loops({face, {0.2, 0.3, 0.5}});
   ASSERT_FALSE(loops.empty());
   expect_closed(solved, loops[0], 0.2 * points[a] + 0.3 * points[b] + 0.5 * points[c]);
   EXPECT_NEAR(loops[0].wire.euclidean_length, kTau * 0.1, 0.01);
@@ -241,7 +241,7 @@ TEST(ClosedWires, OfSeveralMetricsTheBestOfEachComeFirst) {
 
 TEST(ClosedWires, WhatTheFieldHasNotReachedIsLeftAlone) {
   const Solved solved(revolution(24, 60, rod));
-  const SurfacePoint seed = SurfacePoint::at_vertex(24 * 30);
+  const SurfacePoint seed = SurfacePoint(24 * 30);
   const DistanceField near = solved.field(seed, {.max_distance = 0.2, .targets = {}});
   EXPECT_TRUE(closed_wires(solved.surface, solved.embedding, near).empty());  // half around is 0.31
   const DistanceField enough = solved.field(seed, {.max_distance = 0.4, .targets = {}});
@@ -286,16 +286,16 @@ TEST(ClosedWires, OnTheSmallestMeshesNothingBreaks) {
 
 TEST(ClosedWires, SeveralSeedsOrAnotherEmbeddingAreRefused) {
   const Solved solved(shapes::cylinder(12, 6)), other(shapes::cylinder(12, 7));
-  const std::vector two = {SurfacePoint::at_vertex(0), SurfacePoint::at_vertex(5)};
+  const std::vector two = {SurfacePoint(0), SurfacePoint(5)};
   const DistanceField field = ExactGeodesics(solved.embedding.mesh).solve(two);
   EXPECT_THROW(closed_wires(solved.surface, solved.embedding, field), InvalidInput);
-  const DistanceField elsewhere = other.field(SurfacePoint::at_vertex(0));
+  const DistanceField elsewhere = other.field(SurfacePoint(0));
   EXPECT_THROW(closed_wires(solved.surface, solved.embedding, elsewhere), InvalidInput);
 }
 
 TEST(ClosedWires, TheyCanBeStopped) {
   const Solved solved(shapes::torus(60, 30));
-  const DistanceField field = solved.field(SurfacePoint::at_vertex(0));
+  const DistanceField field = solved.field(SurfacePoint(0));
   for (const double until : {0.0, 0.2, 0.5, 0.8}) {
     const Task task{.stop = {}, .progress = [until](double fraction) { return fraction < until; }};
     EXPECT_THROW(closed_wires(solved.surface, solved.embedding, field, 3, task), Cancelled) << until;

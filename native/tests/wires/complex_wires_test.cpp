@@ -140,7 +140,8 @@ TEST(ComplexWires, APointOnTheSpineIsReachedFromEachPage) {
       const Vector &a = mesh.points[index(mesh.triangles[index(f)][i])],
                    &b = mesh.points[index(mesh.triangles[index(f)][(i + 1) % 3])];
       if (std::hypot(a.x(), a.y()) > 1e-9 || std::hypot(b.x(), b.y()) > 1e-9) continue;
-      SurfacePoint point{.face = f};
+      SurfacePoint point;
+      point.face = f;
       point.barycentric[i] = 0.25;
       point.barycentric[(i + 1) % 3] = 0.75;
       const std::optional<SurfacePoint> found = points.find(point);
@@ -159,8 +160,7 @@ TEST(ComplexWires, APlaneSectionForksAtTheSpine) {
   const Surface surface = mesh.surface();
   for (const double angle : {2.0, 4.0}) {
     const std::int32_t from = vertex_at(mesh, on_page(0, 0.5, 0.5)), to = vertex_at(mesh, on_page(angle, 1, 0.5));
-    const PlaneSection section =
-        plane_section(surface, SurfacePoint::at_vertex(from), SurfacePoint::at_vertex(to), Vector(0.01, 0, 0.005));
+    const PlaneSection section = plane_section(surface, SurfacePoint(from), SurfacePoint(to), Vector(0.01, 0, 0.005));
     ASSERT_FALSE(section.points.empty());
     EXPECT_EQ(section.points.back(), mesh.points[index(to)]);
     EXPECT_GE(section.length, 1.5 - 1e-12);
@@ -232,7 +232,7 @@ TEST(ComplexWires, ABentCutPassesEdgesOfThreeFaces) {
   const DistanceField field = solved.solver.solve(seed);
   for (const ClosedWire& loop : closed_wires(solved.surface, solved.embedding, field)) {
     const BentWires bent(unowned(solved.surface), unowned(solved.embedding), solved.solver, field, loop);
-    const std::optional<BentWire> wire = bent.through(SurfacePoint::at_vertex(second));
+    const std::optional<BentWire> wire = bent.through(SurfacePoint(second));
     if (!wire) continue;
     EXPECT_EQ(wire->there.points.back(), wire->back.points.front());
     EXPECT_EQ(wire->back.points.back(), wire->there.points.front());

@@ -48,10 +48,10 @@ std::vector<SurfacePoint> random_points(const Surface& surface) {
   std::vector<SurfacePoint> out;
   for (std::int32_t f = 0; at(f) < surface.face_count(); ++f) {
     const double s = part(random), t = part(random);
-    out.push_back({.face = f, .barycentric = {s * t, s * (1 - t), 1 - s}});
-    out.push_back({.face = f, .barycentric = {0, t, 1 - t}});
-    out.push_back({.face = f, .barycentric = {1 - t, 0, t}});
-    out.push_back({.face = f, .barycentric = {t, 1 - t, 0}});
+    out.push_back({f, {s * t, s * (1 - t), 1 - s}});
+    out.push_back({f, {0, t, 1 - t}});
+    out.push_back({f, {1 - t, 0, t}});
+    out.push_back({f, {t, 1 - t, 0}});
   }
   return out;
 }
@@ -90,10 +90,9 @@ TEST(EmbeddedPoints, OnEdgesStayOnEdges) {
 TEST(EmbeddedPoints, VerticesKeepTheirNumbers) {
   const Refined on(shapes::grid(4, 0.2));
   const EmbeddedPoints points(unowned(on.surface), unowned(on.embedding));
-  EXPECT_EQ(points.find(SurfacePoint::at_vertex(7)), SurfacePoint::at_vertex(7));
+  EXPECT_EQ(points.find(SurfacePoint(7)), SurfacePoint(7));
   for (std::int32_t f = 0; at(f) < on.surface.face_count(); ++f) {
-    EXPECT_EQ(points.find({.face = f, .barycentric = {0, 1, 0}}),
-              SurfacePoint::at_vertex(on.surface.triangles()[at(f)][1]));
+    EXPECT_EQ(points.find({f, {0, 1, 0}}), SurfacePoint(on.surface.triangles()[at(f)][1]));
   }
 }
 
@@ -123,8 +122,8 @@ TEST(EmbeddedPoints, HolesHaveNone) {
   const Embedding embedding = embed(surface, embeddings::identity_metric(surface));
   ASSERT_EQ(embedding.invalid_left, 1U);
   const EmbeddedPoints points(unowned(surface), unowned(embedding));
-  EXPECT_TRUE(points.find({.face = 0, .barycentric = {0.2, 0.3, 0.5}}));
-  EXPECT_FALSE(points.find({.face = 1, .barycentric = {0.2, 0.3, 0.5}}));
+  EXPECT_TRUE(points.find({0, {0.2, 0.3, 0.5}}));
+  EXPECT_FALSE(points.find({1, {0.2, 0.3, 0.5}}));
 }
 
 TEST(EmbeddedPoints, WhatIsNoPointIsRefused) {
@@ -132,9 +131,8 @@ TEST(EmbeddedPoints, WhatIsNoPointIsRefused) {
   const EmbeddedPoints points(unowned(on.surface), unowned(on.embedding));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const SurfacePoint& wrong :
-       {SurfacePoint{.face = 18, .barycentric = {1, 0, 0}}, SurfacePoint{.face = 0, .barycentric = {0.5, 0.6, -0.1}},
-        SurfacePoint{.face = 0, .barycentric = {nan, 0, 1}}, SurfacePoint{.face = 0, .barycentric = {0.5, 0.6, 0.1}},
-        SurfacePoint::at_vertex(16), SurfacePoint{}}) {
+       {SurfacePoint{18, {1, 0, 0}}, SurfacePoint{0, {0.5, 0.6, -0.1}}, SurfacePoint{0, {nan, 0, 1}},
+        SurfacePoint{0, {0.5, 0.6, 0.1}}, SurfacePoint(16), SurfacePoint{}}) {
     EXPECT_THROW(points.find(wrong), InvalidInput);
   }
   EXPECT_THROW(EmbeddedPoints(nullptr, unowned(on.embedding)), InvalidInput);

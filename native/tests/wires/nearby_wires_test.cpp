@@ -41,8 +41,8 @@ std::vector<double> excesses(const std::shared_ptr<const Surface>& surface, cons
   const ExactGeodesics geodesics(embedding.mesh);
   std::vector<double> out;
   for (std::int32_t seed = 0; seed < static_cast<std::int32_t>(surface->vertex_count()); ++seed) {
-    const SurfacePoint target = SurfacePoint::at_vertex(near(seed));
-    NearbyWires wires(surface, shared, SurfacePoint::at_vertex(seed), surface->face_count() / 3);
+    const SurfacePoint target = SurfacePoint(near(seed));
+    NearbyWires wires(surface, shared, SurfacePoint(seed), surface->face_count() / 3);
     const std::optional<Wire> wire = wires.wire(target, {});
     if (!wire) {
       ADD_FAILURE() << "no wire from " << seed;
@@ -50,7 +50,7 @@ std::vector<double> excesses(const std::shared_ptr<const Surface>& surface, cons
     }
     EXPECT_EQ(wire->from, seed);
     EXPECT_EQ(wire->to, target.vertex);
-    const DistanceField field = geodesics.solve(std::array{SurfacePoint::at_vertex(seed)}, {.targets = {target}});
+    const DistanceField field = geodesics.solve(std::array{SurfacePoint(seed)}, {.targets = {target}});
     out.push_back(wire->length / field.distance(target) - 1);
   }
   return out;
@@ -81,12 +81,12 @@ TEST(NearbyWires, AreMostlyShortestInAnisotropicMetrics) {
 TEST(NearbyWires, ServeOtherTargetsAndPointsInFaces) {
   const auto surface = bumpy_torus();
   const auto metric = std::make_shared<const Metric>(euclidean_metric(*surface, principal_curvatures(*surface)));
-  const SurfacePoint seed = {.face = 100, .barycentric = {0.2, 0.3, 0.5}};
+  const SurfacePoint seed = {100, {0.2, 0.3, 0.5}};
   NearbyWires wires(surface, metric, seed, surface->face_count() / 3);
   const auto embedding = std::make_shared<const Embedding>(embed(*surface, *metric));
   const DistanceField field = ExactGeodesics(embedding->mesh).solve(std::array{seed});
   for (const std::int32_t face : {700, 104, 200, 98, 101, 100}) {
-    const SurfacePoint target = {.face = face, .barycentric = {0.5, 0.25, 0.25}};
+    const SurfacePoint target = {face, {0.5, 0.25, 0.25}};
     const std::optional<Wire> wire = wires.wire(target, {});
     ASSERT_EQ(wire.has_value(), face != 700) << face;
     if (wire) {
@@ -98,18 +98,18 @@ TEST(NearbyWires, ServeOtherTargetsAndPointsInFaces) {
 TEST(NearbyWires, AreNoneWhereTheyTakeTooManyFaces) {
   const auto surface = bumpy_torus();
   const auto metric = std::make_shared<const Metric>(euclidean_metric(*surface, principal_curvatures(*surface)));
-  NearbyWires wires(surface, metric, SurfacePoint::at_vertex(0), 80);
-  EXPECT_FALSE(wires.wire(SurfacePoint::at_vertex(near(0)), {}));
-  EXPECT_TRUE(wires.wire(SurfacePoint::at_vertex(1), {})) << "a target that is nearer";
+  NearbyWires wires(surface, metric, SurfacePoint(0), 80);
+  EXPECT_FALSE(wires.wire(SurfacePoint(near(0)), {}));
+  EXPECT_TRUE(wires.wire(SurfacePoint(1), {})) << "a target that is nearer";
 }
 
 TEST(NearbyWires, StopWhileFacesAreEmbedded) {
   const auto surface = bumpy_torus();
   const auto metric = std::make_shared<const Metric>(euclidean_metric(*surface, principal_curvatures(*surface)));
-  NearbyWires wires(surface, metric, SurfacePoint::at_vertex(0), surface->face_count() / 3);
+  NearbyWires wires(surface, metric, SurfacePoint(0), surface->face_count() / 3);
   int looks = 0;
   const Task task{.stop = {}, .progress = [&](double) { return ++looks <= 4; }};  // faces are chosen in two looks
-  EXPECT_THROW(wires.wire(SurfacePoint::at_vertex(near(0)), task), Cancelled);
+  EXPECT_THROW(wires.wire(SurfacePoint(near(0)), task), Cancelled);
 }
 
 }  // namespace

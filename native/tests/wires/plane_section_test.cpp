@@ -16,7 +16,7 @@
 namespace seamwire {
 namespace {
 
-SurfacePoint at(std::int32_t v) { return SurfacePoint::at_vertex(v); }
+SurfacePoint at(std::int32_t v) { return SurfacePoint(v); }
 
 // Of a point in a face.
 Vector place(const Surface& surface, const SurfacePoint& p) {
@@ -77,12 +77,11 @@ TEST(PlaneSection, BetweenPointsOnEdgesInThePlaneRunsAlongThem) {
   for (int row = 1; row < n; ++row) {
     for (int column = 1; column < n; ++column) {
       // Below a row's edge lies the second triangle of a cell, above it the first one.
-      const SurfacePoint below{.face = 2 * ((row - 1) * n + column) + 1, .barycentric = {0.0, 0.4, 0.6}};
-      const SurfacePoint above{.face = 2 * (row * n + column), .barycentric = {0.6, 0.4, 0.0}};
+      const SurfacePoint below{2 * ((row - 1) * n + column) + 1, {0.0, 0.4, 0.6}};
+      const SurfacePoint above{2 * (row * n + column), {0.6, 0.4, 0.0}};
       for (const bool is_far_below : {false, true}) {
-        const SurfacePoint far = is_far_below
-                                     ? SurfacePoint{.face = 2 * (row - 1) * n + 1, .barycentric = {0.0, 0.5, 0.5}}
-                                     : SurfacePoint{.face = 2 * row * n, .barycentric = {0.5, 0.5, 0.0}};
+        const SurfacePoint far = is_far_below ? SurfacePoint{2 * (row - 1) * n + 1, {0.0, 0.5, 0.5}}
+                                              : SurfacePoint{2 * row * n, {0.5, 0.5, 0.0}};
         EXPECT_NEAR(plane_section(surface, below, far, turn * Vector::UnitZ()).length, (column - 0.1) / n, 1e-12);
         EXPECT_NEAR(plane_section(surface, far, above, turn * Vector::UnitZ()).length, (column - 0.1) / n, 1e-12);
       }
@@ -107,7 +106,8 @@ TEST(PlaneSection, BetweenPointsInsideFacesIsStraightToo) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> part(0.0, 1.0);
   const auto any = [&] {
-    SurfacePoint p{.face = static_cast<std::int32_t>(part(random) * static_cast<double>(surface.face_count()))};
+    SurfacePoint p;
+    p.face = static_cast<std::int32_t>(part(random) * static_cast<double>(surface.face_count()));
     const double a = part(random), b = part(random) * (1 - a);
     p.barycentric = {a, b, 1 - a - b};
     if (part(random) < 0.3) p.barycentric = {a, 0.0, 1 - a};
@@ -123,7 +123,7 @@ TEST(PlaneSection, BetweenPointsInsideFacesIsStraightToo) {
 
 TEST(PlaneSection, WithinOneFaceIsTheSegmentAlsoInThePlaneOfAFlatSheet) {
   const Surface surface = shapes::grid(4).surface();
-  const SurfacePoint from{.face = 9, .barycentric = {0.2, 0.3, 0.5}}, to{.face = 9, .barycentric = {0.6, 0.3, 0.1}};
+  const SurfacePoint from{9, {0.2, 0.3, 0.5}}, to{9, {0.6, 0.3, 0.1}};
   const double distance = (place(surface, to) - place(surface, from)).norm();
   for (const Vector& direction : {Vector(Vector::UnitZ()), Vector(1.0, 0.3, 0.0)}) {
     const PlaneSection section = plane_section(surface, from, to, direction);
@@ -204,10 +204,8 @@ TEST(PlaneSection, NamesWhatIsWrong) {
   EXPECT_EQ(message(at(0), at(1), Vector::Zero()), none);
   EXPECT_EQ(message(at(0), at(1), Vector(-2, 0, 0)), none);
   EXPECT_NE(message(at(0), at(9), Vector::UnitZ()).find("to: vertex"), std::string::npos);
-  EXPECT_NE(message({.face = 8, .barycentric = {1, 0, 0}}, at(0), Vector::UnitZ()).find("from: face"),
-            std::string::npos);
-  EXPECT_NE(message({.face = 1, .barycentric = {1, 1, 0}}, at(0), Vector::UnitZ()).find("from: the barycentric"),
-            std::string::npos);
+  EXPECT_NE(message({8, {1, 0, 0}}, at(0), Vector::UnitZ()).find("from: face"), std::string::npos);
+  EXPECT_NE(message({1, {1, 1, 0}}, at(0), Vector::UnitZ()).find("from: the barycentric"), std::string::npos);
 }
 
 }  // namespace

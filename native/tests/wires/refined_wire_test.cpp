@@ -124,7 +124,7 @@ TEST(RefinedWire, IntegratesShorterWhereDirectionsTurn) {
   const Surface surface(mesh.points, mesh.triangles);
   const Metric metric = circular_metric(surface, 20);
   for (const auto& [from, to] : {std::pair{0, 16}, std::pair{17 * 4, 17 * 4 + 16}}) {
-    const First first(surface, metric, SurfacePoint::at_vertex(from), SurfacePoint::at_vertex(to));
+    const First first(surface, metric, SurfacePoint(from), SurfacePoint(to));
     const std::optional<Wire> refined = first.refined(0.001);
     ASSERT_TRUE(refined);
     EXPECT_EQ(refined->vertices.front(), from);
@@ -141,10 +141,10 @@ TEST(RefinedWire, AWireWhereTheMetricIsConstantStaysAsItIs) {
   const Surface surface(mesh.points, mesh.triangles);
   const Metric metric{.normals = std::vector<Vector>(121, Vector::UnitZ()),
                       .tensors = std::vector<Eigen::Matrix3d>(121, Eigen::Vector3d(2, 0.5, 0).asDiagonal())};
-  const First first(surface, metric, {.face = 3, .barycentric = {0.2, 0.3, 0.5}}, SurfacePoint::at_vertex(118));
+  const First first(surface, metric, {3, {0.2, 0.3, 0.5}}, SurfacePoint(118));
   EXPECT_FALSE(first.refined(0.001));
   const Metric turning = circular_metric(surface, 20);
-  const First other(surface, turning, {.face = 3, .barycentric = {0.2, 0.3, 0.5}}, SurfacePoint::at_vertex(118));
+  const First other(surface, turning, {3, {0.2, 0.3, 0.5}}, SurfacePoint(118));
   const std::optional<Wire> refined = other.refined(0.001);
   ASSERT_TRUE(refined);
   EXPECT_NEAR((refined->points.front() - other.wire.points.front()).norm(), 0, 1e-12);
@@ -155,7 +155,7 @@ TEST(RefinedWire, InTheWholeSurfaceIsThatOfRefiningAllOfIt) {
   const shapes::Mesh mesh = shapes::grid(6);  // within five rings of a wire through the middle lie all faces
   const Surface surface(mesh.points, mesh.triangles);
   const Metric metric = circular_metric(surface, 10);
-  const First first(surface, metric, SurfacePoint::at_vertex(7), SurfacePoint::at_vertex(13));
+  const First first(surface, metric, SurfacePoint(7), SurfacePoint(13));
   const Embedding all =
       embed(surface, metric, {.max_error = 0.01, .mean_edge_length = first.embedding.mean_edge_length});
   EXPECT_NEAR(first.refined(0.01)->length, ExactGeodesics(all.mesh).solve(7).distances()[13], 1e-12);
@@ -165,9 +165,9 @@ TEST(RefinedWire, ThereIsNoneOfAWireWithoutFaces) {
   const shapes::Mesh mesh = shapes::grid(4);
   const Surface surface(mesh.points, mesh.triangles);
   const Metric metric = circular_metric(surface, 5);
-  const SurfacePoint end = SurfacePoint::at_vertex(3);
+  const SurfacePoint end = SurfacePoint(3);
   const WireRefinement how{.max_error = 0.01, .mean_edge_length = 0.1};
-  EXPECT_FALSE(refined_wire(shared(surface), metric, {}, end, SurfacePoint::at_vertex(9), how));
+  EXPECT_FALSE(refined_wire(shared(surface), metric, {}, end, SurfacePoint(9), how));
   EXPECT_FALSE(refined_wire(shared(surface), metric, First(surface, metric, end, end).wire, end, end, how));
 }
 
@@ -175,7 +175,7 @@ TEST(RefinedWire, IsCancelled) {
   const shapes::Mesh mesh = shapes::grid(16);
   const Surface surface(mesh.points, mesh.triangles);
   const Metric metric = circular_metric(surface, 20);
-  const First first(surface, metric, SurfacePoint::at_vertex(0), SurfacePoint::at_vertex(16));
+  const First first(surface, metric, SurfacePoint(0), SurfacePoint(16));
   std::stop_source stop;
   stop.request_stop();
   EXPECT_THROW(first.refined(0.01, {.stop = stop.get_token(), .progress = {}}), Cancelled);

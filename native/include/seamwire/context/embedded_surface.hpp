@@ -120,14 +120,14 @@ class SEAMWIRE_API EmbeddedSurface {
   /// \throws InvalidInput if the embedding has a hole there
   SurfacePoint locate(const SurfacePoint& point, const std::string& what = "point") const;
 
-  /// Compute exact distances from a vertex.
+  /// Compute exact distances from a point.
   ///
-  /// \param seed one of the caller's vertices
+  /// \param seed a point of the surface
   /// \param task progress and cancellation
   /// \returns the distances, and the wires
-  /// \throws InvalidInput if the seed is out of range, or the constructor of ExactGeodesics rejects the embedding
+  /// \throws InvalidInput if locate() rejects the seed, or the constructor of ExactGeodesics rejects the embedding
   /// \throws Cancelled if the task is cancelled
-  EmbeddedField field(std::int32_t seed, const Task& task = {}) const;
+  EmbeddedField field(const SurfacePoint& seed, const Task& task = {}) const;
   /// Compute exact distances from the nearest of several points.
   ///
   /// \param sources one or more points of the surface
@@ -175,14 +175,6 @@ class SEAMWIRE_API EmbeddedField {
   /// \throws InvalidInput if EmbeddedSurface::locate() rejects the point
   /// \throws Cancelled if the task is cancelled
   double distance(const SurfacePoint& point, const Task& task = {}) const;
-  /// Trace the shortest wire to a vertex.
-  ///
-  /// \param vertex one of the caller's vertices
-  /// \param task progress and cancellation
-  /// \returns the wire, without points if the vertex is unreachable
-  /// \throws InvalidInput if the vertex is out of range
-  /// \throws Cancelled if the task is cancelled
-  Wire wire(std::int32_t vertex, const Task& task = {}) const;
   /// Trace the shortest wire to any point.
   ///
   /// \param point a point of the surface

@@ -33,7 +33,7 @@ class SEAMWIRE_API SurfaceContext {
   ///
   /// \param surface the surface, not null
   /// \throws InvalidInput if the surface is null
-  explicit SurfaceContext(std::shared_ptr<const Surface> surface);
+  SurfaceContext(std::shared_ptr<const Surface> surface);
   /// Make the context of a surface that is built when it is first needed.
   ///
   /// \param points as in the constructor of Surface

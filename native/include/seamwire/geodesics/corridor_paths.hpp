@@ -31,13 +31,6 @@ struct CorridorPathOptions {
 /// thread at a time may use an object. Several objects may share an ExactGeodesics.
 class SEAMWIRE_API CorridorPaths {
  public:
-  /// Prepare paths from a vertex.
-  ///
-  /// \param geodesics the solver of the mesh
-  /// \param seed a vertex of the mesh
-  /// \param options limits of the search
-  /// \throws InvalidInput if the seed is out of range
-  CorridorPaths(const ExactGeodesics& geodesics, std::int32_t seed, const CorridorPathOptions& options = {});
   /// Prepare paths from any point.
   ///
   /// \param geodesics the solver of the mesh
@@ -51,16 +44,6 @@ class SEAMWIRE_API CorridorPaths {
 
   /// Return the vertex where paths begin, -1 if it is another point.
   std::int32_t seed() const;
-  /// Find a path to a vertex.
-  ///
-  /// After a cancellation, the object is still usable.
-  ///
-  /// \param target a vertex of the mesh
-  /// \param task progress and cancellation
-  /// \returns a path like those of DistanceField::trace(). It has no points if the target is unreachable.
-  /// \throws InvalidInput if the target is out of range
-  /// \throws Cancelled if the task is cancelled
-  IntrinsicPath path(std::int32_t target, const Task& task = {});
   /// Find a path to any point.
   ///
   /// After a cancellation, the object is still usable.

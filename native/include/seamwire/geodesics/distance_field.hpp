@@ -67,21 +67,6 @@ class SEAMWIRE_API DistanceField {
   /// If the field is not exact, distances may be too long or too short.
   const std::vector<double>& distances() const;
 
-  /// Trace the shortest path from the nearest source to a vertex.
-  ///
-  /// The path's length is the distance, up to rounding. Tracing takes time proportional to the number of triangles that
-  /// the path crosses.
-  ///
-  /// If the field is not exact, the path is still real, with its true length. It is the shortest path in the triangles
-  /// around the path that the field tells. It may be longer than the geodesic, but not shorter.
-  ///
-  /// \param vertex a vertex of the mesh
-  /// \param task progress and cancellation
-  /// \returns the path, without points if the vertex is unreachable or beyond radius()
-  /// \throws InvalidInput if the vertex is out of range
-  /// \throws Cancelled if the task is cancelled
-  IntrinsicPath trace(std::int32_t vertex, const Task& task = {}) const;
-
   /// Compute the distance of any point.
   ///
   /// It is exact too, not interpolated from the vertices. If the field is not exact, it is the length of trace(). The
@@ -96,9 +81,15 @@ class SEAMWIRE_API DistanceField {
   double distance(const SurfacePoint& point, const Task& task = {}) const;
   /// Trace the shortest path from the nearest source to any point.
   ///
+  /// The path's length is the distance, up to rounding. Tracing takes time proportional to the number of triangles that
+  /// the path crosses.
+  ///
+  /// If the field is not exact, the path is still real, with its true length. It is the shortest path in the triangles
+  /// around the path that the field tells. It may be longer than the geodesic, but not shorter.
+  ///
   /// \param point a point of the mesh
   /// \param task progress and cancellation
-  /// \returns the path, with the same properties as to a vertex
+  /// \returns the path, without points if the point is unreachable or beyond radius()
   /// \throws InvalidInput if distance() rejects the point
   /// \throws Cancelled if the task is cancelled
   IntrinsicPath trace(const SurfacePoint& point, const Task& task = {}) const;

@@ -62,14 +62,14 @@ class SEAMWIRE_API ExactGeodesics {
   /// \throws Cancelled if the task is cancelled
   ExactGeodesics(const ExactGeodesics& former, const IntrinsicMesh& former_mesh, const IntrinsicMesh& mesh,
                  const Task& task = {});
-  /// Compute exact distances from a vertex.
+  /// Compute exact distances from a point.
   ///
-  /// \param seed a vertex of the mesh
+  /// \param seed a point of the mesh
   /// \param task progress and cancellation
   /// \returns the distances, and the paths
-  /// \throws InvalidInput if the seed is out of range
+  /// \throws InvalidInput if DistanceField::distance() rejects the seed
   /// \throws Cancelled if the task is cancelled
-  DistanceField solve(std::int32_t seed, const Task& task = {}) const;
+  DistanceField solve(const SurfacePoint& seed, const Task& task = {}) const;
 
   /// Compute exact distances from the nearest of several points.
   ///

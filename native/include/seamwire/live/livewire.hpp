@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "seamwire/api.hpp"
-#include "seamwire/context/along.hpp"
 #include "seamwire/context/surface_context.hpp"
 #include "seamwire/edges/edge_loop.hpp"
 #include "seamwire/edges/edge_wires.hpp"
@@ -156,27 +155,12 @@ struct LiveEmbedding {
 /// \see Zhuang et al. 2014, Section 5
 class SEAMWIRE_API LiveWire {
  public:
-  /// Start on a surface.
+  /// Start on a surface, and return at once. A surface that is not built yet is built on a background thread.
   ///
-  /// \param context the surface
+  /// \param context the surface, or what SurfaceContext is made of
   /// \param options how wires run
   /// \throws InvalidInput if an option is out of range, or check_metric() rejects a metric
   explicit LiveWire(const SurfaceContext& context, const LiveWireOptions& options = {});
-  /// Start on a surface, in its own context.
-  ///
-  /// \param surface the surface, not null
-  /// \param options how wires run
-  /// \throws InvalidInput if the surface is null, an option is out of range, or check_metric() rejects a metric
-  explicit LiveWire(std::shared_ptr<const Surface> surface, const LiveWireOptions& options = {});
-  /// Build the surface on a background thread, and return at once.
-  ///
-  /// \param points as in the constructor of Surface
-  /// \param triangles as in the constructor of Surface
-  /// \param edges as in the constructor of Surface
-  /// \param options how wires run
-  /// \throws InvalidInput if an option is out of range, or check_metric() rejects a metric
-  LiveWire(std::vector<Vector> points, std::vector<Triangle> triangles,
-           std::optional<std::vector<Edge>> edges = std::nullopt, const LiveWireOptions& options = {});
   LiveWire(LiveWire&& other) noexcept;             ///< the other object may then only be destroyed or assigned to
   LiveWire& operator=(LiveWire&& other) noexcept;  ///< stops the work that was running
   ~LiveWire();                                     ///< stops the work that was running
@@ -228,7 +212,7 @@ class SEAMWIRE_API LiveWire {
   void seed(const Pick& pick, bool forward = false);
   /// Start the wires from any point of the surface; along edges only from a vertex.
   ///
-  /// A vertex (SurfacePoint::at_vertex()) is the same as seed({vertex}). No wire begins where the metric's embedding
+  /// A vertex (SurfacePoint()) is the same as seed({vertex}). No wire begins where the metric's embedding
   /// has a hole, or in a face without an area.
   ///
   /// \param point a point of the surface

@@ -53,18 +53,6 @@ struct SEAMWIRE_API MetricSpec {
   /// \param strength the strength
   /// \see Zhuang et al. 2014, eq. 5
   static MetricSpec feature(Follow follow, const Strength& strength = {.parameter = 0.1});
-  /// Return Campen's metric.
-  ///
-  /// \param follow the principal directions that are short
-  /// \param strength the strength
-  /// \see Zhuang et al. 2014, eq. 3
-  static MetricSpec campen(Follow follow, const Strength& strength);
-  /// Return the metric of Pottmann and Kovacs.
-  ///
-  /// \param follow the principal directions that are short
-  /// \param strength the strength
-  /// \see Zhuang et al. 2014, eq. 4
-  static MetricSpec pottmann_kovacs(Follow follow, const Strength& strength);
   /// Return the metric of concave creases, on curvatures smoothed over 0.01.
   ///
   /// \param strength the strength

@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "seamwire/api.hpp"
-#include "seamwire/context/along.hpp"
 #include "seamwire/context/surface_context.hpp"
 #include "seamwire/metric/metric.hpp"
 #include "seamwire/parameterization/measure_map.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/task.hpp"
+#include "seamwire/wires/wire.hpp"
 
 namespace seamwire {
 

@@ -12,6 +12,9 @@
 
 namespace seamwire {
 
+/// Where wires run: across the surface, as exact geodesics, or along its real edges.
+enum class Along { kSurface, kEdges };
+
 /// A geodesic on the caller's surface, from `from` to `to`.
 struct Wire {
   std::int32_t from = -1;              ///< the caller's vertex; -1 if it is another point
@@ -37,26 +40,12 @@ struct Wire {
 ///   first and last vertex of the surface, are compared.
 SEAMWIRE_API Wire map_wire(const Surface& surface, const Embedding& embedding, const IntrinsicPath& path);
 
-/// Trace the shortest wire from the seed of a field to a vertex.
-///
-/// \param surface the surface
-/// \param embedding an embedding of the surface
-/// \param field distances over the embedding
-/// \param vertex one of the caller's vertices
-/// \param task progress and cancellation
-/// \returns the wire, without points if the vertex is unreachable
-/// \throws InvalidInput if the vertex is out of range
-/// \throws InvalidInput if the field is of another embedding, or the embedding of another surface, as far as sizes tell
-/// \throws Cancelled if the task is cancelled
-SEAMWIRE_API Wire trace_wire(const Surface& surface, const Embedding& embedding, const DistanceField& field,
-                             std::int32_t vertex, const Task& task = {});
-
 /// Trace the shortest wire to a point of the embedding, from the nearest source of a field.
 ///
 /// \param surface the surface
 /// \param embedding an embedding of the surface
 /// \param field distances over the embedding
-/// \param point a point of the embedding, which EmbeddedPoints finds
+/// \param point a point of the embedding, which EmbeddedPoints finds. The caller's vertices keep their numbers.
 /// \param task progress and cancellation
 /// \returns the wire, without points if the point is unreachable
 /// \throws InvalidInput if DistanceField::trace() rejects the point
