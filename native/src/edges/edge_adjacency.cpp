@@ -136,6 +136,20 @@ std::int32_t EdgeAdjacency::find(std::int32_t a, std::int32_t b) const {
   return it != row_end && *it == b ? static_cast<std::int32_t>(it - head_.begin()) : -1;
 }
 
+std::int32_t EdgeAdjacency::checked(const Edge& edge, const std::string& what) const {
+  for (const std::int32_t v : edge) check_index(v, index(vertex_count()), what + ": vertex");
+  const std::int32_t e = find(edge[0], edge[1]);
+  if (e >= 0) return e;
+  throw InvalidInput(what + ": there is no edge between the vertices " + std::to_string(edge[0]) + " and " +
+                     std::to_string(edge[1]));
+}
+
+void EdgeAdjacency::check_size(const Surface& surface) const {
+  if (index(vertex_count()) == surface.vertex_count() && directed_count() == 2 * surface.edges().size()) return;
+  throw InvalidInput("the adjacency is of another surface: it has " + std::to_string(vertex_count()) +
+                     " vertices and " + std::to_string(directed_count() / 2) + " edges");
+}
+
 std::shared_ptr<const EdgeAdjacency> make_edge_adjacency(const Surface& surface, const Task& task) {
   return std::make_shared<const EdgeAdjacency>(surface, task);
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "seamwire/edges/edge_adjacency.hpp"
@@ -27,6 +28,10 @@ class EdgeAdjacency {
 
   /// The directed edge from a to b; -1 if they have no edge.
   std::int32_t find(std::int32_t a, std::int32_t b) const;
+  /// The same, but throws InvalidInput if there is no such edge, or no such vertex. `what` says what it was given for.
+  std::int32_t checked(const Edge& edge, const std::string& what) const;
+  /// Throws InvalidInput if it cannot be the adjacency of a surface.
+  void check_size(const Surface& surface) const;
 
   /// 1 - cos kappa of a chain that arrives against `back` and leaves over `out`, both directed edges from one vertex.
   double turn(std::int32_t back, std::int32_t out) const {

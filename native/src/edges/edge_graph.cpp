@@ -5,10 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <queue>
 #include <span>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -29,8 +26,6 @@ using namespace detail;
 
 namespace {
 
-// How much more it costs a chain to be off the line than to be long.
-constexpr double kOffLine = 4.0;
 // A chain may leave the line by this many times the length of the edge it leaves over.
 constexpr double kCorridor = 2.5;
 // A chain is sought for this many edges of the line at a time. It is long enough not to wind between two rows of edges
@@ -38,8 +33,6 @@ constexpr double kCorridor = 2.5;
 constexpr double kEdgesAtATime = 24.0;
 // Points of the line nearer to each other than this part of an edge say nothing more about it.
 constexpr double kPointsPerEdge = 4.0;
-// Vertices looked at for one chain, so that a line from one component to another is not searched for long.
-constexpr std::size_t kMostLookedAt = 50'000;
 
 double distance_to_line(const Vector& p, std::span<const Vector> line) {
   double least = kInfinity;
@@ -49,6 +42,8 @@ double distance_to_line(const Vector& p, std::span<const Vector> line) {
   return std::sqrt(least);
 }
 
+/// The real edges that stay nearest to a scribble, as chains of vertices in its order; more than one where no edges
+/// lead on. The scribble must be one that apply_scribbles() takes.
 class StrokeChains {
  public:
   StrokeChains(const Surface& surface, const EdgeAdjacency& adjacency, const Scribble& scribble)
@@ -97,64 +92,19 @@ class StrokeChains {
     return sum / std::max(1, adjacency_.end(v) - adjacency_.begin(v));
   }
 
-  // The chain from one vertex to another that stays nearest to a line, by A*; empty where none leads there.
   std::vector<std::int32_t> join(std::int32_t from, std::int32_t to, std::span<const Vector> line) const {
-    struct Node {
-      std::int32_t before;
-      double cost, off;
-      bool is_done = false;
+    const auto neighbors = [this](std::int32_t v, const auto& visit) {
+      for (std::int32_t e = adjacency_.begin(v); e < adjacency_.end(v); ++e) visit(adjacency_.head(e));
     };
-    struct Open {
-      double bound;
-      std::int32_t vertex;
-      bool operator>(const Open& o) const { return bound != o.bound ? bound > o.bound : vertex > o.vertex; }
-    };
-    std::unordered_map<std::int32_t, Node> nodes{{from, {-1, 0.0, 0.0}}};
-    std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
-    open.push({0.0, from});
-    while (!open.empty() && nodes.size() < kMostLookedAt) {
-      const std::int32_t v = open.top().vertex;
-      open.pop();
-      Node& here = nodes.at(v);
-      if (here.is_done) continue;
-      here.is_done = true;
-      if (v == to) {
-        std::vector<std::int32_t> chain;
-        for (std::int32_t u = v; u >= 0; u = nodes.at(u).before) chain.push_back(u);
-        std::ranges::reverse(chain);
-        return chain;
-      }
-      const double cost = here.cost;
-      for (std::int32_t e = adjacency_.begin(v); e < adjacency_.end(v); ++e) {
-        const std::int32_t w = adjacency_.head(e);
-        const double length = (point(w) - point(v)).norm();
-        const auto [known, is_new] = nodes.try_emplace(w, Node{v, kInfinity, 0.0});
-        Node& node = known->second;
-        if (is_new) node.off = distance_to_line(point(w), line);
-        const double there = cost + length + kOffLine * node.off;
-        if (node.is_done || node.off > kCorridor * length || !(there < node.cost)) continue;
-        node.before = v;
-        node.cost = there;
-        open.push({there + (point(to) - point(w)).norm(), w});
-      }
-    }
-    return {};
+    return chain_along(
+        from, to, {.slack = 0.0, .edges = kCorridor}, [this](std::int32_t v) { return point(v); }, neighbors,
+        [&](std::int32_t v) { return distance_to_line(point(v), line); });
   }
 
   const Surface& surface_;
   const EdgeAdjacency& adjacency_;
   const Scribble& scribble_;
 };
-
-/// The real edges that stay nearest to a scribble, as chains of vertices in its order; more than one where no edges
-/// lead on. The scribble must be one that apply_scribbles() takes.
-std::vector<std::vector<std::int32_t>> stroke_chains(const Surface& surface, const EdgeAdjacency& adjacency,
-                                                     const Scribble& scribble) {
-  return StrokeChains(surface, adjacency, scribble).find();
-}
-
-// Edges between two looks at the task: well under a millisecond.
-constexpr std::size_t kStepsBetweenChecks = 1024;
 
 }  // namespace
 
@@ -164,25 +114,22 @@ EdgeGraph::EdgeGraph(const Surface& surface, const Metric& metric, std::shared_p
   check_finite(metric);
   const std::size_t edges = surface.edges().size();
   adjacency_ = adjacency ? std::move(adjacency) : make_edge_adjacency(surface, task);
-  if (index(vertex_count()) != surface.vertex_count() || directed_count() != 2 * edges) {
-    throw InvalidInput("the adjacency is of another surface: it has " + std::to_string(vertex_count()) +
-                       " vertices and " + std::to_string(directed_count() / 2) + " edges");
-  }
+  adjacency_->check_size(surface);
   resize(lengths_, directed_count(), task, 0.0);
   std::vector<std::int32_t> next(index(vertex_count()));
   for (std::int32_t v = 0; v < vertex_count(); ++v) next[v] = begin(v);
-  std::size_t count = 0;
+  Poll poll(task, 0.0, 1.0, edges);
   for (const auto& [a, b] : surface.edges()) {  // in the order in which the rows were filled
     const double length = edge_length(surface, metric, a, b);
     lengths_[next[a]++] = lengths_[next[b]++] = length;
     mean_length_ += length / static_cast<double>(edges);
-    if (++count % kStepsBetweenChecks == 0) task.check(static_cast<double>(count) / static_cast<double>(edges));
+    poll.next();
   }
 }
 
 void EdgeGraph::follow(const Surface& surface, const Metric& metric, const Scribble& scribble) {
   if (drawn_.empty()) drawn_.assign(directed_count(), false);
-  for (const std::vector<std::int32_t>& chain : stroke_chains(surface, *adjacency_, scribble)) {
+  for (const std::vector<std::int32_t>& chain : StrokeChains(surface, *adjacency_, scribble).find()) {
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
       const std::int32_t a = chain[i], b = chain[i + 1], e = find(a, b);
       const double straight = surface.scale() * (surface.points()[b] - surface.points()[a]).norm();
@@ -204,13 +151,6 @@ std::shared_ptr<const EdgeGraph> make_edge_graph(const Surface& surface, const M
     if (!kind || scribble.acts_on(*kind)) graph->follow(surface, metric, scribble);
   }
   return graph;
-}
-
-void check_edge(const EdgeGraph& graph, std::int32_t a, std::int32_t b, const std::string& what) {
-  for (const std::int32_t v : {a, b}) check_index(v, index(graph.vertex_count()), what + ": vertex");
-  if (graph.find(a, b) >= 0) return;
-  throw InvalidInput(what + ": there is no edge between the vertices " + std::to_string(a) + " and " +
-                     std::to_string(b));
 }
 
 void check_turning(double turning) {

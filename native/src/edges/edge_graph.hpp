@@ -28,6 +28,7 @@ class EdgeGraph {
   std::int32_t twin(std::int32_t e) const { return adjacency_->twin(e); }
   std::int32_t tail(std::int32_t e) const { return adjacency_->tail(e); }
   std::int32_t find(std::int32_t a, std::int32_t b) const { return adjacency_->find(a, b); }
+  std::int32_t checked(const Edge& edge, const std::string& what) const { return adjacency_->checked(edge, what); }
   double turn(std::int32_t back, std::int32_t out) const {
     return !drawn_.empty() && drawn_[back] && drawn_[out] ? 0.0 : adjacency_->turn(back, out);
   }
@@ -44,8 +45,6 @@ class EdgeGraph {
   double mean_length_ = 0.0;
 };
 
-/// Throws InvalidInput where there is no such edge, or no such vertices; `what` says what it was given for.
-void check_edge(const EdgeGraph& graph, std::int32_t a, std::int32_t b, const std::string& what);
 /// Throws InvalidInput where it is not a finite number of at least 0.
 void check_turning(double turning);
 

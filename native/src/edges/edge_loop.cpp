@@ -2,7 +2,6 @@
 #include "seamwire/edges/edge_loop.hpp"
 
 #include <algorithm>
-#include <string>
 #include <unordered_set>
 
 #include "edges/edge_adjacency.hpp"
@@ -11,23 +10,11 @@ namespace seamwire {
 
 using namespace detail;
 
-namespace {
-
-std::int32_t find_edge(const EdgeAdjacency& adjacency, const Edge& edge) {
-  const auto is_vertex = [&](std::int32_t v) { return v >= 0 && v < adjacency.vertex_count(); };
-  const std::int32_t e = is_vertex(edge[0]) && is_vertex(edge[1]) ? adjacency.find(edge[0], edge[1]) : -1;
-  if (e >= 0) return e;
-  throw InvalidInput("there is no edge between the vertices " + std::to_string(edge[0]) + " and " +
-                     std::to_string(edge[1]));
-}
-
-}  // namespace
-
 std::vector<std::int32_t> extend_straight(const EdgeAdjacency& adjacency, const Edge& edge,
                                           std::span<const std::int32_t> stops) {
   // 1 - cos 60 degrees, a little less: a vertex of three equal angles offers two ways of 60 degrees and no way on.
   constexpr double kMostTurn = 0.5 - 1e-9;
-  std::int32_t e = find_edge(adjacency, edge);
+  std::int32_t e = adjacency.checked(edge, "edge");
   const std::unordered_set<std::int32_t> stop_at(stops.begin(), stops.end());
   std::unordered_set<std::int32_t> visited{edge[0], edge[1]};
   std::vector<std::int32_t> chain{edge[1]};
@@ -54,7 +41,7 @@ std::vector<std::int32_t> extend_straight(const EdgeAdjacency& adjacency, const 
 }
 
 EdgeLoop edge_loop(const EdgeAdjacency& adjacency, const Edge& edge, std::span<const std::int32_t> stops) {
-  const std::int32_t start = find_edge(adjacency, edge);
+  const std::int32_t start = adjacency.checked(edge, "edge");
   const std::unordered_set<std::int32_t> stop_at(stops.begin(), stops.end());
   std::unordered_set<std::int32_t> visited{edge[0], edge[1]};
   // On from the head of a directed edge; whether the way comes round to the edge that it started from.

@@ -18,7 +18,7 @@ void check_pick(const EdgeGraph& graph, const Pick& pick, const std::string& wha
   if (pick.b == -1) {
     check_index(pick.a, index(graph.vertex_count()), what + ": vertex");
   } else {
-    check_edge(graph, pick.a, pick.b, what);
+    graph.checked({pick.a, pick.b}, what);
   }
 }
 

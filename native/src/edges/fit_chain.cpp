@@ -234,11 +234,7 @@ std::int32_t nearest_vertex(const Surface& surface, const EdgeAdjacency& adjacen
 
 FittedChain fit_chain(const Surface& surface, const EdgeAdjacency& adjacency, const DrawnLine& line,
                       std::optional<std::int32_t> begin, std::optional<std::int32_t> end) {
-  if (index(adjacency.vertex_count()) != surface.vertex_count() ||
-      adjacency.directed_count() != 2 * surface.edges().size()) {
-    throw InvalidInput("the adjacency is of another surface: it has " + std::to_string(adjacency.vertex_count()) +
-                       " vertices and " + std::to_string(adjacency.directed_count() / 2) + " edges");
-  }
+  adjacency.check_size(surface);
   const std::size_t count = line.points.size();
   if (line.faces.size() != count) {
     throw InvalidInput("line: " + std::to_string(count) + " points, but " + std::to_string(line.faces.size()) +

@@ -60,7 +60,7 @@ std::vector<double> distances(const EdgeGraph& graph, std::int32_t target, doubl
 }  // namespace
 
 EdgeChain shortest_cycle(const EdgeGraph& graph, const Edge& edge, double turning, const Task& task) {
-  check_edge(graph, edge[0], edge[1], "cycle");
+  graph.checked(edge, "cycle");
   check_turning(turning);
   task.check(0.0);
   const std::int32_t a = std::min(edge[0], edge[1]), b = std::max(edge[0], edge[1]);

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -267,6 +266,18 @@ struct Crossing {
   double part;
 };
 
+struct LinePoint {
+  Crossing at;
+  Vector place;
+  double curvature;
+  std::int32_t face;  // to the next point; -1 for the last one
+};
+
+struct Line {
+  std::vector<LinePoint> points;
+  double strength;
+};
+
 class Tracer {
  public:
   Tracer(const Surface& surface, const Faces& faces, const Curvature& curvature, const CrestLineOptions& options,
@@ -279,7 +290,7 @@ class Tracer {
         walk_(surface, faces, curvature) {}
 
   // Adds the lines that are strong enough.
-  void trace(Poll poll, CrestLines& lines) {
+  void trace(Poll poll, std::vector<Line>& lines) {
     for (std::size_t f = 0; f < faces_.count(); ++f) {
       poll.next();
       if (const auto segment = segment_in(f)) segments_.push_back(*segment);
@@ -373,7 +384,7 @@ class Tracer {
   }
 
   // Lines are chains of segments that share an edge: each edge has two faces, each face one segment at most.
-  void link(CrestLines& lines) const {
+  void link(std::vector<Line>& lines) const {
     std::vector<EdgeChains::Edge> sides_of;
     sides_of.reserve(segments_.size());
     for (const Segment& segment : segments_) sides_of.push_back(segment.sides);
@@ -382,25 +393,19 @@ class Tracer {
       for (std::int32_t s = 0; index(s) < segments_.size(); ++s) {
         for (const std::int32_t side : segments_[s].sides) {
           if (chains.is_taken(s) || (is_open && chains.at(side).size() > 1)) continue;
-          auto [sides, segments] = chains.follow(side, s, [](std::int32_t) { return false; });
-          add_lines({.sides = std::move(sides), .segments = std::move(segments)}, lines);
+          add_lines(chains.follow(side, s, [](std::int32_t) { return false; }), lines);
         }
       }
     }
   }
 
-  struct Chain {
-    std::vector<std::int32_t> sides;  // half-edges, one more than segments; the first again at the end of a closed one
-    std::vector<std::int32_t> segments;  // numbers
-  };
-
-  // Adds the parts of a chain that stand out.
-  void add_lines(Chain chain, CrestLines& lines) const {
-    const std::size_t size = chain.segments.size();
+  // Adds the parts of a chain of segments that stand out. Its nodes are half-edges.
+  void add_lines(EdgeChains::Chain chain, std::vector<Line>& lines) const {
+    std::vector<std::int32_t>&sides = chain.nodes, &segments = chain.edges;
+    const std::size_t size = segments.size();
     std::vector<char> stands_out(size);
     const auto look = [&] {
-      std::ranges::transform(chain.segments, stands_out.begin(),
-                             [&](std::int32_t s) { return segments_[s].stands_out; });
+      std::ranges::transform(segments, stands_out.begin(), [&](std::int32_t s) { return segments_[s].stands_out; });
     };
     const auto end_of_run = [&](std::size_t first) {
       std::size_t end = first;
@@ -410,15 +415,15 @@ class Tracer {
     const auto begin_at = [&](std::size_t begin) {
       const auto by = static_cast<std::ptrdiff_t>(begin % size);
       // Not std::ranges::rotate, which Clang 14 cannot read with GCC 12's library.
-      std::rotate(chain.segments.begin(), chain.segments.begin() + by, chain.segments.end());
-      chain.sides.pop_back();
-      std::rotate(chain.sides.begin(), chain.sides.begin() + by, chain.sides.end());
-      chain.sides.push_back(chain.sides.front());
+      std::rotate(segments.begin(), segments.begin() + by, segments.end());
+      sides.pop_back();
+      std::rotate(sides.begin(), sides.begin() + by, sides.end());
+      sides.push_back(sides.front());
       look();
     };
     look();
     if (std::ranges::count(stands_out, 1) == 0) return;
-    if (chain.sides.front() == chain.sides.back()) {
+    if (sides.front() == sides.back()) {
       // Begun at the end of a part that does not stand out, no part is in two; at that of the longest, a closed chain
       // is one as any other.
       for (std::size_t i = 0; i < size; ++i) {
@@ -453,40 +458,20 @@ class Tracer {
   }
 
   // Adds the segments first to end - 1 of a chain as a line, if it is strong enough.
-  void add_line(const Chain& chain, std::size_t first, std::size_t end, CrestLines& lines) const {
-    const std::size_t begin = lines.points.size();
-    for (std::size_t i = first; i <= end; ++i) add(lines, chain.sides[i]);
-    for (std::size_t i = first; i < end; ++i) {
-      lines.faces[begin + i - first] = corner_fans(surface_).faces[segments_[chain.segments[i]].face];
+  void add_line(const EdgeChains::Chain& chain, std::size_t first, std::size_t end, std::vector<Line>& lines) const {
+    Line line{.points = {}, .strength = 0.0};
+    for (std::size_t i = first; i <= end; ++i) {
+      const Crossing at = crossing(chain.nodes[i]);
+      const std::int32_t face = i == end ? -1 : corner_fans(surface_).faces[segments_[chain.edges[i]].face];
+      const double curvature = greatest_.sign * interpolated(at, greatest_.k);
+      line.points.push_back({.at = at, .place = place(at), .curvature = curvature, .face = face});
     }
-    keep_if_strong(lines, begin);
-  }
-
-  void add(CrestLines& lines, std::int32_t half_edge) const {
-    const Crossing at = crossing(half_edge);
-    lines.points.push_back(place(at));
-    lines.edges.push_back(at.edge);
-    lines.parts.push_back(at.part);
-    lines.curvatures.push_back(greatest_.sign * interpolated(at, greatest_.k));
-    lines.faces.push_back(-1);
-  }
-
-  void keep_if_strong(CrestLines& lines, std::size_t first) const {
-    double strength = 0.0;
-    for (std::size_t i = first + 1; i < lines.points.size(); ++i) {
-      strength += surface_.scale() * (lines.points[i] - lines.points[i - 1]).norm() * 0.5 *
-                  (std::abs(lines.curvatures[i]) + std::abs(lines.curvatures[i - 1]));
+    for (std::size_t i = 1; i < line.points.size(); ++i) {
+      const LinePoint &here = line.points[i], &before = line.points[i - 1];
+      line.strength += surface_.scale() * (here.place - before.place).norm() * 0.5 *
+                       (std::abs(here.curvature) + std::abs(before.curvature));
     }
-    if (strength >= options_.least_strength) {
-      lines.starts.push_back(static_cast<std::int32_t>(lines.points.size()));
-      lines.strengths.push_back(strength);
-      return;
-    }
-    lines.points.resize(first);
-    lines.edges.resize(first);
-    lines.parts.resize(first);
-    lines.curvatures.resize(first);
-    lines.faces.resize(first);
+    if (line.strength >= options_.least_strength) lines.push_back(std::move(line));
   }
 
   const Surface& surface_;
@@ -499,23 +484,20 @@ class Tracer {
 };
 
 // The strongest first.
-CrestLines ordered(const CrestLines& lines) {
-  std::vector<std::size_t> order(lines.strengths.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, std::ranges::greater{}, [&](std::size_t i) { return lines.strengths[i]; });
+CrestLines ordered(std::vector<Line> lines) {
+  std::ranges::stable_sort(lines, std::ranges::greater{}, &Line::strength);
   CrestLines out;
   out.starts.push_back(0);
-  for (const std::size_t i : order) {
-    const auto copy = [first = lines.starts[i], end = lines.starts[i + 1]](const auto& from, auto& to) {
-      to.insert(to.end(), from.begin() + first, from.begin() + end);
-    };
-    copy(lines.points, out.points);
-    copy(lines.edges, out.edges);
-    copy(lines.parts, out.parts);
-    copy(lines.curvatures, out.curvatures);
-    copy(lines.faces, out.faces);
+  for (const Line& line : lines) {
+    for (const LinePoint& point : line.points) {
+      out.points.push_back(point.place);
+      out.edges.push_back(point.at.edge);
+      out.parts.push_back(point.at.part);
+      out.curvatures.push_back(point.curvature);
+      out.faces.push_back(point.face);
+    }
     out.starts.push_back(static_cast<std::int32_t>(out.points.size()));
-    out.strengths.push_back(lines.strengths[i]);
+    out.strengths.push_back(line.strength);
   }
   return out;
 }
@@ -527,8 +509,7 @@ CrestLines crest_lines(const Surface& surface, const Curvature& curvature, const
   check(surface, curvature, options);
   const Faces faces(surface);
   const Extremalities derivatives = extremalities(faces, curvature, task);
-  CrestLines lines;
-  lines.starts.push_back(0);
+  std::vector<Line> lines;
   double begin = 0.4;
   for (const double sign : {1.0, -1.0}) {
     const Greatest sheet = greatest(curvature, derivatives, sign);
@@ -536,7 +517,7 @@ CrestLines crest_lines(const Surface& surface, const Curvature& curvature, const
         .trace(Poll(task, begin, begin + 0.3, faces.count(), Poll::kFewSteps), lines);
     begin += 0.3;
   }
-  return ordered(lines);
+  return ordered(std::move(lines));
 }
 
 }  // namespace seamwire

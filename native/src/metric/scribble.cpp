@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <queue>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,12 +50,8 @@ class EpochMap {
 // A point may be this far from its face, as a fraction of the model's longest side: a smoothed stroke leaves the faces
 // a little, coordinates of another space are far off.
 constexpr double kOffMesh = 0.05;
-// How much more it costs the chain of vertices between two points to be off the line than to be long.
-constexpr double kOffLine = 4.0;
-// The chain may leave the line between two points by that line's length, and by this many edges.
+// The chain of vertices between two points may leave the line by that line's length, and by this many edges.
 constexpr double kCorridor = 4.0;
-// Vertices looked at for one such chain, so that a stroke from one component to another is not searched for long.
-constexpr std::size_t kMostLookedAt = 50'000;
 // A segment that stays this close to a triangle's edge, in barycentric coordinates, is not inside.
 constexpr double kInside = 1e-6;
 // A projected direction shorter than this fraction of the original does not count as a direction.
@@ -257,62 +252,15 @@ class Scribbler {
   /// In the unit of exact_unit(), as all lengths here.
   Vector point(std::int32_t v) const { return unit_ * surface_.points()[v]; }
 
-  // The chain of vertices from one to another that stays nearest to a segment of the line, by A*; empty where none
-  // leads there within the corridor.
   std::vector<std::int32_t> join(std::int32_t from, std::int32_t to, const DrawnLine& line, std::size_t segment) {
-    if (from == to) return {from};
-    struct Node {
-      std::int32_t vertex, before;
-      double cost;
-      bool is_done;
-    };
-    struct Open {
-      double bound;
-      std::int32_t vertex;
-      bool operator>(const Open& other) const {
-        return bound != other.bound ? bound > other.bound : vertex > other.vertex;
-      }
-    };
-    std::vector<Node> nodes;
-    std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
-    marks_.clear();
-    const Vector target = point(to);
-    const double span = (target - point(from)).norm();
-    const auto reach = [&](std::int32_t v, std::int32_t before, double cost) {
-      if (!marks_.has(v)) {
-        marks_.set(v, nodes.size());
-        nodes.push_back({v, before, cost, false});
-      } else {
-        Node& node = nodes[marks_.at(v)];
-        if (node.is_done || !(cost < node.cost)) return;
-        node.cost = cost;
-        node.before = before;
-      }
-      open.push({cost + (target - point(v)).norm(), v});
-    };
-    reach(from, -1, 0);
-    while (!open.empty() && nodes.size() < kMostLookedAt) {
+    const auto neighbors = [this](std::int32_t v, const auto& visit) {
       poll_.next();
-      const std::int32_t v = open.top().vertex;
-      open.pop();
-      const std::uint32_t here = marks_.at(v);
-      if (nodes[here].is_done) continue;
-      nodes[here].is_done = true;
-      if (v == to) {
-        std::vector<std::int32_t> chain;
-        for (std::int32_t u = v; u >= 0; u = nodes[marks_.at(u)].before) chain.push_back(u);
-        std::reverse(chain.begin(), chain.end());
-        return chain;
-      }
-      const double cost = nodes[here].cost;
-      neighbors_.vertices(v, [&](std::int32_t w) {
-        const double length = (point(w) - point(v)).norm();
-        const double off = line.foot(point(w), segment).distance;
-        if (off > span + kCorridor * length) return;
-        reach(w, v, cost + length + kOffLine * off);
-      });
-    }
-    return {};
+      neighbors_.vertices(v, visit);
+    };
+    return chain_along(
+        from, to, {.slack = (point(to) - point(from)).norm(), .edges = kCorridor},
+        [this](std::int32_t v) { return point(v); }, neighbors,
+        [&](std::int32_t v) { return line.foot(point(v), segment).distance; });
   }
 
   // The corners of the triangles that the stroke crosses, and the vertices it runs along, each once. All corners count,

@@ -151,50 +151,37 @@ bool PieceOutline::is_any_double(Touches touches, double tolerance, Poll& poll, 
   return inner_reach_ > tolerance && covers_twice(inner_);
 }
 
-bool PieceOutline::is_double(double tolerance, Poll& poll) const {
-  Touches touches;
+bool PieceOutline::overlaps(const PieceOutline& other, double tolerance, Poll& poll) const {
+  const bool is_same = this == &other;
+  Touches touches, of_another;
+  Touches& of_other = is_same ? touches : of_another;
+  const auto covers_twice = [&](const Point& point) {
+    const int own = winding(point, tolerance);
+    return is_same ? own > 1 : own != 0 && other.winding(point, tolerance) != 0;
+  };
+  const auto is_double = [&] {
+    return is_any_double(touches, tolerance, poll, covers_twice) ||
+           (!is_same && other.is_any_double(of_other, tolerance, poll, covers_twice));
+  };
   // If the plane is covered many times, sides may touch each other very often. Then it is looked at before all is
   // known.
-  std::size_t many = kManyTouches * sides_.size();
-  const auto covers_twice = [&](const Point& point) { return winding(point, tolerance) > 1; };
-  const auto crosses = [&](std::int32_t s, std::int32_t t) {
-    const OutlineSide &one = sides_[index(s)], &other = sides_[index(t)];
-    if (one.tail == other.tail || one.tail == other.tip || one.tip == other.tail || one.tip == other.tip) return false;
-    const Meeting meets = meeting(one, other, tolerance);
-    if (meets != Meeting::kTouching) return meets == Meeting::kCrossing;
-    add_touches(one, s, other, tolerance, touches);
-    add_touches(other, t, one, tolerance, touches);
-    if (touches.size() < many) return false;
-    sort_out(touches);
-    many = std::max(many, 2 * touches.size());
-    return is_any_double(touches, tolerance, poll, covers_twice);
-  };
-  return ClosePairs(tree_, tree_, tolerance, kSkipsNothing, poll).any(crosses) ||
-         is_any_double(std::move(touches), tolerance, poll, covers_twice);
-}
-
-bool PieceOutline::overlaps(const PieceOutline& other, double tolerance, Poll& poll) const {
-  Touches touches, of_other;
   std::size_t many = kManyTouches * (sides_.size() + other.sides_.size());
   const auto crosses = [&](std::int32_t s, std::int32_t t) {
     const OutlineSide &one = sides_[index(s)], &two = other.sides_[index(t)];
+    if (is_same && (one.tail == two.tail || one.tail == two.tip || one.tip == two.tail || one.tip == two.tip)) {
+      return false;
+    }
     const Meeting meets = meeting(one, two, tolerance);
     if (meets != Meeting::kTouching) return meets == Meeting::kCrossing;
     add_touches(one, s, two, tolerance, touches);
     add_touches(two, t, one, tolerance, of_other);
-    if (touches.size() + of_other.size() >= many) {
-      sort_out(touches);
-      sort_out(of_other);
-      many = std::max(many, 2 * (touches.size() + of_other.size()));
-    }
-    return false;
+    if (touches.size() + of_another.size() < many) return false;
+    sort_out(touches);
+    sort_out(of_another);
+    many = std::max(many, 2 * (touches.size() + of_another.size()));
+    return is_double();
   };
-  if (ClosePairs(tree_, other.tree_, tolerance, kSkipsNothing, poll).any(crosses)) return true;
-  const auto covers_twice = [&](const Point& point) {
-    return winding(point, tolerance) != 0 && other.winding(point, tolerance) != 0;
-  };
-  return is_any_double(std::move(touches), tolerance, poll, covers_twice) ||
-         other.is_any_double(std::move(of_other), tolerance, poll, covers_twice);
+  return ClosePairs(tree_, other.tree_, tolerance, kSkipsNothing, poll).any(crosses) || is_double();
 }
 
 namespace {

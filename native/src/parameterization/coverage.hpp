@@ -33,10 +33,8 @@ class PieceOutline {
   PieceOutline(std::vector<OutlineSide> sides, std::span<const std::size_t> loop_sizes, const Eigen::Vector2d& inner,
                double inner_reach, Poll& poll);
 
-  /// Whether the piece covers a part of the plane twice. Sides that cross by less than `tolerance` only touch. Throws
-  /// Cancelled.
-  bool is_double(double tolerance, Poll& poll) const;
-  /// Whether it covers a part of what another piece covers. Throws Cancelled.
+  /// Whether the piece covers a part of what another piece covers, or covers a part of the plane twice if the other one
+  /// is itself. Sides that cross by less than `tolerance` only touch. Throws Cancelled.
   bool overlaps(const PieceOutline& other, double tolerance, Poll& poll) const;
 
   /// A rectangle that holds it.
@@ -69,7 +67,7 @@ struct IslandPiece {
   std::int32_t island;
 };
 
-/// Whether any two pieces overlap. Sorts them. Throws Cancelled.
+/// Whether any two different pieces overlap. Sorts them. Throws Cancelled.
 bool do_any_overlap(std::span<IslandPiece> pieces, double tolerance, Poll& poll);
 
 /// Sets the items of islands of which a piece overlaps a piece of another island. Sorts the pieces. Throws Cancelled.

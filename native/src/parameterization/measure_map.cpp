@@ -207,7 +207,9 @@ class OverlapTest {
       poll_.next();
       const double tolerance = kTouching * islands_[index(i)].box.sizes().maxCoeff();
       std::vector<IslandPiece> pieces = pieces_of(i);
-      const auto is_double = [&](const IslandPiece& piece) { return piece.outline->is_double(tolerance, pair_poll_); };
+      const auto is_double = [&](const IslandPiece& piece) {
+        return piece.outline->overlaps(*piece.outline, tolerance, pair_poll_);
+      };
       if (is_bad[i] != 0 || islands_[index(i)].is_wound || std::ranges::any_of(pieces, is_double) ||
           do_any_overlap(pieces, tolerance, pair_poll_)) {
         found.push_back(i);

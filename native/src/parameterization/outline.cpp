@@ -44,7 +44,8 @@ bool Outline::covers_twice(std::span<const double> map, double tolerance, const 
     sides.push_back({{at(map, a)[0], at(map, a)[1]}, {at(map, b)[0], at(map, b)[1]}, a, b});
   }
   Poll poll(task, 0.0, 0.0, 1);
-  return PieceOutline(std::move(sides), loop_sizes_, {0.0, 0.0}, 0.0, poll).is_double(tolerance, poll);
+  const PieceOutline piece(std::move(sides), loop_sizes_, {0.0, 0.0}, 0.0, poll);
+  return piece.overlaps(piece, tolerance, poll);
 }
 
 /// Calls visit(vertex, edge) for the vertices and edges that may be closer than `reach`, on their ways by `most` times

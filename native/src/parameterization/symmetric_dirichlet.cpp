@@ -87,21 +87,26 @@ RestShapes SymmetricDirichlet::rest_of(const Shapes& shapes, std::size_t begin) 
           weights_.data() + begin};
 }
 
+void SymmetricDirichlet::set_sides(std::span<const double> map, std::size_t begin, std::size_t count,
+                                   Sides& sides) const {
+  for (std::size_t i = 0; i < count; ++i) {
+    const Triangle& t = triangles_[begin + i];
+    const double* corner0 = map.data() + 2 * index(t[0]);
+    const double* corner1 = map.data() + 2 * index(t[1]);
+    const double* corner2 = map.data() + 2 * index(t[2]);
+    sides.e1x[i] = corner1[0] - corner0[0];
+    sides.e1y[i] = corner1[1] - corner0[1];
+    sides.e2x[i] = corner2[0] - corner0[0];
+    sides.e2y[i] = corner2[1] - corner0[1];
+  }
+}
+
 template <class Visit>
 void SymmetricDirichlet::for_each_group(std::span<const double> map, const Visit& visit) const {
   Sides sides;
   for (std::size_t begin = 0; begin < triangles_.size(); begin += kTrianglesAtOnce) {
     const std::size_t count = std::min(kTrianglesAtOnce, triangles_.size() - begin);
-    for (std::size_t i = 0; i < count; ++i) {
-      const Triangle& t = triangles_[begin + i];
-      const double* corner0 = map.data() + 2 * index(t[0]);
-      const double* corner1 = map.data() + 2 * index(t[1]);
-      const double* corner2 = map.data() + 2 * index(t[2]);
-      sides.e1x[i] = corner1[0] - corner0[0];
-      sides.e1y[i] = corner1[1] - corner0[1];
-      sides.e2x[i] = corner2[0] - corner0[0];
-      sides.e2y[i] = corner2[1] - corner0[1];
-    }
+    set_sides(map, begin, count, sides);
     visit(begin, count, sides);
   }
 }
@@ -192,16 +197,7 @@ double SymmetricDirichlet::first_flip(std::span<const double> map, std::span<con
   std::array<double, kTrianglesAtOnce> steps;
   Sides moves;
   for_each_group(map, [&](std::size_t begin, std::size_t count, const Sides& sides) {
-    for (std::size_t i = 0; i < count; ++i) {
-      const Triangle& t = triangles_[begin + i];
-      const double* corner0 = direction.data() + 2 * index(t[0]);
-      const double* corner1 = direction.data() + 2 * index(t[1]);
-      const double* corner2 = direction.data() + 2 * index(t[2]);
-      moves.e1x[i] = corner1[0] - corner0[0];
-      moves.e1y[i] = corner1[1] - corner0[1];
-      moves.e2x[i] = corner2[0] - corner0[0];
-      moves.e2y[i] = corner2[1] - corner0[1];
-    }
+    set_sides(direction, begin, count, moves);
     kernels.first_flips(sides, moves, count, steps.data());
     for (std::size_t i = 0; i < count; ++i) least = std::min(least, steps[i]);
   });

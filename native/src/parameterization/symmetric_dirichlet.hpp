@@ -57,6 +57,8 @@ class SymmetricDirichlet {
     std::vector<double> p1x, p1y, p2x, p2y;
   };
   RestShapes rest_of(const Shapes& shapes, std::size_t begin) const;
+  /// Of the triangles from `begin` on.
+  void set_sides(std::span<const double> map, std::size_t begin, std::size_t count, Sides& sides) const;
   /// visit(begin, count, sides) for triangles in groups.
   template <class Visit>
   void for_each_group(std::span<const double> map, const Visit& visit) const;

@@ -226,6 +226,37 @@ TEST(IslandMap, RefusesWhatHasNoMap) {
   EXPECT_THROW(continue_map(island, grid.points, flat, {}), InvalidInput);
 }
 
+TEST(IslandMap, AStartMustBeAMap) {
+  const shapes::Mesh grid = shapes::grid(4);
+  const Island island = whole(grid);
+  std::vector<Point2> flat;
+  for (const std::int32_t v : island.vertices) flat.emplace_back(grid.points[static_cast<std::size_t>(v)].head<2>());
+  const IslandMap same = continue_map(island, grid.points, flat, {});
+  EXPECT_NEAR(same.energy, 4.0, 1e-9);
+  EXPECT_FALSE(same.overlaps);
+  const auto middle = static_cast<std::size_t>(std::ranges::find(island.vertices, 12) - island.vertices.begin());
+  const auto is_refused = [&](const Point2& place) {
+    std::vector<Point2> start = flat;
+    start[middle] = place;
+    try {
+      continue_map(island, grid.points, start, {});
+      return false;
+    } catch (const InvalidInput&) {
+      return true;
+    }
+  };
+  EXPECT_FALSE(is_refused({0.55, 0.5}));
+  EXPECT_TRUE(is_refused({0.8, 0.5})) << "triangles are flipped";
+  EXPECT_TRUE(is_refused({0.75, 0.5})) << "triangles have no area";
+  EXPECT_TRUE(is_refused({std::nan(""), 0.5})) << "a number is not finite";
+  EXPECT_TRUE(is_refused({0.5, std::numeric_limits<double>::infinity()})) << "a number is not finite";
+  // No triangle of a start that lies on itself has a fault.
+  const shapes::Mesh stairs = staircase(1.5, 60, 4);
+  const Island turning = whole(stairs);
+  const IslandMap lying_on_itself = map_island(turning, stairs.points, {.keep_apart = false});
+  EXPECT_TRUE(continue_map(turning, stairs.points, lying_on_itself.uvs, {.max_steps = 2}).overlaps);
+}
+
 TEST(IslandMap, StopsOnceItIsCertainToBeWorse) {
   // A tube as a ring cannot have much less than 7.
   const shapes::Mesh mesh = shapes::cylinder(20, 30);
