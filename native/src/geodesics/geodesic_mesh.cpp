@@ -171,8 +171,8 @@ double four_areas(double a, double b, double c) {
   return std::sqrt(std::max(product, 0.0));
 }
 
-/// Hops have a separate unit if the longest edge is longer than 2 to this power, or shorter than the inverse. 2^80
-/// times the number of vertices is still far below 2^128, where single precision ends.
+/// If the longest edge is longer than 2 to this power, or shorter than the inverse, hops have a separate unit. The
+/// number of vertices times 2^80 is still far below 2^128, where single precision ends.
 constexpr int kMostHopExponent = 80;
 
 /// Where more than one in so many faces has changed, building anew is no slower than patching.
