@@ -110,16 +110,14 @@ void LiveWorker::find_loop(const LoopPlace& through) {
   loops_.post(through, LoopBox::Former::kDrop, is_same_cut ? LoopBox::Running::kGoOn : LoopBox::Running::kStop);
 }
 
-std::optional<EdgeChain> LiveWorker::loop() const {
+std::optional<EdgeChain> LiveWorker::loop(const Edge& through) const {
   const LoopBox::Reading found = loops_.read();
-  if (!found.is_finished) return std::nullopt;
-  return found.answer ? std::get<EdgeChain>(*found.answer) : EdgeChain{};
+  return found.answers(through) ? std::optional(std::get<EdgeChain>(*found.answer)) : std::nullopt;
 }
 
-LiveClosedWires LiveWorker::closed_wires() const {
+LiveClosedWires LiveWorker::closed_wires(const LoopPlace& through) const {
   const LoopBox::Reading found = loops_.read();
-  if (!found.is_newest) return {.cuts = {}, .final = found.is_finished};
-  return std::get<LiveClosedWires>(*found.answer);
+  return found.answers(through) ? std::get<LiveClosedWires>(*found.answer) : LiveClosedWires{};
 }
 
 double LiveWorker::progress() const {

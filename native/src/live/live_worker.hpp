@@ -61,10 +61,10 @@ class LiveWorker {
   /// point, or one of them bent to a second point. Does nothing if that was searched for last. If only the second point
   /// differs, the work on the cut goes on.
   void find_loop(const LoopPlace& through);
-  /// Along edges; nullopt until it is found.
-  std::optional<EdgeChain> loop() const;
-  /// Across the surface.
-  LiveClosedWires closed_wires() const;
+  /// What find_loop() found along edges; nullopt until then, or if another loop was searched for since.
+  std::optional<EdgeChain> loop(const Edge& through) const;
+  /// The same across the surface; empty and not final until then.
+  LiveClosedWires closed_wires(const LoopPlace& through) const;
 
   /// Fraction of the newest seed's work, preparation included, that is done.
   double progress() const;
