@@ -144,24 +144,9 @@ bool LiveWorker::wait_until_idle(const Deadline& deadline) const {
 }
 
 void LiveWorker::run() {
-  if (!build_surface()) return;
   while (!quit_.stop_requested()) {
     const std::uint64_t seen = events_.count();
     if (!work() && !quit_.stop_requested()) events_.wait_beyond(seen);
-  }
-}
-
-/// Or waits for the thread that does; false if there is no surface, or no more time for it.
-bool LiveWorker::build_surface() {
-  try {
-    context_.surface({.stop = quit_.get_token(), .progress = {}});
-    return true;
-  } catch (...) {
-    // Cancelled, to end; the context has all other errors.
-    has_failed_ = true;
-    tell_right_of_way();
-    events_.add();
-    return false;
   }
 }
 
@@ -187,7 +172,10 @@ bool LiveWorker::work() {
 
 void LiveWorker::work_on(const SeedBox::Job& job) {
   closed_cuts_ = std::nullopt;  // which may hold a former metric
-  seeds_.answer(job, [&] { return solver_.solve(job, seeds_.read().answer, seeds_); });
+  seeds_.answer(job, [&] {
+    context_.surface({.stop = quit_.get_token(), .progress = {}});  // no other seed or metric stops it
+    return solver_.solve(job, seeds_.read().answer, seeds_);
+  });
   tell_right_of_way();
 }
 
@@ -226,7 +214,7 @@ void LiveWorker::tell_right_of_way() {
   if (which_ != 0) return;
   right_of_way_->update([this] {
     const bool leads = seeds_.newest()->metrics->first_leads();
-    return leads && !has_failed_ && !quit_.stop_requested() && !seeds_.is_finished();
+    return leads && !quit_.stop_requested() && !seeds_.is_finished();
   });
 }
 
