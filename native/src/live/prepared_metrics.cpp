@@ -51,7 +51,7 @@ MetricSet::MetricSet(LiveMetrics of, std::vector<Scribble> after, const MetricSe
     // In this order: what is former is forgotten only when the metric is prepared.
     std::shared_ptr<const Prepared> from = former.former(at);
     if (std::shared_ptr<const Prepared> made = former.peek(at)) from = std::move(made);
-    const bool may_share = at <= i || former.peek(at) != nullptr;
+    const bool may_share = at == i || former.peek(at) != nullptr;
     if (may_share && are_same_for(spec.kind(), scribbles, former.scribbles)) {
       prepared[i] = former.prepared[at];
       fractions[i] = former.fractions[at];

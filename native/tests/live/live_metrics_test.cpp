@@ -36,14 +36,22 @@ TEST(LiveWire, MetricsThatStayKeepTheirProgress) {
   const MetricSet former({.wires = specs}, {});
   *former.fractions[0] = 0.25;
   *former.fractions[1] = 0.75;
-  const MetricSet later({.wires = {specs[1], MetricSpec::feature(Follow::kMin, {.parameter = 0.1}), specs[0]}}, {},
+  const MetricSet later({.wires = {specs[0], MetricSpec::feature(Follow::kMin, {.parameter = 0.1}), specs[1]}}, {},
                         former);
-  EXPECT_EQ(later.fraction(0), 0.0) << "the thread that prepares it may make way for the one that would wait";
-  EXPECT_NE(later.prepared[0], former.prepared[1]);
+  EXPECT_EQ(later.fraction(0), 0.25);
   EXPECT_EQ(later.fraction(1), 0.0);
-  EXPECT_EQ(later.fraction(2), 0.25);
-  *later.fractions[2] = 0.875;
+  *later.fractions[0] = 0.875;
   EXPECT_EQ(former.fraction(0), 0.875) << "the work is that of both";
+}
+
+TEST(LiveWire, NoTwoThreadsPrepareOneMetric) {
+  const MetricSpec one = MetricSpec::euclidean(), other = MetricSpec::concave();
+  const MetricSet former({.wires = {one, other}}, {});
+  const MetricSet later({.wires = {one, MetricSpec::feature(Follow::kMin), one, other}}, {}, former);
+  EXPECT_EQ(later.prepared[0], former.prepared[0]);
+  EXPECT_NE(later.prepared[2], former.prepared[0]) << "its thread may make way for the one that would wait";
+  EXPECT_NE(later.prepared[3], former.prepared[1]);
+  EXPECT_EQ(later.fraction(3), 0.0);
 }
 
 bool is_embedded(const SurfaceContext& context, const MetricSpec& spec) {
