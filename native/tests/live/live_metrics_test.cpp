@@ -54,6 +54,23 @@ TEST(LiveWire, NoTwoThreadsPrepareOneMetric) {
   EXPECT_EQ(later.fraction(3), 0.0);
 }
 
+TEST(LiveWire, RefinesToTheSameErrorWhetherStrokesComeBeforeItsMetricsOrAfter) {
+  const auto surface = shared(shapes::bumpy(shapes::torus(32, 20), 0.02));
+  const SurfaceContext context(surface), other_context(surface);
+  Scribble stroke{.points = {surface->points()[7], surface->points()[8]}, .faces = {}, .vertices = {7, 8}, .rings = 3};
+  const LiveMetrics metrics{.wires = {MetricSpec::euclidean()}};
+  MetricSet plain(metrics, {});
+  const auto prepared_in = [&](const SurfaceContext& on, MetricSet& set) {
+    return set.prepared[0]->get({}, [&](const Task&) { return prepare(on, Along::kSurface, set, 0, {}); });
+  };
+  const double length = prepared_in(context, plain)->embedded->embedding().mean_edge_length;
+  MetricSet after(metrics, {stroke}, plain), before(metrics, {stroke});
+  EXPECT_EQ(prepared_in(context, after)->embedded->embedding().mean_edge_length, length);
+  EXPECT_EQ(prepared_in(other_context, before)->embedded->embedding().mean_edge_length, length);
+  MetricSet taken_back(metrics, {}, before);
+  EXPECT_EQ(prepared_in(other_context, taken_back)->embedded->embedding().mean_edge_length, length);
+}
+
 bool is_embedded(const SurfaceContext& context, const MetricSpec& spec) {
   return EmbeddedSurface::find(context, spec, interactive_options(*context.surface())).has_value();
 }
