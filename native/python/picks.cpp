@@ -40,12 +40,15 @@ Py_ssize_t length_of(py::handle value) {
   return length;
 }
 
-/// Whether the value means a face and coordinates in it, and not two points.
+/// Whether the value means a face and coordinates in it, and not two points, the second of which is in a face. It looks
+/// at two levels only, because a list may contain itself.
 bool is_face_point(py::handle value) {
   if (length_of(value) != 2) return false;
   const auto sequence = py::reinterpret_borrow<py::sequence>(value);
   const py::object first = sequence[0], second = sequence[1];
-  return is_integer(first) && length_of(second) >= 0 && !is_face_point(second);
+  const Py_ssize_t length = length_of(second);
+  if (!is_integer(first) || length < 0) return false;
+  return length != 2 || length_of(py::object(py::reinterpret_borrow<py::sequence>(second)[1])) < 0;
 }
 
 }  // namespace

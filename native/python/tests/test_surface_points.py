@@ -146,3 +146,31 @@ def test_what_is_no_target_is_refused() -> None:
         sw.distance_field(STRETCHED, 0, max_distance=-1)
     with pytest.raises(ValueError, match="windows: only for one seed"):
         sw.distance_field(STRETCHED, [0, 1], windows=4)
+
+
+def nested(depth: int) -> tuple[object, ...]:
+    """Return a pair of a number and a pair of a number and so on."""
+    pair: tuple[object, ...] = (0, 0)
+    for _ in range(depth):
+        pair = (0, pair)
+    return pair
+
+
+HOLDS_ITSELF: list[object] = [0, 0]
+HOLDS_ITSELF[1] = HOLDS_ITSELF
+
+
+@pytest.mark.parametrize(
+    "point", [HOLDS_ITSELF, nested(300_000), nested(2)], ids=["holds itself", "deep", "three deep"]
+)
+def test_points_within_points_are_refused(point: object) -> None:
+    calls = {
+        "distance_field": lambda: sw.distance_field(FLAT, point),
+        "several seeds": lambda: sw.distance_field(FLAT, [point, point]),
+        "seed": lambda: sw.LiveWire(PLANE).seed(point),
+        "CutCurve": lambda: sw.CutCurve(PLANE_POINTS[:2], point),
+        "plane_section": lambda: sw.plane_section(PLANE, point, 0, (0, 0, 1)),
+    }
+    for call in calls.values():
+        with pytest.raises(ValueError, match="expected"):
+            call()

@@ -17,9 +17,9 @@ namespace seamwire::detail {
 
 /// A value that several threads need and the first one to ask computes.
 ///
-/// If that thread is cancelled, another one that waits takes its place. An error comes out of every call. A progress
-/// function may ask for the value that its own thread is computing: it computes a second one, and the first one that
-/// is finished is kept.
+/// If that thread is cancelled or fails, the next one that asks, or waits already, tries again: there may be more
+/// memory then. A progress function may ask for the value that its own thread is computing: it computes a second one,
+/// and the first one that is finished is kept.
 template <class T>
 class ComputedOnce {
  public:
@@ -49,12 +49,12 @@ class ComputedOnce {
     const MutexLock lock(mutex_);
     return value_;
   }
-  /// Returns why there will be no value, null if that is not known.
+  /// Returns why the last thread that failed did so. Null if none did, or the value has been computed since.
   std::exception_ptr error() const {
     const MutexLock lock(mutex_);
     return error_;
   }
-  /// Waits until the value is there or known to be impossible, as long as some thread computes it.
+  /// Waits until the value is there or a thread has failed.
   void wait(const Deadline& deadline) const {
     MutexLock lock(mutex_);
     while (!value_ && !error_ && wait_once(changed_, lock, deadline)) continue;
@@ -101,7 +101,6 @@ class ComputedOnce {
       changed_.wait(lock, task.stop, is_free);
     }
     if (task.stop.stop_requested()) throw Cancelled();
-    if (error_) std::rethrow_exception(error_);
     const bool is_nested = owner_ == std::this_thread::get_id();
     if (!value_) owner_ = std::this_thread::get_id();
     return Turn{.value = value_, .is_nested = is_nested};
@@ -111,7 +110,7 @@ class ComputedOnce {
     if (!turn.is_nested) owner_ = std::thread::id();
     if (!value_) {
       value_ = std::move(value);
-      if (!turn.is_nested) error_ = std::move(error);
+      if (value_ || (error && !turn.is_nested)) error_ = std::move(error);
     }
     changed_.notify_all();
     return value_;

@@ -7,7 +7,6 @@
 #include <exception>
 #include <optional>
 #include <stop_token>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -35,10 +34,8 @@ class SharedWork {
     if (next_ == count_ || error_) return std::nullopt;
     return next_++;
   }
-  /// A piece of work is done; `thrown`: what it threw, or null.
-  void finish(const std::exception_ptr& thrown) {
+  void finish() {
     const MutexLock lock(mutex_);
-    if (thrown && !error_) error_ = thrown;
     ++done_;
   }
   /// No more pieces are taken. An earlier error stays.
@@ -96,21 +93,20 @@ void run_on_threads(std::size_t count, const Task& task, const std::function<dou
   const auto run = [&] {
     is_working = true;
     while (const std::optional<std::size_t> i = shared.take()) {
-      std::exception_ptr thrown;
       try {
         work(*i, {.stop = stop.get_token(), .progress = {}});
       } catch (...) {
-        thrown = std::current_exception();
+        shared.fail(std::current_exception());  // before others are stopped, whose Cancelled would be the first error
         stop.request_stop();
       }
-      shared.finish(thrown);
+      shared.finish();
     }
     shared.end_threads(1);
   };
   std::vector<std::jthread> threads;
   try {
     for (std::size_t i = 0; i < thread_count; ++i) threads.emplace_back(run);
-  } catch (const std::system_error&) {
+  } catch (...) {
     if (threads.empty()) throw;
     shared.end_threads(thread_count - threads.size());
   }
@@ -119,8 +115,8 @@ void run_on_threads(std::size_t count, const Task& task, const std::function<dou
     try {
       task.check(fraction(shared.done()));
     } catch (...) {
-      stop.request_stop();
       shared.fail(std::current_exception());
+      stop.request_stop();
     }
   }
   if (const std::exception_ptr error = shared.error()) std::rethrow_exception(error);

@@ -110,16 +110,14 @@ void LiveWorker::find_loop(const LoopPlace& through) {
   loops_.post(through, LoopBox::Former::kDrop, is_same_cut ? LoopBox::Running::kGoOn : LoopBox::Running::kStop);
 }
 
-std::optional<EdgeChain> LiveWorker::loop() const {
+std::optional<EdgeChain> LiveWorker::loop(const Edge& through) const {
   const LoopBox::Reading found = loops_.read();
-  if (!found.is_finished) return std::nullopt;
-  return found.answer ? std::get<EdgeChain>(*found.answer) : EdgeChain{};
+  return found.answers(through) ? std::optional(std::get<EdgeChain>(*found.answer)) : std::nullopt;
 }
 
-LiveClosedWires LiveWorker::closed_wires() const {
+LiveClosedWires LiveWorker::closed_wires(const LoopPlace& through) const {
   const LoopBox::Reading found = loops_.read();
-  if (!found.is_newest) return {.cuts = {}, .final = found.is_finished};
-  return std::get<LiveClosedWires>(*found.answer);
+  return found.answers(through) ? std::get<LiveClosedWires>(*found.answer) : LiveClosedWires{};
 }
 
 double LiveWorker::progress() const {
@@ -146,24 +144,9 @@ bool LiveWorker::wait_until_idle(const Deadline& deadline) const {
 }
 
 void LiveWorker::run() {
-  if (!build_surface()) return;
   while (!quit_.stop_requested()) {
     const std::uint64_t seen = events_.count();
     if (!work() && !quit_.stop_requested()) events_.wait_beyond(seen);
-  }
-}
-
-/// Or waits for the thread that does; false if there is no surface, or no more time for it.
-bool LiveWorker::build_surface() {
-  try {
-    context_.surface({.stop = quit_.get_token(), .progress = {}});
-    return true;
-  } catch (...) {
-    // Cancelled, to end; the context has all other errors.
-    has_failed_ = true;
-    tell_right_of_way();
-    events_.add();
-    return false;
   }
 }
 
@@ -189,7 +172,10 @@ bool LiveWorker::work() {
 
 void LiveWorker::work_on(const SeedBox::Job& job) {
   closed_cuts_ = std::nullopt;  // which may hold a former metric
-  seeds_.answer(job, [&] { return solver_.solve(job, seeds_.read().answer, seeds_); });
+  seeds_.answer(job, [&] {
+    context_.surface({.stop = quit_.get_token(), .progress = {}});  // no other seed or metric stops it
+    return solver_.solve(job, seeds_.read().answer, seeds_);
+  });
   tell_right_of_way();
 }
 
@@ -229,7 +215,7 @@ void LiveWorker::tell_right_of_way() {
   right_of_way_->update([this] {
     const std::shared_ptr<const SeedRequest> newest = seeds_.newest();
     const bool leads = newest->seed && newest->metrics->first_leads();
-    return leads && !has_failed_ && !quit_.stop_requested() && !seeds_.is_finished();
+    return leads && !quit_.stop_requested() && !seeds_.is_finished();
   });
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <exception>
 #include <memory>
@@ -61,10 +60,10 @@ class LiveWorker {
   /// point, or one of them bent to a second point. Does nothing if that was searched for last. If only the second point
   /// differs, the work on the cut goes on.
   void find_loop(const LoopPlace& through);
-  /// Along edges; nullopt until it is found.
-  std::optional<EdgeChain> loop() const;
-  /// Across the surface.
-  LiveClosedWires closed_wires() const;
+  /// What find_loop() found along edges; nullopt until then, or if another loop was searched for since.
+  std::optional<EdgeChain> loop(const Edge& through) const;
+  /// The same across the surface; empty and not final until then.
+  LiveClosedWires closed_wires(const LoopPlace& through) const;
 
   /// Fraction of the newest seed's work, preparation included, that is done.
   double progress() const;
@@ -72,14 +71,13 @@ class LiveWorker {
   std::exception_ptr error() const;
   /// The same, or why the newest loop failed.
   std::exception_ptr loop_error() const;
-  /// Whether it has answered all requests, or will answer none because there is no surface.
+  /// Whether it has answered all requests.
   bool wait_until_idle(const Deadline& deadline) const;
 
  private:
   using LoopBox = Mailbox<LoopPlace, LoopAnswer>;
 
   void run();
-  bool build_surface();
   bool work();
   void work_on(const SeedBox::Job& job);
   void work_on(const TargetBox::Job& job);
@@ -89,15 +87,14 @@ class LiveWorker {
   void tell_right_of_way();
   bool refines() const;
   bool is_idle() const {
-    return has_failed_ || (seeds_.is_finished() && (targets_.is_finished() || !refines()) && loops_.is_finished());
+    return seeds_.is_finished() && (targets_.is_finished() || !refines()) && loops_.is_finished();
   }
 
   const std::size_t which_;
   const SurfaceContext context_;
   const LiveSettings settings_;
   const std::shared_ptr<RightOfWay> right_of_way_;
-  std::stop_source quit_;                 // its state guards itself
-  std::atomic<bool> has_failed_ = false;  // there is no surface
+  std::stop_source quit_;  // its state guards itself
 
   EventCount events_;  // in the boxes, with what is to be freed
   SeedBox seeds_{events_};

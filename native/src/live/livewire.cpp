@@ -190,7 +190,7 @@ struct LiveWire::Impl {
     LiveWorker& worker = *state.workers[state.metrics->metrics.cuts.front()];
     worker.find_loop(place);
     rethrow(state, true);
-    return is_built ? worker.closed_wires() : LiveClosedWires{};
+    return is_built ? worker.closed_wires(place) : LiveClosedWires{};
   }
 
   const SurfaceContext context;
@@ -305,14 +305,13 @@ LiveLoop LiveWire::loop(const Edge& edge) {
   check_edge(surface.get(), edge);
   const Impl::State state = impl_->now();
   const auto workers = std::span(state.workers).first(state.metrics->count());
-  for (const auto& worker : workers) {
-    worker->find_loop(Edge{std::min(edge[0], edge[1]), std::max(edge[0], edge[1])});
-  }
+  const Edge through{std::min(edge[0], edge[1]), std::max(edge[0], edge[1])};
+  for (const auto& worker : workers) worker->find_loop(through);
   impl_->rethrow(state, true);
   if (!surface) return {};
   EdgeChain cheapest;
   for (const auto& worker : workers) {
-    std::optional<EdgeChain> loop = worker->loop();
+    std::optional<EdgeChain> loop = worker->loop(through);
     if (!loop) return {};
     if (loop->length < cheapest.length) cheapest = std::move(*loop);
   }

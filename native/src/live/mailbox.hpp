@@ -69,10 +69,13 @@ class Mailbox {
   };
   /// The current state of the requests.
   struct Reading {
-    std::shared_ptr<const Answer> answer;  ///< the last one that was kept, or null
-    std::int64_t number = 0;               ///< of the request that it answers
-    bool is_newest = false;                ///< whether that is the newest request
-    bool is_finished = true;               ///< whether the newest request needs no more work
+    std::shared_ptr<const Answer> answer;   ///< the last one that was kept, or null
+    std::int64_t number = 0;                ///< of the request that it answers
+    bool is_newest = false;                 ///< whether that is the newest request
+    bool is_finished = true;                ///< whether the newest request needs no more work
+    std::shared_ptr<const Request> newest;  ///< the newest request, or null
+    /// Whether `answer` answers this request. If not, another thread may have posted a request meanwhile.
+    bool answers(const Request& request) const { return is_newest && *newest == request; }
   };
   enum class Former { kKeep, kDrop };   ///< what a request does with the answer to the one before
   enum class Running { kStop, kGoOn };  ///< what a request does with the running job
@@ -116,7 +119,8 @@ class Mailbox {
     return {.answer = answer_,
             .number = answer_to_,
             .is_newest = answer_ && answer_to_ == number_,
-            .is_finished = finished_ == number_};
+            .is_finished = finished_ == number_,
+            .newest = newest_};
   }
   /// Why the newest request failed; null if it did not.
   std::exception_ptr error() const {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "context/interactive_embedding.hpp"
+#include "embedding/bisected_mesh.hpp"
 #include "metric/scribble_points.hpp"
 
 namespace seamwire::detail {
@@ -31,6 +32,12 @@ bool is_scribbled(const Surface& surface, const std::vector<Scribble>& scribbles
   return acts;
 }
 
+/// Embedding::mean_edge_length of a metric.
+double mean_edge_length(const Surface& surface, const Metric& metric, const Task& task) {
+  const EmbedOptions options;
+  return BisectedMesh(EmbeddingInput(surface, metric, options), task, 0.0).mean_edge_length();
+}
+
 }  // namespace
 
 MetricSet::MetricSet(LiveMetrics of, std::vector<Scribble> after)
@@ -51,7 +58,7 @@ MetricSet::MetricSet(LiveMetrics of, std::vector<Scribble> after, const MetricSe
     // In this order: what is former is forgotten only when the metric is prepared.
     std::shared_ptr<const Prepared> from = former.former(at);
     if (std::shared_ptr<const Prepared> made = former.peek(at)) from = std::move(made);
-    const bool may_share = at <= i || former.peek(at) != nullptr;
+    const bool may_share = at == i || former.peek(at) != nullptr;
     if (may_share && are_same_for(spec.kind(), scribbles, former.scribbles)) {
       prepared[i] = former.prepared[at];
       fractions[i] = former.fractions[at];
@@ -110,7 +117,7 @@ Prepared prepare(const SurfaceContext& context, Along along, MetricSet& metrics,
   context.curvature(silent);
   if (which != 1) prepare_edges();
   const bool scribbled = is_scribbled(*surface, metrics.scribbles, spec.kind());
-  const EmbedOptions options = interactive_options(*surface);
+  EmbedOptions options = interactive_options(*surface);
   if (on_surface && !scribbled) prepared.embedded = EmbeddedSurface::find(context, spec, options);
   if (prepared.embedded) {
     prepared.embedded->points();
@@ -129,7 +136,11 @@ Prepared prepare(const SurfaceContext& context, Along along, MetricSet& metrics,
                     return true;
                   }};
   Metric own = make_metric(context, spec, silent);
-  if (scribbled) own = apply_scribbles(*surface, own, metrics.scribbles, spec.kind(), silent);
+  if (scribbled) {
+    // So that wires are the same whether the scribbles came before the metric was prepared or after, see re_embed().
+    if (on_surface && !metrics.former(which)) options.mean_edge_length = mean_edge_length(*surface, own, silent);
+    own = apply_scribbles(*surface, own, metrics.scribbles, spec.kind(), silent);
+  }
   if (!on_surface) {
     prepared.graph = make_edge_graph(*surface, own, std::move(adjacency), metrics.scribbles, spec.kind(), task);
     return prepared;

@@ -36,8 +36,8 @@ class MetricSet {
  public:
   MetricSet(LiveMetrics of, std::vector<Scribble> after);
   /// The same in place of `former`: a metric that is in both, and for which the scribbles are the same, is shared. If
-  /// it comes earlier than in `former`, it is shared only if it is prepared. Otherwise two threads could wait for each
-  /// other.
+  /// it has another number than in `former`, it is shared only if it is prepared. Otherwise two threads could wait for
+  /// each other.
   ///
   /// Embeddings of a metric with other scribbles are made from those of `former`, or, where these are not there yet,
   /// from what they would have been made from: scribbles change little.

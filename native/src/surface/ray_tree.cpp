@@ -147,7 +147,7 @@ void RayTree::Parts::build(const std::stop_token& stop) {
 RayTree::RayTree(std::vector<Vector> points, std::vector<Triangle> triangles) : parts_(std::make_shared<Parts>()) {
   for (const Triangle& triangle : triangles) {
     for (const std::int32_t v : triangle) {
-      check_index(v, points.size(), "triangles: vertex");
+      if (!is_index(v, points.size())) check_index(v, points.size(), "triangles: vertex");
     }
   }
   parts_->exponent = extreme_exponent(points);

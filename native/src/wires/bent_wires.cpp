@@ -13,6 +13,7 @@
 #include "detail/half_edge.hpp"
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
+#include "detail/poll.hpp"
 #include "geodesics/placed_point.hpp"
 #include "wires/curve_check.hpp"
 #include "wires/path_position.hpp"
@@ -36,15 +37,18 @@ class Sides {
   Sides(const IntrinsicMesh& mesh, const DistanceField& field, std::int32_t half_edge, const Task& task)
       : mesh_(mesh), edges_(mesh, task), is_in_tree_(spanning_tree(mesh, edges_, field.distances(), task)) {
     std::size_t holes_seen = 0;
+    const Poll poll(task, 0.25, 0.3, edges_.count());
     for (std::size_t e = 0; e < edges_.count(); ++e) {
+      poll.at(e);
       const std::int32_t h = edges_.half_edges[e], twin = mesh_.twins[h];
       const bool is_wall = mesh_.has_siblings(h);  // no line leads over it
       ends_.push_back({h / 3, is_wall ? h / 3 : twin < 0 ? edges_.holes[holes_seen++] : twin / 3});
       if (h == half_edge) cut_ = static_cast<std::int32_t>(e);
     }
     if (cut_ < 0) throw InvalidInput("the cut is of another embedding");
-    beside_ = Csr<std::int32_t>(edges_.face_count + edges_.hole_count, [this](const auto& visit) {
+    beside_ = Csr<std::int32_t>(edges_.face_count + edges_.hole_count, [&](const auto& visit) {
       for (std::int32_t e = 0; index(e) < ends_.size(); ++e) {
+        poll.at(index(e));
         for (const std::int32_t f : ends_[e]) visit(f, e);
       }
     });
@@ -55,17 +59,17 @@ class Sides {
   /// A line that crosses the cut once.
   Crossed line(const ExactGeodesics& geodesics, const Task& task) {
     const auto [left, right] = ends_[cut_];
-    flood(left, 1);
+    flood(left, 1, task);
     Crossed found{.edges = std::vector<std::uint8_t>(ends_.size(), 0), .places = {}};
     found.edges[cut_] = 1;
     if (sides_[right] != 0) {  // it does not separate
       walk(right, left, found.edges);
       return found;
     }
-    flood(right, 2);
+    flood(right, 2, task);
     const std::vector<double> depths = depths_of_vertices(geodesics, task);
     for (const std::int32_t from : {left, right}) {
-      const std::int32_t place = deepest(depths, sides_[from]);
+      const std::int32_t place = deepest(depths, sides_[from], task);
       walk(place, from, found.edges);
       if (index(place) < edges_.face_count) found.places.push_back(place);
     }
@@ -78,10 +82,12 @@ class Sides {
   std::int32_t beyond(std::int32_t edge, std::int32_t face) const {
     return ends_[edge][0] == face ? ends_[edge][1] : ends_[edge][0];
   }
-  void flood(std::int32_t from, std::uint8_t side) {
+  void flood(std::int32_t from, std::uint8_t side, const Task& task) {
     std::vector<std::int32_t> front = {from};
     sides_[from] = side;
+    const Poll poll(task, 0.3, 0.3, sides_.size());
     for (std::size_t next = 0; next < front.size(); ++next) {
+      poll.at(next);
       for (const std::int32_t e : beside_[front[next]]) {
         const std::int32_t f = beyond(e, front[next]);
         if (is_in_tree_[e] != 0 || e == cut_ || sides_[f] != 0) continue;
@@ -102,7 +108,9 @@ class Sides {
   /// Distances from the vertices that have both sides beside them: those of the cut.
   std::vector<double> depths_of_vertices(const ExactGeodesics& geodesics, const Task& task) const {
     std::vector<std::uint8_t> seen(index(mesh_.vertex_count), 0);
+    const Poll poll(task, 0.3, 0.3, ends_.size());
     for (std::size_t e = 0; e < ends_.size(); ++e) {
+      poll.at(e);
       const std::int32_t h = edges_.half_edges[e];
       for (const std::int32_t v : {mesh_.tail(h), mesh_.tip(h)}) {
         seen[v] = static_cast<std::uint8_t>(seen[v] | sides_[ends_[e][0]] | sides_[ends_[e][1]]);
@@ -112,14 +120,16 @@ class Sides {
     for (std::int32_t v = 0; v < mesh_.vertex_count; ++v) {
       if (seen[v] == 3) sources.push_back(SurfacePoint(v));
     }
-    const DistanceField field = geodesics.solve(sources, {}, task);
+    const DistanceField field = geodesics.solve(sources, {}, part_of(task, 0.3, 0.5));
     if (!field.fits(mesh_)) throw InvalidInput("the geodesics are of another embedding");
     return field.distances();
   }
   /// A face or a hole is as deep as what is nearest of it.
-  std::int32_t deepest(const std::vector<double>& depths, std::uint8_t side) const {
+  std::int32_t deepest(const std::vector<double>& depths, std::uint8_t side, const Task& task) const {
     std::vector<double> least(sides_.size(), kInfinity);
+    const Poll poll(task, 0.5, 0.5, ends_.size());
     for (std::size_t e = 0; e < ends_.size(); ++e) {
+      poll.at(e);
       const std::int32_t h = edges_.half_edges[e];
       const double depth = std::min(depths[mesh_.tail(h)], depths[mesh_.tip(h)]);
       for (const std::int32_t f : ends_[e]) least[f] = std::min(least[f], depth);
@@ -145,7 +155,8 @@ class Sides {
 /// to the same sheet, or where the line crosses it to the other one. Of the faces that are left the k-th one is k on
 /// the sheet of its first corner being the first one, and k + m else.
 struct DoubleCover {
-  DoubleCover(const IntrinsicMesh& below, const std::vector<std::int32_t>& half_edges, const Crossed& line)
+  DoubleCover(const IntrinsicMesh& below, const std::vector<std::int32_t>& half_edges, const Crossed& line,
+              const Task& task)
       : vertex_count(below.vertex_count), number(below.face_count(), -1) {
     std::vector<std::uint8_t> is_crossed(3 * below.face_count(), 0);
     for (std::size_t e = 0; e < half_edges.size(); ++e) {
@@ -169,8 +180,10 @@ struct DoubleCover {
     };
     mesh.vertex_count = 2 * vertex_count;
     if (!below.siblings.empty()) mesh.siblings.reserve(6 * kept.size());
+    Poll poll(task, 0.5, 0.55, 2 * kept.size());
     for (const bool other : {false, true}) {
       for (const std::int32_t f : kept) {
+        poll.next();
         Triangle corners{};
         for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
           corners[index(h % 3)] = below.tail(h) + (is_other(h) != other ? vertex_count : 0);
@@ -278,11 +291,12 @@ BentWires::BentWires(std::shared_ptr<const Surface> surface, std::shared_ptr<con
   const IntrinsicMesh& below = embedding->mesh;
   Impl made{.surface = std::move(surface),
             .embedding = std::move(embedding),
-            .cover = DoubleCover(below, half_edges, line),
+            .cover = DoubleCover(below, half_edges, line, task),
             .field = std::nullopt};
   const SurfacePoint seed = made.cover.lifted(field.sources().front(), false);
   if (seed.vertex >= 0 || seed.face >= 0) {
-    made.field = ExactGeodesics(made.cover.mesh, task).solve(seed, task);
+    const ExactGeodesics above(made.cover.mesh, part_of(task, 0.55, 0.7));
+    made.field = above.solve(seed, part_of(task, 0.7, 1.0));
   }
   impl_ = std::make_unique<const Impl>(std::move(made));
 }

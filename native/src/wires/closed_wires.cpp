@@ -103,10 +103,12 @@ DisjointSets joined_over_siblings(const IntrinsicMesh& mesh, std::size_t count) 
 class FaceTree {
  public:
   /// The edges must be sorted by their keys, and outlive the tree. Areas are those of the faces.
-  FaceTree(const std::vector<double>& areas, const std::vector<Closing>& closing)
+  FaceTree(const std::vector<double>& areas, const std::vector<Closing>& closing, const Task& task)
       : closing_(closing), faces_(areas.size()), parts_(areas.size()) {
     for (std::size_t f = 0; f < areas.size(); ++f) faces_[f].area = areas[f];
+    const Poll poll(task, 0.45, 0.55, closing.size());
     for (std::size_t i = 0; i < closing.size(); ++i) {
+      poll.at(i);
       const std::int32_t a = closing[i].a, b = closing[i].b;
       const auto number = static_cast<std::int32_t>(i);
       if (parts_.join(a, b)) {
@@ -263,7 +265,9 @@ class CutLocus {
     std::vector<Closing> closing;
     closing.reserve(edges.count());
     std::size_t holes_seen = 0;
+    const Poll poll(task_, 0.25, 0.3, edges.count());
     for (std::size_t e = 0; e < edges.count(); ++e) {
+      poll.at(e);
       const std::int32_t h = edges.half_edges[e], twin = mesh_.twins[h];
       if (mesh_.has_siblings(h)) continue;
       const std::int32_t other = twin < 0 ? edges.holes[holes_seen++] : twin / 3;
@@ -287,11 +291,17 @@ class CutLocus {
     const std::vector<Closing> closing = closing_edges(edges, face_of);
     task_.check(0.45);
     std::vector<double> areas(face_count, 0.0);
-    for (std::int32_t f = 0; index(f) < edges.face_count; ++f) areas[face_of(f)] += span(f).norm();
-    FaceTree tree(areas, closing);
+    const Poll poll(task_, 0.45, 0.45, edges.face_count);
+    for (std::int32_t f = 0; index(f) < edges.face_count; ++f) {
+      poll.at(index(f));
+      areas[face_of(f)] += span(f).norm();
+    }
+    FaceTree tree(areas, closing, task_);
     task_.check(0.55);
     std::vector<CutEdge> found;
+    Poll finding(task_, 0.55, 0.6, closing.size());
     tree.for_each_loop([&](std::int32_t i, bool separates) {
+      finding.next();
       const std::int32_t h = closing[i].half_edge;
       const double length = length_over(h);
       if (std::isfinite(length)) found.push_back({h, length, separates});

@@ -85,16 +85,19 @@ std::vector<std::uint8_t> spanning_tree(const IntrinsicMesh& mesh, const MeshEdg
     if (!(distances[a] < distances[b])) return;
     if (distances[a] + length < up[b].length) up[b] = {distances[a] + length, a, edge};
   };
+  const Poll seeing(task, 0.1, 0.2, edges.count());
   for (std::size_t e = 0; e < edges.count(); ++e) {
+    seeing.at(e);
     const std::int32_t h = edges.half_edges[e];
     see(mesh.tail(h), mesh.tip(h), mesh.lengths[h], static_cast<std::int32_t>(e));
   }
   for (const LooseEdge& edge : mesh.loose_edges) see(edge.a, edge.b, edge.length, -1);
-  task.check(0.2);
 
   std::vector<std::uint8_t> is_in(edges.count(), 0);
   DisjointSets parts(up.size());
+  const Poll joining(task, 0.2, 0.2, up.size());
   for (std::int32_t v = 0; v < mesh.vertex_count; ++v) {
+    joining.at(index(v));
     if (up[v].to < 0) continue;
     parts.join(v, up[v].to);
     if (up[v].edge >= 0) is_in[up[v].edge] = 1;
@@ -109,7 +112,9 @@ std::vector<std::uint8_t> spanning_tree(const IntrinsicMesh& mesh, const MeshEdg
     if (std::isfinite(whole) && parts.find(a) != parts.find(b)) bridges.push_back({whole, edge, a, b});
   };
   for (const LooseEdge& edge : mesh.loose_edges) see_bridge(edge.a, edge.b, edge.length, -1);
+  const Poll bridging(task, 0.2, 0.25, edges.count());
   for (std::size_t e = 0; e < edges.count(); ++e) {
+    bridging.at(e);
     const std::int32_t h = edges.half_edges[e];
     see_bridge(mesh.tail(h), mesh.tip(h), mesh.lengths[h], static_cast<std::int32_t>(e));
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <memory>
+#include <new>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -211,6 +212,21 @@ TEST(ComputedOnce, AProgressFunctionMayAskForWhatItsThreadComputes) {
   });
   EXPECT_EQ(*inner, 1) << "the one that was there first";
   EXPECT_EQ(once.peek(), inner);
+}
+
+TEST(ComputedOnce, AfterAFailureTheNextCallTriesAgain) {
+  ComputedOnce<int> once;
+  EXPECT_THROW(once.get({}, [](const Task&) -> int { throw std::bad_alloc(); }), std::bad_alloc);
+  EXPECT_NE(once.error(), nullptr);
+  const Task refused{.stop = {}, .progress = [](double) { return false; }};
+  const auto make = [](const Task& own) {
+    own.check(0.5);
+    return 1;
+  };
+  EXPECT_THROW(once.get(refused, make), Cancelled);
+  EXPECT_NE(once.error(), nullptr) << "nothing more is known";
+  EXPECT_EQ(*once.get({}, make), 1);
+  EXPECT_EQ(once.error(), nullptr);
 }
 
 TEST(ComputedOnce, WhoWaitsForAnotherThreadIsAskedWhetherToGoOn) {

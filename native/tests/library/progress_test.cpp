@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stdexcept>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <utility>
@@ -103,6 +106,25 @@ TEST(Progress, WorkOnThreadsThatIsSharedAgainStaysOnItsThread) {
     });
   });
   EXPECT_EQ(done, 20);
+}
+
+TEST(Progress, WhatItThrowsComesOutThoughWorkOnThreadsIsCancelledAtOnce) {
+  std::atomic<bool> has_ended = false;
+  const auto work = [&](std::size_t, const Task& own) {
+    // It holds up whoever stops the work, until the cancelled work has ended.
+    static thread_local std::optional<std::stop_callback<std::function<void()>>> on_stop;
+    on_stop.emplace(own.stop, [&] {
+      for (int i = 0; i < 500 && !has_ended; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    });
+    while (!own.stop.stop_requested()) std::this_thread::yield();
+    has_ended = true;
+    throw Cancelled();
+  };
+  const Task task{.stop = {}, .progress = [](double) -> bool { throw std::logic_error("enough"); }};
+  EXPECT_THROW(detail::run_on_threads(
+                   1, task, [](std::size_t) { return 0.0; }, work),
+               std::logic_error);
 }
 
 TEST(Progress, NeverFalls) {

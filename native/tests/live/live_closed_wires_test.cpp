@@ -14,6 +14,9 @@
 #include <vector>
 
 #include "live/live_wires.hpp"
+#include "live/live_worker.hpp"
+#include "live/prepared_metrics.hpp"
+#include "live/right_of_way.hpp"
 #include "seamwire/edges/shortest_cycle.hpp"
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
@@ -46,6 +49,32 @@ TEST(LiveWire, TheLoopIsTheCheaperOfBothMetrics) {
     EXPECT_EQ(loop.length, least);
     EXPECT_GE(loop.vertices.size(), 3u);
   }
+}
+
+TEST(LiveWorker, AnswersNoOtherLoopThanTheOneAskedFor) {
+  const SurfaceContext context(shared(shapes::torus(24, 16)));
+  const auto metrics = [](const MetricSpec& spec) {
+    return std::make_shared<MetricSet>(LiveMetrics{.wires = {spec}}, std::vector<Scribble>());
+  };
+  const auto right_of_way = std::make_shared<RightOfWay>();
+  LiveSettings settings{.along = Along::kEdges, .turning = 3.0, .loop_turning = std::nullopt, .max_error = 0.0};
+  LiveWorker edges(0, context, metrics(MetricSpec::euclidean()), settings, right_of_way);
+  const Edge edge{0, 1}, other_edge{0, 24};
+  edges.find_loop(edge);
+  edges.wait_until_idle(std::nullopt);
+  EXPECT_TRUE(edges.loop(edge));
+  EXPECT_FALSE(edges.loop(other_edge)) << "another thread asked for the other one meanwhile";
+  edges.change_metric(metrics(MetricSpec::concave()));
+  EXPECT_FALSE(edges.loop(edge)) << "another thread changed the metric meanwhile";
+  settings.along = Along::kSurface;
+  LiveWorker surface(0, context, metrics(MetricSpec::euclidean()), settings, right_of_way);
+  const WireEnd point = Pick{0}, other_point = Pick{5};
+  surface.find_loop(point);
+  surface.wait_until_idle(std::nullopt);
+  EXPECT_FALSE(surface.closed_wires(point).cuts.empty());
+  EXPECT_TRUE(surface.closed_wires(point).final);
+  EXPECT_TRUE(surface.closed_wires(other_point).cuts.empty());
+  EXPECT_FALSE(surface.closed_wires(other_point).final);
 }
 
 /// The closed wires of a concave LiveWire, made without one.

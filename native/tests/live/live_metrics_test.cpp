@@ -36,14 +36,39 @@ TEST(LiveWire, MetricsThatStayKeepTheirProgress) {
   const MetricSet former({.wires = specs}, {});
   *former.fractions[0] = 0.25;
   *former.fractions[1] = 0.75;
-  const MetricSet later({.wires = {specs[1], MetricSpec::feature(Follow::kMin, {.parameter = 0.1}), specs[0]}}, {},
+  const MetricSet later({.wires = {specs[0], MetricSpec::feature(Follow::kMin, {.parameter = 0.1}), specs[1]}}, {},
                         former);
-  EXPECT_EQ(later.fraction(0), 0.0) << "the thread that prepares it may make way for the one that would wait";
-  EXPECT_NE(later.prepared[0], former.prepared[1]);
+  EXPECT_EQ(later.fraction(0), 0.25);
   EXPECT_EQ(later.fraction(1), 0.0);
-  EXPECT_EQ(later.fraction(2), 0.25);
-  *later.fractions[2] = 0.875;
+  *later.fractions[0] = 0.875;
   EXPECT_EQ(former.fraction(0), 0.875) << "the work is that of both";
+}
+
+TEST(LiveWire, NoTwoThreadsPrepareOneMetric) {
+  const MetricSpec one = MetricSpec::euclidean(), other = MetricSpec::concave();
+  const MetricSet former({.wires = {one, other}}, {});
+  const MetricSet later({.wires = {one, MetricSpec::feature(Follow::kMin), one, other}}, {}, former);
+  EXPECT_EQ(later.prepared[0], former.prepared[0]);
+  EXPECT_NE(later.prepared[2], former.prepared[0]) << "its thread may make way for the one that would wait";
+  EXPECT_NE(later.prepared[3], former.prepared[1]);
+  EXPECT_EQ(later.fraction(3), 0.0);
+}
+
+TEST(LiveWire, RefinesToTheSameErrorWhetherStrokesComeBeforeItsMetricsOrAfter) {
+  const auto surface = shared(shapes::bumpy(shapes::torus(32, 20), 0.02));
+  const SurfaceContext context(surface), other_context(surface);
+  Scribble stroke{.points = {surface->points()[7], surface->points()[8]}, .faces = {}, .vertices = {7, 8}, .rings = 3};
+  const LiveMetrics metrics{.wires = {MetricSpec::euclidean()}};
+  MetricSet plain(metrics, {});
+  const auto prepared_in = [&](const SurfaceContext& on, MetricSet& set) {
+    return set.prepared[0]->get({}, [&](const Task&) { return prepare(on, Along::kSurface, set, 0, {}); });
+  };
+  const double length = prepared_in(context, plain)->embedded->embedding().mean_edge_length;
+  MetricSet after(metrics, {stroke}, plain), before(metrics, {stroke});
+  EXPECT_EQ(prepared_in(context, after)->embedded->embedding().mean_edge_length, length);
+  EXPECT_EQ(prepared_in(other_context, before)->embedded->embedding().mean_edge_length, length);
+  MetricSet taken_back(metrics, {}, before);
+  EXPECT_EQ(prepared_in(other_context, taken_back)->embedded->embedding().mean_edge_length, length);
 }
 
 bool is_embedded(const SurfaceContext& context, const MetricSpec& spec) {

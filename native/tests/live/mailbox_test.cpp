@@ -47,6 +47,8 @@ TEST(Mailbox, OfRequestsTheNewestIsAnsweredOnce) {
   post.box.answer(*job, [] { return number(20); });
   EXPECT_TRUE(post.box.is_finished());
   EXPECT_TRUE(post.box.read().is_newest);
+  EXPECT_TRUE(post.box.read().answers(2));
+  EXPECT_FALSE(post.box.read().answers(1)) << "which another thread may ask for";
   EXPECT_EQ(*post.box.read().answer, 20);
   EXPECT_FALSE(post.box.take());
 }
