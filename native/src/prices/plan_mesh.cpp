@@ -20,7 +20,7 @@ std::int32_t PlanMesh::edge_between(std::int32_t a, std::int32_t b) const {
   return found;
 }
 
-void connect(PlanMesh& mesh, std::span<const Edge> real_edges) {
+void connect(PlanMesh& mesh, std::optional<std::span<const Edge>> real_edges) {
   const std::size_t half_edges = mesh.twins.size();
   mesh.edge_of.assign(half_edges, -1);
   mesh.half_edge_of.clear();
@@ -38,7 +38,7 @@ void connect(PlanMesh& mesh, std::span<const Edge> real_edges) {
     mesh.lengths.push_back((mesh.points[b] - mesh.points[a]).norm());
     const std::int32_t one = mesh.sources[a], other = mesh.sources[b];
     const Edge edge{std::min(one, other), std::max(one, other)};
-    const bool is_real = a != b && (real_edges.empty() || std::ranges::binary_search(real_edges, edge));
+    const bool is_real = a != b && (!real_edges || std::ranges::binary_search(*real_edges, edge));
     mesh.is_real.push_back(is_real ? 1 : 0);
     for (auto* list : {&neighbors, &all_neighbors}) {
       if (list == &neighbors && !is_real) continue;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -46,8 +47,8 @@ struct PlanMesh : TriangleConnectivity {
 PlanMesh plan_mesh(const Surface& surface);
 
 /// Fills in edges, lengths and neighbors of a mesh whose points, triangles and twins are known. `real_edges`: between
-/// vertices of the mesh, sorted, the smaller vertex first; empty: all are real.
-void connect(PlanMesh& mesh, std::span<const Edge> real_edges);
+/// vertices of the mesh, sorted, the smaller vertex first; nullopt: all are real.
+void connect(PlanMesh& mesh, std::optional<std::span<const Edge>> real_edges);
 
 /// Area and unit normal of a triangle; the normal of a triangle without area is zero.
 struct FaceFrame {
