@@ -13,6 +13,7 @@
 #include "detail/infinity.hpp"
 #include "detail/run_on_threads.hpp"
 #include "surface/box_tree.hpp"
+#include "surface/extreme_exponent.hpp"
 #include "surface/point_segment.hpp"
 
 namespace seamwire {
@@ -88,6 +89,7 @@ Vector nearest_in(const std::array<Vector, 3>& corners, const Vector& place) {
 }  // namespace
 
 struct NearestPoints::Impl {
+  int exponent = 0;                            ///< of what points were divided by, a power of two
   std::vector<std::array<Vector, 3>> corners;  ///< of each triangle, in the order of the tree
   std::vector<Vector> normals;                 ///< the same, of any length; zero for a triangle without an area
   BoxTree tree;
@@ -96,6 +98,8 @@ struct NearestPoints::Impl {
   /// triangle if none counts. `hint`: where in the order of the tree to begin to look, and where the triangle was
   /// found.
   NearestPoint find(const Vector& place, const Vector* normal, std::int32_t& hint) const;
+  /// The same with a place and a result in the caller's coordinates.
+  NearestPoint find_given(const Vector& place, const Vector* normal, std::int32_t& hint) const;
 };
 
 NearestPoints::NearestPoints(std::vector<Vector> points, std::vector<Triangle> triangles, const Task& task) {
@@ -107,6 +111,10 @@ NearestPoints::NearestPoints(std::vector<Vector> points, std::vector<Triangle> t
     }
   }
   auto impl = std::make_shared<Impl>();
+  impl->exponent = extreme_exponent(points);
+  if (impl->exponent != 0) {
+    for (Vector& p : points) p = scaled(p, -impl->exponent);
+  }
   const auto box_of = [&](std::int32_t t) {
     const auto& [a, b, c] = triangles[t];
     return Box(points[a]).extend(points[b]).extend(points[c]);
@@ -163,6 +171,17 @@ NearestPoint NearestPoints::Impl::find(const Vector& place, const Vector* normal
   return best;
 }
 
+NearestPoint NearestPoints::Impl::find_given(const Vector& place, const Vector* normal, std::int32_t& hint) const {
+  constexpr int kFarthest = 400;
+  // To a place beyond this all points are in one direction, and a nearer one in that direction finds the same.
+  const int nearer = std::max(0, extreme_exponent({&place, 1}) - exponent - kFarthest), moved = -exponent - nearer;
+  if (moved == 0) return find(place, normal, hint);
+  NearestPoint found = find(scaled(place, moved), normal, hint);
+  found.point = scaled(found.point, exponent);
+  found.distance = std::ldexp(found.distance, -moved);
+  return found;
+}
+
 std::vector<NearestPoint> NearestPoints::find(std::span<const Vector> places, std::span<const Vector> normals,
                                               const Task& task) const {
   if (!normals.empty() && normals.size() != places.size()) {
@@ -180,8 +199,11 @@ std::vector<NearestPoint> NearestPoints::find(std::span<const Vector> places, st
     std::int32_t hint = 0;
     for (std::size_t k = chunk * kPlacesInAChunk; k < end; ++k) {
       const std::int32_t i = order[k];
-      if (!normals.empty()) found[i] = impl_->find(places[i], &normals[i], hint);
-      if (found[i].triangle < 0) found[i] = impl_->find(places[i], nullptr, hint);
+      if (!normals.empty()) {
+        const Vector normal = normals[i].stableNormalized();
+        found[i] = impl_->find_given(places[i], &normal, hint);
+      }
+      if (found[i].triangle < 0) found[i] = impl_->find_given(places[i], nullptr, hint);
     }
   };
   run_on_threads(
