@@ -72,13 +72,14 @@ std::vector<Edge> cuts_of(const SeamPlan& plan, std::vector<Edge> seams) {
 class WholePlan {
  public:
   /// `distortion`: the bound for the mean over the surface. `prepared` and `plans` must outlive this object.
-  WholePlan(const PreparedSurface& prepared, const std::vector<GroupPlanning>& plans, double distortion)
+  WholePlan(const PreparedSurface& prepared, const std::vector<GroupPlanning>& plans, double distortion,
+            const Task& task)
       : prepared_(prepared),
         plans_(plans),
         distortion_(distortion),
         place_of_face_(prepared.mesh().face_count()),
         is_counted_(prepared.mesh().face_count()) {
-    for (const FaceFrame& frame : face_frames(prepared.mesh())) areas_.push_back(frame.area);
+    for (const FaceFrame& frame : face_frames(prepared.mesh(), task)) areas_.push_back(frame.area);
     for (std::size_t g = 0; g < groups().size(); ++g) {
       const SlitProblem& own = groups()[g].original;
       for (std::size_t k = 0; k < groups()[g].places.size(); ++k) {
@@ -110,7 +111,7 @@ class WholePlan {
       energies_.clear();
       is_mapped_ = true;
       if (prepared_.wires->are_across()) {
-        const std::vector<std::uint8_t> is_cut = marked_edges(mesh, cuts_of(plan, prepared_.options.seams));
+        const std::vector<std::uint8_t> is_cut = marked_edges(mesh, cuts_of(plan, prepared_.options.seams), task);
         const CutMaps maps = solve_cut(mesh, is_cut, part_of(task, place(kMapBegins), place(1.0)));
         const std::vector<std::uint8_t> is_kept = are_kept(maps, bound);
         for (std::size_t i = 0; i < places_.size(); ++i) {
@@ -310,7 +311,7 @@ class Planning {
         found_(found),
         task_(task),
         plans_(prepared.groups.begin(), prepared.groups.end()),
-        whole_(prepared, plans_, goal.distortion) {}
+        whole_(prepared, plans_, goal.distortion, task) {}
 
   SeamPlan run() {
     part_limbs(part_of(task_, 0.0, kLimbsEnd));
@@ -373,7 +374,7 @@ class Planning {
       islands += groups()[neck.group].places.size() * (neck.ring.image.empty() ? 1 : 2);
       chosen[neck.group].push_back(std::move(neck.ring));
     }
-    for (std::size_t g = 0; g < plans_.size(); ++g) plans_[g].part(chosen[g]);
+    for (std::size_t g = 0; g < plans_.size(); ++g) plans_[g].part(chosen[g], task);
     halve_groups(task);
   }
 

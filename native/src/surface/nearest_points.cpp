@@ -11,6 +11,7 @@
 
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
+#include "detail/poll.hpp"
 #include "detail/run_on_threads.hpp"
 #include "surface/box_tree.hpp"
 #include "surface/extreme_exponent.hpp"
@@ -26,15 +27,18 @@ constexpr std::size_t kPlacesInAChunk = 256;
 /// The share of a distance to a box that may be rounding.
 constexpr double kBoxRounding = 1e-12;
 
-void check_finite(std::span<const Vector> points, const char* what) {
+void check_finite(std::span<const Vector> points, const char* what, const Task& task) {
+  const Poll poll(task, 0.0, 0.0, 1);
   for (std::size_t i = 0; i < points.size(); ++i) {
+    poll.at(i);
     if (!points[i].allFinite()) throw InvalidInput(std::string(what) + " " + std::to_string(i) + " is not finite");
   }
 }
 
 /// Returns the places in an order in which those that follow each other mostly lie near each other: along a Morton
 /// curve (1966).
-std::vector<std::int32_t> along_curve(std::span<const Vector> places) {
+std::vector<std::int32_t> along_curve(std::span<const Vector> places, const Task& task) {
+  Poll poll(task, 0.0, 0.0, 1);
   Box box;
   for (const Vector& place : places) box.extend(place);
   constexpr double kCells = 1 << 10;  // on each axis
@@ -42,6 +46,7 @@ std::vector<std::int32_t> along_curve(std::span<const Vector> places) {
   std::vector<std::pair<std::uint32_t, std::int32_t>> keys;
   keys.reserve(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
+    poll.next();
     std::uint32_t key = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const double part = (places[i][axis] - box.min()[axis]) / sizes[axis];
@@ -50,7 +55,10 @@ std::vector<std::int32_t> along_curve(std::span<const Vector> places) {
     }
     keys.emplace_back(key, static_cast<std::int32_t>(i));
   }
-  std::ranges::sort(keys);
+  std::ranges::sort(keys, [&](const auto& one, const auto& other) {
+    poll.next();
+    return one < other;
+  });
   std::vector<std::int32_t> order;
   order.reserve(keys.size());
   for (const auto& [key, i] : keys) order.push_back(i);
@@ -104,8 +112,10 @@ struct NearestPoints::Impl {
 
 NearestPoints::NearestPoints(std::vector<Vector> points, std::vector<Triangle> triangles, const Task& task) {
   if (triangles.empty()) throw InvalidInput("There are no triangles");
-  check_finite(points, "point");
+  check_finite(points, "point", task);
+  Poll poll(task, 0.0, 0.0, 1);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
+    poll.next();
     for (const std::int32_t v : triangles[t]) {
       if (!is_index(v, points.size())) check_index(v, points.size(), "triangle " + std::to_string(t) + ": vertex");
     }
@@ -126,6 +136,7 @@ NearestPoints::NearestPoints(std::vector<Vector> points, std::vector<Triangle> t
   impl->corners.reserve(triangles.size());
   impl->normals.reserve(triangles.size());
   for (const std::int32_t t : impl->tree.order) {
+    poll.next();
     const auto& [a, b, c] = triangles[t];
     impl->corners.push_back({points[a], points[b], points[c]});
     impl->normals.push_back(normal_of(points[b] - points[a], points[c] - points[a]));
@@ -188,10 +199,10 @@ std::vector<NearestPoint> NearestPoints::find(std::span<const Vector> places, st
     throw InvalidInput("There are " + std::to_string(places.size()) + " places, but " + std::to_string(normals.size()) +
                        " normals");
   }
-  check_finite(places, "place");
-  check_finite(normals, "normal");
+  check_finite(places, "place", task);
+  check_finite(normals, "normal", task);
   std::vector<NearestPoint> found(places.size());
-  const std::vector<std::int32_t> order = along_curve(places);
+  const std::vector<std::int32_t> order = along_curve(places, task);
   const std::size_t chunks = (places.size() + kPlacesInAChunk - 1) / kPlacesInAChunk;
   const auto find_chunk = [&](std::size_t chunk, const Task& own) {
     own.check(0.0);
