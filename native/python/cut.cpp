@@ -26,7 +26,7 @@ CutCurve make_curve(const py::object& points, const py::object& start, const py:
   CutCurve curve{.points = points_from(points, "points"), .start = place_from(start, kAnyCount, kAnyCount, "start")};
   if (!end.is_none()) curve.end = place_from(end, kAnyCount, kAnyCount, "end");
   if (!faces.is_none()) curve.faces = numbers_from(faces, "faces");
-  if (!image_of.is_none()) curve.image_of = image_of.cast<std::int32_t>();
+  if (!image_of.is_none()) curve.image_of = number_from(image_of, "image_of");
   return curve;
 }
 
