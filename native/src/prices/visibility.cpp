@@ -61,7 +61,7 @@ Visibility find_visibility(const PlanMesh& mesh, const std::optional<Vector>& fr
   const std::vector<Vector> normals = vertex_normals(mesh, face_frames(mesh, task), task);
   std::vector<Vector> views;
   for (int i = 0; front && i < tuning::kViews; ++i) {
-    views.push_back(on_hemisphere(i, tuning::kViews, front->normalized()));
+    views.push_back(on_hemisphere(i, tuning::kViews, front->stableNormalized()));
   }
   Visibility found;
   found.ambient.assign(mesh.vertex_count(), 1.0);

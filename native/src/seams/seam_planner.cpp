@@ -285,7 +285,7 @@ void check_options(const Surface& surface, const SeamPlannerOptions& options) {
   if (options.mirror < -1 || options.mirror > 2) {
     throw InvalidInput("mirror is " + std::to_string(options.mirror) + ", not an axis from 0 to 2, or -1");
   }
-  if (options.front && !(options.front->allFinite() && options.front->norm() > 0.0)) {
+  if (options.front && !(options.front->allFinite() && !options.front->isZero(0.0))) {
     throw InvalidInput("front is not a direction: it has no length, or is not finite");
   }
   const std::size_t count = surface.vertex_count();
