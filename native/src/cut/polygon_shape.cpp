@@ -62,7 +62,9 @@ PolygonShape::PolygonShape(const CutMesh& mesh, const NodeTable& nodes, std::int
   for (const std::int32_t v : corners_) places_.push_back(mesh.points()[v]);
   const std::size_t count = places_.size();
   Vector normal = Vector::Zero();
-  for (std::size_t i = 0; i < count; ++i) normal += places_[i].cross(places_[(i + 1) % count]);
+  for (std::size_t i = 0; i < count; ++i) {
+    normal += (places_[i] - places_[0]).cross(places_[(i + 1) % count] - places_[0]);
+  }
   Eigen::Index axis = 0;
   normal.cwiseAbs().maxCoeff(&axis);
   const double sign = normal[axis] > 0.0 ? 1.0 : normal[axis] < 0.0 ? -1.0 : 0.0;
