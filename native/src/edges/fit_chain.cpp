@@ -12,6 +12,7 @@
 
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
+#include "detail/poll.hpp"
 #include "edges/edge_adjacency.hpp"
 #include "surface/point_segment.hpp"
 
@@ -94,7 +95,8 @@ class ChainFit {
   ChainFit(const Surface& surface, const EdgeAdjacency& adjacency, const DrawnLine& drawn, double h)
       : surface_(surface), adjacency_(adjacency), h_(h), line_(drawn.points, h / kPointsPerEdge) {}
 
-  FittedChain find(std::int32_t begin, std::int32_t end, double begin_gap, double end_gap) {
+  FittedChain find(std::int32_t begin, std::int32_t end, double begin_gap, double end_gap, const Task& task) {
+    Poll poll(task, 0.0, 0.0, 1, Poll::kFewSteps);
     const auto [squared, along] = line_.nearest(point(begin), 0.0, 2.0 * begin_gap + h_);
     labels_.push_back({0.0, along, squared, -1, -1});
     open_.push({0.0, 0});
@@ -110,6 +112,7 @@ class ChainFit {
       if (v == end && label.along >= ends_from) return chain_to(number, begin);
       if (label.along > labels_[farthest].along) farthest = number;
       for (std::int32_t out = adjacency_.begin(v); out < adjacency_.end(v); ++out) {
+        poll.next();
         relax(number, out, begin, point(end));
       }
     }
@@ -233,7 +236,7 @@ std::int32_t nearest_vertex(const Surface& surface, const EdgeAdjacency& adjacen
 }  // namespace
 
 FittedChain fit_chain(const Surface& surface, const EdgeAdjacency& adjacency, const DrawnLine& line,
-                      std::optional<std::int32_t> begin, std::optional<std::int32_t> end) {
+                      std::optional<std::int32_t> begin, std::optional<std::int32_t> end, const Task& task) {
   if (index(adjacency.vertex_count()) != surface.vertex_count() ||
       adjacency.directed_count() != 2 * surface.edges().size()) {
     throw InvalidInput("the adjacency is of another surface: it has " + std::to_string(adjacency.vertex_count()) +
@@ -259,7 +262,7 @@ FittedChain fit_chain(const Surface& surface, const EdgeAdjacency& adjacency, co
   if (!(h > 0.0) || from < 0 || to < 0) return {};
   const auto gap = [&](std::int32_t v, const Vector& p) { return (surface.points()[v] - p).norm(); };
   return ChainFit(surface, adjacency, line, h)
-      .find(from, to, gap(from, line.points.front()), gap(to, line.points.back()));
+      .find(from, to, gap(from, line.points.front()), gap(to, line.points.back()), task);
 }
 
 }  // namespace seamwire
