@@ -114,6 +114,13 @@ def test_the_length_of_a_direction_does_not_matter(torus: sw.Surface) -> None:
         np.testing.assert_array_equal(first_wire(length), first_wire(1.0))
 
 
+def test_a_number_just_out_of_range_is_shown_in_full(planner: sw.SeamPlanner, torus: sw.Surface) -> None:
+    with pytest.raises(ValueError, match=r"distortion is 3\.9999999999, not"):
+        planner.plan(distortion=3.9999999999)
+    with pytest.raises(ValueError, match="amount is -1e-09, not"):
+        sw.PartFinder(torus).find(-1e-9)
+
+
 @pytest.mark.parametrize("distortion", [4.0, 0.0, -np.inf, np.nan])
 def test_a_bound_that_no_map_reaches_is_refused(planner: sw.SeamPlanner, distortion: float) -> None:
     with pytest.raises(ValueError, match="distortion is"):

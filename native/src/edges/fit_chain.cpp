@@ -150,7 +150,7 @@ class ChainFit {
     const double off = (here.squared + middle + squared) / 3.0;
     const double turn = here.edge < 0 ? 0.0 : adjacency_.turn(adjacency_.twin(here.edge), over);
     const double cost = here.cost + length * (1.0 + kOffLine * off / (h_ * h_)) + kTurning * h_ * turn;
-    const auto bucket = static_cast<std::uint64_t>(along / (kSamePlace * h_));
+    const auto bucket = static_cast<std::uint64_t>(std::min(1e9, along / (kSamePlace * h_)));
     const std::uint64_t key = bucket * adjacency_.directed_count() + static_cast<std::uint64_t>(over);
     const auto next = static_cast<std::int32_t>(labels_.size());
     const auto [known, is_new] = newest_.try_emplace(key, next);

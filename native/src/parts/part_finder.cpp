@@ -18,6 +18,7 @@
 #include "detail/edge_chains.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
+#include "detail/text.hpp"
 #include "parts/parting_cuts.hpp"
 #include "prices/border_odds.hpp"
 #include "prices/plan_mesh.hpp"
@@ -459,7 +460,7 @@ PartFinder::PartFinder(std::shared_ptr<const Surface> surface, const PartOptions
 
 Parts PartFinder::find(double amount, const PartEdits& edits, const Task& task) const {
   if (!(amount >= 0.0 && amount <= 1.0)) {
-    throw InvalidInput("amount is " + std::to_string(amount) + ", not from 0 to 1");
+    throw InvalidInput("amount is " + text(amount) + ", not from 0 to 1");
   }
   const Impl& impl = *impl_;
   const PlanMesh& mesh = impl.problem.mesh;

@@ -13,6 +13,7 @@
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "detail/run_on_threads.hpp"
+#include "detail/text.hpp"
 #include "parameterization/measure_islands.hpp"
 #include "seams/group_planning.hpp"
 #include "seams/planned_wires.hpp"
@@ -482,7 +483,7 @@ SeamPlanner::SeamPlanner(const SurfaceContext& context, const SeamPlannerOptions
 SeamPlan SeamPlanner::plan(const SeamGoal& goal, const std::function<void(const SeamPlan&)>& found,
                            const Task& task) const {
   if (!(goal.distortion > 4.0)) {
-    throw InvalidInput("distortion is " + std::to_string(goal.distortion) + ", not above 4, that of an isometry");
+    throw InvalidInput("distortion is " + text(goal.distortion) + ", not above 4, that of an isometry");
   }
   const RisingProgress rising(task);
   return Planning(impl_->prepared, goal, found, rising.task()).run();
