@@ -146,6 +146,10 @@ std::vector<std::int32_t> numbers_from(py::handle value, const std::string& name
   return to;
 }
 
+std::int32_t number_from(py::handle value, const std::string& name) {
+  return numbers_from(py::make_tuple(value), name).front();
+}
+
 std::vector<double> values_from(py::handle value, const std::string& name) {
   const PythonCall calling;
   const py::array given = array_from(value);

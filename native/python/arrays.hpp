@@ -29,6 +29,8 @@ std::vector<Triangle> triangles_from(py::handle value, const std::string& name);
 std::vector<Edge> edges_from(py::handle value, const std::string& name);
 /// Integers of shape (n,).
 std::vector<std::int32_t> numbers_from(py::handle value, const std::string& name);
+/// An integer.
+std::int32_t number_from(py::handle value, const std::string& name);
 /// Real numbers of shape (n,).
 std::vector<double> values_from(py::handle value, const std::string& name);
 /// Three real numbers of shape (3,).

@@ -26,7 +26,7 @@ CutCurve make_curve(const py::object& points, const py::object& start, const py:
   CutCurve curve{.points = points_from(points, "points"), .start = place_from(start, kAnyCount, kAnyCount, "start")};
   if (!end.is_none()) curve.end = place_from(end, kAnyCount, kAnyCount, "end");
   if (!faces.is_none()) curve.faces = numbers_from(faces, "faces");
-  if (!image_of.is_none()) curve.image_of = image_of.cast<std::int32_t>();
+  if (!image_of.is_none()) curve.image_of = number_from(image_of, "image_of");
   return curve;
 }
 
@@ -142,12 +142,13 @@ int or None
 }
 
 CutPlan make_cut_plan(const py::object& points, const py::object& triangles, const py::object& polygons,
-                      const std::vector<CutCurve>& curves) {
+                      const std::vector<CutCurve>& curves, const py::object& progress) {
   const std::vector<Vector> own_points = points_from(points, "points");
   const std::vector<Triangle> own_triangles = triangles_from(triangles, "triangles");
   const std::vector<std::int32_t> own_polygons = numbers_from(polygons, "polygons");
-  return without_gil(
-      [&] { return plan_cuts({.points = own_points, .triangles = own_triangles, .polygons = own_polygons}, curves); });
+  return Watch(progress).run([&](const Task& task) {
+    return plan_cuts({.points = own_points, .triangles = own_triangles, .polygons = own_polygons}, curves, task);
+  });
 }
 
 }  // namespace
@@ -156,12 +157,12 @@ void bind_cut(py::module_& module) {
   bind_curve(module);
   bind_plan(module);
   module.def("plan_cuts", &make_cut_plan, py::arg("points"), py::arg("triangles"), py::arg("polygons"),
-             py::arg("curves"),
+             py::arg("curves"), py::arg("progress") = py::none(),
              R"(Plan how to cut curves into polygons.
 
 If a curve ends inside a polygon and no other curve continues from there, it is cut only as far as the last edge that it
-crosses. Curves that cross or run close to each other meet in common nodes. A cut that passes a vertex or an edge at less than 0.05, as a fraction of an edge's
-length or a triangle's height, goes through it.
+crosses. Curves that cross or run close to each other meet in common nodes. A cut that passes a vertex or an edge at
+less than 0.05, as a fraction of an edge's length or a triangle's height, goes through it.
 
 Parameters
 ----------
@@ -171,6 +172,8 @@ triangles : (m, 3) array_like of int
 polygons : (m,) array_like of int
     The polygon of each triangle, ascending.
 curves : sequence of CutCurve
+progress : callable, optional
+    Called repeatedly with the fraction done. Returning False cancels.
 
 Returns
 -------
@@ -180,6 +183,7 @@ Raises
 ------
 ValueError
     If sizes do not fit, a number is out of range, or the triangles of a polygon do not form a polygon.
+Cancelled
 )");
 }
 

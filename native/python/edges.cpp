@@ -173,7 +173,8 @@ FittedChain fit_chain_to(const SurfaceObject& surface, const py::object& points,
                          const py::object& begin, const py::object& end, const py::object& progress) {
   const LineGiven line(points, faces, begin, end, surface.surface->vertex_count());
   return Watch(progress).run([&](const Task& task) {
-    return fit_chain(*surface.surface, *surface.context.edge_adjacency(task), line.drawn(), line.begin, line.end);
+    return fit_chain(*surface.surface, *surface.context.edge_adjacency(beginning(task)), line.drawn(), line.begin,
+                     line.end, task);
   });
 }
 
@@ -197,7 +198,7 @@ faces : (k,) array_like of int
 begin, end : int, optional
     Vertices near the line's ends where the chain begins and ends instead.
 progress : callable, optional
-    Called repeatedly while the first line of a surface is prepared. Returning False cancels.
+    Called repeatedly with 0.0. Returning False cancels.
 
 Returns
 -------

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "arrays.hpp"
+#include "detail/poll.hpp"
 #include "held.hpp"
 #include "rooms.hpp"
 #include "seamwire/parameterization/flatten.hpp"
@@ -27,13 +28,6 @@ struct FlatteningObject {
   std::vector<std::int32_t> overlapping, straight, opened, steps;
 };
 
-/// The part of the whole work from `begin` on.
-Task part_of(const Task& task, double begin, double length) {
-  return {.stop = task.stop, .progress = [&task, begin, length](double fraction) {
-            return !task.progress || task.progress(begin + length * fraction);
-          }};
-}
-
 std::optional<std::vector<Edge>> real_edges_from(const py::object& edges) {
   return edges.is_none() ? std::nullopt : std::optional(edges_from(edges, "edges"));
 }
@@ -41,9 +35,9 @@ std::optional<std::vector<Edge>> real_edges_from(const py::object& edges) {
 Held<FlatteningObject> flattened(std::vector<Vector> points, std::vector<Triangle> triangles,
                                  std::optional<std::vector<Edge>> edges, const std::vector<Edge>& cuts,
                                  const FlattenOptions& options, const Task& task) {
-  const Surface surface(std::move(points), std::move(triangles), std::move(edges), part_of(task, 0.0, 0.1));
+  const Surface surface(std::move(points), std::move(triangles), std::move(edges), detail::part_of(task, 0.0, 0.1));
   auto object = make_held<FlatteningObject>();
-  object->map = flatten(surface, cuts, options, part_of(task, 0.1, 0.9));
+  object->map = flatten(surface, cuts, options, detail::part_of(task, 0.1, 1.0));
   for (std::size_t i = 0; i < object->map.by_island.size(); ++i) {
     const FlatIsland& island = object->map.by_island[i];
     object->energies.push_back(island.energy);
@@ -184,8 +178,8 @@ auto measured(const py::object& points, const py::object& triangles, const py::o
   auto own_edges = real_edges_from(edges);
   return Watch(progress).run([&](const Task& task) {
     const Surface surface(std::move(own_points), std::move(own_triangles), std::move(own_edges),
-                          part_of(task, 0.0, 0.2));
-    return measure(surface, own_uvs, numbers, part_of(task, 0.2, 0.8));
+                          detail::part_of(task, 0.0, 0.2));
+    return measure(surface, own_uvs, numbers, detail::part_of(task, 0.2, 1.0));
   });
 }
 

@@ -444,8 +444,9 @@ std::unique_ptr<EdgeLoop> edge_loop_through(const LiveWireObject& object, const 
 std::unique_ptr<FittedChain> fit_line(const LiveWireObject& object, const py::object& points, const py::object& faces,
                                       const py::object& begin, const py::object& end) {
   const LineGiven line(points, faces, begin, end, object.vertex_count);
-  return without_gil(
-      [&] { return std::make_unique<FittedChain>(object.live->fit_chain(line.drawn(), line.begin, line.end)); });
+  return Watch(py::none()).run([&](const Task& task) {
+    return std::make_unique<FittedChain>(object.live->fit_chain(line.drawn(), line.begin, line.end, task));
+  });
 }
 
 void bind_chains_of_edges(LiveWireClass& live_wire) {

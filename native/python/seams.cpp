@@ -57,7 +57,7 @@ SeamPlannerOptions options_from(const std::string& along, double max_anisotropy,
   SeamPlannerOptions options{.along = along_from(along)};
   options.strength = {.max_anisotropy = max_anisotropy, .clamp_percentile = clamp_percentile};
   if (!front.is_none()) options.front = vector_from(front, "front");
-  if (!mirror.is_none()) options.mirror = mirror.cast<int>();
+  if (!mirror.is_none()) options.mirror = number_from(mirror, "mirror");
   if (!weights.is_none()) options.weights = values_from(weights, "weights");
   if (!seams.is_none()) options.seams = edges_from(seams, "seams");
   return options;
@@ -206,7 +206,7 @@ Cancelled
 PartFinder make_part_finder(const SurfaceObject& surface, const py::object& mirror, const py::object& marked,
                             const py::object& seams, const py::object& progress) {
   PartOptions options;
-  if (!mirror.is_none()) options.mirror = mirror.cast<int>();
+  if (!mirror.is_none()) options.mirror = number_from(mirror, "mirror");
   if (!marked.is_none()) options.marked = edges_from(marked, "marked");
   if (!seams.is_none()) options.seams = edges_from(seams, "seams");
   return Watch(progress).run([&](const Task& task) { return PartFinder(surface.surface, options, task); });
@@ -217,7 +217,7 @@ Parts find_parts(const PartFinder& finder, double amount, const py::object& kept
   PartEdits edits;
   if (!kept.is_none()) edits.kept = edges_from(kept, "kept");
   if (!dropped.is_none()) edits.dropped = edges_from(dropped, "dropped");
-  if (!parted.is_none()) edits.parted = parted.cast<std::vector<std::int32_t>>();
+  if (!parted.is_none()) edits.parted = numbers_from(parted, "parted");
   return Watch(progress).run([&](const Task& task) { return finder.find(amount, edits, task); });
 }
 

@@ -67,7 +67,8 @@ class Surface:
     ------
     ValueError
         If an array has the wrong shape or type, or there is no edge. Also if a coordinate is not finite, a vertex number is out
-        of range, or an edge joins a vertex to itself. The message names the element.
+        of range, or an edge joins a vertex to itself. The message names the element. Also if the longest side of the
+        bounding box is below 1e-150, but not 0.
     Cancelled
     """
 
@@ -1111,7 +1112,7 @@ def fit_chain(
     begin, end : int, optional
         Vertices near the line's ends where the chain begins and ends instead.
     progress : callable, optional
-        Called repeatedly while the first line of a surface is prepared. Returning False cancels.
+        Called repeatedly with 0.0. Returning False cancels.
 
     Returns
     -------
@@ -1822,12 +1823,18 @@ class CutPlan:
             The node there, or the one that was moved away from there. None if no cut passes.
         """
 
-def plan_cuts(points: ArrayLike, triangles: ArrayLike, polygons: ArrayLike, curves: Sequence[CutCurve]) -> CutPlan:
+def plan_cuts(
+    points: ArrayLike,
+    triangles: ArrayLike,
+    polygons: ArrayLike,
+    curves: Sequence[CutCurve],
+    progress: Callable[[float], bool | None] | None = None,
+) -> CutPlan:
     """Plan how to cut curves into polygons.
 
     If a curve ends inside a polygon and no other curve continues from there, it is cut only as far as the last edge that it
-    crosses. Curves that cross or run close to each other meet in common nodes. A cut that passes a vertex or an edge at less than 0.05, as a fraction of an edge's
-    length or a triangle's height, goes through it.
+    crosses. Curves that cross or run close to each other meet in common nodes. A cut that passes a vertex or an edge at
+    less than 0.05, as a fraction of an edge's length or a triangle's height, goes through it.
 
     Parameters
     ----------
@@ -1837,6 +1844,8 @@ def plan_cuts(points: ArrayLike, triangles: ArrayLike, polygons: ArrayLike, curv
     polygons : (m,) array_like of int
         The polygon of each triangle, ascending.
     curves : sequence of CutCurve
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
 
     Returns
     -------
@@ -1846,6 +1855,7 @@ def plan_cuts(points: ArrayLike, triangles: ArrayLike, polygons: ArrayLike, curv
     ------
     ValueError
         If sizes do not fit, a number is out of range, or the triangles of a polygon do not form a polygon.
+    Cancelled
     """
 
 class Flattening:

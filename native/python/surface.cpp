@@ -114,7 +114,8 @@ Raises
 ------
 ValueError
     If an array has the wrong shape or type, or there is no edge. Also if a coordinate is not finite, a vertex number is out
-    of range, or an edge joins a vertex to itself. The message names the element.
+    of range, or an edge joins a vertex to itself. The message names the element. Also if the longest side of the
+    bounding box is below 1e-150, but not 0.
 Cancelled
 )")
       .def(py::init(&make_surface), py::arg("points"), py::arg("triangles"), py::arg("edges") = py::none(),

@@ -110,6 +110,37 @@ def test_strokes(points: object, faces: object, eta: float, radius: float | None
     taken_or_refused(stroke)
 
 
+@given(value=anything)
+@settings(max_examples=100)
+def test_seams_parts_and_cuts(value: object) -> None:
+    for name in ("front", "mirror", "weights", "seams"):
+        taken_or_refused(lambda name=name: sw.SeamPlanner(SURFACE, along="edges", **{name: value}))
+    for name in ("mirror", "marked", "seams"):
+        taken_or_refused(lambda name=name: sw.PartFinder(SURFACE, **{name: value}))
+    for name in ("kept", "dropped", "parted"):
+        taken_or_refused(lambda name=name: PARTS.find(0.5, **{name: value}))
+    for name in ("end", "faces", "image_of"):
+        taken_or_refused(lambda name=name: sw.CutCurve(POINTS[:2], 0, **{name: value}))
+
+
+PARTS = sw.PartFinder(SURFACE)
+
+
+@pytest.mark.parametrize(
+    ("name", "call"),
+    [
+        ("image_of", lambda value: sw.CutCurve(POINTS[:2], 0, image_of=value)),
+        ("mirror", lambda value: sw.SeamPlanner(SURFACE, along="edges", mirror=value)),
+        ("mirror", lambda value: sw.PartFinder(SURFACE, mirror=value)),
+        ("parted", lambda value: PARTS.find(0.5, parted=[value])),
+    ],
+)
+def test_what_is_no_number_is_named(name: str, call: Callable[[object], object]) -> None:
+    for value in ("x", 1.5, 1 << 40):
+        with pytest.raises(ValueError, match=name):
+            call(value)
+
+
 @given(point=st.tuples(anything, anything), number=numbers | anything)
 def test_surface_points(point: tuple[object, object], number: object) -> None:
     taken_or_refused(lambda: sw.distance_field(EMBEDDING, point))

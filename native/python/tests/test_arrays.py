@@ -205,3 +205,11 @@ def test_what_is_no_edge_is_said(surface: sw.Surface, metric: sw.Metric, edge: o
     ):
         with pytest.raises(ValueError, match="edge: expected an edge as two vertex numbers"):
             call()
+
+
+def test_a_mesh_too_small_for_squares_of_lengths_is_refused() -> None:
+    points, triangles = meshes.grid(2)
+    assert sw.Surface(1e-149 * points, triangles).scale == pytest.approx(1e149)
+    with pytest.raises(ValueError, match="the longest side of the box around the mesh is 1e-160"):
+        sw.Surface(1e-160 * points, triangles)
+    assert sw.Surface(0.0 * points, triangles).scale == 1.0

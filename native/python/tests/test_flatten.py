@@ -84,6 +84,16 @@ def test_a_strip_of_quads_is_laid_out_straight_and_upright_if_asked_for() -> Non
     assert sw.flatten(points, triangles, straighten=0.0).straight.tolist() == []
 
 
+def test_the_length_of_the_up_direction_does_not_matter() -> None:
+    points, triangles = meshes.grid(4)
+    points = points @ [[0.8, 0.0, 0.6], [0.0, 1.0, 0.0], [-0.6, 0.0, 0.8]]
+    expected = sw.flatten(points, triangles, up=(1.0, 2.0, 0.0)).uvs
+    for length in (1e-170, 1e160):
+        np.testing.assert_allclose(
+            sw.flatten(points, triangles, up=(length, 2.0 * length, 0.0)).uvs, expected, atol=1e-12
+        )
+
+
 def test_measures_maps_that_others_made() -> None:
     points, triangles = meshes.grid(4)
     uvs = points[triangles][:, :, :2].copy()
@@ -125,6 +135,7 @@ def test_the_energy_of_a_map_is_that_of_its_report() -> None:
         ({"progress": 3}, "progress: expected a function"),
         ({"up": (0, 0)}, "up: expected"),
         ({"up": (0, 0, 0)}, "up is no direction"),
+        ({"straighten": np.nan}, "straighten is not a number"),
     ],
 )
 def test_wrong_input_of_flatten(change: dict, message: str) -> None:

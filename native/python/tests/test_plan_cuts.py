@@ -169,6 +169,20 @@ def test_a_row_of_quads_is_cut_across_without_vertices_inside() -> None:
     assert cuts.inside() == [] and cuts.along == []
 
 
+def test_far_from_the_origin_the_same_is_cut() -> None:
+    faces = grid(6)
+    curve = np.column_stack(
+        [np.linspace(0.3, 5.7, 9), np.linspace(0.25, 5.6, 9) + 0.3 * np.sin(np.arange(9)), np.zeros(9)]
+    )
+    for offset in (0.0, 1e6, 3e8):
+        away = np.array([offset, 0.7 * offset, 0.3 * offset])
+        found = sw.plan_cuts(
+            faces.points + away, faces.triangles, faces.owners, [sw.CutCurve(curve + away, (1, (0.1, 0.45, 0.45)))]
+        )
+        assert len(found.across) > 3
+        assert not any(is_folded for _, _, is_folded in found.across), f"{offset:g} away"
+
+
 def test_along_edges_nothing_is_split() -> None:
     faces = grid(4)
     cuts = plan(faces, [faces.straight(5, 9)])

@@ -10,6 +10,7 @@ import meshes
 import numpy as np
 import pytest
 import seamwire_core as sw
+from numpy.typing import NDArray
 
 
 @pytest.fixture(scope="module")
@@ -102,6 +103,22 @@ def test_seams_are_mirrored(torus: sw.Surface) -> None:
 def test_wrong_options_are_refused(torus: sw.Surface, arguments: dict[str, object], message: str) -> None:
     with pytest.raises(ValueError, match=message):
         sw.SeamPlanner(torus, **arguments)  # type: ignore[arg-type]
+
+
+def test_the_length_of_a_direction_does_not_matter(torus: sw.Surface) -> None:
+    def first_wire(length: float) -> NDArray[np.int32]:
+        planner = sw.SeamPlanner(torus, along="edges", front=(0.0, -length, 0.0))
+        return planner.plan(distortion=4.5, steps=50).wires[0].vertices
+
+    for length in (1e-170, 1e160):
+        np.testing.assert_array_equal(first_wire(length), first_wire(1.0))
+
+
+def test_a_number_just_out_of_range_is_shown_in_full(planner: sw.SeamPlanner, torus: sw.Surface) -> None:
+    with pytest.raises(ValueError, match=r"distortion is 3\.9999999999, not"):
+        planner.plan(distortion=3.9999999999)
+    with pytest.raises(ValueError, match="amount is -1e-09, not"):
+        sw.PartFinder(torus).find(-1e-9)
 
 
 @pytest.mark.parametrize("distortion", [4.0, 0.0, -np.inf, np.nan])

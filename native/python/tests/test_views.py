@@ -221,3 +221,22 @@ def test_invalid_faces_are_those_that_are_bisected(
 def test_wrong_values_and_levels_are_named(values: np.ndarray, levels: list, message: str) -> None:
     with pytest.raises(ValueError, match=message):
         sw.isolines(grid(2), values, levels)
+
+
+@pytest.mark.parametrize("exponent", [-1000, -500, -200, 200, 500, 1000])
+def test_nearest_points_do_not_depend_on_the_size_of_the_model(exponent: int) -> None:
+    points, triangles = meshes.torus(12, 8)
+    places = points[::3] * [1.5, 0.7, 2.0] + 0.1
+    normals = np.random.default_rng(1).normal(size=places.shape)
+    expected = sw.NearestPoints(points, triangles).find(places, normals)
+    size = 2.0**exponent
+    found = sw.NearestPoints(size * points, triangles).find(size * places, size * normals)
+    np.testing.assert_array_equal(found[0], expected[0])
+    np.testing.assert_allclose(found[1] / size, expected[1], rtol=1e-12, atol=1e-12)
+    np.testing.assert_allclose(found[2] / size, expected[2], rtol=1e-12)
+
+
+def test_a_place_far_from_tiny_triangles_has_a_distance() -> None:
+    points, triangles = meshes.torus(12, 8)
+    _, _, distances = sw.NearestPoints(1e-150 * points, triangles).find([[1e200, 0.0, 0.0]])
+    np.testing.assert_allclose(distances, 1e200)

@@ -62,9 +62,9 @@ Rows CutMesh::rows_of(std::int32_t polygon) const {
           .last = static_cast<std::int32_t>(last - mesh_.polygons.begin())};
 }
 
-const std::vector<std::int32_t>& CutMesh::corners(std::int32_t polygon) const {
-  std::vector<std::int32_t>& found = corners_[polygon];
-  if (!found.empty()) return found;
+const CutMesh::Rim& CutMesh::rim(std::int32_t polygon) const {
+  Rim& found = rims_[polygon];
+  if (!found.corners.empty()) return found;
   const Rows rows = rows_of(polygon);
   // Two triangles pass a diagonal in opposite directions. The others lead around the polygon.
   std::set<std::pair<std::int32_t, std::int32_t>> left;
@@ -84,20 +84,20 @@ const std::vector<std::int32_t>& CutMesh::corners(std::int32_t polygon) const {
     v = following == next.end() ? -1 : following->second;
   } while (v >= 0 && v != first && around.size() < left.size());
   if (v != first || around.size() != index(rows.last - rows.first) + 2) {
-    corners_.erase(polygon);
+    rims_.erase(polygon);
     throw InvalidInput("polygon " + std::to_string(polygon) + ": its triangles do not form a polygon");
   }
-  found = std::move(around);
+  for (std::size_t i = 0; i < around.size(); ++i) found.places[around[i]] = i;
+  found.corners = std::move(around);
   return found;
 }
 
 bool CutMesh::is_side(std::int32_t polygon, std::int32_t one, std::int32_t other) const {
-  const std::vector<std::int32_t>& around = corners(polygon);
-  for (std::size_t i = 0; i < around.size(); ++i) {
-    const std::int32_t a = around[i], b = around[(i + 1) % around.size()];
-    if ((a == one && b == other) || (a == other && b == one)) return true;
-  }
-  return false;
+  const Rim& around = rim(polygon);
+  const auto first = around.places.find(one), second = around.places.find(other);
+  if (first == around.places.end() || second == around.places.end()) return false;
+  const std::size_t count = around.corners.size();
+  return (first->second + 1) % count == second->second || (second->second + 1) % count == first->second;
 }
 
 }  // namespace seamwire::detail

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <unordered_map>
@@ -33,14 +34,24 @@ class CutMesh {
   std::vector<std::int32_t> polygons_at(std::int32_t vertex) const;
   Rows rows_of(std::int32_t polygon) const;
   /// The vertices around a polygon.
-  const std::vector<std::int32_t>& corners(std::int32_t polygon) const;
+  const std::vector<std::int32_t>& corners(std::int32_t polygon) const { return rim(polygon).corners; }
+  /// The place of a corner in corners().
+  std::size_t place_of_corner(std::int32_t polygon, std::int32_t vertex) const {
+    return rim(polygon).places.at(vertex);
+  }
   /// Whether an edge joins two corners that follow each other. The same edge may be a diagonal of another polygon.
   bool is_side(std::int32_t polygon, std::int32_t one, std::int32_t other) const;
 
  private:
+  struct Rim {
+    std::vector<std::int32_t> corners;
+    std::unordered_map<std::int32_t, std::size_t> places;  ///< of each corner
+  };
+  const Rim& rim(std::int32_t polygon) const;
+
   PolygonMesh mesh_;
   Csr<std::int32_t> rows_at_;
-  mutable std::unordered_map<std::int32_t, std::vector<std::int32_t>> corners_;  ///< of the polygons asked for
+  mutable std::unordered_map<std::int32_t, Rim> rims_;  ///< of the polygons asked for
 };
 
 }  // namespace seamwire::detail

@@ -75,7 +75,7 @@ std::vector<Piece> together(const NodeTable& nodes, std::span<const Piece> piece
 }
 
 /// Returns the pieces, cut where they cross others in the same polygon.
-std::vector<Piece> crossed(const CutMesh& mesh, NodeTable& nodes, std::span<const Piece> pieces) {
+std::vector<Piece> crossed(const CutMesh& mesh, NodeTable& nodes, std::span<const Piece> pieces, const Task& task) {
   std::map<std::int32_t, std::vector<Piece>> by_polygon;
   for (const Piece& piece : pieces) by_polygon[piece.polygon].push_back(piece);
   std::vector<Piece> found;
@@ -92,6 +92,7 @@ std::vector<Piece> crossed(const CutMesh& mesh, NodeTable& nodes, std::span<cons
       lines.push_back({shape.seen(piece.one), shape.seen(piece.two)});
     }
     for (std::size_t i = 0; i < own.size(); ++i) {
+      task.check(0.0);
       for (std::size_t j = i + 1; j < own.size(); ++j) {
         const Piece &a = own[i], &b = own[j];
         if (a.one == b.one || a.one == b.two || a.two == b.one || a.two == b.two) continue;
@@ -103,7 +104,10 @@ std::vector<Piece> crossed(const CutMesh& mesh, NodeTable& nodes, std::span<cons
         for (const auto& [end, part] : {std::pair(a.one, s), {a.two, 1.0 - s}, {b.one, t}, {b.two, 1.0 - t}}) {
           if (node < 0 && part < kCutNear) node = end;
         }
-        if (node < 0) node = nodes.add(shape.node_at(lines[i][0] + s * (lines[i][1] - lines[i][0])));
+        if (node < 0) {
+          task.check(0.0);
+          node = nodes.add(shape.node_at(lines[i][0] + s * (lines[i][1] - lines[i][0])));
+        }
         stops[i].emplace_back(s, node);
         stops[j].emplace_back(t, node);
       }
@@ -172,8 +176,9 @@ struct Route {
 
 class SliverSearch {
  public:
-  SliverSearch(const CutMesh& mesh, const NodeTable& nodes, std::span<const Piece> pieces, const CurveEnds& ends)
-      : mesh_(mesh), nodes_(nodes), pieces_(pieces), ends_(ends), beside_(pieces_beside(pieces)) {}
+  SliverSearch(const CutMesh& mesh, const NodeTable& nodes, std::span<const Piece> pieces, const CurveEnds& ends,
+               const Task& task)
+      : mesh_(mesh), nodes_(nodes), pieces_(pieces), ends_(ends), task_(task), beside_(pieces_beside(pieces)) {}
 
   std::set<std::int32_t> slivers() {
     std::set<std::int32_t> left_out;
@@ -228,8 +233,9 @@ class SliverSearch {
     };
     if (std::ranges::any_of(one.pieces, is_in_other)) return false;
     const double widest = kWide * mean_height(one, other);
-    const auto lies_along = [widest](const Route& here, const Route& there) {
+    const auto lies_along = [this, widest](const Route& here, const Route& there) {
       return std::ranges::all_of(here.places, [&](const Vector& place) {
+        task_.check(0.0);
         for (std::size_t i = 1; i < there.places.size(); ++i) {
           if (to_segment(place, there.places[i - 1], there.places[i]).norm() <= widest) return true;
         }
@@ -274,6 +280,7 @@ class SliverSearch {
   const NodeTable& nodes_;
   std::span<const Piece> pieces_;
   const CurveEnds& ends_;
+  const Task& task_;
   std::map<std::int32_t, std::set<std::int32_t>> beside_;
 };
 
@@ -313,14 +320,14 @@ std::vector<Piece> without_detours(std::span<const Piece> pieces) {
   return kept;
 }
 
-std::vector<Piece> joined(const CutMesh& mesh, NodeTable& nodes, std::vector<Piece> pieces) {
-  pieces = crossed(mesh, nodes, together(nodes, pieces));
+std::vector<Piece> joined(const CutMesh& mesh, NodeTable& nodes, std::vector<Piece> pieces, const Task& task) {
+  pieces = crossed(mesh, nodes, together(nodes, pieces), task);
   return parted(mesh, nodes, together(nodes, pieces));
 }
 
 std::vector<Piece> without_slivers(const CutMesh& mesh, const NodeTable& nodes, std::span<const Piece> pieces,
-                                   const CurveEnds& ends) {
-  return without(pieces, SliverSearch(mesh, nodes, pieces, ends).slivers());
+                                   const CurveEnds& ends, const Task& task) {
+  return without(pieces, SliverSearch(mesh, nodes, pieces, ends, task).slivers());
 }
 
 std::vector<Piece> without_spurs(const NodeTable& nodes, std::span<const Piece> pieces, const CurveEnds& ends) {

@@ -32,13 +32,13 @@ class CurveEnds {
 std::vector<Piece> without_detours(std::span<const Piece> pieces);
 
 /// Joins the pieces of all curves. They are cut where they cross. Nodes that are near each other become one. Pieces
-/// along an edge or a diagonal are cut at the nodes of others that they pass.
-std::vector<Piece> joined(const CutMesh& mesh, NodeTable& nodes, std::vector<Piece> pieces);
+/// along an edge or a diagonal are cut at the nodes of others that they pass. Throws Cancelled.
+std::vector<Piece> joined(const CutMesh& mesh, NodeTable& nodes, std::vector<Piece> pieces, const Task& task);
 
 /// Leaves out the longer one of two cuts between the same nodes if they enclose next to nothing. Keeps both if both
-/// nodes are ends of curves.
+/// nodes are ends of curves. Throws Cancelled.
 std::vector<Piece> without_slivers(const CutMesh& mesh, const NodeTable& nodes, std::span<const Piece> pieces,
-                                   const CurveEnds& ends);
+                                   const CurveEnds& ends, const Task& task);
 
 /// Removes pieces that end at neither an end of a curve nor another piece, and ends inside polygons.
 std::vector<Piece> without_spurs(const NodeTable& nodes, std::span<const Piece> pieces, const CurveEnds& ends);

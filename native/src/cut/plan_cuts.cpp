@@ -16,6 +16,7 @@
 #include "cut/polygon_shape.hpp"
 #include "cut/walk.hpp"
 #include "detail/index.hpp"
+#include "detail/poll.hpp"
 
 namespace seamwire {
 
@@ -57,8 +58,8 @@ void check_curve(const PolygonMesh& mesh, std::span<const CutCurve> curves, std:
 /// Leads cuts straight over a polygon, without vertices inside, where they hardly bend and nothing is in the way.
 class Straightener {
  public:
-  Straightener(const PolygonShape& shape, const NodeTable& nodes, std::span<const Cut> cuts)
-      : shape_(shape), nodes_(nodes) {
+  Straightener(const PolygonShape& shape, const NodeTable& nodes, std::span<const Cut> cuts, const Task& task)
+      : shape_(shape), nodes_(nodes), task_(task) {
     for (const auto& [one, two] : cuts) {
       beside_[one].push_back(two);
       beside_[two].push_back(one);
@@ -75,6 +76,7 @@ class Straightener {
     std::vector<Chain> waiting = chains();
     for (const Chain& chain : waiting) for_each_cut(chain, [this](const auto& cut) { bent_.insert(cut); });
     while (!waiting.empty()) {
+      task_.check(0.0);
       const Chain chain = std::move(waiting.back());
       waiting.pop_back();
       for_each_cut(chain, [this](const auto& cut) { bent_.erase(cut); });
@@ -151,6 +153,7 @@ class Straightener {
 
   const PolygonShape& shape_;
   const NodeTable& nodes_;
+  const Task& task_;
   std::map<std::int32_t, Chain> beside_;  // the neighbors of each node
   std::set<std::int32_t> inner_;          // the nodes inside the polygon where a cut only bends
   CutSet kept_, bent_;                    // the cuts that stay, and those still to be straightened
@@ -180,7 +183,8 @@ class UsedNodes {
 };
 
 /// Tells cuts along edges from those across polygons.
-void sort_out(const CutMesh& mesh, const NodeTable& nodes, std::span<const Piece> pieces, CutPlan& plan) {
+void sort_out(const CutMesh& mesh, const NodeTable& nodes, std::span<const Piece> pieces, CutPlan& plan,
+              const Task& task) {
   UsedNodes used(nodes, plan);
   std::map<std::int32_t, std::vector<Cut>> across;
   for (const Piece& piece : pieces) {
@@ -193,7 +197,7 @@ void sort_out(const CutMesh& mesh, const NodeTable& nodes, std::span<const Piece
   for (const auto& [polygon, cuts] : across) {
     const PolygonShape shape(mesh, nodes, polygon);
     PolygonCuts own{.polygon = polygon, .cuts = {}, .is_folded = shape.is_folded()};
-    for (const Cut& cut : Straightener(shape, nodes, cuts).straightened()) own.cuts.push_back(used(cut));
+    for (const Cut& cut : Straightener(shape, nodes, cuts, task).straightened()) own.cuts.push_back(used(cut));
     plan.across.push_back(std::move(own));
   }
   for (const auto& [pair, own] : nodes_on_pairs(nodes, pieces)) {
@@ -213,7 +217,10 @@ std::int32_t CutPlan::node_at(const Triangle& corners, const std::array<double, 
   return found == nodes.end() ? -1 : static_cast<std::int32_t>(found - nodes.begin());
 }
 
-CutPlan plan_cuts(const PolygonMesh& mesh, std::span<const CutCurve> curves) {
+CutPlan plan_cuts(const PolygonMesh& mesh, std::span<const CutCurve> curves, const Task& given) {
+  constexpr double kWalked = 0.5;  // of the work
+  const RisingProgress rising(given);
+  const Task& task = rising.task();
   const CutMesh faces(mesh);
   for (std::size_t number = 0; number < curves.size(); ++number) check_curve(mesh, curves, number);
   CutPlan plan;
@@ -221,10 +228,11 @@ CutPlan plan_cuts(const PolygonMesh& mesh, std::span<const CutCurve> curves) {
   CurveEnds ends(nodes);
   std::vector<Piece> pieces;
   for (std::int32_t number = 0; index(number) < curves.size(); ++number) {
+    task.check(kWalked * number / static_cast<double>(curves.size()));
     const CutCurve& curve = curves[number];
     const auto is_original = [&curve](const UncutCurve& uncut) { return uncut.curve == curve.image_of; };
     if (std::ranges::any_of(plan.left_out, is_original)) continue;
-    const Walk walk = walk_along(faces, curve, nodes);
+    const Walk walk = walk_along(faces, curve, nodes, task);
     if (walk.left_near >= 0) {
       plan.left_out.push_back({.curve = number, .vertex = walk.left_near});
       continue;
@@ -233,9 +241,10 @@ CutPlan plan_cuts(const PolygonMesh& mesh, std::span<const CutCurve> curves) {
     ends.add(own);
     pieces.insert(pieces.end(), own.begin(), own.end());
   }
-  pieces = joined(faces, nodes, std::move(pieces));
-  pieces = without_slivers(faces, nodes, pieces, ends);
-  sort_out(faces, nodes, without_spurs(nodes, pieces, ends), plan);
+  task.check(kWalked);
+  pieces = joined(faces, nodes, std::move(pieces), task);
+  pieces = without_slivers(faces, nodes, pieces, ends, task);
+  sort_out(faces, nodes, without_spurs(nodes, pieces, ends), plan, task);
   return plan;
 }
 

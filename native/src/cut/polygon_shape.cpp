@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "cut/joined_pieces.hpp"
 #include "cut/tolerances.hpp"
 #include "cut/walk.hpp"
 
@@ -62,7 +63,9 @@ PolygonShape::PolygonShape(const CutMesh& mesh, const NodeTable& nodes, std::int
   for (const std::int32_t v : corners_) places_.push_back(mesh.points()[v]);
   const std::size_t count = places_.size();
   Vector normal = Vector::Zero();
-  for (std::size_t i = 0; i < count; ++i) normal += places_[i].cross(places_[(i + 1) % count]);
+  for (std::size_t i = 0; i < count; ++i) {
+    normal += (places_[i] - places_[0]).cross(places_[(i + 1) % count] - places_[0]);
+  }
   Eigen::Index axis = 0;
   normal.cwiseAbs().maxCoeff(&axis);
   const double sign = normal[axis] > 0.0 ? 1.0 : normal[axis] < 0.0 ? -1.0 : 0.0;
@@ -79,14 +82,8 @@ PolygonShape::PolygonShape(const CutMesh& mesh, const NodeTable& nodes, std::int
 }
 
 bool PolygonShape::is_on_rim(std::int32_t node) const {
-  for (std::size_t i = 0; i < corners_.size(); ++i) {
-    if (are_on(side(i), nodes_[node])) return true;
-  }
-  return false;
-}
-
-const Vector& PolygonShape::place_of_corner(std::int32_t vertex) const {
-  return places_[static_cast<std::size_t>(std::ranges::find(corners_, vertex) - corners_.begin())];
+  const std::span<const std::int32_t> vertices = vertices_of(nodes_[node]);
+  return vertices.size() == 1 || (vertices.size() == 2 && mesh_.is_side(polygon_, vertices[0], vertices[1]));
 }
 
 Vector PolygonShape::seen(std::int32_t node) const {
@@ -125,9 +122,7 @@ std::ptrdiff_t PolygonShape::farthest(std::span<const std::int32_t> chain) const
 }
 
 bool PolygonShape::holds_line(std::int32_t one, std::int32_t two) const {
-  for (std::size_t i = 0; i < corners_.size(); ++i) {
-    if (are_on(side(i), nodes_[one]) && are_on(side(i), nodes_[two])) return false;
-  }
+  if (is_along_side(mesh_, nodes_, {one, two, polygon_})) return false;
   const Vector a = seen(one), b = seen(two);
   for (std::size_t i = 0; i < corners_.size(); ++i) {
     if (are_on(side(i), nodes_[one]) || are_on(side(i), nodes_[two])) continue;

@@ -40,7 +40,7 @@ class PolygonShape {
 
  private:
   std::array<std::int32_t, 2> side(std::size_t i) const { return {corners_[i], corners_[(i + 1) % corners_.size()]}; }
-  const Vector& place_of_corner(std::int32_t vertex) const;
+  const Vector& place_of_corner(std::int32_t vertex) const { return places_[mesh_.place_of_corner(polygon_, vertex)]; }
   bool holds(const Vector& place) const;
 
   const CutMesh& mesh_;

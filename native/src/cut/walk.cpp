@@ -163,7 +163,8 @@ struct Step {
 
 class Walker {
  public:
-  Walker(const CutMesh& mesh, const CutCurve& curve, NodeTable& nodes) : mesh_(mesh), curve_(curve), nodes_(nodes) {}
+  Walker(const CutMesh& mesh, const CutCurve& curve, NodeTable& nodes, const Task& task)
+      : mesh_(mesh), curve_(curve), nodes_(nodes), task_(task) {}
 
   /// Returns the pieces if the curve runs in the triangles that it names. Two segments meet in a node of both
   /// triangles.
@@ -174,6 +175,7 @@ class Walker {
     std::vector<CutNode> passed;
     std::vector<Found> before, here;
     for (std::size_t i = 0; i < curve_.points.size(); ++i) {
+      task_.check(0.0);
       const bool is_last = i == faces.size();
       const std::int32_t row = faces[is_last ? i - 1 : i];
       std::optional<CutNode> on;
@@ -223,6 +225,7 @@ class Walker {
     double most = kInfinity;
     std::set<std::tuple<std::size_t, std::array<std::int32_t, 3>, std::int32_t>> done;
     while (!queue_.empty()) {
+      task_.check(0.0);
       const Waiting next = queue_.top();
       queue_.pop();
       if (next.cost > most) break;
@@ -344,6 +347,7 @@ class Walker {
   const CutMesh& mesh_;
   const CutCurve& curve_;
   NodeTable& nodes_;
+  const Task& task_;
   std::vector<Step> steps_;
   std::vector<Trail> trails_;
   std::priority_queue<Waiting, std::vector<Waiting>, std::greater<>> queue_;
@@ -373,8 +377,8 @@ Barycentric barycentric_in(const std::array<Vector, 3>& corners, const Vector& p
   return found;
 }
 
-Walk walk_along(const CutMesh& mesh, const CutCurve& curve, NodeTable& nodes) {
-  Walker walker(mesh, curve, nodes);
+Walk walk_along(const CutMesh& mesh, const CutCurve& curve, NodeTable& nodes, const Task& task) {
+  Walker walker(mesh, curve, nodes, task);
   if (std::optional<std::vector<Piece>> found = walker.in_named_triangles()) return {.pieces = std::move(*found)};
   return walker.cheapest();
 }

@@ -28,7 +28,7 @@ struct Walk {
 ///
 /// If the curve lies in the triangles that it names, the walk uses them. Otherwise the walk is the cheapest one
 /// (Dijkstra's algorithm). A step costs nothing if the next point of the curve lies in a neighboring polygon. Where
-/// faces lie on each other, the walk therefore prefers the face that also holds the next points.
-Walk walk_along(const CutMesh& mesh, const CutCurve& curve, NodeTable& nodes);
+/// faces lie on each other, the walk therefore prefers the face that also holds the next points. Throws Cancelled.
+Walk walk_along(const CutMesh& mesh, const CutCurve& curve, NodeTable& nodes, const Task& task);
 
 }  // namespace seamwire::detail

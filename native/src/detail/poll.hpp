@@ -24,6 +24,7 @@ class Poll {
         length_(end - begin),
         total_(static_cast<double>(std::max<std::size_t>(total, 1))),
         mask_(steps_between - 1) {}
+  Poll(Task&& task, double begin, double end, std::size_t total, std::size_t steps_between = kSteps) = delete;
 
   /// At the beginning of each step, the first is 0. Throws Cancelled.
   void at(std::size_t step) const {
@@ -46,10 +47,13 @@ inline Task part_of(const Task& task, double begin, double end) {
           .progress = [&task, begin, end](double fraction) { return task.progress(begin + (end - begin) * fraction); }};
 }
 
+Task part_of(Task&& task, double begin, double end) = delete;
+
 /// A task for parts of work that count from 0 each: it reports the largest fraction so far. The task given must
 /// outlive it.
 class RisingProgress {
  public:
+  explicit RisingProgress(Task&& task) = delete;
   explicit RisingProgress(const Task& task) : task_{.stop = task.stop, .progress = {}} {
     if (!task.progress) return;
     task_.progress = [this, &task](double fraction) { return task.progress(most_ = std::max(most_, fraction)); };

@@ -21,7 +21,7 @@
 
 namespace seamwire::detail {
 
-/// Edges settled between two looks at the task: well under a millisecond.
+/// Steps from edge to edge between two looks at the task: well under a millisecond.
 inline constexpr std::size_t kStepsBetweenChecks = 1024;
 /// And between two times that a search tells other threads how far it is.
 inline constexpr std::size_t kStepsBetweenReports = 128;
@@ -133,7 +133,11 @@ std::int32_t EdgeSearch::run(const Remaining& remaining, const Done& done, const
   const auto least = [&](std::int32_t e) {
     return std::is_same_v<Remaining, Unguided> ? graph_.length(e) : 0.0;  // a guide may take back all of a step
   };
+  std::size_t count = 0, looks = 0;
   const auto relax = [&](std::int32_t from, std::int32_t to) {
+    if (++looks % kStepsBetweenChecks == 0) {
+      task.check(static_cast<double>(count) / static_cast<double>(graph_.directed_count()));
+    }
     const double cost = states_[from].cost + cost_of_step(from, to);
     EdgeState& state = states_[to];
     if (!(cost < state.best())) return;
@@ -144,7 +148,7 @@ std::int32_t EdgeSearch::run(const Remaining& remaining, const Done& done, const
     queue_.push(key, to, least(to));
   };
   for (const std::int32_t e : roots_) queue_.push(states_[e].cost + remaining(graph_.head(e)), e, least(e));
-  for (std::size_t count = 0; !queue_.empty();) {
+  while (!queue_.empty()) {
     const auto [key, e, in_order] = queue_.pop();
     EdgeState& state = states_[e];
     const std::int32_t v = state.head;
@@ -162,9 +166,6 @@ std::int32_t EdgeSearch::run(const Remaining& remaining, const Done& done, const
     arrival_[v] = std::min(arrival_[v], state.cost);
     if (done(e)) return e;
     if (++count % kStepsBetweenReports == 0) floor_.store(queue_.floor(), std::memory_order_release);
-    if (count % kStepsBetweenChecks == 0) {
-      task.check(static_cast<double>(count) / static_cast<double>(graph_.directed_count()));
-    }
     if (v == end_) continue;
     const std::int32_t back = graph_.twin(e);
     for (std::int32_t to = graph_.begin(v); to < back; ++to) relax(e, to);

@@ -12,6 +12,7 @@
 
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
+#include "detail/poll.hpp"
 #include "edges/edge_adjacency.hpp"
 #include "surface/point_segment.hpp"
 
@@ -94,7 +95,8 @@ class ChainFit {
   ChainFit(const Surface& surface, const EdgeAdjacency& adjacency, const DrawnLine& drawn, double h)
       : surface_(surface), adjacency_(adjacency), h_(h), line_(drawn.points, h / kPointsPerEdge) {}
 
-  FittedChain find(std::int32_t begin, std::int32_t end, double begin_gap, double end_gap) {
+  FittedChain find(std::int32_t begin, std::int32_t end, double begin_gap, double end_gap, const Task& task) {
+    Poll poll(task, 0.0, 0.0, 1, Poll::kFewSteps);
     const auto [squared, along] = line_.nearest(point(begin), 0.0, 2.0 * begin_gap + h_);
     labels_.push_back({0.0, along, squared, -1, -1});
     open_.push({0.0, 0});
@@ -110,6 +112,7 @@ class ChainFit {
       if (v == end && label.along >= ends_from) return chain_to(number, begin);
       if (label.along > labels_[farthest].along) farthest = number;
       for (std::int32_t out = adjacency_.begin(v); out < adjacency_.end(v); ++out) {
+        poll.next();
         relax(number, out, begin, point(end));
       }
     }
@@ -147,7 +150,7 @@ class ChainFit {
     const double off = (here.squared + middle + squared) / 3.0;
     const double turn = here.edge < 0 ? 0.0 : adjacency_.turn(adjacency_.twin(here.edge), over);
     const double cost = here.cost + length * (1.0 + kOffLine * off / (h_ * h_)) + kTurning * h_ * turn;
-    const auto bucket = static_cast<std::uint64_t>(along / (kSamePlace * h_));
+    const auto bucket = static_cast<std::uint64_t>(std::min(1e9, along / (kSamePlace * h_)));
     const std::uint64_t key = bucket * adjacency_.directed_count() + static_cast<std::uint64_t>(over);
     const auto next = static_cast<std::int32_t>(labels_.size());
     const auto [known, is_new] = newest_.try_emplace(key, next);
@@ -233,7 +236,7 @@ std::int32_t nearest_vertex(const Surface& surface, const EdgeAdjacency& adjacen
 }  // namespace
 
 FittedChain fit_chain(const Surface& surface, const EdgeAdjacency& adjacency, const DrawnLine& line,
-                      std::optional<std::int32_t> begin, std::optional<std::int32_t> end) {
+                      std::optional<std::int32_t> begin, std::optional<std::int32_t> end, const Task& task) {
   adjacency.check_size(surface);
   const std::size_t count = line.points.size();
   if (line.faces.size() != count) {
@@ -255,7 +258,7 @@ FittedChain fit_chain(const Surface& surface, const EdgeAdjacency& adjacency, co
   if (!(h > 0.0) || from < 0 || to < 0) return {};
   const auto gap = [&](std::int32_t v, const Vector& p) { return (surface.points()[v] - p).norm(); };
   return ChainFit(surface, adjacency, line, h)
-      .find(from, to, gap(from, line.points.front()), gap(to, line.points.back()));
+      .find(from, to, gap(from, line.points.front()), gap(to, line.points.back()), task);
 }
 
 }  // namespace seamwire

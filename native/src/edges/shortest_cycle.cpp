@@ -46,8 +46,8 @@ std::vector<double> distances(const EdgeGraph& graph, std::int32_t target, doubl
   while (!queue.empty()) {
     const auto [d, v, in_order] = queue.pop();
     if (d != distance[v]) continue;
-    if (++count % kStepsBetweenChecks == 0) task.check(0.0);
     for (std::int32_t e = graph.begin(v); e < graph.end(v); ++e) {
+      if (++count % kStepsBetweenChecks == 0) task.check(0.0);
       const double there = d + graph.length(e);
       if (!(there <= radius && there < distance[graph.head(e)])) continue;
       distance[graph.head(e)] = there;

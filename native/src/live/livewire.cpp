@@ -354,11 +354,11 @@ EdgeLoop LiveWire::edge_loop(const Edge& edge, std::span<const std::int32_t> sto
 }
 
 FittedChain LiveWire::fit_chain(const DrawnLine& line, std::optional<std::int32_t> begin,
-                                std::optional<std::int32_t> end) const {
+                                std::optional<std::int32_t> end, const Task& task) const {
   check_along_edges(impl_->settings, "lines are fitted");
   const std::shared_ptr<const Surface> surface = impl_->context.peek_surface();
   const auto adjacency = surface ? impl_->context.peek_edge_adjacency() : nullptr;
-  return adjacency ? seamwire::fit_chain(*surface, *adjacency, line, begin, end) : FittedChain{};
+  return adjacency ? seamwire::fit_chain(*surface, *adjacency, line, begin, end, task) : FittedChain{};
 }
 
 std::shared_ptr<const std::vector<double>> LiveWire::feature_strength() const {

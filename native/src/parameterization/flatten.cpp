@@ -56,6 +56,7 @@ class Flattener {
     if (options.up && !(options.up->allFinite() && options.up->stableNorm() > 0.0)) {
       throw InvalidInput("up is no direction: it is zero or not finite");
     }
+    if (options.straighten && std::isnan(*options.straighten)) throw InvalidInput("straighten is not a number");
     if (options.start.empty()) return;
     if (options.start.size() != surface.face_count()) {
       throw InvalidInput("start has " + std::to_string(options.start.size()) + " items: there are " +

@@ -108,7 +108,7 @@ Point2 along_axis(const Point2& direction) {
 
 void turn_upright(const Island& island, std::span<const Vector> points, const Vector& up, bool is_straight,
                   std::vector<Point2>& map) {
-  Point2 direction = mean_direction(island, points, up.normalized(), map);
+  Point2 direction = mean_direction(island, points, up.stableNormalized(), map);
   if (!(direction.norm() >= kLeastUp)) direction = longest_direction(map);
   if (!(direction.norm() > 0.0)) return;
   if (!is_straight) {

@@ -18,6 +18,7 @@
 #include "detail/edge_chains.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
+#include "detail/text.hpp"
 #include "parts/parting_cuts.hpp"
 #include "prices/border_odds.hpp"
 #include "prices/plan_mesh.hpp"
@@ -248,14 +249,18 @@ std::vector<Edge> sorted_edges(const std::vector<Edge>& edges, std::size_t verte
 }
 
 /// The mirror image of each polygon, by the images of its vertices; -1 without an image.
-std::vector<std::int32_t> images_of(const PlanMesh& mesh, const Polygons& polygons, const Reflection& reflection) {
+std::vector<std::int32_t> images_of(const PlanMesh& mesh, const Polygons& polygons, const Reflection& reflection,
+                                    const Task& task) {
+  Poll poll(task, 0.0, 0.0, 1);
   std::vector<std::vector<std::int32_t>> corners(polygons.count);
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    poll.next();
     std::vector<std::int32_t>& own = corners[polygons.of_face[f]];
     own.insert(own.end(), mesh.triangles[f].begin(), mesh.triangles[f].end());
   }
   std::map<std::vector<std::int32_t>, std::int32_t> by_corners;
   for (std::size_t p = 0; p < corners.size(); ++p) {
+    poll.next();
     std::vector<std::int32_t>& own = corners[p];
     std::ranges::sort(own);
     own.erase(std::unique(own.begin(), own.end()), own.end());  // Clang 14 cannot read std::ranges::unique
@@ -263,6 +268,7 @@ std::vector<std::int32_t> images_of(const PlanMesh& mesh, const Polygons& polygo
   }
   std::vector<std::int32_t> images;
   for (std::vector<std::int32_t> own : corners) {
+    poll.next();
     for (std::int32_t& v : own) v = reflection.images[v];
     std::ranges::sort(own);
     const auto found = by_corners.find(own);
@@ -309,13 +315,13 @@ void PartFinder::Impl::prepare(const Task& task) {
   if (options.mirror < -1 || options.mirror > 2) {
     throw InvalidInput("mirror is " + std::to_string(options.mirror) + ", not an axis from 0 to 2, or -1");
   }
-  problem.mesh = plan_mesh(*surface);
+  problem.mesh = plan_mesh(*surface, task);
   const PlanMesh& mesh = problem.mesh;
   problem.is_seam = marked(options.seams, "seams");
   const std::vector<std::uint8_t> is_marked = marked(options.marked, "marked");
   if (options.mirror >= 0) problem.reflection = find_reflection(mesh, options.mirror, part_of(task, 0.0, 0.2));
-  const std::vector<FaceFrame> frames = face_frames(mesh);
-  sizes = measure_pieces(mesh, frames);
+  const std::vector<FaceFrame> frames = face_frames(mesh, task);
+  sizes = measure_pieces(mesh, frames, task);
   std::vector<double> size_at(mesh.vertex_count(), 0.0);  // the root of the area of each vertex's piece
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
     for (const std::int32_t v : mesh.triangles[f]) size_at[v] = std::sqrt(sizes.of_piece[sizes.pieces.of_face[f]].area);
@@ -324,11 +330,11 @@ void PartFinder::Impl::prepare(const Task& task) {
       find_visibility(mesh, std::nullopt, part_of(task, 0.2, 0.8), size_at, tuning::kMostLooks);
   std::vector<std::uint8_t> is_border = problem.is_seam;
   for (std::size_t e = 0; e < is_border.size(); ++e) is_border[e] |= is_marked[e];
-  polygons = find_polygons(mesh, frames, is_border);
+  polygons = find_polygons(mesh, frames, is_border, task);
   task.check(0.85);
-  bends = bends_over_edges(mesh, frames, polygons, sizes);
-  odds =
-      border_odds(mesh, polygons, sizes, bends, visibility.ambient, is_marked, problem.mirror(), tuning::kPartOnPlane);
+  bends = bends_over_edges(mesh, frames, polygons, sizes, task);
+  odds = border_odds(mesh, polygons, sizes, bends, visibility.ambient, is_marked, problem.mirror(),
+                     tuning::kPartOnPlane, task);
   task.check(0.95);
   regions.resize(polygons.count);
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
@@ -339,10 +345,12 @@ void PartFinder::Impl::prepare(const Task& task) {
     own.least_area = tuning::kLeastPart * area / (diagonal * diagonal);
   }
   if (problem.reflection) {
-    const std::vector<std::int32_t> images = images_of(mesh, polygons, *problem.reflection);
+    const std::vector<std::int32_t> images = images_of(mesh, polygons, *problem.reflection, task);
     for (std::size_t p = 0; p < images.size(); ++p) regions[p].image = images[p];
   }
+  const Poll poll(task, 0.0, 0.0, 1);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    poll.at(index(e));
     problem.prices.of_edge.push_back(mesh.is_real[e] == 0 ? kInfinity : price_of_cut(odds[e]) * mesh.lengths[e]);
   }
 }
@@ -385,11 +393,16 @@ std::vector<std::uint8_t> PartFinder::Impl::edited(const std::vector<Edge>& edge
 /// The region of each polygon.
 std::vector<std::int32_t> PartFinder::Impl::joined(double amount, const PartEdits& edits, const Task& task) const {
   const PlanMesh& mesh = problem.mesh;
-  const std::vector<std::uint8_t> is_kept = edited(edits.kept, "kept"), is_dropped = edited(edits.dropped, "dropped");
+  task.check(0.0);
+  const std::vector<std::uint8_t> is_kept = edited(edits.kept, "kept");
+  task.check(0.0);
+  const std::vector<std::uint8_t> is_dropped = edited(edits.dropped, "dropped");
+  const Poll poll(task, 0.0, 0.0, 1);
   const double bias = amount > 0.0 ? bias_of(amount) : -kInfinity;
   std::vector<RegionBorder> found;
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
+    poll.at(index(e));
     if (twin < 0 || problem.is_seam[e] != 0 || polygons.is_diagonal[e] != 0) continue;
     double own = std::clamp(odds[e] + bias, -tuning::kMostOdds, tuning::kMostOdds);
     if (is_dropped[e] != 0) own = -kEditOdds;
@@ -427,8 +440,7 @@ std::vector<std::uint8_t> PartFinder::Impl::borders(double amount, const PartEdi
     const auto own = std::ranges::find(mesh.faces, face);
     if (own == mesh.faces.end()) continue;
     parted.is_seam = is_border;
-    find_pieces_of(parted);
-    cutting.check(0.0);
+    find_pieces_of(parted, part_of(cutting, 0.0, 0.0));
     std::vector<std::uint8_t> is_cut(mesh.edge_count(), 0);
     mark_half(parted, parted.pieces.of_face[own - mesh.faces.begin()], is_cut, cutting);
     for (std::size_t e = 0; e < is_cut.size(); ++e) is_border[e] |= is_cut[e];
@@ -442,13 +454,13 @@ PartFinder::PartFinder(std::shared_ptr<const Surface> surface, const PartOptions
   auto impl = std::make_shared<Impl>();
   impl->surface = std::move(surface);
   impl->options = options;
-  impl->prepare(task);
+  impl->prepare(RisingProgress(task).task());
   impl_ = std::move(impl);
 }
 
 Parts PartFinder::find(double amount, const PartEdits& edits, const Task& task) const {
   if (!(amount >= 0.0 && amount <= 1.0)) {
-    throw InvalidInput("amount is " + std::to_string(amount) + ", not from 0 to 1");
+    throw InvalidInput("amount is " + text(amount) + ", not from 0 to 1");
   }
   const Impl& impl = *impl_;
   const PlanMesh& mesh = impl.problem.mesh;
@@ -461,9 +473,11 @@ Parts PartFinder::find(double amount, const PartEdits& edits, const Task& task) 
     borders.push_back(ascending(mesh.sources[mesh.tail(h)], mesh.sources[mesh.tip(h)]));
   }
   std::ranges::sort(borders);
+  task.check(kParted);
   Parts parts;
   parts.borders = chains_of(impl.surface->vertex_count(), borders, impl.seams());
   borders.insert(borders.end(), impl.options.seams.begin(), impl.options.seams.end());
+  task.check(kParted);
   parts.of_face = face_segments(*impl.surface, borders);
   for (const std::int32_t part : parts.of_face) parts.count = std::max(parts.count, index(part) + 1);
   return parts;

@@ -524,12 +524,13 @@ std::vector<Slit> slits_along(const PlanMesh& mesh, std::span<const std::uint8_t
 /// Marks the rims of regions in some pieces. Triangles on both sides of an edge belong to the same region if the
 /// surface bends there by less than `degrees`.
 void mark_rims(const SlitProblem& problem, std::span<const std::int32_t> pieces, double degrees,
-               std::vector<std::uint8_t>& is_marked) {
+               std::vector<std::uint8_t>& is_marked, const Task& task) {
   const PlanMesh& mesh = problem.mesh;
-  const std::vector<FaceFrame> frames = face_frames(mesh);
+  const std::vector<FaceFrame> frames = face_frames(mesh, task);
   const double least_cosine = std::cos(degrees * std::numbers::pi / 180.0);
   DisjointSets regions(mesh.face_count());
   for (const std::int32_t p : pieces) {
+    task.check(0.0);
     const SlitProblem::Piece& piece = problem.by_piece[p];
     std::vector<std::int32_t> inner;  // half-edges between two triangles of the piece
     for (const std::int32_t f : piece.faces) {
@@ -572,9 +573,11 @@ bool mark_half(const SlitProblem& problem, std::int32_t piece, std::vector<std::
   return !cut.empty();
 }
 
-std::vector<Slit> rim_cuts(const SlitProblem& problem, std::span<const std::int32_t> pieces) {
+std::vector<Slit> rim_cuts(const SlitProblem& problem, std::span<const std::int32_t> pieces, const Task& task) {
   std::vector<std::uint8_t> is_marked(problem.mesh.edge_count(), 0);
-  for (const double degrees : {tuning::kFlatBelow, tuning::kHardSharp}) mark_rims(problem, pieces, degrees, is_marked);
+  for (const double degrees : {tuning::kFlatBelow, tuning::kHardSharp}) {
+    mark_rims(problem, pieces, degrees, is_marked, task);
+  }
   return slits_along(problem.mesh, is_marked);
 }
 
@@ -595,7 +598,7 @@ std::vector<Slit> halving_cuts(SlitProblem problem, std::size_t count, const Tas
     std::ranges::stable_sort(order, std::ranges::greater(), [&](std::int32_t p) { return problem.by_piece[p].area; });
     if (std::ranges::none_of(order, [&](std::int32_t p) { return mark_half(problem, p, is_marked, own); })) break;
     for (std::size_t e = 0; e < is_marked.size(); ++e) problem.is_seam[e] |= is_marked[e];
-    find_pieces_of(problem);
+    find_pieces_of(problem, own);
   }
   return slits_along(problem.mesh, is_marked);
 }

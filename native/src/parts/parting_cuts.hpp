@@ -18,7 +18,7 @@ bool mark_half(const SlitProblem& problem, std::int32_t piece, std::vector<std::
 
 /// Cuts along the rims of large regions that are flat, or that sharp edges surround, such as the ends of a cylinder. A
 /// rim with many corners needs this: a slit to each corner would be too many. `pieces`: the pieces in which to look.
-std::vector<Slit> rim_cuts(const SlitProblem& problem, std::span<const std::int32_t> pieces);
+std::vector<Slit> rim_cuts(const SlitProblem& problem, std::span<const std::int32_t> pieces, const Task& task);
 
 /// How many pieces the problem's pieces can be parted into at most, with seams wherever they may run.
 std::size_t count_blocks(const SlitProblem& problem);

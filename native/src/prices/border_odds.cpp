@@ -12,6 +12,7 @@
 #include "detail/csr.hpp"
 #include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
+#include "detail/poll.hpp"
 #include "tuning/constants.hpp"
 
 namespace seamwire::detail {
@@ -139,7 +140,8 @@ std::vector<double> sharpest_beside(const PlanMesh& mesh, const Polygons& polygo
 }
 
 /// Whether the surface bends on alike at the opposite edges of both polygons beside an edge, as around a tube.
-std::vector<std::uint8_t> are_round(const PlanMesh& mesh, const Polygons& polygons, std::span<const double> bends) {
+std::vector<std::uint8_t> are_round(const PlanMesh& mesh, const Polygons& polygons, std::span<const double> bends,
+                                    const Task& task) {
   constexpr double kAlike = 2.0;
   std::vector<std::pair<std::int32_t, std::int32_t>> sides;
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
@@ -152,7 +154,9 @@ std::vector<std::uint8_t> are_round(const PlanMesh& mesh, const Polygons& polygo
            mesh.tip(g) == mesh.tip(h);
   };
   std::vector<std::uint8_t> found(mesh.edge_count(), 0);
+  const Poll poll(task, 0.0, 0.0, 1);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    poll.at(index(e));
     if (polygons.is_diagonal[e] != 0 || mesh.is_boundary(e)) continue;
     bool is_round = true;
     for_sides(mesh, polygons, e, [&](std::int32_t p) {
@@ -194,12 +198,14 @@ void make_symmetric(const PlanMesh& mesh, const Polygons& polygons, const Reflec
 
 }  // namespace
 
-Polygons find_polygons(const PlanMesh& mesh, std::span<const FaceFrame> frames,
-                       std::span<const std::uint8_t> is_border) {
+Polygons find_polygons(const PlanMesh& mesh, std::span<const FaceFrame> frames, std::span<const std::uint8_t> is_border,
+                       const Task& task) {
+  Poll poll(task, 0.0, 0.0, 1);
   DisjointSets sets(mesh.face_count());
   std::vector<std::uint8_t> is_alone(mesh.face_count(), 1);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
+    poll.next();
     if (mesh.is_real[e] != 0 || twin < 0) continue;
     sets.join(h / 3, twin / 3);
     is_alone[h / 3] = is_alone[twin / 3] = 0;
@@ -207,13 +213,18 @@ Polygons find_polygons(const PlanMesh& mesh, std::span<const FaceFrame> frames,
   std::vector<std::tuple<double, std::int32_t>> pairs;
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
+    poll.next();
     if (twin < 0 || is_alone[h / 3] == 0 || is_alone[twin / 3] == 0) continue;
     if (!is_border.empty() && is_border[e] != 0) continue;
     const double skew = skew_of(mesh, frames, h);
     if (skew != kInfinity) pairs.emplace_back(skew, e);
   }
-  std::ranges::sort(pairs);
+  std::ranges::sort(pairs, [&](const auto& one, const auto& other) {
+    poll.next();
+    return one < other;
+  });
   for (const auto& [skew, e] : pairs) {
+    poll.next();
     const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
     if (is_alone[h / 3] == 0 || is_alone[twin / 3] == 0) continue;
     sets.join(h / 3, twin / 3);
@@ -228,7 +239,8 @@ Polygons find_polygons(const PlanMesh& mesh, std::span<const FaceFrame> frames,
   return found;
 }
 
-EdgeLines find_lines(const PlanMesh& mesh, const Polygons& polygons) {
+EdgeLines find_lines(const PlanMesh& mesh, const Polygons& polygons, const Task& task) {
+  Poll poll(task, 0.0, 0.0, 1, Poll::kFewSteps);
   const auto sides = [&](std::int32_t e) {
     const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
     return std::array{polygons.of_face[h / 3], twin < 0 ? -1 : polygons.of_face[twin / 3]};
@@ -244,6 +256,7 @@ EdgeLines find_lines(const PlanMesh& mesh, const Polygons& polygons) {
   std::vector<std::int32_t> choice;
   const auto end_at = [&](std::int32_t e, std::int32_t v) { return mesh.tail(mesh.half_edge_of[e]) == v ? 0 : 1; };
   for (std::int32_t v = 0; index(v) < mesh.vertex_count(); ++v) {
+    poll.next();
     around.clear();
     for (const PlanNeighbor& neighbor : mesh.neighbors[v]) {
       if (polygons.is_diagonal[neighbor.edge] == 0) around.push_back(neighbor);
@@ -276,6 +289,7 @@ EdgeLines find_lines(const PlanMesh& mesh, const Polygons& polygons) {
   }
   EdgeLines lines{.of_edge = std::vector<std::int32_t>(mesh.edge_count(), -1), .edges = {}};
   for (std::int32_t first = 0; index(first) < mesh.edge_count(); ++first) {
+    poll.next();
     if (polygons.is_diagonal[first] != 0 || lines.of_edge[first] >= 0) continue;
     const auto line = static_cast<std::int32_t>(lines.edges.size());
     lines.of_edge[first] = line;
@@ -300,11 +314,13 @@ EdgeLines find_lines(const PlanMesh& mesh, const Polygons& polygons) {
   return lines;
 }
 
-PieceSizes measure_pieces(const PlanMesh& mesh, std::span<const FaceFrame> frames) {
-  PieceSizes sizes{find_pieces(mesh, std::vector<std::uint8_t>(mesh.edge_count(), 0)), {}};
+PieceSizes measure_pieces(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Task& task) {
+  PieceSizes sizes{find_pieces(mesh, std::vector<std::uint8_t>(mesh.edge_count(), 0), task), {}};
   std::vector<Eigen::AlignedBox3d> boxes(index(sizes.pieces.count));
   sizes.of_piece.resize(boxes.size());
+  const Poll poll(task, 0.0, 0.0, 1);
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    poll.at(f);
     const std::int32_t piece = sizes.pieces.of_face[f];
     for (const std::int32_t v : mesh.triangles[f]) boxes[piece].extend(mesh.points[v]);
     sizes.of_piece[piece].area += frames[f].area;
@@ -314,10 +330,12 @@ PieceSizes measure_pieces(const PlanMesh& mesh, std::span<const FaceFrame> frame
 }
 
 EdgeBends bends_over_edges(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Polygons& polygons,
-                           const PieceSizes& sizes) {
+                           const PieceSizes& sizes, const Task& task) {
   EdgeBends found{std::vector<double>(mesh.edge_count(), 0.0), std::vector<double>(mesh.edge_count(), 0.0)};
   const BendFinder bends(mesh, frames);
+  const Poll poll(task, 0.0, 0.0, 1, Poll::kFewSteps);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    poll.at(index(e));
     if (mesh.is_boundary(e) || polygons.is_diagonal[e] != 0) continue;
     found.own[e] = bends.degrees(e);
     found.wide[e] = bends.wide_degrees(e, tuning::kWideReach * sizes.of_piece[sizes.piece_of(mesh, e)].diagonal);
@@ -327,14 +345,17 @@ EdgeBends bends_over_edges(const PlanMesh& mesh, std::span<const FaceFrame> fram
 
 std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, const PieceSizes& sizes,
                                 const EdgeBends& bends, std::span<const double> ambient,
-                                std::span<const std::uint8_t> is_marked, const Reflection* reflection,
-                                double on_plane) {
+                                std::span<const std::uint8_t> is_marked, const Reflection* reflection, double on_plane,
+                                const Task& task) {
   std::vector<double> sharp;
   for (const double bend : bends.own) sharp.push_back(std::abs(bend));
-  const std::vector<double> on_line = means_along(mesh, find_lines(mesh, polygons), sharp);
+  const std::vector<double> on_line = means_along(mesh, find_lines(mesh, polygons, task), sharp);
+  task.check(0.0);
   const std::vector<double> beside = sharpest_beside(mesh, polygons, sharp);
-  const std::vector<std::uint8_t> is_round = are_round(mesh, polygons, bends.own);
+  task.check(0.0);
+  const std::vector<std::uint8_t> is_round = are_round(mesh, polygons, bends.own, task);
   const std::vector<double> openness = openness_of(mesh, sizes, ambient);
+  task.check(0.0);
   const auto is_on_plane = [&](std::int32_t e) {
     const std::int32_t h = mesh.half_edge_of[e];
     return reflection != nullptr && reflection->sides[mesh.tail(h)] == 0 && reflection->sides[mesh.tip(h)] == 0;

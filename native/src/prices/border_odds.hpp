@@ -7,6 +7,7 @@
 
 #include "prices/plan_mesh.hpp"
 #include "prices/reflection.hpp"
+#include "seamwire/task.hpp"
 
 namespace seamwire::detail {
 
@@ -18,9 +19,9 @@ struct Polygons {
 };
 
 /// Finds the polygons: those that were triangulated, and pairs of other triangles that look like a quad, the best pairs
-/// first. `is_border`: of each edge, 1 if it cannot lie inside a quad; empty: all can.
+/// first. `is_border`: of each edge, 1 if it cannot lie inside a quad; empty: all can. Throws Cancelled.
 Polygons find_polygons(const PlanMesh& mesh, std::span<const FaceFrame> frames,
-                       std::span<const std::uint8_t> is_border = {});
+                       std::span<const std::uint8_t> is_border = {}, const Task& task = {});
 
 /// The lines that edges form. An edge goes on over a vertex to the edge on the other side if that is nearly straight
 /// and neither has a better continuation.
@@ -28,7 +29,7 @@ struct EdgeLines {
   std::vector<std::int32_t> of_edge;             ///< the line of each edge, -1 for diagonals
   std::vector<std::vector<std::int32_t>> edges;  ///< of each line, from end to end
 };
-EdgeLines find_lines(const PlanMesh& mesh, const Polygons& polygons);
+EdgeLines find_lines(const PlanMesh& mesh, const Polygons& polygons, const Task& task = {});
 
 /// How a surface bends over each edge, in degrees; 0 on the boundary and inside polygons.
 struct EdgeBends {
@@ -48,19 +49,21 @@ struct PieceSizes {
     return pieces.of_face[mesh.half_edge_of[edge] / 3];
   }
 };
-PieceSizes measure_pieces(const PlanMesh& mesh, std::span<const FaceFrame> frames);
+PieceSizes measure_pieces(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Task& task);
 
 EdgeBends bends_over_edges(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Polygons& polygons,
-                           const PieceSizes& sizes);
+                           const PieceSizes& sizes, const Task& task);
 
 /// The log odds of each edge of being a border between parts, up to a constant that says how many parts there are;
 /// -infinity inside polygons.
 ///
 /// `ambient`: of each vertex, as in Visibility. `is_marked`: of each edge, 1 where an artist expects a border.
 /// `reflection`: null if the mesh is not symmetric. `on_plane`: added where the surface bends over the mirror plane.
+/// Throws Cancelled.
 std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, const PieceSizes& sizes,
                                 const EdgeBends& bends, std::span<const double> ambient,
-                                std::span<const std::uint8_t> is_marked, const Reflection* reflection, double on_plane);
+                                std::span<const std::uint8_t> is_marked, const Reflection* reflection, double on_plane,
+                                const Task& task);
 
 /// Returns the price of a cut along an edge with these log odds, for each unit of length. It is minus the logarithm of
 /// the probability that the edge is a border, and a little more. Edges inside polygons cost the most.

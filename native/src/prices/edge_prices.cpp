@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "detail/index.hpp"
+#include "detail/poll.hpp"
 #include "prices/border_odds.hpp"
 #include "tuning/constants.hpp"
 
@@ -28,8 +29,8 @@ std::vector<double> normalized(std::vector<double> values, std::span<const doubl
 
 /// How visible each vertex is, the same on both sides of a symmetric mesh.
 std::vector<double> openness(const PlanMesh& mesh, const Visibility& visibility,
-                             const std::optional<Reflection>& reflection) {
-  const std::vector<double> areas = vertex_areas(mesh, face_frames(mesh));
+                             const std::optional<Reflection>& reflection, std::span<const FaceFrame> frames) {
+  const std::vector<double> areas = vertex_areas(mesh, frames);
   std::vector<double> open = normalized(visibility.ambient, areas);
   if (!visibility.front.empty()) {
     const std::vector<double> front = normalized(visibility.front, areas);
@@ -54,13 +55,16 @@ double price_at(double open) {
 }
 
 /// The price of a seam along each edge for its length, by the shape of the surface. It is 1 in a flat place.
-std::vector<double> shape_prices(const PlanMesh& mesh, const EdgeBends& bends, std::span<const double> odds) {
+std::vector<double> shape_prices(const PlanMesh& mesh, const EdgeBends& bends, std::span<const double> odds,
+                                 const Task& task) {
   const auto middle = [&](std::int32_t h) {
     const auto& [a, b, c] = mesh.triangles[h / 3];
     return Vector((mesh.points[a] + mesh.points[b] + mesh.points[c]) / 3.0);
   };
   std::vector<double> prices;
+  const Poll poll(task, 0.0, 0.0, 1);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    poll.at(index(e));
     const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
     const double width = twin < 0 ? 0.0 : (middle(twin) - middle(h)).norm();
     const double curvature = width > 0.0 ? std::abs(bends.own[e]) * std::numbers::pi / 180.0 / width : 0.0;
@@ -89,25 +93,27 @@ double hardness(const PlanMesh& mesh, std::span<const double> bends) {
 }  // namespace
 
 EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const std::optional<Reflection>& reflection,
-                       std::span<const double> weights) {
-  EdgePrices prices{.of_edge = {}, .visibility = openness(mesh, visibility, reflection), .is_exposed = {}};
-  const std::vector<FaceFrame> frames = face_frames(mesh);
-  const Polygons polygons = find_polygons(mesh, frames);
-  const PieceSizes sizes = measure_pieces(mesh, frames);
-  const EdgeBends bends = bends_over_edges(mesh, frames, polygons, sizes);
+                       std::span<const double> weights, const Task& task) {
+  const std::vector<FaceFrame> frames = face_frames(mesh, task);
+  EdgePrices prices{.of_edge = {}, .visibility = openness(mesh, visibility, reflection, frames), .is_exposed = {}};
+  const Polygons polygons = find_polygons(mesh, frames, {}, task);
+  const PieceSizes sizes = measure_pieces(mesh, frames, task);
+  const EdgeBends bends = bends_over_edges(mesh, frames, polygons, sizes, task);
   // Openness is in the price of a place, so it must not count twice.
   const std::vector<double> even(mesh.vertex_count(), 1.0);
   const std::vector<std::uint8_t> none(mesh.edge_count(), 0);
-  const std::vector<double> odds =
-      border_odds(mesh, polygons, sizes, bends, even, none, reflection ? &*reflection : nullptr, tuning::kSlitOnPlane);
-  const std::vector<double> shapes = shape_prices(mesh, bends, odds);
+  const std::vector<double> odds = border_odds(mesh, polygons, sizes, bends, even, none,
+                                               reflection ? &*reflection : nullptr, tuning::kSlitOnPlane, task);
+  const std::vector<double> shapes = shape_prices(mesh, bends, odds, task);
   // On machine parts sharp edges hide seams on every side, and no place is exposed.
   const double hard = hardness(mesh, bends.own);
   for (const double open : prices.visibility) {
     prices.is_exposed.push_back(open >= tuning::kExposed + tuning::kExposedWidth && hard < 0.5 ? 1 : 0);
   }
   double sum = 0.0, length = 0.0;
+  const Poll poll(task, 0.0, 0.0, 1);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    poll.at(index(e));
     const std::int32_t a = mesh.tail(mesh.half_edge_of[e]), b = mesh.tip(mesh.half_edge_of[e]);
     const double seen = 0.5 * (price_at(prices.visibility[a]) + price_at(prices.visibility[b]));
     const double weight = weights.empty() ? 1.0 : 0.5 * (weights[a] + weights[b]);
@@ -121,6 +127,7 @@ EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const
   if (reflection && reflection->is_exact) {
     const std::vector<double> own = prices.of_edge;
     for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+      poll.at(index(e));
       const std::int32_t image = image_of_edge(mesh, *reflection, e);
       if (image < 0) continue;
       const bool is_barred = own[e] == kInfinity || own[image] == kInfinity;

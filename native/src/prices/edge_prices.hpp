@@ -10,6 +10,7 @@
 #include "prices/plan_mesh.hpp"
 #include "prices/reflection.hpp"
 #include "prices/visibility.hpp"
+#include "seamwire/task.hpp"
 
 namespace seamwire::detail {
 
@@ -29,8 +30,8 @@ struct EdgePrices {
   double bargain = kInfinity;
 };
 
-/// `weights`: factors at vertices of the mesh; empty: 1 everywhere. Infinity keeps seams away.
+/// `weights`: factors at vertices of the mesh; empty: 1 everywhere. Infinity keeps seams away. Throws Cancelled.
 EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const std::optional<Reflection>& reflection,
-                       std::span<const double> weights);
+                       std::span<const double> weights, const Task& task = {});
 
 }  // namespace seamwire::detail

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "detail/index.hpp"
+#include "detail/poll.hpp"
 #include "surface/corner_fans.hpp"
 #include "surface/joined_faces.hpp"
 
@@ -20,11 +21,13 @@ std::int32_t PlanMesh::edge_between(std::int32_t a, std::int32_t b) const {
   return found;
 }
 
-void connect(PlanMesh& mesh, std::span<const Edge> real_edges) {
+void connect(PlanMesh& mesh, std::optional<std::span<const Edge>> real_edges, const Task& task) {
+  Poll poll(task, 0.0, 0.0, 1);
   const std::size_t half_edges = mesh.twins.size();
   mesh.edge_of.assign(half_edges, -1);
   mesh.half_edge_of.clear();
   for (std::int32_t h = 0; index(h) < half_edges; ++h) {
+    poll.next();
     if (mesh.edge_of[h] >= 0) continue;
     mesh.edge_of[h] = static_cast<std::int32_t>(mesh.half_edge_of.size());
     if (mesh.twins[h] >= 0) mesh.edge_of[mesh.twins[h]] = mesh.edge_of[h];
@@ -34,11 +37,12 @@ void connect(PlanMesh& mesh, std::span<const Edge> real_edges) {
   mesh.is_real.clear();
   std::vector<std::pair<std::int32_t, PlanNeighbor>> neighbors, all_neighbors;
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    poll.next();
     const std::int32_t a = mesh.tail(mesh.half_edge_of[e]), b = mesh.tip(mesh.half_edge_of[e]);
     mesh.lengths.push_back((mesh.points[b] - mesh.points[a]).norm());
     const std::int32_t one = mesh.sources[a], other = mesh.sources[b];
     const Edge edge{std::min(one, other), std::max(one, other)};
-    const bool is_real = a != b && (real_edges.empty() || std::ranges::binary_search(real_edges, edge));
+    const bool is_real = a != b && (!real_edges || std::ranges::binary_search(*real_edges, edge));
     mesh.is_real.push_back(is_real ? 1 : 0);
     for (auto* list : {&neighbors, &all_neighbors}) {
       if (list == &neighbors && !is_real) continue;
@@ -46,11 +50,20 @@ void connect(PlanMesh& mesh, std::span<const Edge> real_edges) {
       list->push_back({b, {a, e}});
     }
   }
-  mesh.neighbors = Csr<PlanNeighbor>(mesh.vertex_count(), neighbors);
-  mesh.all_neighbors = Csr<PlanNeighbor>(mesh.vertex_count(), all_neighbors);
+  const auto by_vertex = [&](const std::vector<std::pair<std::int32_t, PlanNeighbor>>& pairs) {
+    return Csr<PlanNeighbor>(mesh.vertex_count(), [&](const auto& visit) {
+      for (const auto& [vertex, neighbor] : pairs) {
+        poll.next();
+        visit(vertex, neighbor);
+      }
+    });
+  };
+  mesh.neighbors = by_vertex(neighbors);
+  mesh.all_neighbors = by_vertex(all_neighbors);
 }
 
-PlanMesh plan_mesh(const Surface& surface) {
+PlanMesh plan_mesh(const Surface& surface, const Task& task) {
+  task.check(0.0);
   PlanMesh mesh;
   mesh.triangles = corner_fans(surface).triangles;
   mesh.twins = corner_fans(surface).twins;
@@ -64,12 +77,12 @@ PlanMesh plan_mesh(const Surface& surface) {
   };
   put_points();
   double area = 0.0;
-  for (const FaceFrame& frame : face_frames(mesh)) area += frame.area;
+  for (const FaceFrame& frame : face_frames(mesh, task)) area += frame.area;
   if (area > 0.0) {
     mesh.scale /= std::sqrt(area);
     put_points();
   }
-  connect(mesh, surface.edges());
+  connect(mesh, surface.edges(), task);
   return mesh;
 }
 
@@ -80,16 +93,22 @@ FaceFrame face_frame(const PlanMesh& mesh, const Triangle& triangle) {
   return {size > 0.0 ? Vector(doubled / size) : Vector(Vector::Zero()), 0.5 * size};
 }
 
-std::vector<FaceFrame> face_frames(const PlanMesh& mesh) {
+std::vector<FaceFrame> face_frames(const PlanMesh& mesh, const Task& task) {
   std::vector<FaceFrame> frames;
   frames.reserve(mesh.face_count());
-  for (const Triangle& triangle : mesh.triangles) frames.push_back(face_frame(mesh, triangle));
+  Poll poll(task, 0.0, 0.0, 1);
+  for (const Triangle& triangle : mesh.triangles) {
+    poll.next();
+    frames.push_back(face_frame(mesh, triangle));
+  }
   return frames;
 }
 
-std::vector<Vector> vertex_normals(const PlanMesh& mesh, std::span<const FaceFrame> frames) {
+std::vector<Vector> vertex_normals(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Task& task) {
   std::vector<Vector> normals(mesh.vertex_count(), Vector::Zero());
+  const Poll poll(task, 0.0, 0.0, 1);
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    poll.at(f);
     const Triangle& t = mesh.triangles[f];
     for (std::size_t i = 0; i < 3; ++i) {
       const Vector one = mesh.points[t[(i + 1) % 3]] - mesh.points[t[i]];
@@ -120,8 +139,12 @@ double median_length(const PlanMesh& mesh) {
   return *middle;
 }
 
-Pieces find_pieces(const PlanMesh& mesh, std::span<const std::uint8_t> is_cut) {
-  DisjointSets sets = joined_faces(mesh, [&](std::int32_t h) { return is_cut[mesh.edge_of[h]] == 0; });
+Pieces find_pieces(const PlanMesh& mesh, std::span<const std::uint8_t> is_cut, const Task& task) {
+  Poll poll(task, 0.0, 0.0, 1);
+  DisjointSets sets = joined_faces(mesh, [&](std::int32_t h) {
+    poll.next();
+    return is_cut[mesh.edge_of[h]] == 0;
+  });
   auto [of_face, count] = sets.numbering();
   return {std::move(of_face), count};
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/surface/triangle_connectivity.hpp"
 #include "seamwire/surface/vector.hpp"
+#include "seamwire/task.hpp"
 
 namespace seamwire::detail {
 
@@ -42,12 +44,12 @@ struct PlanMesh : TriangleConnectivity {
 };
 
 /// The triangles of a surface without degenerate and duplicate ones. Vertices are the corner fans, so pieces that meet
-/// only in a vertex are apart.
-PlanMesh plan_mesh(const Surface& surface);
+/// only in a vertex are apart. Throws Cancelled.
+PlanMesh plan_mesh(const Surface& surface, const Task& task = {});
 
 /// Fills in edges, lengths and neighbors of a mesh whose points, triangles and twins are known. `real_edges`: between
-/// vertices of the mesh, sorted, the smaller vertex first; empty: all are real.
-void connect(PlanMesh& mesh, std::span<const Edge> real_edges);
+/// vertices of the mesh, sorted, the smaller vertex first; nullopt: all are real. Throws Cancelled.
+void connect(PlanMesh& mesh, std::optional<std::span<const Edge>> real_edges, const Task& task = {});
 
 /// Area and unit normal of a triangle; the normal of a triangle without area is zero.
 struct FaceFrame {
@@ -55,10 +57,11 @@ struct FaceFrame {
   double area = 0.0;
 };
 FaceFrame face_frame(const PlanMesh& mesh, const Triangle& triangle);
-std::vector<FaceFrame> face_frames(const PlanMesh& mesh);
+/// Throws Cancelled.
+std::vector<FaceFrame> face_frames(const PlanMesh& mesh, const Task& task = {});
 
-/// Unit normals at vertices, weighted by the angles at corners.
-std::vector<Vector> vertex_normals(const PlanMesh& mesh, std::span<const FaceFrame> frames);
+/// Unit normals at vertices, weighted by the angles at corners. Throws Cancelled.
+std::vector<Vector> vertex_normals(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Task& task = {});
 
 /// A third of the area of the triangles around each vertex.
 std::vector<double> vertex_areas(const PlanMesh& mesh, std::span<const FaceFrame> frames);
@@ -66,11 +69,12 @@ std::vector<double> vertex_areas(const PlanMesh& mesh, std::span<const FaceFrame
 /// The median length of the edges; 0 without edges.
 double median_length(const PlanMesh& mesh);
 
-/// The connected pieces of a mesh that is cut along some edges: the piece of each face, numbered by first faces.
+/// The connected pieces of a mesh that is cut along some edges: the piece of each face, numbered by first faces. Throws
+/// Cancelled.
 struct Pieces {
   std::vector<std::int32_t> of_face;
   std::int32_t count = 0;
 };
-Pieces find_pieces(const PlanMesh& mesh, std::span<const std::uint8_t> is_cut);
+Pieces find_pieces(const PlanMesh& mesh, std::span<const std::uint8_t> is_cut, const Task& task = {});
 
 }  // namespace seamwire::detail

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "detail/index.hpp"
+#include "detail/poll.hpp"
 #include "detail/run_on_threads.hpp"
 #include "seamwire/surface/ray_tree.hpp"
 #include "tuning/constants.hpp"
@@ -33,14 +34,16 @@ Vector by_cosine(int i, int count, const Vector& axis) {
 
 }  // namespace
 
-std::vector<std::int32_t> nearest_of(const PlanMesh& mesh, std::span<const std::int32_t> vertices) {
+std::vector<std::int32_t> nearest_of(const PlanMesh& mesh, std::span<const std::int32_t> vertices, const Task& task) {
   std::vector<std::int32_t> nearest(mesh.vertex_count(), -1);
   std::vector<std::int32_t> open;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     nearest[vertices[i]] = static_cast<std::int32_t>(i);
     open.push_back(vertices[i]);
   }
+  const Poll poll(task, 1.0, 1.0, 1);
   for (std::size_t i = 0; i < open.size(); ++i) {
+    poll.at(i);
     for (const PlanNeighbor& next : mesh.all_neighbors[open[i]]) {
       if (nearest[next.vertex] >= 0) continue;
       nearest[next.vertex] = nearest[open[i]];
@@ -55,10 +58,10 @@ Visibility find_visibility(const PlanMesh& mesh, const std::optional<Vector>& fr
   constexpr double kAbove = 2e-3;  // start this far above a part of area 1, to miss the faces around the vertex
   const RayTree rays(mesh.points, mesh.triangles);
   rays.wait(task);
-  const std::vector<Vector> normals = vertex_normals(mesh, face_frames(mesh));
+  const std::vector<Vector> normals = vertex_normals(mesh, face_frames(mesh, task), task);
   std::vector<Vector> views;
   for (int i = 0; front && i < tuning::kViews; ++i) {
-    views.push_back(on_hemisphere(i, tuning::kViews, front->normalized()));
+    views.push_back(on_hemisphere(i, tuning::kViews, front->stableNormalized()));
   }
   Visibility found;
   found.ambient.assign(mesh.vertex_count(), 1.0);
@@ -89,7 +92,7 @@ Visibility find_visibility(const PlanMesh& mesh, const std::optional<Vector>& fr
         for (std::size_t i = block * kBlock; i < end; ++i) look(index(chosen[i]));
       });
   if (step == 1) return found;
-  const std::vector<std::int32_t> nearest = nearest_of(mesh, chosen);
+  const std::vector<std::int32_t> nearest = nearest_of(mesh, chosen, task);
   for (std::vector<double>* values : {&found.front, &found.ambient}) {
     for (std::size_t v = 0; v < values->size(); ++v) {
       if (nearest[v] >= 0) (*values)[v] = (*values)[chosen[nearest[v]]];

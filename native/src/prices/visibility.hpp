@@ -27,7 +27,8 @@ Visibility find_visibility(const PlanMesh& mesh, const std::optional<Vector>& fr
                            std::span<const double> sizes = {},
                            std::size_t most = std::numeric_limits<std::size_t>::max());
 
-/// For each vertex the nearest of some vertices, along edges: its place among them; -1 if no edges lead there.
-std::vector<std::int32_t> nearest_of(const PlanMesh& mesh, std::span<const std::int32_t> vertices);
+/// For each vertex the nearest of some vertices, along edges: its place among them; -1 if no edges lead there. Throws
+/// Cancelled.
+std::vector<std::int32_t> nearest_of(const PlanMesh& mesh, std::span<const std::int32_t> vertices, const Task& task);
 
 }  // namespace seamwire::detail

@@ -43,9 +43,9 @@ std::pair<double, double> rank(const GroupPlanning::Result& solved, double bound
 }
 
 /// A problem with slits as its seams.
-SlitProblem with_seams(SlitProblem problem, std::span<const Slit> slits) {
+SlitProblem with_seams(SlitProblem problem, std::span<const Slit> slits, const Task& task) {
   problem.is_seam = cut_of(problem, slits, {}).is_cut;
-  find_pieces_of(problem);
+  find_pieces_of(problem, task);
   return problem;
 }
 
@@ -84,36 +84,36 @@ double GroupProblem::counted_area() const {
   return counted > 0.0 ? static_cast<double>(places.size()) * size * size * share : 0.0;
 }
 
-void GroupPlanning::part(const std::vector<NeckRing>& rings) {
+void GroupPlanning::part(const std::vector<NeckRing>& rings, const Task& task) {
   std::vector<Slit> slits;
   for (const NeckRing& ring : rings) {
     for (Slit& slit : slits_of(ring)) slits.push_back(std::move(slit));
   }
-  add_rings(std::move(slits));
+  add_rings(std::move(slits), task);
 }
 
 void GroupPlanning::halve(std::size_t count, const Task& task) {
   least_pieces_ = count;
-  add_rings(halving_cuts(problem(), count, task));
+  add_rings(halving_cuts(problem(), count, task), task);
 }
 
 std::size_t GroupPlanning::most_pieces() const { return count_blocks(problem()); }
 
-void GroupPlanning::add_rings(std::vector<Slit> rings) {
+void GroupPlanning::add_rings(std::vector<Slit> rings, const Task& task) {
   if (rings.empty()) return;
   std::ranges::move(rings, std::back_inserter(rings_));
-  parted_ = with_seams(group_->searched(level_), rings_);
+  parted_ = with_seams(group_->searched(level_), rings_, task);
 }
 
 void GroupPlanning::grow(bool has_tips, const Task& task) {
   SlitTree tree = grow_tree(problem(), has_tips, part_of(task, 0.0, 0.5));
   roots_ = std::move(tree.roots);
   start_ = SlitSolver(problem(), roots_).solve(std::move(tree.slits), part_of(task, 0.5, 1.0));
-  show(start_);
+  show(start_, task);
 }
 
-void GroupPlanning::show(const SlitPlan& plan) {
-  result_ = {.slits = on_original(plan.slits),
+void GroupPlanning::show(const SlitPlan& plan, const Task& task) {
+  result_ = {.slits = on_original(plan.slits, task),
              .energy = plan.energy,
              .price = plan.price,
              .overlaps = plan.overlaps,
@@ -127,10 +127,10 @@ void GroupPlanning::search(const SlitGoal& goal, const std::function<void()>& fo
   // it is also parted into halves.
   for (int round = 0; round <= tuning::kHalvings && !result_.is_within(goal.energy); ++round) {
     if (round > 0 && std::isfinite(result_.energy)) return;
-    std::vector<Slit> cuts =
-        round == 0 ? rim_cuts(problem(), missed_) : halving_cuts(problem(), 2 * index(problem().pieces.count), task);
+    std::vector<Slit> cuts = round == 0 ? rim_cuts(problem(), missed_, task)
+                                        : halving_cuts(problem(), 2 * index(problem().pieces.count), task);
     if (cuts.empty()) continue;
-    add_rings(std::move(cuts));
+    add_rings(std::move(cuts), task);
     const Result before = std::move(result_);
     // How many searches follow is not known: each takes half of what is left.
     const double begin = std::exchange(end, 0.5 * (end + 1.0)), grown = begin + kGrowing * (end - begin);
@@ -184,7 +184,7 @@ void GroupPlanning::search_once(const SlitGoal& goal, const std::function<void()
     bool is_start = true;  // which grow() has shown
     const auto tell = [&](const SlitPlan& plan) {
       if (std::exchange(is_start, false) || round > 0 || !found) return;
-      show(plan);
+      show(plan, task);
       found();
     };
     if (round > 0) start_ = SlitSolver(problem(), roots_).solve(std::move(start_.slits), next(0.0));
@@ -192,7 +192,7 @@ void GroupPlanning::search_once(const SlitGoal& goal, const std::function<void()
         search_slits(problem(), std::move(start_), roots_, aim, tell, next(work[index(round)].search));
     steps_ += plan.work;
     if (round == 0) missed_ = missed_pieces(plan, goal.energy);
-    std::vector<Slit> slits = completed(on_original(plan.slits), plan.slits);
+    std::vector<Slit> slits = completed(on_original(plan.slits, task), plan.slits, task);
     // The moved bound has given the same slits. Another round would rarely give others.
     if (round > 0 && std::ranges::equal(slits, last, is_same)) break;
     last = slits;
@@ -213,7 +213,7 @@ void GroupPlanning::search_once(const SlitGoal& goal, const std::function<void()
   result_ = std::move(best);
 }
 
-std::vector<Slit> GroupPlanning::on_original(const std::vector<Slit>& slits) const {
+std::vector<Slit> GroupPlanning::on_original(const std::vector<Slit>& slits, const Task& task) const {
   std::vector<Slit> all = rings_;
   all.insert(all.end(), slits.begin(), slits.end());
   const GroupProblem::Simplified* simple = group_->simplified_at(level_);
@@ -221,18 +221,20 @@ std::vector<Slit> GroupPlanning::on_original(const std::vector<Slit>& slits) con
   all = carried_slits(problem(), simple->vertices, group_->original, all);
   // A closed cut may not have been carried whole.
   if (least_pieces_ > 0) {
-    std::ranges::move(halving_cuts(with_seams(group_->original, all), least_pieces_, {}), std::back_inserter(all));
+    std::ranges::move(halving_cuts(with_seams(group_->original, all, task), least_pieces_, task),
+                      std::back_inserter(all));
   }
   return all;
 }
 
 /// Adds the cuts that pieces of the original mesh need where slits were not carried whole. `simple`: the slits that
 /// were carried, beside the rings.
-std::vector<Slit> GroupPlanning::completed(std::vector<Slit> slits, const std::vector<Slit>& simple) const {
+std::vector<Slit> GroupPlanning::completed(std::vector<Slit> slits, const std::vector<Slit>& simple,
+                                           const Task& task) const {
   if (group_->simplified_at(level_) == nullptr) return slits;
-  const SlitProblem original = with_seams(group_->original, slits);
-  if (missing_cuts_of(original) > missing_cuts_of(with_seams(problem(), simple))) {
-    std::ranges::move(grow_tree(original, false, {}).slits, std::back_inserter(slits));
+  const SlitProblem original = with_seams(group_->original, slits, task);
+  if (missing_cuts_of(original) > missing_cuts_of(with_seams(problem(), simple, task))) {
+    std::ranges::move(grow_tree(original, false, part_of(task, 0.0, 0.0)).slits, std::back_inserter(slits));
   }
   return slits;
 }

@@ -66,7 +66,7 @@ class GroupPlanning {
   std::vector<NeckRing> necks(const Task& task) const { return find_necks(problem(), task); }
   std::int32_t piece_count() const { return problem().pieces.count; }
   /// Cuts along rings.
-  void part(const std::vector<NeckRing>& rings);
+  void part(const std::vector<NeckRing>& rings, const Task& task);
   /// Cuts pieces into halves until there are so many, see halving_cuts().
   void halve(std::size_t count, const Task& task);
   /// How many pieces there can be at most.
@@ -90,15 +90,15 @@ class GroupPlanning {
   double steps() const { return steps_; }
 
  private:
-  void add_rings(std::vector<Slit> rings);
+  void add_rings(std::vector<Slit> rings, const Task& task);
   void search_levels(const SlitGoal& goal, const std::function<void()>& found, const Task& task);
   void search_once(const SlitGoal& goal, const std::function<void()>& found, const Task& task);
   std::vector<std::int32_t> missed_pieces(const SlitPlan& plan, double bound) const;
   const SlitProblem& problem() const { return parted_ ? *parted_ : group_->searched(level_); }
-  std::vector<Slit> on_original(const std::vector<Slit>& slits) const;
-  std::vector<Slit> completed(std::vector<Slit> slits, const std::vector<Slit>& simple) const;
+  std::vector<Slit> on_original(const std::vector<Slit>& slits, const Task& task) const;
+  std::vector<Slit> completed(std::vector<Slit> slits, const std::vector<Slit>& simple, const Task& task) const;
   Result solved_on_original(std::vector<Slit> slits, const Task& task) const;
-  void show(const SlitPlan& plan);
+  void show(const SlitPlan& plan, const Task& task);
 
   const GroupProblem* group_;
   std::size_t level_ = 0;  // of the mesh that is searched

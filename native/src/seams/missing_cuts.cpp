@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "detail/index.hpp"
 #include "parameterization/cut_open.hpp"
@@ -27,13 +28,15 @@ std::vector<std::int32_t> missing_cuts(const Surface& surface, std::span<const E
   const Cuts cuts(surface, cut_edges, "cut_edges");
   const std::vector<std::int32_t>& faces = corner_fans(surface).faces;
   std::vector<std::int32_t> missing(index(count), 0);
+  std::vector<std::uint8_t> is_known(index(count), 0);
   for (const Island& part : cut_open(corner_fans(surface), cut_half_edges(surface, cuts))) {
     const std::int32_t segment = segments[faces[part.faces.front()]];
-    if (std::ranges::any_of(part.faces, [&](std::int32_t f) { return segments[faces[f]] != segment; })) {
+    if (std::exchange(is_known[segment], 1) != 0 ||
+        std::ranges::any_of(part.faces, [&](std::int32_t f) { return segments[faces[f]] != segment; })) {
       throw InvalidInput("segments: they are those of other cuts");
     }
     const bool is_closed = std::ranges::none_of(part.twins, [](std::int32_t twin) { return twin < 0; });
-    missing[segment] += static_cast<std::int32_t>((is_closed ? 3 : 1) - part.euler_characteristic());
+    missing[segment] = static_cast<std::int32_t>((is_closed ? 3 : 1) - part.euler_characteristic());
   }
   return missing;
 }

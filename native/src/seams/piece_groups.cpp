@@ -162,7 +162,7 @@ MeshPart MeshParts::part(std::span<const std::int32_t> faces) {
 
 std::vector<PieceGroup> find_groups(const PlanMesh& whole, std::span<const std::uint8_t> is_seam,
                                     const Reflection* reflection, MeshParts& parts, const Task& task) {
-  const Pieces pieces = find_pieces(whole, is_seam);
+  const Pieces pieces = find_pieces(whole, is_seam, task);
   const std::vector<std::vector<std::int32_t>> by_piece = faces_by(pieces.of_face, pieces.count);
   std::vector<PieceGroup> groups;
   if (reflection == nullptr || pieces.count < 2) {

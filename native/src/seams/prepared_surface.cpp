@@ -30,8 +30,8 @@ Visibility at_places(const Visibility& from, std::span<const std::int32_t> verti
 }
 
 /// The edges on the boundary and along seams, vertices of the surface.
-Rim rim_of(const PlanMesh& mesh, const std::vector<Edge>& seams) {
-  const std::vector<std::uint8_t> is_seam = marked_edges(mesh, seams);
+Rim rim_of(const PlanMesh& mesh, const std::vector<Edge>& seams, const Task& task) {
+  const std::vector<std::uint8_t> is_seam = marked_edges(mesh, seams, task);
   std::vector<Edge> rim;
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     const std::int32_t h = mesh.half_edge_of[e];
@@ -42,13 +42,15 @@ Rim rim_of(const PlanMesh& mesh, const std::vector<Edge>& seams) {
 
 }  // namespace
 
-std::vector<std::uint8_t> marked_edges(const PlanMesh& mesh, const std::vector<Edge>& seams) {
+std::vector<std::uint8_t> marked_edges(const PlanMesh& mesh, const std::vector<Edge>& seams, const Task& task) {
+  Poll poll(task, 0.0, 0.0, 1);
   std::vector<Edge> sorted;
   sorted.reserve(seams.size());
   for (const auto& [a, b] : seams) sorted.push_back({std::min(a, b), std::max(a, b)});
   std::ranges::sort(sorted);
   std::vector<std::uint8_t> is_seam;
   for (const std::int32_t h : mesh.half_edge_of) {
+    poll.next();
     const std::int32_t a = mesh.sources[mesh.tail(h)], b = mesh.sources[mesh.tip(h)];
     const bool is_inner = mesh.twins[h] >= 0;
     is_seam.push_back(is_inner && std::ranges::binary_search(sorted, Edge{std::min(a, b), std::max(a, b)}) ? 1 : 0);
@@ -60,10 +62,12 @@ PreparedSurface::PreparedSurface(const SurfaceContext& context, SeamPlannerOptio
     : surface(context.surface(task)), options(std::move(with)) {
   const double meshes_end = (options.along == Along::kSurface) ? 0.25 : 0.5;
   find_meshes(part_of(task, 0.0, meshes_end));
-  find_prices_of_all(visibility_of_all(part_of(task, meshes_end, 2.0 * meshes_end)));
-  join_copies();
-  wires = std::make_unique<const PlannedWires>(context, options.along, options.strength, rim_of(mesh(), options.seams),
-                                               part_of(task, 2.0 * meshes_end, 1.0));
+  const Visibility visibility = visibility_of_all(part_of(task, meshes_end, 2.0 * meshes_end));
+  const Task rest = part_of(task, 2.0 * meshes_end, 1.0);
+  find_prices_of_all(visibility, rest);
+  join_copies(rest);
+  wires = std::make_unique<const PlannedWires>(context, options.along, options.strength,
+                                               rim_of(mesh(), options.seams, rest), rest);
 }
 
 std::vector<double> PreparedSurface::weights_of(const PlanMesh& mesh) const {
@@ -75,8 +79,8 @@ std::vector<double> PreparedSurface::weights_of(const PlanMesh& mesh) const {
 
 /// Finds the groups and their meshes.
 void PreparedSurface::find_meshes(const Task& task) {
-  whole = plan_mesh(*surface);
-  std::vector<std::uint8_t> is_seam = marked_edges(whole, options.seams);
+  whole = plan_mesh(*surface, task);
+  std::vector<std::uint8_t> is_seam = marked_edges(whole, options.seams, task);
   std::optional<Reflection> reflection;
   if (options.mirror >= 0) reflection = find_reflection(whole, options.mirror, part_of(task, 0.0, 0.2));
   MeshParts parts(whole, is_seam, surface->edges());
@@ -162,7 +166,7 @@ Visibility PreparedSurface::visibility_of_all(const Task& task) const {
   return find_visibility(all, options.front, task, sizes);
 }
 
-void PreparedSurface::find_prices_of_all(const Visibility& visibility) {
+void PreparedSurface::find_prices_of_all(const Visibility& visibility, const Task& task) {
   std::size_t begin = 0;
   const auto part = [&](const std::vector<double>& values, std::size_t count) {
     if (values.empty()) return values;
@@ -175,23 +179,24 @@ void PreparedSurface::find_prices_of_all(const Visibility& visibility) {
                    .ambient = part(visibility.ambient, mesh.vertex_count())};
     begin += mesh.vertex_count();
     SlitProblem& original = group.original;
-    if (group.is_large) own = at_places(own, nearest_of(original.mesh, group.simplified.front().vertices));
+    if (group.is_large) own = at_places(own, nearest_of(original.mesh, group.simplified.front().vertices, task));
     for (GroupProblem::Simplified& simple : group.simplified) {
       SlitProblem& problem = simple.problem;
-      problem.prices =
-          find_prices(problem.mesh, at_places(own, simple.vertices), problem.reflection, weights_of(problem.mesh));
+      problem.prices = find_prices(problem.mesh, at_places(own, simple.vertices), problem.reflection,
+                                   weights_of(problem.mesh), task);
     }
-    original.prices = find_prices(original.mesh, own, original.reflection, weights_of(original.mesh));
+    original.prices = find_prices(original.mesh, own, original.reflection, weights_of(original.mesh), task);
   }
 }
 
 /// Makes one group of those that are alike, and finds the pieces of each.
-void PreparedSurface::join_copies() {
+void PreparedSurface::join_copies(const Task& task) {
   constexpr double kSameSize = 1e-6;
   const auto is_same_size = [](double one, double other) { return std::abs(one - other) <= kSameSize * one; };
   std::unordered_map<std::uint64_t, std::vector<std::size_t>> by_likeness;
   std::vector<GroupProblem> joined;
   for (GroupProblem& group : groups) {
+    task.check(0.0);
     std::vector<std::size_t>& candidates = by_likeness[groups.size() > 1 ? likeness(group.original) : 0];
     const auto like = std::ranges::find_if(candidates, [&](std::size_t other) {
       return is_same_size(joined[other].size, group.size) && are_alike(joined[other].original, group.original);
@@ -205,8 +210,8 @@ void PreparedSurface::join_copies() {
   }
   groups = std::move(joined);
   for (GroupProblem& group : groups) {
-    find_pieces_of(group.original);
-    for (GroupProblem::Simplified& simple : group.simplified) find_pieces_of(simple.problem);
+    find_pieces_of(group.original, task);
+    for (GroupProblem::Simplified& simple : group.simplified) find_pieces_of(simple.problem, task);
   }
 }
 

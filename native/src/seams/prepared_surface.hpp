@@ -31,12 +31,12 @@ struct PreparedSurface {
   void find_meshes(const Task& task);
   void add_simplified(GroupProblem& group, std::size_t triangles, const Task& task) const;
   Visibility visibility_of_all(const Task& task) const;
-  void find_prices_of_all(const Visibility& visibility);
-  void join_copies();
+  void find_prices_of_all(const Visibility& visibility, const Task& task);
+  void join_copies(const Task& task);
   std::vector<double> weights_of(const PlanMesh& mesh) const;
 };
 
-/// Marks the edges of a mesh that are seams: 1 for each.
-std::vector<std::uint8_t> marked_edges(const PlanMesh& mesh, const std::vector<Edge>& seams);
+/// Marks the edges of a mesh that are seams: 1 for each. Throws Cancelled.
+std::vector<std::uint8_t> marked_edges(const PlanMesh& mesh, const std::vector<Edge>& seams, const Task& task);
 
 }  // namespace seamwire::detail

@@ -13,6 +13,7 @@
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "detail/run_on_threads.hpp"
+#include "detail/text.hpp"
 #include "parameterization/measure_islands.hpp"
 #include "seams/group_planning.hpp"
 #include "seams/planned_wires.hpp"
@@ -72,13 +73,14 @@ std::vector<Edge> cuts_of(const SeamPlan& plan, std::vector<Edge> seams) {
 class WholePlan {
  public:
   /// `distortion`: the bound for the mean over the surface. `prepared` and `plans` must outlive this object.
-  WholePlan(const PreparedSurface& prepared, const std::vector<GroupPlanning>& plans, double distortion)
+  WholePlan(const PreparedSurface& prepared, const std::vector<GroupPlanning>& plans, double distortion,
+            const Task& task)
       : prepared_(prepared),
         plans_(plans),
         distortion_(distortion),
         place_of_face_(prepared.mesh().face_count()),
         is_counted_(prepared.mesh().face_count()) {
-    for (const FaceFrame& frame : face_frames(prepared.mesh())) areas_.push_back(frame.area);
+    for (const FaceFrame& frame : face_frames(prepared.mesh(), task)) areas_.push_back(frame.area);
     for (std::size_t g = 0; g < groups().size(); ++g) {
       const SlitProblem& own = groups()[g].original;
       for (std::size_t k = 0; k < groups()[g].places.size(); ++k) {
@@ -110,7 +112,7 @@ class WholePlan {
       energies_.clear();
       is_mapped_ = true;
       if (prepared_.wires->are_across()) {
-        const std::vector<std::uint8_t> is_cut = marked_edges(mesh, cuts_of(plan, prepared_.options.seams));
+        const std::vector<std::uint8_t> is_cut = marked_edges(mesh, cuts_of(plan, prepared_.options.seams), task);
         const CutMaps maps = solve_cut(mesh, is_cut, part_of(task, place(kMapBegins), place(1.0)));
         const std::vector<std::uint8_t> is_kept = are_kept(maps, bound);
         for (std::size_t i = 0; i < places_.size(); ++i) {
@@ -284,7 +286,7 @@ void check_options(const Surface& surface, const SeamPlannerOptions& options) {
   if (options.mirror < -1 || options.mirror > 2) {
     throw InvalidInput("mirror is " + std::to_string(options.mirror) + ", not an axis from 0 to 2, or -1");
   }
-  if (options.front && !(options.front->allFinite() && options.front->norm() > 0.0)) {
+  if (options.front && !(options.front->allFinite() && !options.front->isZero(0.0))) {
     throw InvalidInput("front is not a direction: it has no length, or is not finite");
   }
   const std::size_t count = surface.vertex_count();
@@ -310,7 +312,7 @@ class Planning {
         found_(found),
         task_(task),
         plans_(prepared.groups.begin(), prepared.groups.end()),
-        whole_(prepared, plans_, goal.distortion) {}
+        whole_(prepared, plans_, goal.distortion, task) {}
 
   SeamPlan run() {
     part_limbs(part_of(task_, 0.0, kLimbsEnd));
@@ -373,7 +375,7 @@ class Planning {
       islands += groups()[neck.group].places.size() * (neck.ring.image.empty() ? 1 : 2);
       chosen[neck.group].push_back(std::move(neck.ring));
     }
-    for (std::size_t g = 0; g < plans_.size(); ++g) plans_[g].part(chosen[g]);
+    for (std::size_t g = 0; g < plans_.size(); ++g) plans_[g].part(chosen[g], task);
     halve_groups(task);
   }
 
@@ -481,7 +483,7 @@ SeamPlanner::SeamPlanner(const SurfaceContext& context, const SeamPlannerOptions
 SeamPlan SeamPlanner::plan(const SeamGoal& goal, const std::function<void(const SeamPlan&)>& found,
                            const Task& task) const {
   if (!(goal.distortion > 4.0)) {
-    throw InvalidInput("distortion is " + std::to_string(goal.distortion) + ", not above 4, that of an isometry");
+    throw InvalidInput("distortion is " + text(goal.distortion) + ", not above 4, that of an isometry");
   }
   const RisingProgress rising(task);
   return Planning(impl_->prepared, goal, found, rising.task()).run();

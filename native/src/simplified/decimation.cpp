@@ -347,7 +347,7 @@ DecimatedMesh Collapsing::result() const {
     if (twin != half_edges.end()) out.mesh.twins[h] = twin->second;
   }
   out.mesh.scale = mesh_.scale;
-  connect(out.mesh, {});
+  connect(out.mesh, std::nullopt);
   for (const std::int32_t h : out.mesh.half_edge_of) {
     const bool is_inner = out.mesh.twins[h] >= 0;
     const std::int32_t a = out.vertices[out.mesh.tail(h)], b = out.vertices[out.mesh.tip(h)];

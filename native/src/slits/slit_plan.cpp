@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "detail/index.hpp"
+#include "detail/poll.hpp"
 #include "parameterization/open_island.hpp"
 #include "tuning/constants.hpp"
 
@@ -54,15 +55,17 @@ double SlitProblem::price(const Slit& slit) const {
   return price(slit.path) + price(slit.image) + (slit.image.empty() ? fixed : 2.0 * fixed);
 }
 
-void find_pieces_of(SlitProblem& problem) {
+void find_pieces_of(SlitProblem& problem, const Task& task) {
   const PlanMesh& mesh = problem.mesh;
-  problem.pieces = find_pieces(mesh, problem.is_seam);
+  problem.pieces = find_pieces(mesh, problem.is_seam, task);
   problem.by_piece.assign(index(problem.pieces.count), {});
   problem.is_rim = cut_of(problem, {}, {}).is_on_cut;
-  const std::vector<FaceFrame> frames = face_frames(mesh);
+  const std::vector<FaceFrame> frames = face_frames(mesh, task);
+  Poll poll(task, 0.0, 0.0, 1);
   std::vector<std::int32_t> place(mesh.face_count());
   problem.areas.clear();
   for (std::int32_t f = 0; index(f) < mesh.face_count(); ++f) {
+    poll.next();
     SlitProblem::Piece& piece = problem.by_piece[problem.pieces.of_face[f]];
     place[f] = static_cast<std::int32_t>(piece.faces.size());
     piece.faces.push_back(f);
@@ -74,6 +77,7 @@ void find_pieces_of(SlitProblem& problem) {
   for (SlitProblem::Piece& piece : problem.by_piece) {
     bool has_inner = false, has_open = false;
     for (const std::int32_t f : piece.faces) {
+      poll.next();
       for (std::int32_t i = 0; i < 3; ++i) {
         const std::int32_t twin = mesh.twins[3 * f + i];
         const bool is_inner = twin >= 0 && problem.pieces.of_face[twin / 3] == problem.pieces.of_face[f];

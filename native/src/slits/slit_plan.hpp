@@ -51,8 +51,9 @@ struct SlitProblem {
   double price(const Slit& slit) const;
 };
 
-/// Parts a mesh along seams, and fills in what follows from that. Without prices, seams may run along all edges.
-void find_pieces_of(SlitProblem& problem);
+/// Parts a mesh along seams, and fills in what follows from that. Without prices, seams may run along all edges. Throws
+/// Cancelled.
+void find_pieces_of(SlitProblem& problem, const Task& task = {});
 
 /// A set of slits, and which edges and vertices they cut.
 struct Cut {

@@ -47,7 +47,8 @@ Isolines isolines(const Surface& surface, std::span<const double> values, std::s
       // Always from the lower to the higher end, so that neighbors compute the same point.
       const auto crossing = [&](std::size_t i, std::size_t j) {
         const std::size_t below = is_above(i) ? j : i, above = is_above(i) ? i : j;
-        const double part = (*level - at[below]) / (at[above] - at[below]);
+        const double half = std::isfinite(at[above] - at[below]) ? 1.0 : 0.5;  // of large values, lest they overflow
+        const double part = (half * *level - half * at[below]) / (half * at[above] - half * at[below]);
         const Vector &p = surface.points()[t[below]], &q = surface.points()[t[above]];
         return Vector(p + part * (q - p));
       };

@@ -11,8 +11,10 @@
 
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
+#include "detail/poll.hpp"
 #include "detail/run_on_threads.hpp"
 #include "surface/box_tree.hpp"
+#include "surface/extreme_exponent.hpp"
 #include "surface/point_segment.hpp"
 
 namespace seamwire {
@@ -25,15 +27,18 @@ constexpr std::size_t kPlacesInAChunk = 256;
 /// The share of a distance to a box that may be rounding.
 constexpr double kBoxRounding = 1e-12;
 
-void check_finite(std::span<const Vector> points, const char* what) {
+void check_finite(std::span<const Vector> points, const char* what, const Task& task) {
+  const Poll poll(task, 0.0, 0.0, 1);
   for (std::size_t i = 0; i < points.size(); ++i) {
+    poll.at(i);
     if (!points[i].allFinite()) throw InvalidInput(std::string(what) + " " + std::to_string(i) + " is not finite");
   }
 }
 
 /// Returns the places in an order in which those that follow each other mostly lie near each other: along a Morton
 /// curve (1966).
-std::vector<std::int32_t> along_curve(std::span<const Vector> places) {
+std::vector<std::int32_t> along_curve(std::span<const Vector> places, const Task& task) {
+  Poll poll(task, 0.0, 0.0, 1);
   Box box;
   for (const Vector& place : places) box.extend(place);
   constexpr double kCells = 1 << 10;  // on each axis
@@ -41,6 +46,7 @@ std::vector<std::int32_t> along_curve(std::span<const Vector> places) {
   std::vector<std::pair<std::uint32_t, std::int32_t>> keys;
   keys.reserve(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
+    poll.next();
     std::uint32_t key = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const double part = (places[i][axis] - box.min()[axis]) / sizes[axis];
@@ -49,7 +55,10 @@ std::vector<std::int32_t> along_curve(std::span<const Vector> places) {
     }
     keys.emplace_back(key, static_cast<std::int32_t>(i));
   }
-  std::ranges::sort(keys);
+  std::ranges::sort(keys, [&](const auto& one, const auto& other) {
+    poll.next();
+    return one < other;
+  });
   std::vector<std::int32_t> order;
   order.reserve(keys.size());
   for (const auto& [key, i] : keys) order.push_back(i);
@@ -88,6 +97,7 @@ Vector nearest_in(const std::array<Vector, 3>& corners, const Vector& place) {
 }  // namespace
 
 struct NearestPoints::Impl {
+  int exponent = 0;                            ///< of what points were divided by, a power of two
   std::vector<std::array<Vector, 3>> corners;  ///< of each triangle, in the order of the tree
   std::vector<Vector> normals;                 ///< the same, of any length; zero for a triangle without an area
   BoxTree tree;
@@ -96,17 +106,25 @@ struct NearestPoints::Impl {
   /// triangle if none counts. `hint`: where in the order of the tree to begin to look, and where the triangle was
   /// found.
   NearestPoint find(const Vector& place, const Vector* normal, std::int32_t& hint) const;
+  /// The same with a place and a result in the caller's coordinates.
+  NearestPoint find_given(const Vector& place, const Vector* normal, std::int32_t& hint) const;
 };
 
 NearestPoints::NearestPoints(std::vector<Vector> points, std::vector<Triangle> triangles, const Task& task) {
   if (triangles.empty()) throw InvalidInput("There are no triangles");
-  check_finite(points, "point");
+  check_finite(points, "point", task);
+  Poll poll(task, 0.0, 0.0, 1);
   for (std::size_t t = 0; t < triangles.size(); ++t) {
+    poll.next();
     for (const std::int32_t v : triangles[t]) {
       if (!is_index(v, points.size())) check_index(v, points.size(), "triangle " + std::to_string(t) + ": vertex");
     }
   }
   auto impl = std::make_shared<Impl>();
+  impl->exponent = extreme_exponent(points);
+  if (impl->exponent != 0) {
+    for (Vector& p : points) p = scaled(p, -impl->exponent);
+  }
   const auto box_of = [&](std::int32_t t) {
     const auto& [a, b, c] = triangles[t];
     return Box(points[a]).extend(points[b]).extend(points[c]);
@@ -118,6 +136,7 @@ NearestPoints::NearestPoints(std::vector<Vector> points, std::vector<Triangle> t
   impl->corners.reserve(triangles.size());
   impl->normals.reserve(triangles.size());
   for (const std::int32_t t : impl->tree.order) {
+    poll.next();
     const auto& [a, b, c] = triangles[t];
     impl->corners.push_back({points[a], points[b], points[c]});
     impl->normals.push_back(normal_of(points[b] - points[a], points[c] - points[a]));
@@ -163,16 +182,27 @@ NearestPoint NearestPoints::Impl::find(const Vector& place, const Vector* normal
   return best;
 }
 
+NearestPoint NearestPoints::Impl::find_given(const Vector& place, const Vector* normal, std::int32_t& hint) const {
+  constexpr int kFarthest = 400;
+  // To a place beyond this all points are in one direction, and a nearer one in that direction finds the same.
+  const int nearer = std::max(0, extreme_exponent({&place, 1}) - exponent - kFarthest), moved = -exponent - nearer;
+  if (moved == 0) return find(place, normal, hint);
+  NearestPoint found = find(scaled(place, moved), normal, hint);
+  found.point = scaled(found.point, exponent);
+  found.distance = std::ldexp(found.distance, -moved);
+  return found;
+}
+
 std::vector<NearestPoint> NearestPoints::find(std::span<const Vector> places, std::span<const Vector> normals,
                                               const Task& task) const {
   if (!normals.empty() && normals.size() != places.size()) {
     throw InvalidInput("There are " + std::to_string(places.size()) + " places, but " + std::to_string(normals.size()) +
                        " normals");
   }
-  check_finite(places, "place");
-  check_finite(normals, "normal");
+  check_finite(places, "place", task);
+  check_finite(normals, "normal", task);
   std::vector<NearestPoint> found(places.size());
-  const std::vector<std::int32_t> order = along_curve(places);
+  const std::vector<std::int32_t> order = along_curve(places, task);
   const std::size_t chunks = (places.size() + kPlacesInAChunk - 1) / kPlacesInAChunk;
   const auto find_chunk = [&](std::size_t chunk, const Task& own) {
     own.check(0.0);
@@ -180,8 +210,11 @@ std::vector<NearestPoint> NearestPoints::find(std::span<const Vector> places, st
     std::int32_t hint = 0;
     for (std::size_t k = chunk * kPlacesInAChunk; k < end; ++k) {
       const std::int32_t i = order[k];
-      if (!normals.empty()) found[i] = impl_->find(places[i], &normals[i], hint);
-      if (found[i].triangle < 0) found[i] = impl_->find(places[i], nullptr, hint);
+      if (!normals.empty()) {
+        const Vector normal = normals[i].stableNormalized();
+        found[i] = impl_->find_given(places[i], &normal, hint);
+      }
+      if (found[i].triangle < 0) found[i] = impl_->find_given(places[i], nullptr, hint);
     }
   };
   run_on_threads(

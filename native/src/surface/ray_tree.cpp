@@ -17,6 +17,7 @@
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
 #include "surface/box_tree.hpp"
+#include "surface/extreme_exponent.hpp"
 
 namespace seamwire {
 
@@ -28,26 +29,6 @@ namespace {
 constexpr double kSlack = 1e-9;
 /// Of a distance along a ray, how much of it may be rounding.
 constexpr double kRounding = 1e-12;
-
-/// Coordinates beyond 2 to this, and below its inverse, are brought near 1: the volumes that the test compares are
-/// products of three lengths, and would overflow or vanish.
-constexpr int kMostExponent = 100;
-
-/// The exponent of the largest coordinate of some points that is finite, where it is beyond kMostExponent; otherwise 0.
-int extreme_exponent(std::span<const Vector> points) {
-  double largest = 0.0;
-  for (const Vector& p : points) {
-    for (const double x : p) {
-      if (std::abs(x) > largest && std::isfinite(x)) largest = std::abs(x);
-    }
-  }
-  const int exponent = largest > 0.0 ? std::ilogb(largest) : 0;
-  return std::abs(exponent) > kMostExponent ? exponent : 0;
-}
-
-Vector scaled(const Vector& v, int exponent) {
-  return {std::ldexp(v.x(), exponent), std::ldexp(v.y(), exponent), std::ldexp(v.z(), exponent)};
-}
 
 /// A box that a ray comes into wherever it meets the triangle: as far outside as it may pass the triangle, and as the
 /// divisions in FirstHit::inside() may be off.

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <numeric>
+#include <queue>
 #include <utility>
 
 #include "detail/disjoint_sets.hpp"
@@ -28,7 +30,12 @@ void join_left_out(const Surface& surface, const Cuts& cuts, DisjointSets& sets)
   left_out.insert(left_out.end(), report.duplicate_faces.begin(), report.duplicate_faces.end());
   if (left_out.empty()) return;
   std::ranges::sort(left_out);
-  std::map<Edge, std::vector<std::int32_t>> at_edge;  // the triangles that are in a segment
+  /// The triangles at an edge of one that was left out.
+  struct AtEdge {
+    std::int32_t first = -1;            // to be in a segment
+    std::vector<std::int32_t> waiting;  // left out, until `first` is known
+  };
+  std::map<Edge, AtEdge> at_edge;
   const auto edges_of = [&](std::int32_t f) {
     const Triangle& t = surface.triangles()[f];
     return std::array<Edge, 3>{ascending(t[0], t[1]), ascending(t[1], t[2]), ascending(t[2], t[0])};
@@ -37,45 +44,51 @@ void join_left_out(const Surface& surface, const Cuts& cuts, DisjointSets& sets)
   for (const std::int32_t f : left_out) {
     for (const Edge& edge : edges_of(f)) {
       if (edge[0] == edge[1] || cuts.contains(edge[0], edge[1])) continue;
-      at_edge[edge];
+      at_edge[edge].waiting.push_back(f);
       is_near[edge[0]] = is_near[edge[1]] = 1;
     }
   }
-  const auto add = [&](std::int32_t f) {
+  // Rounds over the triangles that have a neighbor in a segment, by ascending numbers.
+  using Turn = std::pair<std::int32_t, std::int32_t>;  // round and triangle
+  std::priority_queue<Turn, std::vector<Turn>, std::greater<>> turns;
+  const auto add = [&](std::int32_t f, const Turn& now) {
     for (const Edge& edge : edges_of(f)) {
       if (is_near[edge[0]] == 0 || is_near[edge[1]] == 0) continue;
       const auto found = at_edge.find(edge);
-      if (found != at_edge.end()) found->second.push_back(f);
+      if (found == at_edge.end() || found->second.first >= 0) continue;
+      found->second.first = f;
+      for (const std::int32_t other : found->second.waiting) {
+        turns.emplace(other > now.second ? now.first : now.first + 1, other);
+      }
+      found->second.waiting = {};
     }
   };
-  for (const std::int32_t f : corner_fans(surface).faces) add(f);
+  for (const std::int32_t f : corner_fans(surface).faces) add(f, {0, -1});
   const auto neighbor_of = [&](std::int32_t f) {
     std::int32_t neighbor = -1;
     for (const Edge& edge : edges_of(f)) {
       const auto found = at_edge.find(edge);
-      if (found == at_edge.end() || found->second.empty()) continue;
-      if (!has_edge(surface, edge)) return found->second.front();
-      if (neighbor < 0) neighbor = found->second.front();
+      if (found == at_edge.end() || found->second.first < 0) continue;
+      if (!has_edge(surface, edge)) return found->second.first;
+      if (neighbor < 0) neighbor = found->second.first;
     }
     return neighbor;
   };
-  while (!left_out.empty()) {
-    std::vector<std::int32_t> remaining;
-    for (const std::int32_t f : left_out) {
-      const std::int32_t neighbor = neighbor_of(f);
-      if (neighbor < 0) {
-        remaining.push_back(f);
-        continue;
-      }
-      sets.join(neighbor, f);
-      add(f);
+  std::vector<std::uint8_t> is_added(surface.face_count(), 0);
+  for (const std::int32_t start : left_out) {
+    while (!turns.empty()) {
+      const Turn now = turns.top();
+      turns.pop();
+      const std::int32_t f = now.second;
+      if (is_added[f] != 0) continue;
+      is_added[f] = 1;
+      sets.join(neighbor_of(f), f);
+      add(f, now);
     }
-    if (remaining.size() == left_out.size()) {
-      // None of them has a neighbor in a segment: the first begins a new one.
-      add(remaining.front());
-      remaining.erase(remaining.begin());
-    }
-    left_out = std::move(remaining);
+    // None of the others has a neighbor in a segment: the first begins a new one.
+    if (is_added[start] != 0) continue;
+    is_added[start] = 1;
+    add(start, {0, -1});
   }
 }
 

@@ -18,6 +18,7 @@
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
 #include "detail/poll.hpp"
+#include "detail/text.hpp"
 #include "surface/corner_fans.hpp"
 #include "surface/face_height.hpp"
 
@@ -46,8 +47,9 @@ struct Faces {
   Index apex(Index side) const { return vertex(previous_in_face(side)); }
 };
 
-// Beyond this, squares of lengths overflow.
+// Beyond these, squares of lengths overflow or vanish.
 constexpr double kLargestCoordinate = 1e150;
+constexpr double kShortestSide = 1e-150;
 
 void check_points(const std::vector<Vector>& points, const Task& task) {
   if (points.size() > std::numeric_limits<Index>::max()) throw InvalidInput("too many vertices: at most 2^31 - 1");
@@ -470,8 +472,11 @@ double unit_cube_scale(const std::vector<Vector>& points, const std::vector<bool
     high = high.cwiseMax(points[v]);
   }
   const double side = (high - low).maxCoeff();
-  // One over a denormal number is infinite.
-  return side >= std::numeric_limits<double>::min() ? 1.0 / side : 1.0;
+  if (side > 0.0 && side < kShortestSide) {
+    throw InvalidInput("the longest side of the box around the mesh is " + text(side) +
+                       ": it must be 0, or at least 1e-150");
+  }
+  return side > 0.0 ? 1.0 / side : 1.0;
 }
 
 // Areas on the unit cube's scale, 0 where a triangle has none; and a report of the faces without one, and of low ones.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <utility>
@@ -36,7 +37,12 @@ struct End {
 class Section {
  public:
   Section(const Surface& surface, const SurfacePoint& from, const SurfacePoint& to, const Vector& direction)
-      : surface_(surface), fans_(corner_fans(surface)), from_(end(from, "from")), to_(end(to, "to")) {
+      : surface_(surface),
+        fans_(corner_fans(surface)),
+        from_(end(from, "from")),
+        to_(end(to, "to")),
+        is_last_(fans_.triangles.size(), 0) {
+    for (const std::int32_t face : to_.faces) is_last_[face] = 1;
     if (!direction.allFinite()) throw InvalidInput("direction is not finite");
     const Vector between = to_.place - from_.place;
     if (between.isZero(0.0)) throw InvalidInput("both points are the same");
@@ -55,14 +61,15 @@ class Section {
   // makes a difference where the curve runs along edges, or touches a vertex.
   PlaneSection shortest() {
     for (const std::int32_t face : from_.faces) {
-      if (std::ranges::find(to_.faces, face) != to_.faces.end()) return straight(face);
+      if (is_last_[face] != 0) return straight(face);
     }
     PlaneSection best;
     for (const bool is_zero_above : {true, false}) {
       is_zero_above_ = is_zero_above;
       for (const std::int32_t face : from_.faces) {
         for (std::int32_t side = 3 * face; side < 3 * face + 3; ++side) {
-          // At a vertex it is crossed on that, which is on one side of the plane, for another corner is on the other.
+          // Over a side at the first vertex it only goes on around it, into a face that comes too.
+          if (from_.vertex != -1 && (tail(side) == from_.vertex || head(side) == from_.vertex)) continue;
           if (!is_crossed(side)) continue;
           PlaneSection found = walk(face, side);
           if (found.length < best.length) best = std::move(found);
@@ -181,7 +188,7 @@ class Section {
   void follow(std::int32_t first, Branch& branch, const Enter& enter) const {
     while (true) {
       const std::int32_t side = branch.side;
-      if (to_.vertex == -1 && std::ranges::find(to_.faces, branch.face) != to_.faces.end()) break;
+      if (to_.vertex == -1 && is_last_[branch.face] != 0) break;
       add(branch.section, crossing(side), branch.face);
       if (to_.vertex != -1 && (tail(side) == to_.vertex || head(side) == to_.vertex)) break;
       const std::int32_t twin = fans_.twins[side];
@@ -201,6 +208,7 @@ class Section {
   const Surface& surface_;
   const CornerFans& fans_;
   End from_, to_;
+  std::vector<std::uint8_t> is_last_;  // of each face of the corner fans: 1 if the second point lies in it
   std::vector<double> heights_;
   bool is_zero_above_ = true;
 };

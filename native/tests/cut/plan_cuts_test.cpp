@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <utility>
@@ -113,6 +114,27 @@ TEST(PlanCuts, NamesCurvesThatDoNotRunOverTheMesh) {
   EXPECT_EQ(plan.left_out[0].curve, 0);
   EXPECT_EQ(plan.left_out[0].vertex, 0);
   EXPECT_EQ(plan.across.size(), 2U);
+}
+
+TEST(PlanCuts, ReportsProgressAndCanBeCancelled) {
+  const Row row(300);
+  CutCurve curve{.points = {}, .start = SurfacePoint::at_vertex(0)};
+  for (int x = 0; x <= 300; ++x) curve.points.emplace_back(x, 0.5 + 0.3 * std::sin(1.3 * x), 0.0);
+  const std::vector<std::int32_t> one_polygon(row.polygons.size(), 0);
+  for (const PolygonMesh& mesh :
+       {row.mesh(), PolygonMesh{.points = row.points, .triangles = row.triangles, .polygons = one_polygon}}) {
+    std::size_t looks = 0;
+    double last = 0.0;
+    plan_cuts(mesh, {&curve, 1}, {.stop = {}, .progress = [&](double fraction) {
+                                    EXPECT_GE(fraction, last);
+                                    EXPECT_LE(fraction, 1.0);
+                                    last = fraction;
+                                    return ++looks > 0;
+                                  }});
+    EXPECT_GE(looks, 300U) << "at least once for each point of the curve";
+    const Task task{.stop = {}, .progress = [&](double) { return --looks > 0; }};
+    EXPECT_THROW(plan_cuts(mesh, {&curve, 1}, task), Cancelled) << "at the last look";
+  }
 }
 
 TEST(PlanCuts, RefusesWhatIsOutOfRange) {

@@ -7,11 +7,13 @@
 #include <atomic>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <random>
 #include <string>
 #include <thread>
 
 #include "chains.hpp"
+#include "edges/edge_search.hpp"
 #include "shapes.hpp"
 
 namespace seamwire::chains {
@@ -341,6 +343,23 @@ TEST(EdgeWires, StopWhenToldTo) {
                                             return true;
                                           }});
   EXPECT_GT(last, 0.5);
+}
+
+TEST(EdgeWires, AskTheirTaskOftenAtVerticesOfManyEdges) {
+  constexpr std::size_t kSides = 1000;
+  std::vector<Vector> points{{0, 0, 0}};
+  std::vector<Triangle> triangles;
+  for (std::size_t i = 0; i < kSides; ++i) {
+    const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / kSides;
+    points.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+    const auto here = static_cast<std::int32_t>(1 + i), next = static_cast<std::int32_t>(1 + (i + 1) % kSides);
+    triangles.push_back({0, here, next});
+  }
+  const auto graph = plain_graph(Surface(points, triangles));
+  std::size_t looks = 0;
+  edge_wires(graph, {1, -1}, 3.0, false, {.stop = {}, .progress = [&](double) { return ++looks > 0; }});
+  // Each chain that arrives in the middle goes on along each of its edges.
+  EXPECT_GE(looks, kSides * kSides / 2 / detail::kStepsBetweenChecks);
 }
 
 // ---------------------------------------------------------------------------------------------------------------------

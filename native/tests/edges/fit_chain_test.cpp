@@ -9,11 +9,14 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <random>
 #include <utility>
 #include <vector>
 
+#include "detail/index.hpp"
+#include "detail/poll.hpp"
 #include "seamwire/edges/edge_loop.hpp"
 #include "shapes.hpp"
 #include "surface/point_segment.hpp"
@@ -251,6 +254,39 @@ TEST(LinesAlongEdges, TellWhereOnTheLineEachVertexIs) {
   ASSERT_EQ(fitted.places.size(), hook().size());
   for (std::size_t i = 0; i < fitted.places.size(); ++i)
     EXPECT_NEAR(fitted.places[i], 6.0 * static_cast<double>(i), 1e-9);
+}
+
+TEST(LinesAlongEdges, AskTheirTaskOftenAtAVertexOfManyEdges) {
+  // Triangles around a vertex that share no edges, and a line three times around it. No edges lead to the
+  // vertex where it has to end.
+  constexpr std::size_t kFans = 100;
+  std::vector<Vector> points{{0, 0, 0}}, line;
+  std::vector<Triangle> triangles;
+  std::vector<std::int32_t> faces;
+  const auto direction = [](std::size_t i) {
+    const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / kFans;
+    return Vector(std::cos(angle), std::sin(angle), 0.0);
+  };
+  for (std::int32_t i = 0; index(i) < kFans; ++i) {
+    for (const double height : {-0.3, 0.3}) points.push_back(direction(index(i)) + Vector(0.0, 0.0, height));
+    triangles.push_back({0, 2 * i + 1, 2 * i + 2});
+  }
+  const auto end = static_cast<std::int32_t>(points.size());
+  for (std::int32_t corner = 0; corner < 3; ++corner) points.push_back(0.5 * direction(index(corner)));
+  triangles.push_back({end, end + 1, end + 2});
+  for (std::size_t i = 0; i < 3 * kFans; i += 5) {
+    line.push_back(0.3 * direction(i));
+    faces.push_back(static_cast<std::int32_t>(i % kFans));
+  }
+  const Surface surface(points, triangles);
+  const auto adjacency = make_edge_adjacency(surface);
+  std::size_t looks = 0;
+  const Task task{.stop = {}, .progress = [&](double) { return ++looks > 0; }};
+  fit_chain(surface, *adjacency, {line, faces}, std::nullopt, end, task);
+  // Chains over the middle go on along each of its edges.
+  EXPECT_GE(looks, kFans * kFans / Poll::kFewSteps);
+  const Task never{.stop = {}, .progress = [](double) { return false; }};
+  EXPECT_THROW(fit_chain(surface, *adjacency, {line, faces}, std::nullopt, end, never), Cancelled);
 }
 
 TEST(LinesAlongEdges, ThatAreDamagedAreRefused) {

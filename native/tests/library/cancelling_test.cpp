@@ -17,6 +17,8 @@
 #include "seamwire/geodesics/exact_geodesics.hpp"
 #include "seamwire/metric/scribble.hpp"
 #include "seamwire/parts/part_finder.hpp"
+#include "seamwire/seams/seam_planner.hpp"
+#include "seamwire/surface/nearest_points.hpp"
 #include "seamwire/wires/snap.hpp"
 #include "seamwire/wires/wire.hpp"
 #include "shapes.hpp"
@@ -85,6 +87,25 @@ TEST_F(Cancelling, CuttingAPartInTwo) {
     EXPECT_THROW(cut(task), Cancelled) << share;
     EXPECT_EQ(after, 1u) << "it went on";
   }
+}
+
+TEST_F(Cancelling, MeasuringWhatPartsAndSeamsNeed) {
+  const auto shared = std::make_shared<const Surface>(surface);
+  // Over the triangles, the edges and the pairs of a vertex and a neighbor, each more than once.
+  const std::size_t preparing = 3 * faces + 9 * edges + 8 * edges;
+  EXPECT_GE(looks_of([&](const Task& task) { PartFinder(shared, {}, task); }),
+            (preparing + 9 * edges + 3 * faces) / Poll::kSteps + edges / Poll::kFewSteps);
+  const SeamPlannerOptions along_edges{.along = Along::kEdges};
+  EXPECT_GE(looks_of([&](const Task& task) { SeamPlanner(shared, along_edges, task); }),
+            (preparing + 9 * edges + 3 * faces) / Poll::kSteps + edges / Poll::kFewSteps);
+}
+
+TEST_F(Cancelling, NearestPointsOfManyTriangles) {
+  // The build of the tree looks once in four times as many steps.
+  EXPECT_GE(looks_of([&](const Task& task) { NearestPoints(mesh.points, mesh.triangles, task); }),
+            (vertices + 2 * faces) / Poll::kSteps);
+  const NearestPoints nearest(mesh.points, mesh.triangles);
+  EXPECT_GE(looks_of([&](const Task& task) { nearest.find(mesh.points, {}, task); }), 10 * vertices / Poll::kSteps);
 }
 
 TEST_F(Cancelling, BuildingASurface) {

@@ -263,7 +263,7 @@ TEST(Curvature, IsFiniteOnRandomTriangles) {
 
 TEST(Curvature, IsFiniteAtTheEndsOfTheRange) {
   const Mesh mesh = shapes::icosphere(1);
-  for (const double c : {1e-320, 1e-200, 1e149}) {
+  for (const double c : {1e-149, 1e149}) {
     const Surface surface = transformed(mesh, Eigen::Affine3d(Eigen::Scaling(c))).surface();
     EXPECT_TRUE(std::isfinite(surface.scale()));
     expect_sound(surface, principal_curvatures(surface));

@@ -138,9 +138,9 @@ TEST(PartingCuts, ALaterSearchHasItsOwnShareOfTheProgress) {
 
 TEST(PartingCuts, RimsOfFewCornersStay) {
   const SlitProblem cube = problem_on(shapes::quad_cube(2).surface());
-  EXPECT_TRUE(rim_cuts(cube, std::vector<std::int32_t>{0}).empty());
+  EXPECT_TRUE(rim_cuts(cube, std::vector<std::int32_t>{0}, {}).empty());
   const Surface surface = prism(12, 1.0, false);
-  EXPECT_TRUE(rim_cuts(problem_on(surface), std::vector<std::int32_t>{0}).empty());
+  EXPECT_TRUE(rim_cuts(problem_on(surface), std::vector<std::int32_t>{0}, {}).empty());
 }
 
 TEST(PartingCuts, TheLeastNumberOfIslandsHolds) {

@@ -65,6 +65,14 @@ TEST(PlanMesh, DiagonalsOfPolygonsAreNoRealEdges) {
   EXPECT_EQ(mesh.all_neighbors[5].size(), 6U);
 }
 
+TEST(PlanMesh, WithoutRealEdgesNoEdgeIsReal) {
+  const shapes::Mesh ball = shapes::icosphere(1);
+  const PlanMesh mesh = plan_mesh(Surface(ball.points, ball.triangles, std::vector<Edge>{}));
+  EXPECT_EQ(std::ranges::count(mesh.is_real, 1), 0);
+  EXPECT_EQ(mesh.neighbors[0].size(), 0U);
+  EXPECT_EQ(mesh.all_neighbors[0].size(), 5U);
+}
+
 TEST(PlanMesh, PiecesThatMeetInAVertexAreApart) {
   const std::vector<Vector> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
   const PlanMesh mesh = plan_mesh(Surface(points, {{0, 1, 2}, {0, 3, 4}}));

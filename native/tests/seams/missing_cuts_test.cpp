@@ -166,6 +166,7 @@ TEST(MissingCuts, RefuseWhatDoesNotBelongTogether) {
   EXPECT_THROW(missing_cuts(surface, across, Numbers{0}), InvalidInput);
   EXPECT_THROW(missing_cuts(surface, across, Numbers(8, -1)), InvalidInput);
   EXPECT_THROW(missing_cuts(surface, {}, halves), InvalidInput);
+  EXPECT_THROW(missing_cuts(surface, across, Numbers(8, 0)), InvalidInput) << "of no cuts";
   EXPECT_EQ(missing_cuts(surface, across, halves), (Numbers{0, 0}));
 }
 

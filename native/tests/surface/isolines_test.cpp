@@ -82,6 +82,16 @@ TEST(Isolines, OnAClosedSurfaceAreClosed) {
   }
 }
 
+TEST(Isolines, OfLargeValuesLieWhereThoseOfSmallOnesDo) {
+  const Surface surface({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  const Isolines small = isolines(surface, Values{-1.7, 1.7, 1.7}, Values{1.6});
+  const Isolines large = isolines(surface, Values{-1.7e308, 1.7e308, 1.7e308}, Values{1.6e308});
+  ASSERT_EQ(large.segments.size(), 1U);
+  for (std::size_t end = 0; end < 2; ++end) {
+    EXPECT_NEAR((large.segments[0][end] - small.segments[0][end]).norm(), 0.0, 1e-15);
+  }
+}
+
 TEST(Isolines, LeaveOutTrianglesWithAnInfiniteValueAndFlatOnes) {
   const Surface surface = shapes::grid(4).surface();
   Values values = values_of(surface, [](const Vector& p) { return p.x(); });

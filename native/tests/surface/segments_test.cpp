@@ -145,6 +145,18 @@ TEST(FaceSegments, ATriangleThatTheSurfaceLeftOutJoinsNoSegments) {
   EXPECT_EQ(labels, (std::vector<std::int32_t>{0, 1, 1, 0, 0}));
 }
 
+TEST(FaceSegments, ManyTrianglesThatTheSurfaceLeftOutTakeLittleTime) {
+  // Looking at all of them again for each one would take minutes.
+  constexpr std::int32_t kCount = 60'000;
+  std::vector<Vector> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  std::vector<Triangle> triangles{{0, 1, 2}};
+  for (std::int32_t v = 3; v < kCount + 3; ++v) {
+    points.emplace_back(v, 0, 0);
+    triangles.push_back({v, v, v});
+  }
+  EXPECT_EQ(sizes_of(face_segments(Surface(points, triangles), {})), std::vector(kCount + 1, 1));
+}
+
 TEST(FaceSegments, EdgesWithThreeTrianglesJoinNothing) {
   const std::vector<Vector> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}};
   const Surface fin(points, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});

@@ -188,6 +188,22 @@ TEST(PlaneSection, GoesOnOverAFaceThatIsTurnedOver) {
   EXPECT_NEAR(section.length, std::sqrt(2.0), 1e-12);
 }
 
+TEST(PlaneSection, BetweenVerticesWithManyFacesTakesLittleTime) {
+  // Two tips over a ring: looking at the faces of one tip for each face of the other would take minutes.
+  constexpr std::int32_t kSides = 60'000;
+  std::vector<Vector> points{{0, 0, 1}, {0, 0, -1}};
+  std::vector<Triangle> triangles;
+  for (std::int32_t i = 0; i < kSides; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kSides;
+    points.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+    const std::int32_t here = 2 + i, next = 2 + (i + 1) % kSides;
+    triangles.push_back({0, here, next});
+    triangles.push_back({1, next, here});
+  }
+  const PlaneSection section = plane_section(Surface(points, triangles), at(0), at(1), {1, 0, 0});
+  EXPECT_NEAR(section.length, 2.0 * std::sqrt(2.0), 1e-6);
+}
+
 TEST(PlaneSection, NamesWhatIsWrong) {
   const Surface surface = shapes::grid(2).surface();
   const auto message = [&](const SurfacePoint& a, const SurfacePoint& b, const Vector& direction) -> std::string {

@@ -12,6 +12,7 @@
 #include "seamwire/surface/surface_point.hpp"
 #include "seamwire/surface/types.hpp"
 #include "seamwire/surface/vector.hpp"
+#include "seamwire/task.hpp"
 
 namespace seamwire {
 
@@ -98,14 +99,18 @@ struct SEAMWIRE_API CutPlan {
 /// it crosses. Curves that cross or run close to each other meet in common nodes. Slivers between them are left out.
 /// docs/method/finishing.md describes the method.
 ///
+/// In each polygon the time may grow with the square of the number of its corners and of the points of curves there.
+///
 /// \param mesh the mesh
 /// \param curves the curves
+/// \param task progress and cancellation
 /// \returns the changes to the mesh
 /// \throws InvalidInput if sizes do not fit, an index is out of range, or a coordinate is not finite. The message names
 ///   the element.
 /// \throws InvalidInput if barycentric coordinates are below 0, or their sum is not 1
 /// \throws InvalidInput if polygons are not ascending, or the triangles of a polygon that a curve passes do not form a
 ///   polygon
-SEAMWIRE_API CutPlan plan_cuts(const PolygonMesh& mesh, std::span<const CutCurve> curves);
+/// \throws Cancelled if the task is cancelled
+SEAMWIRE_API CutPlan plan_cuts(const PolygonMesh& mesh, std::span<const CutCurve> curves, const Task& task = {});
 
 }  // namespace seamwire

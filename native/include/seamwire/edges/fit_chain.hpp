@@ -9,6 +9,7 @@
 #include "seamwire/api.hpp"
 #include "seamwire/edges/edge_adjacency.hpp"
 #include "seamwire/surface/surface.hpp"
+#include "seamwire/task.hpp"
 
 namespace seamwire {
 
@@ -45,18 +46,21 @@ struct FittedChain {
 /// along the line, as at a gap between components or a hole, the chain ends there. A line shorter than half an edge
 /// fits no edge. A line inside one face fits the border of the face, or nothing.
 ///
-/// The time is proportional to the length of the line, and does not depend on the size of the surface.
+/// The time is proportional to the length of the line, times the squared number of edges at a vertex near the line. It
+/// does not depend on the size of the surface.
 ///
 /// \param surface the surface
 /// \param adjacency its adjacency
 /// \param line the line
 /// \param begin a vertex where the chain begins instead, near the line's first point
 /// \param end a vertex where the chain ends instead, near the line's last point
+/// \param task progress and cancellation
 /// \returns the chain, without vertices if no edge fits
 /// \throws InvalidInput if points and faces differ in number, or a coordinate is not finite
 /// \throws InvalidInput if the adjacency is of another surface, or a face or a vertex is out of range
+/// \throws Cancelled if the task is cancelled
 SEAMWIRE_API FittedChain fit_chain(const Surface& surface, const EdgeAdjacency& adjacency, const DrawnLine& line,
                                    std::optional<std::int32_t> begin = std::nullopt,
-                                   std::optional<std::int32_t> end = std::nullopt);
+                                   std::optional<std::int32_t> end = std::nullopt, const Task& task = {});
 
 }  // namespace seamwire

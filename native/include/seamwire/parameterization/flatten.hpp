@@ -84,7 +84,7 @@ struct Flattening {
 /// \param task progress and cancellation
 /// \returns the map
 /// \throws InvalidInput if a vertex is out of range, or the start has the wrong size or is not finite
-/// \throws InvalidInput if the up direction is zero or not finite
+/// \throws InvalidInput if the up direction is zero or not finite, or `straighten` is not a number
 /// \throws InvalidInput if no opening makes it possible to map an island
 /// \throws Cancelled if the task is cancelled
 /// \see Smith and Schaefer 2015, for the energy

@@ -66,6 +66,7 @@ class SEAMWIRE_API Surface {
   /// \param task progress and cancellation
   /// \throws InvalidInput if a coordinate is not finite or above 1e150 in size, or an index is out of range. The
   ///   message names the element.
+  /// \throws InvalidInput if the longest side of the bounding box of the used vertices is below 1e-150, but not 0
   /// \throws InvalidInput if an edge joins a vertex to itself, or the mesh has no edge
   /// \throws Cancelled if the task is cancelled
   Surface(std::vector<Vector> points, std::vector<Triangle> triangles,
