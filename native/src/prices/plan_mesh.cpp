@@ -9,6 +9,7 @@
 #include "detail/index.hpp"
 #include "surface/corner_fans.hpp"
 #include "surface/joined_faces.hpp"
+#include "surface/real_edges.hpp"
 
 namespace seamwire::detail {
 
@@ -71,6 +72,17 @@ PlanMesh plan_mesh(const Surface& surface) {
   }
   connect(mesh, surface.edges());
   return mesh;
+}
+
+std::vector<std::uint8_t> marked_edges(const PlanMesh& mesh, std::vector<Edge> edges) {
+  for (Edge& edge : edges) edge = ascending(edge[0], edge[1]);
+  std::ranges::sort(edges);
+  std::vector<std::uint8_t> is_marked;
+  for (const std::int32_t h : mesh.half_edge_of) {
+    const Edge edge = ascending(mesh.sources[mesh.tail(h)], mesh.sources[mesh.tip(h)]);
+    is_marked.push_back(mesh.twins[h] >= 0 && std::ranges::binary_search(edges, edge) ? 1 : 0);
+  }
+  return is_marked;
 }
 
 FaceFrame face_frame(const PlanMesh& mesh, const Triangle& triangle) {

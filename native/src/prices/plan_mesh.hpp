@@ -49,6 +49,9 @@ PlanMesh plan_mesh(const Surface& surface);
 /// vertices of the mesh, sorted, the smaller vertex first; empty: all are real.
 void connect(PlanMesh& mesh, std::span<const Edge> real_edges);
 
+/// Marks edges between two triangles, which are given by vertices of the surface: 1 for each.
+std::vector<std::uint8_t> marked_edges(const PlanMesh& mesh, std::vector<Edge> edges);
+
 /// Area and unit normal of a triangle; the normal of a triangle without area is zero.
 struct FaceFrame {
   Vector normal = Vector::Zero();
