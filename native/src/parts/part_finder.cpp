@@ -48,19 +48,12 @@ struct Region {
 
 namespace {
 
-/// A border between two regions, in the same units.
-struct RegionBorder {
-  std::int32_t one = -1, other = -1;
-  double gain = 0.0;  ///< its log odds times its length: what keeping it gains, and joining loses
+/// What lies between two regions, in the same units.
+struct Link {
+  double gain = 0.0;  ///< the log odds of the border times its length: what keeping it gains, and joining loses
   double length = 0.0;
   double bend = 0.0;     ///< how many degrees the surface bends there, times the length
   bool is_kept = false;  ///< whether small regions must not join across it
-};
-
-/// What lies between two regions.
-struct Link {
-  double gain = 0.0, length = 0.0, bend = 0.0;
-  bool is_kept = false;
 
   void add(const Link& other) {
     gain += other.gain;
@@ -68,6 +61,11 @@ struct Link {
     bend += other.bend;
     is_kept = is_kept || other.is_kept;
   }
+};
+
+struct RegionBorder {
+  std::int32_t one = -1, other = -1;
+  Link link;
 };
 
 class Joining {
@@ -81,7 +79,7 @@ class Joining {
     for (const RegionBorder& border : borders) {
       poll_.next();
       for (const auto& [a, b] : {std::pair(border.one, border.other), std::pair(border.other, border.one)}) {
-        links_[a][b].add({border.gain, border.length, border.bend, border.is_kept});
+        links_[a][b].add(border.link);
       }
     }
   }
@@ -237,17 +235,6 @@ double bias_of(double amount) {
   return tuning::kBiasToOne * std::log(amount / (1.0 - amount));
 }
 
-/// Sorts vertex pairs, the smaller vertex first.
-std::vector<Edge> sorted_edges(const std::vector<Edge>& edges, std::size_t vertex_count, const char* name) {
-  std::vector<Edge> sorted;
-  for (const auto& [a, b] : edges) {
-    for (const std::int32_t v : {a, b}) check_index(v, vertex_count, std::string(name) + ": vertex");
-    sorted.push_back(ascending(a, b));
-  }
-  std::ranges::sort(sorted);
-  return sorted;
-}
-
 /// The mirror image of each polygon, by the images of its vertices; -1 without an image.
 std::vector<std::int32_t> images_of(const PlanMesh& mesh, const Polygons& polygons, const Reflection& reflection,
                                     const Task& task) {
@@ -360,7 +347,7 @@ std::vector<Edge> PartFinder::Impl::seams() const {
   std::vector<Edge> found;
   for (std::int32_t e = 0; index(e) < problem.mesh.edge_count(); ++e) {
     const std::int32_t h = problem.mesh.half_edge_of[e];
-    if (problem.is_seam[e] == 0 || problem.mesh.twins[h] < 0) continue;
+    if (problem.is_seam[e] == 0) continue;
     found.push_back({problem.mesh.sources[problem.mesh.tail(h)], problem.mesh.sources[problem.mesh.tip(h)]});
   }
   return found;
@@ -368,14 +355,10 @@ std::vector<Edge> PartFinder::Impl::seams() const {
 
 /// Marks edges of the mesh.
 std::vector<std::uint8_t> PartFinder::Impl::marked(const std::vector<Edge>& edges, const char* name) const {
-  const PlanMesh& mesh = problem.mesh;
-  const std::vector<Edge> sorted = sorted_edges(edges, surface->vertex_count(), name);
-  std::vector<std::uint8_t> found;
-  for (const std::int32_t h : mesh.half_edge_of) {
-    const Edge edge = ascending(mesh.sources[mesh.tail(h)], mesh.sources[mesh.tip(h)]);
-    found.push_back(std::ranges::binary_search(sorted, edge) ? 1 : 0);
+  for (const Edge& edge : edges) {
+    for (const std::int32_t v : edge) check_index(v, surface->vertex_count(), std::string(name) + ": vertex");
   }
-  return found;
+  return marked_edges(problem.mesh, edges);
 }
 
 /// Marks edges of the mesh and their mirror images.
@@ -409,8 +392,9 @@ std::vector<std::int32_t> PartFinder::Impl::joined(double amount, const PartEdit
     if (is_kept[e] != 0) own = kEditOdds;
     const double diagonal = sizes.of_piece[sizes.piece_of(mesh, e)].diagonal;
     const double length = diagonal > 0.0 ? mesh.lengths[e] / diagonal : 0.0;
-    found.push_back({polygons.of_face[h / 3], polygons.of_face[twin / 3], own * length, length,
-                     std::abs(bends.own[e]) * length, is_kept[e] != 0});
+    found.push_back({polygons.of_face[h / 3],
+                     polygons.of_face[twin / 3],
+                     {own * length, length, std::abs(bends.own[e]) * length, is_kept[e] != 0}});
   }
   return joined_regions(regions, found, task);
 }

@@ -10,6 +10,7 @@
 #include "detail/poll.hpp"
 #include "surface/corner_fans.hpp"
 #include "surface/joined_faces.hpp"
+#include "surface/real_edges.hpp"
 
 namespace seamwire::detail {
 
@@ -84,6 +85,19 @@ PlanMesh plan_mesh(const Surface& surface, const Task& task) {
   }
   connect(mesh, surface.edges(), task);
   return mesh;
+}
+
+std::vector<std::uint8_t> marked_edges(const PlanMesh& mesh, std::vector<Edge> edges, const Task& task) {
+  Poll poll(task, 0.0, 0.0, 1);
+  for (Edge& edge : edges) edge = ascending(edge[0], edge[1]);
+  std::ranges::sort(edges);
+  std::vector<std::uint8_t> is_marked;
+  for (const std::int32_t h : mesh.half_edge_of) {
+    poll.next();
+    const Edge edge = ascending(mesh.sources[mesh.tail(h)], mesh.sources[mesh.tip(h)]);
+    is_marked.push_back(mesh.twins[h] >= 0 && std::ranges::binary_search(edges, edge) ? 1 : 0);
+  }
+  return is_marked;
 }
 
 FaceFrame face_frame(const PlanMesh& mesh, const Triangle& triangle) {

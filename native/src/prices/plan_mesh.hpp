@@ -51,6 +51,10 @@ PlanMesh plan_mesh(const Surface& surface, const Task& task = {});
 /// vertices of the mesh, sorted, the smaller vertex first; nullopt: all are real. Throws Cancelled.
 void connect(PlanMesh& mesh, std::optional<std::span<const Edge>> real_edges, const Task& task = {});
 
+/// Marks edges between two triangles, which are given by vertices of the surface: 1 for each. Throws
+/// Cancelled.
+std::vector<std::uint8_t> marked_edges(const PlanMesh& mesh, std::vector<Edge> edges, const Task& task = {});
+
 /// Area and unit normal of a triangle; the normal of a triangle without area is zero.
 struct FaceFrame {
   Vector normal = Vector::Zero();

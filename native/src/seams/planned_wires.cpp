@@ -32,14 +32,6 @@
 
 namespace seamwire::detail {
 
-/// A wire across the surface between two seeds, the shorter one of the two metrics.
-struct CandidateWire {
-  Follow follow = Follow::kMin;
-  std::vector<std::int32_t> vertices;  ///< the chain of edges that it marks; empty: there is no wire
-  std::vector<Vector> points;          ///< its curve
-  std::vector<std::int32_t> faces;     ///< as Wire::faces
-};
-
 /// Finds the wires across the surface that LiveWire shows, many at once.
 class CandidateWires {
  public:
@@ -68,14 +60,15 @@ class CandidateWires {
     std::int32_t from, to;
   };
 
-  /// The wire between each two seeds. Nearly always it is the shortest one, see CorridorPaths. On several threads.
-  std::vector<CandidateWire> find(std::span<const Ends> ends, const Task& task) const {
+  /// The wire between each two seeds, the shorter one of the two metrics. It has no vertices if no wire exists. Nearly
+  /// always it is the shortest one, see CorridorPaths. On several threads.
+  std::vector<PlannedWire> find(std::span<const Ends> ends, const Task& task) const {
     std::vector<std::array<Found, 2>> found(ends.size());
     const auto all = static_cast<double>(std::max<std::size_t>(2 * ends.size(), 1));
     run_on_threads(
         2 * ends.size(), task, [&](std::size_t done) { return static_cast<double>(done) / all; },
         [&](std::size_t i, const Task& own) { found[i / 2][i % 2] = find_in(i % 2, ends[i / 2], own); });
-    std::vector<CandidateWire> wires;
+    std::vector<PlannedWire> wires;
     wires.reserve(found.size());
     for (auto& [one, other] : found) wires.push_back(std::move(other.length < one.length ? other.wire : one.wire));
     return wires;
@@ -84,7 +77,7 @@ class CandidateWires {
  private:
   /// A wire in one metric, with its length there.
   struct Found {
-    CandidateWire wire;
+    PlannedWire wire;
     double length;
   };
 
@@ -95,7 +88,9 @@ class CandidateWires {
     wire.from = ends.from;
     wire.to = ends.to;
     std::vector<std::int32_t> vertices = snap_to_edges(on.surface(), *context_.snap_graph(task), wire, task);
-    return {{.follow = metric == 0 ? Follow::kMin : Follow::kMax,
+    return {{.from = ends.from,
+             .to = ends.to,
+             .follow = metric == 0 ? Follow::kMin : Follow::kMax,
              .vertices = std::move(vertices),
              .points = std::move(wire.points),
              .faces = std::move(wire.faces)},
@@ -275,11 +270,11 @@ std::vector<PlannedWire> PlannedWires::along(const PlanMesh& mesh, std::span<con
     std::vector<CandidateWires::Ends> ends;
     ends.reserve(open.size());
     for (const Open& one : open) ends.push_back({mesh.sources[one.chain.front()], mesh.sources[one.chain.back()]});
-    std::vector<CandidateWire> found = across_->find(ends, task);
+    std::vector<PlannedWire> found = across_->find(ends, task);
     std::vector<Open> again;
     for (std::size_t i = 0; i < open.size(); ++i) {
       const Chain& chain = open[i].chain;
-      CandidateWire& one = found[i];
+      PlannedWire& one = found[i];
       std::vector<Vector> line;
       line.reserve(one.points.size());
       for (const Vector& point : one.points) line.push_back(mesh.scale * point);
@@ -288,13 +283,7 @@ std::vector<PlannedWire> PlannedWires::along(const PlanMesh& mesh, std::span<con
         add_split(open[i], at > 0 ? at : chain.size() / 2, again);
         continue;
       }
-      PlannedWire wire = one.vertices.empty() ? along_edges(mesh, chain)
-                                              : PlannedWire{.from = ends[i].from,
-                                                            .to = ends[i].to,
-                                                            .follow = one.follow,
-                                                            .vertices = std::move(one.vertices),
-                                                            .points = std::move(one.points),
-                                                            .faces = std::move(one.faces)};
+      PlannedWire wire = one.vertices.empty() ? along_edges(mesh, chain) : std::move(one);
       laid.push_back({std::move(open[i]), std::move(wire), away});
     }
     const auto on_edges = [&](const Chain& chain) { return along_edges(mesh, chain); };

@@ -42,22 +42,6 @@ Rim rim_of(const PlanMesh& mesh, const std::vector<Edge>& seams, const Task& tas
 
 }  // namespace
 
-std::vector<std::uint8_t> marked_edges(const PlanMesh& mesh, const std::vector<Edge>& seams, const Task& task) {
-  Poll poll(task, 0.0, 0.0, 1);
-  std::vector<Edge> sorted;
-  sorted.reserve(seams.size());
-  for (const auto& [a, b] : seams) sorted.push_back({std::min(a, b), std::max(a, b)});
-  std::ranges::sort(sorted);
-  std::vector<std::uint8_t> is_seam;
-  for (const std::int32_t h : mesh.half_edge_of) {
-    poll.next();
-    const std::int32_t a = mesh.sources[mesh.tail(h)], b = mesh.sources[mesh.tip(h)];
-    const bool is_inner = mesh.twins[h] >= 0;
-    is_seam.push_back(is_inner && std::ranges::binary_search(sorted, Edge{std::min(a, b), std::max(a, b)}) ? 1 : 0);
-  }
-  return is_seam;
-}
-
 PreparedSurface::PreparedSurface(const SurfaceContext& context, SeamPlannerOptions with, const Task& task)
     : surface(context.surface(task)), options(std::move(with)) {
   const double meshes_end = (options.along == Along::kSurface) ? 0.25 : 0.5;

@@ -36,7 +36,4 @@ struct PreparedSurface {
   std::vector<double> weights_of(const PlanMesh& mesh) const;
 };
 
-/// Marks the edges of a mesh that are seams: 1 for each. Throws Cancelled.
-std::vector<std::uint8_t> marked_edges(const PlanMesh& mesh, const std::vector<Edge>& seams, const Task& task);
-
 }  // namespace seamwire::detail

@@ -68,6 +68,15 @@ void add_peaks(const PlanMesh& mesh, std::span<const double> values, std::span<c
   }
 }
 
+/// Distances along edges from the cut; infinite if unreachable.
+std::vector<double> distances_from_cut(const PlanMesh& mesh, std::span<const std::uint8_t> is_on_cut) {
+  std::vector<std::int32_t> cut;
+  for (std::int32_t v = 0; index(v) < is_on_cut.size(); ++v) {
+    if (is_on_cut[v] != 0) cut.push_back(v);
+  }
+  return edge_distances(mesh, cut);
+}
+
 /// Adds the most distorted vertex around the end of each slit.
 void add_ahead(const PlanMesh& mesh, const SlitPlan& plan, std::span<const double> values,
                std::span<const double> from_cut, std::vector<std::int32_t>& chosen) {
@@ -89,11 +98,7 @@ void add_ahead(const PlanMesh& mesh, const SlitPlan& plan, std::span<const doubl
 std::vector<std::int32_t> distortion_peaks(const SlitProblem& problem, const SlitPlan& plan,
                                            std::span<const std::uint8_t> is_on_cut) {
   const PlanMesh& mesh = problem.mesh;
-  std::vector<std::int32_t> cut;
-  for (std::int32_t v = 0; index(v) < is_on_cut.size(); ++v) {
-    if (is_on_cut[v] != 0) cut.push_back(v);
-  }
-  const std::vector<double> from_cut = edge_distances(mesh, cut);
+  const std::vector<double> from_cut = distances_from_cut(mesh, is_on_cut);
   const std::vector<double> excess = excess_at_vertices(problem, plan);
   const std::vector<double> areas = vertex_areas(mesh, face_frames(mesh));
   const auto density = [&](double radius) {
@@ -119,16 +124,12 @@ std::vector<std::int32_t> distortion_peaks(const SlitProblem& problem, const Sli
 
 std::vector<std::int32_t> spread_vertices(const SlitProblem& problem, std::span<const std::uint8_t> is_on_cut,
                                           std::size_t count) {
-  std::vector<std::int32_t> cut;
-  for (std::int32_t v = 0; index(v) < is_on_cut.size(); ++v) {
-    if (is_on_cut[v] != 0) cut.push_back(v);
-  }
-  std::vector<double> away = edge_distances(problem.mesh, cut);
+  std::vector<double> away = distances_from_cut(problem.mesh, is_on_cut);
   for (double& distance : away) distance = std::isfinite(distance) ? distance : 0.0;
   std::vector<std::int32_t> chosen;
   while (chosen.size() < count) {
     const auto farthest = std::ranges::max_element(away);
-    if (farthest == away.end() || *farthest <= tuning::kSpreadStep) break;
+    if (farthest == away.end() || *farthest <= 0.0) break;
     chosen.push_back(static_cast<std::int32_t>(farthest - away.begin()));
     const std::vector<double> from_it = edge_distances(problem.mesh, {&chosen.back(), 1});
     for (std::size_t v = 0; v < away.size(); ++v) away[v] = std::min(away[v], from_it[v]);

@@ -135,14 +135,6 @@ class Search {
         if (is_new) found.push_back(std::move(*slit));
       }
     }
-    const auto starts_here = [&](const std::vector<std::int32_t>& chain) {
-      return chain.empty() ||
-             (cut.is_on_cut[chain.front()] != 0 &&
-              std::all_of(chain.begin() + 1, chain.end(), [&](std::int32_t v) { return cut.is_on_cut[v] == 0; }));
-    };
-    for (const Slit& tail : tails_) {
-      if (starts_here(tail.path) && starts_here(tail.image)) found.push_back(tail);
-    }
     return found;
   }
 
@@ -224,9 +216,8 @@ class Search {
 
   SlitPlan cut_back(const SlitPlan& plan, std::size_t slit, double share, const Task& task) const {
     std::vector<Slit> slits = plan.slits;
-    const Shortened parts = shortened(problem_.mesh, slits[slit], share);
-    if (parts.left) {
-      slits[slit] = *parts.left;
+    if (std::optional<Slit> left = shortened(problem_.mesh, slits[slit], share)) {
+      slits[slit] = std::move(*left);
     } else {
       slits.erase(slits.begin() + static_cast<std::ptrdiff_t>(slit));
     }
@@ -266,11 +257,6 @@ class Search {
     });
   }
 
-  void keep_tail(Slit tail) {
-    const bool is_new = std::ranges::none_of(tails_, [&](const Slit& one) { return one.path == tail.path; });
-    if (is_new) tails_.push_back(std::move(tail));
-  }
-
   /// Lazy greedy: the ratios of the last look say which slits are worth another one.
   void shrink(SlitPlan& plan) {
     if (!is_within(plan)) return;
@@ -285,18 +271,11 @@ class Search {
         look_at_best(plan, cutbacks);
         continue;
       }
-      keep_tail(shortened(problem_.mesh, plan.slits[best], cutbacks[best].share()).tail);
       SlitPlan next = std::move(*cutbacks[best].plan);
       if (next.slits.size() < plan.slits.size()) cutbacks.erase(cutbacks.begin() + static_cast<std::ptrdiff_t>(best));
       plan = std::move(next);
       offer(plan);
-      for (std::size_t k = 0; k < cutbacks.size(); ++k) {
-        const double needed = needed_share(problem_.mesh, plan.slits, k);
-        const bool is_freed = needed < cutbacks[k].needed;
-        if (is_freed) cutbacks[k] = {.needed = needed};
-        cutbacks[k].plan.reset();
-        cutbacks[k].skip_useless_shares();
-      }
+      for (Cutback& cutback : cutbacks) cutback.plan.reset();
     }
   }
 
@@ -335,7 +314,7 @@ class Search {
       steps_ += next.work;
       grow(next, goal_.energy - tuning::kGrowBelow);
       shrink(next);
-      if (is_within(next) && next.price < before.price - tuning::kLeastSaving) {
+      if (is_within(next) && next.price < before.price) {
         offer(next);
         return true;
       }
@@ -349,7 +328,6 @@ class Search {
   const std::function<void(const SlitPlan&)>& found_;
   const Task& task_;
   SlitPlan best_;
-  std::vector<Slit> tails_;  // what was cut off slits
   double steps_ = 0.0;
   double least_gain_ = tuning::kLeastGain;
 };

@@ -140,10 +140,7 @@ std::vector<std::int32_t> find_tips(const SlitProblem& problem, const PieceBody&
       const std::int32_t image = problem.reflection->images[tip];
       if (problem.reflection->sides[tip] < 0 && std::ranges::binary_search(vertices, image)) tip = image;
     }
-    const bool is_new = std::ranges::all_of(tips, [&](std::int32_t other) {
-      return (problem.mesh.points[tip] - problem.mesh.points[other]).norm() > tuning::kTipsApart * body.size;
-    });
-    if (is_new) tips.push_back(tip);
+    if (std::ranges::find(tips, tip) == tips.end()) tips.push_back(tip);
   }
   return tips;
 }

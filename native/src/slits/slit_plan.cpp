@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 #include "detail/index.hpp"
@@ -192,29 +191,19 @@ double chain_length(const PlanMesh& mesh, std::span<const std::int32_t> chain) {
   return sum;
 }
 
-Shortened shortened(const PlanMesh& mesh, const Slit& slit, double share) {
-  const std::size_t kept = kept_count(mesh, slit.path, share);
-  const auto split = [](const std::vector<std::int32_t>& chain, std::size_t count) {
-    std::pair<std::vector<std::int32_t>, std::vector<std::int32_t>> parts;
-    if (count < 1 || chain.empty()) return std::pair(std::vector<std::int32_t>(), chain);
-    parts.first.assign(chain.begin(), chain.begin() + static_cast<std::ptrdiff_t>(count));
-    parts.second.assign(chain.begin() + static_cast<std::ptrdiff_t>(count) - 1, chain.end());
-    return parts;
+std::optional<Slit> shortened(const PlanMesh& mesh, const Slit& slit, double share) {
+  const auto first = [](const std::vector<std::int32_t>& chain, std::size_t count) {
+    return std::vector<std::int32_t>(chain.begin(), chain.begin() + static_cast<std::ptrdiff_t>(count));
   };
-  auto [path, path_tail] = split(slit.path, kept);
-  std::vector<std::int32_t> image, image_tail;
-  if (!slit.image.empty()) {
-    // Without its prefix on the mirror plane the path is as long as its image.
-    const double whole = chain_length(mesh, slit.image);
-    const double off = chain_length(mesh, path) - (chain_length(mesh, slit.path) - whole);
-    const std::size_t count = whole > 0.0 ? kept_count(mesh, slit.image, std::clamp(off / whole, 0.0, 1.0)) : 1;
-    std::tie(image, image_tail) = split(slit.image, count);
-  }
-  if (image.size() < 2) image.clear();
-  if (image_tail.size() < 2) image_tail.clear();
-  Shortened parts{std::nullopt, {.path = std::move(path_tail), .image = std::move(image_tail)}};
-  if (path.size() > 1) parts.left = Slit{std::move(path), std::move(image), slit.is_needed};
-  return parts;
+  Slit left{.path = first(slit.path, kept_count(mesh, slit.path, share)), .image = {}, .is_needed = slit.is_needed};
+  if (left.path.size() < 2) return std::nullopt;
+  if (slit.image.empty()) return left;
+  // Without its prefix on the mirror plane the path is as long as its image.
+  const double whole = chain_length(mesh, slit.image);
+  const double off = chain_length(mesh, left.path) - (chain_length(mesh, slit.path) - whole);
+  const std::size_t count = whole > 0.0 ? kept_count(mesh, slit.image, std::clamp(off / whole, 0.0, 1.0)) : 1;
+  if (count > 1) left.image = first(slit.image, count);
+  return left;
 }
 
 double needed_share(const PlanMesh& mesh, std::span<const Slit> slits, std::size_t which) {

@@ -103,17 +103,12 @@ double mean_energy(std::vector<std::pair<double, double>> energies);
 /// Sums up the maps.
 void sum_up(const SlitProblem& problem, SlitPlan& plan);
 
-/// A slit that was cut shorter, and what was taken off.
-struct Shortened {
-  std::optional<Slit> left;  ///< nullopt if nothing is left
-  Slit tail;                 ///< starts where the rest ends
-};
-
 /// The length of a chain of vertices.
 double chain_length(const PlanMesh& mesh, std::span<const std::int32_t> chain);
 
-/// Keeps a share of a slit's length, from 0 to 1. The mirror image starts where the path leaves the mirror plane.
-Shortened shortened(const PlanMesh& mesh, const Slit& slit, double share);
+/// Keeps a share of a slit's length, from 0 to 1; nullopt if nothing is left. The mirror image starts where the path
+/// leaves the mirror plane.
+std::optional<Slit> shortened(const PlanMesh& mesh, const Slit& slit, double share);
 
 /// The least share of a slit's length that has to stay, because other slits start on it.
 double needed_share(const PlanMesh& mesh, std::span<const Slit> slits, std::size_t which);

@@ -177,9 +177,6 @@ inline constexpr double kFlatBelow = 1.5;
 inline constexpr double kTipProminence = 0.08;
 /// Distance from the mirror plane below which a tip is moved onto it. Otherwise a back gets two parallel slits.
 inline constexpr double kTipToPlane = 0.07;
-/// Distance below which two tips are one. On a surface that is nearly its own mirror image, a tip that is mirrored
-/// falls beside the other one, and the limb would get two.
-inline constexpr double kTipsApart = 0.05;
 /// Length of tree and boundary below which a piece gets one more slit. A ball, which has no limbs, would have
 /// hardly any cut.
 inline constexpr double kLeastCut = 0.6;
@@ -217,8 +214,6 @@ inline constexpr double kAheadOfEnd = 0.2;
 inline constexpr double kAheadOfCut = 0.04;
 /// Energy of a triangle above 4 that counts at most, so that one collapsed triangle does not hide all other peaks.
 inline constexpr double kMostExcess = 50.0;
-/// Distance of the places all over the surface from the cut and from each other, at least.
-inline constexpr double kSpreadStep = 0.03;
 /// Places all over the surface that are tried if no likely one helps.
 inline constexpr std::size_t kThoroughPlaces = 48;
 /// Distance below which slits to two places are one candidate.
@@ -240,8 +235,6 @@ inline constexpr double kLeastGain = 2e-3;
 inline constexpr double kFinestGain = 1e-4;
 /// Prices of a slit that are added when slits are compared, so that tiny slits do not win.
 inline constexpr double kChoicePrice = 2.5;
-/// Price that an exchange saves at least.
-inline constexpr double kLeastSaving = 1e-3;
 /// Times that a gain counts if the map overlaps itself, because it costs 0.02 to 0.03 of energy to undo that.
 inline constexpr double kOverlappingGain = 0.3;
 /// Slits that are tried for an exchange in each round.
