@@ -38,6 +38,12 @@ struct MapReport {
 /// Between islands, the limit is 1e-6 of the largest coordinate. An island may be mirrored as a whole. Triangles that
 /// the surface left out are not measured.
 ///
+/// The time is n log n for most maps with n triangles. Two kinds of maps take longer:
+///
+/// - Parts of islands that lie in each other's holes are compared in pairs. So 4,000 rings within each other take
+///   seconds.
+/// - Edges of outlines that touch each other are compared in pairs. So 4,000 islands with a common corner take seconds.
+///
 /// \param surface the surface
 /// \param uvs UVs of each of the caller's triangles, finite and below 1e152 in size
 /// \param islands the island of each triangle, from 0. Empty: triangles are in one island if they agree on the UVs of a
