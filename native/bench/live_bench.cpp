@@ -283,13 +283,13 @@ void measure(const std::string& file, const Options& options) {
       touched = 0;
       for (std::size_t u = 0; u < changed.size(); ++u) touched += changed.tensors[u] != metrics[0].tensors[u];
       Embedding old = embeddings[0];
-      again.push_back(seconds([&] { old = re_embed(*surface, metrics[0], changed, std::move(old)); }));
+      again.push_back(seconds([&] { old = re_embed(*surface, metrics[0], changed, old); }));
       scribble.rings = 10;
       old = embeddings[0];
       const std::int32_t from = any(random), to = any(random);
       Metric drawn;
       drawing.push_back(seconds([&] { drawn = apply_scribbles(*surface, metrics[0], std::vector{scribble}); }));
-      embedding_again.push_back(seconds([&] { old = re_embed(*surface, metrics[0], drawn, std::move(old)); }));
+      embedding_again.push_back(seconds([&] { old = re_embed(*surface, metrics[0], drawn, old); }));
       std::unique_ptr<ExactGeodesics> geodesics;
       solver.push_back(
           seconds([&] { geodesics = std::make_unique<ExactGeodesics>(before, embeddings[0].mesh, old.mesh); }));

@@ -204,12 +204,14 @@ void BisectedMesh::select(const TriangleConnectivity& all, const std::vector<std
   vertex_of_fan_ = vertex_of_selected_;
 }
 
-BisectedMesh::BisectedMesh(const Surface& on, const Metric& by, Embedding&& old)
-    : TriangleConnectivity(std::move(static_cast<TriangleConnectivity&>(old.mesh))),
+BisectedMesh::BisectedMesh(const Surface& on, const Metric& by, const Embedding& old, const Task& task)
+    : TriangleConnectivity{.triangles = copied(old.mesh.triangles, task, 0.0),
+                           .twins = copied(old.mesh.twins, task, 0.0),
+                           .siblings = copied(old.mesh.siblings, task, 0.0)},
       surface(on),
       metric(by),
-      lengths(std::move(old.mesh.lengths)),
-      origins(std::move(old.source_face)),
+      lengths(copied(old.mesh.lengths, task, 0.0)),
+      origins(copied(old.source_face, task, 0.0)),
       branches(triangles.size(), 1),
       depths(triangles.size(), 0),
       vertex_of_fan_(corner_fans(on).vertices),
@@ -218,7 +220,7 @@ BisectedMesh::BisectedMesh(const Surface& on, const Metric& by, Embedding&& old)
       nodes_(std::make_unique_for_overwrite<MetricNode[]>(fans_)),
       new_nodes_(old.points.size() - fans_),
       tensors_(new_nodes_.size()),
-      points_(std::move(old.points)),
+      points_(copied(old.points, task, 0.0)),
       mean_edge_length_(old.mean_edge_length) {}
 
 BisectedMesh::MetricNode BisectedMesh::node_of(const Vector& point, const Vector& n, const Eigen::Matrix3d& m) {

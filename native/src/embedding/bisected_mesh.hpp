@@ -64,8 +64,8 @@ class BisectedMesh : public TriangleConnectivity {  // until to_embedding(), two
   /// the mesh. The task is told `progress`; throws Cancelled.
   BisectedMesh(const EmbeddingInput& input, const Task& task, double progress, EdgeRule rule = EdgeRule::kEnds);
   /// The triangles of an embedding of the surface, which must be `is_local`. Points of the metric have to be set with
-  /// set_node() before they are used.
-  BisectedMesh(const Surface& on, const Metric& by, Embedding&& old);
+  /// set_node() before they are used. Throws Cancelled.
+  BisectedMesh(const Surface& on, const Metric& by, const Embedding& old, const Task& task);
 
   std::size_t vertex_count() const { return fans_ + new_nodes_.size(); }
   /// Triangles before the first bisection.

@@ -53,7 +53,7 @@ bool is_valid_as_given(const Surface& surface, const Metric& metric, std::int32_
 /// added to the surface's. Nothing where that is not enough, or longest-edge bisection does not end well. Throws
 /// Cancelled.
 std::optional<Embedding> re_embed_locally(const Surface& surface, const Metric& former, const Metric& metric,
-                                          Embedding&& old, const EmbedOptions& options, const Task& task,
+                                          const Embedding& old, const EmbedOptions& options, const Task& task,
                                           std::size_t most) {
   std::vector<std::int32_t> seeds = changed_faces(surface, former, metric);
   std::size_t invalid_before = old.invalid_before;
@@ -61,7 +61,7 @@ std::optional<Embedding> re_embed_locally(const Surface& surface, const Metric& 
     invalid_before += is_valid_as_given(surface, former, face);
     invalid_before -= is_valid_as_given(surface, metric, face);
   }
-  BisectedMesh former_mesh(surface, metric, std::move(old));
+  BisectedMesh former_mesh(surface, metric, old, task);
   ActiveFaces active(former_mesh);
   Bisection bisection(std::move(former_mesh), options, Scheme::kLongestEdge, &active);
   BisectedMesh& mesh = bisection.mesh();
@@ -210,7 +210,7 @@ Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions
   return embed_by_repair(input, task, progress);
 }
 
-Embedding re_embed(const Surface& surface, const Metric& former, const Metric& metric, Embedding old,
+Embedding re_embed(const Surface& surface, const Metric& former, const Metric& metric, const Embedding& old,
                    const EmbedOptions& options, const Task& task) {
   check_size(surface, former);
   check(EmbeddingInput(surface, metric, options));
@@ -221,9 +221,9 @@ Embedding re_embed(const Surface& surface, const Metric& former, const Metric& m
       (old.points.size() >= surface.vertex_count() && (has_all_faces || !old.is_local) &&
        std::ranges::all_of(old.source_face, [&](std::int32_t f) { return f >= 0 && index(f) < faces; }));
   if (!is_of_surface) throw InvalidInput("the former embedding is of another surface");
-  const auto embedded_anew = [&, mean_edge_length = old.mean_edge_length] {
+  const auto embedded_anew = [&] {
     EmbedOptions same_size = options;
-    if (same_size.mean_edge_length == 0) same_size.mean_edge_length = mean_edge_length;
+    if (same_size.mean_edge_length == 0) same_size.mean_edge_length = old.mean_edge_length;
     Embedding out = embed(surface, metric, same_size, task);
     out.options = options;
     return out;
@@ -233,7 +233,7 @@ Embedding re_embed(const Surface& surface, const Metric& former, const Metric& m
   }
   task.check(0);
   const std::size_t most = std::min(budget(faces), options.max_faces_added);
-  std::optional<Embedding> out = re_embed_locally(surface, former, metric, std::move(old), options, task, most);
+  std::optional<Embedding> out = re_embed_locally(surface, former, metric, old, options, task, most);
   if (!out) return embedded_anew();
   task.check(1);
   return std::move(*out);

@@ -78,14 +78,14 @@ TEST(ReEmbed, IsEmbeddingFromScratchAfterEveryScribble) {
       }
       Metric metric = apply_scribbles(surface, base, scribbles);
       local += embedding.is_local;
-      embedding = re_embed(surface, former, metric, std::move(embedding));
+      embedding = re_embed(surface, former, metric, embedding);
       in_part += embedding.faces_embedded < surface.face_count() / 2;
       expect_same(surface, embedding, embed(surface, metric));
       former = std::move(metric);
     }
     EXPECT_GT(local, 15) << "hardly anything was done locally";
     EXPECT_GT(in_part, 15) << "hardly anything was left as it was";
-    const Embedding back = re_embed(surface, former, base, std::move(embedding));
+    const Embedding back = re_embed(surface, former, base, embedding);
     expect_same(surface, back, embed(surface, base));
   }
 }
@@ -102,7 +102,7 @@ TEST(ReEmbed, IsEmbeddingFromScratchWhereTheMetricChangesEverywhereAtRandom) {
       if (random() % 40 == 0) metric.tensors[v] = other.tensors[v];
     }
     EXPECT_TRUE(embedding.is_local);
-    embedding = re_embed(surface, former, metric, std::move(embedding));
+    embedding = re_embed(surface, former, metric, embedding);
     expect_same(surface, embedding, embed(surface, metric));
     former = std::move(metric);
   }
@@ -154,7 +154,7 @@ TEST(ReEmbed, LeavesWhatIsFarAwayWhereItIs) {
   Metric metric = former;
   metric.tensors[0] = Vector(40, 0.1, 0).asDiagonal();
   const std::vector<double> before = old.mesh.lengths;
-  const Embedding embedding = re_embed(surface, former, metric, std::move(old));
+  const Embedding embedding = re_embed(surface, former, metric, old);
   std::size_t changed = 0;
   for (std::size_t h = 0; h < 3 * surface.face_count(); ++h) changed += embedding.mesh.lengths[h] != before[h];
   EXPECT_GT(changed, 0U);

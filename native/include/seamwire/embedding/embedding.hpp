@@ -163,8 +163,8 @@ SEAMWIRE_API Embedding embed(const Surface& surface, const Metric& metric, const
 /// \returns the embedding in the changed metric
 /// \throws InvalidInput if `old` is of another surface, as far as its size tells, or embed() rejects an argument
 /// \throws Cancelled if the task is cancelled
-SEAMWIRE_API Embedding re_embed(const Surface& surface, const Metric& former, const Metric& metric, Embedding old,
-                                const EmbedOptions& options = {}, const Task& task = {});
+SEAMWIRE_API Embedding re_embed(const Surface& surface, const Metric& former, const Metric& metric,
+                                const Embedding& old, const EmbedOptions& options = {}, const Task& task = {});
 
 /// Find the faces that are invalid in a metric before any bisection, including faces without an area.
 ///
