@@ -121,11 +121,11 @@ class WholePlan {
           is_again = true;
         }
         if (is_again) continue;
-        add_maps(plan, mesh, nullptr, maps);
+        add_maps(plan, mesh, nullptr, maps, task);
       } else {
         for (const auto& [group, place] : places_) {
           const GroupProblem& own = groups()[group];
-          add_maps(plan, own.original.mesh, &own.places[place], plans_[group].result().maps);
+          add_maps(plan, own.original.mesh, &own.places[place], plans_[group].result().maps, task);
         }
       }
       measure(plan, part_of(task, kMeasureBegins, 1.0));
@@ -180,7 +180,9 @@ class WholePlan {
     plan.energy = area > 0.0 ? energy / area : 4.0;
     plan.is_reached = std::isfinite(plan.energy) && plan.energy <= distortion_ && !overlaps;
     const std::vector<Edge> cuts = cuts_of(plan, prepared_.options.seams);
+    task.check(1.0);
     plan.islands = face_segments(surface, cuts);
+    task.check(1.0);
     for (const std::int32_t missing : missing_cuts(surface, cuts, plan.islands)) {
       ++plan.island_count;
       plan.not_discs += missing > 0 ? 1 : 0;
@@ -222,7 +224,8 @@ class WholePlan {
   }
 
   /// Adds UVs. `place`: where the faces and vertices of the maps' mesh are on the whole mesh; null: in the same place.
-  void add_maps(SeamPlan& plan, const PlanMesh& mesh, const Place* place, const CutMaps& maps) {
+  void add_maps(SeamPlan& plan, const PlanMesh& mesh, const Place* place, const CutMaps& maps, const Task& task) {
+    Poll poll(task, 0.0, 0.0, 1);
     const PlanMesh& whole = prepared_.mesh();
     const auto whole_face = [&](std::int32_t f) { return place != nullptr ? place->faces[f] : f; };
     for (std::size_t i = 0; i < maps.maps.size(); ++i) {
@@ -231,6 +234,7 @@ class WholePlan {
       is_mapped_ = is_mapped_ && (map || !is_counted);
       if (!map) continue;
       for (std::size_t k = 0; k < map->island.triangles.size(); ++k) {
+        poll.next();
         const std::int32_t face = whole_face(map->island.faces[k]), own_face = whole.faces[face];
         const Triangle& corners = prepared_.surface->triangles()[own_face];
         for (std::size_t c = 0; c < 3; ++c) {
