@@ -118,7 +118,7 @@ TEST(PlanCuts, NamesCurvesThatDoNotRunOverTheMesh) {
 
 TEST(PlanCuts, ReportsProgressAndCanBeCancelled) {
   const Row row(300);
-  CutCurve curve{.points = {}, .start = SurfacePoint::at_vertex(0)};
+  CutCurve curve{.points = {}, .start = SurfacePoint(0)};
   for (int x = 0; x <= 300; ++x) curve.points.emplace_back(x, 0.5 + 0.3 * std::sin(1.3 * x), 0.0);
   const std::vector<std::int32_t> one_polygon(row.polygons.size(), 0);
   for (const PolygonMesh& mesh :
