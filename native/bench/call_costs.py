@@ -77,7 +77,6 @@ def calls_on(fineness: int) -> Calls:
         "embed, max_error=0.01": lambda: sw.embed(surface, metric, max_error=0.01),
         "distance_field, the first, with embed": lambda: sw.distance_field(sw.embed(surface, metric), start),
         "distance_field, further ones": lambda: sw.distance_field(embedding, start),
-        "distance_field, windows=2": lambda: sw.distance_field(embedding, start, windows=2),
         "DistanceField.trace": lambda: field.trace(end),
         "snap_to_edges, further ones": lambda: sw.snap_to_edges(surface, wire),
         "edge_wires, further ones": lambda: sw.edge_wires(surface, metric, start),

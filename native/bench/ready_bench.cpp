@@ -119,7 +119,7 @@ bool is_ready(const LiveWire& live) {
 
 void measure_without_seed(const Surface& surface, const LiveWireOptions& how) {
   const Stopwatch watch;
-  const LiveWire live(surface.points(), surface.triangles(), std::nullopt, how);
+  const LiveWire live({surface.points(), surface.triangles()}, how);
   while (!is_ready(live)) std::this_thread::sleep_for(kBetweenRequests);
   const Lap ready = watch.lap();
   std::printf("  ready without a seed %.2f / %.2f s\n", ready.clock, ready.processor);

@@ -40,11 +40,6 @@ int main() {
   //! [early]
   std::printf("complete up to %g and %g\n", near.distances().radius(), limited.distances().radius());
 
-  //! [bounded]
-  const EmbeddedField quick = embedded.bounded_field(start, 2);
-  std::printf("%s\n", quick.distances().is_exact() ? "exact" : "approximate");
-  //! [bounded]
-
   //! [corridor]
   CorridorPaths paths(embedded.geodesics(), start);  // needs no distance field
   const IntrinsicPath path = paths.path(end);        // at least as long as the geodesic

@@ -385,11 +385,8 @@ void check_wires(Bytes& from, const Patience& patience, const Surface& surface, 
   require(embedding.worst_clamp >= 1.0, "a factor is one or more");
   const ExactGeodesics solver(embedding.mesh);
   const std::int32_t seed = from.below(surface.vertex_count());
-  const bool exact = from.coin();
-  const DistanceField field =
-      exact ? solver.solve(seed, patience.task())
-            : solver.solve_bounded(seed, 1 + static_cast<std::uint32_t>(from.below(8)), patience.task());
-  if (exact) check_field(embedding.mesh, field);
+  const DistanceField field = solver.solve(seed, patience.task());
+  check_field(embedding.mesh, field);
   for (const ClosedWire& loop : closed_wires(surface, embedding, field, 3, patience.task())) {
     require(!loop.wire.points.empty() && loop.wire.points.front() == loop.wire.points.back(),
             "a closed wire is closed");
@@ -411,10 +408,10 @@ void check_wires(Bytes& from, const Patience& patience, const Surface& surface, 
     require(wire.points.empty() == std::isinf(distance), "what is reached has a wire");
     if (wire.points.empty()) continue;
     require(wire.from == seed && wire.to == target, "a wire leads from the seed to the target");
-    require(!exact || wire.length <= distance * 1.5 + 1e-9, "an exact wire is about as long as the distance");
+    require(wire.length <= distance * 1.5 + 1e-9, "an exact wire is about as long as the distance");
     const IntrinsicPath path = quick.path(target, patience.task());
     require(!path.points.empty(), "what is reached has a path at once");
-    require(!exact || path.length >= distance * (1.0 - 1e-6) - 1e-12, "no path is shorter than the distance");
+    require(path.length >= distance * (1.0 - 1e-6) - 1e-12, "no path is shorter than the distance");
     const std::vector<std::int32_t> chain = snap_to_edges(surface, graph, wire);
     require(std::set(chain.begin(), chain.end()).size() == chain.size(), "a snapped wire repeats no vertex");
   }

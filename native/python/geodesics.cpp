@@ -74,9 +74,6 @@ void bind_distances(FieldClass& field) {
       .def_property_readonly(
           "radius", [](const FieldObject& f) { return f.field.radius(); },
           "float: the distance at which the solver stopped, or inf. Larger distances are inf.")
-      .def_property_readonly(
-          "is_exact", [](const FieldObject& f) { return f.field.is_exact(); },
-          "bool: whether distances are exact on the embedding. False if `windows` were limited.")
       .def_property_readonly("distances", &distances_of,
                              "(n,) float64: the distance of each of the surface's vertices, in the metric. inf if no "
                              "path reaches the vertex.")
@@ -271,39 +268,33 @@ struct Solve {
   SolveOptions options;
 };
 
-Solve solve_from(const Surface& surface, const py::object& seed, const std::optional<std::int32_t>& windows,
-                 const py::object& targets, const std::optional<double>& max_distance) {
+Solve solve_from(const Surface& surface, const py::object& seed, const py::object& targets,
+                 const std::optional<double>& max_distance) {
   Solve solve{.seeds = surface_points_from(seed, surface, "seed"), .options = {}};
   if (!targets.is_none()) solve.options.targets = surface_points_from(targets, surface, "target");
   if (max_distance) solve.options.max_distance = *max_distance;
   if (solve.seeds.empty()) throw InvalidInput("seed: expected at least one");
-  if (windows && *windows < 1) throw InvalidInput("windows: expected at least 1, or None");
-  if (windows && (solve.seeds.size() > 1 || solve.seeds[0].vertex < 0 || !targets.is_none() || max_distance)) {
-    throw InvalidInput("windows: only for one seed that is a vertex, without targets and max_distance");
-  }
   return solve;
 }
 
 Held<FieldObject> make_field(const std::shared_ptr<EmbeddingObject>& embedding, const py::object& seed,
-                             const py::object& progress, const std::optional<std::int32_t>& windows,
-                             const py::object& targets, const std::optional<double>& max_distance) {
-  Solve solve = solve_from(*embedding->surface, seed, windows, targets, max_distance);
+                             const py::object& progress, const py::object& targets,
+                             const std::optional<double>& max_distance) {
+  Solve solve = solve_from(*embedding->surface, seed, targets, max_distance);
   return Watch(progress).run([&](const Task& task) {
     const ExactGeodesics& geodesics = embedding->geodesics(beginning(task));
     for (SurfacePoint& point : solve.seeds) point = embedding->find(point, "seed");
     for (SurfacePoint& point : solve.options.targets) point = embedding->find(point, "target");
-    return make_held<FieldObject>(FieldObject{
-        embedding, windows ? geodesics.solve_bounded(solve.seeds[0].vertex, static_cast<std::uint32_t>(*windows), task)
-                           : geodesics.solve(solve.seeds, solve.options, task)});
+    return make_held<FieldObject>(FieldObject{embedding, geodesics.solve(solve.seeds, solve.options, task)});
   });
 }
 
 void bind_distance_field(py::module_& module) {
   module.def("distance_field", &make_field, py::arg("embedding"), py::arg("seed"), py::arg("progress") = py::none(),
-             py::arg("windows") = py::none(), py::arg("targets") = py::none(), py::arg("max_distance") = py::none(),
+             py::arg("targets") = py::none(), py::arg("max_distance") = py::none(),
              R"(Compute distances over an embedding from a point, or from the nearest of several points.
 
-Distances are exact on the embedding, unless `windows` is given.
+Distances are exact on the embedding.
 
 Parameters
 ----------
@@ -313,9 +304,6 @@ seed : int, (int, (3,) array_like), or sequence of int or (int, (3,) array_like)
     A vertex of the surface, or a triangle and barycentric coordinates, as for `DistanceField.distance`; or several.
 progress : callable, optional
     Called repeatedly with the fraction done. Returning False cancels.
-windows : int, optional
-    The largest number of windows that a list passes on, at least 1. It makes the solver faster and approximate. Traced
-    paths are real and have their true length, which is at least that of the shortest path. The seed must be one vertex.
 targets : int, (int, (3,) array_like), or sequence of int or (int, (3,) array_like), optional
     Stop when the distances and paths of these points are known. Other distances may be missing (inf).
 max_distance : float, optional

@@ -774,8 +774,6 @@ class DistanceField:
     """int: the vertex that distances start from; -1 for several seeds, or a seed that is not a vertex."""
     radius: float
     """float: the distance at which the solver stopped, or inf. Larger distances are inf."""
-    is_exact: bool
-    """bool: whether distances are exact on the embedding. False if `windows` were limited."""
     distances: NDArray[np.float64]
     """(n,) float64: the distance of each of the surface's vertices, in the metric. inf if no path reaches the vertex."""
     def trace(self, vertex: int, progress: Callable[[float], bool | None] | None = None) -> Wire:
@@ -934,13 +932,12 @@ def distance_field(
     embedding: Embedding,
     seed: int | tuple[int, ArrayLike] | Sequence[int | tuple[int, ArrayLike]],
     progress: Callable[[float], bool | None] | None = None,
-    windows: int | None = None,
     targets: int | tuple[int, ArrayLike] | Sequence[int | tuple[int, ArrayLike]] | None = None,
     max_distance: float | None = None,
 ) -> DistanceField:
     """Compute distances over an embedding from a point, or from the nearest of several points.
 
-    Distances are exact on the embedding, unless `windows` is given.
+    Distances are exact on the embedding.
 
     Parameters
     ----------
@@ -950,9 +947,6 @@ def distance_field(
         A vertex of the surface, or a triangle and barycentric coordinates, as for `DistanceField.distance`; or several.
     progress : callable, optional
         Called repeatedly with the fraction done. Returning False cancels.
-    windows : int, optional
-        The largest number of windows that a list passes on, at least 1. It makes the solver faster and approximate. Traced
-        paths are real and have their true length, which is at least that of the shortest path. The seed must be one vertex.
     targets : int, (int, (3,) array_like), or sequence of int or (int, (3,) array_like), optional
         Stop when the distances and paths of these points are known. Other distances may be missing (inf).
     max_distance : float, optional

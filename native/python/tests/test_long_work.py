@@ -84,6 +84,7 @@ def test_other_threads_run_meanwhile(
     def change() -> None:
         changed.set_metric("feature", max_anisotropy=5.0)
         changed.wires(9000)
+        changed.wait()  # otherwise the next try competes with what this one leaves running
 
     if call == "change of a live wire":
         changed = sw.LiveWire(large)

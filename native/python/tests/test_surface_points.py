@@ -116,14 +116,20 @@ def test_a_face_without_an_area_is_told_from_a_hole() -> None:
         sw.distance_field(hole, 0).distance(0, (0.2, 0.3, 0.5))
 
 
-def test_tracing_can_be_cancelled() -> None:
-    field = sw.distance_field(STRETCHED, 0, windows=1)
+def test_long_traces_can_be_cancelled() -> None:
+    # Along a narrow strip, over 6000 triangles.
+    count = 3000
+    x = np.repeat(np.arange(count + 1.0), 2)
+    points = np.stack([0.01 * x, np.tile([0.0, 1.0], count + 1), 0 * x], -1)
+    first = 2 * np.arange(count, dtype=np.int32)[:, None, None]
+    strip = sw.Surface(points, (first + np.array([(0, 2, 1), (1, 2, 3)], np.int32)).reshape(-1, 3))
+    field = sw.distance_field(sw.embed(strip, sw.euclidean_metric(strip, sw.principal_curvatures(strip))), 0)
+    far, last = len(points) - 1, len(strip.triangles) - 1
     calls = {
-        "trace": lambda progress: field.trace(50, progress=progress),
-        "distance": lambda progress: field.distance(5, (0.2, 0.3, 0.5), progress=progress),
-        "trace_to": lambda progress: field.trace_to(5, (0.2, 0.3, 0.5), progress=progress),
-        "trace_many": lambda progress: field.trace_many([50], progress=progress),
-        "snap_to_edges": lambda progress: sw.snap_to_edges(SURFACE, field.trace(50), progress=progress),
+        "trace": lambda progress: field.trace(far, progress=progress),
+        "trace_to": lambda progress: field.trace_to(last, (0.2, 0.3, 0.5), progress=progress),
+        "trace_many": lambda progress: field.trace_many([far], progress=progress),
+        "snap_to_edges": lambda progress: sw.snap_to_edges(strip, field.trace(far), progress=progress),
     }
     for name, call in calls.items():
         fractions: list[float] = []
@@ -144,8 +150,6 @@ def test_what_is_no_target_is_refused() -> None:
         sw.distance_field(STRETCHED, 0, targets=[0, 96])
     with pytest.raises(ValueError, match="max_distance is -1, not 0 or more"):
         sw.distance_field(STRETCHED, 0, max_distance=-1)
-    with pytest.raises(ValueError, match="windows: only for one seed"):
-        sw.distance_field(STRETCHED, [0, 1], windows=4)
 
 
 def nested(depth: int) -> tuple[object, ...]:

@@ -236,17 +236,6 @@ def test_on_a_plane_wires_are_straight() -> None:
     np.testing.assert_allclose(field.distances, np.linalg.norm(surface.points, axis=1), rtol=1e-12)
 
 
-def test_bounded_fields_have_real_paths_not_below_the_shortest(embedding: sw.Embedding) -> None:
-    exact = sw.distance_field(embedding, 0)
-    bounded = sw.distance_field(embedding, 0, windows=4)
-    assert (exact.is_exact, bounded.is_exact) == (True, False)
-    for target in range(1, len(exact.distances), 37):
-        length = bounded.trace(target).length
-        assert exact.distances[target] * (1 - 1e-9) <= length <= exact.distances[target] * 1.05
-    with pytest.raises(ValueError, match="windows"):
-        sw.distance_field(embedding, 0, windows=0)
-
-
 def test_lengths_do_not_depend_on_the_units() -> None:
     points, triangles = meshes.torus(24, 16)
     fields = []

@@ -130,11 +130,6 @@ EmbeddedField EmbeddedSurface::field(std::span<const SurfacePoint> sources, cons
   return {*this, geodesics(beginning(task)).solve(seeds, own, task)};
 }
 
-EmbeddedField EmbeddedSurface::bounded_field(std::int32_t seed, std::uint32_t windows, const Task& task) const {
-  check_index(seed, surface().vertex_count(), "seed");
-  return {*this, geodesics(beginning(task)).solve_bounded(seed, windows, task)};
-}
-
 double EmbeddedField::distance(const SurfacePoint& point, const Task& task) const {
   return distances_.distance(on_.locate(point), task);
 }

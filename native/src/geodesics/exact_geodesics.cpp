@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "seamwire/geodesics/exact_geodesics.hpp"
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -11,12 +10,10 @@
 #include <vector>
 
 #include "detail/index.hpp"
-#include "detail/infinity.hpp"
 #include "detail/text.hpp"
 #include "geodesics/geodesic_mesh.hpp"
 #include "geodesics/path_tracing.hpp"
 #include "geodesics/placed_point.hpp"
-#include "geodesics/submesh.hpp"
 #include "geodesics/trace_record.hpp"
 #include "geodesics/wavefront.hpp"
 #include "seamwire/geodesics/distance_field.hpp"
@@ -32,28 +29,9 @@ struct DistanceField::Data {
   std::vector<double> distances;     ///< in external numbers
   std::vector<TraceRecord> records;  ///< in internal numbers
   std::vector<SiblingCrossing> crossings;
-  bool is_exact;
   GeodesicCounters counters;
   double radius;  ///< distances beyond it are infinite
 };
-
-namespace {
-
-/// Of a point, or of the corners of its faces the one over which it is nearest.
-std::int32_t nearest_vertex(const SolvedDistances& solved, const PlacedPoint& point) {
-  if (point.vertex >= 0) return point.vertex;
-  std::int32_t nearest = solved.mesh.half_edge(3 * point.faces.front().face).tail;
-  double least = kInfinity;
-  point.for_each_corner(solved.mesh, [&](std::int32_t h, const Point2&, double straight) {
-    const std::int32_t corner = solved.mesh.half_edge(h).apex;
-    if (!(solved.at(corner) + straight < least)) return;
-    least = solved.at(corner) + straight;
-    nearest = corner;
-  });
-  return nearest;
-}
-
-}  // namespace
 
 DistanceField::DistanceField(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
 
@@ -62,7 +40,6 @@ std::int32_t DistanceField::seed() const {
   return sources.size() == 1 ? sources.front().vertex : -1;
 }
 const std::vector<SurfacePoint>& DistanceField::sources() const { return data_->given_sources; }
-bool DistanceField::is_exact() const { return data_->is_exact; }
 const GeodesicCounters& DistanceField::counters() const { return data_->counters; }
 double DistanceField::radius() const { return data_->radius; }
 bool DistanceField::fits(const IntrinsicMesh& mesh) const {
@@ -76,17 +53,8 @@ IntrinsicPath DistanceField::trace(const SurfacePoint& point, const Task& task) 
   const GeodesicMesh& mesh = *data_->mesh;
   const PlacedPoint target = PlacedPoint::of(mesh, point, "point");
   const SolvedDistances solved{mesh, data_->distances, data_->sources, data_->radius};
-  IntrinsicPath path;
-  if (data_->is_exact) {
-    if (target.vertex >= 0 && std::isinf(solved.at(target.vertex))) return {};
-    path = trace_records(solved, data_->records, data_->crossings, target, task);
-  } else {
-    const std::int32_t vertex = nearest_vertex(solved, target);
-    if (std::isinf(solved.at(vertex))) return {};
-    path = trace_records(solved, data_->records, data_->crossings, PlacedPoint::at_vertex(vertex), task);
-    SubmeshCutter cutter(mesh);
-    path = shorten(mesh, cutter, path, data_->sources[0], target, task);
-  }
+  if (target.vertex >= 0 && std::isinf(solved.at(target.vertex))) return {};
+  IntrinsicPath path = trace_records(solved, data_->records, data_->crossings, target, task);
   to_external(mesh, path);
   return path;
 }
@@ -95,7 +63,6 @@ double DistanceField::distance(const SurfacePoint& point, const Task& task) cons
   const PlacedPoint target = PlacedPoint::of(*data_->mesh, point, "point");
   const SolvedDistances solved{*data_->mesh, data_->distances, data_->sources, data_->radius};
   if (target.vertex >= 0) return solved.at(target.vertex);
-  if (!data_->is_exact) return trace(point, task).length;
   return find_straight_start(solved, target, task).distance;
 }
 
@@ -110,7 +77,7 @@ ExactGeodesics::ExactGeodesics(const ExactGeodesics& former, const IntrinsicMesh
 }
 
 DistanceField ExactGeodesics::solve(const SurfacePoint& seed, const Task& task) const {
-  return run({&seed, 1}, {}, 0, task);
+  return solve({&seed, 1}, {}, task);
 }
 
 DistanceField ExactGeodesics::solve(std::span<const SurfacePoint> sources, const SolveOptions& options,
@@ -119,17 +86,6 @@ DistanceField ExactGeodesics::solve(std::span<const SurfacePoint> sources, const
   if (!(options.max_distance >= 0)) {
     throw InvalidInput("max_distance is " + text(options.max_distance) + ", not 0 or more");
   }
-  return run(sources, options, 0, task);
-}
-
-DistanceField ExactGeodesics::solve_bounded(std::int32_t seed, std::uint32_t windows, const Task& task) const {
-  if (windows == 0) throw InvalidInput("windows must be at least 1");
-  check_index(seed, mesh_->vertex_count(), "seed");
-  return run(std::array{SurfacePoint(seed)}, {}, windows, task);
-}
-
-DistanceField ExactGeodesics::run(std::span<const SurfacePoint> sources, const SolveOptions& options,
-                                  std::uint32_t windows, const Task& task) const {
   std::vector<PlacedPoint> placed;
   for (const SurfacePoint& source : sources) {
     placed.push_back(PlacedPoint::of(*mesh_, source, "source " + std::to_string(placed.size())));
@@ -139,7 +95,7 @@ DistanceField ExactGeodesics::run(std::span<const SurfacePoint> sources, const S
     end.targets.push_back(PlacedPoint::of(*mesh_, target, "target " + std::to_string(end.targets.size())));
   }
   SourcePoints from(std::move(placed));
-  WavefrontResult result = propagate_wavefront(*mesh_, from, task, windows, end);
+  WavefrontResult result = propagate_wavefront(*mesh_, from, task, 0, end);
   std::vector<double> distances(mesh_->vertex_count());
   for (std::size_t v = 0; v < distances.size(); ++v) {
     distances[mesh_->external_vertex(static_cast<std::int32_t>(v))] = result.distances[v];
@@ -151,7 +107,6 @@ DistanceField ExactGeodesics::run(std::span<const SurfacePoint> sources, const S
                                                                       .distances = std::move(distances),
                                                                       .records = std::move(result.records),
                                                                       .crossings = std::move(result.crossings),
-                                                                      .is_exact = windows == 0,
                                                                       .counters = result.counters,
                                                                       .radius = result.radius}));
 }

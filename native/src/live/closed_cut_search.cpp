@@ -91,10 +91,6 @@ std::vector<WirePiece> cut_in_pieces(const Surface& surface, const Wire& wire, s
 constexpr std::size_t kClosedWires = 3;
 /// The number of pieces of each: a piece that is shorter than half of the wire is the shortest way between its ends.
 constexpr std::size_t kPiecesOfClosedWire = 3, kPiecesOfBentHalf = 2;
-/// From so many faces on, the exact field takes longer than an artist likes to wait. Then closed wires from a field of
-/// so many windows come first.
-constexpr std::size_t kManyFaces = 50'000;
-constexpr std::uint32_t kWindowsBefore = 4;
 
 }  // namespace
 
@@ -130,24 +126,8 @@ const ClosedCutSearch::InMetric* ClosedCutSearch::in_metric(const WireEnd& point
   return &*in;
 }
 
-/// On a large surface, shows what a bounded number of windows tells in the first metric.
-void ClosedCutSearch::show_bounded(const WireEnd& point, const std::stop_token& stop, const Show& show) {
-  const std::size_t first = closing().front();
-  if (knows(point, first)) return;
-  const std::shared_ptr<const Prepared> by = prepared(first, stop);
-  const EmbeddedSurface& on = *by->embedded;
-  const std::optional<SurfacePoint> seed = on.points().find(point_of(point), "through");
-  if (!seed || seed->vertex < 0 || on.embedding().mesh.face_count() <= kManyFaces) return;
-  const Task task{.stop = stop, .progress = {}};
-  const DistanceField near = on.geodesics().solve_bounded(seed->vertex, kWindowsBefore, task);
-  Cuts cuts(closing().size());
-  cuts[0] = closed_wires(on.surface(), on.embedding(), near, kClosedWires, task);
-  show(choose(point, cuts, stop));
-}
-
 /// The wires of the first metric can be seen while those of the next one are found.
 LiveClosedWires ClosedCutSearch::through(const WireEnd& point, const std::stop_token& stop, const Show& show) {
-  show_bounded(point, stop, show);
   Cuts cuts(closing().size());
   LiveClosedWires found;
   for (std::size_t i = 0; i < closing().size(); ++i) {

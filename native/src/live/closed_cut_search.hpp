@@ -56,11 +56,7 @@ class ClosedCutSearch {
   using Cuts = std::vector<std::vector<ClosedWire>>;  // of each metric
 
   std::shared_ptr<const Prepared> prepared(std::size_t metric, const std::stop_token& stop);
-  bool knows(const WireEnd& point, std::size_t metric) const {
-    return around_ && around_->through == point && around_->in[metric];
-  }
   const InMetric* in_metric(const WireEnd& point, std::size_t metric, const std::stop_token& stop);
-  void show_bounded(const WireEnd& point, const std::stop_token& stop, const Show& show);
   LiveClosedWires choose(const WireEnd& point, const Cuts& cuts, const std::stop_token& stop);
   LiveClosedWire in_pieces(const WireEnd& point, const ClosedWire& cut, const ClosedCutId& id,
                            const std::stop_token& stop);

@@ -41,7 +41,7 @@ std::vector<std::int32_t> nearest_of(const PlanMesh& mesh, std::span<const std::
     nearest[vertices[i]] = static_cast<std::int32_t>(i);
     open.push_back(vertices[i]);
   }
-  const Poll poll(task, 1.0, 1.0, 1);
+  const Poll poll(task, 0.0, 0.0, 1);
   for (std::size_t i = 0; i < open.size(); ++i) {
     poll.at(i);
     for (const PlanNeighbor& next : mesh.all_neighbors[open[i]]) {

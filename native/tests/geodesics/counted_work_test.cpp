@@ -58,11 +58,5 @@ TEST(CountedWork, OnEmbeddedMeshesIsWhatItWas) {
   expect_work("M_max", work(Follow::kMax), {51629, 107467, 10060});
 }
 
-TEST(CountedWork, OfBoundedSeedingIsWhatItWas) {
-  const GeodesicCounters counters =
-      ExactGeodesics(shapes::intrinsic(shapes::grid(100, 0.2))).solve_bounded(0, 4).counters();
-  expect_work("jittered grid, four windows", {counters.lists, counters.windows, 0}, {30243, 96232, 0});
-}
-
 }  // namespace
 }  // namespace seamwire

@@ -186,54 +186,6 @@ TEST_P(ExactOn, EmbeddedLengths) {
   }
 }
 
-// Bounded fields on lengths of all kinds. Every connected vertex has a real path, as long as its distance and never
-// shorter than the geodesic. The bounds for previews hold: 5 % for any vertex, 0.1 % on average.
-TEST_P(ExactOn, BoundedFieldsHaveRealPathsNearTheShortest) {
-  const auto [name, mesh] = exactness_meshes(2)[static_cast<std::size_t>(GetParam())];
-  SCOPED_TRACE(name);
-  const Surface surface = mesh.surface();
-  const Curvature curvature = principal_curvatures(surface);
-  std::mt19937 random(9);
-  std::uniform_real_distribution<double> length(1.02, 2.0);
-  std::vector<IntrinsicMesh> meshes{intrinsic(mesh), intrinsic(mesh, [&](int, int) { return length(random); })};
-  for (const Follow follow : {Follow::kMin, Follow::kMax}) {
-    meshes.push_back(embed(surface, feature_metric(surface, curvature, follow, {.max_anisotropy = 30.0})).mesh);
-  }
-  for (const IntrinsicMesh& lengths : meshes) {
-    const ExactGeodesics geodesics(lengths);
-    const std::int32_t seed = mesh.triangles[4][0];
-    const DistanceField exact = geodesics.solve(seed);
-    EXPECT_TRUE(exact.is_exact());
-    for (const std::uint32_t windows : {1u, 4u, 8u}) {
-      const DistanceField field = geodesics.solve_bounded(seed, windows);
-      EXPECT_FALSE(field.is_exact());
-      double sum = 0.0;
-      int count = 0;
-      for (std::int32_t v = 0; v < lengths.vertex_count; ++v) {
-        const double distance = exact.distances()[index(v)];
-        EXPECT_EQ(std::isinf(distance), std::isinf(field.distances()[index(v)]));
-        if (std::isinf(distance) || v == seed || v % 3 != 0) continue;
-        EXPECT_NEAR(field.distances()[index(v)], distance, (windows == 1 ? 0.2 : 0.05) * distance) << "vertex " << v;
-        const IntrinsicPath path = field.trace(v);
-        ASSERT_FALSE(path.points.empty());
-        EXPECT_EQ(path.points.front().vertex, seed);
-        EXPECT_EQ(path.points.back().vertex, v);
-        EXPECT_NEAR(path.length, length_of(lengths, path), 1e-9 * distance) << "vertex " << v;
-        EXPECT_GE(path.length, distance * (1 - 1e-9)) << "vertex " << v;
-        if (windows > 1) {
-          EXPECT_LE(path.length, 1.05 * distance) << "vertex " << v << ", windows " << windows;
-        }
-        sum += path.length / distance - 1;
-        ++count;
-      }
-      if (windows > 1) {
-        EXPECT_LE(sum, 1e-3 * count) << windows << " windows";
-      }
-    }
-  }
-  EXPECT_THROW(ExactGeodesics(meshes[0]).solve_bounded(0, 0), InvalidInput);
-}
-
 INSTANTIATE_TEST_SUITE_P(Geodesics, ExactOn, testing::Range(0, 7));
 
 TEST(Geodesics, SingleTriangle) {
@@ -535,17 +487,6 @@ TEST(Geodesics, PathsOverTrianglesThinnerThanRoundingLeadToTheSeed) {
       }
     }
   }
-}
-
-TEST(Geodesics, TracesOfABoundedFieldCanBeCancelled) {
-  const ExactGeodesics geodesics(intrinsic(shapes::bumpy(shapes::icosphere(4), 0.1)));
-  std::stop_source stop;
-  const Task task{.stop = stop.get_token(), .progress = {}};
-  const DistanceField bounded = geodesics.solve_bounded(0, 2), exact = geodesics.solve(0);
-  EXPECT_EQ(bounded.trace(100, task).length, bounded.trace(100).length);
-  stop.request_stop();
-  EXPECT_THROW(bounded.trace(100, task), Cancelled);
-  EXPECT_NO_THROW(exact.trace(100, task));
 }
 
 TEST(Geodesics, LongTracesOfAnExactFieldCanBeCancelled) {

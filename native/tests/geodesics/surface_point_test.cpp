@@ -404,22 +404,6 @@ TEST(SurfacePoints, StoppingSavesWork) {
   EXPECT_LT(at_distance.windows, whole.windows / 4);
 }
 
-TEST(SurfacePoints, BoundedFieldsGiveRealPathsToPoints) {
-  for (const auto& [name, mesh] : meshes()) {
-    const ExactGeodesics geodesics(mesh);
-    const DistanceField exact = geodesics.solve(0), bounded = geodesics.solve_bounded(0, 2);
-    for (const auto& [kind, point] : points::all_kinds(mesh, 71)) {
-      SCOPED_TRACE(testing::Message() << name << ", " << kind);
-      if (std::isinf(exact.distance(point))) continue;
-      const IntrinsicPath path = bounded.trace(point);
-      EXPECT_EQ(bounded.distance(point), path.length);
-      EXPECT_GE(path.length, exact.distance(point) * (1 - kTolerance));
-      EXPECT_LE(path.length, exact.distance(point) * 1.1);
-      expect_path(mesh, path, path.length, SurfacePoint(0), point);
-    }
-  }
-}
-
 /// Faces without a height: paths leave them on both sides, as if they were not there.
 TEST(SurfacePoints, FacesWithoutHeightHaveTheirPoints) {
   // A square of two triangles with its diagonal (0, 2) doubled: between the two is the triangle (0, 4, 2), flat on it.

@@ -159,24 +159,6 @@ TEST(LiveWire, TheClosedWiresOfTheFirstMetricAreThereBeforeThoseOfTheSecond) {
   EXPECT_EQ(late.cuts[0].length, early.cuts[0].length);
 }
 
-TEST(LiveWire, OnALargeSurfaceClosedWiresAreThereBeforeTheyAreFinal) {
-  // In TheClosedWiresOfTheFirstMetricAreThereBeforeThoseOfTheSecond, threads exchange the same on a smaller surface.
-  if (sized(false, true)) GTEST_SKIP() << "takes minutes under ThreadSanitizer";
-  const auto surface = shared(shapes::torus(300, 200));
-  LiveWire live(surface, in(MetricFamily::kEuclidean));
-  const SurfacePoint through = SurfacePoint(0);
-  live.wait();
-  LiveClosedWires early = live.closed_wires(through);
-  while (early.cuts.empty() && !early.final) early = live.closed_wires(through);
-  ASSERT_FALSE(early.cuts.empty());
-  EXPECT_FALSE(early.final);
-  live.wait();
-  const LiveClosedWires late = live.closed_wires(through);
-  ASSERT_TRUE(late.final);
-  ASSERT_FALSE(late.cuts.empty());
-  EXPECT_NEAR(late.cuts[0].length, early.cuts[0].length, 0.02 * late.cuts[0].length);
-}
-
 TEST(LiveWire, ClosedWiresLeadThroughPointsOfTheSurface) {
   const auto surface = shared(shapes::torus(24, 16));
   LiveWire live(surface, kPlain), along_edges(surface, kAlongEdges);

@@ -31,7 +31,6 @@ using namespace live_wires;
 
 namespace {
 
-
 TEST(LiveWire, AcrossTheSurfaceGivesTheGeodesicsOfThreeMetricsAndTheConcaveOneLeads) {
   const auto surface = shared(shapes::bumpy(shapes::torus(32, 20), 0.02));
   LiveWire live(surface, kPlain);

@@ -138,16 +138,6 @@ class SEAMWIRE_API EmbeddedSurface {
   /// \throws Cancelled if the task is cancelled
   EmbeddedField field(std::span<const SurfacePoint> sources, const SolveOptions& options = {},
                       const Task& task = {}) const;
-  /// Compute approximate distances from a vertex with ExactGeodesics::solve_bounded().
-  ///
-  /// \param seed one of the caller's vertices
-  /// \param windows how many windows of a list are propagated, 1 or more
-  /// \param task progress and cancellation
-  /// \returns approximate distances, and real wires
-  /// \throws InvalidInput if the seed is out of range, or `windows` is 0
-  /// \throws Cancelled if the task is cancelled
-  EmbeddedField bounded_field(std::int32_t seed, std::uint32_t windows, const Task& task = {}) const;
-
   /// Return whether two embedded surfaces are copies of each other.
   friend bool operator==(const EmbeddedSurface&, const EmbeddedSurface&) = default;
 

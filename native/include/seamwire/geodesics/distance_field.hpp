@@ -41,16 +41,13 @@ struct GeodesicCounters {
 
 /// Distances from a seed, or from the nearest of several sources, to every point of an IntrinsicMesh.
 ///
-/// It also traces the paths. ExactGeodesics makes exact fields, and fields from a bounded number of windows. Immutable.
-/// Copies share the data.
+/// It also traces the paths. ExactGeodesics makes it. Immutable. Copies share the data.
 class SEAMWIRE_API DistanceField {
  public:
   /// Return the vertex that distances start from, -1 if there are several sources or the source is not a vertex.
   std::int32_t seed() const;
   /// Return the points that distances start from, as given.
   const std::vector<SurfacePoint>& sources() const;
-  /// Return whether the field is exact. If not, it comes from a bounded number of windows.
-  bool is_exact() const;
   /// Return how much work the solve took.
   const GeodesicCounters& counters() const;
   /// Return the distance at which the solve stopped, or infinity. Larger distances are infinite.

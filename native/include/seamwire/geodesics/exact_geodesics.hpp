@@ -83,24 +83,8 @@ class SEAMWIRE_API ExactGeodesics {
   DistanceField solve(std::span<const SurfacePoint> sources, const SolveOptions& options = {},
                       const Task& task = {}) const;
 
-  /// Compute approximate distances from a vertex.
-  ///
-  /// In each list of windows, only the windows around the shortest way to the apex are propagated. They are stretched
-  /// over the part that the others covered. More windows take more time and come nearer to the exact distances.
-  ///
-  /// \param seed a vertex of the mesh
-  /// \param windows how many windows of a list are propagated, 1 or more
-  /// \param task progress and cancellation
-  /// \returns approximate distances, and real paths
-  /// \throws InvalidInput if the seed is out of range, or `windows` is 0
-  /// \throws Cancelled if the task is cancelled
-  DistanceField solve_bounded(std::int32_t seed, std::uint32_t windows, const Task& task = {}) const;
-
  private:
   friend class CorridorPaths;
-
-  DistanceField run(std::span<const SurfacePoint> sources, const SolveOptions& options, std::uint32_t windows,
-                    const Task& task) const;
 
   std::shared_ptr<const detail::GeodesicMesh> mesh_;
 };
