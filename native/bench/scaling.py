@@ -121,10 +121,9 @@ def all_work() -> dict[str, tuple[Callable[[int], Work], float]]:
         on, by = metric(n)
         return on, sw.distance_field(sw.embed(on, by), 0).trace(far(n))
 
-    def line(n: int) -> tuple[sw.Surface, np.ndarray, np.ndarray]:
-        on = surface(n)
-        faces = np.arange(0, 2 * round((n / 6) ** 0.5), 2, np.int32)
-        return on, on.points[on.triangles[faces]].mean(1), faces
+    def line(on: sw.Surface) -> tuple[np.ndarray, np.ndarray]:
+        faces = np.arange(0, 2 * round((len(on.triangles) / 6) ** 0.5), 2, np.int32)
+        return on.points[on.triangles[faces]].mean(1), faces
 
     def places(n: int) -> tuple[sw.NearestPoints, np.ndarray]:
         points, triangles = torus(n)
@@ -163,12 +162,13 @@ def all_work() -> dict[str, tuple[Callable[[int], Work], float]]:
         wires.wait()
         return call()
 
-    def stroke(n: int) -> sw.Scribble:
+    def stroke(on: sw.Surface) -> sw.Scribble:
         vertices = np.arange(32)
-        return sw.Scribble(torus(n)[0][vertices], vertices=vertices)
+        return sw.Scribble(on.points[vertices], vertices=vertices)
 
     def strokes(n: int) -> tuple[sw.Surface, sw.Metric, list[sw.Scribble]]:
-        return *metric(n), [stroke(n)]
+        on, by = metric(n)
+        return on, by, [stroke(on)]
 
     def curved(n: int) -> tuple[sw.Surface, sw.Curvature]:
         on = surface(n)
@@ -210,7 +210,7 @@ def all_work() -> dict[str, tuple[Callable[[int], Work], float]]:
         "edge_wires": after(lambda n: (*metric(n), 0), sw.edge_wires),
         "EdgeWires.trace": after(lambda n: (sw.edge_wires(*metric(n), 0), far(n)), lambda wires, to: wires.trace(to)),
         "shortest_cycle": after(lambda n: (*metric(n), (0, 1)), sw.shortest_cycle),
-        "fit_chain": after(line, sw.fit_chain),
+        "fit_chain": after(lambda n: (on := surface(n), *line(on)), sw.fit_chain),
         "isolines": after(lambda n: (on := surface(n), on.points[:, 2], [-0.1, 0.0, 0.1]), sw.isolines),
         "plane_section": after(lambda n: (surface(n), 0, far(n), [0, 1, 0]), sw.plane_section),
         "face_segments": after(lambda n: (surface(n), ring(n)), sw.face_segments),
@@ -241,12 +241,12 @@ def all_work() -> dict[str, tuple[Callable[[int], Work], float]]:
         "LiveWire, edges": live("edges"),
         "LiveWire.set_metric, edges": after_live("edges", lambda on, n: (on.set_metric("campen"), shown(on, n))),
         "LiveWire.set_scribbles, edges": after_live(
-            "edges", lambda on, n: (on.set_scribbles([stroke(n)]), shown(on, n))
+            "edges", lambda on, n: (on.set_scribbles([stroke(on.surface)]), shown(on, n))
         ),
         "LiveWire.loop": after_live("edges", lambda on, _: settled(on, lambda: on.loop((0, 1)))),
         "LiveWire.edge_loop": after_live("edges", lambda on, _: on.edge_loop((0, 1))),
         "LiveWire.extend_straight": after_live("edges", lambda on, _: on.extend_straight((0, 1))),
-        "LiveWire.fit_chain": after_live("edges", lambda on, n: on.fit_chain(*line(n)[1:])),
+        "LiveWire.fit_chain": after_live("edges", lambda on, _: on.fit_chain(*line(on.surface))),
     }
     return {
         **{name: (prepare, MOST_GROWTH) for name, prepare in work.items()},
@@ -262,7 +262,7 @@ def all_work() -> dict[str, tuple[Callable[[int], Work], float]]:
         "LiveWire, surface": (live("surface"), 1.5),
         "LiveWire.set_metric": (after_live("surface", lambda on, n: (on.set_metric("campen"), shown(on, n))), 1.5),
         "LiveWire.set_scribbles": (
-            after_live("surface", lambda on, n: (on.set_scribbles([stroke(n)]), shown(on, n))),
+            after_live("surface", lambda on, n: (on.set_scribbles([stroke(on.surface)]), shown(on, n))),
             1.5,
         ),
         "LiveWire.closed_wires": (after_live("surface", lambda on, _: settled(on, lambda: on.closed_wires(0))), 1.5),

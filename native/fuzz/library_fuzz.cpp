@@ -544,45 +544,45 @@ void check_curvature(const Surface& surface) {
 }
 
 /// Each input tries one part of the library on its mesh. Its first byte chooses.
-enum class Room : std::uint8_t { kSurface, kGeodesics, kEdgeWires, kWires, kMap, kPlan };
-constexpr std::array kRoomNames{"surface", "geodesics", "edge wires", "wires", "map", "plan"};
+enum class Part : std::uint8_t { kSurface, kGeodesics, kEdgeWires, kWires, kMap, kPlan };
+constexpr std::array kPartNames{"surface", "geodesics", "edge wires", "wires", "map", "plan"};
 
-void check(Bytes& from, Room room) {
+void check(Bytes& from, Part part) {
   const Patience patience;
   const Mesh mesh = mesh_from(from);
-  if (room == Room::kSurface) check_rays(from, mesh);
+  if (part == Part::kSurface) check_rays(from, mesh);
   const Surface surface(mesh.points, mesh.triangles, mesh.edges);
-  if (room == Room::kSurface) return check_curvature(surface);
-  if (room == Room::kGeodesics) return check_geodesics(patience, surface);
-  if (room == Room::kMap) return check_map(from, patience, surface);
-  if (room == Room::kPlan) return check_plan(from, patience, surface);
+  if (part == Part::kSurface) return check_curvature(surface);
+  if (part == Part::kGeodesics) return check_geodesics(patience, surface);
+  if (part == Part::kMap) return check_map(from, patience, surface);
+  if (part == Part::kPlan) return check_plan(from, patience, surface);
   const Follow follow = from.coin() ? Follow::kMin : Follow::kMax;
   Metric metric = metric_from(from, surface, principal_curvatures(surface), follow);
   std::vector<Scribble> scribbles;
   for (std::int32_t left = from.below(3); left > 0; --left) scribbles.push_back(scribble_from(from, surface));
   metric = apply_scribbles(surface, metric, scribbles);
-  if (room == Room::kEdgeWires) return check_edge_wires(from, patience, surface, metric, scribbles);
+  if (part == Part::kEdgeWires) return check_edge_wires(from, patience, surface, metric, scribbles);
   check_wires(from, patience, surface, metric);
 }
 
 struct Outcomes {
   std::size_t at_the_end = 0, refused = 0, out_of_time = 0;
-  void print(const char* room) const {
-    std::fprintf(stderr, "%-10s %8zu inputs: %zu reached the end, %zu were refused, %zu ran out of time\n", room,
+  void print(const char* part) const {
+    std::fprintf(stderr, "%-10s %8zu inputs: %zu reached the end, %zu were refused, %zu ran out of time\n", part,
                  at_the_end + refused + out_of_time, at_the_end, refused, out_of_time);
   }
 };
 
-/// Prints what became of the inputs of each room, and of all, when the program ends.
+/// Prints what became of the inputs of each part, and of all, when the program ends.
 struct Tally {
-  std::array<Outcomes, kRoomNames.size()> rooms;
+  std::array<Outcomes, kPartNames.size()> parts;
   ~Tally() {
     Outcomes all;
-    for (std::size_t i = 0; i < rooms.size(); ++i) {
-      rooms[i].print(kRoomNames[i]);
-      all.at_the_end += rooms[i].at_the_end;
-      all.refused += rooms[i].refused;
-      all.out_of_time += rooms[i].out_of_time;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      parts[i].print(kPartNames[i]);
+      all.at_the_end += parts[i].at_the_end;
+      all.refused += parts[i].refused;
+      all.out_of_time += parts[i].out_of_time;
     }
     all.print("all");
   }
@@ -595,10 +595,10 @@ struct Tally {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static seamwire::Tally tally;
   seamwire::Bytes bytes(data, size);
-  const std::int32_t room = bytes.below(seamwire::kRoomNames.size());
-  seamwire::Outcomes& outcomes = tally.rooms[static_cast<std::size_t>(room)];
+  const std::int32_t part = bytes.below(seamwire::kPartNames.size());
+  seamwire::Outcomes& outcomes = tally.parts[static_cast<std::size_t>(part)];
   try {
-    seamwire::check(bytes, static_cast<seamwire::Room>(room));
+    seamwire::check(bytes, static_cast<seamwire::Part>(part));
     ++outcomes.at_the_end;
   } catch (const seamwire::InvalidInput&) {
     ++outcomes.refused;

@@ -96,7 +96,7 @@ progress : callable, optional
 Returns
 -------
 Wire
-    Its length is the vertex's distance if the field is exact. It has no points if the vertex is unreachable.
+    Its length is the vertex's distance. It has no points if the vertex is unreachable.
 
 Raises
 ------
@@ -150,7 +150,7 @@ void bind_points_of_faces(FieldClass& field) {
   field.def("distance", &distance_to, py::arg("face"), py::arg("barycentric"), py::arg("progress") = py::none(),
             R"(Compute the distance of any point of a face.
 
-The distance is as exact as the field. It is not interpolated from the vertices.
+The distance is exact on the embedding. It is not interpolated from the vertices.
 
 Parameters
 ----------
@@ -316,7 +316,7 @@ DistanceField
 Raises
 ------
 ValueError
-    If a seed or a target is out of range, has wrong coordinates, or lies in a hole of the embedding, or if windows or
+    If a seed or a target is out of range, has wrong coordinates, or lies in a hole of the embedding, or if
     max_distance is out of range.
 Cancelled
 )");

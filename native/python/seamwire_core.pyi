@@ -788,7 +788,7 @@ class DistanceField:
         Returns
         -------
         Wire
-            Its length is the vertex's distance if the field is exact. It has no points if the vertex is unreachable.
+            Its length is the vertex's distance. It has no points if the vertex is unreachable.
 
         Raises
         ------
@@ -832,7 +832,7 @@ class DistanceField:
     ) -> float:
         """Compute the distance of any point of a face.
 
-        The distance is as exact as the field. It is not interpolated from the vertices.
+        The distance is exact on the embedding. It is not interpolated from the vertices.
 
         Parameters
         ----------
@@ -959,7 +959,7 @@ def distance_field(
     Raises
     ------
     ValueError
-        If a seed or a target is out of range, has wrong coordinates, or lies in a hole of the embedding, or if windows or
+        If a seed or a target is out of range, has wrong coordinates, or lies in a hole of the embedding, or if
         max_distance is out of range.
     Cancelled
     """

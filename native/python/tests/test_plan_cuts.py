@@ -174,13 +174,16 @@ def test_far_from_the_origin_the_same_is_cut() -> None:
     curve = np.column_stack(
         [np.linspace(0.3, 5.7, 9), np.linspace(0.25, 5.6, 9) + 0.3 * np.sin(np.arange(9)), np.zeros(9)]
     )
+    polygons = []
     for offset in (0.0, 1e6, 3e8):
         away = np.array([offset, 0.7 * offset, 0.3 * offset])
         found = sw.plan_cuts(
             faces.points + away, faces.triangles, faces.owners, [sw.CutCurve(curve + away, (1, (0.1, 0.45, 0.45)))]
         )
-        assert len(found.across) > 3
+        polygons.append([polygon for polygon, *_ in found.across])
         assert not any(is_folded for _, _, is_folded in found.across), f"{offset:g} away"
+    assert len(polygons[0]) > 3
+    assert polygons[1:] == [polygons[0]] * 2
 
 
 def test_along_edges_nothing_is_split() -> None:

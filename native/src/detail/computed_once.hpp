@@ -17,7 +17,7 @@ namespace seamwire::detail {
 
 /// A value that several threads need and the first one to ask computes.
 ///
-/// If that thread is cancelled or fails, the next one that asks, or waits already, tries again: there may be more
+/// If that thread is cancelled or fails, a thread that waits, or the next one that asks, tries again: there may be more
 /// memory then. A progress function may ask for the value that its own thread is computing: it computes a second one,
 /// and the first one that is finished is kept.
 template <class T>
@@ -49,15 +49,17 @@ class ComputedOnce {
     const MutexLock lock(mutex_);
     return value_;
   }
-  /// Returns why the last thread that failed did so. Null if none did, or the value has been computed since.
+  /// Returns why the last thread that failed did so. Null if none did, if a thread tries again, or if the value has
+  /// been computed since.
   std::exception_ptr error() const {
     const MutexLock lock(mutex_);
-    return error_;
+    return owner_ == std::thread::id() ? error_ : nullptr;
   }
-  /// Waits until the value is there or a thread has failed.
+  /// Waits until the value is there, or a thread has failed and none tries again.
   void wait(const Deadline& deadline) const {
     MutexLock lock(mutex_);
-    while (!value_ && !error_ && wait_once(changed_, lock, deadline)) continue;
+    const auto has_failed = [this]() SEAMWIRE_REQUIRES(mutex_) { return error_ && owner_ == std::thread::id(); };
+    while (!value_ && !has_failed() && wait_once(changed_, lock, deadline)) continue;
   }
 
  private:

@@ -41,7 +41,6 @@ class Csr {
     return {items_.data() + offsets_[row], static_cast<std::size_t>(offsets_[row + 1] - offsets_[row])};
   }
   /// Where a row begins in items(); for the number of rows, where the last one ends.
-  std::int32_t offset(std::int32_t row) const { return offsets_[row]; }
   std::size_t row_count() const { return offsets_.size() - 1; }
   const std::vector<T>& items() const { return items_; }
 

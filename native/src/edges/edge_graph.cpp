@@ -113,12 +113,13 @@ EdgeGraph::EdgeGraph(const Surface& surface, const Metric& metric, std::shared_p
   check_size(surface, metric);
   check_finite(metric);
   const std::size_t edges = surface.edges().size();
-  adjacency_ = adjacency ? std::move(adjacency) : make_edge_adjacency(surface, task);
+  const double begins = adjacency ? 0.0 : 0.5;
+  adjacency_ = adjacency ? std::move(adjacency) : make_edge_adjacency(surface, part_of(task, 0.0, begins));
   adjacency_->check_size(surface);
-  resize(lengths_, directed_count(), task, 0.0);
+  resize(lengths_, directed_count(), task, begins);
   std::vector<std::int32_t> next(index(vertex_count()));
   for (std::int32_t v = 0; v < vertex_count(); ++v) next[v] = begin(v);
-  Poll poll(task, 0.0, 1.0, edges);
+  Poll poll(task, begins, 1.0, edges);
   for (const auto& [a, b] : surface.edges()) {  // in the order in which the rows were filled
     const double length = edge_length(surface, metric, a, b);
     lengths_[next[a]++] = lengths_[next[b]++] = length;

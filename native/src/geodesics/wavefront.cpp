@@ -214,9 +214,4 @@ WavefrontResult propagate_wavefront(const GeodesicMesh& mesh, const SourcePoints
   return Wavefront(mesh, sources, task, windows_kept, end).run();
 }
 
-WavefrontResult propagate_wavefront(const GeodesicMesh& mesh, std::int32_t seed, const Task& task,
-                                    std::uint32_t windows_kept) {
-  return propagate_wavefront(mesh, SourcePoints({PlacedPoint::at_vertex(seed)}), task, windows_kept);
-}
-
 }  // namespace seamwire::detail

@@ -36,8 +36,5 @@ struct WavefrontEnd {
 /// connected to a source has both.
 WavefrontResult propagate_wavefront(const GeodesicMesh& mesh, const SourcePoints& sources, const Task& task,
                                     std::uint32_t windows_kept = 0, const WavefrontEnd& end = {});
-/// The same from a vertex.
-WavefrontResult propagate_wavefront(const GeodesicMesh& mesh, std::int32_t seed, const Task& task,
-                                    std::uint32_t windows_kept = 0);
 
 }  // namespace seamwire::detail

@@ -56,7 +56,7 @@ class EventCount {
 
 /// Requests of one thread to another. Only the newest request counts, and work for an older one is stopped.
 ///
-/// One thread posts requests and reads answers, another takes jobs and answers them. Neither waits in a member.
+/// Any thread posts requests and reads answers, and one takes jobs and answers them. None waits in a member.
 /// Requests and answers that are replaced are discarded with the events, because freeing them may take long.
 template <class Request, class Answer>
 class Mailbox {

@@ -46,9 +46,9 @@ double diagonal_of(const PlanMesh& mesh) {
 
 std::optional<Reflection> reflection_in(const PlanMesh& mesh, int axis, double offset, double diagonal,
                                         const Task& task) {
-  const std::vector<FaceFrame> frames = face_frames(mesh);
+  const std::vector<FaceFrame> frames = face_frames(mesh, task);
   const std::vector<double> areas = vertex_areas(mesh, frames);
-  const std::vector<Vector> normals = vertex_normals(mesh, frames);
+  const std::vector<Vector> normals = vertex_normals(mesh, frames, task);
   task.check(0.0);
   // On coarse meshes the nearest vertex may be far along the surface, though the surface is near.
   const PointTree tree(mesh.points, task);

@@ -47,8 +47,9 @@ class Sides {
     }
     if (cut_ < 0) throw InvalidInput("the cut is of another embedding");
     beside_ = Csr<std::int32_t>(edges_.face_count + edges_.hole_count, [&](const auto& visit) {
+      const Poll filling(task, 0.3, 0.3, 1);
       for (std::int32_t e = 0; index(e) < ends_.size(); ++e) {
-        poll.at(index(e));
+        filling.at(index(e));
         for (const std::int32_t f : ends_[e]) visit(f, e);
       }
     });

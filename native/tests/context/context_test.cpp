@@ -223,7 +223,12 @@ TEST(ComputedOnce, AfterAFailureTheNextCallTriesAgain) {
     own.check(0.5);
     return 1;
   };
-  EXPECT_THROW(once.get(refused, make), Cancelled);
+  EXPECT_THROW(once.get(refused,
+                        [&](const Task& own) {
+                          EXPECT_EQ(once.error(), nullptr) << "while a thread tries again";
+                          return make(own);
+                        }),
+               Cancelled);
   EXPECT_NE(once.error(), nullptr) << "nothing more is known";
   EXPECT_EQ(*once.get({}, make), 1);
   EXPECT_EQ(once.error(), nullptr);

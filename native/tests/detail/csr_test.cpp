@@ -48,14 +48,6 @@ TEST(Csr, FillsRowsOneAfterTheOther) {
   EXPECT_EQ(csr.items(), (std::vector{1, 2, 3}));
 }
 
-TEST(Csr, SaysWhereARowBeginsAndWhereTheLastOneEnds) {
-  const Csr<int> csr = csr_of({{1, 2}, {}, {3}});
-  EXPECT_EQ(csr.offset(0), 0);
-  EXPECT_EQ(csr.offset(1), 2);
-  EXPECT_EQ(csr.offset(2), 2);
-  EXPECT_EQ(csr.offset(3), 3);
-}
-
 TEST(Csr, FillsSomeRowsAnew) {
   const Csr<int> csr = csr_of({{1, 2}, {3}, {}, {4}});
   const std::vector<std::int32_t> rows = {0, 2};

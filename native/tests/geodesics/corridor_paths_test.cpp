@@ -69,6 +69,9 @@ TEST_P(CorridorPathsOn, AWholeCorridorAndAllWindowsAreExact) {
   const auto [name, mesh] = exactness_meshes(2)[static_cast<std::size_t>(GetParam())];
   SCOPED_TRACE(name);
   expect_paths(intrinsic(mesh), mesh.triangles[7][1], 1 + 1e-9, {.corridor_vertices = 100000, .windows = 0});
+  for (const std::uint32_t windows : {1U, 4U}) {
+    expect_paths(intrinsic(mesh), mesh.triangles[7][1], 1.05, {.corridor_vertices = 100000, .windows = windows});
+  }
 }
 
 // The bounds that previews are to keep: 5 % for any vertex, 0.1 % on average.

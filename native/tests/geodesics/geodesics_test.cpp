@@ -88,7 +88,6 @@ Eigen::Matrix3d stretch(double factor, double angle) {
   return turn.toRotationMatrix() * Vector(factor, 1 / factor, 1).asDiagonal() * turn.toRotationMatrix().transpose();
 }
 
-// Equal distances everywhere: a queue or a filter that mishandles ties loses vertices here.
 /// Paths bend at vertices of more than a full turn. Triangles around a vertex, each with the same angle there.
 TEST(GeodesicMesh, FindsAnglesBeyondAFullTurn) {
   constexpr double kTurn = 2 * std::numbers::pi;
@@ -118,6 +117,7 @@ TEST(GeodesicMesh, FindsAnglesBeyondAFullTurn) {
   }
 }
 
+// Equal distances everywhere: a queue or a filter that mishandles ties loses vertices here.
 TEST(Geodesics, RegularGridHasEuclideanDistances) {
   const shapes::Mesh grid = shapes::grid(32);
   for (const std::int32_t seed : {0, 16 * 33 + 16, 5 * 33 + 30, 33 * 33 - 1}) {

@@ -285,7 +285,7 @@ TEST(TriangleComplexes, ASolveThatStopsEarlyKnowsWhatItWasAskedForOverTheSpine) 
   EXPECT_NEAR(aimed.distance(target), book.distance(seed, target), kExact);
 }
 
-TEST(TriangleComplexes, PathsOfFewWindowsAndAtOnceAreRealAndNoShorter) {
+TEST(TriangleComplexes, PathsAtOnceAreRealAndNoShorter) {
   const Book book(3, 12, 0.3);
   const IntrinsicMesh mesh = shapes::intrinsic(book.mesh);
   const ExactGeodesics geodesics(mesh);

@@ -60,6 +60,7 @@ TEST(NearbyPreviews, AreMadeByAThreadThatMakesWayAndEmbedsLater) {
   wait_for_preview();
   targets.post(Pick{kHalfway});
   wait_for_preview();
+  EXPECT_EQ(set->fraction(metric), 0.0) << "it embeds the surface already";
   EXPECT_FALSE(EmbeddedSurface::find(context, MetricSpec::euclidean(), interactive_options(*surface)));
   right_of_way->update([] { return false; });
   while (!set->peek(metric)) std::this_thread::yield();

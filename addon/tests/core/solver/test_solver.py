@@ -119,12 +119,12 @@ def test_a_wait_for_the_surface_ends_when_it_is_stopped(monkeypatch: pytest.Monk
     def wait_for_surface(_seconds: float) -> bool:
         return next(answers, True) and live.wait_for_surface()
 
-    monkeypatch.setattr(make, "_first", SimpleNamespace(wait_for_surface=wait_for_surface, surface=None))
+    monkeypatch.setattr(make, "_first", SimpleNamespace(wait_for_surface=wait_for_surface, surface="surface"))
     seams = np.empty((0, 2), dtype=np.int32)
     stopped = native.load().Cancelled
     for wait in (make.wait, partial(make.face_segments, seams), partial(make.part_finder, None, seams)):
         with pytest.raises(stopped):
             wait(lambda _fraction: False)
     told = []
-    make.wait(lambda fraction: not told.append(fraction))
+    assert make.wait(lambda fraction: not told.append(fraction)) == "surface"
     assert told, "it is asked while it waits"

@@ -26,7 +26,8 @@ class EmbeddedSurface;
 /// Any number of threads may use them at once. If several threads need the same thing, one computes it and the others
 /// wait. If that thread is cancelled, one of the others continues in its place.
 ///
-/// If the surface cannot be built, every call that needs it throws what the constructor of Surface threw.
+/// If the surface cannot be built, every call that needs it tries again, because memory may be free then, and throws
+/// what the constructor of Surface throws.
 class SEAMWIRE_API SurfaceContext {
  public:
   /// Make the context of a surface.

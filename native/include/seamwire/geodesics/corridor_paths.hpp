@@ -16,8 +16,8 @@ namespace seamwire {
 struct CorridorPathOptions {
   /// Number of vertices in the corridor that is searched for a path. 0: 1000 + 8 sqrt(number of vertices).
   std::size_t corridor_vertices = 0;
-  /// Windows of a list that are propagated in the corridor: those around the shortest way to the apex, stretched over
-  /// the part that the others covered. 0: all of them, which finds the shortest path in the corridor.
+  /// How many windows of a list are propagated in the corridor. They are those around the shortest way to the apex,
+  /// stretched over the part that the others covered. 0 propagates all, which finds the shortest path in the corridor.
   std::uint32_t windows = 8;
 };
 

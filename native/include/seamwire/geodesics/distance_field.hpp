@@ -60,14 +60,12 @@ class SEAMWIRE_API DistanceField {
   /// and no other field has it.
   std::weak_ptr<const void> mesh_id() const;
   /// Return the distance of each vertex, infinite if no path leads there.
-  ///
-  /// If the field is not exact, distances may be too long or too short.
   const std::vector<double>& distances() const;
 
   /// Compute the distance of any point.
   ///
-  /// It is exact too, not interpolated from the vertices. If the field is not exact, it is the length of trace(). The
-  /// time is about proportional to the number of triangles that the path crosses.
+  /// It is exact too, not interpolated from the vertices. The time is about proportional to the number
+  /// of triangles that the path crosses.
   ///
   /// \param point a point of the mesh
   /// \param task progress and cancellation
@@ -80,9 +78,6 @@ class SEAMWIRE_API DistanceField {
   ///
   /// The path's length is the distance, up to rounding. Tracing takes time proportional to the number of triangles that
   /// the path crosses.
-  ///
-  /// If the field is not exact, the path is still real, with its true length. It is the shortest path in the triangles
-  /// around the path that the field tells. It may be longer than the geodesic, but not shorter.
   ///
   /// \param point a point of the mesh
   /// \param task progress and cancellation

@@ -212,8 +212,8 @@ class SEAMWIRE_API LiveWire {
   void seed(const Pick& pick, bool forward = false);
   /// Start the wires from any point of the surface; along edges only from a vertex.
   ///
-  /// A vertex (SurfacePoint()) is the same as seed({vertex}). No wire begins where the metric's embedding
-  /// has a hole, or in a face without an area.
+  /// A vertex is the same as seed({vertex}). No wire begins where the metric's embedding has a hole, or in a face
+  /// without an area.
   ///
   /// \param point a point of the surface
   /// \throws InvalidInput if the point is not part of the surface, or lies in a face although wires run along edges
@@ -252,8 +252,8 @@ class SEAMWIRE_API LiveWire {
   /// only.
   ///
   /// The first call for a point starts the search, and ends the search for another point. Ask again until the answer is
-  /// final. The thread of the first of these metrics does the search. Cuts in the first metric are available first. On
-  /// a large surface, a rough version of them comes even earlier. Neither is final.
+  /// final. The thread of the first of these metrics does the search. Cuts in the first metric are available first, and
+  /// are not final.
   ///
   /// \param through a point of the surface
   /// \returns the cuts that choose_closed_wires() chooses

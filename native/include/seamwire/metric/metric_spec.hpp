@@ -47,22 +47,22 @@ struct SEAMWIRE_API MetricSpec {
   /// 1) / 19. For kEuclidean, nothing is set.
   Strength strength = {};
 
-  /// Return the feature metric.
+  /// Describe the feature metric.
   ///
   /// \param follow the principal directions that are short
   /// \param strength the strength
   /// \see Zhuang et al. 2014, eq. 5
   static MetricSpec feature(Follow follow, const Strength& strength = {.parameter = 0.1});
-  /// Return the metric of concave creases, on curvatures smoothed over 0.01.
+  /// Describe the metric of concave creases, on curvatures smoothed over 0.01.
   ///
   /// \param strength the strength
   static MetricSpec concave(const Strength& strength = {.parameter = 1.0});
-  /// Return the metric of concave creases that is as strong as a feature metric.
+  /// Describe the metric of concave creases that is as strong as a feature metric.
   ///
   /// \param feature the strength of a feature metric
-  /// \returns its parameter is gamma / 0.1, or its maximum anisotropy is the same
+  /// \returns the description, with the parameter gamma / 0.1 or the same maximum anisotropy
   static MetricSpec concave_like(const Strength& feature);
-  /// Return the Euclidean metric.
+  /// Describe the Euclidean metric.
   static MetricSpec euclidean() { return {}; }
 
   /// Return what the paths of the metric follow.

@@ -40,9 +40,8 @@ struct MapReport {
 ///
 /// The time is n log n for most maps with n triangles. Two kinds of maps take longer:
 ///
-/// - Parts of islands that lie in each other's holes are compared in pairs. So 4,000 rings within each other take
-///   seconds.
-/// - Edges of outlines that touch each other are compared in pairs. So 4,000 islands with a common corner take seconds.
+/// - Parts of islands that lie in each other's holes are compared in pairs.
+/// - Edges of outlines that touch each other are compared in pairs, as those of islands with a common corner.
 ///
 /// \param surface the surface
 /// \param uvs UVs of each of the caller's triangles, finite and below 1e152 in size
