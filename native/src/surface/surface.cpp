@@ -300,7 +300,9 @@ std::vector<bool> find_flips(const Faces& faces, const Gluing& gluing, const std
   const Index count = faces.count();
   std::vector<bool> flipped(count, false);
   Index agreed = 0;  // every side before it agrees with its twin as given
+  const Poll comparing(task, 0.55, 0.55, 1);
   while (agreed < faces.side_count() && (twin[agreed] < agreed || faces.tail(agreed) == faces.tip(twin[agreed]))) {
+    comparing.at(index(agreed));
     ++agreed;
   }
   if (agreed == faces.side_count()) return flipped;

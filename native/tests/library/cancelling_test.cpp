@@ -110,7 +110,7 @@ TEST_F(Cancelling, NearestPointsOfManyTriangles) {
 
 TEST_F(Cancelling, BuildingASurface) {
   const std::size_t half_edges = 3 * faces;
-  expect_stops(6 * vertices + 3 * faces + 2 * edges + 5 * half_edges,
+  expect_stops(6 * vertices + 4 * faces + 2 * edges + 5 * half_edges,
                [&](const Task& task) { const Surface again(mesh.points, mesh.triangles, std::nullopt, task); });
 }
 
