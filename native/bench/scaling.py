@@ -26,7 +26,7 @@ from auto_seams_report import markdown
 Work = Callable[[], object]
 MOST_GROWTH = 1.2
 # Shorter times are noise: first uses of memory, and other work on the machine.
-LEAST_SECONDS = 0.05
+LEAST_SECONDS = 0.02
 LEAST_BYTES = 4e6
 
 
