@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "prices/visibility.hpp"
+#include "prices/edge_prices.hpp"
 #include "shapes.hpp"
 #include "slits/slit_plan.hpp"
 

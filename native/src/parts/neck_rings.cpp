@@ -11,7 +11,7 @@
 
 #include "detail/index.hpp"
 #include "parts/minimum_cut.hpp"
-#include "slits/piece_body.hpp"
+#include "slits/slit_tree.hpp"
 #include "tuning/constants.hpp"
 
 namespace seamwire::detail {

@@ -18,7 +18,7 @@
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "parts/minimum_cut.hpp"
-#include "slits/piece_body.hpp"
+#include "slits/slit_tree.hpp"
 #include "surface/joined_faces.hpp"
 #include "tuning/constants.hpp"
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "prices/plan_mesh.hpp"
-#include "prices/reflection.hpp"
 #include "seamwire/task.hpp"
 
 namespace seamwire::detail {

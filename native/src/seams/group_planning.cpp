@@ -10,8 +10,8 @@
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "parts/parting_cuts.hpp"
-#include "simplified/carried_slits.hpp"
-#include "slits/piece_body.hpp"
+#include "decimation/decimation.hpp"
+#include "slits/slit_tree.hpp"
 #include "tuning/constants.hpp"
 
 namespace seamwire::detail {

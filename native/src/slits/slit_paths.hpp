@@ -10,7 +10,6 @@
 #include "detail/indexed_heap.hpp"
 #include "prices/edge_prices.hpp"
 #include "prices/plan_mesh.hpp"
-#include "prices/reflection.hpp"
 #include "slits/slit_plan.hpp"
 
 namespace seamwire::detail {

@@ -13,7 +13,6 @@
 #include "parameterization/island_map.hpp"
 #include "prices/edge_prices.hpp"
 #include "prices/plan_mesh.hpp"
-#include "prices/reflection.hpp"
 #include "seamwire/task.hpp"
 
 namespace seamwire::detail {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "seam_problems.hpp"
-#include "slits/piece_body.hpp"
+#include "slits/slit_tree.hpp"
 
 namespace seamwire {
 

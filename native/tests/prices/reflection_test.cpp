@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "prices/reflection.hpp"
+#include "prices/plan_mesh.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "prices/visibility.hpp"
+#include "prices/edge_prices.hpp"
 
 #include <gtest/gtest.h>
 

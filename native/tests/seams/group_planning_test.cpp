@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "seam_problems.hpp"
-#include "simplified/decimation.hpp"
+#include "decimation/decimation.hpp"
 
 namespace seamwire {
 

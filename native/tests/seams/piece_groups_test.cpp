@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "seams/piece_groups.hpp"
+#include "seams/prepared_surface.hpp"
 
 #include <gtest/gtest.h>
 

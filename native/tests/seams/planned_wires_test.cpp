@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "seams/wire_touches.hpp"
 #include "shapes.hpp"
 
 namespace seamwire::detail {

@@ -11,9 +11,8 @@
 #include <vector>
 
 #include "seam_problems.hpp"
-#include "search/distortion_peaks.hpp"
+#include "search/slit_search.hpp"
 #include "search/slit_solver.hpp"
-#include "slits/piece_body.hpp"
 #include "slits/slit_plan.hpp"
 
 namespace seamwire {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "simplified/carried_slits.hpp"
+#include "decimation/decimation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,6 @@
 
 #include "parts/neck_rings.hpp"
 #include "seam_problems.hpp"
-#include "simplified/decimation.hpp"
 #include "slits/slit_plan.hpp"
 #include "slits/slit_tree.hpp"
 

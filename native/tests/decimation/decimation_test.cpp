@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "simplified/decimation.hpp"
+#include "decimation/decimation.hpp"
 
 #include <gtest/gtest.h>
 
