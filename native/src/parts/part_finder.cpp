@@ -21,9 +21,8 @@
 #include "detail/text.hpp"
 #include "parts/parting_cuts.hpp"
 #include "prices/border_odds.hpp"
+#include "prices/edge_prices.hpp"
 #include "prices/plan_mesh.hpp"
-#include "prices/reflection.hpp"
-#include "prices/visibility.hpp"
 #include "seamwire/errors.hpp"
 #include "seamwire/surface/segments.hpp"
 #include "seamwire/task.hpp"
@@ -122,8 +121,7 @@ class Joining {
 
   /// Whether two regions are of one size, as mirror images are.
   bool are_alike(std::int32_t one, std::int32_t other) const {
-    constexpr double kSame = 0.01;
-    return std::abs(regions_[one].area - regions_[other].area) <= kSame * regions_[one].area;
+    return std::abs(regions_[one].area - regions_[other].area) <= tuning::kAlikeAreas * regions_[one].area;
   }
 
   /// Joins two regions, and their mirror images.
@@ -238,7 +236,7 @@ double bias_of(double amount) {
 /// The mirror image of each polygon, by the images of its vertices; -1 without an image.
 std::vector<std::int32_t> images_of(const PlanMesh& mesh, const Polygons& polygons, const Reflection& reflection,
                                     const Task& task) {
-  Poll poll(task, 0.0, 0.0, 1);
+  Poll poll(task);
   std::vector<std::vector<std::int32_t>> corners(polygons.count);
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
     poll.next();
@@ -291,9 +289,9 @@ struct PartFinder::Impl {
   std::vector<Region> regions;  // of each polygon
 
   void prepare(const Task& task);
-  std::vector<Edge> seams() const;
-  std::vector<std::uint8_t> marked(const std::vector<Edge>& edges, const char* name) const;
-  std::vector<std::uint8_t> edited(const std::vector<Edge>& edges, const char* name) const;
+  std::vector<Edge> edges_along(std::span<const std::uint8_t> is_marked, const Task& task) const;
+  std::vector<std::uint8_t> marked(const std::vector<Edge>& edges, const char* name, const Task& task) const;
+  std::vector<std::uint8_t> edited(const std::vector<Edge>& edges, const char* name, const Task& task) const;
   std::vector<std::int32_t> joined(double amount, const PartEdits& edits, const Task& task) const;
   std::vector<std::uint8_t> borders(double amount, const PartEdits& edits, const Task& task) const;
 };
@@ -302,15 +300,17 @@ void PartFinder::Impl::prepare(const Task& task) {
   if (options.mirror < -1 || options.mirror > 2) {
     throw InvalidInput("mirror is " + std::to_string(options.mirror) + ", not an axis from 0 to 2, or -1");
   }
-  problem.mesh = plan_mesh(*surface, task);
-  const PlanMesh& mesh = problem.mesh;
-  problem.is_seam = marked(options.seams, "seams");
-  const std::vector<std::uint8_t> is_marked = marked(options.marked, "marked");
+  problem.mesh = std::make_shared<const PlanMesh>(plan_mesh(*surface, task));
+  const PlanMesh& mesh = *problem.mesh;
+  problem.is_seam = marked(options.seams, "seams", task);
+  const std::vector<std::uint8_t> is_marked = marked(options.marked, "marked", task);
   if (options.mirror >= 0) problem.reflection = find_reflection(mesh, options.mirror, part_of(task, 0.0, 0.2));
   const std::vector<FaceFrame> frames = face_frames(mesh, task);
   sizes = measure_pieces(mesh, frames, task);
   std::vector<double> size_at(mesh.vertex_count(), 0.0);  // the root of the area of each vertex's piece
+  const Poll poll(task);
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    poll.at(f);
     for (const std::int32_t v : mesh.triangles[f]) size_at[v] = std::sqrt(sizes.of_piece[sizes.pieces.of_face[f]].area);
   }
   const Visibility visibility =
@@ -325,6 +325,7 @@ void PartFinder::Impl::prepare(const Task& task) {
   task.check(0.95);
   regions.resize(polygons.count);
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    poll.at(f);
     const auto& [diagonal, area] = sizes.of_piece[sizes.pieces.of_face[f]];
     if (!(diagonal > 0.0)) continue;
     Region& own = regions[polygons.of_face[f]];
@@ -335,39 +336,44 @@ void PartFinder::Impl::prepare(const Task& task) {
     const std::vector<std::int32_t> images = images_of(mesh, polygons, *problem.reflection, task);
     for (std::size_t p = 0; p < images.size(); ++p) regions[p].image = images[p];
   }
-  const Poll poll(task, 0.0, 0.0, 1);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     poll.at(index(e));
     problem.prices.of_edge.push_back(mesh.is_real[e] == 0 ? kInfinity : price_of_cut(odds[e]) * mesh.lengths[e]);
   }
 }
 
-/// The existing seams that are edges between two triangles.
-std::vector<Edge> PartFinder::Impl::seams() const {
+/// Marked edges, as vertices of the surface.
+std::vector<Edge> PartFinder::Impl::edges_along(std::span<const std::uint8_t> is_marked, const Task& task) const {
+  const PlanMesh& mesh = *problem.mesh;
+  const Poll poll(task);
   std::vector<Edge> found;
-  for (std::int32_t e = 0; index(e) < problem.mesh.edge_count(); ++e) {
-    const std::int32_t h = problem.mesh.half_edge_of[e];
-    if (problem.is_seam[e] == 0) continue;
-    found.push_back({problem.mesh.sources[problem.mesh.tail(h)], problem.mesh.sources[problem.mesh.tip(h)]});
+  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    poll.at(index(e));
+    const std::int32_t h = mesh.half_edge_of[e];
+    if (is_marked[e] != 0) found.push_back(ascending(mesh.sources[mesh.tail(h)], mesh.sources[mesh.tip(h)]));
   }
   return found;
 }
 
 /// Marks edges of the mesh.
-std::vector<std::uint8_t> PartFinder::Impl::marked(const std::vector<Edge>& edges, const char* name) const {
+std::vector<std::uint8_t> PartFinder::Impl::marked(const std::vector<Edge>& edges, const char* name,
+                                                   const Task& task) const {
   for (const Edge& edge : edges) {
     for (const std::int32_t v : edge) check_index(v, surface->vertex_count(), std::string(name) + ": vertex");
   }
-  return marked_edges(problem.mesh, edges);
+  return marked_edges(*problem.mesh, edges, task);
 }
 
 /// Marks edges of the mesh and their mirror images.
-std::vector<std::uint8_t> PartFinder::Impl::edited(const std::vector<Edge>& edges, const char* name) const {
-  const std::vector<std::uint8_t> own = marked(edges, name);
+std::vector<std::uint8_t> PartFinder::Impl::edited(const std::vector<Edge>& edges, const char* name,
+                                                   const Task& task) const {
+  const std::vector<std::uint8_t> own = marked(edges, name, task);
   if (!problem.reflection) return own;
   std::vector<std::uint8_t> both = own;
+  const Poll poll(task);
   for (std::int32_t e = 0; index(e) < own.size(); ++e) {
-    const std::int32_t image = own[e] != 0 ? image_of_edge(problem.mesh, *problem.reflection, e) : -1;
+    poll.at(index(e));
+    const std::int32_t image = own[e] != 0 ? image_of_edge(*problem.mesh, *problem.reflection, e) : -1;
     if (image >= 0) both[image] = 1;
   }
   return both;
@@ -375,12 +381,10 @@ std::vector<std::uint8_t> PartFinder::Impl::edited(const std::vector<Edge>& edge
 
 /// The region of each polygon.
 std::vector<std::int32_t> PartFinder::Impl::joined(double amount, const PartEdits& edits, const Task& task) const {
-  const PlanMesh& mesh = problem.mesh;
-  task.check(0.0);
-  const std::vector<std::uint8_t> is_kept = edited(edits.kept, "kept");
-  task.check(0.0);
-  const std::vector<std::uint8_t> is_dropped = edited(edits.dropped, "dropped");
-  const Poll poll(task, 0.0, 0.0, 1);
+  const PlanMesh& mesh = *problem.mesh;
+  const std::vector<std::uint8_t> is_kept = edited(edits.kept, "kept", task);
+  const std::vector<std::uint8_t> is_dropped = edited(edits.dropped, "dropped", task);
+  const Poll poll(task);
   const double bias = amount > 0.0 ? bias_of(amount) : -kInfinity;
   std::vector<RegionBorder> found;
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
@@ -401,10 +405,12 @@ std::vector<std::int32_t> PartFinder::Impl::joined(double amount, const PartEdit
 
 /// Marks the borders of parts and the existing seams.
 std::vector<std::uint8_t> PartFinder::Impl::borders(double amount, const PartEdits& edits, const Task& task) const {
-  const PlanMesh& mesh = problem.mesh;
+  const PlanMesh& mesh = *problem.mesh;
   const std::vector<std::int32_t> regions_of = joined(amount, edits, part_of(task, 0.0, kJoined));
   std::vector<std::uint8_t> is_border = problem.is_seam;
+  const Poll poll(task);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    poll.at(index(e));
     const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
     if (twin < 0) continue;
     const std::int32_t one = regions_of[polygons.of_face[h / 3]], other = regions_of[polygons.of_face[twin / 3]];
@@ -412,7 +418,7 @@ std::vector<std::uint8_t> PartFinder::Impl::borders(double amount, const PartEdi
   }
   if (edits.parted.empty()) return is_border;
   SlitProblem parted = problem;
-  const std::vector<std::uint8_t> is_dropped = edited(edits.dropped, "dropped");
+  const std::vector<std::uint8_t> is_dropped = edited(edits.dropped, "dropped", task);
   for (std::size_t e = 0; e < is_dropped.size(); ++e) {
     if (is_dropped[e] != 0) parted.prices.of_edge[e] = kInfinity;
   }
@@ -424,7 +430,7 @@ std::vector<std::uint8_t> PartFinder::Impl::borders(double amount, const PartEdi
     const auto own = std::ranges::find(mesh.faces, face);
     if (own == mesh.faces.end()) continue;
     parted.is_seam = is_border;
-    find_pieces_of(parted, part_of(cutting, 0.0, 0.0));
+    find_pieces_of(parted, task);
     std::vector<std::uint8_t> is_cut(mesh.edge_count(), 0);
     mark_half(parted, parted.pieces.of_face[own - mesh.faces.begin()], is_cut, cutting);
     for (std::size_t e = 0; e < is_cut.size(); ++e) is_border[e] |= is_cut[e];
@@ -446,23 +452,19 @@ Parts PartFinder::find(double amount, const PartEdits& edits, const Task& task) 
   if (!(amount >= 0.0 && amount <= 1.0)) {
     throw InvalidInput("amount is " + text(amount) + ", not from 0 to 1");
   }
+  const RisingProgress rising(task);
+  const Task& own = rising.task();
   const Impl& impl = *impl_;
-  const PlanMesh& mesh = impl.problem.mesh;
-  const std::vector<std::uint8_t> is_border = impl.borders(amount, edits, task);
-  task.check(kParted);
-  std::vector<Edge> borders;
-  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
-    const std::int32_t h = mesh.half_edge_of[e];
-    if (is_border[e] == 0 || impl.problem.is_seam[e] != 0) continue;
-    borders.push_back(ascending(mesh.sources[mesh.tail(h)], mesh.sources[mesh.tip(h)]));
-  }
-  std::ranges::sort(borders);
-  task.check(kParted);
+  const std::vector<std::uint8_t>& is_seam = impl.problem.is_seam;
+  std::vector<std::uint8_t> is_border = impl.borders(amount, edits, own);
+  for (std::size_t e = 0; e < is_border.size(); ++e) is_border[e] = is_border[e] != 0 && is_seam[e] == 0 ? 1 : 0;
+  std::vector<Edge> borders = impl.edges_along(is_border, own);
+  polled_sort(borders, own);
+  own.check(kParted);
   Parts parts;
-  parts.borders = chains_of(impl.surface->vertex_count(), borders, impl.seams());
+  parts.borders = chains_of(impl.surface->vertex_count(), borders, impl.edges_along(is_seam, own));
   borders.insert(borders.end(), impl.options.seams.begin(), impl.options.seams.end());
-  task.check(kParted);
-  parts.of_face = face_segments(*impl.surface, borders);
+  parts.of_face = face_segments(*impl.surface, borders, own);
   for (const std::int32_t part : parts.of_face) parts.count = std::max(parts.count, index(part) + 1);
   return parts;
 }

@@ -6,11 +6,14 @@
 #include <cmath>
 #include <utility>
 
+#include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
+#include "prices/point_tree.hpp"
 #include "surface/corner_fans.hpp"
 #include "surface/joined_faces.hpp"
 #include "surface/real_edges.hpp"
+#include "tuning/constants.hpp"
 
 namespace seamwire::detail {
 
@@ -23,7 +26,7 @@ std::int32_t PlanMesh::edge_between(std::int32_t a, std::int32_t b) const {
 }
 
 void connect(PlanMesh& mesh, std::optional<std::span<const Edge>> real_edges, const Task& task) {
-  Poll poll(task, 0.0, 0.0, 1);
+  Poll poll(task);
   const std::size_t half_edges = mesh.twins.size();
   mesh.edge_of.assign(half_edges, -1);
   mesh.half_edge_of.clear();
@@ -88,9 +91,9 @@ PlanMesh plan_mesh(const Surface& surface, const Task& task) {
 }
 
 std::vector<std::uint8_t> marked_edges(const PlanMesh& mesh, std::vector<Edge> edges, const Task& task) {
-  Poll poll(task, 0.0, 0.0, 1);
+  Poll poll(task);
   for (Edge& edge : edges) edge = ascending(edge[0], edge[1]);
-  std::ranges::sort(edges);
+  polled_sort(edges, task);
   std::vector<std::uint8_t> is_marked;
   for (const std::int32_t h : mesh.half_edge_of) {
     poll.next();
@@ -110,7 +113,7 @@ FaceFrame face_frame(const PlanMesh& mesh, const Triangle& triangle) {
 std::vector<FaceFrame> face_frames(const PlanMesh& mesh, const Task& task) {
   std::vector<FaceFrame> frames;
   frames.reserve(mesh.face_count());
-  Poll poll(task, 0.0, 0.0, 1);
+  Poll poll(task);
   for (const Triangle& triangle : mesh.triangles) {
     poll.next();
     frames.push_back(face_frame(mesh, triangle));
@@ -120,7 +123,7 @@ std::vector<FaceFrame> face_frames(const PlanMesh& mesh, const Task& task) {
 
 std::vector<Vector> vertex_normals(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Task& task) {
   std::vector<Vector> normals(mesh.vertex_count(), Vector::Zero());
-  const Poll poll(task, 0.0, 0.0, 1);
+  const Poll poll(task);
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
     poll.at(f);
     const Triangle& t = mesh.triangles[f];
@@ -154,13 +157,89 @@ double median_length(const PlanMesh& mesh) {
 }
 
 Pieces find_pieces(const PlanMesh& mesh, std::span<const std::uint8_t> is_cut, const Task& task) {
-  Poll poll(task, 0.0, 0.0, 1);
+  Poll poll(task);
   DisjointSets sets = joined_faces(mesh, [&](std::int32_t h) {
     poll.next();
     return is_cut[mesh.edge_of[h]] == 0;
   });
   auto [of_face, count] = sets.numbering();
   return {std::move(of_face), count};
+}
+
+namespace {
+
+/// Whether nearly all edges have an edge as their image, and that one the first as its image.
+bool maps_edges(const PlanMesh& mesh, const Reflection& reflection, const Task& task) {
+  Poll poll(task);
+  std::size_t mapped = 0;
+  const auto back = [&](std::int32_t v, std::int32_t image) { return image >= 0 && reflection.images[image] == v; };
+  for (const std::int32_t h : mesh.half_edge_of) {
+    poll.next();
+    const std::int32_t a = mesh.tail(h), b = mesh.tip(h);
+    const std::int32_t a_image = reflection.images[a], b_image = reflection.images[b];
+    if (!back(a, a_image) || !back(b, b_image)) continue;
+    const auto& around = mesh.all_neighbors[a_image];
+    mapped += std::ranges::any_of(around, [&](const PlanNeighbor& next) { return next.vertex == b_image; }) ? 1 : 0;
+  }
+  return static_cast<double>(mapped) >= tuning::kExactImages * static_cast<double>(mesh.edge_count());
+}
+
+Eigen::AlignedBox3d box_of(const PlanMesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const Vector& point : mesh.points) box.extend(point);
+  return box;
+}
+
+}  // namespace
+
+double diagonal_of(const PlanMesh& mesh) {
+  const Eigen::AlignedBox3d box = box_of(mesh);
+  return box.isEmpty() ? 0.0 : box.diagonal().norm();
+}
+
+std::optional<Reflection> reflection_in(const PlanMesh& mesh, int axis, double offset, double diagonal,
+                                        const Task& task) {
+  const std::vector<FaceFrame> frames = face_frames(mesh, task);
+  const std::vector<double> areas = vertex_areas(mesh, frames);
+  const std::vector<Vector> normals = vertex_normals(mesh, frames, task);
+  task.check(0.0);
+  // On coarse meshes the nearest vertex may be far along the surface, though the surface is near.
+  const PointTree tree(mesh.points, task);
+  const double radius = std::max(tuning::kNearImage * diagonal, tuning::kCoarseImage * median_length(mesh));
+  const auto surface_distance = [&](std::int32_t v, const Vector& point) {
+    const Vector away = point - mesh.points[v];
+    return normals[v].isZero() ? away.norm() : std::min(away.norm(), std::abs(away.dot(normals[v])));
+  };
+  Reflection found{.axis = axis, .offset = offset, .images = {}, .sides = {}};
+  double corresponding = 0.0, total = 0.0;
+  const Poll poll(task, 0.0, 1.0, mesh.vertex_count());
+  for (std::int32_t v = 0; index(v) < mesh.vertex_count(); ++v) {
+    poll.at(index(v));
+    const Vector image = found.mirrored(mesh.points[v]);
+    std::int32_t nearest = tree.nearest(image, radius).point;
+    if (nearest >= 0 && surface_distance(nearest, image) > tuning::kNearImage * diagonal) nearest = -1;
+    found.images.push_back(nearest);
+    total += areas[v];
+    corresponding += nearest >= 0 ? areas[v] : 0.0;
+    const auto side = static_cast<std::int8_t>(mesh.points[v][axis] < offset ? -1 : 1);
+    found.sides.push_back(nearest == v ? std::int8_t{0} : side);
+  }
+  if (!(total > 0.0) || corresponding < tuning::kLeastSymmetric * total) return std::nullopt;
+  found.is_exact = maps_edges(mesh, found, task);
+  return found;
+}
+
+std::optional<Reflection> find_reflection(const PlanMesh& mesh, int axis, const Task& task) {
+  const double diagonal = diagonal_of(mesh);
+  if (!(diagonal > 0.0)) return std::nullopt;
+  std::optional<Reflection> found = reflection_in(mesh, axis, 0.0, diagonal, task);
+  return found ? found : reflection_in(mesh, axis, box_of(mesh).center()[axis], diagonal, task);
+}
+
+std::int32_t image_of_edge(const PlanMesh& mesh, const Reflection& reflection, std::int32_t edge) {
+  const std::int32_t h = mesh.half_edge_of[edge];
+  const std::int32_t a = reflection.images[mesh.tail(h)], b = reflection.images[mesh.tip(h)];
+  return a < 0 || b < 0 ? -1 : mesh.edge_between(a, b);
 }
 
 }  // namespace seamwire::detail

@@ -5,18 +5,21 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "parts/neck_rings.hpp"
-#include "seams/piece_groups.hpp"
 #include "seamwire/task.hpp"
 #include "search/slit_search.hpp"
 #include "search/slit_solver.hpp"
 #include "slits/slit_plan.hpp"
-#include "slits/slit_tree.hpp"
 
 namespace seamwire::detail {
+
+/// Where a copy of some faces lies on the whole mesh: its vertices and faces, in the order of the faces' own ones.
+struct Place {
+  std::vector<std::int32_t> vertices, faces;
+  bool is_mirrored = false;
+};
 
 /// A group of pieces that is planned by itself, and the places on the surface where copies of it lie.
 struct GroupProblem {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "seamwire/task.hpp"
@@ -30,5 +31,16 @@ struct SlitGoal {
 /// the start. On several threads. Throws Cancelled.
 SlitPlan search_slits(const SlitProblem& problem, SlitPlan start, std::vector<std::int32_t> roots, const SlitGoal& goal,
                       const std::function<void(const SlitPlan&)>& found, const Task& task);
+
+/// Vertices to which a further slit might lead. The map is distorted most there, close around them or farther around;
+/// or the cut is farthest away; or they are the most distorted ones ahead of a slit's end. None is near the cut.
+/// `is_on_cut`: 1 at the vertices of the cut. Throws Cancelled.
+std::vector<std::int32_t> distortion_peaks(const SlitProblem& problem, const SlitPlan& plan,
+                                           std::span<const std::uint8_t> is_on_cut, const Task& task);
+
+/// Vertices spread over all of the surface that is not near the cut, each as far from the others and the cut as
+/// possible. Throws Cancelled.
+std::vector<std::int32_t> spread_vertices(const SlitProblem& problem, std::span<const std::uint8_t> is_on_cut,
+                                          std::size_t count, const Task& task);
 
 }  // namespace seamwire::detail

@@ -23,7 +23,7 @@ ROOMS = (
     "slits",
     "parts",
     "search",
-    "simplified",
+    "decimation",
     "seams",
     "live",
 )

@@ -3,13 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "prices/plan_mesh.hpp"
-#include "prices/reflection.hpp"
 #include "seamwire/task.hpp"
+#include "slits/slit_plan.hpp"
 
 namespace seamwire::detail {
 
@@ -26,5 +25,12 @@ struct DecimatedMesh {
 /// `is_seam`: of each edge. Throws Cancelled.
 DecimatedMesh decimate(const PlanMesh& mesh, std::span<const std::uint8_t> is_seam, const Reflection* reflection,
                        std::size_t triangles, const Task& task);
+
+/// Slits on a simplified mesh, as slits on the original one: chains of its real edges that run along them closely.
+/// Slits that start on others start at the same vertices. The image of a slit on an exactly symmetric mesh is exact. A
+/// slit that the original's edges cannot follow is left out. `vertices`: of the original, for each vertex of the
+/// simplified mesh. Throws Cancelled.
+std::vector<Slit> carried_slits(const SlitProblem& simple, std::span<const std::int32_t> vertices,
+                                const SlitProblem& original, std::span<const Slit> slits, const Task& task);
 
 }  // namespace seamwire::detail
