@@ -60,7 +60,7 @@ void measure(const std::string& file, int loop, int repeats) {
   std::vector<std::int32_t> ours(points.size()), others(points.size());
   for (int i = 0; i < repeats; ++i) {
     std::optional<detail::PointTree> tree;
-    ours_built.push_back(seconds([&] { tree.emplace(points); }));
+    ours_built.push_back(seconds([&] { tree.emplace(points, Task{}); }));
     ours_found.push_back(seconds([&] {
       for (std::size_t v = 0; v < points.size(); ++v) ours[v] = tree->nearest(image(points[v]), radius).point;
     }));

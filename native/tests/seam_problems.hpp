@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -22,20 +23,21 @@ struct ProblemOptions {
 /// A problem on a surface itself, without a simplified mesh.
 inline SlitProblem problem_on(const Surface& surface, const ProblemOptions& options = {}) {
   SlitProblem problem;
-  problem.mesh = plan_mesh(surface);
+  problem.mesh = std::make_shared<const PlanMesh>(plan_mesh(surface, {}));
   const auto is_seam = [&](std::int32_t h) {
-    const std::int32_t a = problem.mesh.sources[problem.mesh.tail(h)], b = problem.mesh.sources[problem.mesh.tip(h)];
+    const std::int32_t a = problem.mesh->sources[problem.mesh->tail(h)],
+                       b = problem.mesh->sources[problem.mesh->tip(h)];
     return std::ranges::any_of(options.seams, [&](const Edge& e) { return e == Edge{a, b} || e == Edge{b, a}; });
   };
-  for (const std::int32_t h : problem.mesh.half_edge_of) problem.is_seam.push_back(is_seam(h) ? 1 : 0);
-  if (options.mirror >= 0) problem.reflection = find_reflection(problem.mesh, options.mirror);
-  find_pieces_of(problem);
-  const Visibility visibility = find_visibility(problem.mesh, options.front, {});
+  for (const std::int32_t h : problem.mesh->half_edge_of) problem.is_seam.push_back(is_seam(h) ? 1 : 0);
+  if (options.mirror >= 0) problem.reflection = find_reflection(*problem.mesh, options.mirror, {});
+  const Visibility visibility = find_visibility(*problem.mesh, options.front, {});
   std::vector<double> weights;
-  for (const std::int32_t v : problem.mesh.sources) {
+  for (const std::int32_t v : problem.mesh->sources) {
     if (!options.weights.empty()) weights.push_back(options.weights[v]);
   }
-  problem.prices = find_prices(problem.mesh, visibility, problem.reflection, weights);
+  problem.prices = find_prices(*problem.mesh, visibility, problem.reflection, weights, {});
+  find_pieces_of(problem, {});
   return problem;
 }
 

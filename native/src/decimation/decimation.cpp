@@ -3,9 +3,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <map>
 #include <set>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "detail/poll.hpp"
 #include "slits/slit_paths.hpp"
 #include "slits/slit_plan.hpp"
+#include "tuning/constants.hpp"
 
 namespace seamwire::detail {
 namespace {
@@ -60,7 +62,7 @@ class Collapsing {
         left_(mesh.face_count()) {
     resize(next_corner_, 3 * mesh.face_count(), task, 0.0);
     resize(quadrics_, mesh.vertex_count(), task, 0.0);
-    const Poll poll(task, 0.0, 0.0, 1);
+    const Poll poll(task);
     for (std::int32_t f = 0; index(f) < mesh.face_count(); ++f) {
       poll.at(index(f));
       const FaceFrame frame = face_frame(mesh, triangles_[f]);
@@ -91,7 +93,7 @@ class Collapsing {
     }
   }
 
-  DecimatedMesh result() const;
+  DecimatedMesh result(const Task& task) const;
 
  private:
   struct Entry {
@@ -326,7 +328,7 @@ void Collapsing::collapse_with_image(std::int32_t from, std::int32_t to) {
   if (to_image != to) push_all(to_image);
 }
 
-DecimatedMesh Collapsing::result() const {
+DecimatedMesh Collapsing::result(const Task& task) const {
   DecimatedMesh out;
   std::vector<std::int32_t> number(mesh_.vertex_count(), -1);
   for (std::int32_t v = 0; index(v) < mesh_.vertex_count(); ++v) {
@@ -350,7 +352,7 @@ DecimatedMesh Collapsing::result() const {
     if (twin != half_edges.end()) out.mesh.twins[h] = twin->second;
   }
   out.mesh.scale = mesh_.scale;
-  connect(out.mesh, std::nullopt);
+  connect(out.mesh, std::nullopt, task);
   for (const std::int32_t h : out.mesh.half_edge_of) {
     const bool is_inner = out.mesh.twins[h] >= 0;
     const std::int32_t a = out.vertices[out.mesh.tail(h)], b = out.vertices[out.mesh.tip(h)];
@@ -365,27 +367,20 @@ DecimatedMesh decimate(const PlanMesh& mesh, std::span<const std::uint8_t> is_se
                        std::size_t triangles, const Task& task) {
   Collapsing collapsing(mesh, is_seam, reflection, task);
   collapsing.run(triangles, task);
-  return collapsing.result();
+  return collapsing.result(task);
 }
 
 namespace {
 
-constexpr double kDetour = 1.6;  // a chain that is so many times longer than the slit leads around something
-
-double length_of(std::span<const Vector> line) {
-  double sum = 0.0;
-  for (std::size_t i = 1; i < line.size(); ++i) sum += (line[i] - line[i - 1]).norm();
-  return sum;
-}
-
 class Carrying {
  public:
   Carrying(const SlitProblem& simple, std::span<const std::int32_t> vertices, const SlitProblem& original,
-           std::span<const Slit> slits)
+           std::span<const Slit> slits, const Task& task)
       : simple_(simple),
         vertices_(vertices),
         original_(original),
-        spread_(median_length(simple.mesh)),
+        task_(task),
+        spread_(median_length(*simple.mesh)),
         is_on_cut_(cut_of(original, {}, {}).is_on_cut) {
     for (const Slit& slit : slits) {
       for (const auto* chain : {&slit.path, &slit.image}) {
@@ -398,7 +393,7 @@ class Carrying {
     Slit found{.path = chain(slit.path), .image = {}, .is_needed = slit.is_needed};
     if (found.path.size() < 2) return std::nullopt;
     if (!slit.image.empty() && original_.reflection && original_.reflection->is_exact) {
-      found.image = mirrored_path(original_, found.path, is_on_cut_);
+      found.image = mirrored_path(original_, found.path, is_on_cut_, task_);
     }
     occupy(found.path);
     if (!slit.image.empty() && found.image.empty()) found.image = chain(slit.image);
@@ -413,9 +408,8 @@ class Carrying {
 
   /// Whether a part of a path is so bent that a chain near it might cut it short, as a loop around a handle is.
   bool is_bent(std::span<const std::int32_t> path) const {
-    constexpr double kBent = 2.0;  // times as long as the straight line
-    const Vector across = simple_.mesh.points[path.back()] - simple_.mesh.points[path.front()];
-    return chain_length(simple_.mesh, path) > kBent * across.norm();
+    const Vector across = simple_.mesh->points[path.back()] - simple_.mesh->points[path.front()];
+    return chain_length(*simple_.mesh, path) > tuning::kBent * across.norm();
   }
 
   /// Section by section, each to the next vertex at which another slit starts, or less where the path is bent.
@@ -441,12 +435,15 @@ class Carrying {
   /// one.
   std::vector<std::int32_t> section(std::span<const std::int32_t> path, std::span<const std::uint8_t> barred) const {
     std::vector<Vector> line;
-    for (const std::int32_t v : path) line.push_back(simple_.mesh.points[v]);
+    for (const std::int32_t v : path) line.push_back(simple_.mesh->points[v]);
     const std::int32_t from = vertices_[path.front()], to = vertices_[path.back()];
-    std::vector<std::int32_t> chain = chain_along(original_.mesh, line, spread_, from, to, barred, original_.prices);
-    if (!chain.empty() && chain_length(original_.mesh, chain) < kDetour * length_of(line)) return chain;
-    const std::vector<std::uint8_t> none(barred.size(), 0);
-    chain = chain_along(original_.mesh, line, spread_, from, to, none, original_.prices);
+    const auto along = [&](std::span<const std::uint8_t> without) {
+      return chain_along(*original_.mesh, line, spread_, from, to, without, original_.prices, task_);
+    };
+    std::vector<std::int32_t> chain = along(barred);
+    if (!chain.empty() && chain_length(*original_.mesh, chain) < tuning::kDetour * chain_length(*simple_.mesh, path))
+      return chain;
+    chain = along(std::vector<std::uint8_t>(barred.size(), 0));
     for (std::size_t i = chain.size(); i-- > 1;) {
       if (barred[chain[i - 1]] == 0) continue;
       chain.erase(chain.begin(), chain.begin() + static_cast<std::ptrdiff_t>(i) - 1);
@@ -458,6 +455,7 @@ class Carrying {
   const SlitProblem& simple_;
   std::span<const std::int32_t> vertices_;
   const SlitProblem& original_;
+  const Task& task_;
   double spread_;
   std::vector<std::uint8_t> is_on_cut_;
   std::set<std::int32_t> starts_;
@@ -466,8 +464,8 @@ class Carrying {
 }  // namespace
 
 std::vector<Slit> carried_slits(const SlitProblem& simple, std::span<const std::int32_t> vertices,
-                                const SlitProblem& original, std::span<const Slit> slits) {
-  Carrying carrying(simple, vertices, original, slits);
+                                const SlitProblem& original, std::span<const Slit> slits, const Task& task) {
+  Carrying carrying(simple, vertices, original, slits, task);
   std::vector<Slit> carried;
   for (const Slit& slit : slits) {
     std::optional<Slit> one = carrying.carried(slit);

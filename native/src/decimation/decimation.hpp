@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,8 +29,8 @@ DecimatedMesh decimate(const PlanMesh& mesh, std::span<const std::uint8_t> is_se
 /// Slits on a simplified mesh, as slits on the original one: chains of its real edges that run along them closely.
 /// Slits that start on others start at the same vertices. The image of a slit on an exactly symmetric mesh is exact. A
 /// slit that the original's edges cannot follow is left out. `vertices`: of the original, for each vertex of the
-/// simplified mesh.
+/// simplified mesh. Throws Cancelled.
 std::vector<Slit> carried_slits(const SlitProblem& simple, std::span<const std::int32_t> vertices,
-                                const SlitProblem& original, std::span<const Slit> slits);
+                                const SlitProblem& original, std::span<const Slit> slits, const Task& task);
 
 }  // namespace seamwire::detail

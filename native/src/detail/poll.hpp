@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "seamwire/task.hpp"
@@ -24,7 +25,10 @@ class Poll {
         length_(end - begin),
         total_(static_cast<double>(std::max<std::size_t>(total, 1))),
         mask_(steps_between - 1) {}
+  /// For a loop that reports no progress, or whose steps nobody knows.
+  explicit Poll(const Task& task, std::size_t steps_between = kSteps) : Poll(task, 0.0, 0.0, 1, steps_between) {}
   Poll(Task&& task, double begin, double end, std::size_t total, std::size_t steps_between = kSteps) = delete;
+  explicit Poll(Task&& task, std::size_t steps_between = kSteps) = delete;
 
   /// At the beginning of each step, the first is 0. Throws Cancelled.
   void at(std::size_t step) const {
@@ -93,6 +97,16 @@ std::vector<T> copied(const std::vector<T>& from, const Task& task, double progr
     copy.insert(copy.end(), next, next + static_cast<std::ptrdiff_t>(count));
   }
   return copy;
+}
+
+/// std::ranges::sort() with looks at the task.
+template <class T, class Less = std::ranges::less>
+void polled_sort(std::vector<T>& items, const Task& task, const Less& less = {}) {
+  Poll poll(task);
+  std::ranges::sort(items, [&](const T& one, const T& other) {
+    poll.next();
+    return less(one, other);
+  });
 }
 
 }  // namespace seamwire::detail

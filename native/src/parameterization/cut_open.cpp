@@ -7,6 +7,7 @@
 #include "detail/disjoint_sets.hpp"
 #include "detail/half_edge.hpp"
 #include "detail/index.hpp"
+#include "detail/poll.hpp"
 
 namespace seamwire::detail {
 
@@ -31,12 +32,19 @@ std::int32_t outer_loop(const std::vector<std::vector<std::int32_t>>& boundaries
   return outer;
 }
 
-std::vector<Island> cut_open(const TriangleConnectivity& mesh, std::span<const std::uint8_t> is_cut) {
+std::int64_t Island::missing_cuts() const {
+  const bool is_closed = std::ranges::none_of(twins, [](std::int32_t twin) { return twin < 0; });
+  return (is_closed ? 3 : 1) - euler_characteristic();
+}
+
+std::vector<Island> cut_open(const TriangleConnectivity& mesh, std::span<const std::uint8_t> is_cut, const Task& task) {
+  Poll poll(task);
   const std::vector<Triangle>& triangles = mesh.triangles;
   const std::vector<std::int32_t>& twins = mesh.twins;
   const auto count = static_cast<std::int32_t>(triangles.size());
   DisjointSets faces(triangles.size()), corners(3 * triangles.size());
   for (std::int32_t h = 0; h < 3 * count; ++h) {
+    poll.next();
     const std::int32_t twin = twins[h];
     if (twin < h || is_cut[h] != 0) continue;
     faces.join(h / 3, twin / 3);
@@ -48,6 +56,7 @@ std::vector<Island> cut_open(const TriangleConnectivity& mesh, std::span<const s
   const auto [island_of, island_count] = faces.numbering();
   std::vector<Island> islands(index(island_count));
   for (std::int32_t f = 0; f < count; ++f) {
+    poll.next();
     Island& island = islands[index(island_of[f])];
     Triangle own{};
     for (std::int32_t i = 0; i < 3; ++i) {
@@ -65,6 +74,7 @@ std::vector<Island> cut_open(const TriangleConnectivity& mesh, std::span<const s
   for (Island& island : islands) {
     island.twins.reserve(3 * island.faces.size());
     for (const std::int32_t f : island.faces) {
+      poll.next();
       for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
         const bool is_border = twins[h] < 0 || is_cut[h] != 0;
         island.twins.push_back(is_border ? -1 : 3 * place[twins[h] / 3] + twins[h] % 3);

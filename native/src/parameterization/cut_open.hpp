@@ -7,6 +7,7 @@
 
 #include "seamwire/surface/triangle_connectivity.hpp"
 #include "seamwire/surface/vector.hpp"
+#include "seamwire/task.hpp"
 
 namespace seamwire::detail {
 
@@ -20,6 +21,8 @@ struct Island : TriangleConnectivity {
   /// The boundary loops, of own vertices.
   std::vector<std::vector<std::int32_t>> boundaries() const { return boundary_loops(vertices.size()); }
   std::int64_t euler_characteristic() const { return TriangleConnectivity::euler_characteristic(vertices.size()); }
+  /// How many more cuts the island needs to become a disc: see missing_cuts().
+  std::int64_t missing_cuts() const;
 };
 
 /// The length of a boundary loop. `points`: of own vertices.
@@ -32,7 +35,8 @@ std::int32_t outer_loop(const std::vector<std::vector<std::int32_t>>& boundaries
 /// Cuts a mesh open and returns its islands, ordered by their first faces. Own vertices are numbered in the order of
 /// the triangles' corners.
 ///
-/// `is_cut`: per half-edge, 1 if it is cut, and then its twin is cut too.
-std::vector<Island> cut_open(const TriangleConnectivity& mesh, std::span<const std::uint8_t> is_cut);
+/// `is_cut`: per half-edge, 1 if it is cut, and then its twin is cut too. Throws Cancelled.
+std::vector<Island> cut_open(const TriangleConnectivity& mesh, std::span<const std::uint8_t> is_cut,
+                             const Task& task = {});
 
 }  // namespace seamwire::detail

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "parts/minimum_cut.hpp"
-#include "detail/infinity.hpp"
 
 #include <algorithm>
 
+#include "detail/infinity.hpp"
 #include "detail/poll.hpp"
 
 namespace seamwire::detail {
@@ -21,8 +21,8 @@ void MinimumCut::add(std::int32_t a, std::int32_t b, double price) {
 }
 
 std::vector<std::uint8_t> MinimumCut::source_side(std::int32_t source, std::int32_t sink, const Task& task) {
-  Poll poll(task, 0.0, 0.0, 1, Poll::kFewSteps);  // nobody knows how many paths there are
-  while (find_levels(source, sink)) {
+  Poll poll(task, Poll::kFewSteps);
+  while (find_levels(source, sink, task)) {
     next_ = first_;
     while (push(source, sink) > kNothing) poll.next();
   }
@@ -32,11 +32,13 @@ std::vector<std::uint8_t> MinimumCut::source_side(std::int32_t source, std::int3
 }
 
 /// How many arcs with room each node is from the source; whether the sink can be reached.
-bool MinimumCut::find_levels(std::int32_t source, std::int32_t sink) {
+bool MinimumCut::find_levels(std::int32_t source, std::int32_t sink, const Task& task) {
+  const Poll poll(task);
   level_.assign(first_.size(), -1);
   level_[source] = 0;
   std::vector<std::int32_t> open{source};
   for (std::size_t i = 0; i < open.size(); ++i) {
+    poll.at(i);
     for (std::int32_t a = first_[open[i]]; a >= 0; a = arcs_[a].next) {
       const Arc& arc = arcs_[a];
       if (level_[arc.to] >= 0 || arc.left <= kNothing) continue;

@@ -18,7 +18,7 @@ class MinimumCut {
 
   /// The cheapest set of links that parts two nodes: 1 for each node on the side of the source. By maximum flow (Dinic
   /// 1970). Throws Cancelled.
-  std::vector<std::uint8_t> source_side(std::int32_t source, std::int32_t sink, const Task& task = {});
+  std::vector<std::uint8_t> source_side(std::int32_t source, std::int32_t sink, const Task& task);
 
  private:
   struct Arc {
@@ -26,7 +26,7 @@ class MinimumCut {
     std::int32_t next = -1;  ///< the next arc from the same node
     double left = 0.0;       ///< how much more may flow
   };
-  bool find_levels(std::int32_t source, std::int32_t sink);
+  bool find_levels(std::int32_t source, std::int32_t sink, const Task& task);
   double push(std::int32_t source, std::int32_t sink);
 
   std::vector<Arc> arcs_;  // arc i ^ 1 leads back

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -34,7 +35,7 @@ Rings measure_rings(const SlitProblem& problem, const PieceBody& body, std::span
     std::array<std::pair<double, Vector>, 3> corners;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::int32_t own = body.island.triangles[k][i];
-      corners[i] = {distances[own], problem.mesh.points[body.island.vertices[own]]};
+      corners[i] = {distances[own], problem.mesh->points[body.island.vertices[own]]};
     }
     std::ranges::sort(corners, {}, &std::pair<double, Vector>::first);
     const auto& [low, middle, high] = corners;
@@ -75,7 +76,7 @@ std::optional<std::pair<std::size_t, double>> narrowest(const Rings& rings) {
 /// Whether a seam may run along a closed chain of vertices.
 bool is_possible(const SlitProblem& problem, std::span<const std::int32_t> loop) {
   for (std::size_t i = 0; i < loop.size(); ++i) {
-    const std::int32_t edge = problem.mesh.edge_between(loop[i], loop[(i + 1) % loop.size()]);
+    const std::int32_t edge = problem.mesh->edge_between(loop[i], loop[(i + 1) % loop.size()]);
     if (edge < 0 || problem.prices.of_edge[edge] == kInfinity) return false;
   }
   return true;
@@ -83,7 +84,8 @@ bool is_possible(const SlitProblem& problem, std::span<const std::int32_t> loop)
 
 /// The cheapest closed chain of edges around a neck, as vertices; empty if it is not one loop.
 std::vector<std::int32_t> cheapest_ring(const SlitProblem& problem, const PieceBody& body,
-                                        std::span<const double> distances, double level, double width) {
+                                        std::span<const double> distances, double level, double width,
+                                        const Task& task) {
   constexpr double kClosed = 1e6;  // the price of edges that cannot be cut
   const Island& island = body.island;
   const auto count = static_cast<std::int32_t>(island.triangles.size());
@@ -97,11 +99,11 @@ std::vector<std::int32_t> cheapest_ring(const SlitProblem& problem, const PieceB
     for (std::int32_t i = 0; i < 3; ++i) {
       const std::int32_t twin = island.twins[3 * k + i];
       if (twin < 3 * k + i) continue;
-      const double price = problem.prices.of_edge[problem.mesh.edge_of[3 * island.faces[k] + i]];
+      const double price = problem.prices.of_edge[problem.mesh->edge_of[3 * island.faces[k] + i]];
       network.add(k, twin / 3, std::min(price, kClosed));
     }
   }
-  const std::vector<std::uint8_t> side = network.source_side(source, sink);
+  const std::vector<std::uint8_t> side = network.source_side(source, sink, task);
   std::map<std::int32_t, std::int32_t> next;  // vertices of the mesh, along the source's side
   for (std::int32_t h = 0; index(h) < island.twins.size(); ++h) {
     const std::int32_t twin = island.twins[h];
@@ -127,7 +129,7 @@ std::vector<std::int32_t> mirrored_loop(const SlitProblem& problem, const std::v
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const std::int32_t a = problem.reflection->images[loop[i]];
     const std::int32_t b = problem.reflection->images[loop[(i + 1) % loop.size()]];
-    if (a < 0 || b < 0 || problem.mesh.edge_between(a, b) < 0) return {};
+    if (a < 0 || b < 0 || problem.mesh->edge_between(a, b) < 0) return {};
     image.push_back(a);
   }
   return image;
@@ -148,7 +150,7 @@ std::vector<NeckRing> find_necks(const SlitProblem& problem, const Task& task) {
   for (std::int32_t p = 0; index(p) < problem.by_piece.size(); ++p) {
     task.check(0.0);
     if (problem.by_piece[p].area < tuning::kLeastLimb) continue;
-    const PieceBody body(problem, p);
+    const PieceBody body(problem, p, task);
     std::vector<std::int32_t> tips = find_tips(problem, body, body.graph.mean_distances(task));
     if (problem.reflection && !problem.reflection->is_exact) {
       for (const std::int32_t tip : std::vector<std::int32_t>(tips)) {
@@ -160,13 +162,13 @@ std::vector<NeckRing> find_necks(const SlitProblem& problem, const Task& task) {
       const auto own = std::ranges::find(body.island.vertices, tip);
       if (own == body.island.vertices.end()) continue;
       const std::vector<double> distances =
-          body.graph.distances_from(static_cast<std::int32_t>(own - body.island.vertices.begin()));
+          body.graph.distances_from(static_cast<std::int32_t>(own - body.island.vertices.begin()), task);
       const Rings rings = measure_rings(problem, body, distances);
       const auto neck = narrowest(rings);
       if (!neck) continue;
       const double width = 0.7 * rings.lengths[neck->first] / (2.0 * std::numbers::pi);
       NeckRing ring{
-          .loop = cheapest_ring(problem, body, distances, static_cast<double>(neck->first) * rings.step, width),
+          .loop = cheapest_ring(problem, body, distances, static_cast<double>(neck->first) * rings.step, width, task),
           .image = {},
           .narrowness = neck->second,
           .area = rings.areas[neck->first]};
@@ -182,17 +184,11 @@ std::vector<NeckRing> find_necks(const SlitProblem& problem, const Task& task) {
 }
 
 std::vector<Slit> slits_of(const NeckRing& ring) {
-  constexpr std::size_t kParts = 4;
   std::vector<Slit> slits;
-  for (const std::vector<std::int32_t>* loop : {&ring.loop, &ring.image}) {
-    const std::size_t parts = std::min(kParts, loop->size());
-    for (std::size_t part = 0; part < parts; ++part) {
-      Slit slit{.path = {}, .image = {}, .is_needed = true};
-      for (std::size_t i = part * loop->size() / parts; i <= (part + 1) * loop->size() / parts; ++i) {
-        slit.path.push_back((*loop)[i % loop->size()]);
-      }
-      slits.push_back(std::move(slit));
-    }
+  for (std::vector<std::int32_t> chain : {ring.loop, ring.image}) {
+    if (chain.empty()) continue;
+    chain.push_back(chain.front());
+    std::ranges::move(needed_slits(chain), std::back_inserter(slits));
   }
   return slits;
 }

@@ -123,8 +123,7 @@ class Joining {
 
   /// Whether two regions are of one size, as mirror images are.
   bool are_alike(std::int32_t one, std::int32_t other) const {
-    constexpr double kSame = 0.01;
-    return std::abs(regions_[one].area - regions_[other].area) <= kSame * regions_[one].area;
+    return std::abs(regions_[one].area - regions_[other].area) <= tuning::kAlikeAreas * regions_[one].area;
   }
 
   /// Joins two regions, and their mirror images.
@@ -239,7 +238,7 @@ double bias_of(double amount) {
 /// The mirror image of each polygon, by the images of its vertices; -1 without an image.
 std::vector<std::int32_t> images_of(const PlanMesh& mesh, const Polygons& polygons, const Reflection& reflection,
                                     const Task& task) {
-  Poll poll(task, 0.0, 0.0, 1);
+  Poll poll(task);
   std::vector<std::vector<std::int32_t>> corners(polygons.count);
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
     poll.next();
@@ -271,13 +270,16 @@ std::vector<std::int32_t> images_of(const PlanMesh& mesh, const Polygons& polygo
 /// Marks the edge inside each pair of triangles that are mirrored, but not as a pair.
 std::vector<std::uint8_t> unmirrored_pairs(const PlanMesh& mesh, const Polygons& polygons, const Reflection& reflection,
                                            const Task& task) {
-  Polygons triangles{.of_face = std::vector<std::int32_t>(mesh.face_count()), .is_diagonal = {}, .count = 0};
-  std::iota(triangles.of_face.begin(), triangles.of_face.end(), 0);
+  Polygons triangles;
   triangles.count = mesh.face_count();
+  triangles.of_face.resize(triangles.count);
+  std::iota(triangles.of_face.begin(), triangles.of_face.end(), 0);
   const std::vector<std::int32_t> images = images_of(mesh, polygons, reflection, task);
   const std::vector<std::int32_t> triangle_images = images_of(mesh, triangles, reflection, task);
+  const Poll poll(task);
   std::vector<std::uint8_t> is_found(mesh.edge_count(), 0);
   for (std::size_t e = 0; e < is_found.size(); ++e) {
+    poll.at(e);
     const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
     if (polygons.is_diagonal[e] == 0 || images[polygons.of_face[h / 3]] >= 0) continue;
     is_found[e] = triangle_images[h / 3] >= 0 && triangle_images[twin / 3] >= 0 ? 1 : 0;
@@ -286,10 +288,13 @@ std::vector<std::uint8_t> unmirrored_pairs(const PlanMesh& mesh, const Polygons&
 }
 
 /// Leaves out edges that do not lie between two parts. `of_face`: the part of each of the surface's triangles.
-void leave_out_inner(const PlanMesh& mesh, std::span<const std::int32_t> of_face, std::vector<Edge>& edges) {
+void leave_out_inner(const PlanMesh& mesh, std::span<const std::int32_t> of_face, std::vector<Edge>& edges,
+                     const Task& task) {
+  const Poll poll(task);
   std::map<Edge, std::array<std::int32_t, 2>> parts_at;  // the least and the greatest
   for (const Edge& edge : edges) parts_at[edge] = {std::numeric_limits<std::int32_t>::max(), -1};
   for (std::int32_t h = 0; index(h) < mesh.twins.size(); ++h) {
+    poll.at(index(h));
     const auto at = parts_at.find(ascending(mesh.sources[mesh.tail(h)], mesh.sources[mesh.tip(h)]));
     if (at == parts_at.end()) continue;
     auto& [least, greatest] = at->second;
@@ -324,9 +329,9 @@ struct PartFinder::Impl {
 
   void prepare(const Task& task);
   std::vector<Region> regions_of(const Polygons& own, const Task& task) const;
-  std::vector<Edge> seams() const;
-  std::vector<std::uint8_t> marked(const std::vector<Edge>& edges, const char* name) const;
-  std::vector<std::uint8_t> edited(const std::vector<Edge>& edges, const char* name) const;
+  std::vector<Edge> edges_along(std::span<const std::uint8_t> is_marked, const Task& task) const;
+  std::vector<std::uint8_t> marked(const std::vector<Edge>& edges, const char* name, const Task& task) const;
+  std::vector<std::uint8_t> edited(const std::vector<Edge>& edges, const char* name, const Task& task) const;
   std::vector<std::int32_t> joined(double amount, const PartEdits& edits, const Task& task) const;
   std::vector<std::uint8_t> borders(double amount, const PartEdits& edits, const Task& task) const;
 };
@@ -335,15 +340,17 @@ void PartFinder::Impl::prepare(const Task& task) {
   if (options.mirror < -1 || options.mirror > 2) {
     throw InvalidInput("mirror is " + std::to_string(options.mirror) + ", not an axis from 0 to 2, or -1");
   }
-  problem.mesh = plan_mesh(*surface, task);
-  const PlanMesh& mesh = problem.mesh;
-  problem.is_seam = marked(options.seams, "seams");
-  const std::vector<std::uint8_t> is_marked = marked(options.marked, "marked");
+  problem.mesh = std::make_shared<const PlanMesh>(plan_mesh(*surface, task));
+  const PlanMesh& mesh = *problem.mesh;
+  problem.is_seam = marked(options.seams, "seams", task);
+  const std::vector<std::uint8_t> is_marked = marked(options.marked, "marked", task);
   if (options.mirror >= 0) problem.reflection = find_reflection(mesh, options.mirror, part_of(task, 0.0, 0.2));
   const std::vector<FaceFrame> frames = face_frames(mesh, task);
   sizes = measure_pieces(mesh, frames, task);
   std::vector<double> size_at(mesh.vertex_count(), 0.0);  // the root of the area of each vertex's piece
+  const Poll poll(task);
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    poll.at(f);
     for (const std::int32_t v : mesh.triangles[f]) size_at[v] = std::sqrt(sizes.of_piece[sizes.pieces.of_face[f]].area);
   }
   const Visibility visibility =
@@ -360,7 +367,6 @@ void PartFinder::Impl::prepare(const Task& task) {
                      tuning::kPartOnPlane, task);
   task.check(0.95);
   regions = regions_of(polygons, task);
-  const Poll poll(task, 0.0, 0.0, 1);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     poll.at(index(e));
     problem.prices.of_edge.push_back(mesh.is_real[e] == 0 ? kInfinity : price_of_cut(odds[e]) * mesh.lengths[e]);
@@ -369,10 +375,12 @@ void PartFinder::Impl::prepare(const Task& task) {
 
 /// A region for each polygon.
 std::vector<Region> PartFinder::Impl::regions_of(const Polygons& own, const Task& task) const {
-  const PlanMesh& mesh = problem.mesh;
+  const PlanMesh& mesh = *problem.mesh;
   const std::vector<FaceFrame> frames = face_frames(mesh, task);
+  const Poll poll(task);
   std::vector<Region> found(own.count);
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    poll.at(f);
     const auto& [diagonal, area] = sizes.of_piece[sizes.pieces.of_face[f]];
     if (!(diagonal > 0.0)) continue;
     Region& region = found[own.of_face[f]];
@@ -385,32 +393,38 @@ std::vector<Region> PartFinder::Impl::regions_of(const Polygons& own, const Task
   return found;
 }
 
-/// The existing seams that are edges between two triangles.
-std::vector<Edge> PartFinder::Impl::seams() const {
+/// Marked edges, as vertices of the surface.
+std::vector<Edge> PartFinder::Impl::edges_along(std::span<const std::uint8_t> is_marked, const Task& task) const {
+  const PlanMesh& mesh = *problem.mesh;
+  const Poll poll(task);
   std::vector<Edge> found;
-  for (std::int32_t e = 0; index(e) < problem.mesh.edge_count(); ++e) {
-    const std::int32_t h = problem.mesh.half_edge_of[e];
-    if (problem.is_seam[e] == 0) continue;
-    found.push_back({problem.mesh.sources[problem.mesh.tail(h)], problem.mesh.sources[problem.mesh.tip(h)]});
+  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    poll.at(index(e));
+    const std::int32_t h = mesh.half_edge_of[e];
+    if (is_marked[e] != 0) found.push_back(ascending(mesh.sources[mesh.tail(h)], mesh.sources[mesh.tip(h)]));
   }
   return found;
 }
 
 /// Marks edges of the mesh.
-std::vector<std::uint8_t> PartFinder::Impl::marked(const std::vector<Edge>& edges, const char* name) const {
+std::vector<std::uint8_t> PartFinder::Impl::marked(const std::vector<Edge>& edges, const char* name,
+                                                   const Task& task) const {
   for (const Edge& edge : edges) {
     for (const std::int32_t v : edge) check_index(v, surface->vertex_count(), std::string(name) + ": vertex");
   }
-  return marked_edges(problem.mesh, edges);
+  return marked_edges(*problem.mesh, edges, task);
 }
 
 /// Marks edges of the mesh and their mirror images.
-std::vector<std::uint8_t> PartFinder::Impl::edited(const std::vector<Edge>& edges, const char* name) const {
-  const std::vector<std::uint8_t> own = marked(edges, name);
+std::vector<std::uint8_t> PartFinder::Impl::edited(const std::vector<Edge>& edges, const char* name,
+                                                   const Task& task) const {
+  const std::vector<std::uint8_t> own = marked(edges, name, task);
   if (!problem.reflection) return own;
   std::vector<std::uint8_t> both = own;
+  const Poll poll(task);
   for (std::int32_t e = 0; index(e) < own.size(); ++e) {
-    const std::int32_t image = own[e] != 0 ? image_of_edge(problem.mesh, *problem.reflection, e) : -1;
+    poll.at(index(e));
+    const std::int32_t image = own[e] != 0 ? image_of_edge(*problem.mesh, *problem.reflection, e) : -1;
     if (image >= 0) both[image] = 1;
   }
   return both;
@@ -418,15 +432,13 @@ std::vector<std::uint8_t> PartFinder::Impl::edited(const std::vector<Edge>& edge
 
 /// The region of each triangle.
 std::vector<std::int32_t> PartFinder::Impl::joined(double amount, const PartEdits& edits, const Task& task) const {
-  const PlanMesh& mesh = problem.mesh;
-  task.check(0.0);
-  const std::vector<std::uint8_t> is_kept = edited(edits.kept, "kept");
-  task.check(0.0);
-  const std::vector<std::uint8_t> is_dropped = edited(edits.dropped, "dropped");
-  // Pairs of triangles with a kept edge between them are no quads.
+  const PlanMesh& mesh = *problem.mesh;
+  const std::vector<std::uint8_t> is_kept = edited(edits.kept, "kept", task);
+  const std::vector<std::uint8_t> is_dropped = edited(edits.dropped, "dropped", task);
+  // Two triangles with a kept edge between them are no quad.
   Polygons own_polygons = polygons;
   const bool is_apart = take_apart(mesh, is_kept, own_polygons, task);
-  const Poll poll(task, 0.0, 0.0, 1);
+  const Poll poll(task);
   const double bias = amount > 0.0 ? bias_of(amount) : -kInfinity;
   std::vector<RegionBorder> found;
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
@@ -442,25 +454,28 @@ std::vector<std::int32_t> PartFinder::Impl::joined(double amount, const PartEdit
                      own_polygons.of_face[twin / 3],
                      {own * length, length, std::abs(bends.own[e]) * length, is_kept[e] != 0}});
   }
-  std::vector<std::int32_t> of_polygon, of_face;
-  of_polygon = joined_regions(is_apart ? regions_of(own_polygons, task) : regions, found, task);
+  const std::vector<std::int32_t> of_polygon =
+      joined_regions(is_apart ? regions_of(own_polygons, task) : regions, found, task);
+  std::vector<std::int32_t> of_face;
   for (const std::int32_t p : own_polygons.of_face) of_face.push_back(of_polygon[p]);
   return of_face;
 }
 
 /// Marks the borders of parts and the existing seams.
 std::vector<std::uint8_t> PartFinder::Impl::borders(double amount, const PartEdits& edits, const Task& task) const {
-  const PlanMesh& mesh = problem.mesh;
+  const PlanMesh& mesh = *problem.mesh;
   const std::vector<std::int32_t> region_of = joined(amount, edits, part_of(task, 0.0, kJoined));
   std::vector<std::uint8_t> is_border = problem.is_seam;
+  const Poll poll(task);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    poll.at(index(e));
     const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
     if (twin < 0) continue;
     if (region_of[h / 3] != region_of[twin / 3]) is_border[e] = 1;
   }
   if (edits.parted.empty()) return is_border;
   SlitProblem parted = problem;
-  const std::vector<std::uint8_t> is_dropped = edited(edits.dropped, "dropped");
+  const std::vector<std::uint8_t> is_dropped = edited(edits.dropped, "dropped", task);
   for (std::size_t e = 0; e < is_dropped.size(); ++e) {
     if (is_dropped[e] != 0) parted.prices.of_edge[e] = kInfinity;
   }
@@ -472,7 +487,7 @@ std::vector<std::uint8_t> PartFinder::Impl::borders(double amount, const PartEdi
     const auto own = std::ranges::find(mesh.faces, face);
     if (own == mesh.faces.end()) continue;
     parted.is_seam = is_border;
-    find_pieces_of(parted, part_of(cutting, 0.0, 0.0));
+    find_pieces_of(parted, task);
     std::vector<std::uint8_t> is_cut(mesh.edge_count(), 0);
     mark_half(parted, parted.pieces.of_face[own - mesh.faces.begin()], is_cut, cutting);
     for (std::size_t e = 0; e < is_cut.size(); ++e) is_border[e] |= is_cut[e];
@@ -494,26 +509,21 @@ Parts PartFinder::find(double amount, const PartEdits& edits, const Task& task) 
   if (!(amount >= 0.0 && amount <= 1.0)) {
     throw InvalidInput("amount is " + text(amount) + ", not from 0 to 1");
   }
+  const RisingProgress rising(task);
+  const Task& own = rising.task();
   const Impl& impl = *impl_;
-  const PlanMesh& mesh = impl.problem.mesh;
-  const std::vector<std::uint8_t> is_border = impl.borders(amount, edits, task);
-  task.check(kParted);
-  std::vector<Edge> borders;
-  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
-    const std::int32_t h = mesh.half_edge_of[e];
-    if (is_border[e] == 0 || impl.problem.is_seam[e] != 0) continue;
-    borders.push_back(ascending(mesh.sources[mesh.tail(h)], mesh.sources[mesh.tip(h)]));
-  }
-  std::ranges::sort(borders);
-  task.check(kParted);
+  const std::vector<std::uint8_t>& is_seam = impl.problem.is_seam;
+  std::vector<std::uint8_t> is_border = impl.borders(amount, edits, own);
+  for (std::size_t e = 0; e < is_border.size(); ++e) is_border[e] = is_border[e] != 0 && is_seam[e] == 0 ? 1 : 0;
+  std::vector<Edge> borders = impl.edges_along(is_border, own);
+  polled_sort(borders, own);
+  own.check(kParted);
   std::vector<Edge> cuts = borders;
   cuts.insert(cuts.end(), impl.options.seams.begin(), impl.options.seams.end());
   Parts parts;
-  parts.of_face = face_segments(*impl.surface, cuts);
-  task.check(kParted);
-  leave_out_inner(mesh, parts.of_face, borders);
-  task.check(kParted);
-  parts.borders = chains_of(impl.surface->vertex_count(), borders, impl.seams());
+  parts.of_face = face_segments(*impl.surface, cuts, own);
+  leave_out_inner(*impl.problem.mesh, parts.of_face, borders, own);
+  parts.borders = chains_of(impl.surface->vertex_count(), borders, impl.edges_along(is_seam, own));
   for (const std::int32_t part : parts.of_face) parts.count = std::max(parts.count, index(part) + 1);
   return parts;
 }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <numbers>
 #include <numeric>
 #include <queue>
@@ -33,8 +34,8 @@ std::vector<std::int32_t> images_within(const SlitProblem& problem, std::span<co
                                         std::int32_t piece) {
   std::vector<std::int32_t> images;
   for (const std::int32_t edge : edges) {
-    const std::int32_t image = image_of_edge(problem.mesh, *problem.reflection, edge);
-    if (image < 0 || problem.pieces.of_face[problem.mesh.half_edge_of[image] / 3] != piece) return {};
+    const std::int32_t image = image_of_edge(*problem.mesh, *problem.reflection, edge);
+    if (image < 0 || problem.pieces.of_face[problem.mesh->half_edge_of[image] / 3] != piece) return {};
     images.push_back(image);
   }
   return images;
@@ -43,7 +44,7 @@ std::vector<std::int32_t> images_within(const SlitProblem& problem, std::span<co
 /// The piece that is the mirror image of another one; -1 if the piece has no image or is its own.
 std::int32_t image_of(const SlitProblem& problem, std::int32_t piece) {
   if (!problem.reflection) return -1;
-  const PlanMesh& mesh = problem.mesh;
+  const PlanMesh& mesh = *problem.mesh;
   for (const std::int32_t f : problem.by_piece[piece].faces) {
     for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
       if (mesh.twins[h] < 0 || problem.is_seam[mesh.edge_of[h]] != 0) continue;
@@ -77,7 +78,8 @@ class Halving {
   Halving(const SlitProblem& problem, std::int32_t piece, const Task& task)
       : problem_(problem),
         task_(task),
-        body_(problem, piece),
+        poll_(task),
+        body_(problem, piece, task),
         count_(static_cast<std::int32_t>(island().triangles.size())) {
     for (std::int32_t k = 0; k < count_; ++k) all_ += area(k);
   }
@@ -117,13 +119,14 @@ class Halving {
   static constexpr std::int32_t kFree = -1, kSource = 0, kSink = 1;
 
   const Island& island() const { return body_.island; }
-  std::int32_t edge_of(std::int32_t h) const { return problem_.mesh.edge_of[3 * island().faces[h / 3] + h % 3]; }
+  std::int32_t edge_of(std::int32_t h) const { return problem_.mesh->edge_of[3 * island().faces[h / 3] + h % 3]; }
   double area(std::int32_t k) const { return std::max(problem_.areas[island().faces[k]], 1e-12); }
 
   /// Calls visit(half-edge, triangle, other triangle) for each edge inside of the piece.
   template <class Visit>
   void for_inner(const Visit& visit) const {
     for (std::int32_t h = 0; h < 3 * count_; ++h) {
+      poll_.at(index(h));
       if (island().twins[h] > h) visit(h, h / 3, island().twins[h] / 3);
     }
   }
@@ -131,8 +134,7 @@ class Halving {
   /// Finds which triangles are mirror images of each other. Returns whether the piece is its own image.
   bool find_images() {
     if (!problem_.reflection) return false;
-    constexpr double kMostWithout = 0.05;  // of the edges
-    const PlanMesh& mesh = problem_.mesh;
+    const PlanMesh& mesh = *problem_.mesh;
     std::vector<std::int32_t> own(mesh.face_count(), -1);
     for (std::int32_t k = 0; k < count_; ++k) own[island().faces[k]] = k;
     std::size_t with = 0, without = 0;
@@ -149,13 +151,13 @@ class Halving {
       images_.emplace_back(k, own[image / 3]);
       images_.emplace_back(other, own[twin / 3]);
     });
-    is_mirrored_ = static_cast<double>(without) <= kMostWithout * static_cast<double>(with);
+    is_mirrored_ = static_cast<double>(without) <= tuning::kMostWithoutImage * static_cast<double>(with);
     return is_mirrored_ && with > 0;
   }
 
   /// The half-edge at the mirror image of a half-edge, within the image of its triangle; -1 without an image.
   std::int32_t image_of_half_edge(std::int32_t h) const {
-    const PlanMesh& mesh = problem_.mesh;
+    const PlanMesh& mesh = *problem_.mesh;
     const std::int32_t edge = image_of_edge(mesh, *problem_.reflection, mesh.edge_of[h]);
     if (edge < 0) return -1;
     const std::int32_t found = mesh.half_edge_of[edge];
@@ -190,15 +192,15 @@ class Halving {
       blocks.of_triangle[k] = block;
       blocks.areas[block] += area(k);
     }
-    std::vector<std::pair<std::int32_t, Link>> links;
-    for_inner([&](std::int32_t h, std::int32_t k, std::int32_t other) {
-      const std::int32_t one = blocks.of_triangle[k], two = blocks.of_triangle[other];
-      if (one == two) return;
-      const double price = problem_.prices.of_edge[edge_of(h)];
-      links.emplace_back(one, Link{two, price});
-      links.emplace_back(two, Link{one, price});
+    blocks.links = Csr<Link>(blocks.count(), [&](const auto& visit) {
+      for_inner([&](std::int32_t h, std::int32_t k, std::int32_t other) {
+        const std::int32_t one = blocks.of_triangle[k], two = blocks.of_triangle[other];
+        if (one == two) return;
+        const double price = problem_.prices.of_edge[edge_of(h)];
+        visit(one, Link{two, price});
+        visit(two, Link{one, price});
+      });
     });
-    blocks.links = Csr<Link>(blocks.count(), links);
     return blocks;
   }
 
@@ -217,12 +219,12 @@ class Halving {
     Halves found;
     task.check(kJoined);
     const std::vector<std::vector<double>> all = functions(task);
-    constexpr std::array kShares{0.2, 0.3, 0.4};
-    const double step = (kTried - kCoarse) / static_cast<double>(std::max<std::size_t>(all.size() * kShares.size(), 1));
+    const std::size_t tries = std::max<std::size_t>(all.size() * tuning::kSeedShares.size(), 1);
+    const double step = (kTried - kCoarse) / static_cast<double>(tries);
     double done = kCoarse;
     for (const std::vector<double>& function : all) {
       const std::vector<double> places = means(coarse, function);
-      for (const double share : kShares) {
+      for (const double share : tuning::kSeedShares) {
         try_cut(coarse, places, share, part_of(task, done, done + step), found);
         done += step;
       }
@@ -241,6 +243,7 @@ class Halving {
     std::vector<std::int32_t> mate(blocks.count(), -1);
     std::vector<Link> sums;
     for (std::int32_t b = 0; index(b) < blocks.count(); ++b) {
+      poll_.at(index(b));
       if (mate[b] >= 0) continue;
       mate[b] = b;
       sums.clear();
@@ -303,10 +306,7 @@ class Halving {
     const auto farthest = [&](const std::vector<double>& away) {
       return *std::ranges::max_element(choice, {}, [&](std::int32_t own) { return away[own]; });
     };
-    const auto from = [&](std::int32_t own) {
-      task.check(kJoined);
-      return body_.graph.distances_from(own);
-    };
+    const auto from = [&](std::int32_t own) { return body_.graph.distances_from(own, task); };
     const std::vector<double> first = from(farthest(from(choice.front()))), last = from(farthest(first));
     rise(first, last);
     std::vector<double> nearest(first.size());
@@ -315,7 +315,7 @@ class Halving {
     rise(beside, from(farthest(beside)));
     for (const Vector& axis : axes()) {
       std::vector<double>& own = found.emplace_back();
-      for (const std::int32_t v : island().vertices) own.push_back(problem_.mesh.points[v].dot(axis));
+      for (const std::int32_t v : island().vertices) own.push_back(problem_.mesh->points[v].dot(axis));
     }
     return found;
   }
@@ -348,7 +348,7 @@ class Halving {
     Vector middle = Vector::Zero();
     const auto center = [&](std::int32_t k) {
       Vector sum = Vector::Zero();
-      for (const std::int32_t own : island().triangles[k]) sum += problem_.mesh.points[island().vertices[own]];
+      for (const std::int32_t own : island().triangles[k]) sum += problem_.mesh->points[island().vertices[own]];
       return Vector(sum / 3.0);
     };
     for (std::int32_t k = 0; k < count_; ++k) middle += area(k) / all_ * center(k);
@@ -492,6 +492,7 @@ class Halving {
 
   const SlitProblem& problem_;
   const Task& task_;
+  Poll poll_;
   PieceBody body_;
   std::int32_t count_;  // triangles
   double all_ = 0.0;    // their area
@@ -499,10 +500,8 @@ class Halving {
   bool is_mirrored_ = false;
 };
 
-/// Marked edges as slits that have to stay. Chains end where more or fewer than two of the edges meet. Closed chains
-/// are divided into parts that can be carried to another mesh.
+/// Marked edges as slits that have to stay. Chains end where more or fewer than two of the edges meet.
 std::vector<Slit> slits_along(const PlanMesh& mesh, std::span<const std::uint8_t> is_marked) {
-  constexpr std::size_t kParts = 4;
   std::vector<Edge> marked;
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     if (is_marked[e] == 0 || mesh.is_real[e] == 0) continue;
@@ -511,12 +510,7 @@ std::vector<Slit> slits_along(const PlanMesh& mesh, std::span<const std::uint8_t
   std::vector<Slit> slits;
   EdgeChains chains(mesh.vertex_count(), marked);
   for (const std::vector<std::int32_t>& chain : chains.all([](std::int32_t) { return false; })) {
-    const std::size_t edges = chain.size() - 1;
-    const std::size_t parts = chain.front() == chain.back() ? std::min(kParts, edges) : 1;
-    for (std::size_t part = 0; part < parts; ++part) {
-      const auto at = [&](std::size_t i) { return chain.begin() + static_cast<std::ptrdiff_t>(i * edges / parts); };
-      slits.push_back({.path = {at(part), at(part + 1) + 1}, .image = {}, .is_needed = true});
-    }
+    std::ranges::move(needed_slits(chain), std::back_inserter(slits));
   }
   return slits;
 }
@@ -525,15 +519,18 @@ std::vector<Slit> slits_along(const PlanMesh& mesh, std::span<const std::uint8_t
 /// surface bends there by less than `degrees`.
 void mark_rims(const SlitProblem& problem, std::span<const std::int32_t> pieces, double degrees,
                std::vector<std::uint8_t>& is_marked, const Task& task) {
-  const PlanMesh& mesh = problem.mesh;
+  const PlanMesh& mesh = *problem.mesh;
   const std::vector<FaceFrame> frames = face_frames(mesh, task);
   const double least_cosine = std::cos(degrees * std::numbers::pi / 180.0);
   DisjointSets regions(mesh.face_count());
+  std::vector<double> areas(mesh.face_count(), 0.0);
+  std::vector<std::size_t> corners(mesh.face_count(), 0);
+  Poll poll(task);
   for (const std::int32_t p : pieces) {
-    task.check(0.0);
     const SlitProblem::Piece& piece = problem.by_piece[p];
     std::vector<std::int32_t> inner;  // half-edges between two triangles of the piece
     for (const std::int32_t f : piece.faces) {
+      poll.next();
       for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
         const std::int32_t twin = mesh.twins[h], edge = mesh.edge_of[h];
         if (twin < h || problem.is_seam[edge] != 0) continue;
@@ -542,8 +539,6 @@ void mark_rims(const SlitProblem& problem, std::span<const std::int32_t> pieces,
         if (is_smooth || problem.prices.of_edge[edge] == kInfinity) regions.join(f, twin / 3);
       }
     }
-    std::vector<double> areas(mesh.face_count(), 0.0);
-    std::vector<std::size_t> corners(mesh.face_count(), 0);
     for (const std::int32_t f : piece.faces) areas[regions.find(f)] += problem.areas[f];
     for (const std::int32_t h : inner) {
       const std::int32_t one = regions.find(h / 3), other = regions.find(mesh.twins[h] / 3);
@@ -574,23 +569,23 @@ bool mark_half(const SlitProblem& problem, std::int32_t piece, std::vector<std::
 }
 
 std::vector<Slit> rim_cuts(const SlitProblem& problem, std::span<const std::int32_t> pieces, const Task& task) {
-  std::vector<std::uint8_t> is_marked(problem.mesh.edge_count(), 0);
+  std::vector<std::uint8_t> is_marked(problem.mesh->edge_count(), 0);
   for (const double degrees : {tuning::kFlatBelow, tuning::kHardSharp}) {
     mark_rims(problem, pieces, degrees, is_marked, task);
   }
-  return slits_along(problem.mesh, is_marked);
+  return slits_along(*problem.mesh, is_marked);
 }
 
 std::size_t count_blocks(const SlitProblem& problem) {
-  DisjointSets blocks = joined_faces(problem.mesh, [&](std::int32_t h) {
-    const std::int32_t edge = problem.mesh.edge_of[h];
+  DisjointSets blocks = joined_faces(*problem.mesh, [&](std::int32_t h) {
+    const std::int32_t edge = problem.mesh->edge_of[h];
     return problem.is_seam[edge] == 0 && problem.prices.of_edge[edge] == kInfinity;
   });
   return index(blocks.numbering().count);
 }
 
 std::vector<Slit> halving_cuts(SlitProblem problem, std::size_t count, const Task& task) {
-  std::vector<std::uint8_t> is_marked(problem.mesh.edge_count(), 0);
+  std::vector<std::uint8_t> is_marked(problem.mesh->edge_count(), 0);
   const Task own = part_of(task, 0.0, 0.0);
   while (index(problem.pieces.count) < count) {
     std::vector<std::int32_t> order(problem.by_piece.size());
@@ -600,7 +595,7 @@ std::vector<Slit> halving_cuts(SlitProblem problem, std::size_t count, const Tas
     for (std::size_t e = 0; e < is_marked.size(); ++e) problem.is_seam[e] |= is_marked[e];
     find_pieces_of(problem, own);
   }
-  return slits_along(problem.mesh, is_marked);
+  return slits_along(*problem.mesh, is_marked);
 }
 
 }  // namespace seamwire::detail

@@ -12,6 +12,7 @@
 #include "detail/csr.hpp"
 #include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
 #include "detail/poll.hpp"
 #include "tuning/constants.hpp"
 
@@ -93,9 +94,12 @@ class BendFinder {
 };
 
 /// The mean of a value over the line of each edge.
-std::vector<double> means_along(const PlanMesh& mesh, const EdgeLines& lines, const std::vector<double>& values) {
+std::vector<double> means_along(const PlanMesh& mesh, const std::vector<std::vector<std::int32_t>>& lines,
+                                const std::vector<double>& values, const Task& task) {
+  Poll poll(task);
   std::vector<double> means = values;
-  for (const std::vector<std::int32_t>& line : lines.edges) {
+  for (const std::vector<std::int32_t>& line : lines) {
+    poll.next();
     double sum = 0.0, length = 0.0;
     for (const std::int32_t e : line) {
       sum += mesh.lengths[e] * values[e];
@@ -116,10 +120,13 @@ void for_sides(const PlanMesh& mesh, const Polygons& polygons, std::int32_t e, c
 }
 
 /// For each edge the sharpest other edge of the polygons on both sides.
-std::vector<double> sharpest_beside(const PlanMesh& mesh, const Polygons& polygons, std::span<const double> sharp) {
+std::vector<double> sharpest_beside(const PlanMesh& mesh, const Polygons& polygons, std::span<const double> sharp,
+                                    const Task& task) {
+  const Poll poll(task);
   std::vector<std::array<double, 2>> sharpest(polygons.count, {0.0, 0.0});
   std::vector<std::int32_t> edge(polygons.count, -1);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    poll.at(index(e));
     if (polygons.is_diagonal[e] != 0) continue;
     for_sides(mesh, polygons, e, [&](std::int32_t p) {
       auto& [most, second] = sharpest[p];
@@ -133,6 +140,7 @@ std::vector<double> sharpest_beside(const PlanMesh& mesh, const Polygons& polygo
   }
   std::vector<double> beside(mesh.edge_count(), 0.0);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    poll.at(index(e));
     for_sides(mesh, polygons, e,
               [&](std::int32_t p) { beside[e] = std::max(beside[e], edge[p] == e ? sharpest[p][1] : sharpest[p][0]); });
   }
@@ -142,19 +150,19 @@ std::vector<double> sharpest_beside(const PlanMesh& mesh, const Polygons& polygo
 /// Whether the surface bends on alike at the opposite edges of both polygons beside an edge, as around a tube.
 std::vector<std::uint8_t> are_round(const PlanMesh& mesh, const Polygons& polygons, std::span<const double> bends,
                                     const Task& task) {
-  constexpr double kAlike = 2.0;
-  std::vector<std::pair<std::int32_t, std::int32_t>> sides;
-  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
-    if (polygons.is_diagonal[e] == 0) for_sides(mesh, polygons, e, [&](std::int32_t p) { sides.emplace_back(p, e); });
-  }
-  const Csr<std::int32_t> around(polygons.count, sides);
+  const Poll poll(task);
+  const Csr<std::int32_t> around(polygons.count, [&](const auto& visit) {
+    for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+      poll.at(index(e));
+      if (polygons.is_diagonal[e] == 0) for_sides(mesh, polygons, e, [&](std::int32_t p) { visit(p, e); });
+    }
+  });
   const auto share_vertex = [&](std::int32_t one, std::int32_t other) {
     const std::int32_t g = mesh.half_edge_of[one], h = mesh.half_edge_of[other];
     return mesh.tail(g) == mesh.tail(h) || mesh.tail(g) == mesh.tip(h) || mesh.tip(g) == mesh.tail(h) ||
            mesh.tip(g) == mesh.tip(h);
   };
   std::vector<std::uint8_t> found(mesh.edge_count(), 0);
-  const Poll poll(task, 0.0, 0.0, 1);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     poll.at(index(e));
     if (polygons.is_diagonal[e] != 0 || mesh.is_boundary(e)) continue;
@@ -162,7 +170,7 @@ std::vector<std::uint8_t> are_round(const PlanMesh& mesh, const Polygons& polygo
     for_sides(mesh, polygons, e, [&](std::int32_t p) {
       is_round = is_round && around[p].size() == 4 && std::ranges::any_of(around[p], [&](std::int32_t other) {
                    const double ratio = bends[other] / bends[e];
-                   return !share_vertex(e, other) && ratio > 1.0 / kAlike && ratio < kAlike;
+                   return !share_vertex(e, other) && ratio > 1.0 / tuning::kAlikeBends && ratio < tuning::kAlikeBends;
                  });
     });
     found[e] = is_round ? 1 : 0;
@@ -171,15 +179,19 @@ std::vector<std::uint8_t> are_round(const PlanMesh& mesh, const Polygons& polygo
 }
 
 /// How open each edge is to the sky, less the mean over its piece.
-std::vector<double> openness_of(const PlanMesh& mesh, const PieceSizes& sizes, std::span<const double> ambient) {
+std::vector<double> openness_of(const PlanMesh& mesh, const PieceSizes& sizes, std::span<const double> ambient,
+                                const Task& task) {
+  const Poll poll(task);
   std::vector<double> openness, sums(sizes.of_piece.size(), 0.0), lengths = sums;
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    poll.at(index(e));
     const std::int32_t h = mesh.half_edge_of[e];
     openness.push_back(0.5 * (ambient[mesh.tail(h)] + ambient[mesh.tip(h)]));
     sums[sizes.piece_of(mesh, e)] += mesh.lengths[e] * openness.back();
     lengths[sizes.piece_of(mesh, e)] += mesh.lengths[e];
   }
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    poll.at(index(e));
     const std::int32_t piece = sizes.piece_of(mesh, e);
     if (lengths[piece] > 0.0) openness[e] -= sums[piece] / lengths[piece];
   }
@@ -188,9 +200,11 @@ std::vector<double> openness_of(const PlanMesh& mesh, const PieceSizes& sizes, s
 
 /// Gives edges that are mirror images of each other the mean of their values.
 void make_symmetric(const PlanMesh& mesh, const Polygons& polygons, const Reflection& reflection,
-                    std::vector<double>& values) {
+                    std::vector<double>& values, const Task& task) {
+  const Poll poll(task);
   const std::vector<double> own = values;
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    poll.at(index(e));
     const std::int32_t image = image_of_edge(mesh, reflection, e);
     if (image >= 0 && polygons.is_diagonal[image] == polygons.is_diagonal[e]) values[e] = 0.5 * (own[e] + own[image]);
   }
@@ -200,7 +214,7 @@ void make_symmetric(const PlanMesh& mesh, const Polygons& polygons, const Reflec
 
 Polygons find_polygons(const PlanMesh& mesh, std::span<const FaceFrame> frames, std::span<const std::uint8_t> is_border,
                        const Task& task) {
-  Poll poll(task, 0.0, 0.0, 1);
+  Poll poll(task);
   DisjointSets sets(mesh.face_count());
   std::vector<std::uint8_t> is_alone(mesh.face_count(), 1);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
@@ -219,10 +233,7 @@ Polygons find_polygons(const PlanMesh& mesh, std::span<const FaceFrame> frames, 
     const double skew = skew_of(mesh, frames, h);
     if (skew != kInfinity) pairs.emplace_back(skew, e);
   }
-  std::ranges::sort(pairs, [&](const auto& one, const auto& other) {
-    poll.next();
-    return one < other;
-  });
+  polled_sort(pairs, task);
   for (const auto& [skew, e] : pairs) {
     poll.next();
     const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
@@ -240,8 +251,8 @@ Polygons find_polygons(const PlanMesh& mesh, std::span<const FaceFrame> frames, 
 }
 
 bool take_apart(const PlanMesh& mesh, std::span<const std::uint8_t> is_apart, Polygons& polygons, const Task& task) {
-  const Poll poll(task, 0.0, 0.0, 1);
-  const auto is_polygon = [&](std::int32_t f) {  // whether the triangle comes from a polygon
+  const Poll poll(task);
+  const auto is_of_polygon = [&](std::int32_t f) {
     const auto is_inner = [&](std::int32_t h) { return mesh.is_real[mesh.edge_of[h]] == 0 && mesh.twins[h] >= 0; };
     return is_inner(3 * f) || is_inner(3 * f + 1) || is_inner(3 * f + 2);
   };
@@ -249,15 +260,15 @@ bool take_apart(const PlanMesh& mesh, std::span<const std::uint8_t> is_apart, Po
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     const std::int32_t h = mesh.half_edge_of[e];
     poll.at(index(e));
-    if (is_apart[e] == 0 || polygons.is_diagonal[e] == 0 || is_polygon(h / 3)) continue;
+    if (is_apart[e] == 0 || polygons.is_diagonal[e] == 0 || is_of_polygon(h / 3)) continue;
     polygons.is_diagonal[e] = 0;
     polygons.of_face[h / 3] = static_cast<std::int32_t>(polygons.count++);
   }
   return polygons.count > before;
 }
 
-EdgeLines find_lines(const PlanMesh& mesh, const Polygons& polygons, const Task& task) {
-  Poll poll(task, 0.0, 0.0, 1, Poll::kFewSteps);
+std::vector<std::vector<std::int32_t>> find_lines(const PlanMesh& mesh, const Polygons& polygons, const Task& task) {
+  Poll poll(task, Poll::kFewSteps);
   const auto sides = [&](std::int32_t e) {
     const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
     return std::array{polygons.of_face[h / 3], twin < 0 ? -1 : polygons.of_face[twin / 3]};
@@ -304,12 +315,12 @@ EdgeLines find_lines(const PlanMesh& mesh, const Polygons& polygons, const Task&
       }
     }
   }
-  EdgeLines lines{.of_edge = std::vector<std::int32_t>(mesh.edge_count(), -1), .edges = {}};
+  std::vector<std::uint8_t> is_taken(mesh.edge_count(), 0);
+  std::vector<std::vector<std::int32_t>> lines;
   for (std::int32_t first = 0; index(first) < mesh.edge_count(); ++first) {
     poll.next();
-    if (polygons.is_diagonal[first] != 0 || lines.of_edge[first] >= 0) continue;
-    const auto line = static_cast<std::int32_t>(lines.edges.size());
-    lines.of_edge[first] = line;
+    if (polygons.is_diagonal[first] != 0 || is_taken[first] != 0) continue;
+    is_taken[first] = 1;
     std::vector<std::int32_t> edges{first};
     for (const int end : {0, 1}) {
       std::int32_t e = first;
@@ -317,8 +328,8 @@ EdgeLines find_lines(const PlanMesh& mesh, const Polygons& polygons, const Task&
       std::int32_t v = end == 0 ? mesh.tail(h) : mesh.tip(h);
       for (;;) {
         const std::int32_t following = next[e][end_at(e, v)];
-        if (following < 0 || lines.of_edge[following] >= 0) break;
-        lines.of_edge[following] = line;
+        if (following < 0 || is_taken[following] != 0) break;
+        is_taken[following] = 1;
         edges.push_back(following);
         e = following;
         const std::int32_t own = mesh.half_edge_of[e];
@@ -326,7 +337,7 @@ EdgeLines find_lines(const PlanMesh& mesh, const Polygons& polygons, const Task&
       }
       if (end == 0) std::ranges::reverse(edges);
     }
-    lines.edges.push_back(std::move(edges));
+    lines.push_back(std::move(edges));
   }
   return lines;
 }
@@ -335,7 +346,7 @@ PieceSizes measure_pieces(const PlanMesh& mesh, std::span<const FaceFrame> frame
   PieceSizes sizes{find_pieces(mesh, std::vector<std::uint8_t>(mesh.edge_count(), 0), task), {}};
   std::vector<Eigen::AlignedBox3d> boxes(index(sizes.pieces.count));
   sizes.of_piece.resize(boxes.size());
-  const Poll poll(task, 0.0, 0.0, 1);
+  const Poll poll(task);
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
     poll.at(f);
     const std::int32_t piece = sizes.pieces.of_face[f];
@@ -350,7 +361,7 @@ EdgeBends bends_over_edges(const PlanMesh& mesh, std::span<const FaceFrame> fram
                            const PieceSizes& sizes, const Task& task) {
   EdgeBends found{std::vector<double>(mesh.edge_count(), 0.0), std::vector<double>(mesh.edge_count(), 0.0)};
   const BendFinder bends(mesh, frames);
-  const Poll poll(task, 0.0, 0.0, 1, Poll::kFewSteps);
+  const Poll poll(task, Poll::kFewSteps);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     poll.at(index(e));
     if (mesh.is_boundary(e) || polygons.is_diagonal[e] != 0) continue;
@@ -366,19 +377,18 @@ std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, 
                                 const Task& task) {
   std::vector<double> sharp;
   for (const double bend : bends.own) sharp.push_back(std::abs(bend));
-  const std::vector<double> on_line = means_along(mesh, find_lines(mesh, polygons, task), sharp);
-  task.check(0.0);
-  const std::vector<double> beside = sharpest_beside(mesh, polygons, sharp);
-  task.check(0.0);
+  const std::vector<double> on_line = means_along(mesh, find_lines(mesh, polygons, task), sharp, task);
+  const std::vector<double> beside = sharpest_beside(mesh, polygons, sharp, task);
   const std::vector<std::uint8_t> is_round = are_round(mesh, polygons, bends.own, task);
-  const std::vector<double> openness = openness_of(mesh, sizes, ambient);
-  task.check(0.0);
+  const std::vector<double> openness = openness_of(mesh, sizes, ambient, task);
   const auto is_on_plane = [&](std::int32_t e) {
     const std::int32_t h = mesh.half_edge_of[e];
     return reflection != nullptr && reflection->sides[mesh.tail(h)] == 0 && reflection->sides[mesh.tip(h)] == 0;
   };
   std::vector<double> odds(mesh.edge_count(), -kInfinity);
+  const Poll poll(task);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    poll.at(index(e));
     if (polygons.is_diagonal[e] != 0) continue;
     const double wider = std::clamp(bends.wide[e] - sharp[e], 0.0, tuning::kMostSteps * sharp[e]);
     const double bend =
@@ -389,7 +399,7 @@ std::vector<double> border_odds(const PlanMesh& mesh, const Polygons& polygons, 
     if (is_on_plane(e) && sharp[e] > tuning::kOnPlaneDegrees) odds[e] += on_plane;
     if (is_marked[e] != 0) odds[e] += tuning::kMarked;
   }
-  if (reflection != nullptr && reflection->is_exact) make_symmetric(mesh, polygons, *reflection, odds);
+  if (reflection != nullptr && reflection->is_exact) make_symmetric(mesh, polygons, *reflection, odds, task);
   return odds;
 }
 

@@ -42,7 +42,7 @@ std::vector<std::int32_t> nearest_of(const PlanMesh& mesh, std::span<const std::
     nearest[vertices[i]] = static_cast<std::int32_t>(i);
     open.push_back(vertices[i]);
   }
-  const Poll poll(task, 0.0, 0.0, 1);
+  const Poll poll(task);
   for (std::size_t i = 0; i < open.size(); ++i) {
     poll.at(i);
     for (const PlanNeighbor& next : mesh.all_neighbors[open[i]]) {
@@ -153,7 +153,7 @@ std::vector<double> shape_prices(const PlanMesh& mesh, const EdgeBends& bends, s
     return Vector((mesh.points[a] + mesh.points[b] + mesh.points[c]) / 3.0);
   };
   std::vector<double> prices;
-  const Poll poll(task, 0.0, 0.0, 1);
+  const Poll poll(task);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     poll.at(index(e));
     const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
@@ -202,7 +202,7 @@ EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const
     prices.is_exposed.push_back(open >= tuning::kExposed + tuning::kExposedWidth && hard < 0.5 ? 1 : 0);
   }
   double sum = 0.0, length = 0.0;
-  const Poll poll(task, 0.0, 0.0, 1);
+  const Poll poll(task);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     poll.at(index(e));
     const std::int32_t a = mesh.tail(mesh.half_edge_of[e]), b = mesh.tip(mesh.half_edge_of[e]);

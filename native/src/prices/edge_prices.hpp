@@ -50,6 +50,6 @@ struct EdgePrices {
 
 /// `weights`: factors at vertices of the mesh; empty: 1 everywhere. Infinity keeps seams away. Throws Cancelled.
 EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const std::optional<Reflection>& reflection,
-                       std::span<const double> weights, const Task& task = {});
+                       std::span<const double> weights, const Task& task);
 
 }  // namespace seamwire::detail

@@ -6,12 +6,14 @@
 #include <cmath>
 #include <utility>
 
+#include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "prices/point_tree.hpp"
 #include "surface/corner_fans.hpp"
 #include "surface/joined_faces.hpp"
 #include "surface/real_edges.hpp"
+#include "tuning/constants.hpp"
 
 namespace seamwire::detail {
 
@@ -24,7 +26,7 @@ std::int32_t PlanMesh::edge_between(std::int32_t a, std::int32_t b) const {
 }
 
 void connect(PlanMesh& mesh, std::optional<std::span<const Edge>> real_edges, const Task& task) {
-  Poll poll(task, 0.0, 0.0, 1);
+  Poll poll(task);
   const std::size_t half_edges = mesh.twins.size();
   mesh.edge_of.assign(half_edges, -1);
   mesh.half_edge_of.clear();
@@ -89,9 +91,9 @@ PlanMesh plan_mesh(const Surface& surface, const Task& task) {
 }
 
 std::vector<std::uint8_t> marked_edges(const PlanMesh& mesh, std::vector<Edge> edges, const Task& task) {
-  Poll poll(task, 0.0, 0.0, 1);
+  Poll poll(task);
   for (Edge& edge : edges) edge = ascending(edge[0], edge[1]);
-  std::ranges::sort(edges);
+  polled_sort(edges, task);
   std::vector<std::uint8_t> is_marked;
   for (const std::int32_t h : mesh.half_edge_of) {
     poll.next();
@@ -111,7 +113,7 @@ FaceFrame face_frame(const PlanMesh& mesh, const Triangle& triangle) {
 std::vector<FaceFrame> face_frames(const PlanMesh& mesh, const Task& task) {
   std::vector<FaceFrame> frames;
   frames.reserve(mesh.face_count());
-  Poll poll(task, 0.0, 0.0, 1);
+  Poll poll(task);
   for (const Triangle& triangle : mesh.triangles) {
     poll.next();
     frames.push_back(face_frame(mesh, triangle));
@@ -121,7 +123,7 @@ std::vector<FaceFrame> face_frames(const PlanMesh& mesh, const Task& task) {
 
 std::vector<Vector> vertex_normals(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Task& task) {
   std::vector<Vector> normals(mesh.vertex_count(), Vector::Zero());
-  const Poll poll(task, 0.0, 0.0, 1);
+  const Poll poll(task);
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
     poll.at(f);
     const Triangle& t = mesh.triangles[f];
@@ -155,7 +157,7 @@ double median_length(const PlanMesh& mesh) {
 }
 
 Pieces find_pieces(const PlanMesh& mesh, std::span<const std::uint8_t> is_cut, const Task& task) {
-  Poll poll(task, 0.0, 0.0, 1);
+  Poll poll(task);
   DisjointSets sets = joined_faces(mesh, [&](std::int32_t h) {
     poll.next();
     return is_cut[mesh.edge_of[h]] == 0;
@@ -166,23 +168,20 @@ Pieces find_pieces(const PlanMesh& mesh, std::span<const std::uint8_t> is_cut, c
 
 namespace {
 
-constexpr double kNear = 0.012;    // of the diagonal: as near as this to the surface an image corresponds
-constexpr double kSpacing = 0.75;  // of the median edge: the same between vertices of coarse meshes
-constexpr double kMostArea = 0.9;  // the share of the area that has to correspond
-
 /// Whether nearly all edges have an edge as their image, and that one the first as its image.
-bool maps_edges(const PlanMesh& mesh, const Reflection& reflection) {
-  constexpr double kNearlyAll = 0.95;
+bool maps_edges(const PlanMesh& mesh, const Reflection& reflection, const Task& task) {
+  Poll poll(task);
   std::size_t mapped = 0;
   const auto back = [&](std::int32_t v, std::int32_t image) { return image >= 0 && reflection.images[image] == v; };
   for (const std::int32_t h : mesh.half_edge_of) {
+    poll.next();
     const std::int32_t a = mesh.tail(h), b = mesh.tip(h);
     const std::int32_t a_image = reflection.images[a], b_image = reflection.images[b];
     if (!back(a, a_image) || !back(b, b_image)) continue;
     const auto& around = mesh.all_neighbors[a_image];
     mapped += std::ranges::any_of(around, [&](const PlanNeighbor& next) { return next.vertex == b_image; }) ? 1 : 0;
   }
-  return static_cast<double>(mapped) >= kNearlyAll * static_cast<double>(mesh.edge_count());
+  return static_cast<double>(mapped) >= tuning::kExactImages * static_cast<double>(mesh.edge_count());
 }
 
 Eigen::AlignedBox3d box_of(const PlanMesh& mesh) {
@@ -206,7 +205,7 @@ std::optional<Reflection> reflection_in(const PlanMesh& mesh, int axis, double o
   task.check(0.0);
   // On coarse meshes the nearest vertex may be far along the surface, though the surface is near.
   const PointTree tree(mesh.points, task);
-  const double radius = std::max(kNear * diagonal, kSpacing * median_length(mesh));
+  const double radius = std::max(tuning::kNearImage * diagonal, tuning::kCoarseImage * median_length(mesh));
   const auto surface_distance = [&](std::int32_t v, const Vector& point) {
     const Vector away = point - mesh.points[v];
     return normals[v].isZero() ? away.norm() : std::min(away.norm(), std::abs(away.dot(normals[v])));
@@ -218,15 +217,15 @@ std::optional<Reflection> reflection_in(const PlanMesh& mesh, int axis, double o
     poll.at(index(v));
     const Vector image = found.mirrored(mesh.points[v]);
     std::int32_t nearest = tree.nearest(image, radius).point;
-    if (nearest >= 0 && surface_distance(nearest, image) > kNear * diagonal) nearest = -1;
+    if (nearest >= 0 && surface_distance(nearest, image) > tuning::kNearImage * diagonal) nearest = -1;
     found.images.push_back(nearest);
     total += areas[v];
     corresponding += nearest >= 0 ? areas[v] : 0.0;
     const auto side = static_cast<std::int8_t>(mesh.points[v][axis] < offset ? -1 : 1);
     found.sides.push_back(nearest == v ? std::int8_t{0} : side);
   }
-  if (!(total > 0.0) || corresponding < kMostArea * total) return std::nullopt;
-  found.is_exact = maps_edges(mesh, found);
+  if (!(total > 0.0) || corresponding < tuning::kLeastSymmetric * total) return std::nullopt;
+  found.is_exact = maps_edges(mesh, found, task);
   return found;
 }
 

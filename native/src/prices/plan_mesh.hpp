@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "detail/csr.hpp"
-#include "detail/infinity.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/surface/triangle_connectivity.hpp"
 #include "seamwire/surface/vector.hpp"
@@ -45,15 +44,15 @@ struct PlanMesh : TriangleConnectivity {
 
 /// The triangles of a surface without degenerate and duplicate ones. Vertices are the corner fans, so pieces that meet
 /// only in a vertex are apart. Throws Cancelled.
-PlanMesh plan_mesh(const Surface& surface, const Task& task = {});
+PlanMesh plan_mesh(const Surface& surface, const Task& task);
 
 /// Fills in edges, lengths and neighbors of a mesh whose points, triangles and twins are known. `real_edges`: between
 /// vertices of the mesh, sorted, the smaller vertex first; nullopt: all are real. Throws Cancelled.
-void connect(PlanMesh& mesh, std::optional<std::span<const Edge>> real_edges, const Task& task = {});
+void connect(PlanMesh& mesh, std::optional<std::span<const Edge>> real_edges, const Task& task);
 
 /// Marks edges between two triangles, which are given by vertices of the surface: 1 for each. Throws
 /// Cancelled.
-std::vector<std::uint8_t> marked_edges(const PlanMesh& mesh, std::vector<Edge> edges, const Task& task = {});
+std::vector<std::uint8_t> marked_edges(const PlanMesh& mesh, std::vector<Edge> edges, const Task& task);
 
 /// Area and unit normal of a triangle; the normal of a triangle without area is zero.
 struct FaceFrame {
@@ -62,10 +61,10 @@ struct FaceFrame {
 };
 FaceFrame face_frame(const PlanMesh& mesh, const Triangle& triangle);
 /// Throws Cancelled.
-std::vector<FaceFrame> face_frames(const PlanMesh& mesh, const Task& task = {});
+std::vector<FaceFrame> face_frames(const PlanMesh& mesh, const Task& task);
 
 /// Unit normals at vertices, weighted by the angles at corners. Throws Cancelled.
-std::vector<Vector> vertex_normals(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Task& task = {});
+std::vector<Vector> vertex_normals(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Task& task);
 
 /// A third of the area of the triangles around each vertex.
 std::vector<double> vertex_areas(const PlanMesh& mesh, std::span<const FaceFrame> frames);
@@ -79,7 +78,7 @@ struct Pieces {
   std::vector<std::int32_t> of_face;
   std::int32_t count = 0;
 };
-Pieces find_pieces(const PlanMesh& mesh, std::span<const std::uint8_t> is_cut, const Task& task = {});
+Pieces find_pieces(const PlanMesh& mesh, std::span<const std::uint8_t> is_cut, const Task& task);
 
 /// How a mesh corresponds to its mirror image in a plane.
 struct Reflection {
@@ -102,12 +101,12 @@ struct Reflection {
 
 /// The reflection in the plane through the origin whose normal is an axis, or in the one through the middle of the
 /// mesh; nullopt if the mesh has no such symmetry. Throws Cancelled.
-std::optional<Reflection> find_reflection(const PlanMesh& mesh, int axis, const Task& task = {});
+std::optional<Reflection> find_reflection(const PlanMesh& mesh, int axis, const Task& task);
 
 /// The reflection in a plane that is known; nullopt if the mesh is not symmetric there. `diagonal`: of the shape whose
 /// size decides what counts as near. Throws Cancelled.
 std::optional<Reflection> reflection_in(const PlanMesh& mesh, int axis, double offset, double diagonal,
-                                        const Task& task = {});
+                                        const Task& task);
 
 /// The mirror image of an edge; -1 without an image.
 std::int32_t image_of_edge(const PlanMesh& mesh, const Reflection& reflection, std::int32_t edge);

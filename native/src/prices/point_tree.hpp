@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -18,7 +17,7 @@ namespace seamwire::detail {
 class PointTree {
  public:
   /// The points must outlive the tree. Throws Cancelled.
-  explicit PointTree(std::span<const Vector> points, const Task& task = {}) : points_(points), order_(points.size()) {
+  explicit PointTree(std::span<const Vector> points, const Task& task) : points_(points), order_(points.size()) {
     std::iota(order_.begin(), order_.end(), 0);
     axes_.resize(points.size());
     build(0, order_.size(), task);

@@ -7,10 +7,10 @@
 #include <iterator>
 #include <utility>
 
+#include "decimation/decimation.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "parts/parting_cuts.hpp"
-#include "decimation/decimation.hpp"
 #include "slits/slit_tree.hpp"
 #include "tuning/constants.hpp"
 
@@ -25,8 +25,8 @@ struct RoundWork {
   double search, map;
 };
 std::array<RoundWork, tuning::kRounds + 1> work_of_rounds(const GroupProblem& group, std::size_t level, double budget) {
-  const auto faces = static_cast<double>(group.searched(level).mesh.face_count());
-  const double map = kStepsOfMap * static_cast<double>(group.original.mesh.face_count());
+  const auto faces = static_cast<double>(group.searched(level).mesh->face_count());
+  const double map = kStepsOfMap * static_cast<double>(group.original.mesh->face_count());
   std::array<RoundWork, tuning::kRounds + 1> rounds{};
   for (RoundWork& round : rounds) {
     round = {budget * faces, map};
@@ -43,18 +43,22 @@ std::pair<double, double> rank(const GroupPlanning::Result& solved, double bound
 }
 
 /// A problem with slits as its seams.
-SlitProblem with_seams(SlitProblem problem, std::span<const Slit> slits, const Task& task) {
-  problem.is_seam = cut_of(problem, slits, {}).is_cut;
-  find_pieces_of(problem, task);
-  return problem;
+SlitProblem with_seams(const SlitProblem& problem, std::span<const Slit> slits, const Task& task) {
+  SlitProblem cut;
+  cut.mesh = problem.mesh;
+  cut.prices = problem.prices;
+  cut.reflection = problem.reflection;
+  cut.is_seam = cut_of(problem, slits, {}).is_cut;
+  find_pieces_of(cut, task);
+  return cut;
 }
 
-/// How many more cuts all pieces together need to become discs.
-std::int64_t missing_cuts_of(const SlitProblem& problem) {
+/// How many more cuts all islands between slits together need to become discs.
+std::int64_t missing_cuts_of(const SlitProblem& problem, std::span<const Slit> slits, const Task& task) {
+  const std::vector<std::uint8_t> is_cut = cut_of(problem, slits, {}).is_cut;
   std::int64_t missing = 0;
   for (std::int32_t p = 0; p < problem.pieces.count; ++p) {
-    const PieceBody body(problem, p);
-    missing += 2 * body.genus() + std::abs(std::ssize(body.loops) - 1);
+    for (const Island& island : islands_of(problem, is_cut, p, task)) missing += island.missing_cuts();
   }
   return missing;
 }
@@ -218,7 +222,7 @@ std::vector<Slit> GroupPlanning::on_original(const std::vector<Slit>& slits, con
   all.insert(all.end(), slits.begin(), slits.end());
   const GroupProblem::Simplified* simple = group_->simplified_at(level_);
   if (simple == nullptr) return all;
-  all = carried_slits(problem(), simple->vertices, group_->original, all);
+  all = carried_slits(problem(), simple->vertices, group_->original, all, task);
   // A closed cut may not have been carried whole.
   if (least_pieces_ > 0) {
     std::ranges::move(halving_cuts(with_seams(group_->original, all, task), least_pieces_, task),
@@ -232,8 +236,8 @@ std::vector<Slit> GroupPlanning::on_original(const std::vector<Slit>& slits, con
 std::vector<Slit> GroupPlanning::completed(std::vector<Slit> slits, const std::vector<Slit>& simple,
                                            const Task& task) const {
   if (group_->simplified_at(level_) == nullptr) return slits;
-  const SlitProblem original = with_seams(group_->original, slits, task);
-  if (missing_cuts_of(original) > missing_cuts_of(with_seams(problem(), simple, task))) {
+  if (missing_cuts_of(group_->original, slits, task) > missing_cuts_of(problem(), simple, task)) {
+    const SlitProblem original = with_seams(group_->original, slits, task);
     std::ranges::move(grow_tree(original, false, part_of(task, 0.0, 0.0)).slits, std::back_inserter(slits));
   }
   return slits;
@@ -251,7 +255,7 @@ std::vector<std::int32_t> GroupPlanning::missed_pieces(const SlitPlan& plan, dou
 GroupPlanning::Result GroupPlanning::solved_on_original(std::vector<Slit> slits, const Task& task) const {
   const SlitProblem& original = group_->original;
   Result solved;
-  solved.maps = solve_cut(original.mesh, cut_of(original, slits, {}).is_cut, task);
+  solved.maps = solve_cut(*original.mesh, cut_of(original, slits, {}).is_cut, task);
   std::vector<std::pair<double, double>> energies;
   bool is_mapped = true;
   for (std::size_t i = 0; i < solved.maps.maps.size(); ++i) {
@@ -264,7 +268,7 @@ GroupPlanning::Result GroupPlanning::solved_on_original(std::vector<Slit> slits,
       energies.emplace_back(map->energies[k], original.areas[map->island.faces[k]]);
     }
   }
-  solved.energy = is_mapped ? mean_energy(std::move(energies)) : kInfinity;
+  solved.energy = is_mapped ? mean_energy(std::move(energies), task) : kInfinity;
   for (const Slit& slit : slits) solved.price += original.price(slit);
   solved.slits = std::move(slits);
   return solved;

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "parts/neck_rings.hpp"
@@ -13,7 +12,6 @@
 #include "search/slit_search.hpp"
 #include "search/slit_solver.hpp"
 #include "slits/slit_plan.hpp"
-#include "slits/slit_tree.hpp"
 
 namespace seamwire::detail {
 

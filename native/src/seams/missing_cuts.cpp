@@ -15,7 +15,7 @@ namespace seamwire {
 using namespace detail;
 
 std::vector<std::int32_t> missing_cuts(const Surface& surface, std::span<const Edge> cut_edges,
-                                       std::span<const std::int32_t> segments) {
+                                       std::span<const std::int32_t> segments, const Task& task) {
   if (segments.size() != surface.face_count()) {
     throw InvalidInput("segments has " + std::to_string(segments.size()) + " items: there are " +
                        std::to_string(surface.face_count()) + " triangles");
@@ -25,18 +25,17 @@ std::vector<std::int32_t> missing_cuts(const Surface& surface, std::span<const E
     check_index(segment, segments.size(), "segments: number", "triangles");
     count = std::max(count, segment + 1);
   }
-  const Cuts cuts(surface, cut_edges, "cut_edges");
+  const Cuts cuts(surface, cut_edges, "cut_edges", task);
   const std::vector<std::int32_t>& faces = corner_fans(surface).faces;
   std::vector<std::int32_t> missing(index(count), 0);
   std::vector<std::uint8_t> is_known(index(count), 0);
-  for (const Island& part : cut_open(corner_fans(surface), cut_half_edges(surface, cuts))) {
+  for (const Island& part : cut_open(corner_fans(surface), cut_half_edges(surface, cuts, task), task)) {
     const std::int32_t segment = segments[faces[part.faces.front()]];
     if (std::exchange(is_known[segment], 1) != 0 ||
         std::ranges::any_of(part.faces, [&](std::int32_t f) { return segments[faces[f]] != segment; })) {
       throw InvalidInput("segments: they are those of other cuts");
     }
-    const bool is_closed = std::ranges::none_of(part.twins, [](std::int32_t twin) { return twin < 0; });
-    missing[segment] = static_cast<std::int32_t>((is_closed ? 3 : 1) - part.euler_characteristic());
+    missing[segment] = static_cast<std::int32_t>(part.missing_cuts());
   }
   return missing;
 }

@@ -73,7 +73,7 @@ Rim::Rim(std::vector<Edge> edges) : edges_(std::move(edges)) {
 bool Rim::has_edge(std::int32_t a, std::int32_t b) const { return std::ranges::binary_search(edges_, ascending(a, b)); }
 
 std::vector<WireTouch> find_touches(std::span<const MarkedChain> wires, const Rim& rim, const Task& task) {
-  Poll poll(task, 0.0, 0.0, 1, Poll::kFewSteps);
+  Poll poll(task, Poll::kFewSteps);
   std::unordered_map<std::int32_t, std::vector<std::size_t>> wires_at;
   for (std::size_t i = 0; i < wires.size(); ++i) {
     for (const std::int32_t v : wires[i].vertices) wires_at[v].push_back(i);

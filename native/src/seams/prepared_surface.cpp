@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "decimation/decimation.hpp"
-#include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "prices/edge_prices.hpp"
@@ -42,9 +41,11 @@ std::int32_t exact_image(const PlanMesh& mesh, const Reflection& reflection, std
 /// How often the mirror images of one piece lie in another.
 class Votes {
  public:
-  Votes(const PlanMesh& mesh, const Pieces& pieces, const Reflection& reflection)
+  Votes(const PlanMesh& mesh, const Pieces& pieces, const Reflection& reflection, const Task& task)
       : mesh_(mesh), pieces_(pieces), reflection_(reflection), counts_(index(pieces.count)) {
+    const Poll poll(task);
     for (std::int32_t f = 0; index(f) < mesh.face_count(); ++f) {
+      poll.at(index(f));
       const std::int32_t image = image_of(f);
       if (image >= 0) ++counts_[pieces.of_face[f]][pieces.of_face[image]];
     }
@@ -86,8 +87,10 @@ std::vector<std::vector<std::int32_t>> faces_by(std::span<const std::int32_t> la
 /// The mirror image of a part of a mesh, if it has the same triangles, seams and shape.
 std::optional<Place> image_of_part(const PlanMesh& whole, std::span<const std::uint8_t> is_seam,
                                    const Reflection& reflection, const MeshPart& part,
-                                   std::span<const std::int32_t> faces, std::span<const std::int32_t> image_faces) {
+                                   std::span<const std::int32_t> faces, std::span<const std::int32_t> image_faces,
+                                   const Task& task) {
   if (faces.size() != image_faces.size()) return std::nullopt;
+  Poll poll(task);
   Place place{.vertices = {}, .faces = {}, .is_mirrored = true};
   for (const std::int32_t v : part.vertices) {
     const std::int32_t image = reflection.images[v];
@@ -97,11 +100,13 @@ std::optional<Place> image_of_part(const PlanMesh& whole, std::span<const std::u
     place.vertices.push_back(image);
   }
   for (const std::int32_t f : faces) {
+    poll.next();
     const std::int32_t image = exact_image(whole, reflection, f);
     if (!std::ranges::binary_search(image_faces, image)) return std::nullopt;
     place.faces.push_back(image);
   }
   for (std::int32_t e = 0; index(e) < part.mesh.edge_count(); ++e) {
+    poll.next();
     const std::int32_t h = part.mesh.half_edge_of[e];
     const std::int32_t image = whole.edge_between(place.vertices[part.mesh.tail(h)], place.vertices[part.mesh.tip(h)]);
     if (part.mesh.is_real[e] == 0 || image < 0) {
@@ -126,12 +131,15 @@ MeshParts::MeshParts(const PlanMesh& whole, std::span<const std::uint8_t> is_sea
       vertex_(whole.vertex_count(), -1),
       face_(whole.face_count(), -1) {}
 
-MeshPart MeshParts::part(std::span<const std::int32_t> faces) {
+MeshPart MeshParts::part(std::span<const std::int32_t> faces, const Task& task) {
+  const Poll poll(task);
   MeshPart part;
   PlanMesh& mesh = part.mesh;
   for (std::size_t k = 0; k < faces.size(); ++k) face_[faces[k]] = static_cast<std::int32_t>(k);
   double area = 0.0;
-  for (const std::int32_t f : faces) {
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    poll.at(k);
+    const std::int32_t f = faces[k];
     Triangle own{};
     const Triangle& given = whole_.triangles[f];
     for (std::size_t i = 0; i < 3; ++i) {
@@ -156,7 +164,7 @@ MeshPart MeshParts::part(std::span<const std::int32_t> faces) {
   if (area > 0.0) part.size = std::sqrt(area);
   mesh.scale = whole_.scale / part.size;
   for (const std::int32_t v : part.vertices) mesh.points.push_back(whole_.points[v] / part.size);
-  connect(mesh, real_edges_);
+  connect(mesh, real_edges_, task);
   for (const std::int32_t h : mesh.half_edge_of) {
     const std::int32_t edge = whole_.edge_of[3 * faces[index(h / 3)] + h % 3];
     part.is_seam.push_back(mesh.twins[h] >= 0 ? is_seam_[edge] : std::uint8_t{0});
@@ -176,7 +184,7 @@ std::vector<PieceGroup> find_groups(const PlanMesh& whole, std::span<const std::
     if (reflection != nullptr && !groups.empty()) groups.front().reflection = *reflection;
     return groups;
   }
-  const Votes votes(whole, pieces, *reflection);
+  const Votes votes(whole, pieces, *reflection, task);
   const Poll poll(task, 0.0, 1.0, index(pieces.count), Poll::kFewSteps);
   for (std::int32_t p = 0; p < pieces.count; ++p) {
     poll.at(index(p));
@@ -184,21 +192,21 @@ std::vector<PieceGroup> find_groups(const PlanMesh& whole, std::span<const std::
     const bool is_pair = image >= 0 && image != p && votes.image_of_piece(image) == p;
     if (is_pair && image < p) continue;  // comes with its image
     PieceGroup group{.faces = by_piece[p]};
-    const MeshPart own = parts.part(by_piece[p]);
+    const MeshPart own = parts.part(by_piece[p], task);
     double diagonal = diagonal_of(own.mesh) * own.size;
     if (is_pair) {
-      group.image = image_of_part(whole, is_seam, *reflection, own, by_piece[p], by_piece[image]);
+      group.image = image_of_part(whole, is_seam, *reflection, own, by_piece[p], by_piece[image], task);
       if (group.image) {
         groups.push_back(std::move(group));
         continue;
       }
-      const MeshPart other = parts.part(by_piece[image]);
+      const MeshPart other = parts.part(by_piece[image], task);
       diagonal = std::max(diagonal, diagonal_of(other.mesh) * other.size);
       group.faces.insert(group.faces.end(), by_piece[image].begin(), by_piece[image].end());
       std::ranges::sort(group.faces);
     }
     if ((is_pair || image == p) && diagonal > 0.0) {
-      const MeshPart part = parts.part(group.faces);
+      const MeshPart part = parts.part(group.faces, task);
       group.reflection =
           reflection_in(part.mesh, reflection->axis, reflection->offset / part.size, diagonal / part.size, task);
     }
@@ -214,8 +222,8 @@ std::vector<PieceGroup> find_groups(const PlanMesh& whole, std::span<const std::
 }
 
 bool are_alike(const SlitProblem& one, const SlitProblem& other) {
-  if (one.mesh.triangles != other.mesh.triangles || one.mesh.twins != other.mesh.twins) return false;
-  if (one.is_seam != other.is_seam || one.mesh.is_real != other.mesh.is_real) return false;
+  if (one.mesh->triangles != other.mesh->triangles || one.mesh->twins != other.mesh->twins) return false;
+  if (one.is_seam != other.is_seam || one.mesh->is_real != other.mesh->is_real) return false;
   if (one.prices.is_exposed != other.prices.is_exposed || one.reflection.has_value() != other.reflection.has_value()) {
     return false;
   }
@@ -224,8 +232,8 @@ bool are_alike(const SlitProblem& one, const SlitProblem& other) {
        one.reflection->is_exact != other.reflection->is_exact)) {
     return false;
   }
-  for (std::size_t e = 0; e < one.mesh.edge_count(); ++e) {
-    if (!(std::abs(one.mesh.lengths[e] - other.mesh.lengths[e]) <= kSameLength)) return false;
+  for (std::size_t e = 0; e < one.mesh->edge_count(); ++e) {
+    if (!(std::abs(one.mesh->lengths[e] - other.mesh->lengths[e]) <= kSameLength)) return false;
     if (!is_same_price(one.prices.of_edge[e], other.prices.of_edge[e])) return false;
   }
   return true;
@@ -236,11 +244,11 @@ std::uint64_t likeness(const SlitProblem& problem) {
       1e3;  // like problems with a value near the limit between two numbers are told apart, which only costs time
   std::uint64_t hash = 14695981039346656037U;
   const auto add = [&](std::uint64_t value) { hash = (hash ^ value) * 1099511628211U; };
-  add(problem.mesh.face_count());
-  for (const Triangle& t : problem.mesh.triangles) {
+  add(problem.mesh->face_count());
+  for (const Triangle& t : problem.mesh->triangles) {
     for (const std::int32_t v : t) add(static_cast<std::uint64_t>(v));
   }
-  for (const double length : problem.mesh.lengths) {
+  for (const double length : problem.mesh->lengths) {
     add(static_cast<std::uint64_t>(std::floor(kCoarse * std::min(length, 1e12) + 0.31)));
   }
   for (const double price : problem.prices.of_edge) {
@@ -283,19 +291,21 @@ PreparedSurface::PreparedSurface(const SurfaceContext& context, SeamPlannerOptio
   find_prices_of_all(visibility, rest);
   join_copies(rest);
   wires = std::make_unique<const PlannedWires>(context, options.along, options.strength,
-                                               rim_of(mesh(), options.seams, rest), options.weights, rest);
+                                               rim_of(*mesh, options.seams, rest), options.weights, rest);
 }
 
-std::vector<double> PreparedSurface::weights_of(const PlanMesh& mesh) const {
+/// The weights at vertices of the surface.
+std::vector<double> PreparedSurface::weights_at(std::span<const std::int32_t> vertices) const {
   std::vector<double> weights;
   if (options.weights.empty()) return weights;
-  for (const std::int32_t v : mesh.sources) weights.push_back(options.weights[v]);
+  for (const std::int32_t v : vertices) weights.push_back(options.weights[v]);
   return weights;
 }
 
 /// Finds the groups and their meshes.
 void PreparedSurface::find_meshes(const Task& task) {
-  whole = plan_mesh(*surface, task);
+  mesh = std::make_shared<const PlanMesh>(plan_mesh(*surface, task));
+  const PlanMesh& whole = *mesh;
   std::vector<std::uint8_t> is_seam = marked_edges(whole, options.seams, task);
   std::optional<Reflection> reflection;
   if (options.mirror >= 0) reflection = find_reflection(whole, options.mirror, part_of(task, 0.0, 0.2));
@@ -312,14 +322,13 @@ void PreparedSurface::find_meshes(const Task& task) {
       std::vector<std::int32_t> vertices(whole.vertex_count());
       std::iota(vertices.begin(), vertices.end(), 0);
       group.places.push_back({std::move(vertices), std::move(piece_group.faces)});
-      group.original.mesh = std::move(whole);
+      group.original.mesh = mesh;
       group.original.is_seam = std::move(is_seam);
-      whole = {};
     } else {
-      MeshPart part = parts.part(piece_group.faces);
+      MeshPart part = parts.part(piece_group.faces, task);
       group.size = part.size;
       group.places.push_back({std::move(part.vertices), std::move(piece_group.faces)});
-      group.original.mesh = std::move(part.mesh);
+      group.original.mesh = std::make_shared<const PlanMesh>(std::move(part.mesh));
       group.original.is_seam = std::move(part.is_seam);
     }
     if (piece_group.image) group.places.push_back(std::move(*piece_group.image));
@@ -329,7 +338,7 @@ void PreparedSurface::find_meshes(const Task& task) {
     const std::size_t share = std::max(tuning::kSimplified * count / all, tuning::kLeastSimplified);
     group.is_large = all > tuning::kMostTriangles && count * tuning::kSimplified > share * tuning::kMostTriangles;
     if (group.is_large) add_simplified(group, share, part_of(own, 0.0, 0.7));
-    const std::size_t half = group.searched().mesh.face_count() / 2;
+    const std::size_t half = group.searched().mesh->face_count() / 2;
     if (half >= tuning::kLeastSimplified) add_simplified(group, half, part_of(own, 0.7, 1.0));
   }
 }
@@ -338,13 +347,13 @@ void PreparedSurface::find_meshes(const Task& task) {
 void PreparedSurface::add_simplified(GroupProblem& group, std::size_t triangles, const Task& task) const {
   const SlitProblem& original = group.original;
   const SlitProblem& finer = group.level_count() > 0 ? group.searched(group.level_count() - 1) : original;
-  DecimatedMesh decimated = decimate(finer.mesh, finer.is_seam, finer.mirror(), triangles, task);
+  DecimatedMesh decimated = decimate(*finer.mesh, finer.is_seam, finer.mirror(), triangles, task);
   GroupProblem::Simplified simple{.problem = {}, .vertices = std::move(decimated.vertices)};
-  simple.problem.mesh = std::move(decimated.mesh);
+  simple.problem.mesh = std::make_shared<const PlanMesh>(std::move(decimated.mesh));
   simple.problem.is_seam = std::move(decimated.is_seam);
   if (original.reflection) {
-    simple.problem.reflection = reflection_in(simple.problem.mesh, options.mirror, original.reflection->offset,
-                                              diagonal_of(simple.problem.mesh), task);
+    simple.problem.reflection = reflection_in(*simple.problem.mesh, options.mirror, original.reflection->offset,
+                                              diagonal_of(*simple.problem.mesh), task);
   }
   if (!group.simplified.empty()) {
     for (std::int32_t& v : simple.vertices) v = group.simplified.back().vertices[v];
@@ -355,8 +364,9 @@ void PreparedSurface::add_simplified(GroupProblem& group, std::size_t triangles,
 /// The visibility of the vertices of the finest mesh on which each group is searched, one group after another, then of
 /// mirror images.
 Visibility PreparedSurface::visibility_of_all(const Task& task) const {
-  if (whole.triangles.empty()) {
-    return groups.empty() ? Visibility() : find_visibility(groups.front().searched().mesh, options.front, task);
+  if (groups.empty()) return {};
+  if (groups.front().original.mesh == mesh) {
+    return find_visibility(*groups.front().searched().mesh, options.front, task);
   }
   PlanMesh all;
   std::vector<double> sizes;
@@ -367,16 +377,16 @@ Visibility PreparedSurface::visibility_of_all(const Task& task) const {
     sizes.resize(all.points.size(), size);
   };
   for (const GroupProblem& group : groups) {
-    const PlanMesh& own = group.searched().mesh;
+    const PlanMesh& own = *group.searched().mesh;
     add(own, group.size, [&](std::int32_t v) { return Vector(group.size * own.points[v]); });
   }
   // Copies and mirror images hide others, but need no prices.
   for (const GroupProblem& group : groups) {
-    const PlanMesh& own = group.searched().mesh;
+    const PlanMesh& own = *group.searched().mesh;
     for (std::size_t k = 1; k < group.places.size(); ++k) {
       const GroupProblem::Simplified* simple = group.simplified_at(0);
       const auto vertex = [&](std::int32_t v) { return simple != nullptr ? simple->vertices[v] : v; };
-      add(own, group.size, [&](std::int32_t v) { return whole.points[group.places[k].vertices[vertex(v)]]; });
+      add(own, group.size, [&](std::int32_t v) { return mesh->points[group.places[k].vertices[vertex(v)]]; });
     }
   }
   return find_visibility(all, options.front, task, sizes);
@@ -390,18 +400,17 @@ void PreparedSurface::find_prices_of_all(const Visibility& visibility, const Tas
     return std::vector<double>(first, first + static_cast<std::ptrdiff_t>(count));
   };
   for (GroupProblem& group : groups) {
-    const PlanMesh& mesh = group.searched().mesh;
-    Visibility own{.front = part(visibility.front, mesh.vertex_count()),
-                   .ambient = part(visibility.ambient, mesh.vertex_count())};
-    begin += mesh.vertex_count();
+    const std::size_t count = group.searched().mesh->vertex_count();
+    Visibility own{.front = part(visibility.front, count), .ambient = part(visibility.ambient, count)};
+    begin += count;
     SlitProblem& original = group.original;
-    if (group.is_large) own = at_places(own, nearest_of(original.mesh, group.simplified.front().vertices, task));
+    if (group.is_large) own = at_places(own, nearest_of(*original.mesh, group.simplified.front().vertices, task));
     for (GroupProblem::Simplified& simple : group.simplified) {
       SlitProblem& problem = simple.problem;
-      problem.prices = find_prices(problem.mesh, at_places(own, simple.vertices), problem.reflection,
-                                   weights_of(problem.mesh), task);
+      problem.prices = find_prices(*problem.mesh, at_places(own, simple.vertices), problem.reflection,
+                                   weights_at(problem.mesh->sources), task);
     }
-    original.prices = find_prices(original.mesh, own, original.reflection, weights_of(original.mesh), task);
+    original.prices = find_prices(*original.mesh, own, original.reflection, weights_at(original.mesh->sources), task);
   }
 }
 

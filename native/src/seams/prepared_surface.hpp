@@ -38,8 +38,8 @@ class MeshParts {
   /// `is_seam`: of each edge of the whole mesh. `real_edges`: as connect(). All must outlive this object.
   MeshParts(const PlanMesh& whole, std::span<const std::uint8_t> is_seam, std::span<const Edge> real_edges);
 
-  /// Seams between the part and other faces become its boundary.
-  MeshPart part(std::span<const std::int32_t> faces);
+  /// Seams between the part and other faces become its boundary. Throws Cancelled.
+  MeshPart part(std::span<const std::int32_t> faces, const Task& task);
 
  private:
   const PlanMesh& whole_;
@@ -48,7 +48,8 @@ class MeshParts {
   std::vector<std::int32_t> vertex_, face_;  // own numbers in the present part; -1 elsewhere
 };
 
-/// The groups into which a mesh is parted, by their first faces. `reflection`: of the whole mesh, or null.
+/// The groups into which a mesh is parted, by their first faces. `reflection`: of the whole mesh, or null. Throws
+/// Cancelled.
 std::vector<PieceGroup> find_groups(const PlanMesh& whole, std::span<const std::uint8_t> is_seam,
                                     const Reflection* reflection, MeshParts& parts, const Task& task);
 
@@ -66,14 +67,9 @@ struct PreparedSurface {
 
   std::shared_ptr<const Surface> surface;
   SeamPlannerOptions options;
-  PlanMesh whole;  ///< empty if one group is the whole surface
+  std::shared_ptr<const PlanMesh> mesh;  ///< of the whole surface
   std::vector<GroupProblem> groups;
   std::unique_ptr<const PlannedWires> wires;
-
-  /// The mesh of the whole surface.
-  const PlanMesh& mesh() const {
-    return whole.triangles.empty() && !groups.empty() ? groups.front().original.mesh : whole;
-  }
 
  private:
   void find_meshes(const Task& task);
@@ -81,7 +77,7 @@ struct PreparedSurface {
   Visibility visibility_of_all(const Task& task) const;
   void find_prices_of_all(const Visibility& visibility, const Task& task);
   void join_copies(const Task& task);
-  std::vector<double> weights_of(const PlanMesh& mesh) const;
+  std::vector<double> weights_at(std::span<const std::int32_t> vertices) const;
 };
 
 }  // namespace seamwire::detail

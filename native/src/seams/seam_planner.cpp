@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "detail/edge_chains.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "detail/run_on_threads.hpp"
@@ -20,6 +20,7 @@
 #include "seams/prepared_surface.hpp"
 #include "seamwire/seams/missing_cuts.hpp"
 #include "seamwire/surface/segments.hpp"
+#include "surface/cuts.hpp"
 #include "surface/real_edges.hpp"
 #include "tuning/constants.hpp"
 
@@ -30,35 +31,16 @@ using namespace detail;
 namespace {
 
 /// Chains of edges across which triangles cannot be oriented alike. A one-sided surface is cut open there.
-std::vector<std::vector<std::int32_t>> one_sided_chains(const Surface& surface, std::vector<Edge> without) {
-  std::map<std::int32_t, std::vector<std::int32_t>> next;
-  for (Edge& edge : without) edge = {std::min(edge[0], edge[1]), std::max(edge[0], edge[1])};
-  std::ranges::sort(without);
-  for (const auto& [a, b] : surface.report().unorientable_edges) {
-    const Edge edge = ascending(a, b);
-    if (std::ranges::binary_search(without, edge)) continue;
-    if (!has_edge(surface, edge)) continue;
-    next[a].push_back(b);
-    next[b].push_back(a);
+std::vector<std::vector<std::int32_t>> one_sided_chains(const Surface& surface, const std::vector<Edge>& seams,
+                                                        const Task& task) {
+  const std::vector<Edge>& unorientable = surface.report().unorientable_edges;
+  if (unorientable.empty()) return {};
+  const Cuts cuts(surface, seams, "seams", task);
+  std::vector<Edge> edges;
+  for (const Edge& edge : unorientable) {
+    if (has_edge(surface, edge) && !cuts.contains(edge[0], edge[1])) edges.push_back(edge);
   }
-  std::vector<std::vector<std::int32_t>> chains;
-  const auto follow = [&](std::int32_t v) {
-    std::vector<std::int32_t> chain{v};
-    while (!next[v].empty()) {
-      const std::int32_t other = next[v].back();
-      next[v].pop_back();
-      std::erase(next[other], v);
-      chain.push_back(v = other);
-      if (next[v].size() > 1) break;  // chains meet here
-    }
-    chains.push_back(std::move(chain));
-  };
-  for (const bool is_end : {true, false}) {
-    for (auto& [v, others] : next) {
-      while (is_end ? others.size() == 1 : !others.empty()) follow(v);
-    }
-  }
-  return chains;
+  return EdgeChains(surface.vertex_count(), edges).all([](std::int32_t) { return false; });
 }
 
 /// The edges that are cut: seams, and those that a plan's wires run along.
@@ -78,9 +60,9 @@ class WholePlan {
       : prepared_(prepared),
         plans_(plans),
         distortion_(distortion),
-        place_of_face_(prepared.mesh().face_count()),
-        is_counted_(prepared.mesh().face_count()) {
-    for (const FaceFrame& frame : face_frames(prepared.mesh(), task)) areas_.push_back(frame.area);
+        place_of_face_(prepared.mesh->face_count()),
+        is_counted_(prepared.mesh->face_count()) {
+    for (const FaceFrame& frame : face_frames(*prepared.mesh, task)) areas_.push_back(frame.area);
     for (std::size_t g = 0; g < groups().size(); ++g) {
       const SlitProblem& own = groups()[g].original;
       for (std::size_t k = 0; k < groups()[g].places.size(); ++k) {
@@ -103,7 +85,7 @@ class WholePlan {
     constexpr double kMapBegins = 0.3, kMeasureBegins = 0.95;
     constexpr int kMostTries = SlitChains::kClosest + 1;
     std::vector<SlitChains> slits = chains();
-    const PlanMesh& mesh = prepared_.mesh();
+    const PlanMesh& mesh = *prepared_.mesh;
     for (int attempt = 0;; ++attempt) {
       const auto place = [&](double share) { return kMeasureBegins * (attempt + share) / kMostTries; };
       SeamPlan plan = plan_with(slits, part_of(task, place(0.0), place(kMapBegins)));
@@ -114,7 +96,7 @@ class WholePlan {
       if (prepared_.wires->are_across()) {
         const std::vector<std::uint8_t> is_cut = marked_edges(mesh, cuts_of(plan, prepared_.options.seams), task);
         const CutMaps maps = solve_cut(mesh, is_cut, part_of(task, place(kMapBegins), place(1.0)));
-        const std::vector<std::uint8_t> is_kept = are_kept(maps, bound);
+        const std::vector<std::uint8_t> is_kept = are_kept(maps, bound, task);
         for (std::size_t i = 0; i < places_.size(); ++i) {
           if (slits[i].closeness >= SlitChains::kClosest || is_kept[i] != 0) continue;
           ++slits[i].closeness;
@@ -125,7 +107,7 @@ class WholePlan {
       } else {
         for (const auto& [group, place] : places_) {
           const GroupProblem& own = groups()[group];
-          add_maps(plan, own.original.mesh, &own.places[place], plans_[group].result().maps, task);
+          add_maps(plan, *own.original.mesh, &own.places[place], plans_[group].result().maps, task);
         }
       }
       measure(plan, part_of(task, kMeasureBegins, 1.0));
@@ -156,8 +138,8 @@ class WholePlan {
   SeamPlan plan_with(std::span<const SlitChains> chains, const Task& task) const {
     const Surface& surface = *prepared_.surface;
     SeamPlan plan;
-    plan.wires = prepared_.wires->along(prepared_.mesh(), chains, task);
-    for (const std::vector<std::int32_t>& chain : one_sided_chains(surface, prepared_.options.seams)) {
+    plan.wires = prepared_.wires->along(*prepared_.mesh, chains, task);
+    for (const std::vector<std::int32_t>& chain : one_sided_chains(surface, prepared_.options.seams, task)) {
       PlannedWire wire;
       wire.vertices = chain;
       wire.from = chain.front();
@@ -180,10 +162,8 @@ class WholePlan {
     plan.energy = area > 0.0 ? energy / area : 4.0;
     plan.is_reached = std::isfinite(plan.energy) && plan.energy <= distortion_ && !overlaps;
     const std::vector<Edge> cuts = cuts_of(plan, prepared_.options.seams);
-    task.check(1.0);
-    plan.islands = face_segments(surface, cuts);
-    task.check(1.0);
-    for (const std::int32_t missing : missing_cuts(surface, cuts, plan.islands)) {
+    plan.islands = face_segments(surface, cuts, task);
+    for (const std::int32_t missing : missing_cuts(surface, cuts, plan.islands, task)) {
       ++plan.island_count;
       plan.not_discs += missing > 0 ? 1 : 0;
     }
@@ -191,8 +171,7 @@ class WholePlan {
   }
 
   /// Of each place, whether its maps are about as good as those with its slits.
-  std::vector<std::uint8_t> are_kept(const CutMaps& maps, double bound) const {
-    constexpr double kWorse = 1.01;
+  std::vector<std::uint8_t> are_kept(const CutMaps& maps, double bound, const Task& task) const {
     struct Found {
       std::size_t islands = 0;
       bool is_mapped = true, overlaps = false;
@@ -214,10 +193,10 @@ class WholePlan {
     std::vector<std::uint8_t> kept;
     for (std::size_t i = 0; i < places_.size(); ++i) {
       const GroupPlanning::Result& planned = plans_[places_[i].group].result();
-      const double most = planned.energy <= bound ? bound : kWorse * planned.energy;
+      const double most = planned.energy <= bound ? bound : tuning::kWorse * planned.energy;
       const bool is_good = found[i].is_mapped && (!found[i].overlaps || planned.overlaps) &&
                            found[i].islands <= planned.maps.maps.size() &&
-                           mean_energy(std::move(found[i].energies)) <= most;
+                           mean_energy(std::move(found[i].energies), task) <= most;
       kept.push_back(is_good || !std::isfinite(planned.energy) ? 1 : 0);
     }
     return kept;
@@ -225,8 +204,8 @@ class WholePlan {
 
   /// Adds UVs. `place`: where the faces and vertices of the maps' mesh are on the whole mesh; null: in the same place.
   void add_maps(SeamPlan& plan, const PlanMesh& mesh, const Place* place, const CutMaps& maps, const Task& task) {
-    Poll poll(task, 0.0, 0.0, 1);
-    const PlanMesh& whole = prepared_.mesh();
+    Poll poll(task);
+    const PlanMesh& whole = *prepared_.mesh;
     const auto whole_face = [&](std::int32_t f) { return place != nullptr ? place->faces[f] : f; };
     for (std::size_t i = 0; i < maps.maps.size(); ++i) {
       const auto& map = maps.maps[i];
@@ -258,10 +237,10 @@ class WholePlan {
     const MapReport report = measure_islands(*prepared_.surface, plan.uvs, plan.islands, false, task);
     std::vector<std::uint8_t> is_counted_island(plan.island_count, 0);
     for (std::size_t f = 0; f < is_counted_.size(); ++f) {
-      if (is_counted_[f] != 0) is_counted_island[plan.islands[prepared_.mesh().faces[f]]] = 1;
+      if (is_counted_[f] != 0) is_counted_island[plan.islands[prepared_.mesh->faces[f]]] = 1;
     }
     const bool is_all = std::ranges::all_of(is_counted_, [](std::uint8_t counted) { return counted != 0; });
-    plan.energy = is_all ? report.energy : mean_energy(energies_);
+    plan.energy = is_all ? report.energy : mean_energy(energies_, task);
     const bool overlaps =
         std::ranges::any_of(report.overlapping, [&](std::int32_t island) { return is_counted_island[island] != 0; });
     plan.is_reached = std::isfinite(plan.energy) && plan.energy <= distortion_ && !overlaps;
@@ -281,9 +260,6 @@ class WholePlan {
   std::vector<std::pair<double, double>> energies_;  // with areas, of the counted triangles of the planned map
   bool is_mapped_ = true;                            // whether all counted triangles have a map
 };
-
-/// Groups with fewer triangles are planned at the same time, on one thread each.
-constexpr std::size_t kSmallGroup = 600;
 
 void check_options(const Surface& surface, const SeamPlannerOptions& options) {
   check_strength(options.strength);
@@ -339,7 +315,7 @@ class Planning {
   static constexpr double kLimbsEnd = 0.02, kTreesEnd = 0.06;  // shares of all work
 
   bool is_small(std::size_t group) const {
-    return plans_.size() > 1 && groups()[group].searched().mesh.face_count() < kSmallGroup;
+    return plans_.size() > 1 && groups()[group].searched().mesh->face_count() < tuning::kSmallGroup;
   }
   const std::vector<GroupProblem>& groups() const { return prepared_.groups; }
 
@@ -352,7 +328,7 @@ class Planning {
     }
     double after = kStepsOfMeasuring;
     if (prepared_.wires->are_across()) after += (SlitChains::kClosest + 1) * (kStepsOfMap + kStepsOfMeasuring);
-    after *= static_cast<double>(prepared_.mesh().face_count());
+    after *= static_cast<double>(prepared_.mesh->face_count());
     return after > 0.0 ? search / (search + after) : 1.0;
   }
 
@@ -412,7 +388,7 @@ class Planning {
   void for_each_group(const Task& task, const std::function<void(std::size_t, const Task&)>& work) const {
     std::vector<std::size_t> small, large;
     for (std::size_t g = 0; g < plans_.size(); ++g) (is_small(g) ? small : large).push_back(g);
-    const auto size = [&](std::size_t g) { return static_cast<double>(groups()[g].searched().mesh.face_count()); };
+    const auto size = [&](std::size_t g) { return static_cast<double>(groups()[g].searched().mesh->face_count()); };
     double all = 0.0, done = 0.0;
     for (std::size_t g = 0; g < plans_.size(); ++g) all += size(g);
     std::vector<double> ends = {0.0};
@@ -458,7 +434,7 @@ class Planning {
   }
 
   void tell() const {
-    if (found_) found_(whole_.shown({.stop = task_.stop, .progress = {}}));
+    if (found_) found_(whole_.shown(part_of(task_, 0.0, 0.0)));
   }
 
   const PreparedSurface& prepared_;

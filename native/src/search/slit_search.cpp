@@ -2,14 +2,13 @@
 #include "search/slit_search.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "detail/index.hpp"
+#include "detail/poll.hpp"
 #include "detail/run_on_threads.hpp"
 #include "search/slit_solver.hpp"
 #include "slits/slit_paths.hpp"
@@ -21,7 +20,7 @@ namespace {
 
 /// How much more than an isometry the triangles around each vertex have, by area.
 std::vector<double> excess_at_vertices(const SlitProblem& problem, const SlitPlan& plan) {
-  const PlanMesh& mesh = problem.mesh;
+  const PlanMesh& mesh = *problem.mesh;
   std::vector<double> excess(mesh.vertex_count(), 0.0);
   for (const auto& map : plan.maps) {
     if (!map) continue;
@@ -35,7 +34,8 @@ std::vector<double> excess_at_vertices(const SlitProblem& problem, const SlitPla
 }
 
 /// Spreads amounts at vertices over about a radius, as heat spreads. The total stays.
-std::vector<double> spread(const PlanMesh& mesh, std::vector<double> amounts, double radius) {
+std::vector<double> spread(const PlanMesh& mesh, std::vector<double> amounts, double radius, const Task& task) {
+  Poll poll(task);
   const double median = median_length(mesh);
   if (!(median > 0.0)) return amounts;
   const auto rounds = static_cast<int>(std::clamp(radius * radius / (median * median), 1.0, 200.0));
@@ -43,6 +43,7 @@ std::vector<double> spread(const PlanMesh& mesh, std::vector<double> amounts, do
   for (int round = 0; round < rounds; ++round) {
     std::ranges::fill(next, 0.0);
     for (std::int32_t v = 0; index(v) < amounts.size(); ++v) {
+      poll.next();
       const auto around = mesh.all_neighbors[v];
       if (around.empty()) continue;
       next[v] += 0.5 * amounts[v];
@@ -76,12 +77,13 @@ void add_peaks(const PlanMesh& mesh, std::span<const double> values, std::span<c
 }
 
 /// Distances along edges from the cut; infinite if unreachable.
-std::vector<double> distances_from_cut(const PlanMesh& mesh, std::span<const std::uint8_t> is_on_cut) {
+std::vector<double> distances_from_cut(const PlanMesh& mesh, std::span<const std::uint8_t> is_on_cut,
+                                       const Task& task) {
   std::vector<std::int32_t> cut;
   for (std::int32_t v = 0; index(v) < is_on_cut.size(); ++v) {
     if (is_on_cut[v] != 0) cut.push_back(v);
   }
-  return edge_distances(mesh, cut);
+  return edge_distances(mesh, cut, task);
 }
 
 /// Adds the most distorted vertex around the end of each slit.
@@ -103,14 +105,14 @@ void add_ahead(const PlanMesh& mesh, const SlitPlan& plan, std::span<const doubl
 }  // namespace
 
 std::vector<std::int32_t> distortion_peaks(const SlitProblem& problem, const SlitPlan& plan,
-                                           std::span<const std::uint8_t> is_on_cut) {
-  const PlanMesh& mesh = problem.mesh;
-  const std::vector<double> from_cut = distances_from_cut(mesh, is_on_cut);
+                                           std::span<const std::uint8_t> is_on_cut, const Task& task) {
+  const PlanMesh& mesh = *problem.mesh;
+  const std::vector<double> from_cut = distances_from_cut(mesh, is_on_cut, task);
   const std::vector<double> excess = excess_at_vertices(problem, plan);
-  const std::vector<double> areas = vertex_areas(mesh, face_frames(mesh));
+  const std::vector<double> areas = vertex_areas(mesh, face_frames(mesh, task));
   const auto density = [&](double radius) {
-    std::vector<double> amounts = spread(mesh, excess, radius);
-    const std::vector<double> around = spread(mesh, areas, radius);
+    std::vector<double> amounts = spread(mesh, excess, radius, task);
+    const std::vector<double> around = spread(mesh, areas, radius, task);
     for (std::size_t v = 0; v < amounts.size(); ++v) amounts[v] = around[v] > 0.0 ? amounts[v] / around[v] : 0.0;
     return amounts;
   };
@@ -130,15 +132,15 @@ std::vector<std::int32_t> distortion_peaks(const SlitProblem& problem, const Sli
 }
 
 std::vector<std::int32_t> spread_vertices(const SlitProblem& problem, std::span<const std::uint8_t> is_on_cut,
-                                          std::size_t count) {
-  std::vector<double> away = distances_from_cut(problem.mesh, is_on_cut);
+                                          std::size_t count, const Task& task) {
+  std::vector<double> away = distances_from_cut(*problem.mesh, is_on_cut, task);
   for (double& distance : away) distance = std::isfinite(distance) ? distance : 0.0;
   std::vector<std::int32_t> chosen;
   while (chosen.size() < count) {
     const auto farthest = std::ranges::max_element(away);
     if (farthest == away.end() || *farthest <= 0.0) break;
     chosen.push_back(static_cast<std::int32_t>(farthest - away.begin()));
-    const std::vector<double> from_it = edge_distances(problem.mesh, {&chosen.back(), 1});
+    const std::vector<double> from_it = edge_distances(*problem.mesh, {&chosen.back(), 1}, task);
     for (std::size_t v = 0; v < away.size(); ++v) away[v] = std::min(away[v], from_it[v]);
   }
   return chosen;
@@ -236,12 +238,13 @@ class Search {
 
   /// Slits that might be added.
   std::vector<Slit> candidates(const SlitPlan& plan, bool is_thorough) const {
+    const Task task = own_task();
     const Cut cut = solver_.cut(plan.slits);
-    const PlanMesh& mesh = problem_.mesh;
+    const PlanMesh& mesh = *problem_.mesh;
     std::vector<std::int32_t> ends;
-    std::vector<std::int32_t> places = distortion_peaks(problem_, plan, cut.is_on_cut);
+    std::vector<std::int32_t> places = distortion_peaks(problem_, plan, cut.is_on_cut, task);
     if (is_thorough) {
-      const std::vector<std::int32_t> more = spread_vertices(problem_, cut.is_on_cut, tuning::kThoroughPlaces);
+      const std::vector<std::int32_t> more = spread_vertices(problem_, cut.is_on_cut, tuning::kThoroughPlaces, task);
       places.insert(places.end(), more.begin(), more.end());
     }
     for (std::int32_t v : places) {
@@ -253,7 +256,8 @@ class Search {
       if (is_new && cut.is_on_cut[v] == 0) ends.push_back(v);
     }
     std::vector<Slit> found;
-    const SlitFinder cheap(problem_, cut.is_on_cut, cut.is_on_cut), direct(problem_, cut.is_on_cut, cut.is_on_cut, 0.5);
+    const SlitFinder cheap(problem_, cut.is_on_cut, cut.is_on_cut, task);
+    const SlitFinder direct(problem_, cut.is_on_cut, cut.is_on_cut, task, 0.5);
     for (const std::int32_t v : ends) {
       for (const SlitFinder* finder : {&cheap, &direct}) {
         std::optional<Slit> slit = finder->slit_to(v);
@@ -275,7 +279,7 @@ class Search {
 
   bool grow_once(SlitPlan& plan, double bound, bool is_thorough) {
     const std::vector<Slit> slits = candidates(plan, is_thorough);
-    const SlitPlan loose = solver_.relaxed(plan, own_task());
+    const SlitPlan loose = solver_.relaxed(plan, relaxed_, own_task());
     steps_ += loose.work;
     std::vector<Trial> trials(slits.size());
     in_parallel(slits.size(), [&](std::size_t i, const Task& own) {
@@ -343,7 +347,7 @@ class Search {
 
   SlitPlan cut_back(const SlitPlan& plan, std::size_t slit, double share, const Task& task) const {
     std::vector<Slit> slits = plan.slits;
-    if (std::optional<Slit> left = shortened(problem_.mesh, slits[slit], share)) {
+    if (std::optional<Slit> left = shortened(*problem_.mesh, slits[slit], share)) {
       slits[slit] = std::move(*left);
     } else {
       slits.erase(slits.begin() + static_cast<std::ptrdiff_t>(slit));
@@ -354,7 +358,7 @@ class Search {
   std::vector<Cutback> first_cutbacks(const SlitPlan& plan) const {
     std::vector<Cutback> cutbacks(plan.slits.size());
     for (std::size_t k = 0; k < cutbacks.size(); ++k) {
-      cutbacks[k].needed = needed_share(problem_.mesh, plan.slits, k);
+      cutbacks[k].needed = needed_share(*problem_.mesh, plan.slits, k);
       cutbacks[k].skip_useless_shares();
     }
     return cutbacks;
@@ -455,6 +459,7 @@ class Search {
   const std::function<void(const SlitPlan&)>& found_;
   const Task& task_;
   SlitPlan best_;
+  RelaxedMaps relaxed_;
   double steps_ = 0.0;
   double least_gain_ = tuning::kLeastGain;
 };

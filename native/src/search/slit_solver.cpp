@@ -51,18 +51,18 @@ SlitPlan SlitSolver::solve_changed(std::vector<Slit> slits, const SlitPlan& befo
   const double reserve = std::isfinite(before.energy) ? kReserve + all_before / area - before.energy : 0.0;
   plan.work = for_each(pieces, task, [&](std::int32_t p, const Task& own_task) {
     const double own = problem_.by_piece[p].area;
-    std::optional<Island> island = open_piece(problem_, cut, p);
+    std::optional<Island> island = open_piece(problem_, cut, p, own_task);
     if (!island) return 0.0;
     MapOptions options = kPlanMap;
     if (pieces.size() == 1 && own > 0.0) options.worse_than = ((most + reserve) * area - others) / own;
-    IslandMap map = map_island(*island, problem_.mesh.points, options, own_task);
+    IslandMap map = map_island(*island, problem_.mesh->points, options, own_task);
     const double steps = static_cast<double>(map.steps) * own;
     if (!map.uvs.empty()) {
-      plan.maps[p] = piece_map(problem_.mesh.points, std::move(*island), std::move(map));
+      plan.maps[p] = piece_map(problem_.mesh->points, std::move(*island), std::move(map));
     }
     return steps;
   });
-  sum_up(problem_, plan);
+  sum_up(problem_, plan, task);
   return plan;
 }
 
@@ -81,22 +81,28 @@ SlitPlan SlitSolver::extend(const SlitPlan& before, const Slit& slit, const Task
   return continued(before, slit, kPlanMap, task);
 }
 
-SlitPlan SlitSolver::relaxed(const SlitPlan& plan, const Task& task) const {
+SlitPlan SlitSolver::relaxed(const SlitPlan& plan, RelaxedMaps& known, const Task& task) const {
   SlitPlan loose = plan;
+  known.from.resize(plan.maps.size());
+  known.relaxed.resize(plan.maps.size());
   MapOptions options = kPlanMap;
   options.keep_apart = false;
-  std::vector<std::int32_t> mapped;
+  std::vector<std::int32_t> changed;
   for (std::int32_t p = 0; index(p) < plan.maps.size(); ++p) {
-    if (plan.maps[p]) mapped.push_back(p);
+    if (plan.maps[p] && plan.maps[p] != known.from[p]) changed.push_back(p);
   }
-  loose.work = for_each(mapped, task, [&](std::int32_t p, const Task& own) {
+  loose.work = for_each(changed, task, [&](std::int32_t p, const Task& own) {
     const PieceMap& before = *plan.maps[p];
-    IslandMap map = continue_map(before.island, problem_.mesh.points, before.map.uvs, options, own);
+    IslandMap map = continue_map(before.island, problem_.mesh->points, before.map.uvs, options, own);
     const double steps = static_cast<double>(map.steps) * problem_.by_piece[p].area;
-    loose.maps[p] = piece_map(problem_.mesh.points, before.island, std::move(map));
+    known.relaxed[p] = piece_map(problem_.mesh->points, before.island, std::move(map));
+    known.from[p] = plan.maps[p];
     return steps;
   });
-  sum_up(problem_, loose);
+  for (std::size_t p = 0; p < plan.maps.size(); ++p) {
+    if (plan.maps[p]) loose.maps[p] = known.relaxed[p];
+  }
+  sum_up(problem_, loose, task);
   return loose;
 }
 
@@ -109,23 +115,23 @@ SlitPlan SlitSolver::try_out(const SlitPlan& relaxed, const Slit& slit, const Ta
 
 SlitPlan SlitSolver::continued(const SlitPlan& before, const Slit& slit, const MapOptions& options,
                                const Task& task) const {
-  SlitPlan plan{.slits = with_slit(problem_.mesh, before.slits, slit), .maps = before.maps};
+  SlitPlan plan{.slits = with_slit(*problem_.mesh, before.slits, slit), .maps = before.maps};
   const Cut cut = cut_of(problem_, plan.slits, roots_);
   for (const std::int32_t p : pieces_of(problem_, slit)) {
-    std::optional<Island> island = open_piece(problem_, cut, p);
+    std::optional<Island> island = open_piece(problem_, cut, p, task);
     if (!island || !before.maps[p]) return plan;
-    IslandMap map = continue_map(*island, problem_.mesh.points, carried_over(*before.maps[p], *island), options, task);
+    IslandMap map = continue_map(*island, problem_.mesh->points, carried_over(*before.maps[p], *island), options, task);
     plan.work += static_cast<double>(map.steps) * problem_.by_piece[p].area;
-    plan.maps[p] = piece_map(problem_.mesh.points, std::move(*island), std::move(map));
+    plan.maps[p] = piece_map(problem_.mesh->points, std::move(*island), std::move(map));
   }
-  sum_up(problem_, plan);
+  sum_up(problem_, plan, task);
   return plan;
 }
 
 CutMaps solve_cut(const PlanMesh& mesh, std::span<const std::uint8_t> is_cut, const Task& task) {
   std::vector<std::uint8_t> is_cut_half_edge(mesh.twins.size());
   for (std::size_t h = 0; h < is_cut_half_edge.size(); ++h) is_cut_half_edge[h] = is_cut[mesh.edge_of[h]];
-  std::vector<Island> islands = cut_open(mesh, is_cut_half_edge);
+  std::vector<Island> islands = cut_open(mesh, is_cut_half_edge, task);
   std::vector<std::size_t> order(islands.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, std::ranges::greater(), [&](std::size_t i) { return islands[i].faces.size(); });

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -16,6 +14,11 @@ namespace seamwire::detail {
 
 /// How the maps of plans are solved.
 inline constexpr MapOptions kPlanMap{.max_steps = 60, .tolerance = 3e-4};
+
+/// The map of each piece from which the relaxed map was made last, and that map.
+struct RelaxedMaps {
+  std::vector<std::shared_ptr<const PieceMap>> from, relaxed;
+};
 
 /// Maps pieces with given slits to the plane, several pieces on several threads. May be called from several threads.
 ///
@@ -33,8 +36,9 @@ class SlitSolver {
                          double most, const Task& task) const;
   /// A plan with a slit more. The maps continue from those before.
   SlitPlan extend(const SlitPlan& before, const Slit& slit, const Task& task) const;
-  /// The plan with maps that may overlap themselves: the energy that trials are compared with.
-  SlitPlan relaxed(const SlitPlan& plan, const Task& task) const;
+  /// The plan with maps that may overlap themselves: the energy that trials are compared with. `known`: maps of such
+  /// plans, which it adds to.
+  SlitPlan relaxed(const SlitPlan& plan, RelaxedMaps& known, const Task& task) const;
   /// A relaxed plan with a slit more, after a few steps: what the slit is about worth.
   SlitPlan try_out(const SlitPlan& relaxed, const Slit& slit, const Task& task) const;
 

@@ -9,6 +9,7 @@
 #include "detail/infinity.hpp"
 #include "detail/shortest_paths.hpp"
 #include "surface/point_segment.hpp"
+#include "tuning/constants.hpp"
 
 namespace seamwire::detail {
 namespace {
@@ -42,7 +43,7 @@ std::vector<std::int32_t> exact_image(const SlitProblem& problem, std::span<cons
   std::vector<std::int32_t> image;
   for (const std::int32_t v : path) {
     const std::int32_t next = problem.reflection->images[v];
-    if (next < 0 || (!image.empty() && problem.mesh.edge_between(image.back(), next) < 0)) return {};
+    if (next < 0 || (!image.empty() && problem.mesh->edge_between(image.back(), next) < 0)) return {};
     image.push_back(next);
   }
   return image;
@@ -64,9 +65,9 @@ std::int32_t nearest_on_cut(const PlanMesh& mesh, std::span<const std::uint8_t> 
 
 }  // namespace
 
-SlitPaths::SlitPaths(const PlanMesh& mesh, const EdgePrices& prices, const Reflection* reflection,
-                     std::span<const std::uint8_t> from, std::span<const std::uint8_t> ends, const Rules& rules)
-    : paths_(mesh) {
+TurningPaths slit_paths(const PlanMesh& mesh, const EdgePrices& prices, const Reflection* reflection,
+                        std::span<const std::uint8_t> from, std::span<const std::uint8_t> ends, const PathRules& rules,
+                        const Task& task) {
   const auto side = [&](std::int32_t v) { return reflection->sides[v]; };
   const double plane_width = 0.5 * median_length(mesh);
   const bool hugs_plane = reflection != nullptr && rules.half == Half::kPlane && !reflection->is_exact;
@@ -84,7 +85,9 @@ SlitPaths::SlitPaths(const PlanMesh& mesh, const EdgePrices& prices, const Refle
     if (!may_step(rules.half, side(a), side(b))) return kInfinity;
     return side(a) == 0 && side(b) == 0 ? 0.5 * price : price;
   };
-  paths_.find(from, edge_price, prices.turning, -1);
+  TurningPaths paths(mesh);
+  paths.find(from, edge_price, prices.turning, -1, task);
+  return paths;
 }
 
 std::vector<std::int32_t> TurningPaths::path(std::int32_t vertex) const {
@@ -110,7 +113,7 @@ std::vector<std::int32_t> TurningPaths::path(std::int32_t vertex) const {
 
 std::vector<std::int32_t> chain_along(const PlanMesh& mesh, std::span<const Vector> line, double spread,
                                       std::int32_t from, std::int32_t to, std::span<const std::uint8_t> barred,
-                                      const EdgePrices& prices) {
+                                      const EdgePrices& prices, const Task& task) {
   std::vector<double> away(mesh.vertex_count(), -1.0);
   const auto distance = [&](std::int32_t v) {
     if (away[v] < 0.0) away[v] = distance_to_line(mesh.points[v], line) / spread;
@@ -124,21 +127,22 @@ std::vector<std::int32_t> chain_along(const PlanMesh& mesh, std::span<const Vect
   std::vector<std::uint8_t> starts(mesh.vertex_count(), 0);
   starts[from] = 1;
   TurningPaths paths(mesh);
-  paths.find(starts, edge_price, prices.turning, to);
+  paths.find(starts, edge_price, prices.turning, to, task);
   return paths.path(to);
 }
 
-std::vector<double> edge_distances(const PlanMesh& mesh, std::span<const std::int32_t> from) {
+std::vector<double> edge_distances(const PlanMesh& mesh, std::span<const std::int32_t> from, const Task& task) {
+  Poll poll(task);
   std::vector<double> least(mesh.vertex_count(), kInfinity);
   find_shortest_paths(from, least, [&](std::int32_t v, const auto& step) {
+    poll.next();
     for (const auto& [next, edge] : mesh.all_neighbors[v]) step(next, mesh.lengths[edge]);
   });
   return least;
 }
 
 std::vector<std::int32_t> mirrored_path(const SlitProblem& problem, std::span<const std::int32_t> path,
-                                        std::span<const std::uint8_t> is_on_cut) {
-  constexpr double kSpread = 0.02;  // in a mesh of area 1: edges farther from the mirrored line are long
+                                        std::span<const std::uint8_t> is_on_cut, const Task& task) {
   const Reflection& reflection = *problem.reflection;
   const std::span<const std::int32_t> part = path.subspan(leaves_plane(reflection, path));
   if (part.size() < 2) return {};
@@ -160,38 +164,41 @@ std::vector<std::int32_t> mirrored_path(const SlitProblem& problem, std::span<co
     if (starts_well && is_clear(image)) return image;
   }
   std::vector<Vector> line;
-  for (const std::int32_t v : part) line.push_back(reflection.mirrored(problem.mesh.points[v]));
-  const std::int32_t from = starts_on_plane ? part.front() : nearest_on_cut(problem.mesh, is_on_cut, line.front());
+  for (const std::int32_t v : part) line.push_back(reflection.mirrored(problem.mesh->points[v]));
+  const std::int32_t from = starts_on_plane ? part.front() : nearest_on_cut(*problem.mesh, is_on_cut, line.front());
   const std::int32_t to = reflection.images[part.back()];
   if (from < 0 || to < 0 || from == to || barred[to] != 0) return {};
-  const double most_away = 2.0 * std::max(kSpread, median_length(problem.mesh));
-  if ((problem.mesh.points[from] - line.front()).norm() > most_away) return {};  // the cut is elsewhere
-  std::vector<std::int32_t> image = chain_along(problem.mesh, line, kSpread, from, to, barred, problem.prices);
+  const double most_away = 2.0 * std::max(tuning::kMirrorSpread, median_length(*problem.mesh));
+  if ((problem.mesh->points[from] - line.front()).norm() > most_away) return {};  // the cut is elsewhere
+  std::vector<std::int32_t> image =
+      chain_along(*problem.mesh, line, tuning::kMirrorSpread, from, to, barred, problem.prices, task);
   if (is_clear(image)) return image;
   return {};
 }
 
 SlitFinder::SlitFinder(const SlitProblem& problem, std::span<const std::uint8_t> from,
-                       std::span<const std::uint8_t> is_on_cut, double exponent, std::vector<std::uint8_t> barred_edges)
+                       std::span<const std::uint8_t> is_on_cut, Task task, double exponent,
+                       std::vector<std::uint8_t> barred_edges)
     : problem_(problem),
       from_(from.begin(), from.end()),
       is_on_cut_(is_on_cut.begin(), is_on_cut.end()),
+      task_(std::move(task)),
       exponent_(exponent),
       barred_edges_(std::move(barred_edges)) {}
 
-const SlitPaths& SlitFinder::paths_in(Half half) const {
-  std::optional<SlitPaths>& paths = paths_[index(static_cast<std::int32_t>(half) + 1)];
+const TurningPaths& SlitFinder::paths_in(Half half) const {
+  std::optional<TurningPaths>& paths = paths_[index(static_cast<std::int32_t>(half) + 1)];
   if (!paths) {
-    paths.emplace(problem_.mesh, problem_.prices, half == Half::kAny ? nullptr : problem_.mirror(), from_,
-                  problem_.is_rim,
-                  SlitPaths::Rules{.half = half, .exponent = exponent_, .barred_edges = barred_edges_});
+    paths.emplace(slit_paths(*problem_.mesh, problem_.prices, half == Half::kAny ? nullptr : problem_.mirror(), from_,
+                             problem_.is_rim, {.half = half, .exponent = exponent_, .barred_edges = barred_edges_},
+                             task_));
   }
   return *paths;
 }
 
-const SlitPaths& SlitFinder::paths_to(std::int32_t vertex) const {
+const TurningPaths& SlitFinder::paths_to(std::int32_t vertex) const {
   if (!problem_.reflection) return paths_in(Half::kAny);
-  const SlitPaths& paths = paths_in(static_cast<Half>(problem_.reflection->sides[vertex]));
+  const TurningPaths& paths = paths_in(static_cast<Half>(problem_.reflection->sides[vertex]));
   // Edges across the mirror plane leave places on it without a path in it. Pieces that are not symmetric themselves
   // have places without a path on their side.
   return std::isfinite(paths.price(vertex)) ? paths : paths_in(Half::kAny);
@@ -200,12 +207,12 @@ const SlitPaths& SlitFinder::paths_to(std::int32_t vertex) const {
 double SlitFinder::price_to(std::int32_t vertex) const { return paths_to(vertex).price(vertex); }
 
 std::optional<Slit> SlitFinder::slit_to(std::int32_t vertex) const {
-  const SlitPaths& paths = paths_to(vertex);
+  const TurningPaths& paths = paths_to(vertex);
   Slit slit{.path = paths.path(vertex), .image = {}};
   if (slit.path.size() < 2) return std::nullopt;
-  const std::optional<SlitPaths>& anywhere = paths_.back();
+  const std::optional<TurningPaths>& anywhere = paths_.back();
   const bool is_any = anywhere && &paths == &*anywhere;
-  if (!is_any) slit.image = mirrored_path(problem_, slit.path, is_on_cut_);
+  if (!is_any) slit.image = mirrored_path(problem_, slit.path, is_on_cut_, task_);
   return slit;
 }
 

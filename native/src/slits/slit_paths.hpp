@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "detail/indexed_heap.hpp"
+#include "detail/poll.hpp"
 #include "prices/edge_prices.hpp"
 #include "prices/plan_mesh.hpp"
 #include "slits/slit_plan.hpp"
 
 namespace seamwire::detail {
 
-/// Where the paths of a SlitPaths may go on a symmetric mesh.
+/// Where paths may go on a symmetric mesh.
 enum class Half : std::int8_t {
   kNegative = -1,  ///< along the mirror plane, then off it to the negative side, and not back
   kPlane = 0,      ///< along the mirror plane alone
@@ -32,9 +33,11 @@ class TurningPaths {
         price_(mesh.vertex_count(), kInfinity) {}
 
   /// Finds the paths from all vertices that are marked 1 in `from`, to a vertex, or with -1 to all. `edge_price(e, a,
-  /// b)`: what edge e costs from vertex a to b, or kInfinity. `turning`: what a turn by 90 degrees costs.
+  /// b)`: what edge e costs from vertex a to b, or kInfinity. `turning`: what a turn by 90 degrees costs. Throws
+  /// Cancelled.
   template <class EdgePrice>
-  void find(std::span<const std::uint8_t> from, const EdgePrice& edge_price, double turning, std::int32_t until);
+  void find(std::span<const std::uint8_t> from, const EdgePrice& edge_price, double turning, std::int32_t until,
+            const Task& task);
 
   /// The price of the path to a vertex: 0 at a start, infinite if no path leads there.
   double price(std::int32_t vertex) const { return price_[vertex]; }
@@ -56,7 +59,8 @@ class TurningPaths {
 
 template <class EdgePrice>
 void TurningPaths::find(std::span<const std::uint8_t> from, const EdgePrice& edge_price, double turning,
-                        std::int32_t until) {
+                        std::int32_t until, const Task& task) {
+  Poll poll(task);
   IndexedHeap open(before_.size());
   std::vector<double> least(before_.size(), kInfinity);
   const auto relax = [&](std::int32_t v, std::int32_t arrived_by, double price) {
@@ -82,6 +86,7 @@ void TurningPaths::find(std::span<const std::uint8_t> from, const EdgePrice& edg
     relax(static_cast<std::int32_t>(v), -1, 0.0);
   }
   while (!open.empty()) {
+    poll.next();
     const std::int32_t d = open.pop();
     const std::int32_t v = tail(d ^ 1);
     if (arrival_[v] < 0 && price_[v] > 0.0) {
@@ -93,51 +98,44 @@ void TurningPaths::find(std::span<const std::uint8_t> from, const EdgePrice& edg
   }
 }
 
+/// Which paths slit_paths() finds.
+struct PathRules {
+  Half half = Half::kAny;
+  /// Exponent of the price for a unit of length: 1 for the cheapest path, 0 for the shortest.
+  double exponent = 1.0;
+  std::span<const std::uint8_t> barred_edges = {};  ///< of each edge: 1 where no path may run; empty: nowhere
+};
+
 /// The cheapest paths over edges from a cut to every vertex of a mesh. A path pays for its edges and its turns.
 ///
 /// An edge along the mirror plane costs half, because an edge elsewhere is cut a second time at its mirror image. A
 /// mesh whose edges are not mirrored has no edges on the plane. There, paths along the plane pay for their distance
 /// from it.
-class SlitPaths {
- public:
-  struct Rules {
-    Half half = Half::kAny;
-    /// Exponent of the price for a unit of length: 1 for the cheapest path, 0 for the shortest.
-    double exponent = 1.0;
-    std::span<const std::uint8_t> barred_edges = {};  ///< of each edge: 1 where no path may run; empty: nowhere
-  };
-
-  /// `from`: 1 at the vertices of the cut. `ends`: 1 where paths may end but not go on. `reflection`: null if the mesh
-  /// is not symmetric; then `rules.half` is kAny.
-  SlitPaths(const PlanMesh& mesh, const EdgePrices& prices, const Reflection* reflection,
-            std::span<const std::uint8_t> from, std::span<const std::uint8_t> ends, const Rules& rules);
-
-  /// The price of the path to a vertex: 0 on the cut, infinite if no path leads there.
-  double price(std::int32_t vertex) const { return paths_.price(vertex); }
-  /// The vertices of the path, from the cut to a vertex; empty if no path leads there.
-  std::vector<std::int32_t> path(std::int32_t vertex) const { return paths_.path(vertex); }
-
- private:
-  TurningPaths paths_;
-};
+///
+/// `from`: 1 at the vertices of the cut. `ends`: 1 where paths may end but not go on. `reflection`: null if the mesh is
+/// not symmetric; then `rules.half` is kAny. Throws Cancelled.
+TurningPaths slit_paths(const PlanMesh& mesh, const EdgePrices& prices, const Reflection* reflection,
+                        std::span<const std::uint8_t> from, std::span<const std::uint8_t> ends, const PathRules& rules,
+                        const Task& task);
 
 /// The cheapest chain of edges from one vertex to another along a line of points: at `spread` from the line an edge
 /// costs twice its price, farther away still more. Except at its ends the chain avoids `barred` vertices. Empty if no
-/// chain exists.
+/// chain exists. Throws Cancelled.
 std::vector<std::int32_t> chain_along(const PlanMesh& mesh, std::span<const Vector> line, double spread,
                                       std::int32_t from, std::int32_t to, std::span<const std::uint8_t> barred,
-                                      const EdgePrices& prices);
+                                      const EdgePrices& prices, const Task& task);
 
 /// Edge distances from a vertex over all triangles' edges, polygons' diagonals included; infinite if unreachable.
-std::vector<double> edge_distances(const PlanMesh& mesh, std::span<const std::int32_t> from);
+/// Throws Cancelled.
+std::vector<double> edge_distances(const PlanMesh& mesh, std::span<const std::int32_t> from, const Task& task);
 
-/// Finds slits that lead from a cut to places on the mesh, in mirrored pairs on a symmetric mesh.
+/// Finds slits that lead from a cut to places on the mesh, in mirrored pairs on a symmetric mesh. Throws Cancelled.
 class SlitFinder {
  public:
   /// `from`: 1 at the vertices from which slits may start. `is_on_cut`: the same for mirror images. `exponent`: as
-  /// SlitPaths::Rules. `barred_edges`: the same, for slits but not for their images.
+  /// PathRules. `barred_edges`: the same, for slits but not for their images.
   SlitFinder(const SlitProblem& problem, std::span<const std::uint8_t> from, std::span<const std::uint8_t> is_on_cut,
-             double exponent = 1.0, std::vector<std::uint8_t> barred_edges = {});
+             Task task, double exponent = 1.0, std::vector<std::uint8_t> barred_edges = {});
 
   /// The price of the slit to a vertex, without its mirror image; infinite if no edges lead there.
   double price_to(std::int32_t vertex) const;
@@ -145,19 +143,20 @@ class SlitFinder {
   std::optional<Slit> slit_to(std::int32_t vertex) const;
 
  private:
-  const SlitPaths& paths_to(std::int32_t vertex) const;
-  const SlitPaths& paths_in(Half half) const;
+  const TurningPaths& paths_to(std::int32_t vertex) const;
+  const TurningPaths& paths_in(Half half) const;
 
   const SlitProblem& problem_;
   std::vector<std::uint8_t> from_, is_on_cut_;
+  Task task_;
   double exponent_;
   std::vector<std::uint8_t> barred_edges_;
-  mutable std::array<std::optional<SlitPaths>, 4> paths_;  // by half, found when first asked for
+  mutable std::array<std::optional<TurningPaths>, 4> paths_;  // by half, found when first asked for
 };
 
 /// The mirror image of the part of a path that leaves the mirror plane; empty if it has none. `is_on_cut`: where it may
-/// start.
+/// start. Throws Cancelled.
 std::vector<std::int32_t> mirrored_path(const SlitProblem& problem, std::span<const std::int32_t> path,
-                                        std::span<const std::uint8_t> is_on_cut);
+                                        std::span<const std::uint8_t> is_on_cut, const Task& task);
 
 }  // namespace seamwire::detail

@@ -2,8 +2,6 @@
 #include "slits/slit_plan.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <utility>
 
 #include "detail/index.hpp"
@@ -45,7 +43,7 @@ std::size_t kept_count(const PlanMesh& mesh, std::span<const std::int32_t> chain
 
 double SlitProblem::price(std::span<const std::int32_t> chain) const {
   double sum = 0.0;
-  for_each_edge(mesh, chain, [&](std::int32_t edge) { sum += prices.of_edge[edge]; });
+  for_each_edge(*mesh, chain, [&](std::int32_t edge) { sum += prices.of_edge[edge]; });
   return sum;
 }
 
@@ -55,12 +53,12 @@ double SlitProblem::price(const Slit& slit) const {
 }
 
 void find_pieces_of(SlitProblem& problem, const Task& task) {
-  const PlanMesh& mesh = problem.mesh;
+  const PlanMesh& mesh = *problem.mesh;
   problem.pieces = find_pieces(mesh, problem.is_seam, task);
   problem.by_piece.assign(index(problem.pieces.count), {});
   problem.is_rim = cut_of(problem, {}, {}).is_on_cut;
   const std::vector<FaceFrame> frames = face_frames(mesh, task);
-  Poll poll(task, 0.0, 0.0, 1);
+  Poll poll(task);
   std::vector<std::int32_t> place(mesh.face_count());
   problem.areas.clear();
   for (std::int32_t f = 0; index(f) < mesh.face_count(); ++f) {
@@ -72,7 +70,6 @@ void find_pieces_of(SlitProblem& problem, const Task& task) {
     piece.area += frames[f].area;
     problem.areas.push_back(frames[f].area);
   }
-  const bool is_unpriced = problem.prices.of_edge.empty();
   for (SlitProblem::Piece& piece : problem.by_piece) {
     bool has_inner = false, has_open = false;
     for (const std::int32_t f : piece.faces) {
@@ -81,8 +78,7 @@ void find_pieces_of(SlitProblem& problem, const Task& task) {
         const std::int32_t twin = mesh.twins[3 * f + i];
         const bool is_inner = twin >= 0 && problem.pieces.of_face[twin / 3] == problem.pieces.of_face[f];
         has_inner = has_inner || is_inner;
-        has_open =
-            has_open || (is_inner && (is_unpriced || problem.prices.of_edge[mesh.edge_of[3 * f + i]] != kInfinity));
+        has_open = has_open || (is_inner && problem.prices.of_edge[mesh.edge_of[3 * f + i]] != kInfinity);
         piece.twins.push_back(is_inner ? 3 * place[twin / 3] + twin % 3 : -1);
       }
     }
@@ -91,7 +87,7 @@ void find_pieces_of(SlitProblem& problem, const Task& task) {
 }
 
 Cut cut_of(const SlitProblem& problem, std::span<const Slit> slits, std::span<const std::int32_t> roots) {
-  const PlanMesh& mesh = problem.mesh;
+  const PlanMesh& mesh = *problem.mesh;
   Cut cut{problem.is_seam, std::vector<std::uint8_t>(mesh.vertex_count(), 0)};
   for (const Slit& slit : slits) {
     for (const auto* chain : {&slit.path, &slit.image}) {
@@ -113,8 +109,8 @@ bool is_exposed(const SlitProblem& problem, const Slit& slit) {
 std::vector<std::int32_t> pieces_of(const SlitProblem& problem, const Slit& slit) {
   std::vector<std::int32_t> found;
   for (const auto* chain : {&slit.path, &slit.image}) {
-    for_each_edge(problem.mesh, *chain, [&](std::int32_t edge) {
-      found.push_back(problem.pieces.of_face[problem.mesh.half_edge_of[edge] / 3]);
+    for_each_edge(*problem.mesh, *chain, [&](std::int32_t edge) {
+      found.push_back(problem.pieces.of_face[problem.mesh->half_edge_of[edge] / 3]);
     });
   }
   std::ranges::sort(found);
@@ -122,21 +118,22 @@ std::vector<std::int32_t> pieces_of(const SlitProblem& problem, const Slit& slit
   return found;
 }
 
-std::vector<Island> islands_of(const SlitProblem& problem, std::span<const std::uint8_t> is_cut, std::int32_t piece) {
+std::vector<Island> islands_of(const SlitProblem& problem, std::span<const std::uint8_t> is_cut, std::int32_t piece,
+                               const Task& task) {
   const SlitProblem::Piece& part = problem.by_piece[piece];
   std::vector<std::uint8_t> is_cut_half_edge;
   for (const std::int32_t f : part.faces) {
-    for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) is_cut_half_edge.push_back(is_cut[problem.mesh.edge_of[h]]);
+    for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) is_cut_half_edge.push_back(is_cut[problem.mesh->edge_of[h]]);
   }
-  std::vector<Island> islands = cut_open(part, is_cut_half_edge);
+  std::vector<Island> islands = cut_open(part, is_cut_half_edge, task);
   for (Island& island : islands) {
     for (std::int32_t& face : island.faces) face = part.faces[face];
   }
   return islands;
 }
 
-std::optional<Island> open_piece(const SlitProblem& problem, const Cut& cut, std::int32_t piece) {
-  std::vector<Island> islands = islands_of(problem, cut.is_cut, piece);
+std::optional<Island> open_piece(const SlitProblem& problem, const Cut& cut, std::int32_t piece, const Task& task) {
+  std::vector<Island> islands = islands_of(problem, cut.is_cut, piece, task);
   if (islands.size() != 1 || !is_planar(islands.front())) return std::nullopt;
   return std::move(islands.front());
 }
@@ -154,10 +151,10 @@ std::shared_ptr<const PieceMap> piece_map(std::span<const Vector> points, Island
   return std::make_shared<const PieceMap>(PieceMap{std::move(island), std::move(map), std::move(energies)});
 }
 
-double mean_energy(std::vector<std::pair<double, double>> energies) {
+double mean_energy(std::vector<std::pair<double, double>> energies, const Task& task) {
   double area = 0.0;
   for (const auto& [energy, own] : energies) area += own;
-  std::ranges::sort(energies, std::ranges::greater());
+  polled_sort(energies, task, std::ranges::greater());
   double left_out = 0.0, sum = 0.0;
   for (const auto& [energy, own] : energies) {
     const double counted = std::clamp(left_out + own - tuning::kLeftOut * area, 0.0, own);
@@ -167,7 +164,7 @@ double mean_energy(std::vector<std::pair<double, double>> energies) {
   return area > left_out ? sum / (area - left_out) : 4.0;
 }
 
-void sum_up(const SlitProblem& problem, SlitPlan& plan) {
+void sum_up(const SlitProblem& problem, SlitPlan& plan, const Task& task) {
   plan.price = 0.0;
   for (const Slit& slit : plan.slits) plan.price += problem.price(slit);
   plan.overlaps = false;
@@ -182,7 +179,7 @@ void sum_up(const SlitProblem& problem, SlitPlan& plan) {
       energies.emplace_back(map->energies[k], problem.areas[map->island.faces[k]]);
     }
   }
-  plan.energy = mean_energy(std::move(energies));
+  plan.energy = mean_energy(std::move(energies), task);
 }
 
 double chain_length(const PlanMesh& mesh, std::span<const std::int32_t> chain) {
@@ -204,6 +201,18 @@ std::optional<Slit> shortened(const PlanMesh& mesh, const Slit& slit, double sha
   const std::size_t count = whole > 0.0 ? kept_count(mesh, slit.image, std::clamp(off / whole, 0.0, 1.0)) : 1;
   if (count > 1) left.image = first(slit.image, count);
   return left;
+}
+
+std::vector<Slit> needed_slits(const std::vector<std::int32_t>& chain) {
+  constexpr std::size_t kParts = 4;
+  const std::size_t edges = chain.size() - 1;
+  const std::size_t parts = chain.front() == chain.back() ? std::min(kParts, edges) : 1;
+  std::vector<Slit> slits;
+  for (std::size_t part = 0; part < parts; ++part) {
+    const auto at = [&](std::size_t i) { return chain.begin() + static_cast<std::ptrdiff_t>(i * edges / parts); };
+    slits.push_back({.path = {at(part), at(part + 1) + 1}, .image = {}, .is_needed = true});
+  }
+  return slits;
 }
 
 double needed_share(const PlanMesh& mesh, std::span<const Slit> slits, std::size_t which) {

@@ -27,7 +27,7 @@ struct Slit {
 
 /// What planning works on: the mesh, what is known of it, and the pieces into which given seams part it.
 struct SlitProblem {
-  PlanMesh mesh;
+  std::shared_ptr<const PlanMesh> mesh;  ///< problems that differ in their seams share it
   EdgePrices prices;
   std::optional<Reflection> reflection;
   std::vector<std::uint8_t> is_seam;  ///< of each edge: 1 for seams that are there and stay
@@ -50,9 +50,8 @@ struct SlitProblem {
   double price(const Slit& slit) const;
 };
 
-/// Parts a mesh along seams, and fills in what follows from that. Without prices, seams may run along all edges. Throws
-/// Cancelled.
-void find_pieces_of(SlitProblem& problem, const Task& task = {});
+/// Parts a mesh along seams, and fills in what follows from that and from the prices. Throws Cancelled.
+void find_pieces_of(SlitProblem& problem, const Task& task);
 
 /// A set of slits, and which edges and vertices they cut.
 struct Cut {
@@ -87,20 +86,22 @@ bool is_exposed(const SlitProblem& problem, const Slit& slit);
 /// The pieces in which a slit lies, ascending.
 std::vector<std::int32_t> pieces_of(const SlitProblem& problem, const Slit& slit);
 
-/// The islands into which a cut parts a piece. `is_cut`: of each edge.
-std::vector<Island> islands_of(const SlitProblem& problem, std::span<const std::uint8_t> is_cut, std::int32_t piece);
+/// The islands into which a cut parts a piece. `is_cut`: of each edge. Throws Cancelled.
+std::vector<Island> islands_of(const SlitProblem& problem, std::span<const std::uint8_t> is_cut, std::int32_t piece,
+                               const Task& task);
 
-/// The island of a piece with a cut; nullopt if it is not a disc, or a disc with holes.
-std::optional<Island> open_piece(const SlitProblem& problem, const Cut& cut, std::int32_t piece);
+/// The island of a piece with a cut; nullopt if it is not a disc, or a disc with holes. Throws Cancelled.
+std::optional<Island> open_piece(const SlitProblem& problem, const Cut& cut, std::int32_t piece, const Task& task);
 
 /// A start for the map of an island that is cut further than another one was: the UVs of the same corners.
 std::vector<Point2> carried_over(const PieceMap& from, const Island& to);
 
 /// The mean of energies over an area, without the worst 0.1 % of it; 4 without an area. Pairs of an energy and an area.
-double mean_energy(std::vector<std::pair<double, double>> energies);
+/// Throws Cancelled.
+double mean_energy(std::vector<std::pair<double, double>> energies, const Task& task);
 
-/// Sums up the maps.
-void sum_up(const SlitProblem& problem, SlitPlan& plan);
+/// Sums up the maps. Throws Cancelled.
+void sum_up(const SlitProblem& problem, SlitPlan& plan, const Task& task);
 
 /// The length of a chain of vertices.
 double chain_length(const PlanMesh& mesh, std::span<const std::int32_t> chain);
@@ -108,6 +109,10 @@ double chain_length(const PlanMesh& mesh, std::span<const std::int32_t> chain);
 /// Keeps a share of a slit's length, from 0 to 1; nullopt if nothing is left. The mirror image starts where the path
 /// leaves the mirror plane.
 std::optional<Slit> shortened(const PlanMesh& mesh, const Slit& slit, double share);
+
+/// A chain as slits that have to stay. A closed chain, which ends with its first vertex, is divided into several, which
+/// can be carried to another mesh.
+std::vector<Slit> needed_slits(const std::vector<std::int32_t>& chain);
 
 /// The least share of a slit's length that has to stay, because other slits start on it.
 double needed_share(const PlanMesh& mesh, std::span<const Slit> slits, std::size_t which);

@@ -8,11 +8,13 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
+#include "detail/poll.hpp"
 #include "detail/run_on_threads.hpp"
 #include "detail/shortest_paths.hpp"
 #include "slits/slit_paths.hpp"
@@ -21,9 +23,12 @@
 
 namespace seamwire::detail {
 
-IslandGraph::IslandGraph(const Island& island, std::span<const Vector> points) : areas(island.vertices.size(), 0.0) {
+IslandGraph::IslandGraph(const Island& island, std::span<const Vector> points, const Task& task)
+    : areas(island.vertices.size(), 0.0) {
+  Poll poll(task);
   std::vector<std::pair<std::int32_t, Neighbor>> pairs;
   for (std::size_t k = 0; k < island.triangles.size(); ++k) {
+    poll.next();
     const Triangle& t = island.triangles[k];
     const auto point = [&](std::size_t i) { return points[island.vertices[t[i % 3]]]; };
     const double area = 0.5 * (point(1) - point(0)).cross(point(2) - point(0)).norm();
@@ -36,12 +41,19 @@ IslandGraph::IslandGraph(const Island& island, std::span<const Vector> points) :
       pairs.push_back({t[(i + 1) % 3], {t[i], length}});
     }
   }
-  neighbors = Csr<Neighbor>(island.vertices.size(), pairs);
+  neighbors = Csr<Neighbor>(island.vertices.size(), [&](const auto& visit) {
+    for (const auto& [vertex, neighbor] : pairs) {
+      poll.next();
+      visit(vertex, neighbor);
+    }
+  });
 }
 
-std::vector<double> IslandGraph::distances_from(std::int32_t vertex) const {
+std::vector<double> IslandGraph::distances_from(std::int32_t vertex, const Task& task) const {
+  Poll poll(task);
   std::vector<double> least(areas.size(), kInfinity);
   find_shortest_paths(std::array{vertex}, least, [&](std::int32_t v, const auto& step) {
+    poll.next();
     for (const auto& [next, length] : neighbors[v]) step(next, length);
   });
   return least;
@@ -55,10 +67,9 @@ std::vector<double> IslandGraph::mean_distances(const Task& task) const {
   std::partial_sum(areas.begin(), areas.end(), until.begin());
   std::vector<std::vector<double>> distances(kSamples);
   const auto measure = [&](std::size_t i, const Task& own) {
-    own.check(0.0);
     const double place = std::fmod((static_cast<double>(i) + 0.5) * kGolden, 1.0) * until.back();
     const auto at = std::min(until.end() - 1, std::lower_bound(until.begin(), until.end(), place));
-    distances[i] = distances_from(static_cast<std::int32_t>(at - until.begin()));
+    distances[i] = distances_from(static_cast<std::int32_t>(at - until.begin()), own);
   };
   if (areas.size() < kSmall) {
     for (std::size_t i = 0; i < kSamples; ++i) measure(i, task);
@@ -104,10 +115,10 @@ std::vector<std::int32_t> IslandGraph::peaks(std::span<const double> heights, do
   return peaks;
 }
 
-PieceBody::PieceBody(const SlitProblem& problem, std::int32_t piece)
+PieceBody::PieceBody(const SlitProblem& problem, std::int32_t piece, const Task& task)
     : size(std::sqrt(problem.by_piece[piece].area)),
-      island(std::move(islands_of(problem, problem.is_seam, piece).front())),
-      graph(island, problem.mesh.points) {
+      island(std::move(islands_of(problem, problem.is_seam, piece, task).front())),
+      graph(island, problem.mesh->points, task) {
   for (const std::vector<std::int32_t>& loop : island.boundaries()) {
     std::vector<std::int32_t> vertices;
     for (const std::int32_t own : loop) vertices.push_back(island.vertices[own]);
@@ -124,7 +135,7 @@ std::int32_t onto_plane(const SlitProblem& problem, const PieceBody& body, std::
   double least = tuning::kTipToPlane * body.size;
   for (const std::int32_t v : body.island.vertices) {
     if (reflection.sides[v] != 0) continue;
-    const double distance = (problem.mesh.points[v] - problem.mesh.points[tip]).norm();
+    const double distance = (problem.mesh->points[v] - problem.mesh->points[tip]).norm();
     if (distance < least) {
       least = distance;
       nearest = v;
@@ -160,7 +171,7 @@ struct Terminal {
 
 /// Whether a seam may run along one of a vertex' edges.
 bool may_be_cut(const SlitProblem& problem, std::int32_t vertex) {
-  return std::ranges::any_of(problem.mesh.neighbors[vertex],
+  return std::ranges::any_of(problem.mesh->neighbors[vertex],
                              [&](const PlanNeighbor& next) { return problem.prices.of_edge[next.edge] != kInfinity; });
 }
 
@@ -189,9 +200,11 @@ std::int32_t find_root(const SlitProblem& problem, const PieceBody& body, std::s
 /// Cuts along the shortest loops around and through the handles of a piece, from a root on its cut.
 class HandleLoops {
  public:
-  HandleLoops(const SlitProblem& problem, const PieceBody& body, std::int32_t root)
+  HandleLoops(const SlitProblem& problem, const PieceBody& body, std::int32_t root, const Task& task)
       : problem_(problem),
         island_(body.island),
+        task_(task),
+        poll_(task),
         price_(island_.vertices.size(), kInfinity),
         before_(price_.size(), -1) {
     const auto own = std::ranges::find(island_.vertices, root) - island_.vertices.begin();
@@ -200,15 +213,17 @@ class HandleLoops {
 
   /// One chain of mesh vertices for each loop that no keep-out area is in the way of: from the root around a handle, to
   /// the root or to a chain before.
-  std::vector<std::vector<std::int32_t>> find() const {
+  std::vector<std::vector<std::int32_t>> find() {
     std::vector<std::pair<double, std::int32_t>> inner;  // half-edges with the lengths of their loops
     for (std::int32_t h = 0; index(h) < island_.twins.size(); ++h) {
+      poll_.next();
       if (island_.twins[h] > h && !is_in_tree(h)) inner.push_back({-loop_price(h), h});
     }
-    std::ranges::sort(inner);
+    polled_sort(inner, task_);
     DisjointSets faces(island_.triangles.size());
     std::vector<std::vector<std::int32_t>> loops;
     for (const auto& [price, h] : inner) {
+      poll_.next();
       const bool is_loop = !faces.join(h / 3, island_.twins[h] / 3);
       if (is_loop && std::isfinite(price)) loops.push_back(loop_through(h));
     }
@@ -230,7 +245,7 @@ class HandleLoops {
  private:
   double edge_price(std::int32_t h) const {
     if (island_.twins[h] < 0) return 0.0;
-    const std::int32_t edge = problem_.mesh.edge_of[3 * island_.faces[h / 3] + h % 3];
+    const std::int32_t edge = problem_.mesh->edge_of[3 * island_.faces[h / 3] + h % 3];
     return problem_.prices.of_edge[edge];
   }
   double loop_price(std::int32_t h) const { return price_[island_.tail(h)] + price_[island_.tip(h)] + edge_price(h); }
@@ -241,6 +256,7 @@ class HandleLoops {
   void find_tree(std::int32_t root) {
     std::vector<std::pair<std::int32_t, std::pair<std::int32_t, double>>> pairs;
     for (std::int32_t h = 0; index(h) < island_.twins.size(); ++h) {
+      poll_.next();
       const double price = edge_price(h);
       if ((island_.twins[h] >= 0 && island_.twins[h] < h) || !std::isfinite(price)) continue;
       pairs.push_back({island_.tail(h), {island_.tip(h), price}});
@@ -248,6 +264,7 @@ class HandleLoops {
     }
     const Csr<std::pair<std::int32_t, double>> neighbors(price_.size(), pairs);
     find_shortest_paths(std::array{root}, price_, [&](std::int32_t v, const auto& step) {
+      poll_.next();
       for (const auto& [next, price] : neighbors[v]) {
         if (step(next, price)) before_[next] = v;
       }
@@ -266,6 +283,8 @@ class HandleLoops {
 
   const SlitProblem& problem_;
   const Island& island_;
+  const Task& task_;
+  Poll poll_;
   std::vector<double> price_;
   std::vector<std::int32_t> before_;
 };
@@ -273,12 +292,12 @@ class HandleLoops {
 /// Slits along loops of handles. A loop that comes back to itself, or to a slit before, ends there.
 std::vector<Slit> handle_slits(const SlitProblem& problem, const std::vector<std::vector<std::int32_t>>& loops) {
   std::vector<Slit> slits;
-  std::vector<std::uint8_t> is_cut(problem.mesh.edge_count(), 0);
+  std::set<std::int32_t> cut;
   for (const std::vector<std::int32_t>& loop : loops) {
     Slit slit{.path = {}, .image = {}, .is_needed = true};
     for (std::size_t i = 1; i < loop.size(); ++i) {
-      const std::int32_t edge = problem.mesh.edge_between(loop[i - 1], loop[i]);
-      if (edge < 0 || problem.mesh.is_boundary(edge) || problem.is_seam[edge] != 0 || is_cut[edge]++ > 0) {
+      const std::int32_t edge = problem.mesh->edge_between(loop[i - 1], loop[i]);
+      if (edge < 0 || problem.mesh->is_boundary(edge) || problem.is_seam[edge] != 0 || !cut.insert(edge).second) {
         if (slit.path.size() > 1) slits.push_back(slit);
         slit.path.clear();
         continue;
@@ -295,7 +314,11 @@ std::vector<Slit> handle_slits(const SlitProblem& problem, const std::vector<std
 class TreeGrowth {
  public:
   TreeGrowth(const SlitProblem& problem, bool has_tips, const Task& task)
-      : problem_(problem), is_on_cut_(problem.mesh.vertex_count(), 0), has_tips_(has_tips), task_(task) {}
+      : problem_(problem),
+        is_on_cut_(problem.mesh->vertex_count(), 0),
+        marks_(problem.mesh->vertex_count(), 0),
+        has_tips_(has_tips),
+        task_(task) {}
 
   SlitTree grow() {
     for (std::int32_t p = 0; index(p) < problem_.by_piece.size(); ++p) {
@@ -320,8 +343,8 @@ class TreeGrowth {
   };
 
   void begin_piece(std::int32_t number) {
-    State& state =
-        states_.emplace_back(State{.body = PieceBody(problem_, number), .terminals = {}, .holes = {}, .vertices = {}});
+    State& state = states_.emplace_back(
+        State{.body = PieceBody(problem_, number, task_), .terminals = {}, .holes = {}, .vertices = {}});
     const PieceBody& body = state.body;
     const std::vector<double> distances = body.graph.mean_distances(task_);
     std::int32_t root = -1;
@@ -333,8 +356,8 @@ class TreeGrowth {
       join(state, std::vector<std::int32_t>{root});
     } else {
       std::ranges::stable_sort(loops, std::ranges::greater(),
-                               [&](const auto& loop) { return loop_length(loop, problem_.mesh.points); });
-      for (const std::vector<std::int32_t>& loop : loops) state.cut_length += loop_length(loop, problem_.mesh.points);
+                               [&](const auto& loop) { return loop_length(loop, problem_.mesh->points); });
+      for (const std::vector<std::int32_t>& loop : loops) state.cut_length += loop_length(loop, problem_.mesh->points);
       root = loops.front().front();
       for (std::size_t i = 1; i < loops.size(); ++i) state.terminals.push_back({loops[i], true});
       join(state, loops.front());
@@ -349,10 +372,10 @@ class TreeGrowth {
     std::map<std::int32_t, int> times;
     double length = 0.0;
     for (std::size_t i = 0; i < loop.size(); ++i) {
-      const std::int32_t edge = problem_.mesh.edge_between(loop[i], loop[(i + 1) % loop.size()]);
+      const std::int32_t edge = problem_.mesh->edge_between(loop[i], loop[(i + 1) % loop.size()]);
       if (edge >= 0) ++times[edge];
     }
-    for (const auto& [edge, count] : times) length += count == 1 ? problem_.mesh.lengths[edge] : 0.0;
+    for (const auto& [edge, count] : times) length += count == 1 ? problem_.mesh->lengths[edge] : 0.0;
     return length;
   }
 
@@ -360,10 +383,10 @@ class TreeGrowth {
   bool is_hole(const PieceBody& body, const std::vector<std::int32_t>& loop) const {
     const double length = one_sided_length(loop);
     if (!(length > 0.0)) return true;
-    const std::vector<double> away = edge_distances(problem_.mesh, loop);
+    const std::vector<double> away = edge_distances(*problem_.mesh, loop, task_);
     double area = 0.0;
     for (const std::int32_t f : body.island.faces) {
-      const Triangle& t = problem_.mesh.triangles[f];
+      const Triangle& t = problem_.mesh->triangles[f];
       if (std::ranges::all_of(t, [&](std::int32_t v) { return away[v] < length; })) area += problem_.areas[f];
     }
     return area > tuning::kLeastAround * length * length;
@@ -377,9 +400,9 @@ class TreeGrowth {
     if (loops.empty() || std::ranges::none_of(body.island.vertices, [&](std::int32_t v) { return exposed[v] != 0; })) {
       return {};
     }
-    std::vector<std::uint8_t> from(problem_.mesh.vertex_count(), 0);
+    std::vector<std::uint8_t> from(problem_.mesh->vertex_count(), 0);
     from[find_root(problem_, body, distances)] = 1;
-    const SlitFinder finder(problem_, from, from);
+    const SlitFinder finder(problem_, from, from, task_);
     std::vector<std::vector<std::int32_t>> holes;
     std::erase_if(loops, [&](std::vector<std::int32_t>& loop) {
       if (!is_hole(body, loop)) return false;
@@ -396,14 +419,14 @@ class TreeGrowth {
   /// joined.
   void cut_handles(const State& state, std::int32_t root) {
     const PieceBody& body = state.body;
-    const std::vector<std::uint8_t> is_reached = flags(state);
+    mark_reached(state);
     std::vector<std::vector<std::int32_t>> reached_loops;  // loops on the cut
     for (std::vector<std::int32_t>& loop : body.island.boundaries()) {
-      const auto is_on_cut = [&](std::int32_t own) { return is_reached[body.island.vertices[own]] != 0; };
+      const auto is_on_cut = [&](std::int32_t own) { return is_reached(body.island.vertices[own]); };
       if (std::ranges::any_of(loop, is_on_cut)) reached_loops.push_back(std::move(loop));
     }
     if (body.genus() == 0 && reached_loops.size() < 2) return;
-    const HandleLoops handles(problem_, body, root);
+    HandleLoops handles(problem_, body, root, task_);
     std::vector<std::vector<std::int32_t>> chains;
     if (body.genus() > 0) chains = handles.find();
     for (const std::vector<std::int32_t>& loop : reached_loops) chains.push_back(handles.path_to(loop));
@@ -411,26 +434,34 @@ class TreeGrowth {
   }
 
   std::vector<std::uint8_t> flags(const State& state) const {
-    std::vector<std::uint8_t> from(problem_.mesh.vertex_count(), 0);
+    std::vector<std::uint8_t> from(problem_.mesh->vertex_count(), 0);
     for (const std::int32_t v : state.vertices) from[v] = 1;
     return from;
   }
+
+  /// Marks the cut of a piece, for is_reached().
+  void mark_reached(const State& state) {
+    ++mark_;
+    for (const std::int32_t v : state.vertices) marks_[v] = mark_;
+  }
+  bool is_reached(std::int32_t v) const { return marks_[v] == mark_; }
 
   /// Adds vertices to the cut of a piece, and the loops and tips that are reached by that.
   void join(State& state, std::vector<std::int32_t> vertices) {
     while (!vertices.empty()) {
       for (const std::int32_t v : vertices) is_on_cut_[v] = 1;
       state.vertices.insert(state.vertices.end(), vertices.begin(), vertices.end());
-      const std::vector<std::uint8_t> is_reached = flags(state);
+      mark_reached(state);
+      const auto is_reached = [&](std::int32_t v) { return this->is_reached(v); };
       vertices.clear();
       std::erase_if(state.terminals, [&](const Terminal& terminal) {
-        if (std::ranges::none_of(terminal.vertices, [&](std::int32_t v) { return is_reached[v] != 0; })) return false;
+        if (std::ranges::none_of(terminal.vertices, is_reached)) return false;
         if (terminal.is_loop) vertices.insert(vertices.end(), terminal.vertices.begin(), terminal.vertices.end());
         return true;
       });
       // A second slit to a hole would part the piece.
       std::erase_if(state.holes, [&](const std::vector<std::int32_t>& hole) {
-        if (std::ranges::none_of(hole, [&](std::int32_t v) { return is_reached[v] != 0; })) return false;
+        if (std::ranges::none_of(hole, is_reached)) return false;
         vertices.insert(vertices.end(), hole.begin(), hole.end());
         return true;
       });
@@ -439,13 +470,13 @@ class TreeGrowth {
 
   /// The piece in which a chain lies.
   State& state_at(std::span<const std::int32_t> chain) {
-    const std::int32_t edge = problem_.mesh.edge_between(chain[0], chain[1]);
-    return states_[problem_.pieces.of_face[problem_.mesh.half_edge_of[edge] / 3]];
+    const std::int32_t edge = problem_.mesh->edge_between(chain[0], chain[1]);
+    return states_[problem_.pieces.of_face[problem_.mesh->half_edge_of[edge] / 3]];
   }
 
   void add_chain(const std::vector<std::int32_t>& chain) {
     State& state = state_at(chain);
-    state.cut_length += chain_length(problem_.mesh, chain);
+    state.cut_length += chain_length(*problem_.mesh, chain);
     join(state, chain);
   }
 
@@ -463,11 +494,11 @@ class TreeGrowth {
 
   /// Finds slits within a piece. Seams around it lie in other pieces too.
   SlitFinder finder_in(std::size_t number) const {
-    std::vector<std::uint8_t> is_outside(problem_.mesh.edge_count(), 1);
+    std::vector<std::uint8_t> is_outside(problem_.mesh->edge_count(), 1);
     for (const std::int32_t f : problem_.by_piece[number].faces) {
-      for (std::int32_t i = 0; i < 3; ++i) is_outside[problem_.mesh.edge_of[3 * f + i]] = 0;
+      for (std::int32_t i = 0; i < 3; ++i) is_outside[problem_.mesh->edge_of[3 * f + i]] = 0;
     }
-    return {problem_, flags(states_[number]), is_on_cut_, 1.0, std::move(is_outside)};
+    return {problem_, flags(states_[number]), is_on_cut_, task_, 1.0, std::move(is_outside)};
   }
 
   /// The vertex of a terminal that is cheapest to reach, with its price.
@@ -525,7 +556,7 @@ class TreeGrowth {
     const PieceBody& body = state.body;
     if (has_tips_ ? state.cut_length >= tuning::kLeastCut * body.size : state.cut_length > 0.0) return;
     const SlitFinder finder = finder_in(index(number));
-    const std::vector<double> away = edge_distances(problem_.mesh, state.vertices);
+    const std::vector<double> away = edge_distances(*problem_.mesh, state.vertices, task_);
     std::int32_t farthest = -1;
     for (const std::int32_t v : body.island.vertices) {
       if (std::isfinite(finder.price_to(v)) && (farthest < 0 || away[v] > away[farthest])) farthest = v;
@@ -563,15 +594,15 @@ class TreeGrowth {
   /// A closed piece that is cut along one edge has an outline of two edges, and no map. It is cut along one edge more.
   void lengthen_single_edge(Slit& slit) {
     if (slit.path.size() != 2 || !slit.image.empty()) return;
-    const std::int32_t edge = problem_.mesh.edge_between(slit.path[0], slit.path[1]);
-    const std::int32_t piece = problem_.pieces.of_face[problem_.mesh.half_edge_of[edge] / 3];
+    const std::int32_t edge = problem_.mesh->edge_between(slit.path[0], slit.path[1]);
+    const std::int32_t piece = problem_.pieces.of_face[problem_.mesh->half_edge_of[edge] / 3];
     const auto is_elsewhere = [&](const Slit& other) {
       return &other == &slit || std::ranges::count(pieces_of(problem_, other), piece) == 0;
     };
     if (!states_[piece].body.loops.empty() || !std::ranges::all_of(tree_.slits, is_elsewhere)) return;
     std::int32_t next = -1;
     double least = kInfinity;
-    for (const PlanNeighbor& neighbor : problem_.mesh.neighbors[slit.path[1]]) {
+    for (const PlanNeighbor& neighbor : problem_.mesh->neighbors[slit.path[1]]) {
       if (neighbor.vertex == slit.path[0] || !(problem_.prices.of_edge[neighbor.edge] < least)) continue;
       least = problem_.prices.of_edge[neighbor.edge];
       next = neighbor.vertex;
@@ -582,6 +613,8 @@ class TreeGrowth {
   const SlitProblem& problem_;
   std::vector<State> states_;
   std::vector<std::uint8_t> is_on_cut_;  // of any piece
+  std::vector<std::int32_t> marks_;      // of each vertex: see mark_reached()
+  std::int32_t mark_ = 0;
   SlitTree tree_;
   bool has_tips_;
   const Task& task_;

@@ -13,16 +13,16 @@
 
 namespace seamwire::detail {
 
-/// The vertices and edges of an island, for distances along edges within it.
+/// The vertices and edges of an island, for distances along edges within it. Throws Cancelled.
 struct IslandGraph {
   struct Neighbor {
     std::int32_t vertex = -1;
     double length = 0.0;
   };
-  IslandGraph(const Island& island, std::span<const Vector> points);
+  IslandGraph(const Island& island, std::span<const Vector> points, const Task& task);
 
   /// Distances along edges from a vertex.
-  std::vector<double> distances_from(std::int32_t vertex) const;
+  std::vector<double> distances_from(std::int32_t vertex, const Task& task) const;
   /// The mean geodesic distance of each vertex to the surface (Hilaga et al. 2001), from samples that are spread over
   /// the area. On several threads.
   std::vector<double> mean_distances(const Task& task) const;
@@ -33,9 +33,9 @@ struct IslandGraph {
   std::vector<double> areas;  ///< a third of that of the triangles around each vertex
 };
 
-/// One piece of a problem before slits cut it.
+/// One piece of a problem before slits cut it. Throws Cancelled.
 struct PieceBody {
-  PieceBody(const SlitProblem& problem, std::int32_t piece);
+  PieceBody(const SlitProblem& problem, std::int32_t piece, const Task& task);
 
   /// How many handles the piece has.
   std::int64_t genus() const;

@@ -12,6 +12,7 @@
 
 #include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
+#include "detail/poll.hpp"
 #include "surface/corner_fans.hpp"
 #include "surface/cuts.hpp"
 #include "surface/real_edges.hpp"
@@ -24,7 +25,7 @@ namespace {
 
 /// Adds each triangle that the surface left out to the segment of one neighbor, so that it joins no segments. The
 /// neighbor beyond a diagonal of its polygon comes first. Neighbors that were left out themselves follow.
-void join_left_out(const Surface& surface, const Cuts& cuts, DisjointSets& sets) {
+void join_left_out(const Surface& surface, const Cuts& cuts, DisjointSets& sets, Poll& poll) {
   const SurfaceReport& report = surface.report();
   std::vector<std::int32_t> left_out = report.degenerate_faces;
   left_out.insert(left_out.end(), report.duplicate_faces.begin(), report.duplicate_faces.end());
@@ -42,6 +43,7 @@ void join_left_out(const Surface& surface, const Cuts& cuts, DisjointSets& sets)
   };
   std::vector<std::uint8_t> is_near(surface.vertex_count(), 0);
   for (const std::int32_t f : left_out) {
+    poll.next();
     for (const Edge& edge : edges_of(f)) {
       if (edge[0] == edge[1] || cuts.contains(edge[0], edge[1])) continue;
       at_edge[edge].waiting.push_back(f);
@@ -63,7 +65,10 @@ void join_left_out(const Surface& surface, const Cuts& cuts, DisjointSets& sets)
       found->second.waiting = {};
     }
   };
-  for (const std::int32_t f : corner_fans(surface).faces) add(f, {0, -1});
+  for (const std::int32_t f : corner_fans(surface).faces) {
+    poll.next();
+    add(f, {0, -1});
+  }
   const auto neighbor_of = [&](std::int32_t f) {
     std::int32_t neighbor = -1;
     for (const Edge& edge : edges_of(f)) {
@@ -77,6 +82,7 @@ void join_left_out(const Surface& surface, const Cuts& cuts, DisjointSets& sets)
   std::vector<std::uint8_t> is_added(surface.face_count(), 0);
   for (const std::int32_t start : left_out) {
     while (!turns.empty()) {
+      poll.next();
       const Turn now = turns.top();
       turns.pop();
       const std::int32_t f = now.second;
@@ -94,17 +100,19 @@ void join_left_out(const Surface& surface, const Cuts& cuts, DisjointSets& sets)
 
 }  // namespace
 
-std::vector<std::int32_t> face_segments(const Surface& surface, std::span<const Edge> cut_edges) {
-  const Cuts cuts(surface, cut_edges, "cut_edges");
+std::vector<std::int32_t> face_segments(const Surface& surface, std::span<const Edge> cut_edges, const Task& task) {
+  Poll poll(task);
+  const Cuts cuts(surface, cut_edges, "cut_edges", task);
   DisjointSets sets(surface.face_count());
   const CornerFans& fans = corner_fans(surface);
   for (std::int32_t h = 0; index(h) < fans.twins.size(); ++h) {
+    poll.next();
     const std::int32_t twin = fans.twins[h];
     if (twin < h) continue;  // on the boundary, or seen from the other side
     if (cuts.contains(fans.vertices[fans.tail(h)], fans.vertices[fans.tip(h)])) continue;
     sets.join(fans.faces[h / 3], fans.faces[twin / 3]);
   }
-  join_left_out(surface, cuts, sets);
+  join_left_out(surface, cuts, sets, poll);
 
   auto [labels, count] = sets.numbering();
   std::vector<std::int32_t> sizes(index(count), 0), order(index(count)), rank(index(count));

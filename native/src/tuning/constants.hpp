@@ -10,6 +10,20 @@
 /// docs/notebook/planner-tuning.md says what was tried.
 namespace seamwire::detail::tuning {
 
+// Symmetry: which mirror images correspond.
+
+/// Distance from the surface, in diagonals, within which a mirror image corresponds to it. It has the value of the
+/// prototype.
+inline constexpr double kNearImage = 0.012;
+/// Distance in median edges within which the nearest vertex is looked for at least. On coarse meshes that vertex may be
+/// far along the surface, though the surface is near.
+inline constexpr double kCoarseImage = 0.75;
+/// Share of the area that has to correspond on a symmetric surface.
+inline constexpr double kLeastSymmetric = 0.9;
+/// Share of the edges whose images are edges from which on a mesh counts as mirrored edge by edge. It has the value of
+/// the prototype.
+inline constexpr double kExactImages = 0.95;
+
 // Visibility of places: how much of the front and of the sky sees a vertex.
 
 /// Directions of view from the front. The benchmarks measure visibility with as many.
@@ -90,6 +104,9 @@ inline constexpr double kLineShare = 0.2;
 inline constexpr double kWideShare = 0.8;
 /// A wide bend exceeds the edge's own by at most so many times that, or curved places would count as chamfers.
 inline constexpr double kMostSteps = 1.5;
+/// Times by which bends at opposite edges of a polygon differ at most where the surface is round. A round edge is no
+/// chamfer. Without round edges, a tube with few sides falls into several parts.
+inline constexpr double kAlikeBends = 2.0;
 /// Bend at which a border is as likely as not, apart from what follows. On hard surfaces, edges above 45 degrees agreed
 /// best with artists' seams, but seams are only 6 % of the length of all edges.
 inline constexpr double kEvenDegrees = 62.6;
@@ -148,8 +165,14 @@ inline constexpr double kSharpRim = 2.0;
 inline constexpr double kLeastStep = 25.0;
 /// Degrees at the sides of a chamfer's step, at most.
 inline constexpr double kMostStep = 70.0;
-/// Share of the area that each half of a piece has, if there is such a cut.
+/// Share of an area by which regions differ at most that are joined in mirrored pairs.
+inline constexpr double kAlikeAreas = 0.01;
+/// Share of the area that each half of a piece has, if there is such a cut. Without it, a cut may take off a sliver.
 inline constexpr double kLeastHalf = 0.2;
+/// Shares of the area of a piece that are given to both halves before the cheapest cut between them is found.
+inline constexpr std::array<double, 3> kSeedShares{0.2, 0.3, 0.4};
+/// Edges without a mirror image, for each edge with one, up to which a piece is cut symmetrically.
+inline constexpr double kMostWithoutImage = 0.05;
 
 // Limbs whose necks are cut if more islands are wanted.
 
@@ -183,6 +206,10 @@ inline constexpr double kLeastCut = 0.6;
 /// Area within the length of a loop from it, in the square of that length: about 4 around a hole in a plane, 1 at
 /// the end of a tube. With less than this, the loop is the end of a tube.
 inline constexpr double kLeastAround = 2.0;
+
+/// Distance from the mirror image of a slit at which an edge costs twice its price, on a surface of area 1. It matters
+/// if a mesh is not mirrored edge by edge.
+inline constexpr double kMirrorSpread = 0.02;
 
 // The measure of distortion.
 
@@ -256,6 +283,15 @@ inline constexpr std::size_t kSimplified = 7000;
 /// Triangles of each group, at least, and of the coarser mesh on which seams are also searched. A group that is
 /// smaller itself stays as it is.
 inline constexpr std::size_t kLeastSimplified = 600;
+/// Times that a chain of the original mesh is longer than the slit that it follows, at most. A longer chain leads
+/// around something.
+inline constexpr double kDetour = 1.6;
+/// Times that a slit is longer than the straight line between its ends from which on it is followed in parts. A chain
+/// might cut it short otherwise, as it would a loop around a handle.
+inline constexpr double kBent = 2.0;
+/// Triangles of the searched mesh of a group below which the group is planned on one thread, at the same time as other
+/// such groups. Their plans are shown only once all of them are done.
+inline constexpr std::size_t kSmallGroup = 600;
 /// How often a search is repeated because the original mesh distorts more than the simplified one.
 inline constexpr int kRounds = 2;
 /// Budget of a repetition, as a share of the one before.
@@ -272,6 +308,8 @@ inline constexpr int kHalvings = 4;
 
 /// Distance from a slit that wires across the surface keep, first and if the map is bad with these.
 inline constexpr std::array<double, 2> kNearSlit{0.04, 0.015};
+/// Times that such wires may raise an energy that is above the bound already.
+inline constexpr double kWorse = 1.01;
 /// Distance of a slit from a straight line above which it gets another seed, along edges.
 inline constexpr double kStraight = 0.1;
 

@@ -22,15 +22,16 @@ namespace {
 struct Simplified {
   Simplified(const Surface& surface, std::size_t triangles, const ProblemOptions& options = {})
       : original(problem_on(surface, options)),
-        mesh(decimate(original.mesh, original.is_seam, original.mirror(), triangles, {})) {
-    simple.mesh = mesh.mesh;
+        mesh(decimate(*original.mesh, original.is_seam, original.mirror(), triangles, {})) {
+    simple.mesh = std::make_shared<const PlanMesh>(mesh.mesh);
     simple.is_seam = mesh.is_seam;
-    if (options.mirror >= 0) simple.reflection = find_reflection(simple.mesh, options.mirror);
-    find_pieces_of(simple);
-    simple.prices = find_prices(simple.mesh, find_visibility(simple.mesh, options.front, {}), simple.reflection, {});
+    if (options.mirror >= 0) simple.reflection = find_reflection(*simple.mesh, options.mirror, {});
+    simple.prices =
+        find_prices(*simple.mesh, find_visibility(*simple.mesh, options.front, {}), simple.reflection, {}, {});
+    find_pieces_of(simple, {});
   }
   std::vector<Slit> carried(const std::vector<Slit>& slits) const {
-    return carried_slits(simple, mesh.vertices, original, slits);
+    return carried_slits(simple, mesh.vertices, original, slits, {});
   }
 
   SlitProblem original;
@@ -50,7 +51,7 @@ double distance(const Vector& point, const PlanMesh& mesh, const std::vector<std
 
 /// The island of a piece with slits; whether it is a disc.
 bool is_disc(const SlitProblem& problem, const std::vector<Slit>& slits) {
-  return open_piece(problem, cut_of(problem, slits, {}), 0).has_value();
+  return open_piece(problem, cut_of(problem, slits, {}), 0, {}).has_value();
 }
 
 TEST(CarriedSlits, RunAlongWhatTheyComeFrom) {
@@ -64,14 +65,14 @@ TEST(CarriedSlits, RunAlongWhatTheyComeFrom) {
       EXPECT_EQ(one.is_needed, slit.is_needed);
       EXPECT_EQ(one.path.back(), pair.mesh.vertices[slit.path.back()]);
       for (std::size_t i = 1; i < one.path.size(); ++i) {
-        EXPECT_GE(pair.original.mesh.edge_between(one.path[i - 1], one.path[i]), 0);
+        EXPECT_GE(pair.original.mesh->edge_between(one.path[i - 1], one.path[i]), 0);
       }
       for (const std::int32_t v : one.path) {
-        EXPECT_LT(distance(pair.original.mesh.points[v], pair.simple.mesh, slit.path),
-                  1.5 * median_length(pair.simple.mesh));
+        EXPECT_LT(distance(pair.original.mesh->points[v], *pair.simple.mesh, slit.path),
+                  1.5 * median_length(*pair.simple.mesh));
       }
-      const double length = chain_length(pair.simple.mesh, slit.path);
-      EXPECT_LT(chain_length(pair.original.mesh, one.path), 1.6 * length);
+      const double length = chain_length(*pair.simple.mesh, slit.path);
+      EXPECT_LT(chain_length(*pair.original.mesh, one.path), 1.6 * length);
     }
     ASSERT_TRUE(is_disc(pair.simple, tree.slits));
     EXPECT_TRUE(is_disc(pair.original, carried)) << "what was a disc is one";
@@ -100,7 +101,7 @@ TEST(CarriedSlits, RingsStayClosed) {
   ASSERT_FALSE(rings.empty());
   SlitProblem parted = pair.original;
   parted.is_seam = cut_of(parted, pair.carried(slits_of(rings.front())), {}).is_cut;
-  find_pieces_of(parted);
+  find_pieces_of(parted, {});
   EXPECT_EQ(parted.pieces.count, 2);
 }
 

@@ -17,8 +17,10 @@
 #include "seamwire/geodesics/exact_geodesics.hpp"
 #include "seamwire/metric/scribble.hpp"
 #include "seamwire/parts/part_finder.hpp"
+#include "seamwire/seams/missing_cuts.hpp"
 #include "seamwire/seams/seam_planner.hpp"
 #include "seamwire/surface/nearest_points.hpp"
+#include "seamwire/surface/segments.hpp"
 #include "seamwire/wires/snap.hpp"
 #include "seamwire/wires/wire.hpp"
 #include "shapes.hpp"
@@ -98,6 +100,12 @@ TEST_F(Cancelling, MeasuringWhatPartsAndSeamsNeed) {
   const SeamPlannerOptions along_edges{.along = Along::kEdges};
   EXPECT_GE(looks_of([&](const Task& task) { SeamPlanner(shared, along_edges, task); }),
             (preparing + 9 * edges + 3 * faces) / Poll::kSteps + edges / Poll::kFewSteps);
+}
+
+TEST_F(Cancelling, CountingIslandsAndTheirCuts) {
+  const std::vector<std::int32_t> segments = face_segments(surface, {});
+  expect_stops(3 * faces, [&](const Task& task) { face_segments(surface, {}, task); });
+  expect_stops(8 * faces, [&](const Task& task) { missing_cuts(surface, {}, segments, task); });
 }
 
 TEST_F(Cancelling, NearestPointsOfManyTriangles) {

@@ -28,7 +28,7 @@ std::vector<std::uint8_t> cut(std::size_t nodes, const std::vector<Link>& links,
                               std::int32_t sink) {
   MinimumCut network(nodes);
   for (const Link& link : links) network.add(link.a, link.b, link.price);
-  return network.source_side(source, sink);
+  return network.source_side(source, sink, {});
 }
 
 TEST(MinimumCut, PartsAChainAtItsCheapestLink) {

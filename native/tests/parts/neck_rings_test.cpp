@@ -37,14 +37,14 @@ TEST(NeckRings, AreAtTheNecksOfADumbbell) {
   const std::vector<NeckRing> rings = find_necks(problem, {});
   ASSERT_EQ(rings.size(), 2U);
   for (const NeckRing& ring : rings) {
-    expect_closed(problem.mesh, ring.loop);
+    expect_closed(*problem.mesh, ring.loop);
     EXPECT_TRUE(ring.image.empty());
-    EXPECT_NEAR(std::abs(mean_x(problem.mesh, ring.loop)), 0.5, 0.1);
+    EXPECT_NEAR(std::abs(mean_x(*problem.mesh, ring.loop)), 0.5, 0.1);
     EXPECT_GT(ring.narrowness, 2.0);
-    EXPECT_NEAR(loop_length(ring.loop, problem.mesh.points) / problem.mesh.scale, 2 * std::numbers::pi * 0.08, 0.1);
+    EXPECT_NEAR(loop_length(ring.loop, problem.mesh->points) / problem.mesh->scale, 2 * std::numbers::pi * 0.08, 0.1);
     EXPECT_LT(ring.area, 0.3);
   }
-  EXPECT_LT(mean_x(problem.mesh, rings[0].loop) * mean_x(problem.mesh, rings[1].loop), 0.0);
+  EXPECT_LT(mean_x(*problem.mesh, rings[0].loop) * mean_x(*problem.mesh, rings[1].loop), 0.0);
 }
 
 TEST(NeckRings, ComeInPairsOnASymmetricMesh) {
@@ -52,7 +52,7 @@ TEST(NeckRings, ComeInPairsOnASymmetricMesh) {
   const std::vector<NeckRing> rings = find_necks(problem, {});
   ASSERT_EQ(rings.size(), 1U);
   const NeckRing& ring = rings.front();
-  expect_closed(problem.mesh, ring.image);
+  expect_closed(*problem.mesh, ring.image);
   ASSERT_EQ(ring.image.size(), ring.loop.size());
   for (std::size_t i = 0; i < ring.loop.size(); ++i) {
     EXPECT_EQ(ring.image[i], problem.reflection->images[ring.loop[i]]);

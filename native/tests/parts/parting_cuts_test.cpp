@@ -185,10 +185,10 @@ TEST(PartingCuts, HalvesAreOfComparableSizeAndSymmetric) {
   const SlitProblem problem = problem_on(shapes::icosphere(3).surface(), {.mirror = 0});
   SlitProblem parted = problem;
   parted.is_seam = cut_of(problem, halving_cuts(problem, 2, {}), {}).is_cut;
-  find_pieces_of(parted);
+  find_pieces_of(parted, {});
   ASSERT_EQ(parted.pieces.count, 2);
   for (const SlitProblem::Piece& piece : parted.by_piece) EXPECT_GT(piece.area, 0.29);
-  const PlanMesh& mesh = problem.mesh;
+  const PlanMesh& mesh = *problem.mesh;
   for (std::int32_t e = 0; e < static_cast<std::int32_t>(mesh.edge_count()); ++e) {
     const std::int32_t a = problem.reflection->images[mesh.tail(mesh.half_edge_of[e])];
     const std::int32_t b = problem.reflection->images[mesh.tip(mesh.half_edge_of[e])];
@@ -221,7 +221,7 @@ TEST(PartingCuts, TheEndOfATubeIsNoHoleInAnExposedPlace) {
   SlitProblem problem = problem_on(shapes::quad_cylinder(12, 40, 0.1, 2.0).surface());
   std::ranges::fill(problem.prices.is_exposed, 1);
   const SlitTree tree = grow_tree(problem, true, {});
-  const auto island = open_piece(problem, cut_of(problem, tree.slits, tree.roots), 0);
+  const auto island = open_piece(problem, cut_of(problem, tree.slits, tree.roots), 0, {});
   ASSERT_TRUE(island);
   EXPECT_EQ(island->boundaries().size(), 1U);
 }

@@ -16,19 +16,20 @@ using namespace detail;
 namespace {
 
 double unit_price(const SlitProblem& problem, std::int32_t edge) {
-  return problem.prices.of_edge[edge] / problem.mesh.lengths[edge];
+  return problem.prices.of_edge[edge] / problem.mesh->lengths[edge];
 }
 
 /// The mean price of a unit of length where the middle of an edge fulfills a condition.
 template <class Condition>
 double mean_price(const SlitProblem& problem, const Condition& holds) {
   double price = 0.0, length = 0.0;
-  for (std::int32_t e = 0; e < static_cast<std::int32_t>(problem.mesh.edge_count()); ++e) {
-    const std::int32_t h = problem.mesh.half_edge_of[e];
-    const Vector middle = 0.5 * (problem.mesh.points[problem.mesh.tail(h)] + problem.mesh.points[problem.mesh.tip(h)]);
-    if (problem.prices.of_edge[e] == kInfinity || !holds(Vector(middle / problem.mesh.scale))) continue;
+  for (std::int32_t e = 0; e < static_cast<std::int32_t>(problem.mesh->edge_count()); ++e) {
+    const std::int32_t h = problem.mesh->half_edge_of[e];
+    const Vector middle =
+        0.5 * (problem.mesh->points[problem.mesh->tail(h)] + problem.mesh->points[problem.mesh->tip(h)]);
+    if (problem.prices.of_edge[e] == kInfinity || !holds(Vector(middle / problem.mesh->scale))) continue;
     price += problem.prices.of_edge[e];
-    length += problem.mesh.lengths[e];
+    length += problem.mesh->lengths[e];
   }
   return price / length;
 }
@@ -41,7 +42,7 @@ TEST(EdgePrices, AreLowestBehind) {
   EXPECT_LT(back, 0.7 * side);
   EXPECT_LT(side, 0.5 * front);
   double sum = 0.0;
-  const std::vector<double> areas = vertex_areas(problem.mesh, face_frames(problem.mesh));
+  const std::vector<double> areas = vertex_areas(*problem.mesh, face_frames(*problem.mesh, {}));
   for (std::size_t v = 0; v < areas.size(); ++v) sum += areas[v] * problem.prices.visibility[v];
   EXPECT_NEAR(sum, 1.0, 1e-9) << "1 on average";
 }
@@ -61,9 +62,9 @@ TEST(EdgePrices, DiagonalsAndKeepOutAreasHaveNone) {
   std::vector<double> weights(surface.vertex_count(), 1.0);
   weights[5] = std::numeric_limits<double>::infinity();
   const SlitProblem problem = problem_on(surface, {.weights = weights});
-  for (std::int32_t e = 0; e < static_cast<std::int32_t>(problem.mesh.edge_count()); ++e) {
-    const std::int32_t h = problem.mesh.half_edge_of[e];
-    const bool is_barred = problem.mesh.is_real[e] == 0 || problem.mesh.tail(h) == 5 || problem.mesh.tip(h) == 5;
+  for (std::int32_t e = 0; e < static_cast<std::int32_t>(problem.mesh->edge_count()); ++e) {
+    const std::int32_t h = problem.mesh->half_edge_of[e];
+    const bool is_barred = problem.mesh->is_real[e] == 0 || problem.mesh->tail(h) == 5 || problem.mesh->tip(h) == 5;
     EXPECT_EQ(problem.prices.of_edge[e] == kInfinity, is_barred);
     EXPECT_GE(problem.prices.of_edge[e], 0.0);
   }
@@ -92,10 +93,10 @@ TEST(EdgePrices, AreTheSameOnBothSides) {
   }
   const SlitProblem problem = problem_on(surface, {.mirror = 0, .front = Vector(1, 1, 0), .weights = weights});
   ASSERT_TRUE(problem.reflection && problem.reflection->is_exact);
-  for (std::int32_t e = 0; e < static_cast<std::int32_t>(problem.mesh.edge_count()); ++e) {
-    const std::int32_t h = problem.mesh.half_edge_of[e];
+  for (std::int32_t e = 0; e < static_cast<std::int32_t>(problem.mesh->edge_count()); ++e) {
+    const std::int32_t h = problem.mesh->half_edge_of[e];
     const auto& images = problem.reflection->images;
-    const std::int32_t image = problem.mesh.edge_between(images[problem.mesh.tail(h)], images[problem.mesh.tip(h)]);
+    const std::int32_t image = problem.mesh->edge_between(images[problem.mesh->tail(h)], images[problem.mesh->tip(h)]);
     ASSERT_GE(image, 0);
     const double one = problem.prices.of_edge[e], other = problem.prices.of_edge[image];
     EXPECT_FALSE(std::isnan(one));

@@ -17,7 +17,7 @@ namespace {
 
 double area_of(const PlanMesh& mesh) {
   double sum = 0.0;
-  for (const FaceFrame& frame : face_frames(mesh)) sum += frame.area;
+  for (const FaceFrame& frame : face_frames(mesh, {})) sum += frame.area;
   return sum;
 }
 
@@ -25,7 +25,7 @@ TEST(PlanMesh, HasAreaOneWhateverTheUnit) {
   for (const double size : {1e-6, 1.0, 1e6, 1e100}) {
     shapes::Mesh ball = shapes::icosphere(2);
     for (Vector& point : ball.points) point *= size;
-    const PlanMesh mesh = plan_mesh(ball.surface());
+    const PlanMesh mesh = plan_mesh(ball.surface(), {});
     EXPECT_NEAR(area_of(mesh), 1.0, 1e-12) << size;
     for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
       const Vector scaled = mesh.scale * ball.points[static_cast<std::size_t>(mesh.sources[v])];
@@ -35,7 +35,7 @@ TEST(PlanMesh, HasAreaOneWhateverTheUnit) {
 }
 
 TEST(PlanMesh, NumbersEachEdgeOnce) {
-  const PlanMesh mesh = plan_mesh(shapes::grid(3).surface());
+  const PlanMesh mesh = plan_mesh(shapes::grid(3).surface(), {});
   EXPECT_EQ(mesh.vertex_count(), 16U);
   EXPECT_EQ(mesh.face_count(), 18U);
   EXPECT_EQ(mesh.edge_count(), 33U);
@@ -56,7 +56,7 @@ TEST(PlanMesh, NumbersEachEdgeOnce) {
 }
 
 TEST(PlanMesh, DiagonalsOfPolygonsAreNoRealEdges) {
-  const PlanMesh mesh = plan_mesh(shapes::quad_grid(3).surface());
+  const PlanMesh mesh = plan_mesh(shapes::quad_grid(3).surface(), {});
   EXPECT_EQ(std::ranges::count(mesh.is_real, 1), 24);
   EXPECT_EQ(mesh.edge_count(), 33U);
   EXPECT_EQ(mesh.edge_between(0, 5), -1) << "a diagonal";
@@ -67,7 +67,7 @@ TEST(PlanMesh, DiagonalsOfPolygonsAreNoRealEdges) {
 
 TEST(PlanMesh, WithoutRealEdgesNoEdgeIsReal) {
   const shapes::Mesh ball = shapes::icosphere(1);
-  const PlanMesh mesh = plan_mesh(Surface(ball.points, ball.triangles, std::vector<Edge>{}));
+  const PlanMesh mesh = plan_mesh(Surface(ball.points, ball.triangles, std::vector<Edge>{}), {});
   EXPECT_EQ(std::ranges::count(mesh.is_real, 1), 0);
   EXPECT_EQ(mesh.neighbors[0].size(), 0U);
   EXPECT_EQ(mesh.all_neighbors[0].size(), 5U);
@@ -75,42 +75,42 @@ TEST(PlanMesh, WithoutRealEdgesNoEdgeIsReal) {
 
 TEST(PlanMesh, PiecesThatMeetInAVertexAreApart) {
   const std::vector<Vector> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
-  const PlanMesh mesh = plan_mesh(Surface(points, {{0, 1, 2}, {0, 3, 4}}));
+  const PlanMesh mesh = plan_mesh(Surface(points, {{0, 1, 2}, {0, 3, 4}}), {});
   EXPECT_EQ(mesh.vertex_count(), 6U);
   EXPECT_EQ(std::ranges::count(mesh.sources, 0), 2);
-  EXPECT_EQ(find_pieces(mesh, std::vector<std::uint8_t>(mesh.edge_count(), 0)).count, 2);
+  EXPECT_EQ(find_pieces(mesh, std::vector<std::uint8_t>(mesh.edge_count(), 0), {}).count, 2);
 }
 
 TEST(PlanMesh, LeavesOutTrianglesWithoutCornersOfTheirOwn) {
   const std::vector<Vector> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {9, 9, 9}, {5, 5, 5}};
   const Surface surface(points, {{0, 0, 1}, {0, 1, 2}, {1, 2, 0}}, std::vector<Edge>{{0, 1}, {1, 2}, {0, 2}, {0, 4}});
-  const PlanMesh mesh = plan_mesh(surface);
+  const PlanMesh mesh = plan_mesh(surface, {});
   EXPECT_EQ(mesh.faces, std::vector<std::int32_t>{1});
   EXPECT_EQ(mesh.sources, (std::vector<std::int32_t>{0, 1, 2}));
   EXPECT_NEAR(area_of(mesh), 1.0, 1e-12);
 }
 
 TEST(PlanMesh, NormalsOfABallPointOutwards) {
-  const PlanMesh mesh = plan_mesh(shapes::icosphere(3).surface());
-  const std::vector<FaceFrame> frames = face_frames(mesh);
-  const std::vector<Vector> normals = vertex_normals(mesh, frames);
+  const PlanMesh mesh = plan_mesh(shapes::icosphere(3).surface(), {});
+  const std::vector<FaceFrame> frames = face_frames(mesh, {});
+  const std::vector<Vector> normals = vertex_normals(mesh, frames, {});
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) EXPECT_GT(normals[v].dot(mesh.points[v].normalized()), 0.999);
   const std::vector<double> areas = vertex_areas(mesh, frames);
   EXPECT_NEAR(std::accumulate(areas.begin(), areas.end(), 0.0), 1.0, 1e-12);
 }
 
 TEST(PlanMesh, PiecesAreNumberedByTheirFirstFaces) {
-  const PlanMesh mesh = plan_mesh(shapes::grid(2).surface());
+  const PlanMesh mesh = plan_mesh(shapes::grid(2).surface(), {});
   std::vector<std::uint8_t> is_cut(mesh.edge_count(), 0);
-  EXPECT_EQ(find_pieces(mesh, is_cut).count, 1);
+  EXPECT_EQ(find_pieces(mesh, is_cut, {}).count, 1);
   is_cut[mesh.edge_between(1, 4)] = is_cut[mesh.edge_between(4, 7)] = 1;
-  const Pieces halves = find_pieces(mesh, is_cut);
+  const Pieces halves = find_pieces(mesh, is_cut, {});
   EXPECT_EQ(halves.count, 2);
   EXPECT_EQ(halves.of_face, (std::vector<std::int32_t>{0, 0, 1, 1, 0, 0, 1, 1}));
 }
 
 TEST(PlanMesh, MedianLength) {
-  EXPECT_NEAR(median_length(plan_mesh(shapes::grid(4).surface())), 0.25, 1e-12);
+  EXPECT_NEAR(median_length(plan_mesh(shapes::grid(4).surface(), {})), 0.25, 1e-12);
   EXPECT_EQ(median_length({}), 0.0);
 }
 

@@ -5,11 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 #include <vector>
 
-#include "seam_problems.hpp"
 #include "decimation/decimation.hpp"
+#include "seam_problems.hpp"
 
 namespace seamwire {
 
@@ -20,13 +21,13 @@ namespace {
 constexpr double kBound = 4.2;
 
 GroupProblem::Simplified simplified(const SlitProblem& original, std::size_t triangles) {
-  DecimatedMesh decimated = decimate(original.mesh, original.is_seam, original.mirror(), triangles, {});
+  DecimatedMesh decimated = decimate(*original.mesh, original.is_seam, original.mirror(), triangles, {});
   GroupProblem::Simplified simple{.problem = {}, .vertices = std::move(decimated.vertices)};
-  simple.problem.mesh = std::move(decimated.mesh);
+  simple.problem.mesh = std::make_shared<const PlanMesh>(std::move(decimated.mesh));
   simple.problem.is_seam = std::move(decimated.is_seam);
-  find_pieces_of(simple.problem);
   simple.problem.prices =
-      find_prices(simple.problem.mesh, find_visibility(simple.problem.mesh, std::nullopt, {}), std::nullopt, {});
+      find_prices(*simple.problem.mesh, find_visibility(*simple.problem.mesh, std::nullopt, {}), std::nullopt, {}, {});
+  find_pieces_of(simple.problem, {});
   return simple;
 }
 

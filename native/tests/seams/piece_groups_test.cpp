@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "seam_problems.hpp"
@@ -29,36 +30,36 @@ shapes::Mesh cylinders(const std::vector<Vector>& places, const std::vector<doub
 
 SlitProblem part_problem(const MeshPart& part) {
   SlitProblem problem;
-  problem.mesh = part.mesh;
+  problem.mesh = std::make_shared<const PlanMesh>(part.mesh);
   problem.is_seam = part.is_seam;
-  problem.prices = find_prices(part.mesh, find_visibility(part.mesh, std::nullopt, {}), std::nullopt, {});
+  problem.prices = find_prices(part.mesh, find_visibility(part.mesh, std::nullopt, {}), std::nullopt, {}, {});
   return problem;
 }
 
 TEST(MeshParts, HaveAreaOneAndKnowWhereTheyLie) {
   const Surface surface = cylinders({{0, 0, 0}, {5, 0, 0}}, {1.0, 0.25}).surface();
-  const PlanMesh whole = plan_mesh(surface);
+  const PlanMesh whole = plan_mesh(surface, {});
   const std::vector<std::uint8_t> is_seam(whole.edge_count(), 0);
   MeshParts parts(whole, is_seam, surface.edges());
   const std::vector<PieceGroup> groups = find_groups(whole, is_seam, nullptr, parts, {});
   ASSERT_EQ(groups.size(), 2U);
   for (const PieceGroup& group : groups) {
-    const MeshPart part = parts.part(group.faces);
+    const MeshPart part = parts.part(group.faces, {});
     double area = 0.0;
-    for (const FaceFrame& frame : face_frames(part.mesh)) area += frame.area;
+    for (const FaceFrame& frame : face_frames(part.mesh, {})) area += frame.area;
     EXPECT_NEAR(area, 1.0, 1e-12);
     EXPECT_EQ(part.mesh.face_count(), whole.face_count() / 2);
     for (std::size_t v = 0; v < part.vertices.size(); ++v) {
       EXPECT_LT((part.size * part.mesh.points[v] - whole.points[part.vertices[v]]).norm(), 1e-12);
       EXPECT_EQ(part.mesh.sources[v], whole.sources[part.vertices[v]]);
     }
-    EXPECT_EQ(find_pieces(part.mesh, part.is_seam).count, 1);
+    EXPECT_EQ(find_pieces(part.mesh, part.is_seam, {}).count, 1);
   }
 }
 
 TEST(MeshParts, EndAtSeamsToOtherFaces) {
   const Surface surface = shapes::grid(4).surface();
-  const PlanMesh whole = plan_mesh(surface);
+  const PlanMesh whole = plan_mesh(surface, {});
   std::vector<std::uint8_t> is_seam;
   for (const std::int32_t h : whole.half_edge_of) {
     is_seam.push_back(whole.points[whole.tail(h)].x() == whole.points[whole.tip(h)].x() &&
@@ -69,7 +70,7 @@ TEST(MeshParts, EndAtSeamsToOtherFaces) {
   MeshParts parts(whole, is_seam, surface.edges());
   const std::vector<PieceGroup> groups = find_groups(whole, is_seam, nullptr, parts, {});
   ASSERT_EQ(groups.size(), 2U);
-  const MeshPart part = parts.part(groups.front().faces);
+  const MeshPart part = parts.part(groups.front().faces, {});
   EXPECT_EQ(part.mesh.face_count(), 16U);
   EXPECT_EQ(std::ranges::count(part.mesh.twins, -1), 12);
   EXPECT_EQ(std::ranges::count(part.is_seam, 1), 0);
@@ -77,9 +78,9 @@ TEST(MeshParts, EndAtSeamsToOtherFaces) {
 
 TEST(PieceGroups, KnowTheMirrorImagesOfPieces) {
   const Surface surface = cylinders({{3, 0, 0}, {-3, 0, 0}, {0, 4, 0}, {3, 9, 0}}, {1.0, 1.0, 1.0, 0.3}).surface();
-  const PlanMesh whole = plan_mesh(surface);
+  const PlanMesh whole = plan_mesh(surface, {});
   const std::vector<std::uint8_t> is_seam(whole.edge_count(), 0);
-  const std::optional<Reflection> reflection = find_reflection(whole, 0);
+  const std::optional<Reflection> reflection = find_reflection(whole, 0, {});
   ASSERT_TRUE(reflection);
   MeshParts parts(whole, is_seam, surface.edges());
   const std::vector<PieceGroup> groups = find_groups(whole, is_seam, &*reflection, parts, {});
@@ -107,16 +108,16 @@ TEST(PieceGroups, HaveAnExactImageIfTheTrianglesAreMirrored) {
     mesh.triangles.push_back({shift + c, shift + b, shift + a});
   }
   const Surface surface = mesh.surface();
-  const PlanMesh whole = plan_mesh(surface);
+  const PlanMesh whole = plan_mesh(surface, {});
   const std::vector<std::uint8_t> is_seam(whole.edge_count(), 0);
-  const std::optional<Reflection> reflection = find_reflection(whole, 0);
+  const std::optional<Reflection> reflection = find_reflection(whole, 0, {});
   ASSERT_TRUE(reflection);
   MeshParts parts(whole, is_seam, surface.edges());
   const std::vector<PieceGroup> groups = find_groups(whole, is_seam, &*reflection, parts, {});
   ASSERT_EQ(groups.size(), 1U);
   ASSERT_TRUE(groups[0].image);
   EXPECT_TRUE(groups[0].image->is_mirrored);
-  const MeshPart part = parts.part(groups[0].faces);
+  const MeshPart part = parts.part(groups[0].faces, {});
   for (std::size_t v = 0; v < part.vertices.size(); ++v) {
     EXPECT_EQ(groups[0].image->vertices[v], reflection->images[part.vertices[v]]);
   }
@@ -124,14 +125,14 @@ TEST(PieceGroups, HaveAnExactImageIfTheTrianglesAreMirrored) {
 
 TEST(PieceGroups, AreAlikeIfOneIsMovedOrScaled) {
   const Surface surface = cylinders({{0, 0, 0}, {90, 40, 7}, {0, 200, 0}, {0, 0, 300}}, {1.0, 1.0, 0.5, 1.0}).surface();
-  PlanMesh whole = plan_mesh(surface);
+  PlanMesh whole = plan_mesh(surface, {});
   const std::vector<std::uint8_t> is_seam(whole.edge_count(), 0);
   for (std::size_t v = 3 * whole.vertex_count() / 4; v < whole.vertex_count(); ++v) whole.points[v].z() *= 1.001;
   MeshParts parts(whole, is_seam, surface.edges());
   const std::vector<PieceGroup> groups = find_groups(whole, is_seam, nullptr, parts, {});
   ASSERT_EQ(groups.size(), 4U);
   std::vector<SlitProblem> problems;
-  for (const PieceGroup& group : groups) problems.push_back(part_problem(parts.part(group.faces)));
+  for (const PieceGroup& group : groups) problems.push_back(part_problem(parts.part(group.faces, {})));
   for (const std::size_t other : {1U, 2U}) {
     EXPECT_TRUE(are_alike(problems[0], problems[other])) << other;
     EXPECT_EQ(likeness(problems[0]), likeness(problems[other])) << other;

@@ -111,7 +111,7 @@ shapes::Mesh wall_above_ground() {
 /// The chains that wires across the surface of that wall mark, for slits without seeds between their ends.
 Chains wires_on_wall(const Chains& paths, std::vector<double> weights = {}) {
   const SurfaceContext context(std::make_shared<const Surface>(wall_above_ground().surface()));
-  const PlanMesh mesh = plan_mesh(*context.surface());
+  const PlanMesh mesh = plan_mesh(*context.surface(), {});
   const PlannedWires wires(context, Along::kSurface, {.max_anisotropy = 10.0}, Rim({}), std::move(weights), {});
   SlitChains slits;
   slits.chains = paths;

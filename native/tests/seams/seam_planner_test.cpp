@@ -239,8 +239,8 @@ TEST(SeamPlanner, ASymmetricSurfaceGetsMirroredSeams) {
   for (const int axis : {0, 1, 2}) {
     const SeamPlan plan = SeamPlanner(surface, along_edges(axis)).plan({.distortion = 4.2, .steps = 500});
     expect_discs(*surface, plan);
-    const PlanMesh mesh = plan_mesh(*surface);
-    const std::optional<Reflection> reflection = find_reflection(mesh, axis);
+    const PlanMesh mesh = plan_mesh(*surface, {});
+    const std::optional<Reflection> reflection = find_reflection(mesh, axis, {});
     ASSERT_TRUE(reflection && reflection->is_exact);
     const std::set<Edge> edges = edges_of(plan);
     EXPECT_FALSE(edges.empty());
@@ -321,10 +321,10 @@ TEST(SeamPlanner, SeamsHideFromTheFront) {
     options.front = Vector(0.2, 0.1, 5.0);
     const SeamPlan plan = SeamPlanner(surface, options).plan({.distortion = 4.3, .steps = 400});
     expect_discs(*surface, plan);
-    const PlanMesh mesh = plan_mesh(*surface);
+    const PlanMesh mesh = plan_mesh(*surface, {});
     const Visibility seen = find_visibility(mesh, options.front, {});
     double all = 0.0, area = 0.0, along = 0.0, length = 0.0;
-    const std::vector<double> areas = vertex_areas(mesh, face_frames(mesh));
+    const std::vector<double> areas = vertex_areas(mesh, face_frames(mesh, {}));
     for (std::size_t v = 0; v < areas.size(); ++v) {
       all += areas[v] * seen.front[v];
       area += areas[v];
@@ -346,7 +346,7 @@ TEST(SeamPlanner, WiresAcrossTheSurfaceStayNearTheSlits) {
   ASSERT_FALSE(across.wires.empty());
   std::set<std::int32_t> on_slits;
   for (const Edge& edge : edges_of(edges)) on_slits.insert(edge.begin(), edge.end());
-  const double scale = plan_mesh(*surface).scale;
+  const double scale = plan_mesh(*surface, {}).scale;
   for (const PlannedWire& wire : across.wires) {
     EXPECT_EQ(wire.faces.size() + 1, wire.points.size());
     EXPECT_TRUE(on_slits.contains(wire.from) && on_slits.contains(wire.to)) << "seeds are on the slits";
@@ -502,8 +502,8 @@ TEST(SeamPlanner, MirroredPiecesGetMirroredSeams) {
   expect_discs(*surface, plan);
   EXPECT_EQ(plan.island_count, 4U);
   EXPECT_TRUE(plan.is_reached);
-  const PlanMesh whole = plan_mesh(*surface);
-  const std::optional<Reflection> reflection = find_reflection(whole, 0);
+  const PlanMesh whole = plan_mesh(*surface, {});
+  const std::optional<Reflection> reflection = find_reflection(whole, 0, {});
   ASSERT_TRUE(reflection);
   const std::set<Edge> edges = edges_of(plan);
   std::size_t in_balls = 0;

@@ -19,7 +19,7 @@ namespace {
 using Chain = std::vector<std::int32_t>;
 
 // Vertex 11 row + column of a square of 10 x 10 cells.
-PlanMesh square() { return plan_mesh(shapes::grid(10).surface()); }
+PlanMesh square() { return plan_mesh(shapes::grid(10).surface(), {}); }
 
 const Slit kMirrored = {.path = {0, 1, 2, 3, 14, 25, 36, 47}, .image = {3, 4, 5, 6, 7}};  // leaves the plane at 3
 

@@ -29,14 +29,14 @@ EdgePrices by_length(const PlanMesh& mesh) {
   return prices;
 }
 
-SlitPaths paths_from(const PlanMesh& mesh, const EdgePrices& prices, const Chain& from, double exponent = 1.0) {
+TurningPaths paths_from(const PlanMesh& mesh, const EdgePrices& prices, const Chain& from, double exponent = 1.0) {
   const std::vector<std::uint8_t> none(mesh.vertex_count(), 0);
-  return {mesh, prices, nullptr, flags_at(mesh, from), none, {.half = Half::kAny, .exponent = exponent}};
+  return slit_paths(mesh, prices, nullptr, flags_at(mesh, from), none, {.half = Half::kAny, .exponent = exponent}, {});
 }
 
 TEST(SlitPaths, AreTheShortestWherePricesAreLengths) {
-  const PlanMesh mesh = plan_mesh(shapes::quad_grid(6).surface());
-  const SlitPaths paths = paths_from(mesh, by_length(mesh), {0});
+  const PlanMesh mesh = plan_mesh(shapes::quad_grid(6).surface(), {});
+  const TurningPaths paths = paths_from(mesh, by_length(mesh), {0});
   for (std::int32_t v = 0; v < 49; ++v) {
     const std::int32_t column = v % 7, row = v / 7;
     EXPECT_NEAR(paths.price(v), (column + row) / 6.0, 1e-12);
@@ -49,10 +49,10 @@ TEST(SlitPaths, AreTheShortestWherePricesAreLengths) {
 }
 
 TEST(SlitPaths, TakeFewTurnsIfTurnsCost) {
-  const PlanMesh mesh = plan_mesh(shapes::quad_grid(6).surface());
+  const PlanMesh mesh = plan_mesh(shapes::quad_grid(6).surface(), {});
   EdgePrices prices = by_length(mesh);
   prices.turning = 0.01;
-  const SlitPaths paths = paths_from(mesh, prices, {0});
+  const TurningPaths paths = paths_from(mesh, prices, {0});
   EXPECT_NEAR(paths.price(48), 2.0 + 0.01, 1e-12) << "one turn";
   const Chain path = paths.path(48);
   std::size_t turns = 0;
@@ -61,7 +61,7 @@ TEST(SlitPaths, TakeFewTurnsIfTurnsCost) {
 }
 
 TEST(SlitPaths, GoAroundWhatIsExpensive) {
-  const PlanMesh mesh = plan_mesh(shapes::quad_grid(6).surface());
+  const PlanMesh mesh = plan_mesh(shapes::quad_grid(6).surface(), {});
   EdgePrices prices = by_length(mesh);
   for (std::int32_t row = 0; row < 6; ++row) prices.of_edge[mesh.edge_between(7 * row + 2, 7 * row + 3)] *= 10.0;
   // Row 6 is the only cheap way across. The shortest path does not know prices.
@@ -78,11 +78,11 @@ TEST(SlitPaths, GoAroundWhatIsExpensive) {
 }
 
 TEST(SlitPaths, EndAtRims) {
-  const PlanMesh mesh = plan_mesh(shapes::quad_grid(6).surface());
+  const PlanMesh mesh = plan_mesh(shapes::quad_grid(6).surface(), {});
   Chain wall;
   for (std::int32_t row = 0; row < 7; ++row) wall.push_back(7 * row + 3);
   const EdgePrices prices = by_length(mesh);
-  const SlitPaths paths(mesh, prices, nullptr, flags_at(mesh, {0}), flags_at(mesh, wall), {});
+  const TurningPaths paths = slit_paths(mesh, prices, nullptr, flags_at(mesh, {0}), flags_at(mesh, wall), {}, {});
   EXPECT_NEAR(paths.price(3), 0.5, 1e-12);
   EXPECT_EQ(paths.price(4), kInfinity);
 }
@@ -91,10 +91,12 @@ TEST(SlitPaths, StayOnOneSideOfTheMirrorPlane) {
   const SlitProblem problem = problem_on(shapes::dumbbell(12, 24).surface(), {.mirror = 1});
   ASSERT_TRUE(problem.reflection && problem.reflection->is_exact);
   const auto& sides = problem.reflection->sides;
-  const std::int32_t pole = nearest_vertex(problem.mesh, {-1, 0, 0});
-  const std::vector<std::uint8_t> from = flags_at(problem.mesh, {pole}), none(from.size(), 0);
-  const SlitPaths above(problem.mesh, problem.prices, problem.mirror(), from, none, {.half = Half::kPositive});
-  const SlitPaths plane(problem.mesh, problem.prices, problem.mirror(), from, none, {.half = Half::kPlane});
+  const std::int32_t pole = nearest_vertex(*problem.mesh, {-1, 0, 0});
+  const std::vector<std::uint8_t> from = flags_at(*problem.mesh, {pole}), none(from.size(), 0);
+  const TurningPaths above =
+      slit_paths(*problem.mesh, problem.prices, problem.mirror(), from, none, {.half = Half::kPositive}, {});
+  const TurningPaths plane =
+      slit_paths(*problem.mesh, problem.prices, problem.mirror(), from, none, {.half = Half::kPlane}, {});
   std::size_t reached = 0;
   for (std::int32_t v = 0; v < static_cast<std::int32_t>(sides.size()); ++v) {
     if (sides[v] < 0) {
@@ -116,10 +118,10 @@ TEST(SlitPaths, StayOnOneSideOfTheMirrorPlane) {
 
 TEST(SlitFinder, FindsExactImages) {
   const SlitProblem problem = problem_on(shapes::dumbbell(12, 24).surface(), {.mirror = 1});
-  const std::int32_t pole = nearest_vertex(problem.mesh, {-1, 0, 0});
-  const std::vector<std::uint8_t> from = flags_at(problem.mesh, {pole});
-  const SlitFinder finder(problem, from, from);
-  const std::int32_t end = nearest_vertex(problem.mesh, {0, 0.4, 0.2});
+  const std::int32_t pole = nearest_vertex(*problem.mesh, {-1, 0, 0});
+  const std::vector<std::uint8_t> from = flags_at(*problem.mesh, {pole});
+  const SlitFinder finder(problem, from, from, {});
+  const std::int32_t end = nearest_vertex(*problem.mesh, {0, 0.4, 0.2});
   const std::optional<Slit> slit = finder.slit_to(end);
   ASSERT_TRUE(slit);
   EXPECT_EQ(slit->path.front(), pole);
@@ -134,26 +136,26 @@ TEST(SlitFinder, FindsExactImages) {
 }
 
 TEST(ChainAlong, StaysNearALine) {
-  const PlanMesh mesh = plan_mesh(shapes::quad_grid(8).surface());
+  const PlanMesh mesh = plan_mesh(shapes::quad_grid(8).surface(), {});
   const std::vector<Vector> line = {{0, 0, 0}, {1, 1, 0}};
   const std::vector<std::uint8_t> none(mesh.vertex_count(), 0);
-  const Chain chain = chain_along(mesh, line, 0.05, 0, 80, none, by_length(mesh));
+  const Chain chain = chain_along(mesh, line, 0.05, 0, 80, none, by_length(mesh), {});
   ASSERT_EQ(chain.size(), 17U);
   EXPECT_EQ(chain.front(), 0);
   EXPECT_EQ(chain.back(), 80);
   for (const std::int32_t v : chain) EXPECT_LE(std::abs(v % 9 - v / 9), 1) << "a staircase";
   std::vector<std::uint8_t> barred(none);
   for (std::int32_t v = 0; v < 9; ++v) barred[9 * v + 4] = 1;
-  EXPECT_TRUE(chain_along(mesh, line, 0.05, 0, 80, barred, by_length(mesh)).empty());
+  EXPECT_TRUE(chain_along(mesh, line, 0.05, 0, 80, barred, by_length(mesh), {}).empty());
 }
 
 TEST(EdgeDistances, PassOverDiagonals) {
-  const PlanMesh mesh = plan_mesh(shapes::quad_grid(4).surface());
+  const PlanMesh mesh = plan_mesh(shapes::quad_grid(4).surface(), {});
   const Chain from = {0};
-  const std::vector<double> distances = edge_distances(mesh, from);
+  const std::vector<double> distances = edge_distances(mesh, from, {});
   EXPECT_NEAR(distances[24], std::sqrt(2.0), 1e-12);
   EXPECT_NEAR(distances[4], 1.0, 1e-12);
-  EXPECT_EQ(edge_distances(mesh, {})[0], kInfinity);
+  EXPECT_EQ(edge_distances(mesh, {}, {})[0], kInfinity);
 }
 
 }  // namespace
