@@ -2,9 +2,11 @@
 #include "seamwire/parts/part_finder.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -265,6 +267,43 @@ std::vector<std::int32_t> images_of(const PlanMesh& mesh, const Polygons& polygo
   return images;
 }
 
+/// Marks the edge inside each pair of triangles that are mirrored, but not as a pair.
+std::vector<std::uint8_t> unmirrored_pairs(const PlanMesh& mesh, const Polygons& polygons, const Reflection& reflection,
+                                           const Task& task) {
+  Polygons triangles;
+  triangles.count = mesh.face_count();
+  triangles.of_face.resize(triangles.count);
+  std::iota(triangles.of_face.begin(), triangles.of_face.end(), 0);
+  const std::vector<std::int32_t> images = images_of(mesh, polygons, reflection, task);
+  const std::vector<std::int32_t> triangle_images = images_of(mesh, triangles, reflection, task);
+  const Poll poll(task);
+  std::vector<std::uint8_t> is_found(mesh.edge_count(), 0);
+  for (std::size_t e = 0; e < is_found.size(); ++e) {
+    poll.at(e);
+    const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
+    if (polygons.is_diagonal[e] == 0 || images[polygons.of_face[h / 3]] >= 0) continue;
+    is_found[e] = triangle_images[h / 3] >= 0 && triangle_images[twin / 3] >= 0 ? 1 : 0;
+  }
+  return is_found;
+}
+
+/// Leaves out edges that do not lie between two parts. `of_face`: the part of each of the surface's triangles.
+void leave_out_inner(const PlanMesh& mesh, std::span<const std::int32_t> of_face, std::vector<Edge>& edges,
+                     const Task& task) {
+  const Poll poll(task);
+  std::map<Edge, std::array<std::int32_t, 2>> parts_at;  // the least and the greatest
+  for (const Edge& edge : edges) parts_at[edge] = {std::numeric_limits<std::int32_t>::max(), -1};
+  for (std::int32_t h = 0; index(h) < mesh.twins.size(); ++h) {
+    poll.at(index(h));
+    const auto at = parts_at.find(ascending(mesh.sources[mesh.tail(h)], mesh.sources[mesh.tip(h)]));
+    if (at == parts_at.end()) continue;
+    auto& [least, greatest] = at->second;
+    least = std::min(least, of_face[mesh.faces[h / 3]]);
+    greatest = std::max(greatest, of_face[mesh.faces[h / 3]]);
+  }
+  std::erase_if(edges, [&](const Edge& edge) { return parts_at[edge][0] == parts_at[edge][1]; });
+}
+
 /// Chains of edges from junction to junction; closed ones end with their first vertex. `others`: edges that make
 /// junctions too.
 std::vector<std::vector<std::int32_t>> chains_of(std::size_t vertex_count, const std::vector<Edge>& edges,
@@ -289,6 +328,7 @@ struct PartFinder::Impl {
   std::vector<Region> regions;  // of each polygon
 
   void prepare(const Task& task);
+  std::vector<Region> regions_of(const Polygons& own, const Task& task) const;
   std::vector<Edge> edges_along(std::span<const std::uint8_t> is_marked, const Task& task) const;
   std::vector<std::uint8_t> marked(const std::vector<Edge>& edges, const char* name, const Task& task) const;
   std::vector<std::uint8_t> edited(const std::vector<Edge>& edges, const char* name, const Task& task) const;
@@ -318,28 +358,39 @@ void PartFinder::Impl::prepare(const Task& task) {
   std::vector<std::uint8_t> is_border = problem.is_seam;
   for (std::size_t e = 0; e < is_border.size(); ++e) is_border[e] |= is_marked[e];
   polygons = find_polygons(mesh, frames, is_border, task);
+  if (problem.reflection) {
+    take_apart(mesh, unmirrored_pairs(mesh, polygons, *problem.reflection, task), polygons, task);
+  }
   task.check(0.85);
   bends = bends_over_edges(mesh, frames, polygons, sizes, task);
   odds = border_odds(mesh, polygons, sizes, bends, visibility.ambient, is_marked, problem.mirror(),
                      tuning::kPartOnPlane, task);
   task.check(0.95);
-  regions.resize(polygons.count);
-  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-    poll.at(f);
-    const auto& [diagonal, area] = sizes.of_piece[sizes.pieces.of_face[f]];
-    if (!(diagonal > 0.0)) continue;
-    Region& own = regions[polygons.of_face[f]];
-    own.area += frames[f].area / (diagonal * diagonal);
-    own.least_area = tuning::kLeastPart * area / (diagonal * diagonal);
-  }
-  if (problem.reflection) {
-    const std::vector<std::int32_t> images = images_of(mesh, polygons, *problem.reflection, task);
-    for (std::size_t p = 0; p < images.size(); ++p) regions[p].image = images[p];
-  }
+  regions = regions_of(polygons, task);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     poll.at(index(e));
     problem.prices.of_edge.push_back(mesh.is_real[e] == 0 ? kInfinity : price_of_cut(odds[e]) * mesh.lengths[e]);
   }
+}
+
+/// A region for each polygon.
+std::vector<Region> PartFinder::Impl::regions_of(const Polygons& own, const Task& task) const {
+  const PlanMesh& mesh = *problem.mesh;
+  const std::vector<FaceFrame> frames = face_frames(mesh, task);
+  const Poll poll(task);
+  std::vector<Region> found(own.count);
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    poll.at(f);
+    const auto& [diagonal, area] = sizes.of_piece[sizes.pieces.of_face[f]];
+    if (!(diagonal > 0.0)) continue;
+    Region& region = found[own.of_face[f]];
+    region.area += frames[f].area / (diagonal * diagonal);
+    region.least_area = tuning::kLeastPart * area / (diagonal * diagonal);
+  }
+  if (!problem.reflection) return found;
+  const std::vector<std::int32_t> images = images_of(mesh, own, *problem.reflection, task);
+  for (std::size_t p = 0; p < images.size(); ++p) found[p].image = images[p];
+  return found;
 }
 
 /// Marked edges, as vertices of the surface.
@@ -379,42 +430,48 @@ std::vector<std::uint8_t> PartFinder::Impl::edited(const std::vector<Edge>& edge
   return both;
 }
 
-/// The region of each polygon.
+/// The region of each triangle.
 std::vector<std::int32_t> PartFinder::Impl::joined(double amount, const PartEdits& edits, const Task& task) const {
   const PlanMesh& mesh = *problem.mesh;
   const std::vector<std::uint8_t> is_kept = edited(edits.kept, "kept", task);
   const std::vector<std::uint8_t> is_dropped = edited(edits.dropped, "dropped", task);
+  // Two triangles with a kept edge between them are no quad.
+  Polygons own_polygons = polygons;
+  const bool is_apart = take_apart(mesh, is_kept, own_polygons, task);
   const Poll poll(task);
   const double bias = amount > 0.0 ? bias_of(amount) : -kInfinity;
   std::vector<RegionBorder> found;
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
     poll.at(index(e));
-    if (twin < 0 || problem.is_seam[e] != 0 || polygons.is_diagonal[e] != 0) continue;
+    if (twin < 0 || problem.is_seam[e] != 0 || own_polygons.is_diagonal[e] != 0) continue;
     double own = std::clamp(odds[e] + bias, -tuning::kMostOdds, tuning::kMostOdds);
     if (is_dropped[e] != 0) own = -kEditOdds;
     if (is_kept[e] != 0) own = kEditOdds;
     const double diagonal = sizes.of_piece[sizes.piece_of(mesh, e)].diagonal;
     const double length = diagonal > 0.0 ? mesh.lengths[e] / diagonal : 0.0;
-    found.push_back({polygons.of_face[h / 3],
-                     polygons.of_face[twin / 3],
+    found.push_back({own_polygons.of_face[h / 3],
+                     own_polygons.of_face[twin / 3],
                      {own * length, length, std::abs(bends.own[e]) * length, is_kept[e] != 0}});
   }
-  return joined_regions(regions, found, task);
+  const std::vector<std::int32_t> of_polygon =
+      joined_regions(is_apart ? regions_of(own_polygons, task) : regions, found, task);
+  std::vector<std::int32_t> of_face;
+  for (const std::int32_t p : own_polygons.of_face) of_face.push_back(of_polygon[p]);
+  return of_face;
 }
 
 /// Marks the borders of parts and the existing seams.
 std::vector<std::uint8_t> PartFinder::Impl::borders(double amount, const PartEdits& edits, const Task& task) const {
   const PlanMesh& mesh = *problem.mesh;
-  const std::vector<std::int32_t> regions_of = joined(amount, edits, part_of(task, 0.0, kJoined));
+  const std::vector<std::int32_t> region_of = joined(amount, edits, part_of(task, 0.0, kJoined));
   std::vector<std::uint8_t> is_border = problem.is_seam;
   const Poll poll(task);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     poll.at(index(e));
     const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
     if (twin < 0) continue;
-    const std::int32_t one = regions_of[polygons.of_face[h / 3]], other = regions_of[polygons.of_face[twin / 3]];
-    if (one != other) is_border[e] = 1;
+    if (region_of[h / 3] != region_of[twin / 3]) is_border[e] = 1;
   }
   if (edits.parted.empty()) return is_border;
   SlitProblem parted = problem;
@@ -461,10 +518,12 @@ Parts PartFinder::find(double amount, const PartEdits& edits, const Task& task) 
   std::vector<Edge> borders = impl.edges_along(is_border, own);
   polled_sort(borders, own);
   own.check(kParted);
+  std::vector<Edge> cuts = borders;
+  cuts.insert(cuts.end(), impl.options.seams.begin(), impl.options.seams.end());
   Parts parts;
+  parts.of_face = face_segments(*impl.surface, cuts, own);
+  leave_out_inner(*impl.problem.mesh, parts.of_face, borders, own);
   parts.borders = chains_of(impl.surface->vertex_count(), borders, impl.edges_along(is_seam, own));
-  borders.insert(borders.end(), impl.options.seams.begin(), impl.options.seams.end());
-  parts.of_face = face_segments(*impl.surface, borders, own);
   for (const std::int32_t part : parts.of_face) parts.count = std::max(parts.count, index(part) + 1);
   return parts;
 }

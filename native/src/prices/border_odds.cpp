@@ -250,6 +250,23 @@ Polygons find_polygons(const PlanMesh& mesh, std::span<const FaceFrame> frames, 
   return found;
 }
 
+bool take_apart(const PlanMesh& mesh, std::span<const std::uint8_t> is_apart, Polygons& polygons, const Task& task) {
+  const Poll poll(task);
+  const auto is_of_polygon = [&](std::int32_t f) {
+    const auto is_inner = [&](std::int32_t h) { return mesh.is_real[mesh.edge_of[h]] == 0 && mesh.twins[h] >= 0; };
+    return is_inner(3 * f) || is_inner(3 * f + 1) || is_inner(3 * f + 2);
+  };
+  const std::size_t before = polygons.count;
+  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+    const std::int32_t h = mesh.half_edge_of[e];
+    poll.at(index(e));
+    if (is_apart[e] == 0 || polygons.is_diagonal[e] == 0 || is_of_polygon(h / 3)) continue;
+    polygons.is_diagonal[e] = 0;
+    polygons.of_face[h / 3] = static_cast<std::int32_t>(polygons.count++);
+  }
+  return polygons.count > before;
+}
+
 std::vector<std::vector<std::int32_t>> find_lines(const PlanMesh& mesh, const Polygons& polygons, const Task& task) {
   Poll poll(task, Poll::kFewSteps);
   const auto sides = [&](std::int32_t e) {

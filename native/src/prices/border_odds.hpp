@@ -22,6 +22,10 @@ struct Polygons {
 Polygons find_polygons(const PlanMesh& mesh, std::span<const FaceFrame> frames, std::span<const std::uint8_t> is_border,
                        const Task& task);
 
+/// Takes pairs of triangles apart at edges that are 1 in `is_apart`. Polygons that were triangulated stay whole.
+/// Returns whether there were such pairs. Throws Cancelled.
+bool take_apart(const PlanMesh& mesh, std::span<const std::uint8_t> is_apart, Polygons& polygons, const Task& task);
+
 /// The lines that edges form, without diagonals: the edges of each line, from end to end. An edge goes on over a vertex
 /// to the edge on the other side if that is nearly straight and neither has a better continuation. Throws Cancelled.
 std::vector<std::vector<std::int32_t>> find_lines(const PlanMesh& mesh, const Polygons& polygons, const Task& task);

@@ -303,8 +303,8 @@ SlitChains::SlitChains(std::span<const Slit> slits) {
 }
 
 PlannedWires::PlannedWires(const SurfaceContext& context, Along along, const Strength& strength, Rim rim,
-                           const Task& task)
-    : surface_(context.surface(task)), rim_(std::move(rim)) {
+                           std::vector<double> weights, const Task& task)
+    : surface_(context.surface(task)), rim_(std::move(rim)), weights_(std::move(weights)) {
   if (along == Along::kSurface) across_ = std::make_unique<const CandidateWires>(context, strength, task);
 }
 
@@ -333,6 +333,23 @@ std::vector<PlannedWire> PlannedWires::along_edges(const PlanMesh& mesh, const S
   return wires;
 }
 
+/// Whether a wire comes to where no wire may run: its chain to a vertex with an infinite weight, or its curve to a
+/// point whose nearest vertex has one.
+bool PlannedWires::is_barred(const PlannedWire& wire) const {
+  if (weights_.empty()) return false;
+  const auto is_infinite = [&](std::int32_t v) { return weights_[v] == kInfinity; };
+  if (std::ranges::any_of(wire.vertices, is_infinite)) return true;
+  for (std::size_t i = 0; i < wire.faces.size(); ++i) {
+    if (wire.faces[i] < 0) continue;
+    const Triangle& corners = surface_->triangles()[wire.faces[i]];
+    for (const Vector& point : {wire.points[i], wire.points[i + 1]}) {
+      const auto away = [&](std::int32_t v) { return (surface_->points()[v] - point).squaredNorm(); };
+      if (is_infinite(*std::ranges::min_element(corners, {}, away))) return true;
+    }
+  }
+  return false;
+}
+
 std::vector<PlannedWire> PlannedWires::along(const PlanMesh& mesh, std::span<const SlitChains> slits,
                                              const Task& task) const {
   std::vector<PlannedWire> wires;
@@ -358,11 +375,12 @@ std::vector<PlannedWire> PlannedWires::along(const PlanMesh& mesh, std::span<con
       line.reserve(one.points.size());
       for (const Vector& point : one.points) line.push_back(mesh.scale * point);
       const auto [at, away] = farthest_from(mesh, chain, line);
-      if (chain.size() > 2 && (one.vertices.empty() || away > open[i].most_away)) {
+      const bool is_without = one.vertices.empty() || is_barred(one);
+      if (chain.size() > 2 && (is_without || away > open[i].most_away)) {
         add_split(open[i], at > 0 ? at : chain.size() / 2, again);
         continue;
       }
-      PlannedWire wire = one.vertices.empty() ? along_edges(mesh, chain) : std::move(one);
+      PlannedWire wire = is_without ? along_edges(mesh, chain) : std::move(one);
       laid.push_back({std::move(open[i]), std::move(wire), away});
     }
     const auto on_edges = [&](const Chain& chain) { return along_edges(mesh, chain); };

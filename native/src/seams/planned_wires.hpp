@@ -63,15 +63,17 @@ class CandidateWires;
 /// Makes wires of slits: between seeds where slits meet, end, and bend.
 class PlannedWires {
  public:
-  /// Prepares the metrics of wires across the surface. Throws InvalidInput for a strength; Cancelled.
-  PlannedWires(const SurfaceContext& context, Along along, const Strength& strength, Rim rim, const Task& task);
+  /// Prepares the metrics of wires across the surface. `weights`: of each vertex, infinite where no wire may run;
+  /// empty: wires may run everywhere. Throws InvalidInput for a strength; Cancelled.
+  PlannedWires(const SurfaceContext& context, Along along, const Strength& strength, Rim rim,
+               std::vector<double> weights, const Task& task);
 
   ~PlannedWires();
 
   bool are_across() const { return across_ != nullptr; }
   /// Along edges, wires are the slits. Across the surface, they are the shortest curves between seeds of the slits,
-  /// with as many seeds as it takes to stay near them. Where no such curve exists, they run along the slits' edges.
-  /// `mesh`: of the whole surface. Throws Cancelled.
+  /// with as many seeds as it takes to stay near them and away from infinite weights. Where no such curve exists, they
+  /// run along the slits' edges. `mesh`: of the whole surface. Throws Cancelled.
   std::vector<PlannedWire> along(const PlanMesh& mesh, std::span<const SlitChains> slits, const Task& task) const;
 
  private:
@@ -79,9 +81,11 @@ class PlannedWires {
 
   PlannedWire along_edges(const PlanMesh& mesh, const Chain& chain) const;
   std::vector<PlannedWire> along_edges(const PlanMesh& mesh, const SlitChains& slits) const;
+  bool is_barred(const PlannedWire& wire) const;
 
   std::shared_ptr<const Surface> surface_;
   Rim rim_;
+  std::vector<double> weights_;
   std::unique_ptr<const CandidateWires> across_;  // null along edges
 };
 

@@ -291,7 +291,7 @@ PreparedSurface::PreparedSurface(const SurfaceContext& context, SeamPlannerOptio
   find_prices_of_all(visibility, rest);
   join_copies(rest);
   wires = std::make_unique<const PlannedWires>(context, options.along, options.strength,
-                                               rim_of(*mesh, options.seams, rest), rest);
+                                               rim_of(*mesh, options.seams, rest), options.weights, rest);
 }
 
 /// The weights at vertices of the surface.

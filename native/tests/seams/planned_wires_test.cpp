@@ -109,10 +109,10 @@ shapes::Mesh wall_above_ground() {
 }
 
 /// The chains that wires across the surface of that wall mark, for slits without seeds between their ends.
-Chains wires_on_wall(const Chains& paths) {
+Chains wires_on_wall(const Chains& paths, std::vector<double> weights = {}) {
   const SurfaceContext context(std::make_shared<const Surface>(wall_above_ground().surface()));
   const PlanMesh mesh = plan_mesh(*context.surface(), {});
-  const PlannedWires wires(context, Along::kSurface, {.max_anisotropy = 10.0}, Rim({}), {});
+  const PlannedWires wires(context, Along::kSurface, {.max_anisotropy = 10.0}, Rim({}), std::move(weights), {});
   SlitChains slits;
   slits.chains = paths;
   slits.size = 100.0;
@@ -125,6 +125,14 @@ TEST(PlannedWires, AWireOfAOneEdgeSlitIsLaidOnItsEdgeWhereItTouchesAnotherOne) {
   const Chain slit = {0, 4}, valley = {0, 1, 2, 3, 4}, upwards = {2, 7, 12, 17};
   EXPECT_EQ(wires_on_wall({slit}), (Chains{valley}));
   EXPECT_EQ(wires_on_wall({slit, upwards}), (Chains{slit, upwards}));
+}
+
+TEST(PlannedWires, AWireIsLaidOnItsSlitWhereItsCurveComesToAnInfiniteWeight) {
+  const Chain slit = {0, 4}, valley = {0, 1, 2, 3, 4};
+  std::vector<double> weights(wall_above_ground().points.size(), 1.0);
+  EXPECT_EQ(wires_on_wall({slit}, weights), (Chains{valley}));
+  weights[2] = kInfinity;
+  EXPECT_EQ(wires_on_wall({slit}, weights), (Chains{slit}));
 }
 
 }  // namespace

@@ -298,18 +298,19 @@ TEST(SeamPlanner, GivenSeamsStayAndCount) {
 
 TEST(SeamPlanner, KeepOutAreasAreNeverCrossed) {
   const auto surface = shared(shapes::dumbbell(12, 20));
-  SeamPlannerOptions options = along_edges();
-  options.weights.assign(surface->vertex_count(), 1.0);
+  std::vector<double> weights(surface->vertex_count(), 1.0);
   for (std::size_t v = 0; v < surface->vertex_count(); ++v) {
-    if (surface->points()[v].x() > 0.3 || surface->points()[v].y() > 0.2) options.weights[v] = kAnything;
+    if (surface->points()[v].x() > 0.3 || surface->points()[v].y() > 0.2) weights[v] = kAnything;
   }
-  const SeamPlanner planner(surface, options);
-  for (const std::size_t islands : {0U, 3U}) {
-    const SeamPlan plan = planner.plan({.distortion = 4.1, .islands = islands, .steps = 200});
-    expect_discs(*surface, plan);
-    EXPECT_FALSE(plan.wires.empty());
-    for (const Edge& edge : edges_of(plan)) {
-      for (const std::int32_t v : edge) EXPECT_EQ(options.weights[v], 1.0);
+  for (const Along along : {Along::kEdges, Along::kSurface}) {
+    const SeamPlanner planner(surface, {.along = along, .weights = weights});
+    for (const std::size_t islands : {0U, 3U}) {
+      const SeamPlan plan = planner.plan({.distortion = 4.1, .islands = islands, .steps = 200});
+      expect_discs(*surface, plan);
+      EXPECT_FALSE(plan.wires.empty());
+      for (const Edge& edge : edges_of(plan)) {
+        for (const std::int32_t v : edge) EXPECT_EQ(weights[v], 1.0);
+      }
     }
   }
 }
