@@ -84,8 +84,8 @@ void bind_flattening(py::module_& module) {
 void bind_map_report(py::module_& module) {
   py::class_<MapReport, Held<MapReport>>(module, "MapReport", "The distortion, flips and overlaps of a UV map.")
       .def_readonly("energy", &MapReport::energy,
-                    "float: the symmetric Dirichlet energy, averaged over the area at the best uniform scale. The "
-                    "worst .1 % of the area and flipped triangles are left out. 4 for an isometry.")
+                    "float: the symmetric Dirichlet energy, averaged over the area at the best uniform scale. "
+                    "Flipped triangles are left out, and then the worst .1 % of the area. 4 for an isometry.")
       .def_property_readonly(
           "energies", array_of<MapReport>(&MapReport::energies),
           "(m,) float64: the energy of each triangle at that scale; infinite if it is flipped, 0 if it is left out.")

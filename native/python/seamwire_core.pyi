@@ -1878,7 +1878,7 @@ class MapReport:
     """The distortion, flips and overlaps of a UV map."""
 
     energy: float
-    """float: the symmetric Dirichlet energy, averaged over the area at the best uniform scale. The worst .1 % of the area and flipped triangles are left out. 4 for an isometry."""
+    """float: the symmetric Dirichlet energy, averaged over the area at the best uniform scale. Flipped triangles are left out, and then the worst .1 % of the area. 4 for an isometry."""
     energies: NDArray[np.float64]
     """(m,) float64: the energy of each triangle at that scale; infinite if it is flipped, 0 if it is left out."""
     flipped: NDArray[np.int32]

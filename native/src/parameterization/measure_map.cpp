@@ -16,6 +16,7 @@
 #include "parameterization/cut_open.hpp"
 #include "parameterization/measure_islands.hpp"
 #include "parameterization/symmetric_dirichlet.hpp"
+#include "parameterization/worst_area.hpp"
 #include "surface/corner_fans.hpp"
 #include "surface/joined_faces.hpp"
 
@@ -27,8 +28,6 @@ namespace {
 
 using Corners = std::array<Eigen::Vector2d, 3>;
 
-/// The part of the area whose worst triangles do not count.
-constexpr double kLeftOut = 1e-3;
 /// Parts of an outline that cross by less than this part of the island's size only touch.
 constexpr double kTouching = 1e-6;
 
@@ -115,7 +114,7 @@ class HalfEdgeMap {
   std::vector<std::uint8_t> is_mirrored_;  // of each island
 };
 
-/// The energies at the scale at which their mean is lowest, without the worst triangles.
+/// The energies at the scale at which their mean is lowest, without the worst area.
 class ScaledEnergies {
  public:
   ScaledEnergies(std::vector<std::array<double, 2>> parts, const std::vector<double>& weights, double squared_scale)
@@ -131,14 +130,15 @@ class ScaledEnergies {
 
  private:
   void find_scale() {
-    std::ranges::stable_sort(order_, {}, [&](std::int32_t f) { return of(f); });
+    std::ranges::stable_sort(order_, std::ranges::greater(), [&](std::int32_t f) { return of(f); });
     double all = 0.0, area = 0.0, stretched = 0.0, shrunk = 0.0;
     for (const std::int32_t f : order_) all += weights_[f];
+    WorstArea worst(all);
     for (const std::int32_t f : order_) {
-      if (area > 0.0 && area + weights_[f] > (1.0 - kLeftOut) * all) break;
-      area += weights_[f];
-      stretched += weights_[f] * parts_[f][0];
-      shrunk += weights_[f] * parts_[f][1];
+      const double counted = worst.counted(weights_[f]);
+      area += counted;
+      stretched += counted * parts_[f][0];
+      shrunk += counted * parts_[f][1];
     }
     if (!(area > 0.0)) return;
     squared_scale_ = std::sqrt(shrunk / stretched);

@@ -9,7 +9,7 @@
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "parameterization/open_island.hpp"
-#include "tuning/constants.hpp"
+#include "parameterization/worst_area.hpp"
 
 namespace seamwire::detail {
 namespace {
@@ -158,13 +158,13 @@ double mean_energy(std::vector<std::pair<double, double>> energies) {
   double area = 0.0;
   for (const auto& [energy, own] : energies) area += own;
   std::ranges::sort(energies, std::ranges::greater());
-  double left_out = 0.0, sum = 0.0;
+  WorstArea worst(area);
+  double sum = 0.0;
   for (const auto& [energy, own] : energies) {
-    const double counted = std::clamp(left_out + own - tuning::kLeftOut * area, 0.0, own);
-    left_out += own - counted;
+    const double counted = worst.counted(own);
     if (counted > 0.0) sum += counted * energy;
   }
-  return area > left_out ? sum / (area - left_out) : 4.0;
+  return area > worst.left_out() ? sum / (area - worst.left_out()) : 4.0;
 }
 
 void sum_up(const SlitProblem& problem, SlitPlan& plan) {

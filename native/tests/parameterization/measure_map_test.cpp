@@ -48,6 +48,16 @@ TEST(MeasureMap, KnowsTheBestScaleAndLeavesTheWorstOut) {
   EXPECT_NEAR(measure_map(surface, uvs).energy, 2.0 * std::sqrt(3.5 * 1.625), 0.01);
 }
 
+TEST(MeasureMap, LeavesOutOneThousandthOfTheAreaOfAnyTriangles) {
+  const Surface surface({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
+  // The second triangle is stretched by 10 across the common edge.
+  const CornerUvs uvs{{{{0, 0}, {1, 0}, {1, 1}}}, {{{0, 0}, {1, 1}, {-4.5, 5.5}}}};
+  const double stretched = 0.5 * 2.0 + 0.499 * 101.0, shrunk = 0.5 * 2.0 + 0.499 * 1.01;
+  const double expected = 2.0 * std::sqrt(stretched * shrunk) / 0.999;
+  EXPECT_NEAR(measure_map(surface, uvs).energy, expected, 1e-12 * expected);
+  EXPECT_NEAR(map_energy(surface, uvs), expected, 1e-12 * expected);
+}
+
 TEST(MeasureMap, FindsFlipsAndOverlaps) {
   const Surface surface = shapes::grid(4).surface();
   CornerUvs uvs;

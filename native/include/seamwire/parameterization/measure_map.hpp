@@ -19,8 +19,8 @@ using CornerUvs = std::vector<std::array<Eigen::Vector2d, 3>>;
 /// Measures of a UV map of a surface.
 struct MapReport {
   /// The symmetric Dirichlet energy E_d, mean over the area of the surface. The whole map is first scaled uniformly
-  /// such that this is lowest. The worst triangles (0.1 % of the area) and flipped triangles are left out. 4 for an
-  /// isometry; infinite if no triangle remains.
+  /// such that this is lowest. Flipped triangles are left out, and then the 0.1 % of the area where the energy is
+  /// highest. Of the triangle at that limit, the rest counts. 4 for an isometry; infinite if no triangle remains.
   double energy = 0.0;
   /// E_d of each triangle at that scale, infinite for flipped triangles. 0 for triangles that the surface left out.
   std::vector<double> energies;
