@@ -40,15 +40,14 @@ void check_map(const Surface& surface, std::span<const Corners> uvs, std::span<c
   check_size("uvs", uvs.size());
   if (!islands.empty()) check_size("islands", islands.size());
   for (std::size_t f = 0; f < uvs.size(); ++f) {
-    const auto is_fine = [](const Eigen::Vector2d& uv) { return uv.allFinite() && uv.cwiseAbs().maxCoeff() < 1e152; };
-    if (!std::ranges::all_of(uvs[f], is_fine)) {
-      throw InvalidInput("triangle " + std::to_string(f) + " has a UV that is not finite or above 1e152 in size");
+    if (!std::ranges::all_of(uvs[f], [](const Eigen::Vector2d& uv) { return uv.allFinite(); })) {
+      throw InvalidInput("triangle " + std::to_string(f) + " has a UV that is not finite");
     }
     if (!islands.empty()) check_index(islands[f], uvs.size(), "islands: number", "triangles");
   }
 }
 
-/// A map of the triangles of a surface's corner fans.
+/// A map of the triangles of a surface's corner fans, scaled such that the largest coordinate is about 1.
 class HalfEdgeMap {
  public:
   HalfEdgeMap(const Surface& surface, std::span<const Corners> uvs, std::span<const std::int32_t> islands)
@@ -60,6 +59,7 @@ class HalfEdgeMap {
       const std::int32_t second = corner_fans(surface).vertices[corner_fans(surface).triangles[f][1]];
       if (second != surface.triangles()[index(source)][1]) std::swap(uvs_[f][1], uvs_[f][2]);
     }
+    scale();
     find_islands(islands);
     turn_islands();
   }
@@ -90,6 +90,18 @@ class HalfEdgeMap {
   const Eigen::Vector2d& uv(std::int32_t corner) const { return uvs_[corner / 3][corner % 3]; }
 
  private:
+  void scale() {
+    double largest = 0.0;
+    for (const Corners& corners : uvs_) {
+      for (const Eigen::Vector2d& uv : corners) largest = std::max(largest, uv.cwiseAbs().maxCoeff());
+    }
+    if (!(largest > 0.0)) return;
+    // A power of two, so that no triangle flips by rounding.
+    const double unit = std::ldexp(1.0, std::ilogb(largest));
+    for (Corners& corners : uvs_) {
+      for (Eigen::Vector2d& uv : corners) uv /= unit;
+    }
+  }
   void find_islands(std::span<const std::int32_t> islands) {
     if (!islands.empty()) {
       for (std::size_t f = 0; f < size(); ++f) island_[f] = islands[index(corner_fans(surface_).faces[f])];
@@ -156,12 +168,6 @@ ScaledEnergies scaled_energies(const Surface& surface, const HalfEdgeMap& map, s
   std::vector<Triangle> triangles(map.size());
   std::vector<Vector> points;
   std::vector<double> flat;
-  double largest = 0.0;
-  for (const Corners& corners : map.uvs()) {
-    for (const Eigen::Vector2d& uv : corners) largest = std::max(largest, uv.cwiseAbs().maxCoeff());
-  }
-  // A power of two, so that no triangle flips by rounding.
-  const double unit = largest > 0.0 ? std::ldexp(1.0, std::ilogb(largest)) : 1.0;
   const Vector origin = surface.points()[index(corner_fans(surface).vertices[0])];
   double area = 0.0;
   for (std::size_t f = 0; f < map.size(); ++f) {
@@ -169,9 +175,9 @@ ScaledEnergies scaled_energies(const Surface& surface, const HalfEdgeMap& map, s
       triangles[f][i] = static_cast<std::int32_t>(points.size());
       const std::int32_t v = corner_fans(surface).vertices[corner_fans(surface).triangles[f][i]];
       points.emplace_back(surface.scale() * (surface.points()[index(v)] - origin));
-      for (const double value : map.uvs()[f][i]) flat.push_back(value / unit);
+      for (const double value : map.uvs()[f][i]) flat.push_back(value);
     }
-    area += std::max(0.0, map.cross(f) / unit / unit);
+    area += std::max(0.0, map.cross(f));
   }
   const SymmetricDirichlet energy(std::move(triangles), points);
   weights = energy.weights();
