@@ -54,8 +54,8 @@ void bind_flattening(py::module_& module) {
   py::class_<FlatteningObject, Held<FlatteningObject>>(module, "Flattening", "A UV map of a surface.")
       .def_property_readonly(
           "uvs", array_of<FlatteningObject>([](const FlatteningObject& f) -> auto& { return f.map.uvs; }),
-          "(m, 3, 2) float64: the UVs of each triangle's corners, in the points' unit of length. Each island lies "
-          "around the origin.")
+          "(m, 3, 2) float64: the UVs of each triangle's corners, in the points' unit of length. Islands may lie on "
+          "each other.")
       .def_property_readonly(
           "islands", array_of<FlatteningObject>([](const FlatteningObject& f) -> auto& { return f.map.islands; }),
           "(m,) int32: the island of each triangle.")
@@ -67,7 +67,8 @@ void bind_flattening(py::module_& module) {
       .def_property_readonly("island_areas", array_of<FlatteningObject>(&FlatteningObject::areas),
                              "(k,) float64: areas on the surface, in the points' unit squared.")
       .def_property_readonly("overlapping", array_of<FlatteningObject>(&FlatteningObject::overlapping),
-                             "(j,) int32: the islands that cover a part of the plane twice.")
+                             "(j,) int32: the islands that cover a part of the plane twice. Crossings by less than "
+                             "5e-7 of the square root of the area may not count.")
       .def_property_readonly("straight", array_of<FlatteningObject>(&FlatteningObject::straight),
                              "(j,) int32: the islands that were laid out straight.")
       .def_property_readonly("opened", array_of<FlatteningObject>(&FlatteningObject::opened),
@@ -84,11 +85,12 @@ void bind_flattening(py::module_& module) {
 void bind_map_report(py::module_& module) {
   py::class_<MapReport, Held<MapReport>>(module, "MapReport", "The distortion, flips and overlaps of a UV map.")
       .def_readonly("energy", &MapReport::energy,
-                    "float: the symmetric Dirichlet energy, averaged over the area at the best uniform scale. The "
-                    "worst .1 % of the area and flipped triangles are left out. 4 for an isometry.")
+                    "float: the symmetric Dirichlet energy, averaged over the area at the best uniform scale. "
+                    "Flipped triangles are left out, and then the worst .1 % of the area. 4 for an isometry.")
       .def_property_readonly(
           "energies", array_of<MapReport>(&MapReport::energies),
-          "(m,) float64: the energy of each triangle at that scale; infinite if it is flipped, 0 if it is left out.")
+          "(m,) float64: the energy of each triangle at that scale; infinite if it is flipped, 0 if it is left out. "
+          "Triangles lower than 1e-4 of their longest side count as if they were that high.")
       .def_property_readonly(
           "flipped", array_of<MapReport>(&MapReport::flipped),
           "(j,) int32: triangles that are turned over against their island, or have no area in the map.")
@@ -126,9 +128,10 @@ void bind_flatten_function(py::module_& module) {
       py::arg("up") = py::none(), py::arg("edges") = py::none(), py::arg("progress") = py::none(),
       R"(Map each island of a surface to the plane.
 
-No triangle is flipped, and the symmetric Dirichlet energy is minimized (Smith and Schaefer, "Bijective Parameterization
-with Free Boundaries", 2015). Islands are the segments of `face_segments`. An island without a boundary or with handles
-is opened along short paths of real edges.
+No triangle is flipped. The symmetric Dirichlet energy is at a local minimum (Smith and Schaefer, "Bijective
+Parameterization with Free Boundaries", 2015). `overlapping` lists islands that overlap themselves in spite of
+`keep_apart`. Islands are the segments of `face_segments`. An island without a boundary or with handles is opened along
+short paths of real edges.
 
 Parameters
 ----------
@@ -139,12 +142,13 @@ triangles : (m, 3) array_like of int
 cuts : (k, 2) array_like of int
     Vertex pairs: the edges that are seams. Pairs without an edge cut nothing.
 start : (m, 3, 2) array_like of float, optional
-    A former map. Islands start from it if it is continuous there and flips no triangle.
+    A former map, of any scale. Islands start from it if it is continuous there and flips no triangle. They start
+    without it if its energy is above 1e12.
 keep_apart : bool
     Whether an island that overlaps itself is solved again with a barrier along its outline.
 straighten : float, optional
-    Lay an island that is a rectangle of quads out straight along the axes if that adds at most this to its energy. None:
-    islands stay as they are flattened.
+    Lay an island that is a rectangle of quads out straight along the axes if that adds at most this to its energy:
+    finite, 0 or more. None: islands stay as they are flattened.
 up : (3,) array_like of float, optional
     A direction of the model, not zero. Islands are turned such that it points to +v in the mean. An island without a
     clear up lies with its longer side along v. None: islands are not turned.
@@ -161,8 +165,8 @@ Flattening
 Raises
 ------
 ValueError
-    If an array has the wrong shape or type, a number is not finite, a vertex is out of range, or there is no edge. Also
-    if an island cannot be mapped.
+    If an array has the wrong shape or type, a number is not finite, a vertex is out of range, there is no edge, or
+    `straighten` is negative. Also if an island cannot be mapped.
 Cancelled
 )");
 }

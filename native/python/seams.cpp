@@ -102,7 +102,9 @@ void bind_seam_plan(py::module_& module) {
           "slit costs the prices of its edges, plus a fixed amount unless the island needs it to become a disc. Wires "
           "across the surface may run beside their slits, and are not priced again.")
       .def_readonly("energy", &SeamPlan::energy,
-                    "float: the symmetric Dirichlet energy of the planned map, mean over the area. 4 for an isometry.")
+                    "float: the symmetric Dirichlet energy of the planned map, as `MapReport.energy`; infinite if an "
+                    "island has no map. Pieces in which no seam may run do not count. 4 for an isometry, and if no "
+                    "piece counts.")
       .def_readonly("is_reached", &SeamPlan::is_reached,
                     "bool: whether the energy is within the bound, and no island that may be cut overlaps itself.")
       .def_readonly("steps", &SeamPlan::steps,
@@ -176,8 +178,7 @@ void bind_planner(py::module_& module) {
 Parameters
 ----------
 distortion : float
-    The bound on the symmetric Dirichlet energy of the map, averaged over the area; above 4, the energy of an isometry.
-    Infinity: islands only have to be discs.
+    The bound on `SeamPlan.energy`; above 4, the energy of an isometry. Infinity: islands only have to be discs.
 islands : int
     The smallest number of islands. Limbs are separated first, then large islands are cut into halves. There are fewer
     islands only if no seam may run inside of any.

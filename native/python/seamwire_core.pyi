@@ -1856,7 +1856,7 @@ class Flattening:
     """A UV map of a surface."""
 
     uvs: NDArray[np.float64]
-    """(m, 3, 2) float64: the UVs of each triangle's corners, in the points' unit of length. Each island lies around the origin."""
+    """(m, 3, 2) float64: the UVs of each triangle's corners, in the points' unit of length. Islands may lie on each other."""
     islands: NDArray[np.int32]
     """(m,) int32: the island of each triangle."""
     energy: float
@@ -1866,7 +1866,7 @@ class Flattening:
     island_areas: NDArray[np.float64]
     """(k,) float64: areas on the surface, in the points' unit squared."""
     overlapping: NDArray[np.int32]
-    """(j,) int32: the islands that cover a part of the plane twice."""
+    """(j,) int32: the islands that cover a part of the plane twice. Crossings by less than 5e-7 of the square root of the area may not count."""
     straight: NDArray[np.int32]
     """(j,) int32: the islands that were laid out straight."""
     opened: NDArray[np.int32]
@@ -1878,9 +1878,9 @@ class MapReport:
     """The distortion, flips and overlaps of a UV map."""
 
     energy: float
-    """float: the symmetric Dirichlet energy, averaged over the area at the best uniform scale. The worst .1 % of the area and flipped triangles are left out. 4 for an isometry."""
+    """float: the symmetric Dirichlet energy, averaged over the area at the best uniform scale. Flipped triangles are left out, and then the worst .1 % of the area. 4 for an isometry."""
     energies: NDArray[np.float64]
-    """(m,) float64: the energy of each triangle at that scale; infinite if it is flipped, 0 if it is left out."""
+    """(m,) float64: the energy of each triangle at that scale; infinite if it is flipped, 0 if it is left out. Triangles lower than 1e-4 of their longest side count as if they were that high."""
     flipped: NDArray[np.int32]
     """(j,) int32: triangles that are turned over against their island, or have no area in the map."""
     overlapping: NDArray[np.int32]
@@ -1902,9 +1902,10 @@ def flatten(
 ) -> Flattening:
     """Map each island of a surface to the plane.
 
-    No triangle is flipped, and the symmetric Dirichlet energy is minimized (Smith and Schaefer, "Bijective Parameterization
-    with Free Boundaries", 2015). Islands are the segments of `face_segments`. An island without a boundary or with handles
-    is opened along short paths of real edges.
+    No triangle is flipped. The symmetric Dirichlet energy is at a local minimum (Smith and Schaefer, "Bijective
+    Parameterization with Free Boundaries", 2015). `overlapping` lists islands that overlap themselves in spite of
+    `keep_apart`. Islands are the segments of `face_segments`. An island without a boundary or with handles is opened along
+    short paths of real edges.
 
     Parameters
     ----------
@@ -1915,12 +1916,13 @@ def flatten(
     cuts : (k, 2) array_like of int
         Vertex pairs: the edges that are seams. Pairs without an edge cut nothing.
     start : (m, 3, 2) array_like of float, optional
-        A former map. Islands start from it if it is continuous there and flips no triangle.
+        A former map, of any scale. Islands start from it if it is continuous there and flips no triangle. They start
+        without it if its energy is above 1e12.
     keep_apart : bool
         Whether an island that overlaps itself is solved again with a barrier along its outline.
     straighten : float, optional
-        Lay an island that is a rectangle of quads out straight along the axes if that adds at most this to its energy. None:
-        islands stay as they are flattened.
+        Lay an island that is a rectangle of quads out straight along the axes if that adds at most this to its energy:
+        finite, 0 or more. None: islands stay as they are flattened.
     up : (3,) array_like of float, optional
         A direction of the model, not zero. Islands are turned such that it points to +v in the mean. An island without a
         clear up lies with its longer side along v. None: islands are not turned.
@@ -1937,8 +1939,8 @@ def flatten(
     Raises
     ------
     ValueError
-        If an array has the wrong shape or type, a number is not finite, a vertex is out of range, or there is no edge. Also
-        if an island cannot be mapped.
+        If an array has the wrong shape or type, a number is not finite, a vertex is out of range, there is no edge, or
+        `straighten` is negative. Also if an island cannot be mapped.
     Cancelled
     """
 
@@ -2046,7 +2048,7 @@ class SeamPlan:
     cost: float
     """float: the price of the slits that the search worked on, for a surface of area 1. Lower is better. Each slit costs the prices of its edges, plus a fixed amount unless the island needs it to become a disc. Wires across the surface may run beside their slits, and are not priced again."""
     energy: float
-    """float: the symmetric Dirichlet energy of the planned map, mean over the area. 4 for an isometry."""
+    """float: the symmetric Dirichlet energy of the planned map, as `MapReport.energy`; infinite if an island has no map. Pieces in which no seam may run do not count. 4 for an isometry, and if no piece counts."""
     is_reached: bool
     """bool: whether the energy is within the bound, and no island that may be cut overlaps itself."""
     steps: float
@@ -2115,8 +2117,7 @@ class SeamPlanner:
         Parameters
         ----------
         distortion : float
-            The bound on the symmetric Dirichlet energy of the map, averaged over the area; above 4, the energy of an isometry.
-            Infinity: islands only have to be discs.
+            The bound on `SeamPlan.energy`; above 4, the energy of an isometry. Infinity: islands only have to be discs.
         islands : int
             The smallest number of islands. Limbs are separated first, then large islands are cut into halves. There are fewer
             islands only if no seam may run inside of any.

@@ -135,7 +135,9 @@ def test_the_energy_of_a_map_is_that_of_its_report() -> None:
         ({"progress": 3}, "progress: expected a function"),
         ({"up": (0, 0)}, "up: expected"),
         ({"up": (0, 0, 0)}, "up is no direction"),
-        ({"straighten": np.nan}, "straighten is not a number"),
+        ({"straighten": np.nan}, "straighten is negative or not finite"),
+        ({"straighten": np.inf}, "straighten is negative or not finite"),
+        ({"straighten": -1.0}, "straighten is negative or not finite"),
     ],
 )
 def test_wrong_input_of_flatten(change: dict, message: str) -> None:

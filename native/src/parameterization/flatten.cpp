@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -16,6 +15,7 @@
 #include "detail/run_on_threads.hpp"
 #include "parameterization/cut_open.hpp"
 #include "parameterization/island_map.hpp"
+#include "parameterization/left_out_uvs.hpp"
 #include "parameterization/open_island.hpp"
 #include "parameterization/straight_strip.hpp"
 #include "parameterization/upright.hpp"
@@ -50,13 +50,42 @@ std::size_t caller_corner(const Surface& surface, std::int32_t face, std::size_t
   return is_turned && i > 0 ? 3 - i : i;
 }
 
+double area_of(const Island& island, std::span<const Vector> points) {
+  double area = 0.0;
+  for (const Triangle& t : island.triangles) {
+    const auto corner = [&](std::size_t i) -> const Vector& { return points[index(island.vertices[t[i]])]; };
+    area += 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).stableNorm();
+  }
+  return area;
+}
+
+/// Scales a map to about the area of its island: by a power of two, so that no triangle flips by rounding.
+void scale_to_island(const Island& island, std::span<const Vector> points, std::vector<Point2>& uvs) {
+  double largest = 0.0;
+  for (const Point2& uv : uvs) largest = std::max(largest, uv.cwiseAbs().maxCoeff());
+  if (!(largest > 0.0)) return;
+  const double unit = std::ldexp(1.0, std::ilogb(largest));
+  for (Point2& uv : uvs) uv /= unit;
+  double area = 0.0;
+  for (const auto& [a, b, c] : island.triangles) {
+    const Point2 ab = uvs[b] - uvs[a], ac = uvs[c] - uvs[a];
+    area += 0.5 * (ab.x() * ac.y() - ab.y() * ac.x());
+  }
+  const double squared_scale = area_of(island, points) / area;
+  if (!(squared_scale > 0.0 && std::isfinite(squared_scale))) return;
+  for (Point2& uv : uvs) uv *= std::exp2(std::round(0.5 * std::log2(squared_scale)));
+}
+
 class Flattener {
  public:
   Flattener(const Surface& surface, const FlattenOptions& options) : surface_(surface), options_(options) {
     if (options.up && !(options.up->allFinite() && options.up->stableNorm() > 0.0)) {
       throw InvalidInput("up is no direction: it is zero or not finite");
     }
-    if (options.straighten && std::isnan(*options.straighten)) throw InvalidInput("straighten is not a number");
+    if (!(options.tolerance >= 0.0)) throw InvalidInput("tolerance is negative or not a number");
+    if (options.straighten && !(std::isfinite(*options.straighten) && *options.straighten >= 0.0)) {
+      throw InvalidInput("straighten is negative or not finite");
+    }
     if (options.start.empty()) return;
     if (options.start.size() != surface.face_count()) {
       throw InvalidInput("start has " + std::to_string(options.start.size()) + " items: there are " +
@@ -165,10 +194,9 @@ class Flattener {
       return std::nullopt;
     std::vector<Point2> uvs(own.vertices.size());
     for (std::int32_t h = 0; index(h) < own.twins.size(); ++h) uvs[own.tail(h)] = start_of(own, h);
-    for (const auto& [a, b, c] : own.triangles) {
-      const Point2 ab = uvs[b] - uvs[a], ac = uvs[c] - uvs[a];
-      if (!(ab.x() * ac.y() - ab.y() * ac.x() > 0.0)) return std::nullopt;
-    }
+    scale_to_island(own, surface_.points(), uvs);
+    // Infinite if a triangle is flipped.
+    if (!(mean_energy(own, surface_.points(), uvs) < kLostEnergy)) return std::nullopt;
     result.map = continue_map(own, surface_.points(), uvs, options, task);
     return result;
   }
@@ -219,7 +247,8 @@ std::vector<MappedIsland> map_all(const Surface& surface, const std::vector<Isla
 
 FlatIsland describe(const Surface& surface, const MappedIsland& mapped) {
   const Island& island = mapped.opened.island;
-  FlatIsland flat{.energy = mapped.map.energy,
+  FlatIsland flat{.area = area_of(island, surface.points()),
+                  .energy = mapped.map.energy,
                   .steps = mapped.map.steps,
                   .overlaps = mapped.map.overlaps,
                   .is_straight = mapped.is_straight,
@@ -227,43 +256,7 @@ FlatIsland describe(const Surface& surface, const MappedIsland& mapped) {
   const std::vector<double> energies = triangle_energies(island, surface.points(), mapped.map.uvs);
   const auto worst = static_cast<std::size_t>(std::ranges::max_element(energies) - energies.begin());
   flat.worst = corner_fans(surface).faces[island.faces[worst]];
-  for (const Triangle& t : island.triangles) {
-    const auto corner = [&](std::size_t i) -> const Vector& { return surface.points()[index(island.vertices[t[i]])]; };
-    flat.area += 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).stableNorm();
-  }
   return flat;
-}
-
-/// UVs for the corners of triangles that the surface left out.
-void fill_left_out(const Surface& surface, Flattening& result) {
-  std::vector<std::int32_t> left_out = surface.report().degenerate_faces;
-  left_out.insert(left_out.end(), surface.report().duplicate_faces.begin(), surface.report().duplicate_faces.end());
-  if (left_out.empty()) return;
-  std::map<std::pair<std::int32_t, std::int32_t>, Eigen::Vector2d> wanted;  // by island and vertex
-  for (const std::int32_t f : left_out) {
-    for (const std::int32_t v : surface.triangles()[f]) wanted.emplace(std::pair(result.islands[f], v), Point2::Zero());
-  }
-  std::vector<Eigen::Vector2d> center(result.by_island.size(), Point2::Zero());
-  std::vector<double> corners(result.by_island.size(), 0.0);
-  for (const std::int32_t f : corner_fans(surface).faces) {
-    const std::int32_t island = result.islands[f];
-    for (const Eigen::Vector2d& uv : result.uvs[f]) {
-      corners[island] += 1.0;
-      center[island] += (uv - center[island]) / corners[island];
-    }
-  }
-  for (auto& [key, uv] : wanted) uv = center[key.first];
-  for (const std::int32_t f : corner_fans(surface).faces) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto found = wanted.find({result.islands[f], surface.triangles()[f][i]});
-      if (found != wanted.end()) found->second = result.uvs[f][i];
-    }
-  }
-  for (const std::int32_t f : left_out) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      result.uvs[f][i] = wanted.at({result.islands[f], surface.triangles()[f][i]});
-    }
-  }
 }
 
 }  // namespace
@@ -288,7 +281,7 @@ Flattening flatten(const Surface& surface, std::span<const Edge> cuts, const Fla
     const std::int32_t first = corner_fans(surface).faces[island.faces.front()];
     result.by_island[result.islands[first]] = describe(surface, mapped[i]);
   }
-  fill_left_out(surface, result);
+  fill_left_out(surface, result.islands, result.uvs);
   task.check(0.95);
   result.energy = map_energy(surface, result.uvs, result.islands, {.stop = task.stop, .progress = {}});
   return result;

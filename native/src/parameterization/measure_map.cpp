@@ -16,6 +16,7 @@
 #include "parameterization/cut_open.hpp"
 #include "parameterization/measure_islands.hpp"
 #include "parameterization/symmetric_dirichlet.hpp"
+#include "parameterization/worst_area.hpp"
 #include "surface/corner_fans.hpp"
 #include "surface/joined_faces.hpp"
 
@@ -27,8 +28,6 @@ namespace {
 
 using Corners = std::array<Eigen::Vector2d, 3>;
 
-/// The part of the area whose worst triangles do not count.
-constexpr double kLeftOut = 1e-3;
 /// Parts of an outline that cross by less than this part of the island's size only touch.
 constexpr double kTouching = 1e-6;
 
@@ -41,15 +40,14 @@ void check_map(const Surface& surface, std::span<const Corners> uvs, std::span<c
   check_size("uvs", uvs.size());
   if (!islands.empty()) check_size("islands", islands.size());
   for (std::size_t f = 0; f < uvs.size(); ++f) {
-    const auto is_fine = [](const Eigen::Vector2d& uv) { return uv.allFinite() && uv.cwiseAbs().maxCoeff() < 1e152; };
-    if (!std::ranges::all_of(uvs[f], is_fine)) {
-      throw InvalidInput("triangle " + std::to_string(f) + " has a UV that is not finite or above 1e152 in size");
+    if (!std::ranges::all_of(uvs[f], [](const Eigen::Vector2d& uv) { return uv.allFinite(); })) {
+      throw InvalidInput("triangle " + std::to_string(f) + " has a UV that is not finite");
     }
     if (!islands.empty()) check_index(islands[f], uvs.size(), "islands: number", "triangles");
   }
 }
 
-/// A map of the triangles of a surface's corner fans.
+/// A map of the triangles of a surface's corner fans, scaled such that the largest coordinate is about 1.
 class HalfEdgeMap {
  public:
   HalfEdgeMap(const Surface& surface, std::span<const Corners> uvs, std::span<const std::int32_t> islands)
@@ -61,6 +59,7 @@ class HalfEdgeMap {
       const std::int32_t second = corner_fans(surface).vertices[corner_fans(surface).triangles[f][1]];
       if (second != surface.triangles()[index(source)][1]) std::swap(uvs_[f][1], uvs_[f][2]);
     }
+    scale();
     find_islands(islands);
     turn_islands();
   }
@@ -91,6 +90,18 @@ class HalfEdgeMap {
   const Eigen::Vector2d& uv(std::int32_t corner) const { return uvs_[corner / 3][corner % 3]; }
 
  private:
+  void scale() {
+    double largest = 0.0;
+    for (const Corners& corners : uvs_) {
+      for (const Eigen::Vector2d& uv : corners) largest = std::max(largest, uv.cwiseAbs().maxCoeff());
+    }
+    if (!(largest > 0.0)) return;
+    // A power of two, so that no triangle flips by rounding.
+    const double unit = std::ldexp(1.0, std::ilogb(largest));
+    for (Corners& corners : uvs_) {
+      for (Eigen::Vector2d& uv : corners) uv /= unit;
+    }
+  }
   void find_islands(std::span<const std::int32_t> islands) {
     if (!islands.empty()) {
       for (std::size_t f = 0; f < size(); ++f) island_[f] = islands[index(corner_fans(surface_).faces[f])];
@@ -115,7 +126,7 @@ class HalfEdgeMap {
   std::vector<std::uint8_t> is_mirrored_;  // of each island
 };
 
-/// The energies at the scale at which their mean is lowest, without the worst triangles.
+/// The energies at the scale at which their mean is lowest, without the worst area.
 class ScaledEnergies {
  public:
   ScaledEnergies(std::vector<std::array<double, 2>> parts, const std::vector<double>& weights, double squared_scale)
@@ -131,14 +142,15 @@ class ScaledEnergies {
 
  private:
   void find_scale() {
-    std::ranges::stable_sort(order_, {}, [&](std::int32_t f) { return of(f); });
+    std::ranges::stable_sort(order_, std::ranges::greater(), [&](std::int32_t f) { return of(f); });
     double all = 0.0, area = 0.0, stretched = 0.0, shrunk = 0.0;
     for (const std::int32_t f : order_) all += weights_[f];
+    WorstArea worst(all);
     for (const std::int32_t f : order_) {
-      if (area > 0.0 && area + weights_[f] > (1.0 - kLeftOut) * all) break;
-      area += weights_[f];
-      stretched += weights_[f] * parts_[f][0];
-      shrunk += weights_[f] * parts_[f][1];
+      const double counted = worst.counted(weights_[f]);
+      area += counted;
+      stretched += counted * parts_[f][0];
+      shrunk += counted * parts_[f][1];
     }
     if (!(area > 0.0)) return;
     squared_scale_ = std::sqrt(shrunk / stretched);
@@ -156,12 +168,6 @@ ScaledEnergies scaled_energies(const Surface& surface, const HalfEdgeMap& map, s
   std::vector<Triangle> triangles(map.size());
   std::vector<Vector> points;
   std::vector<double> flat;
-  double largest = 0.0;
-  for (const Corners& corners : map.uvs()) {
-    for (const Eigen::Vector2d& uv : corners) largest = std::max(largest, uv.cwiseAbs().maxCoeff());
-  }
-  // A power of two, so that no triangle flips by rounding.
-  const double unit = largest > 0.0 ? std::ldexp(1.0, std::ilogb(largest)) : 1.0;
   const Vector origin = surface.points()[index(corner_fans(surface).vertices[0])];
   double area = 0.0;
   for (std::size_t f = 0; f < map.size(); ++f) {
@@ -169,9 +175,9 @@ ScaledEnergies scaled_energies(const Surface& surface, const HalfEdgeMap& map, s
       triangles[f][i] = static_cast<std::int32_t>(points.size());
       const std::int32_t v = corner_fans(surface).vertices[corner_fans(surface).triangles[f][i]];
       points.emplace_back(surface.scale() * (surface.points()[index(v)] - origin));
-      for (const double value : map.uvs()[f][i]) flat.push_back(value / unit);
+      for (const double value : map.uvs()[f][i]) flat.push_back(value);
     }
-    area += std::max(0.0, map.cross(f) / unit / unit);
+    area += std::max(0.0, map.cross(f));
   }
   const SymmetricDirichlet energy(std::move(triangles), points);
   weights = energy.weights();

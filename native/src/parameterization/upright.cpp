@@ -26,7 +26,7 @@ Point2 mean_direction(const Island& island, std::span<const Vector> points, cons
   for (const Triangle& t : island.triangles) {
     const auto point = [&](std::size_t i) -> const Vector& { return points[index(island.vertices[index(t[i])])]; };
     const Vector one = point(1) - point(0), two = point(2) - point(0), normal = one.cross(two);
-    const double doubled = normal.norm();
+    const double doubled = normal.stableNorm();
     if (!(doubled > 0.0)) continue;
     const Vector unit = normal / doubled;
     sum += up.cross(two).dot(unit) * (map[t[1]] - map[t[0]]) + one.cross(up).dot(unit) * (map[t[2]] - map[t[0]]);

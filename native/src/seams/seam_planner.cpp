@@ -14,6 +14,7 @@
 #include "detail/poll.hpp"
 #include "detail/run_on_threads.hpp"
 #include "detail/text.hpp"
+#include "parameterization/left_out_uvs.hpp"
 #include "parameterization/measure_islands.hpp"
 #include "seams/group_planning.hpp"
 #include "seams/planned_wires.hpp"
@@ -110,6 +111,7 @@ class WholePlan {
           add_maps(plan, *own.original.mesh, &own.places[place], plans_[group].result().maps, task);
         }
       }
+      fill_left_out(*prepared_.surface, plan.islands, plan.uvs);
       measure(plan, part_of(task, kMeasureBegins, 1.0));
       return plan;
     }

@@ -7,7 +7,7 @@
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "parameterization/open_island.hpp"
-#include "tuning/constants.hpp"
+#include "parameterization/worst_area.hpp"
 
 namespace seamwire::detail {
 namespace {
@@ -155,13 +155,13 @@ double mean_energy(std::vector<std::pair<double, double>> energies, const Task& 
   double area = 0.0;
   for (const auto& [energy, own] : energies) area += own;
   polled_sort(energies, task, std::ranges::greater());
-  double left_out = 0.0, sum = 0.0;
+  WorstArea worst(area);
+  double sum = 0.0;
   for (const auto& [energy, own] : energies) {
-    const double counted = std::clamp(left_out + own - tuning::kLeftOut * area, 0.0, own);
-    left_out += own - counted;
+    const double counted = worst.counted(own);
     if (counted > 0.0) sum += counted * energy;
   }
-  return area > left_out ? sum / (area - left_out) : 4.0;
+  return area > worst.left_out() ? sum / (area - worst.left_out()) : 4.0;
 }
 
 void sum_up(const SlitProblem& problem, SlitPlan& plan, const Task& task) {

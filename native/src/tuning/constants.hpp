@@ -211,11 +211,6 @@ inline constexpr double kLeastAround = 2.0;
 /// if a mesh is not mirrored edge by edge.
 inline constexpr double kMirrorSpread = 0.02;
 
-// The measure of distortion.
-
-/// Share of the area, where the map is worst, that an energy leaves out. The tips of slits are there.
-inline constexpr double kLeftOut = 1e-3;
-
 // Candidates: places to which a further slit may lead. Lengths are for a surface of area 1.
 
 /// Radius over which distortion is summed up for peaks close to their cause.

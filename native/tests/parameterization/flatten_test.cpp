@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <random>
@@ -223,6 +224,40 @@ TEST(Flatten, AStartThatIsNoMapIsNotUsed) {
   options.start.pop_back();
   EXPECT_THROW(flatten(surface, {}, options), InvalidInput);
   EXPECT_THROW(flatten(surface, std::vector<Edge>{{0, 99}}), InvalidInput);
+}
+
+TEST(Flatten, AStartMayHaveAnyScale) {
+  const Surface surface = shapes::bumpy(shapes::grid(10), 0.04).surface();
+  const Flattening first = flatten(surface, {});
+  for (const double scale : {1e-300, 1e-90, 1e-8, 0.3, 1.0, 7.0, 1e16, 1e100, 1e300}) {
+    FlattenOptions options;
+    options.start = first.uvs;
+    for (auto& corners : options.start) {
+      for (Eigen::Vector2d& uv : corners) uv *= scale;
+    }
+    const Flattening second = flatten(surface, {}, options);
+    EXPECT_NEAR(second.by_island[0].energy, first.by_island[0].energy, 1e-5) << scale;
+    EXPECT_LT(second.by_island[0].steps, first.by_island[0].steps) << scale << ": it is used";
+  }
+}
+
+TEST(Flatten, AStartThatIsLostInRoundingIsNotUsed) {
+  const Surface surface({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0.2}}, {{0, 1, 2}, {0, 2, 3}});
+  const double expected = flatten(surface, {}).energy;
+  for (const double height : {1e-10, 1e-70, 1e-100, 1e-200, 1e-300}) {
+    FlattenOptions options;
+    options.start = {{{{0, 0}, {1, 0}, {1, height}}}, {{{0, 0}, {1, height}, {0, 1}}}};
+    EXPECT_NEAR(flatten(surface, {}, options).energy, expected, 1e-6) << height;
+  }
+}
+
+TEST(Flatten, RefusesOptionsOutOfRange) {
+  const Surface surface = shapes::grid(2).surface();
+  for (const double wrong : {-1.0, std::nan("")}) {
+    EXPECT_THROW(flatten(surface, {}, {.tolerance = wrong}), InvalidInput);
+    EXPECT_THROW(flatten(surface, {}, {.straighten = wrong}), InvalidInput);
+  }
+  EXPECT_THROW(flatten(surface, {}, {.straighten = std::numeric_limits<double>::infinity()}), InvalidInput);
 }
 
 TEST(Flatten, CanBeCancelled) {

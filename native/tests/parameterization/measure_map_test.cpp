@@ -48,6 +48,35 @@ TEST(MeasureMap, KnowsTheBestScaleAndLeavesTheWorstOut) {
   EXPECT_NEAR(measure_map(surface, uvs).energy, 2.0 * std::sqrt(3.5 * 1.625), 0.01);
 }
 
+TEST(MeasureMap, LeavesOutOneThousandthOfTheAreaOfAnyTriangles) {
+  const Surface surface({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
+  // The second triangle is stretched by 10 across the common edge.
+  const CornerUvs uvs{{{{0, 0}, {1, 0}, {1, 1}}}, {{{0, 0}, {1, 1}, {-4.5, 5.5}}}};
+  const double stretched = 0.5 * 2.0 + 0.499 * 101.0, shrunk = 0.5 * 2.0 + 0.499 * 1.01;
+  const double expected = 2.0 * std::sqrt(stretched * shrunk) / 0.999;
+  EXPECT_NEAR(measure_map(surface, uvs).energy, expected, 1e-12 * expected);
+  EXPECT_NEAR(map_energy(surface, uvs), expected, 1e-12 * expected);
+}
+
+TEST(MeasureMap, MapsMayBeTinyOrHuge) {
+  const Surface surface = shapes::grid(4).surface();
+  for (const double size : {1e-320, 1e-300, 1e-170, 1e160, 1e300}) {
+    CornerUvs uvs;
+    for (const Triangle& t : surface.triangles()) {
+      uvs.emplace_back();
+      for (std::size_t i = 0; i < 3; ++i) {
+        uvs.back()[i] = size * surface.points()[static_cast<std::size_t>(t[i])].head<2>();
+      }
+    }
+    const MapReport report = measure_map(surface, uvs);
+    EXPECT_NEAR(report.energy, 4.0, 1e-2) << size << ": numbers of 1e-320 have four digits";
+    EXPECT_TRUE(report.flipped.empty() && report.overlapping.empty()) << size;
+    std::swap(uvs[5][0], uvs[5][1]);
+    EXPECT_EQ(measure_map(surface, uvs, std::vector<std::int32_t>(uvs.size(), 0)).flipped, std::vector<std::int32_t>{5})
+        << size;
+  }
+}
+
 TEST(MeasureMap, FindsFlipsAndOverlaps) {
   const Surface surface = shapes::grid(4).surface();
   CornerUvs uvs;

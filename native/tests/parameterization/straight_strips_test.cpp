@@ -281,7 +281,7 @@ Eigen::Vector2d direction(const Surface& surface, const CornerUvs& uvs, std::int
     const auto* other = std::ranges::find(t, to);
     if (one == t.end() || other == t.end()) continue;
     return (uvs[f][static_cast<std::size_t>(other - t.begin())] - uvs[f][static_cast<std::size_t>(one - t.begin())])
-        .normalized();
+        .stableNormalized();
   }
   return Eigen::Vector2d::Zero();
 }
@@ -297,6 +297,16 @@ TEST(UprightMaps, UpIsUpWhereTheSurfaceHasAnUp) {
       const Eigen::Vector2d found = direction(surface, map.uvs, 5, 17);
       EXPECT_LT((found - sign * up).norm(), straighten ? 1e-15 : 1e-3);
     }
+  }
+}
+
+TEST(UprightMaps, UpIsUpAtAnySize) {
+  for (const double size : {1e-120, 1e120}) {
+    Strip strip = wall(12, 3);
+    for (Vector& p : strip.mesh.points) p *= size;
+    const Surface surface = strip.mesh.surface();
+    const Flattening map = flatten(surface, strip.cuts, {.up = Vector(0, 0, 1)});
+    EXPECT_LT((direction(surface, map.uvs, 5, 17) - Eigen::Vector2d(0.0, 1.0)).norm(), 1e-3) << size;
   }
 }
 

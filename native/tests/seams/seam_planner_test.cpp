@@ -705,6 +705,20 @@ TEST(SeamPlanner, TurnedTrianglesKeepTheirCorners) {
   expect_map(*surface, plan);
 }
 
+TEST(SeamPlanner, TrianglesThatTheSurfaceLeftOutHaveUvs) {
+  shapes::Mesh mesh = shapes::cylinder(12, 4);
+  mesh.triangles.push_back(mesh.triangles[3]);                                                   // twice
+  mesh.triangles.push_back({mesh.triangles[5][0], mesh.triangles[5][1], mesh.triangles[5][1]});  // no triangle
+  const auto surface = shared(mesh);
+  const std::size_t count = mesh.triangles.size();
+  for (const Along along : {Along::kEdges, Along::kSurface}) {
+    const SeamPlan plan = SeamPlanner(surface, {.along = along}).plan({.steps = 20});
+    EXPECT_EQ(plan.uvs[count - 2], plan.uvs[3]);
+    EXPECT_EQ(plan.uvs[count - 1][2], plan.uvs[count - 1][1]);
+    EXPECT_NE(plan.uvs[count - 1][0], plan.uvs[count - 1][1]);
+  }
+}
+
 TEST(SeamPlanner, OneSidedSurfacesAreCut) {
   const auto surface = shared(shapes::moebius(20));
   const SeamPlan plan = SeamPlanner(surface, along_edges()).plan();

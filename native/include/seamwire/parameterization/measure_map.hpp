@@ -19,10 +19,11 @@ using CornerUvs = std::vector<std::array<Eigen::Vector2d, 3>>;
 /// Measures of a UV map of a surface.
 struct MapReport {
   /// The symmetric Dirichlet energy E_d, mean over the area of the surface. The whole map is first scaled uniformly
-  /// such that this is lowest. The worst triangles (0.1 % of the area) and flipped triangles are left out. 4 for an
-  /// isometry; infinite if no triangle remains.
+  /// such that this is lowest. Flipped triangles are left out, and then the 0.1 % of the area where the energy is
+  /// highest. Of the triangle at that limit, the rest counts. 4 for an isometry; infinite if no triangle remains.
   double energy = 0.0;
-  /// E_d of each triangle at that scale, infinite for flipped triangles. 0 for triangles that the surface left out.
+  /// E_d of each triangle at that scale, infinite for flipped triangles. 0 for triangles that the surface left out. For
+  /// a triangle that is lower than 1e-4 of its longest side, E_d is that of a triangle with this height.
   std::vector<double> energies;
   /// Triangles that the map turns over, compared with their island, or that have no area in it; ascending.
   std::vector<std::int32_t> flipped;
@@ -44,12 +45,13 @@ struct MapReport {
 /// - Edges of outlines that touch each other are compared in pairs, as those of islands with a common corner.
 ///
 /// \param surface the surface
-/// \param uvs UVs of each of the caller's triangles, finite and below 1e152 in size
+/// \param uvs UVs of each of the caller's triangles, finite. Sides shorter than 1e-150 of the largest coordinate may
+///   count as having no length.
 /// \param islands the island of each triangle, from 0. Empty: triangles are in one island if they agree on the UVs of a
 ///   shared edge.
 /// \param task progress and cancellation
 /// \returns the measures
-/// \throws InvalidInput if an array has the wrong size, a UV is out of range, or an island number is not below the
+/// \throws InvalidInput if an array has the wrong size, a UV is not finite, or an island number is not below the
 ///   number of triangles
 /// \throws Cancelled if the task is cancelled
 SEAMWIRE_API MapReport measure_map(const Surface& surface, std::span<const std::array<Eigen::Vector2d, 3>> uvs,

@@ -39,9 +39,8 @@ struct SeamPlannerOptions {
 
 /// What seams have to achieve.
 struct SeamGoal {
-  /// The bound on the symmetric Dirichlet energy E_d of the surface's map, mean over the area; above 4, the energy of
-  /// an isometry. Each piece is planned within this bound. If pieces without new seams distort less, the others may
-  /// distort more. Infinity: islands only have to be discs.
+  /// The bound on SeamPlan::energy; above 4, the energy of an isometry. Each piece is planned within this bound. If
+  /// pieces without new seams distort less, the others may distort more. Infinity: islands only have to be discs.
   double distortion = 4.2;
   /// Smallest number of islands. Limbs are separated first, then large islands are cut into halves. There are fewer
   /// islands only if no seam may run inside any of them.
@@ -77,15 +76,16 @@ struct SeamPlan {
   /// prices of its edges, plus a fixed amount unless the island needs it to become a disc. Wires across the surface may
   /// run beside their slits, and are not priced again.
   double cost = 0.0;
-  /// E_d of the planned map, mean over the area; infinite if an island has no map. Pieces in which no seam may run do
-  /// not count.
+  /// The symmetric Dirichlet energy E_d of the planned map, as in MapReport::energy; infinite if an island has no map.
+  /// Pieces in which no seam may run do not count. If there are such pieces, the map is not scaled before it is
+  /// measured. 4 if no piece counts.
   double energy = 0.0;
   /// Whether the energy is within the bound, and no island that counts overlaps itself.
   bool is_reached = false;
   /// Newton steps that planning took, each times its fraction of the surface.
   double steps = 0.0;
-  /// The planned map: UVs of the caller's corners, in the caller's unit of length. Empty for a plan that is shown
-  /// during the search.
+  /// The planned map: UVs of the caller's corners, in the caller's unit of length. Triangles that the surface left out
+  /// get theirs as in flatten(). Empty for a plan that is shown during the search.
   CornerUvs uvs;
 };
 
