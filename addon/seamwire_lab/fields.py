@@ -235,7 +235,7 @@ def at_vertices(lines: seamwire_core.CrestLines, count: int) -> NDArray[np.float
     values = np.zeros(count)
     is_ridge = lines.curvatures[lines.starts[:-1]] > 0.0
     signed = np.repeat(np.where(is_ridge, lines.strengths, -lines.strengths), np.diff(lines.starts))
-    vertices = lines.edges[np.arange(len(lines.edges)), np.round(lines.parts).astype(np.int64)]
+    vertices = lines.edges[np.arange(len(lines.edges)), np.round(lines.t).astype(np.int64)]
     # The library returns the strongest lines first, so they are written last.
     values[vertices[::-1]] = signed[::-1]
     return values

@@ -95,7 +95,8 @@ void bind_mesh(EmbeddingClass& embedding) {
       .def("with_lengths", &with_lengths, py::arg("lengths"),
            R"(Return the same triangles with other lengths.
 
-The lengths may come from another way of embedding, or from your own metric.
+The lengths may come from another way of embedding, or from your own metric. Attributes that describe the subdivision,
+such as `mean_edge_length`, stay as they are. `estimated_error` and its like are None.
 
 Parameters
 ----------
@@ -110,7 +111,7 @@ Raises
 ------
 ValueError
     If the number of lengths differs from the number of edges, a length is not positive or above 1e76, all lengths are
-    below 1e-76, or a triangle fails the triangle inequality.)")
+    below 1e-76, or a triangle fails the triangle inequality or has no area.)")
       .def("__repr__", &text_of_embedding);
 }
 

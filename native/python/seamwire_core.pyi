@@ -564,7 +564,7 @@ class Embedding:
         ------
         ValueError
             If the number of lengths differs from the number of edges, a length is not positive or above 1e76, all lengths are
-            below 1e-76, or a triangle fails the triangle inequality.
+            below 1e-76, or a triangle fails the triangle inequality or has no area.
         """
     unreachable: NDArray[np.int32]
     """(k,) int32: vertices of faces that no path reaches, because they are in no valid triangle and on no edge that paths follow."""
@@ -2222,7 +2222,7 @@ class CrestLines:
     """(p, 3) float64: the points of all lines, one line after the other. A closed line repeats its first point."""
     edges: NDArray[np.int32]
     """(p, 2) int32: the edge that each point lies on."""
-    parts: NDArray[np.float64]
+    t: NDArray[np.float64]
     """(p,) float64: the position on that edge, from 0 at its first vertex to 1 at its second."""
     curvatures: NDArray[np.float64]
     """(p,) float64: k1, in 1 / side of the unit cube. Above 0 on ridges, below 0 in valleys."""

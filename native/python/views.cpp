@@ -27,7 +27,7 @@ void bind_crest_lines_class(py::module_& module) {
                              "its first point.")
       .def_property_readonly("edges", array_of<CrestLines>(&CrestLines::edges),
                              "(p, 2) int32: the edge that each point lies on.")
-      .def_property_readonly("parts", array_of<CrestLines>(&CrestLines::parts),
+      .def_property_readonly("t", array_of<CrestLines>(&CrestLines::t),
                              "(p,) float64: the position on that edge, from 0 at its first vertex to 1 at its second.")
       .def_property_readonly("curvatures", array_of<CrestLines>(&CrestLines::curvatures),
                              "(p,) float64: k1, in 1 / side of the unit cube. Above 0 on ridges, below 0 in valleys.")

@@ -45,7 +45,7 @@ def test_crest_lines_of_waves_are_ridges_on_tops_and_valleys_on_bottoms() -> Non
     surface, places = waves(40)
     lines = sw.crest_lines(surface, sw.smoothed_curvatures(surface, sw.principal_curvatures(surface)))
     assert len(lines.starts) == len(lines.strengths) + 1
-    assert lines.starts[-1] == len(lines.points) == len(lines.edges) == len(lines.parts) == len(lines.faces)
+    assert lines.starts[-1] == len(lines.points) == len(lines.edges) == len(lines.t) == len(lines.faces)
     assert (np.diff(lines.strengths) <= 0.0).all()
     middles = [lines.points[i:j].mean(axis=0)[0] for i, j in zip(lines.starts, lines.starts[1:], strict=False)]
     for place, sign in zip(places, (-1, 1, -1), strict=True):
@@ -55,7 +55,7 @@ def test_crest_lines_of_waves_are_ridges_on_tops_and_valleys_on_bottoms() -> Non
         assert np.ptp(lines.points[mine, 1]) > 900
         assert (np.sign(lines.curvatures[mine]) == sign).all()
     ends = surface.points[lines.edges]
-    there = ends[:, 0] + lines.parts[:, None] * (ends[:, 1] - ends[:, 0])
+    there = ends[:, 0] + lines.t[:, None] * (ends[:, 1] - ends[:, 0])
     np.testing.assert_allclose(there, lines.points, atol=1e-9)
     inside = lines.faces >= 0
     assert (inside.sum(), (~inside).sum()) == (len(lines.points) - len(lines.strengths), len(lines.strengths))

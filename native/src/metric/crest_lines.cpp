@@ -492,7 +492,7 @@ CrestLines ordered(std::vector<Line> lines) {
     for (const LinePoint& point : line.points) {
       out.points.push_back(point.place);
       out.edges.push_back(point.at.edge);
-      out.parts.push_back(point.at.part);
+      out.t.push_back(point.at.part);
       out.curvatures.push_back(point.curvature);
       out.faces.push_back(point.face);
     }

@@ -36,7 +36,9 @@ Isolines isolines(const Surface& surface, std::span<const double> values, std::s
   check(surface, values, levels);
   Isolines out;
   const std::vector<Triangle>& triangles = surface.triangles();
+  const std::vector<std::int32_t>& duplicates = surface.report().duplicate_faces;
   for (std::size_t f = 0; f < triangles.size(); ++f) {
+    if (std::ranges::binary_search(duplicates, static_cast<std::int32_t>(f))) continue;
     const Triangle& t = triangles[f];
     const std::array<double, 3> at{values[t[0]], values[t[1]], values[t[2]]};
     if (!std::ranges::all_of(at, [](double value) { return std::isfinite(value); })) continue;
@@ -57,6 +59,7 @@ Isolines isolines(const Surface& surface, std::span<const double> values, std::s
       while (is_above(alone) == is_above((alone + 1) % 3) || is_above(alone) == is_above((alone + 2) % 3)) ++alone;
       const std::size_t i = (alone + 1) % 3, j = (alone + 2) % 3;
       const std::array<Vector, 2> ends{crossing(alone, i), crossing(alone, j)};
+      if (ends[0] == ends[1]) continue;  // at a corner
       out.segments.push_back(is_above(alone) ? ends : std::array{ends[1], ends[0]});
       out.faces.push_back(static_cast<std::int32_t>(f));
       out.levels.push_back(static_cast<std::int32_t>(level - levels.begin()));

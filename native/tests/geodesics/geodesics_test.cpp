@@ -522,6 +522,26 @@ TEST(Geodesics, LengthsMayBeInAnyUnit) {
   }
 }
 
+TEST(Geodesics, TrianglesWithoutAnAreaAreRefusedAndNeedlesAreExact) {
+  // A triangle that the mesh's one interior edge bounds on its longest side: nearly flat, then flat.
+  const auto mesh_of = [](double slack) {
+    IntrinsicMesh mesh;
+    mesh.vertex_count = 4;
+    mesh.triangles = {{0, 1, 2}, {2, 1, 3}};
+    mesh.twins = {-1, 3, -1, 1, -1, -1};
+    mesh.lengths = {2, 3, 1 + slack, 3, 3, 1};
+    return mesh;
+  };
+  for (const double slack : {1e-12, 1e-9, 1e-6}) {
+    const ExactGeodesics geodesics(mesh_of(slack));
+    const double there = geodesics.solve(0).distances()[3], back = geodesics.solve(3).distances()[0];
+    EXPECT_NEAR(there, back, 1e-14);
+    EXPECT_NEAR(there, std::sqrt(5.0 / 3.0), 2.0 * std::sqrt(slack));
+  }
+  for (const double slack : {1e-14, 0.0}) expect_invalid(mesh_of(slack), "no area");
+  expect_invalid(mesh_of(-1e-14), "triangle inequality");
+}
+
 TEST(Geodesics, WrongInputIsNamed) {
   const IntrinsicMesh good = intrinsic(shapes::grid(3));
   IntrinsicMesh bad = good;

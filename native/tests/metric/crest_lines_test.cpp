@@ -217,7 +217,7 @@ TEST(CrestLines, RunAcrossFacesFromEdgeToEdge) {
       const auto& [a, b] = lines.edges[p];
       EXPECT_LT(a, b);
       EXPECT_TRUE(std::ranges::binary_search(surface.edges(), lines.edges[p]));
-      const Vector there = (1 - lines.parts[p]) * surface.points()[a] + lines.parts[p] * surface.points()[b];
+      const Vector there = (1 - lines.t[p]) * surface.points()[a] + lines.t[p] * surface.points()[b];
       EXPECT_NEAR((there - lines.points[p]).norm(), 0.0, 1e-14);
       if (p == last) break;
       const Triangle& face = surface.triangles()[lines.faces[p]];

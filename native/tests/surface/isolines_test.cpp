@@ -121,5 +121,19 @@ TEST(Isolines, NameWhatIsWrongWithValuesAndLevels) {
   EXPECT_EQ(message(good, {0.0, 0.5, 0.5}), "levels are not ascending: level 2 is 0.5, after 0.5");
 }
 
+TEST(Isolines, AreThereOnceAndHaveALength) {
+  // Two triangles that touch along the level, and one of them twice.
+  shapes::Mesh mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0.5, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {1, 4, 2}, {2, 0, 1}};
+  const Surface surface = mesh.surface();
+  ASSERT_EQ(surface.report().duplicate_faces, std::vector<std::int32_t>{3});
+  const Isolines half = isolines(surface, values_of(surface, [](const Vector& p) { return p.x(); }), Values{0.5});
+  EXPECT_EQ(half.faces, (std::vector<std::int32_t>{0, 1}));
+  const Isolines corner =
+      isolines(surface, values_of(surface, [](const Vector& p) { return p.x() + p.y(); }), Values{2});
+  for (const auto& segment : corner.segments) EXPECT_GT(length(segment), 0.0);
+}
+
 }  // namespace
 }  // namespace seamwire

@@ -34,7 +34,7 @@ class Crests:
     ----------
     points
         (p, 3) each on an edge. A closed line ends with its first point.
-    edges, parts
+    edges, t
         (p, 2) and (p,): which edge, and where on it, 0 to 1.
     faces
         (p,) the triangle that leads to the next point; -1 at a line's end.
@@ -48,7 +48,7 @@ class Crests:
 
     points: NDArray[np.float64]
     edges: NDArray[np.int32]
-    parts: NDArray[np.float64]
+    t: NDArray[np.float64]
     faces: NDArray[np.int32]
     curvatures: NDArray[np.float64]
     starts: NDArray[np.int32]
@@ -64,7 +64,7 @@ class Crests:
         """
         curvature = core.principal_curvatures(surface, go_on)
         lines = core.crest_lines(surface, core.smoothed_curvatures(surface, curvature, progress=go_on), progress=go_on)
-        return cls(lines.points, lines.edges, lines.parts, lines.faces, lines.curvatures, lines.starts, lines.strengths)
+        return cls(lines.points, lines.edges, lines.t, lines.faces, lines.curvatures, lines.starts, lines.strengths)
 
     def __len__(self) -> int:
         return len(self.strengths)
@@ -87,7 +87,7 @@ class Crests:
     @cached_property
     def vertices(self) -> NDArray[np.int32]:
         """The vertex that each point is nearest to on its edge, (p,)."""
-        return self.edges[np.arange(len(self.edges)), np.round(self.parts).astype(np.int64)]
+        return self.edges[np.arange(len(self.edges)), np.round(self.t).astype(np.int64)]
 
     @cached_property
     def ridges(self) -> NDArray[np.bool_]:

@@ -38,9 +38,10 @@ struct FittedChain {
 /// - kappa is the turn onto the edge (EdgeAdjacency).
 /// - h is the median length of the edges at the faces that the line crosses.
 ///
-/// Parts of the line beyond half an edge do not count. A step along an edge may go back by h + l / 2 on the line, and
-/// ahead by 2 h + 3 l / 2. Only that part of the line counts for the step. So a line may cross itself, and return
-/// beside itself. If a line turns back over itself, so does the chain, and edges that it passes both ways are dropped.
+/// Ends of the line that reach less than half an edge beyond the chain do not count. A step along an edge may go back
+/// by h + l / 2 on the line, and ahead by 2 h + 3 l / 2. Only that part of the line counts for the step. So a line may
+/// cross itself, and return beside itself. If a line turns back over itself, so does the chain, and edges that it
+/// passes both ways are dropped.
 ///
 /// If the line ends where it began, the chain is closed, and repeats its first vertex at the end. If no edges lead all
 /// along the line, as at a gap between components or a hole, the chain ends there. A line shorter than half an edge

@@ -55,8 +55,8 @@ struct EmbedOptions {
 /// Within a triangle, the embedding's metric is the constant form that gives the three sides their lengths. The metric
 /// that it approximates varies linearly between the forms at the corners.
 struct Resolution {
-  /// The EmbedOptions::max_error that the worst triangle meets. An estimate of the mean relative error of distances,
-  /// not a proved bound (docs/benchmarks/exactness.md).
+  /// The least EmbedOptions::max_error that all triangles meet. An estimate of the mean relative error of distances, not
+  /// a proved bound (docs/benchmarks/exactness.md).
   double estimated_error = 0.0;
   /// Number of triangles that miss `max_error`. They are 14 bisections deep, or the budget or the cap allows no more
   /// triangles.
@@ -141,7 +141,8 @@ SEAMWIRE_API Embedding embed(const Surface& surface, const Metric& metric, const
 /// Embed a surface in a changed metric, starting from its embedding in the former one.
 ///
 /// Only triangles around vertices where the metrics differ are bisected anew, and triangles that these bisections
-/// reach. The result is that of embed(surface, metric, options), except for the numbers of new vertices and triangles.
+/// reach. The result is that of embed(surface, metric, options), except for the numbers of new vertices and triangles
+/// and for Embedding::mean_edge_length, see below.
 /// Apart from these triangles, the cost is one comparison of the metrics, vertex by vertex.
 ///
 /// This is embed() if `old` is not local (Embedding::is_local), or if the normals of the metrics differ. An embedding

@@ -21,8 +21,8 @@ class GeodesicMesh;  // the solver's own form of the mesh
 
 /// When a solve may stop.
 ///
-/// A distance is final once the front is the length of the mesh's longest edge beyond it. So stopping early saves less
-/// on a mesh with a long edge.
+/// A distance is final once the front has passed it by the length of the mesh's longest edge. So stopping early saves
+/// less on a mesh with a long edge.
 struct SolveOptions {
   /// Largest distance to compute, 0 or more. Larger distances are infinite in the result.
   double max_distance = std::numeric_limits<double>::infinity();
@@ -44,7 +44,7 @@ class SEAMWIRE_API ExactGeodesics {
   ///
   /// \param mesh the mesh. Lengths are at most 1e76, and the longest one is at least 1e-76.
   /// \param task progress and cancellation
-  /// \throws InvalidInput if a vertex or a length is out of range, or a triangle violates the triangle inequality
+  /// \throws InvalidInput if a vertex or a length is out of range, or a triangle's lengths leave it no area
   /// \throws InvalidInput if arrays have the wrong size, or twins or siblings do not match
   /// \throws Cancelled if the task is cancelled
   explicit ExactGeodesics(const IntrinsicMesh& mesh, const Task& task = {});

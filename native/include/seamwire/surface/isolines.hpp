@@ -14,6 +14,7 @@ namespace seamwire {
 /// The curves where a function on a surface has given values, as straight segments across one triangle each.
 ///
 /// Together the segments form closed curves, or curves that end on the boundary and at triangles that are left out.
+/// Segments have a length, so a triangle that only touches a curve with a corner has none.
 struct Isolines {
   std::vector<std::array<Vector, 2>> segments;  ///< both ends, in the caller's coordinates
   std::vector<std::int32_t> faces;              ///< the caller's triangle of each segment
