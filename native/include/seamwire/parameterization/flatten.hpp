@@ -71,8 +71,7 @@ struct Flattening {
 
 /// Map each island of a surface to the plane, without flips and with little stretch.
 ///
-/// An island may overlap itself in spite of FlattenOptions::keep_apart, although that is rare. FlatIsland::overlaps
-/// tells.
+/// In rare cases, an island overlaps itself in spite of FlattenOptions::keep_apart. FlatIsland::overlaps reports this.
 ///
 /// Islands are the segments of face_segments(). Projected Newton steps lead from Tutte's embedding to a local minimum
 /// of the symmetric Dirichlet energy. Islands are solved on several threads. The result does not depend on the number
