@@ -59,6 +59,7 @@ class Collapsing {
         valences_(mesh.vertex_count(), 0),
         listed_(mesh.vertex_count(), 0),
         version_(mesh.vertex_count(), 0),
+        queue_poll_(task),
         left_(mesh.face_count()) {
     resize(next_corner_, 3 * mesh.face_count(), task, 0.0);
     resize(quadrics_, mesh.vertex_count(), task, 0.0);
@@ -183,13 +184,22 @@ class Collapsing {
         if (v < other) queue_.push_back(better_entry(v, other));
       }
     }
-    std::make_heap(queue_.begin(), queue_.end());
+    make_heap();
+  }
+  void make_heap() {
+    std::make_heap(queue_.begin(), queue_.end(), [&](const Entry& one, const Entry& other) {
+      queue_poll_.next();
+      return one < other;
+    });
   }
   void push(const Entry& entry) {
     if (queue_.size() == queue_.capacity()) {
       // Most entries are of edges that have changed since.
-      std::erase_if(queue_, [&](const Entry& old) { return !is_valid(old); });
-      std::make_heap(queue_.begin(), queue_.end());
+      std::erase_if(queue_, [&](const Entry& old) {
+        queue_poll_.next();
+        return !is_valid(old);
+      });
+      make_heap();
     }
     queue_.push_back(entry);
     std::push_heap(queue_.begin(), queue_.end());
@@ -212,6 +222,7 @@ class Collapsing {
   std::vector<std::int32_t> version_;
   std::unordered_map<std::int32_t, std::vector<std::int32_t>> features_;  // see features()
   std::vector<Entry> queue_;                                              // a heap
+  Poll queue_poll_;
   std::size_t left_;
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -69,12 +70,23 @@ struct RegionBorder {
   Link link;
 };
 
+/// container.clear() with looks at the task: freeing a million vectors or maps takes a while.
+template <class Container>
+void polled_clear(Container& container, const Task& task) {
+  Poll poll(task);
+  while (!container.empty()) {
+    poll.next();
+    container.erase(std::prev(container.end()));
+  }
+}
+
 class Joining {
  public:
   Joining(std::span<const Region> regions, std::span<const RegionBorder> borders, const Task& task)
       : regions_(regions.begin(), regions.end()),
         parents_(regions.size()),
         links_(regions.size()),
+        task_(task),
         poll_(task, 0.0, 1.0, borders.size() + 2 * regions.size(), Poll::kFewSteps) {
     std::iota(parents_.begin(), parents_.end(), 0);
     for (const RegionBorder& border : borders) {
@@ -90,6 +102,7 @@ class Joining {
     join_small();
     std::vector<std::int32_t> found;
     for (std::size_t r = 0; r < parents_.size(); ++r) found.push_back(root(static_cast<std::int32_t>(r)));
+    polled_clear(links_, task_);
     return found;
   }
 
@@ -214,6 +227,7 @@ class Joining {
   std::vector<Region> regions_;
   std::vector<std::int32_t> parents_;
   std::vector<std::map<std::int32_t, Link>> links_;
+  const Task& task_;
   Poll poll_;
   using Offer = std::tuple<double, std::int32_t, std::int32_t>;
   std::priority_queue<Offer, std::vector<Offer>, std::greater<>> open_;
@@ -264,6 +278,8 @@ std::vector<std::int32_t> images_of(const PlanMesh& mesh, const Polygons& polygo
   for (std::size_t p = 0; p < images.size(); ++p) {
     if (images[p] >= 0 && index(images[images[p]]) != p) images[p] = -1;
   }
+  polled_clear(by_corners, task);
+  polled_clear(corners, task);
   return images;
 }
 
@@ -441,6 +457,7 @@ std::vector<std::int32_t> PartFinder::Impl::joined(double amount, const PartEdit
   const Poll poll(task);
   const double bias = amount > 0.0 ? bias_of(amount) : -kInfinity;
   std::vector<RegionBorder> found;
+  found.reserve(mesh.edge_count());
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
     poll.at(index(e));

@@ -39,7 +39,6 @@ void connect(PlanMesh& mesh, std::optional<std::span<const Edge>> real_edges, co
   }
   mesh.lengths.clear();
   mesh.is_real.clear();
-  std::vector<std::pair<std::int32_t, PlanNeighbor>> neighbors, all_neighbors;
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     poll.next();
     const std::int32_t a = mesh.tail(mesh.half_edge_of[e]), b = mesh.tip(mesh.half_edge_of[e]);
@@ -48,22 +47,20 @@ void connect(PlanMesh& mesh, std::optional<std::span<const Edge>> real_edges, co
     const Edge edge{std::min(one, other), std::max(one, other)};
     const bool is_real = a != b && (!real_edges || std::ranges::binary_search(*real_edges, edge));
     mesh.is_real.push_back(is_real ? 1 : 0);
-    for (auto* list : {&neighbors, &all_neighbors}) {
-      if (list == &neighbors && !is_real) continue;
-      list->push_back({a, {b, e}});
-      list->push_back({b, {a, e}});
-    }
   }
-  const auto by_vertex = [&](const std::vector<std::pair<std::int32_t, PlanNeighbor>>& pairs) {
+  const auto neighbors = [&](bool are_real) {
     return Csr<PlanNeighbor>(mesh.vertex_count(), [&](const auto& visit) {
-      for (const auto& [vertex, neighbor] : pairs) {
+      for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
         poll.next();
-        visit(vertex, neighbor);
+        if (are_real && mesh.is_real[e] == 0) continue;
+        const std::int32_t a = mesh.tail(mesh.half_edge_of[e]), b = mesh.tip(mesh.half_edge_of[e]);
+        visit(a, PlanNeighbor{b, e});
+        visit(b, PlanNeighbor{a, e});
       }
     });
   };
-  mesh.neighbors = by_vertex(neighbors);
-  mesh.all_neighbors = by_vertex(all_neighbors);
+  mesh.neighbors = neighbors(true);
+  mesh.all_neighbors = neighbors(false);
 }
 
 PlanMesh plan_mesh(const Surface& surface, const Task& task) {

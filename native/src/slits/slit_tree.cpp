@@ -26,25 +26,22 @@ namespace seamwire::detail {
 IslandGraph::IslandGraph(const Island& island, std::span<const Vector> points, const Task& task)
     : areas(island.vertices.size(), 0.0) {
   Poll poll(task);
-  std::vector<std::pair<std::int32_t, Neighbor>> pairs;
-  for (std::size_t k = 0; k < island.triangles.size(); ++k) {
+  const auto point = [&](const Triangle& t, std::size_t i) { return points[island.vertices[t[i % 3]]]; };
+  for (const Triangle& t : island.triangles) {
     poll.next();
-    const Triangle& t = island.triangles[k];
-    const auto point = [&](std::size_t i) { return points[island.vertices[t[i % 3]]]; };
-    const double area = 0.5 * (point(1) - point(0)).cross(point(2) - point(0)).norm();
-    for (std::size_t i = 0; i < 3; ++i) {
-      areas[t[i]] += area / 3.0;
-      const std::int32_t twin = island.twins[3 * k + i];
-      if (twin >= 0 && index(twin) < 3 * k + i) continue;
-      const double length = (point(i + 1) - point(i)).norm();
-      pairs.push_back({t[i], {t[(i + 1) % 3], length}});
-      pairs.push_back({t[(i + 1) % 3], {t[i], length}});
-    }
+    const double area = 0.5 * (point(t, 1) - point(t, 0)).cross(point(t, 2) - point(t, 0)).norm();
+    for (const std::int32_t v : t) areas[v] += area / 3.0;
   }
   neighbors = Csr<Neighbor>(island.vertices.size(), [&](const auto& visit) {
-    for (const auto& [vertex, neighbor] : pairs) {
+    for (std::size_t h = 0; h < island.twins.size(); ++h) {
       poll.next();
-      visit(vertex, neighbor);
+      const std::int32_t twin = island.twins[h];
+      if (twin >= 0 && index(twin) < h) continue;
+      const Triangle& t = island.triangles[h / 3];
+      const std::size_t i = h % 3;
+      const double length = (point(t, i + 1) - point(t, i)).norm();
+      visit(t[i], Neighbor{t[(i + 1) % 3], length});
+      visit(t[(i + 1) % 3], Neighbor{t[i], length});
     }
   });
 }
@@ -254,15 +251,15 @@ class HandleLoops {
   }
 
   void find_tree(std::int32_t root) {
-    std::vector<std::pair<std::int32_t, std::pair<std::int32_t, double>>> pairs;
-    for (std::int32_t h = 0; index(h) < island_.twins.size(); ++h) {
-      poll_.next();
-      const double price = edge_price(h);
-      if ((island_.twins[h] >= 0 && island_.twins[h] < h) || !std::isfinite(price)) continue;
-      pairs.push_back({island_.tail(h), {island_.tip(h), price}});
-      pairs.push_back({island_.tip(h), {island_.tail(h), price}});
-    }
-    const Csr<std::pair<std::int32_t, double>> neighbors(price_.size(), pairs);
+    const Csr<std::pair<std::int32_t, double>> neighbors(price_.size(), [&](const auto& visit) {
+      for (std::int32_t h = 0; index(h) < island_.twins.size(); ++h) {
+        poll_.next();
+        const double price = edge_price(h);
+        if ((island_.twins[h] >= 0 && island_.twins[h] < h) || !std::isfinite(price)) continue;
+        visit(island_.tail(h), std::pair(island_.tip(h), price));
+        visit(island_.tip(h), std::pair(island_.tail(h), price));
+      }
+    });
     find_shortest_paths(std::array{root}, price_, [&](std::int32_t v, const auto& step) {
       poll_.next();
       for (const auto& [next, price] : neighbors[v]) {

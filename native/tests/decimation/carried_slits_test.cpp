@@ -105,5 +105,18 @@ TEST(CarriedSlits, RingsStayClosed) {
   EXPECT_EQ(parted.pieces.count, 2);
 }
 
+TEST(CarriedSlits, LookAtTheTaskForEachChain) {
+  const Simplified pair(shapes::icosphere(4).surface(), 400);
+  const SlitTree tree = grow_tree(pair.simple, true, {});
+  const auto carry = [&](const Task& task) {
+    carried_slits(pair.simple, pair.mesh.vertices, pair.original, tree.slits, task);
+  };
+  std::size_t looks = 0;
+  carry({.stop = {}, .progress = [&](double) { return ++looks > 0; }});
+  ASSERT_FALSE(tree.slits.empty());
+  EXPECT_GE(looks, tree.slits.size());
+  EXPECT_THROW(carry({.stop = {}, .progress = [&](double) { return --looks > 0; }}), Cancelled);
+}
+
 }  // namespace
 }  // namespace seamwire

@@ -75,7 +75,7 @@ TEST(EdgePrices, GrowWithWeights) {
   const Surface surface = shapes::icosphere(2).surface();
   const SlitProblem plain = problem_on(surface);
   const SlitProblem heavy = problem_on(surface, {.weights = std::vector<double>(surface.vertex_count(), 3.0)});
-  for (std::int32_t e = 0; e < static_cast<std::int32_t>(plain.mesh.edge_count()); ++e) {
+  for (std::int32_t e = 0; e < static_cast<std::int32_t>(plain.mesh->edge_count()); ++e) {
     EXPECT_NEAR(unit_price(heavy, e), 3.0 * unit_price(plain, e), 1e-12);
   }
 }
@@ -84,12 +84,12 @@ TEST(EdgePrices, AreTheSameOnBothSides) {
   const Surface surface = shapes::dumbbell(12, 20).surface();
   std::vector<double> weights(surface.vertex_count(), 1.0);
   const SlitProblem before = problem_on(surface, {.mirror = 0, .front = Vector(1, 1, 0)});
-  weights[static_cast<std::size_t>(before.mesh.sources[nearest_vertex(before.mesh, {0.45, 0, 0})])] = 4.0;
+  weights[static_cast<std::size_t>(before.mesh->sources[nearest_vertex(*before.mesh, {0.45, 0, 0})])] = 4.0;
   // Free on one side, barred on the other: barred on both.
-  weights[static_cast<std::size_t>(before.mesh.sources[nearest_vertex(before.mesh, {-1, 0, 0})])] = 0.0;
-  weights[static_cast<std::size_t>(before.mesh.sources[nearest_vertex(before.mesh, {1, 0, 0})])] = kInfinity;
-  for (std::int32_t v = 0; v < static_cast<std::int32_t>(before.mesh.vertex_count()); ++v) {
-    if (before.mesh.points[v].x() / before.mesh.scale < -0.95) weights[before.mesh.sources[v]] = 0.0;
+  weights[static_cast<std::size_t>(before.mesh->sources[nearest_vertex(*before.mesh, {-1, 0, 0})])] = 0.0;
+  weights[static_cast<std::size_t>(before.mesh->sources[nearest_vertex(*before.mesh, {1, 0, 0})])] = kInfinity;
+  for (std::int32_t v = 0; v < static_cast<std::int32_t>(before.mesh->vertex_count()); ++v) {
+    if (before.mesh->points[v].x() / before.mesh->scale < -0.95) weights[before.mesh->sources[v]] = 0.0;
   }
   const SlitProblem problem = problem_on(surface, {.mirror = 0, .front = Vector(1, 1, 0), .weights = weights});
   ASSERT_TRUE(problem.reflection && problem.reflection->is_exact);

@@ -127,8 +127,6 @@ class SEAMWIRE_API SeamPlanner {
 
   /// Plan seams.
   ///
-  /// Cancelling takes effect within some tenths of a second on large surfaces.
-  ///
   /// \param goal what the seams have to achieve
   /// \param found called on this thread with each better plan. The first one has the trees of all pieces. May be empty.
   /// \param task progress and cancellation
