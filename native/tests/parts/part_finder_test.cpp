@@ -20,6 +20,7 @@
 #include "prices/border_odds.hpp"
 #include "seamwire/surface/segments.hpp"
 #include "shapes.hpp"
+#include "surface/real_edges.hpp"
 
 namespace seamwire {
 
@@ -221,6 +222,43 @@ TEST(PartFinder, parts_at_marked_edges_that_look_like_diagonals) {
   EXPECT_EQ(PartFinder(surface, {.marked = line}).find().count, 2u);
   EXPECT_EQ(PartFinder(surface, {.seams = line}).find().count, 2u);
   EXPECT_TRUE(PartFinder(surface, {.seams = line}).find().borders.empty());
+}
+
+TEST(PartFinder, parts_at_kept_edges_that_look_like_diagonals) {
+  const Surface quads = shapes::quad_grid(4).surface();
+  const auto triangles = shared(Surface(quads.points(), quads.triangles()));
+  for (const Triangle& t : quads.triangles()) {
+    const std::array<Edge, 3> sides{ascending(t[0], t[1]), ascending(t[1], t[2]), ascending(t[2], t[0])};
+    const auto diagonal = std::ranges::find_if(sides, [&](const Edge& side) { return !has_edge(quads, side); });
+    ASSERT_NE(diagonal, sides.end());
+    const std::vector<Edge> borders = edges_of(PartFinder(triangles).find(0.5, {.kept = {*diagonal}}));
+    const auto is_kept = [&](const Edge& edge) { return ascending(edge[0], edge[1]) == *diagonal; };
+    EXPECT_TRUE(std::ranges::any_of(borders, is_kept));
+    EXPECT_EQ(PartFinder(shared(quads)).find(0.5, {.kept = {*diagonal}}).count, 1u) << "inside a polygon";
+  }
+}
+
+TEST(PartFinder, has_no_borders_inside_a_part) {
+  // The right half of a square is two strips. Each strip has half of the left half as its mirror image, so the image of
+  // a cut across a strip ends inside of the left half.
+  const auto surface = shared(shapes::quad_grid(8).surface());
+  std::vector<Edge> seams;
+  for (const Edge& edge : surface->edges()) {
+    const double one = surface->points()[edge[0]].x(), other = surface->points()[edge[1]].x();
+    if (one == other && (one == 0.5 || one == 0.75)) seams.push_back(edge);
+  }
+  const PartFinder finder(surface, {.mirror = 0, .seams = seams});
+  EXPECT_TRUE(finder.find().borders.empty());
+  const auto is_in_strip = [&](const Triangle& t) {
+    const double x = (surface->points()[t[0]] + surface->points()[t[1]] + surface->points()[t[2]]).x() / 3.0;
+    return 0.5 < x && x < 0.75;
+  };
+  const auto face = std::ranges::find_if(surface->triangles(), is_in_strip) - surface->triangles().begin();
+  const Parts parts = finder.find(0.5, {.parted = {static_cast<std::int32_t>(face)}});
+  EXPECT_EQ(parts.count, 4u);
+  for (const Edge& edge : edges_of(parts)) {
+    for (const std::int32_t v : edge) EXPECT_GE(surface->points()[v].x(), 0.5);
+  }
 }
 
 TEST(PartFinder, ends_borders_at_existing_seams) {
@@ -436,6 +474,42 @@ TEST(PartFinder, finds_symmetric_parts) {
       images.insert({std::min(image(a), image(b)), std::max(image(a), image(b))});
     }
     EXPECT_EQ(own, images) << amount;
+  }
+}
+
+/// The triangle at the mirror image of each triangle. The mesh has one for each.
+std::vector<std::int32_t> mirrored_triangles(const shapes::Mesh& mesh, int axis) {
+  const auto corners = [&](const Triangle& triangle, bool is_mirrored) {
+    std::array<std::array<double, 3>, 3> found{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      Vector point = mesh.points[triangle[i]];
+      if (is_mirrored) point[axis] = 0.0 - point[axis];
+      for (int k = 0; k < 3; ++k) found[i][static_cast<std::size_t>(k)] = std::round(1e6 * point[k]) + 0.0;
+    }
+    std::ranges::sort(found);
+    return found;
+  };
+  std::map<std::array<std::array<double, 3>, 3>, std::int32_t> by_corners;
+  std::vector<std::int32_t> images;
+  for (const Triangle& triangle : mesh.triangles) {
+    by_corners.emplace(corners(triangle, false), static_cast<std::int32_t>(by_corners.size()));
+  }
+  for (const Triangle& triangle : mesh.triangles) images.push_back(by_corners.at(corners(triangle, true)));
+  return images;
+}
+
+TEST(PartFinder, finds_symmetric_parts_where_triangles_could_be_paired_in_several_ways) {
+  for (const double waves : {3.0, 3.3, 3.6, 3.9, 4.2}) {
+    shapes::Mesh mesh = shapes::icosphere(2, 1.0);
+    for (Vector& p : mesh.points) {
+      p *= 1.0 + 0.6 * std::sin(waves * std::abs(p.x())) + 0.2 * std::cos(4.0 * p.y());
+      for (double& x : p) x = std::copysign(std::pow(std::abs(x), 0.3), x);  // as a box is
+    }
+    const std::vector<std::int32_t> images = mirrored_triangles(mesh, 0);
+    const Parts parts = PartFinder(shared(mesh.surface()), {.mirror = 0}).find(0.8);
+    std::set<std::pair<std::int32_t, std::int32_t>> pairs;
+    for (std::size_t f = 0; f < images.size(); ++f) pairs.emplace(parts.of_face[f], parts.of_face[images[f]]);
+    EXPECT_EQ(pairs.size(), parts.count) << waves;
   }
 }
 

@@ -14,8 +14,8 @@ namespace seamwire {
 
 /// Options of a PartFinder.
 struct PartOptions {
-  /// The axis, 0 (x) to 2 (z), in whose direction the surface is mirrored, as in SeamPlannerOptions. Parts of a
-  /// symmetric surface are then symmetric. -1: they need not be.
+  /// The axis, 0 (x) to 2 (z), in whose direction the surface is mirrored, as in SeamPlannerOptions. Parts are then
+  /// symmetric where the triangles are, see also PartEdits::parted. -1: they need not be.
   int mirror = -1;
   /// Edges where an artist expects a border, as vertex pairs: edges marked sharp, or edges between materials.
   std::vector<Edge> marked = {};
@@ -25,9 +25,11 @@ struct PartOptions {
 
 /// Changes made by hand. They outweigh the shape.
 struct PartEdits {
-  std::vector<Edge> kept = {};            ///< edges that must be borders
-  std::vector<Edge> dropped = {};         ///< edges that must not be borders
-  std::vector<std::int32_t> parted = {};  ///< a triangle of each part to cut in two, one after another
+  std::vector<Edge> kept = {};     ///< edges that must be borders
+  std::vector<Edge> dropped = {};  ///< edges that must not be borders
+  /// A triangle of each part to cut in two, one after another. The cut through a symmetric part is symmetric if such a
+  /// cut leaves each half a fifth of the area.
+  std::vector<std::int32_t> parted = {};
 };
 
 /// The parts of a surface.

@@ -45,7 +45,9 @@ struct SeamGoal {
   /// Smallest number of islands. Limbs are separated first, then large islands are cut into halves. There are fewer
   /// islands only if no seam may run inside any of them.
   std::size_t islands = 0;
-  /// Largest number of Newton steps of the search in each piece. 0: 4000.
+  /// The number of Newton steps after which the search in a piece ends. It finishes what it has begun, so the first map
+  /// and the first trials may take many times a small number. A piece that misses the bound is searched again, with as
+  /// many steps. 0: 4000.
   std::size_t steps = 0;
 };
 
@@ -95,8 +97,9 @@ struct SeamPlan {
 /// planner starts with a tree of slits to the tips of limbs. Then it adds slits where the map is distorted. It shortens
 /// and exchanges them while the distortion stays within a bound.
 ///
-/// Slits follow sharp edges, creases and thin rims that are near. On a symmetric surface they come in mirrored pairs.
-/// Large surfaces are planned on a simplified mesh.
+/// Slits follow sharp edges, creases and thin rims that are near. On a symmetric surface, most slits run along the
+/// mirror plane or come in mirrored pairs. A slit stays alone if its image would part an island. Where no edges lie in
+/// the plane, slits run beside it. Large surfaces are planned on a simplified mesh.
 ///
 /// Existing seams divide the surface into pieces. Each piece is planned by itself, and together with its mirror image
 /// if it has one. Congruent pieces that are equally visible are planned once.
