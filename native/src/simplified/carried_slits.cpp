@@ -7,17 +7,12 @@
 #include "detail/index.hpp"
 #include "slits/slit_paths.hpp"
 #include "slits/slit_plan.hpp"
+#include "wires/polyline.hpp"
 
 namespace seamwire::detail {
 namespace {
 
 constexpr double kDetour = 1.6;  // a chain that is so many times longer than the slit leads around something
-
-double length_of(std::span<const Vector> line) {
-  double sum = 0.0;
-  for (std::size_t i = 1; i < line.size(); ++i) sum += (line[i] - line[i - 1]).norm();
-  return sum;
-}
 
 class Carrying {
  public:
