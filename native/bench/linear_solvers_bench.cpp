@@ -108,7 +108,7 @@ Eigen::VectorXd measure_ours(const System& system, int repeats) {
   std::size_t numbers = 0;
   for (int i = 0; i < repeats; ++i) {
     std::optional<BlockCholesky> solver;
-    times.analyze.push_back(seconds([&] { solver.emplace(system.vertex_blocks.size(), system.edges); }));
+    times.analyze.push_back(seconds([&] { solver.emplace(system.vertex_blocks.size(), system.edges, Task{}); }));
     solver->clear();
     const auto add = [&](std::int32_t a, std::int32_t b, const Eigen::Matrix2d& block) {
       const BlockEntry at = solver->block(a, b);
@@ -125,7 +125,7 @@ Eigen::VectorXd measure_ours(const System& system, int repeats) {
       const auto& [a, b] = system.edges[e];
       add(b, a, system.edge_blocks[e]);
     }
-    times.factor.push_back(seconds([&] { solver->factor(); }));
+    times.factor.push_back(seconds([&] { solver->factor({}); }));
     solution = system.right;
     times.solve.push_back(seconds([&] {
       solver->solve({solution.data(), static_cast<std::size_t>(solution.size())});

@@ -14,8 +14,9 @@
 #include <utility>
 #include <vector>
 
-#include "seamwire/parameterization/flatten.hpp"
-#include "seamwire/surface/surface.hpp"
+#include "seamwire/parameterization/measure_map.hpp"
+#include "seamwire/surface/types.hpp"
+#include "seamwire/surface/vector.hpp"
 
 /// Conversions between NumPy's arrays and the library's vectors.
 namespace seamwire::python {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "arrays.hpp"
+#include "detail/poll.hpp"
 #include "held.hpp"
 #include "metric.hpp"
 #include "names.hpp"
@@ -91,7 +92,8 @@ Held<EdgeWiresObject> find_edge_wires(const SurfaceObject& surface, const Metric
   check_size("metric", metric.metric.size(), *surface.surface);
   return Watch(progress).run([&](const Task& task) {
     return make_held<EdgeWiresObject>(EdgeWiresObject{
-        count, edge_wires(metric.edge_graph(surface.surface, beginning(task)), pick, turning, forward, task)});
+        count,
+        edge_wires(metric.edge_graph(surface.surface, detail::part_of(task, 0.0, 0.0)), pick, turning, forward, task)});
   });
 }
 
@@ -136,7 +138,7 @@ EdgeChain find_shortest_cycle(const SurfaceObject& surface, const MetricObject& 
   const Edge through = edge_from(edge, surface.surface->vertex_count(), "edge");
   check_size("metric", metric.metric.size(), *surface.surface);
   return Watch(progress).run([&](const Task& task) {
-    return shortest_cycle(*metric.edge_graph(surface.surface, beginning(task)), through, turning, task);
+    return shortest_cycle(*metric.edge_graph(surface.surface, detail::part_of(task, 0.0, 0.0)), through, turning, task);
   });
 }
 
@@ -173,8 +175,8 @@ FittedChain fit_chain_to(const SurfaceObject& surface, const py::object& points,
                          const py::object& begin, const py::object& end, const py::object& progress) {
   const LineGiven line(points, faces, begin, end, surface.surface->vertex_count());
   return Watch(progress).run([&](const Task& task) {
-    return fit_chain(*surface.surface, *surface.context.edge_adjacency(beginning(task)), line.drawn(), line.begin,
-                     line.end, task);
+    return fit_chain(*surface.surface, *surface.context.edge_adjacency(detail::part_of(task, 0.0, 0.0)), line.drawn(),
+                     line.begin, line.end, task);
   });
 }
 

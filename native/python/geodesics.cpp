@@ -12,6 +12,7 @@
 
 #include "arrays.hpp"
 #include "detail/index.hpp"
+#include "detail/poll.hpp"
 #include "embedding.hpp"
 #include "held.hpp"
 #include "picks.hpp"
@@ -282,7 +283,7 @@ Held<FieldObject> make_field(const std::shared_ptr<EmbeddingObject>& embedding, 
                              const std::optional<double>& max_distance) {
   Solve solve = solve_from(*embedding->surface, seed, targets, max_distance);
   return Watch(progress).run([&](const Task& task) {
-    const ExactGeodesics& geodesics = embedding->geodesics(beginning(task));
+    const ExactGeodesics& geodesics = embedding->geodesics(detail::part_of(task, 0.0, 0.0));
     for (SurfacePoint& point : solve.seeds) point = embedding->find(point, "seed");
     for (SurfacePoint& point : solve.options.targets) point = embedding->find(point, "target");
     return make_held<FieldObject>(FieldObject{embedding, geodesics.solve(solve.seeds, solve.options, task)});

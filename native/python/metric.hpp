@@ -8,7 +8,7 @@
 
 #include "detail/computed_once.hpp"
 #include "detail/thread_safety.hpp"
-#include "seamwire/edges/edge_wires.hpp"
+#include "seamwire/edges/edge_graph.hpp"
 #include "seamwire/metric/curvature.hpp"
 #include "seamwire/metric/metric.hpp"
 #include "seamwire/surface/surface.hpp"

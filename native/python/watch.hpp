@@ -4,7 +4,6 @@
 #include <pybind11/pybind11.h>
 
 #include <chrono>
-#include <optional>
 #include <utility>
 
 #include "gil.hpp"
@@ -96,11 +95,6 @@ class Watch {
   Clock::time_point next_;
   Raised raised_;
 };
-
-/// The task for preparations of the work itself. They can be cancelled, and their progress is 0.
-inline Task beginning(const Task& task) {
-  return {.stop = task.stop, .progress = [progress = task.progress](double) { return !progress || progress(0.0); }};
-}
 
 /// Returns work(), run without the GIL.
 template <class Work>

@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "arrays.hpp"
+#include "detail/poll.hpp"
+#include "held.hpp"
 #include "names.hpp"
 #include "picks.hpp"
 #include "rooms.hpp"
@@ -101,7 +103,7 @@ Cancelled
 
 py::array snap(const SurfaceObject& surface, const Wire& wire, const py::object& progress) {
   return handed_over(Watch(progress).run([&](const Task& task) {
-    return snap_to_edges(*surface.surface, *surface.context.snap_graph(beginning(task)), wire, task);
+    return snap_to_edges(*surface.surface, *surface.context.snap_graph(detail::part_of(task, 0.0, 0.0)), wire, task);
   }));
 }
 

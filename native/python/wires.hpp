@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "embedding.hpp"
-#include "held.hpp"
 #include "seamwire/wires/bent_wires.hpp"
 
 namespace seamwire::python {

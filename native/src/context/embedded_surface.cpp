@@ -7,21 +7,12 @@
 
 #include "context/surface_context.hpp"
 #include "detail/index.hpp"
+#include "detail/poll.hpp"
 #include "metric/metric_check.hpp"
 
 namespace seamwire {
 
 using namespace detail;
-
-namespace {
-
-/// For what is made once before the work itself, and counts as nothing of it.
-Task beginning(const Task& task) {
-  if (!task.progress) return task;
-  return {.stop = task.stop, .progress = [&task](double) { return task.progress(0.0); }};
-}
-
-}  // namespace
 
 EmbeddedSurface::Data::Data(const SurfaceContext& of, std::shared_ptr<const Metric> in, const EmbedOptions& with,
                             const Task& task)
@@ -35,9 +26,8 @@ EmbeddedSurface::EmbeddedSurface(const SurfaceContext& context, const MetricSpec
     data_ = std::move(found->data_);
     return;
   }
-  const Task silent{.stop = task.stop, .progress = {}};
-  *this =
-      EmbeddedSurface(context, spec, std::make_shared<const Metric>(make_metric(context, spec, silent)), options, task);
+  auto metric = std::make_shared<const Metric>(make_metric(context, spec, part_of(task, 0.0, 0.0)));
+  *this = EmbeddedSurface(context, spec, std::move(metric), options, task);
 }
 
 EmbeddedSurface::EmbeddedSurface(const SurfaceContext& context, const MetricSpec& spec,
@@ -69,9 +59,9 @@ EmbeddedSurface EmbeddedSurface::with_metric(std::shared_ptr<const Metric> metri
   made.data_->embedding = std::make_shared<const Embedding>(
       re_embed(surface(), this->metric(), made.metric(), embedding(), data_->options, task));
   if (const auto former = data_->geodesics.peek()) {
-    const Task silent{.stop = task.stop, .progress = {}};
-    made.data_->geodesics.get(
-        silent, [&](const Task& own) { return ExactGeodesics(*former, embedding().mesh, made.embedding().mesh, own); });
+    made.data_->geodesics.get(part_of(task, 1.0, 1.0), [&](const Task& own) {
+      return ExactGeodesics(*former, embedding().mesh, made.embedding().mesh, own);
+    });
   }
   return made;
 }
@@ -127,7 +117,7 @@ EmbeddedField EmbeddedSurface::field(std::span<const SurfacePoint> sources, cons
   for (const SurfacePoint& source : sources) seeds.push_back(locate(source, "seed"));
   SolveOptions own{.max_distance = options.max_distance, .targets = {}};
   for (const SurfacePoint& target : options.targets) own.targets.push_back(locate(target, "target"));
-  return {*this, geodesics(beginning(task)).solve(seeds, own, task)};
+  return {*this, geodesics(part_of(task, 0.0, 0.0)).solve(seeds, own, task)};
 }
 
 double EmbeddedField::distance(const SurfacePoint& point, const Task& task) const {
@@ -143,7 +133,7 @@ std::vector<ClosedWire> EmbeddedField::closed_wires(std::size_t count, const Tas
 }
 
 BentWires EmbeddedField::bend(const ClosedWire& cut, const Task& task) const {
-  return {on_.data_->surface, on_.data_->embedding, on_.geodesics(beginning(task)), distances_, cut, task};
+  return {on_.data_->surface, on_.data_->embedding, on_.geodesics(part_of(task, 0.0, 0.0)), distances_, cut, task};
 }
 
 }  // namespace seamwire

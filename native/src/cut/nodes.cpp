@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cut/tolerances.hpp"
+#include "detail/infinity.hpp"
 #include "surface/point_segment.hpp"
 
 namespace seamwire::detail {

@@ -9,6 +9,7 @@
 #include "cut/joined_pieces.hpp"
 #include "cut/tolerances.hpp"
 #include "cut/walk.hpp"
+#include "detail/infinity.hpp"
 
 namespace seamwire::detail {
 namespace {

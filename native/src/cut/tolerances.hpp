@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "detail/infinity.hpp"
-
 namespace seamwire::detail {
 
 /// Which vertex or edge a curve's point is on, as part of a triangle's longest side: stored curves are rounded.

@@ -14,6 +14,7 @@
 
 #include "cut/tolerances.hpp"
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
 #include "surface/point_segment.hpp"
 
 namespace seamwire::detail {

@@ -4,10 +4,7 @@
 // sum, so all give the same bits.
 #pragma once
 
-#include <cstddef>
 #include <vector>
-
-#include "detail/always_inline.hpp"
 
 /// Before a loop without a branch, which the compiler should turn into vector instructions.
 #if defined(__clang__)

@@ -44,6 +44,16 @@ class Poll {
   std::size_t steps_ = 0;
 };
 
+/// Sorts items by their keys. If the task stops it, the items are in no order, and some may be lost.
+template <class T, class KeyOf>
+void sort_by(std::vector<T>& items, const KeyOf& key_of, const Task& task, double progress) {
+  Poll poll(task, progress, progress, 1);
+  std::ranges::sort(items, {}, [&](const T& item) {
+    poll.next();
+    return std::invoke(key_of, item);
+  });
+}
+
 /// The task for a part of the work, which counts from 0 to 1 itself. `task` must outlive it.
 inline Task part_of(const Task& task, double begin, double end) {
   if (!task.progress) return task;

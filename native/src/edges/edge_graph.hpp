@@ -45,7 +45,7 @@ class EdgeGraph {
   double mean_length_ = 0.0;
 };
 
-/// Throws InvalidInput where it is not a finite number of at least 0.
+/// Throws InvalidInput if it is not a finite number of at least 0.
 void check_turning(double turning);
 
 }  // namespace seamwire

@@ -2,7 +2,6 @@
 #include "seamwire/edges/fit_chain.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <queue>

@@ -2,10 +2,12 @@
 #include "seamwire/edges/shortest_cycle.hpp"
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
-#include "detail/bucket_queue.hpp"
 #include "detail/index.hpp"
+#include "detail/poll.hpp"
+#include "detail/shortest_paths.hpp"
 #include "edges/edge_search.hpp"
 
 namespace seamwire {
@@ -39,21 +41,13 @@ double cheapest_small_cycle(const EdgeGraph& graph, std::int32_t ab, double turn
 /// Metric distance along edges to `target`, without turns; infinity beyond `radius`.
 std::vector<double> distances(const EdgeGraph& graph, std::int32_t target, double radius, const Task& task) {
   std::vector<double> distance(index(graph.vertex_count()), kInfinity);
-  BucketQueue queue(graph.mean_length());
-  distance[target] = 0.0;
-  queue.push(0.0, target, 0.0);
-  std::size_t count = 0;
-  while (!queue.empty()) {
-    const auto [d, v, in_order] = queue.pop();
-    if (d != distance[v]) continue;
+  Poll poll(task, 0.0, 0.0, 1);
+  find_shortest_paths(std::array{target}, distance, [&](std::int32_t v, const auto& step) {
     for (std::int32_t e = graph.begin(v); e < graph.end(v); ++e) {
-      if (++count % kStepsBetweenChecks == 0) task.check(0.0);
-      const double there = d + graph.length(e);
-      if (!(there <= radius && there < distance[graph.head(e)])) continue;
-      distance[graph.head(e)] = there;
-      queue.push(there, graph.head(e), 0.0);
+      poll.next();
+      if (distance[v] + graph.length(e) <= radius) step(graph.head(e), graph.length(e));
     }
-  }
+  });
   return distance;
 }
 

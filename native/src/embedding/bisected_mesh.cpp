@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "detail/half_edge.hpp"
 #include "detail/poll.hpp"
 #include "detail/prefetch.hpp"
 #include "embedding/degenerate_faces.hpp"
@@ -303,7 +304,7 @@ void BisectedMesh::measure_all(const Task& task, double progress) {
     if (const std::size_t ahead = index(h / 3) + kAhead; h % 3 == 0 && ahead < triangles.size()) {
       for (const std::int32_t v : triangles[ahead]) prefetch(&node(v));
     }
-    if (const std::int32_t first = first_of_edge(h); first < h) {
+    if (const std::int32_t first = first_of_edge(*this, h); first < h) {
       lengths[h] = lengths[first];
     } else {
       lengths[h] = measure(h);

@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "detail/half_edge.hpp"
 #include "detail/index.hpp"
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/metric/metric.hpp"
@@ -71,13 +70,6 @@ class BisectedMesh : public TriangleConnectivity {  // until to_embedding(), two
   /// Triangles before the first bisection.
   std::size_t given_face_count() const { return given_faces_; }
   std::size_t faces_added() const { return triangles.size() - given_faces_; }
-
-  /// The lowest half-edge of h's edge.
-  std::int32_t first_of_edge(std::int32_t h) const {
-    std::int32_t first = h;
-    for_each_beyond(h, [&](std::int32_t other) { first = std::min(first, other); });
-    return first;
-  }
 
   /// The length of an edge in the metric.
   double measure(std::int32_t h) const;

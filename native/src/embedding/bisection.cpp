@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "detail/half_edge.hpp"
 #include "detail/poll.hpp"
 #include "embedding/deviation.hpp"
 
@@ -121,7 +122,7 @@ std::int32_t Bisection::refinement_edge(std::int32_t f) const {
     if (index(corners[newest]) >= first_newest_) return next_in_face(3 * f + newest);
   }
   const auto key = [&](std::int32_t h) {
-    return std::pair(static_cast<float>(mesh_.lengths[h]), mesh_.first_of_edge(h));
+    return std::pair(static_cast<float>(mesh_.lengths[h]), first_of_edge(mesh_, h));
   };
   std::int32_t best = 3 * f;
   for (const std::int32_t h : {3 * f + 1, 3 * f + 2}) {

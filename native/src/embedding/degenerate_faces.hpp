@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -9,7 +8,6 @@
 #include "seamwire/metric/metric.hpp"
 #include "seamwire/surface/intrinsic_mesh.hpp"
 #include "seamwire/surface/surface.hpp"
-#include "seamwire/task.hpp"
 #include "surface/half_edge_mesh.hpp"
 
 namespace seamwire::detail {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "detail/half_edge.hpp"
 #include "detail/poll.hpp"
 #include "embedding/bisection.hpp"
 
@@ -32,7 +33,7 @@ bool is_repairable(const BisectedMesh& mesh, const EmbedOptions& options, std::i
 
 // Edges are in one strict order, that of their lengths and then of their numbers.
 std::int32_t longest_edge(const BisectedMesh& mesh, std::int32_t f) {
-  const auto key = [&](std::int32_t h) { return std::pair(mesh.lengths[h], mesh.first_of_edge(h)); };
+  const auto key = [&](std::int32_t h) { return std::pair(mesh.lengths[h], first_of_edge(mesh, h)); };
   return std::ranges::max(std::array{3 * f, 3 * f + 1, 3 * f + 2}, {}, key);
 }
 

@@ -16,12 +16,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "detail/index.hpp"
 #include "detail/indexed_heap.hpp"
+#include "detail/poll.hpp"
 #include "detail/prefetch.hpp"
 #include "geodesics/geodesic_mesh.hpp"
 #include "geodesics/path_tracing.hpp"
@@ -266,11 +266,11 @@ IntrinsicPath CorridorPaths::path(const SurfacePoint& target, const Task& task) 
   impl_->find_corridor(end, task);
 
   const Submesh part = impl_->cutter.cut(impl_->corridor);
-  Task part_task{.stop = task.stop, .progress = {}};  // what is done of the part says little of the whole
-  if (task.progress) part_task.progress = [&task](double) { return task.progress(0.0); };
+  const Task part_task = part_of(task, 0.0, 0.0);  // what is done of the part says little of the whole
   const bool is_exact = impl_->options.windows == 0;
   const SourcePoints sources({to_part(impl_->cutter, impl_->seed)});
-  const WavefrontResult result = propagate_wavefront(*part.mesh, sources, part_task, impl_->options.windows);
+  const WavefrontResult result =
+      propagate_wavefront(*part.mesh, sources, {.windows_kept = impl_->options.windows}, part_task);
   const SolvedDistances solved{*part.mesh, result.distances, sources};
   const PlacedPoint in_part = to_part(impl_->cutter, end);
   IntrinsicPath path;

@@ -90,12 +90,12 @@ DistanceField ExactGeodesics::solve(std::span<const SurfacePoint> sources, const
   for (const SurfacePoint& source : sources) {
     placed.push_back(PlacedPoint::of(*mesh_, source, "source " + std::to_string(placed.size())));
   }
-  WavefrontEnd end{.max_distance = options.max_distance, .targets = {}};
+  WavefrontOptions front{.max_distance = options.max_distance};
   for (const SurfacePoint& target : options.targets) {
-    end.targets.push_back(PlacedPoint::of(*mesh_, target, "target " + std::to_string(end.targets.size())));
+    front.targets.push_back(PlacedPoint::of(*mesh_, target, "target " + std::to_string(front.targets.size())));
   }
   SourcePoints from(std::move(placed));
-  WavefrontResult result = propagate_wavefront(*mesh_, from, task, 0, end);
+  WavefrontResult result = propagate_wavefront(*mesh_, from, front, task);
   std::vector<double> distances(mesh_->vertex_count());
   for (std::size_t v = 0; v < distances.size(); ++v) {
     distances[mesh_->external_vertex(static_cast<std::int32_t>(v))] = result.distances[v];

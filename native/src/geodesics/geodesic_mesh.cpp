@@ -2,7 +2,6 @@
 #include "geodesics/geodesic_mesh.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -129,6 +128,13 @@ void check_triangle_inequality(const IntrinsicMesh& mesh, std::size_t f) {
                      (slack < 0.0 ? " fail the triangle inequality" : " leave it no area"));
 }
 
+void check_longest(const IntrinsicMesh& mesh) {
+  if (mesh.lengths.empty()) return;
+  if (const double longest = *std::ranges::max_element(mesh.lengths); longest < 1.0 / kLongest) {
+    throw InvalidInput("the longest edge must be at least 1e-76 long, not " + text(longest));
+  }
+}
+
 void check(const IntrinsicMesh& mesh, const Task& task) {
   check_sizes(mesh);
   const Poll corners(task, 0.0, 0.02, mesh.triangles.size());
@@ -157,10 +163,7 @@ void check(const IntrinsicMesh& mesh, const Task& task) {
                          text(edge.length));
     }
   }
-  if (mesh.lengths.empty()) return;
-  if (const double longest = *std::ranges::max_element(mesh.lengths); longest < 1.0 / kLongest) {
-    throw InvalidInput("the longest edge must be at least 1e-76 long, not " + text(longest));
-  }
+  check_longest(mesh);
 }
 
 /// Four times the area of a triangle. W. Kahan, "Miscalculating area and angles of a needle-like triangle".
@@ -186,11 +189,7 @@ constexpr std::size_t kAhead = 8;
 
 GeodesicMesh::GeodesicMesh(const IntrinsicMesh& mesh, const Task& task) {
   check(mesh, task);
-  std::vector<std::int32_t> internal_face(mesh.triangles.size(), -1);
-  renumber(mesh, internal_face, task);
-
-  internal_face_ = std::move(internal_face);
-
+  renumber(mesh, task);
   faces_.resize(external_face_.size());
   std::vector<Triangle> corners;
   corners.reserve(external_face_.size());
@@ -280,7 +279,7 @@ void GeodesicMesh::measure_edges() {
 }
 
 /// Breadth first over the triangles, a component after the other; a face gets its number with its first vertex.
-void GeodesicMesh::renumber(const IntrinsicMesh& mesh, std::vector<std::int32_t>& internal_face, const Task& task) {
+void GeodesicMesh::renumber(const IntrinsicMesh& mesh, const Task& task) {
   const auto vertices = index(mesh.vertex_count);
   Poll listing(task, 0.1, 0.2, 2 * mesh.triangles.size());
   const Csr<std::int32_t> faces_of(vertices, [&](const auto& visit) {
@@ -290,6 +289,7 @@ void GeodesicMesh::renumber(const IntrinsicMesh& mesh, std::vector<std::int32_t>
     }
   });
   internal_vertex_.assign(vertices, -1);
+  internal_face_.assign(mesh.triangles.size(), -1);
   external_vertex_.reserve(vertices);
   external_face_.reserve(mesh.triangles.size());
   const auto give_number = [&](std::int32_t v) {
@@ -304,8 +304,8 @@ void GeodesicMesh::renumber(const IntrinsicMesh& mesh, std::vector<std::int32_t>
     for (; done < external_vertex_.size(); ++done) {
       numbering.at(done);
       for (const std::int32_t face : faces_of[external_vertex_[done]]) {
-        if (internal_face[face] >= 0) continue;
-        internal_face[face] = static_cast<std::int32_t>(external_face_.size());
+        if (internal_face_[face] >= 0) continue;
+        internal_face_[face] = static_cast<std::int32_t>(external_face_.size());
         external_face_.push_back(face);
         for (const std::int32_t corner : mesh.triangles[face]) give_number(corner);
       }
@@ -450,6 +450,7 @@ std::optional<GeodesicMesh> GeodesicMesh::patched(const IntrinsicMesh& before, c
     for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) check_half_edge(mesh, h);
   }
   for (const std::int32_t f : faces.numbers()) check_triangle_inequality(mesh, index(f));
+  check_longest(mesh);
 
   out.faces_.resize(count);
   InsertionMap around;  // internal numbers of the vertices of all these faces

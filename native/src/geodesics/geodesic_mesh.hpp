@@ -43,7 +43,7 @@ class GeodesicMesh {
   };
 
   /// Throws as ExactGeodesics does.
-  explicit GeodesicMesh(const IntrinsicMesh& mesh, const Task& task = {});
+  explicit GeodesicMesh(const IntrinsicMesh& mesh, const Task& task);
 
   /// Makes the mesh anew after a change. `before` is the IntrinsicMesh that this one was made of, `mesh` the new one.
   /// Most faces and vertices, by their numbers, should be the same in both. They are shared, and only the others are
@@ -52,8 +52,7 @@ class GeodesicMesh {
   ///
   /// Nothing if too much has changed, if loose edges have changed, or if edges have siblings. Throws as the constructor
   /// does.
-  std::optional<GeodesicMesh> patched(const IntrinsicMesh& before, const IntrinsicMesh& mesh,
-                                      const Task& task = {}) const;
+  std::optional<GeodesicMesh> patched(const IntrinsicMesh& before, const IntrinsicMesh& mesh, const Task& task) const;
 
   std::size_t vertex_count() const { return external_vertex_.size(); }
   HalfEdge half_edge(std::int32_t h) const;
@@ -139,9 +138,8 @@ class GeodesicMesh {
   static_assert(sizeof(Face) == 64);
 
   GeodesicMesh() = default;
-  void renumber(const IntrinsicMesh& mesh, std::vector<std::int32_t>& internal_face, const Task& task);
-  static Csr<std::int32_t> leaving(std::size_t vertex_count, const std::vector<Triangle>& corners,
-                                   const Task& task = {});
+  void renumber(const IntrinsicMesh& mesh, const Task& task);
+  static Csr<std::int32_t> leaving(std::size_t vertex_count, const std::vector<Triangle>& corners, const Task& task);
   void set_face(const IntrinsicMesh& mesh, std::int32_t external);
   void list_loose_edges(const IntrinsicMesh& mesh);
   /// Chooses the unit of hops, and measures edges in it.

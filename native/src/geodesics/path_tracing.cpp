@@ -9,7 +9,6 @@
 #include <cmath>
 #include <functional>
 #include <queue>
-#include <stdexcept>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -92,13 +91,13 @@ class Tracer {
     std::size_t points = 0;
   };
 
-  /// A chain of edges, on which the path goes on, and the length of the whole path along it.
+  /// A chain of edges, on which the path goes on, and the length of the whole path along it; without edges, infinite.
   struct Detour {
     struct Edge {
       std::int32_t to = -1, half_edge = -1;
       double length = 0.0;
     };
-    double length;
+    double length = kInfinity;
     std::vector<Edge> edges;
   };
 
@@ -161,8 +160,8 @@ class Tracer {
     path_.points.push_back({.half_edge = half_edge, .t = x / mesh_.half_edge(half_edge).length});
   }
 
-  /// From `vertex` towards its source, to the vertex that is returned. Where the line leads nowhere, over a vertex
-  /// beside it or along edges, whichever way is shorter.
+  /// From `vertex` towards its source, to the vertex that is returned, or to the source if that is a point in a face.
+  /// Where the line leads nowhere, over a vertex beside it or along edges, whichever way is shorter.
   std::int32_t follow(std::int32_t vertex, const TraceRecord& record) {
     const auto length = path_.length;
     const auto points = path_.points.size(), faces = path_.faces.size();
@@ -179,8 +178,21 @@ class Tracer {
       return next;
     }
     go_back();
+    if (along_edges.edges.empty()) return end_line(vertex, record);
     for (const Detour::Edge& edge : along_edges.edges) add_vertex(edge.to, edge.half_edge, edge.length);
     return along_edges.edges.back().to;
+  }
+
+  /// From `vertex` to its source in one segment, whatever is between them. For where no vertex is nearer to the source,
+  /// which is then a point in a face, or as near as the vertex itself.
+  std::int32_t end_line(std::int32_t vertex, const TraceRecord& record) {
+    const std::int32_t source = origin(record.source);
+    if (is_point(source)) {
+      add_source(source, record.half_edge, at(vertex));
+    } else {
+      add_vertex(source, record.half_edge, at(vertex) - at(source));
+    }
+    return source;
   }
 
   /// From `vertex` straight towards its source. Returns the vertex to go on from: the source, or one on the way; where
@@ -271,9 +283,9 @@ class Tracer {
     return record.half_edge == TraceRecord::kNone || (record.half_edge >= 0 && record.y >= 0);
   }
 
-  /// Along edges to the next vertex that is nearer to the source, or as near and not yet tried. Lines lead nowhere
-  /// where triangles are so thin that unfolding one moves the source by more than their width, and perhaps among
-  /// stretched windows.
+  /// Along edges to the next vertex that is nearer to the source, or as near and not yet tried, if there is one. Lines
+  /// lead nowhere where triangles are so thin that unfolding one moves the source by more than their width, and perhaps
+  /// among stretched windows.
   Detour find_detour(std::int32_t vertex) {
     tried_.insert(vertex);
     struct Reached {
@@ -289,7 +301,7 @@ class Tracer {
     std::int32_t next = -1;
     while (next < 0) {
       look_at_task();
-      if (queue.empty()) throw std::logic_error("no edges lead to where a path comes from");
+      if (queue.empty()) return {};
       const auto [whole, v] = queue.top();
       queue.pop();
       if (!done.insert(v).second) continue;
@@ -358,7 +370,7 @@ IntrinsicPath shorten(const GeodesicMesh& mesh, SubmeshCutter& cutter, const Int
   }
   const Submesh part = cutter.cut(vertices);
   const SourcePoints sources({to_part(cutter, source)});
-  const WavefrontResult result = propagate_wavefront(*part.mesh, sources, task);
+  const WavefrontResult result = propagate_wavefront(*part.mesh, sources, {}, task);
   IntrinsicPath shorter = trace_records({*part.mesh, result.distances, sources}, result.records, result.crossings,
                                         to_part(cutter, target), task);
   to_whole_mesh(part, shorter);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "geodesics/geodesic_mesh.hpp"
@@ -17,11 +16,9 @@ namespace seamwire::detail {
 /// The path to a target that the records and the crossings tell, in internal numbers. Where one cannot be followed,
 /// which takes triangles thinner than rounding or stretched windows, the path goes along edges for a while. A target
 /// that is a vertex has a distance; another one may have none, and the path then no points, and its distances are
-/// exact. Throws Cancelled; and std::logic_error if the records do not belong to the mesh, so that no edges lead to the
-/// place where a path comes from.
+/// exact. Throws Cancelled.
 IntrinsicPath trace_records(const SolvedDistances& solved, const std::vector<TraceRecord>& records,
-                            const std::vector<SiblingCrossing>& crossings, const PlacedPoint& target,
-                            const Task& task = {});
+                            const std::vector<SiblingCrossing>& crossings, const PlacedPoint& target, const Task& task);
 
 /// The shortest path from a source to a target within a corridor: the triangles at the vertices of `path`, at the ends
 /// of the edges that it crosses, and around the faces of source and target. All numbers are internal. Only the points

@@ -77,7 +77,7 @@ Submesh SubmeshCutter::cut(std::span<const std::int32_t> vertices) {
   part->external_face_.resize(used_faces_.size());
   std::iota(part->external_face_.begin(), part->external_face_.end(), 0);
   part->internal_face_ = part->external_face_;
-  part->out_ = GeodesicMesh::leaving(used_vertices_.size(), corners);
+  part->out_ = GeodesicMesh::leaving(used_vertices_.size(), corners, {});
   for (const std::int32_t v : used_vertices_) {
     for (const auto& [to, length] : mesh_.loose(v)) {
       if (part_vertex(to) >= 0) part->loose_.push({part_vertex(to), length});

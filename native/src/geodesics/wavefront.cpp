@@ -44,20 +44,18 @@ constexpr double kLate = 1.0 + 1e-9;
 
 class Wavefront {
  public:
-  Wavefront(const GeodesicMesh& mesh, const SourcePoints& sources, const Task& task, std::uint32_t windows_kept,
-            const WavefrontEnd& end)
+  Wavefront(const GeodesicMesh& mesh, const SourcePoints& sources, const WavefrontOptions& options, const Task& task)
       : mesh_(mesh),
         task_(task),
         sources_(sources),
-        end_(end),
-        is_bounded_(windows_kept > 0),
+        options_(options),
         front_(mesh, sources.points().size(), task),
         emission_(front_, sources),
-        crossing_(front_, windows_kept) {}
+        crossing_(front_, options.windows_kept) {}
 
   WavefrontResult run() {
     task_.check(0.0);
-    const bool may_stop = std::isfinite(end_.max_distance) || !end_.targets.empty();
+    const bool may_stop = std::isfinite(options_.max_distance) || !options_.targets.empty();
     if (may_stop) longest_edge_ = longest_edge();
     for (std::int32_t k = 0; index(k) < sources_.points().size(); ++k) emission_.begin_at(k);
     while (!front_.queue().empty() || relax_left_out()) {
@@ -69,7 +67,7 @@ class Wavefront {
       for (const std::int32_t h : next) mesh_.prefetch_half_edge(h);
       propagate_ready_lists();
     }
-    if (may_stop) forget_beyond(std::min(front_.result().radius, end_.max_distance));
+    if (may_stop) forget_beyond(std::min(front_.result().radius, options_.max_distance));
     task_.check(1.0);
     return std::move(front_.result());
   }
@@ -111,13 +109,14 @@ class Wavefront {
   bool is_done(double next) {
     constexpr double kRounding = 1e-12;
     const double final = next - longest_edge_ - kRounding * next;
-    if (final > end_.max_distance) {
-      front_.result().radius = end_.max_distance;
+    if (final > options_.max_distance) {
+      front_.result().radius = options_.max_distance;
       return true;
     }
-    if (end_.targets.empty()) return false;
-    while (targets_done_ < end_.targets.size() && upper_bound(end_.targets[targets_done_]) <= final) ++targets_done_;
-    if (targets_done_ < end_.targets.size()) return false;
+    if (options_.targets.empty()) return false;
+    while (targets_done_ < options_.targets.size() && upper_bound(options_.targets[targets_done_]) <= final)
+      ++targets_done_;
+    if (targets_done_ < options_.targets.size()) return false;
     front_.result().radius = final;
     return true;
   }
@@ -146,7 +145,7 @@ class Wavefront {
     front_.pass(v);
     if (mesh_.is_pseudo_source(v) || emission_.is_source(v)) {
       emission_.emit(v);
-    } else if (is_bounded_) {
+    } else if (options_.windows_kept > 0) {
       front_.relax_neighbors(v);  // stretched windows need not cover everything; this bounds what is lost
     }
     for (const std::int32_t h : mesh_.out(v)) {
@@ -198,10 +197,9 @@ class Wavefront {
   const GeodesicMesh& mesh_;
   const Task& task_;
   const SourcePoints& sources_;
-  const WavefrontEnd& end_;
-  const bool is_bounded_;         ///< distances are approximate
+  const WavefrontOptions& options_;
   double longest_edge_ = 0.0;     ///< known where the front may stop
-  std::size_t targets_done_ = 0;  ///< of end_.targets, so many have their final distances
+  std::size_t targets_done_ = 0;  ///< of the targets, so many have their final distances
   Front front_;
   WindowEmission emission_;
   TriangleCrossing crossing_;
@@ -209,9 +207,9 @@ class Wavefront {
 
 }  // namespace
 
-WavefrontResult propagate_wavefront(const GeodesicMesh& mesh, const SourcePoints& sources, const Task& task,
-                                    std::uint32_t windows_kept, const WavefrontEnd& end) {
-  return Wavefront(mesh, sources, task, windows_kept, end).run();
+WavefrontResult propagate_wavefront(const GeodesicMesh& mesh, const SourcePoints& sources,
+                                    const WavefrontOptions& options, const Task& task) {
+  return Wavefront(mesh, sources, options, task).run();
 }
 
 }  // namespace seamwire::detail

@@ -22,19 +22,19 @@ struct WavefrontResult {
   double radius = kInfinity;
 };
 
-/// Where the front may stop.
-struct WavefrontEnd {
+/// Which windows go on, and where the front may stop.
+struct WavefrontOptions {
+  /// The number of windows of a list that go on. 0 keeps all and is exact. Otherwise the windows around the one that is
+  /// shortest at the apex are kept, and the outer two are stretched over what the others covered. Then distances are
+  /// approximate, and records only tell roughly where the path comes from. But every vertex that is connected to a
+  /// source has both.
+  std::uint32_t windows_kept = 0;
   double max_distance = kInfinity;
-  std::vector<PlacedPoint> targets;  ///< none: at max_distance only
+  std::vector<PlacedPoint> targets = {};  ///< none: at max_distance only
 };
 
 /// Distances from the nearest of some sources to all vertices. Throws Cancelled.
-///
-/// `windows_kept` is the number of windows of a list that go on. 0 keeps all and is exact. Otherwise the windows around
-/// the one that is shortest at the apex are kept, and the outer two are stretched over what the others covered. Then
-/// distances are approximate, and records only tell roughly where the path comes from. But every vertex that is
-/// connected to a source has both.
-WavefrontResult propagate_wavefront(const GeodesicMesh& mesh, const SourcePoints& sources, const Task& task,
-                                    std::uint32_t windows_kept = 0, const WavefrontEnd& end = {});
+WavefrontResult propagate_wavefront(const GeodesicMesh& mesh, const SourcePoints& sources,
+                                    const WavefrontOptions& options, const Task& task);
 
 }  // namespace seamwire::detail

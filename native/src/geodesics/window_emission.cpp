@@ -27,13 +27,6 @@ struct CornerAngles {
   double at_left;          ///< to the corner's other side
 };
 
-/// The least half-edge of an edge.
-std::int32_t name_of_edge(const GeodesicMesh& mesh, std::int32_t h) {
-  std::int32_t name = h;
-  mesh.for_each_beyond(h, [&](std::int32_t other) { name = std::min(name, other); });
-  return name;
-}
-
 /// The angles from a direction at a vertex to the sides of all its corners, on the shortest way through the corners and
 /// over all edges between them, those with siblings too. The direction is in the corner on the left of the half-edge
 /// `corner`, at `angle` from that half-edge.
@@ -43,8 +36,8 @@ std::vector<CornerAngles> angles_around(const GeodesicMesh& mesh, std::int32_t v
   const auto corners = mesh.out(vertex);
   std::vector<std::int32_t> edges;
   for (const std::int32_t h : corners) {
-    edges.push_back(name_of_edge(mesh, h));
-    edges.push_back(name_of_edge(mesh, previous_in_face(h)));
+    edges.push_back(first_of_edge(mesh, h));
+    edges.push_back(first_of_edge(mesh, previous_in_face(h)));
   }
   std::vector<std::int32_t> names = edges;
   std::ranges::sort(names);

@@ -35,8 +35,8 @@ LiveCandidate candidate_of(const SeedSolution& solution, const WireEnd& target) 
   LiveCandidate candidate;
   candidate.metric = prepared.spec;
   if (solution.field) {
-    Wire wire = wire_of(solution, target);
-    return wire.points.empty() ? candidate : candidate_between(prepared, std::move(wire), solution.seed, target);
+    Wire wire = wire_of(solution, target, {});
+    return wire.points.empty() ? candidate : candidate_between(prepared, std::move(wire), solution.seed, target, {});
   }
   if (!solution.wires) return candidate;
   EdgeChain chain = solution.wires->trace(std::get<Pick>(target));

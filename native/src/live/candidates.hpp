@@ -47,14 +47,14 @@ struct SeedSolution {
 };
 
 /// A wire across the surface as a candidate in a metric, with the chain of edges that it snaps to.
-LiveCandidate snapped_candidate(const Prepared& prepared, Wire wire, const Task& task = {});
+LiveCandidate snapped_candidate(const Prepared& prepared, Wire wire, const Task& task);
 
 /// The same for a wire from a seed to a target, whose nearest vertices it is to begin and end at.
 LiveCandidate candidate_between(const Prepared& prepared, Wire wire, const WireEnd& seed, const WireEnd& target,
-                                const Task& task = {});
+                                const Task& task);
 
 /// The wire of a field to a target; without points if no wire leads there. Throws Cancelled.
-Wire wire_of(const SeedSolution& solution, const WireEnd& target, const Task& task = {});
+Wire wire_of(const SeedSolution& solution, const WireEnd& target, const Task& task);
 
 /// The candidate of a solution to a target; without points if no wire leads there. It is not marked as final.
 LiveCandidate candidate_of(const SeedSolution& solution, const WireEnd& target);

@@ -2,7 +2,6 @@
 #include "seamwire/live/livewire.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <span>
 #include <string>
@@ -13,6 +12,7 @@
 #include "detail/infinity.hpp"
 #include "detail/text.hpp"
 #include "detail/thread_safety.hpp"
+#include "edges/edge_graph.hpp"
 #include "geodesics/placed_point.hpp"
 #include "live/live_worker.hpp"
 #include "surface/real_edges.hpp"
@@ -70,9 +70,7 @@ void check_metrics(const LiveMetrics& metrics) {
 void check_options(const LiveWireOptions& options) {
   check_metrics(options.metrics);
   for (const double turning : {options.turning, options.loop_turning.value_or(0.0)}) {
-    if (!(std::isfinite(turning) && turning >= 0)) {
-      throw InvalidInput("turning is " + text(turning) + ", not a finite number of at least 0");
-    }
+    check_turning(turning);
   }
   if (!(options.max_error >= 0 && options.max_error <= 1)) {
     throw InvalidInput("max_error is " + text(options.max_error) + ", not between 0 and 1");

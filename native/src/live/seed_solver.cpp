@@ -2,7 +2,6 @@
 #include "live/seed_solver.hpp"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <thread>
 #include <utility>
@@ -161,8 +160,9 @@ void SeedSolver::make_preview(const SeedBox::Job& job, const Prepared& prepared,
   candidate.metric = prepared.spec;
   const EmbeddedSurface& on = *prepared.embedded;
   if (const std::optional<SurfacePoint> to = on.points().find(point_of(*target), "target")) {
-    Wire wire = map_wire(on.surface(), on.embedding(), paths.path(*to, {.stop = job.stop, .progress = {}}));
-    candidate = candidate_between(prepared, std::move(wire), *job.request->seed, *target);
+    const Task task{.stop = job.stop, .progress = {}};
+    Wire wire = map_wire(on.surface(), on.embedding(), paths.path(*to, task));
+    candidate = candidate_between(prepared, std::move(wire), *job.request->seed, *target, task);
   }
   show_preview(asked, job.number, *target, std::move(candidate));
 }

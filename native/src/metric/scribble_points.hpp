@@ -42,8 +42,8 @@ std::vector<std::int32_t> chain_along(std::int32_t from, std::int32_t to, const 
                                       const PointOf& point, const Neighbors& neighbors, const Off& off) {
   // How much more it costs to be off the line than to be long.
   constexpr double kOffLine = 4.0;
-  // Vertices looked at, so that a line from one component to another is not searched for long.
-  constexpr std::size_t kMostLookedAt = 50'000;
+  // Vertices within the corridor, so that a line from one component to another is not searched for long.
+  constexpr std::size_t kMostReached = 50'000;
   struct Node {
     std::int32_t before;
     double cost, off;
@@ -57,7 +57,8 @@ std::vector<std::int32_t> chain_along(std::int32_t from, std::int32_t to, const 
   std::unordered_map<std::int32_t, Node> nodes{{from, {-1, 0.0, 0.0}}};
   std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
   open.push({0.0, from});
-  while (!open.empty() && nodes.size() < kMostLookedAt) {
+  std::size_t reached = 1;
+  while (!open.empty() && reached < kMostReached) {
     const std::int32_t v = open.top().vertex;
     open.pop();
     Node& here = nodes.at(v);
@@ -77,6 +78,7 @@ std::vector<std::int32_t> chain_along(std::int32_t from, std::int32_t to, const 
       if (is_new) node.off = off(w);
       const double there = cost + length + kOffLine * node.off;
       if (node.is_done || node.off > corridor.slack + corridor.edges * length || !(there < node.cost)) return;
+      if (node.cost == kInfinity) ++reached;
       node.before = v;
       node.cost = there;
       open.push({there + (point(to) - point(w)).norm(), w});

@@ -26,7 +26,7 @@ class BlockCholesky {
  public:
   /// Analyses a graph. `edges`: pairs of different vertices; the same pair may occur several times. Throws InvalidInput
   /// if the factor would need 2^32 numbers or more; Cancelled.
-  BlockCholesky(std::size_t vertex_count, std::span<const Edge> edges, const Task& task = {});
+  BlockCholesky(std::size_t vertex_count, std::span<const Edge> edges, const Task& task);
 
   /// Where values() holds the block in the rows of vertex a and the columns of vertex b: an edge of the graph, or the
   /// same vertex twice.
@@ -38,7 +38,7 @@ class BlockCholesky {
 
   /// Replaces the matrix by its factor. Returns false if the matrix is not positive definite. Throws Cancelled within
   /// some milliseconds.
-  bool factor(const Task& task = {});
+  bool factor(const Task& task);
   /// Solves for a right side of two numbers for each vertex, which the solution replaces.
   void solve(std::span<double> right_side) const;
 

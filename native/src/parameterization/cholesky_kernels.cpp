@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "detail/always_inline.hpp"
+
 namespace seamwire::detail {
 namespace {
 

@@ -2,7 +2,6 @@
 #include "parameterization/coverage.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "detail/index.hpp"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "parameterization/cut_open.hpp"
 
-#include <algorithm>
 #include <cstddef>
 
 #include "detail/disjoint_sets.hpp"

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "detail/always_inline.hpp"
 #include "detail/infinity.hpp"
 
 namespace seamwire::detail {

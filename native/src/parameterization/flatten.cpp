@@ -12,6 +12,7 @@
 
 #include "detail/half_edge.hpp"
 #include "detail/index.hpp"
+#include "detail/poll.hpp"
 #include "detail/run_on_threads.hpp"
 #include "parameterization/cut_open.hpp"
 #include "parameterization/island_map.hpp"
@@ -265,14 +266,17 @@ Flattening flatten(const Surface& surface, std::span<const Edge> cuts, const Fla
                    const Task& task) {
   task.check(0.0);
   const std::vector<Island> islands = islands_of(surface, cuts);
+  task.check(0.0);
   Flattening result;
   result.islands = face_segments(surface, cuts);
   const std::vector<MappedIsland> mapped = map_all(surface, islands, options, task);
   result.uvs.assign(surface.face_count(), {Point2::Zero(), Point2::Zero(), Point2::Zero()});
   result.by_island.resize(result.islands.empty() ? 0 : index(std::ranges::max(result.islands) + 1));
+  Poll poll(task, 0.9, 0.95, surface.face_count());
   for (std::size_t i = 0; i < islands.size(); ++i) {
     const Island& island = mapped[i].opened.island;
     for (std::size_t f = 0; f < island.faces.size(); ++f) {
+      poll.next();
       for (std::size_t k = 0; k < 3; ++k) {
         result.uvs[index(corner_fans(surface).faces[island.faces[f]])][caller_corner(surface, island.faces[f], k)] =
             mapped[i].map.uvs[island.triangles[f][k]];
@@ -283,7 +287,7 @@ Flattening flatten(const Surface& surface, std::span<const Edge> cuts, const Fla
   }
   fill_left_out(surface, result.islands, result.uvs);
   task.check(0.95);
-  result.energy = map_energy(surface, result.uvs, result.islands, {.stop = task.stop, .progress = {}});
+  result.energy = map_energy(surface, result.uvs, result.islands, part_of(task, 0.95, 1.0));
   return result;
 }
 

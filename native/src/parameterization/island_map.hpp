@@ -44,14 +44,13 @@ struct IslandMap {
 /// `points`: of the mesh vertices, of any unit; the map has the same unit. Triangles lower than 1e-4 of their longest
 /// side are treated as if they were that high. Throws InvalidInput if the island is neither a disc nor a disc with
 /// holes, or if its only boundary loops have two edges, because then no map without flips exists; Cancelled.
-IslandMap map_island(const Island& island, std::span<const Vector> points, const MapOptions& options,
-                     const Task& task = {});
+IslandMap map_island(const Island& island, std::span<const Vector> points, const MapOptions& options, const Task& task);
 
 /// Continues from a map without flips: one for each own vertex. After a cut has become longer, both sides of the new
 /// part start at the same place. If the outline of the start crosses itself, the result may overlap as well. Throws
 /// InvalidInput for a start with a flipped triangle or of another size; Cancelled.
 IslandMap continue_map(const Island& island, std::span<const Vector> points, std::span<const Point2> uvs,
-                       const MapOptions& options, const Task& task = {});
+                       const MapOptions& options, const Task& task);
 
 /// The mean energy of a map, as in IslandMap.
 double mean_energy(const Island& island, std::span<const Vector> points, std::span<const Point2> uvs);

@@ -31,7 +31,8 @@ using Corners = std::array<Eigen::Vector2d, 3>;
 /// Parts of an outline that cross by less than this part of the island's size only touch.
 constexpr double kTouching = 1e-6;
 
-void check_map(const Surface& surface, std::span<const Corners> uvs, std::span<const std::int32_t> islands) {
+void check_map(const Surface& surface, std::span<const Corners> uvs, std::span<const std::int32_t> islands,
+               const Task& task) {
   const auto check_size = [&](const char* what, std::size_t size) {
     if (size == surface.face_count()) return;
     throw InvalidInput(std::string(what) + " has " + std::to_string(size) + " items: there are " +
@@ -39,7 +40,9 @@ void check_map(const Surface& surface, std::span<const Corners> uvs, std::span<c
   };
   check_size("uvs", uvs.size());
   if (!islands.empty()) check_size("islands", islands.size());
+  const Poll poll(task, 0.0, 0.0, uvs.size());
   for (std::size_t f = 0; f < uvs.size(); ++f) {
+    poll.at(f);
     if (!std::ranges::all_of(uvs[f], [](const Eigen::Vector2d& uv) { return uv.allFinite(); })) {
       throw InvalidInput("triangle " + std::to_string(f) + " has a UV that is not finite");
     }
@@ -50,9 +53,12 @@ void check_map(const Surface& surface, std::span<const Corners> uvs, std::span<c
 /// A map of the triangles of a surface's corner fans, scaled such that the largest coordinate is about 1.
 class HalfEdgeMap {
  public:
-  HalfEdgeMap(const Surface& surface, std::span<const Corners> uvs, std::span<const std::int32_t> islands)
+  HalfEdgeMap(const Surface& surface, std::span<const Corners> uvs, std::span<const std::int32_t> islands,
+              const Task& task)
       : surface_(surface), uvs_(corner_fans(surface).triangles.size()), island_(uvs_.size()) {
+    const Poll poll(task, 0.0, 0.1, uvs_.size());
     for (std::size_t f = 0; f < uvs_.size(); ++f) {
+      poll.at(f);
       const std::int32_t source = corner_fans(surface).faces[f];
       uvs_[f] = uvs[index(source)];
       // Fans are listed from the caller's first corner on; a triangle that was turned over has the others swapped.
@@ -60,7 +66,9 @@ class HalfEdgeMap {
       if (second != surface.triangles()[index(source)][1]) std::swap(uvs_[f][1], uvs_[f][2]);
     }
     scale();
+    task.check(0.1);
     find_islands(islands);
+    task.check(0.1);
     turn_islands();
   }
 
@@ -129,20 +137,25 @@ class HalfEdgeMap {
 /// The energies at the scale at which their mean is lowest, without the worst area.
 class ScaledEnergies {
  public:
-  ScaledEnergies(std::vector<std::array<double, 2>> parts, const std::vector<double>& weights, double squared_scale)
+  ScaledEnergies(std::vector<std::array<double, 2>> parts, const std::vector<double>& weights, double squared_scale,
+                 const Task& task)
       : parts_(std::move(parts)), weights_(weights), squared_scale_(squared_scale) {
     for (std::int32_t f = 0; index(f) < parts_.size(); ++f) {
       if (std::isfinite(of(f))) order_.push_back(f);
     }
     // Which triangles are worst depends on the scale, and the scale on them.
-    for (int round = 0; round < 4; ++round) find_scale();
+    Poll poll(task, 0.3, 0.3, 1);
+    for (int round = 0; round < 4; ++round) find_scale(poll);
   }
   double of(std::int32_t f) const { return squared_scale_ * parts_[f][0] + parts_[f][1] / squared_scale_; }
   double mean() const { return mean_; }
 
  private:
-  void find_scale() {
-    std::ranges::stable_sort(order_, std::ranges::greater(), [&](std::int32_t f) { return of(f); });
+  void find_scale(Poll& poll) {
+    std::ranges::stable_sort(order_, std::ranges::greater(), [&](std::int32_t f) {
+      poll.next();
+      return of(f);
+    });
     double all = 0.0, area = 0.0, stretched = 0.0, shrunk = 0.0;
     for (const std::int32_t f : order_) all += weights_[f];
     WorstArea worst(all);
@@ -164,13 +177,16 @@ class ScaledEnergies {
   double mean_ = kInfinity;
 };
 
-ScaledEnergies scaled_energies(const Surface& surface, const HalfEdgeMap& map, std::vector<double>& weights) {
+ScaledEnergies scaled_energies(const Surface& surface, const HalfEdgeMap& map, std::vector<double>& weights,
+                               const Task& task) {
   std::vector<Triangle> triangles(map.size());
   std::vector<Vector> points;
   std::vector<double> flat;
   const Vector origin = surface.points()[index(corner_fans(surface).vertices[0])];
   double area = 0.0;
+  const Poll poll(task, 0.1, 0.2, map.size());
   for (std::size_t f = 0; f < map.size(); ++f) {
+    poll.at(f);
     for (std::size_t i = 0; i < 3; ++i) {
       triangles[f][i] = static_cast<std::int32_t>(points.size());
       const std::int32_t v = corner_fans(surface).vertices[corner_fans(surface).triangles[f][i]];
@@ -180,9 +196,10 @@ ScaledEnergies scaled_energies(const Surface& surface, const HalfEdgeMap& map, s
     area += std::max(0.0, map.cross(f));
   }
   const SymmetricDirichlet energy(std::move(triangles), points);
+  task.check(0.2);
   weights = energy.weights();
   // To begin with, the whole map has the area of the surface.
-  return {energy.parts(flat), weights, area > 0.0 ? 2.0 * energy.area() / area : 1.0};
+  return {energy.parts(flat), weights, area > 0.0 ? 2.0 * energy.area() / area : 1.0, task};
 }
 
 /// Finds islands that cover a part of the plane twice, and islands that cover a part of another one.
@@ -317,29 +334,25 @@ class OverlapTest {
 
 double map_energy(const Surface& surface, std::span<const Corners> uvs, std::span<const std::int32_t> islands,
                   const Task& task) {
-  check_map(surface, uvs, islands);
-  task.check(0.0);
-  const HalfEdgeMap map(surface, uvs, islands);
+  check_map(surface, uvs, islands, task);
+  const HalfEdgeMap map(surface, uvs, islands, task);
   if (map.size() == 0) return kInfinity;
-  task.check(0.1);
   std::vector<double> weights;
-  return scaled_energies(surface, map, weights).mean();
+  return scaled_energies(surface, map, weights, task).mean();
 }
 
 MapReport detail::measure_islands(const Surface& surface, std::span<const Corners> uvs,
                                   std::span<const std::int32_t> islands, bool are_placed, const Task& given_task) {
   const RisingProgress rising(given_task);
   const Task& task = rising.task();
-  check_map(surface, uvs, islands);
-  task.check(0.0);
+  check_map(surface, uvs, islands, task);
   MapReport report;
   report.energy = kInfinity;
   report.energies.assign(surface.face_count(), 0.0);
-  const HalfEdgeMap map(surface, uvs, islands);
+  const HalfEdgeMap map(surface, uvs, islands, task);
   if (map.size() == 0) return report;
-  task.check(0.1);
   std::vector<double> weights;
-  const ScaledEnergies energies = scaled_energies(surface, map, weights);
+  const ScaledEnergies energies = scaled_energies(surface, map, weights, task);
   task.check(0.4);
   report.energy = energies.mean();
   std::vector<std::uint8_t> is_bad(index(map.island_count()), 0);

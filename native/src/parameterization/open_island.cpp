@@ -2,13 +2,11 @@
 #include "parameterization/open_island.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 #include <utility>
 
 #include "detail/csr.hpp"
 #include "detail/disjoint_sets.hpp"
-#include "detail/half_edge.hpp"
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
 #include "detail/shortest_paths.hpp"

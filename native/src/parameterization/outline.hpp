@@ -21,7 +21,7 @@ class Outline {
 
   /// Whether the outline of a map without flips covers a part of the plane twice. Edges that cross by less than
   /// `tolerance` only touch. Throws Cancelled.
-  bool covers_twice(std::span<const double> map, double tolerance, const Task& task = {}) const;
+  bool covers_twice(std::span<const double> map, double tolerance, const Task& task) const;
 
   /// A vertex of the outline that is close to one of its edges: three own vertices.
   struct Pair {

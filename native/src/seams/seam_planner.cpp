@@ -453,9 +453,6 @@ struct SeamPlanner::Impl {
   PreparedSurface prepared;
 };
 
-SeamPlanner::SeamPlanner(std::shared_ptr<const Surface> surface, const SeamPlannerOptions& options, const Task& task)
-    : SeamPlanner(SurfaceContext(std::move(surface)), options, task) {}
-
 SeamPlanner::SeamPlanner(const SurfaceContext& context, const SeamPlannerOptions& options, const Task& task) {
   const RisingProgress rising(task);
   check_options(*context.surface(rising.task()), options);

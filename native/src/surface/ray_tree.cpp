@@ -9,7 +9,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
-#include <span>
 #include <stop_token>
 #include <thread>
 #include <utility>

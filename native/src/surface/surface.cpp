@@ -34,17 +34,12 @@ using Index = std::int32_t;
 // starts.
 constexpr Index kNone = -1;
 
-// Faces with three different corners, with the caller's numbers.
-struct Faces {
-  std::vector<Triangle> corners;
-  std::vector<Index> source;
+// Faces with three different corners, not glued yet.
+struct Faces : TriangleConnectivity {
+  std::vector<Index> source;  // the caller's numbers
 
-  Index count() const { return static_cast<Index>(corners.size()); }
+  Index count() const { return static_cast<Index>(triangles.size()); }
   Index side_count() const { return 3 * count(); }
-  Index vertex(Index corner) const { return corners[corner / 3][corner % 3]; }
-  Index tail(Index side) const { return vertex(side); }
-  Index tip(Index side) const { return vertex(next_in_face(side)); }
-  Index apex(Index side) const { return vertex(previous_in_face(side)); }
 };
 
 // Beyond these, squares of lengths overflow or vanish.
@@ -163,14 +158,14 @@ std::vector<Edge> merged(const std::vector<Edge>& a, const std::vector<Edge>& b)
 Faces proper_faces(const std::vector<Triangle>& triangles, std::vector<Index>& degenerate,
                    std::vector<Edge>& stray_edges, const Task& task) {
   Faces faces;
-  faces.corners.reserve(triangles.size());
+  faces.triangles.reserve(triangles.size());
   faces.source.reserve(triangles.size());
   const Poll poll(task, 0.0, 0.1, triangles.size());
   for (std::size_t f = 0; f < triangles.size(); ++f) {
     poll.at(f);
     const auto [a, b, c] = triangles[f];
     if (a != b && b != c && c != a) {
-      faces.corners.push_back(triangles[f]);
+      faces.triangles.push_back(triangles[f]);
       faces.source.push_back(static_cast<Index>(f));
       continue;
     }
@@ -186,7 +181,7 @@ Faces proper_faces(const std::vector<Triangle>& triangles, std::vector<Index>& d
 
 // Faces on the same three vertices as an earlier one: they meet it at every edge, so one edge's faces tell.
 std::vector<bool> find_duplicates(const Faces& faces, const ItemsByEdge& by_edge, bool& found) {
-  std::vector<bool> duplicate(faces.corners.size(), false);
+  std::vector<bool> duplicate(faces.triangles.size(), false);
   std::vector<std::pair<Index, Index>> apexes;
   found = false;
   by_edge.for_each_edge(0.2, [&](const Edge&, std::span<const Index> sides) {
@@ -207,12 +202,12 @@ std::vector<bool> find_duplicates(const Faces& faces, const ItemsByEdge& by_edge
 // several polygons each side meets the next one of the list.
 void keep_in_polygons(const Faces& faces, const ItemsByEdge& by_edge, const std::vector<Edge>& real,
                       std::vector<bool>& duplicate) {
-  DisjointSets polygons(faces.corners.size());
+  DisjointSets polygons(faces.triangles.size());
   by_edge.for_each_edge(0.25, [&](const Edge& edge, std::span<const Index> sides) {
     if (sides.size() % 2 != 0 || std::ranges::binary_search(real, edge)) return;
     for (std::size_t i = 0; i < sides.size(); i += 2) polygons.join(sides[i] / 3, sides[i + 1] / 3);
   });
-  std::vector<bool> has_other(faces.corners.size(), false);
+  std::vector<bool> has_other(faces.triangles.size(), false);
   for (Index f = 0; f < faces.count(); ++f) {
     if (!duplicate[f]) has_other[polygons.find(f)] = true;
   }
@@ -223,15 +218,15 @@ void keep_in_polygons(const Faces& faces, const ItemsByEdge& by_edge, const std:
 
 void remove_faces(Faces& faces, const std::vector<bool>& remove, std::vector<Index>& removed) {
   std::size_t kept = 0;
-  for (std::size_t f = 0; f < faces.corners.size(); ++f) {
+  for (std::size_t f = 0; f < faces.triangles.size(); ++f) {
     if (remove[f]) {
       removed.push_back(faces.source[f]);
       continue;
     }
-    faces.corners[kept] = faces.corners[f];
+    faces.triangles[kept] = faces.triangles[f];
     faces.source[kept++] = faces.source[f];
   }
-  faces.corners.resize(kept);
+  faces.triangles.resize(kept);
   faces.source.resize(kept);
 }
 
@@ -269,7 +264,7 @@ bool glue_diagonals(const Faces& faces, std::span<const Index> sides, Gluing& gl
 Gluing glue(const Faces& faces, const ItemsByEdge& by_edge, const std::vector<Edge>* real, SurfaceReport& report) {
   Gluing gluing;
   gluing.twin.assign(faces.side_count(), kNone);
-  gluing.carried.reserve(faces.corners.size() * 3 / 2);
+  gluing.carried.reserve(faces.triangles.size() * 3 / 2);
   if (real != nullptr) gluing.is_inside.assign(faces.side_count(), false);
   std::size_t next = 0;
   by_edge.for_each_edge(0.3, [&](const Edge& edge, std::span<const Index> sides) {
@@ -397,7 +392,7 @@ Fans find_fans(std::size_t vertex_count, const Faces& faces, const std::vector<I
   for (Index start = 0; start < faces.side_count(); ++start) {
     finding.at(index(start));
     if (fans.of_corner[start] != kNone) continue;
-    const Index vertex = faces.vertex(start);
+    const Index vertex = faces.tail(start);
     const auto fan = static_cast<Index>(vertex_found.size());
     vertex_found.push_back(vertex);
     fans.of_corner[start] = fan;
@@ -456,7 +451,7 @@ void list_faces(const Gluing& gluing, const std::vector<bool>& flipped, const Fa
 
 std::vector<bool> vertices_in_use(std::size_t vertex_count, const Faces& faces, const std::vector<Edge>& edges) {
   std::vector<bool> used(vertex_count, false);
-  for (const Triangle& corners : faces.corners) {
+  for (const Triangle& corners : faces.triangles) {
     for (const Index v : corners) used[v] = true;
   }
   for (const Edge& edge : edges) {
@@ -485,9 +480,9 @@ double unit_cube_scale(const std::vector<Vector>& points, const std::vector<bool
 std::vector<double> face_areas(const std::vector<Vector>& points, const Faces& faces, double scale,
                                SurfaceReport& report, const Task& task) {
   std::vector<double> areas;
-  areas.reserve(faces.corners.size());
-  Poll poll(task, 0.5, 0.55, faces.corners.size());
-  for (const auto& [a, b, c] : faces.corners) {
+  areas.reserve(faces.triangles.size());
+  Poll poll(task, 0.5, 0.55, faces.triangles.size());
+  for (const auto& [a, b, c] : faces.triangles) {
     poll.next();
     const Vector ab = scale * (points[b] - points[a]);
     const Vector bc = scale * (points[c] - points[b]);
@@ -550,7 +545,7 @@ Surface::Surface(std::vector<Vector> points, std::vector<Triangle> triangles, st
   if (!edges) edges_ = merged(gluing.carried, stray_edges);
   // A polygon's triangulation may run through edges that are not real: those of faces left out connect all the same.
   const std::vector<Edge> connecting = merged(edges_, stray_edges);
-  if (connecting.empty() && faces.corners.empty()) throw InvalidInput("the mesh is empty: it has no edge");
+  if (connecting.empty() && faces.triangles.empty()) throw InvalidInput("the mesh is empty: it has no edge");
   std::ranges::set_difference(connecting, gluing.carried, std::back_inserter(loose_edges_));
 
   task.check(0.4);

@@ -31,26 +31,21 @@ struct Crossed {
   std::vector<std::int32_t> places;  ///< where the line ends: faces, not holes
 };
 
-/// Faces and holes around a closed cut, joined over edges that are not part of the tree of vertices it runs along.
+/// Faces and holes around a closed cut, joined over edges that are not part of the tree of vertices it runs along. No
+/// line leads over an edge with siblings.
 class Sides {
  public:
   Sides(const IntrinsicMesh& mesh, const DistanceField& field, std::int32_t half_edge, const Task& task)
-      : mesh_(mesh), edges_(mesh, task), is_in_tree_(spanning_tree(mesh, edges_, field.distances(), task)) {
-    std::size_t holes_seen = 0;
-    const Poll poll(task, 0.25, 0.3, edges_.count());
-    for (std::size_t e = 0; e < edges_.count(); ++e) {
-      poll.at(e);
-      const std::int32_t h = edges_.half_edges[e], twin = mesh_.twins[h];
-      const bool is_wall = mesh_.has_siblings(h);  // no line leads over it
-      ends_.push_back({h / 3, is_wall ? h / 3 : twin < 0 ? edges_.holes[holes_seen++] : twin / 3});
-      if (h == half_edge) cut_ = static_cast<std::int32_t>(e);
-    }
+      : mesh_(mesh),
+        edges_(mesh, task),
+        is_in_tree_(spanning_tree(mesh, edges_, field.distances(), task)),
+        cut_(edges_.edge_of(half_edge)) {
     if (cut_ < 0) throw InvalidInput("the cut is of another embedding");
     beside_ = Csr<std::int32_t>(edges_.face_count + edges_.hole_count, [&](const auto& visit) {
       const Poll filling(task, 0.3, 0.3, 1);
-      for (std::int32_t e = 0; index(e) < ends_.size(); ++e) {
+      for (std::int32_t e = 0; index(e) < edges_.count(); ++e) {
         filling.at(index(e));
-        for (const std::int32_t f : ends_[e]) visit(f, e);
+        for (const std::int32_t f : edges_.faces[e]) visit(f, e);
       }
     });
     sides_.assign(beside_.row_count(), 0);
@@ -59,9 +54,9 @@ class Sides {
 
   /// A line that crosses the cut once.
   Crossed line(const ExactGeodesics& geodesics, const Task& task) {
-    const auto [left, right] = ends_[cut_];
+    const auto [left, right] = edges_.faces[cut_];
     flood(left, 1, task);
-    Crossed found{.edges = std::vector<std::uint8_t>(ends_.size(), 0), .places = {}};
+    Crossed found{.edges = std::vector<std::uint8_t>(edges_.count(), 0), .places = {}};
     found.edges[cut_] = 1;
     if (sides_[right] != 0) {  // it does not separate
       walk(right, left, found.edges);
@@ -81,7 +76,7 @@ class Sides {
 
  private:
   std::int32_t beyond(std::int32_t edge, std::int32_t face) const {
-    return ends_[edge][0] == face ? ends_[edge][1] : ends_[edge][0];
+    return edges_.faces[edge][0] == face ? edges_.faces[edge][1] : edges_.faces[edge][0];
   }
   void flood(std::int32_t from, std::uint8_t side, const Task& task) {
     std::vector<std::int32_t> front = {from};
@@ -109,12 +104,12 @@ class Sides {
   /// Distances from the vertices that have both sides beside them: those of the cut.
   std::vector<double> depths_of_vertices(const ExactGeodesics& geodesics, const Task& task) const {
     std::vector<std::uint8_t> seen(index(mesh_.vertex_count), 0);
-    const Poll poll(task, 0.3, 0.3, ends_.size());
-    for (std::size_t e = 0; e < ends_.size(); ++e) {
+    const Poll poll(task, 0.3, 0.3, edges_.count());
+    for (std::size_t e = 0; e < edges_.count(); ++e) {
       poll.at(e);
       const std::int32_t h = edges_.half_edges[e];
       for (const std::int32_t v : {mesh_.tail(h), mesh_.tip(h)}) {
-        seen[v] = static_cast<std::uint8_t>(seen[v] | sides_[ends_[e][0]] | sides_[ends_[e][1]]);
+        seen[v] = static_cast<std::uint8_t>(seen[v] | sides_[edges_.faces[e][0]] | sides_[edges_.faces[e][1]]);
       }
     }
     std::vector<SurfacePoint> sources;
@@ -128,12 +123,12 @@ class Sides {
   /// A face or a hole is as deep as what is nearest of it.
   std::int32_t deepest(const std::vector<double>& depths, std::uint8_t side, const Task& task) const {
     std::vector<double> least(sides_.size(), kInfinity);
-    const Poll poll(task, 0.5, 0.5, ends_.size());
-    for (std::size_t e = 0; e < ends_.size(); ++e) {
+    const Poll poll(task, 0.5, 0.5, edges_.count());
+    for (std::size_t e = 0; e < edges_.count(); ++e) {
       poll.at(e);
       const std::int32_t h = edges_.half_edges[e];
       const double depth = std::min(depths[mesh_.tail(h)], depths[mesh_.tip(h)]);
-      for (const std::int32_t f : ends_[e]) least[f] = std::min(least[f], depth);
+      for (const std::int32_t f : edges_.faces[e]) least[f] = std::min(least[f], depth);
     }
     std::int32_t best = -1;
     for (std::int32_t f = 0; index(f) < sides_.size(); ++f) {
@@ -145,10 +140,9 @@ class Sides {
   const IntrinsicMesh& mesh_;
   const MeshEdges edges_;
   const std::vector<std::uint8_t> is_in_tree_;
-  std::vector<std::array<std::int32_t, 2>> ends_;  // of edges: faces, or a hole
-  std::int32_t cut_ = -1;                          // the edge that closes it
-  Csr<std::int32_t> beside_;                       // edges of faces and holes
-  std::vector<std::uint8_t> sides_;                // of faces and holes: 1, 2, 0 for neither
+  const std::int32_t cut_;           // the edge that closes it
+  Csr<std::int32_t> beside_;         // edges of faces and holes
+  std::vector<std::uint8_t> sides_;  // of faces and holes: 1, 2, 0 for neither
   std::vector<std::int32_t> entered_over_;
 };
 

@@ -104,7 +104,7 @@ class FaceTree {
  public:
   /// The edges must be sorted by their keys, and outlive the tree. Areas are those of the faces.
   FaceTree(const std::vector<double>& areas, const std::vector<Closing>& closing, const Task& task)
-      : closing_(closing), faces_(areas.size()), parts_(areas.size()) {
+      : closing_(closing), task_(task), faces_(areas.size()), parts_(areas.size()) {
     for (std::size_t f = 0; f < areas.size(); ++f) faces_[f].area = areas[f];
     const Poll poll(task, 0.45, 0.55, closing.size());
     for (std::size_t i = 0; i < closing.size(); ++i) {
@@ -131,7 +131,9 @@ class FaceTree {
   void for_each_loop(const Visit& visit) {
     const std::vector<Cut> cuts = take_leaves();
     const std::vector<double> whole = whole_areas();
+    Poll poll(task_, 0.58, 0.6, cuts.size());
     for (const auto& [edge, hanging] : cuts) {
+      poll.next();
       const bool separates = faces_[hanging].crossing == 0;
       const double all = whole[parts_.find(hanging)], side = std::min(faces_[hanging].area, all - faces_[hanging].area);
       if (!separates || side >= kLeastArea * all) visit(edge, separates);
@@ -154,8 +156,11 @@ class FaceTree {
   std::vector<Cut> take_leaves() {
     std::vector<Cut> cuts;
     cuts.reserve(faces_.size());
+    Poll poll(task_, 0.55, 0.57, 2 * faces_.size());
     for (std::int32_t leaf = 0; index(leaf) < faces_.size(); ++leaf) {
+      poll.next();
       for (std::int32_t f = leaf; faces_[f].degree == 1;) {
+        poll.next();
         const std::int32_t edge = faces_[f].edges;
         const std::int32_t other = closing_[edge].a == f ? closing_[edge].b : closing_[edge].a;
         cuts.push_back({edge, f});
@@ -173,7 +178,9 @@ class FaceTree {
   /// For each part: what is left of it is a face that has the area of all.
   std::vector<double> whole_areas() {
     std::vector<double> whole(faces_.size(), 0.0);
+    const Poll poll(task_, 0.57, 0.58, faces_.size());
     for (std::size_t f = 0; f < faces_.size(); ++f) {
+      poll.at(f);
       double& of = whole[parts_.find(static_cast<std::int32_t>(f))];
       of = std::max(of, faces_[f].area);
     }
@@ -181,6 +188,7 @@ class FaceTree {
   }
 
   const std::vector<Closing>& closing_;
+  const Task& task_;
   std::vector<Face> faces_;
   DisjointSets parts_;
   std::vector<std::int32_t> left_over_;
@@ -264,20 +272,17 @@ class CutLocus {
     const std::vector<std::uint8_t> is_in_tree = spanning_tree(mesh_, edges, field_.distances(), task_);
     std::vector<Closing> closing;
     closing.reserve(edges.count());
-    std::size_t holes_seen = 0;
     const Poll poll(task_, 0.25, 0.3, edges.count());
     for (std::size_t e = 0; e < edges.count(); ++e) {
       poll.at(e);
-      const std::int32_t h = edges.half_edges[e], twin = mesh_.twins[h];
-      if (mesh_.has_siblings(h)) continue;
-      const std::int32_t other = twin < 0 ? edges.holes[holes_seen++] : twin / 3;
-      if (is_in_tree[e] != 0) continue;
+      const std::int32_t h = edges.half_edges[e];
+      if (mesh_.has_siblings(h) || is_in_tree[e] != 0) continue;
       // Numbers that are not negative are ordered as their bits are. Half of them is more than enough.
       const std::uint64_t bits = std::bit_cast<std::uint64_t>(length_over(h)) >> 32U;
-      closing.push_back({(~bits << 32U) | e, h, face_of(h / 3), face_of(other)});
+      const auto [face, beyond] = edges.faces[e];
+      closing.push_back({(~bits << 32U) | e, h, face_of(face), face_of(beyond)});
     }
-    task_.check(0.3);
-    std::ranges::sort(closing, {}, &Closing::key);
+    sort_by(closing, &Closing::key, task_, 0.3);
     return closing;
   }
 
@@ -297,11 +302,8 @@ class CutLocus {
       areas[face_of(f)] += span(f).norm();
     }
     FaceTree tree(areas, closing, task_);
-    task_.check(0.55);
     std::vector<CutEdge> found;
-    Poll finding(task_, 0.55, 0.6, closing.size());
     tree.for_each_loop([&](std::int32_t i, bool separates) {
-      finding.next();
       const std::int32_t h = closing[i].half_edge;
       const double length = length_over(h);
       if (std::isfinite(length)) found.push_back({h, length, separates});
@@ -347,7 +349,8 @@ class CutLocus {
   }
 
   std::vector<Rated> rate(std::vector<CutEdge> edges) {
-    std::ranges::sort(edges, {}, [](const CutEdge& edge) { return std::pair(edge.length, edge.half_edge); });
+    const auto key = [](const CutEdge& edge) { return std::pair(edge.length, edge.half_edge); };
+    sort_by(edges, key, task_, 0.6);
     std::vector<Rated> rated;
     double best = kInfinity;
     for (const CutEdge& edge : edges) {
@@ -497,7 +500,7 @@ class CutLocus {
     bool separates = rated.edge.separates;
     if (!mesh_.siblings.empty()) {
       if (!parts_) parts_.emplace(mesh_, field_.distances(), task_);
-      const std::vector<std::uint8_t> side = parts_->side_of(h);
+      const std::vector<std::uint8_t> side = parts_->side_of(h, task_);
       double area = 0.0, all = 0.0;
       for (std::int32_t f = 0; index(f) < mesh_.face_count(); ++f) {
         if (side[f] == LoopParts::kElsewhere) continue;

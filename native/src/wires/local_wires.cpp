@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "detail/poll.hpp"
 #include "seamwire/embedding/embedding.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
 #include "seamwire/surface/intrinsic_mesh.hpp"
@@ -136,19 +137,19 @@ std::optional<Wire> refined_wire(const std::shared_ptr<const Surface>& surface, 
                                  const Task& task) {
   std::vector<std::int32_t> corridor = faces_within_rings(*surface, faces_of(first), refinement.rings, task);
   if (corridor.empty()) return std::nullopt;
-  const Task silent{.stop = task.stop, .progress = {}};
+  const Task own = part_of(task, 0.0, 0.0);
   const auto embedding = std::make_shared<const Embedding>(embed(*surface, metric,
                                                                  {.max_faces_added = kMostFacesAdded,
                                                                   .max_error = refinement.max_error,
                                                                   .faces = std::move(corridor),
                                                                   .mean_edge_length = refinement.mean_edge_length},
-                                                                 silent));
+                                                                 own));
   if (embedding->faces_added == 0) return std::nullopt;
-  const EmbeddedFaces on(surface, embedding, silent);
+  const EmbeddedFaces on(surface, embedding, own);
   const std::optional<SurfacePoint> source = on.find(from), target = on.find(to);
   if (!source || !target) return std::nullopt;
-  const DistanceField field = on.geodesics().solve(std::array{*source}, {.targets = {*target}}, silent);
-  Wire wire = on.wire(field.trace(*target, silent));
+  const DistanceField field = on.geodesics().solve(std::array{*source}, {.targets = {*target}}, own);
+  Wire wire = on.wire(field.trace(*target, own));
   if (wire.points.empty()) return std::nullopt;
   return wire;
 }

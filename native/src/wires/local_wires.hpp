@@ -88,6 +88,6 @@ struct WireRefinement {
 /// Cancelled.
 std::optional<Wire> refined_wire(const std::shared_ptr<const Surface>& surface, const Metric& metric, const Wire& first,
                                  const SurfacePoint& from, const SurfacePoint& to, const WireRefinement& refinement,
-                                 const Task& task = {});
+                                 const Task& task);
 
 }  // namespace seamwire::detail

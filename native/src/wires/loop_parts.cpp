@@ -1,31 +1,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "wires/loop_parts.hpp"
 
-#include <algorithm>
-
 #include "detail/index.hpp"
+#include "detail/poll.hpp"
 
 namespace seamwire::detail {
 
 LoopParts::LoopParts(const IntrinsicMesh& mesh, const std::vector<double>& distances, const Task& task)
     : mesh_(mesh), edges_(mesh, task) {
+  Poll poll(task, 0.1, 0.1, 1);
   faces_of_edge_ = Csr<std::int32_t>(edges_.count(), [&](const auto& visit) {
-    std::size_t holes_seen = 0;
     for (std::int32_t e = 0; index(e) < edges_.count(); ++e) {
+      poll.next();
+      const auto [face, beyond] = edges_.faces[e];
       const std::int32_t h = edges_.half_edges[e];
-      visit(e, h / 3);
-      if (mesh.twins[h] < 0 && !mesh.has_siblings(h)) visit(e, edges_.holes[holes_seen++]);
-      mesh.for_each_beyond(h, [&](std::int32_t other) { visit(e, other / 3); });
+      visit(e, face);
+      if (!mesh.has_siblings(h)) visit(e, beyond);
+      if (mesh.has_siblings(h)) mesh.for_each_beyond(h, [&](std::int32_t other) { visit(e, other / 3); });
     }
   });
   edges_of_face_ = Csr<std::int32_t>(edges_.face_count + edges_.hole_count, [&](const auto& visit) {
     for (std::int32_t e = 0; index(e) < edges_.count(); ++e) {
+      poll.next();
       for (const std::int32_t f : faces_of_edge_[e]) visit(f, e);
     }
   });
   const std::vector<std::uint8_t> is_in_tree = spanning_tree(mesh, edges_, distances, task);
   tree_ = Csr<Step>(index(mesh.vertex_count), [&](const auto& visit) {
     for (std::int32_t e = 0; index(e) < edges_.count(); ++e) {
+      poll.next();
       const std::int32_t h = edges_.half_edges[e];
       if (is_in_tree[e] == 0) continue;
       visit(mesh.tail(h), Step{mesh.tip(h), e});
@@ -39,12 +42,14 @@ LoopParts::LoopParts(const IntrinsicMesh& mesh, const std::vector<double>& dista
 }
 
 /// Whether each edge is on the loop that an edge closes.
-std::vector<std::uint8_t> LoopParts::loop_edges(std::int32_t edge) const {
+std::vector<std::uint8_t> LoopParts::loop_edges(std::int32_t edge, const Task& task) const {
   const std::int32_t from = mesh_.tail(edges_.half_edges[edge]), to = mesh_.tip(edges_.half_edges[edge]);
   std::vector<Step> back(index(mesh_.vertex_count), {-1, -1});
   std::vector<std::int32_t> front{from};
   back[from].to = from;
+  const Poll poll(task, 0.9, 0.9, 1);
   for (std::size_t next = 0; next < front.size() && back[to].to < 0; ++next) {
+    poll.at(next);
     for (const Step& step : tree_[front[next]]) {
       if (back[step.to].to >= 0) continue;
       back[step.to] = {front[next], step.edge};
@@ -60,18 +65,19 @@ std::vector<std::uint8_t> LoopParts::loop_edges(std::int32_t edge) const {
   return is_on_loop;
 }
 
-std::vector<std::uint8_t> LoopParts::side_of(std::int32_t half_edge) const {
-  const auto found = std::ranges::lower_bound(edges_.half_edges, half_edge);  // they ascend
-  const auto edge = static_cast<std::int32_t>(found - edges_.half_edges.begin());
-  const std::vector<std::uint8_t> is_on_loop = loop_edges(edge);
+std::vector<std::uint8_t> LoopParts::side_of(std::int32_t half_edge, const Task& task) const {
+  const std::int32_t edge = edges_.edge_of(half_edge);
+  const std::vector<std::uint8_t> is_on_loop = loop_edges(edge, task);
   std::vector<std::uint8_t> side(edges_of_face_.row_count(), kElsewhere);
   std::vector<std::int32_t> front;
   std::uint8_t current = kLeft;
+  Poll poll(task, 0.9, 0.9, 1);
   for (const std::int32_t first : faces_of_edge_[edge]) {
     if (side[first] != kElsewhere) continue;
     side[first] = current;
     front.push_back(first);
     while (!front.empty()) {
+      poll.next();
       const std::int32_t face = front.back();
       front.pop_back();
       for (const std::int32_t e : edges_of_face_[face]) {

@@ -21,11 +21,11 @@ class LoopParts {
 
   /// Cuts the mesh along the edges of the loop that a half-edge closes. Returns for each face and hole whether it is
   /// connected to the face of the half-edge (kLeft), only to the other side (kRight), or to neither. Nothing is kRight
-  /// if the loop does not separate.
-  std::vector<std::uint8_t> side_of(std::int32_t half_edge) const;
+  /// if the loop does not separate. Throws Cancelled.
+  std::vector<std::uint8_t> side_of(std::int32_t half_edge, const Task& task) const;
 
  private:
-  std::vector<std::uint8_t> loop_edges(std::int32_t edge) const;
+  std::vector<std::uint8_t> loop_edges(std::int32_t edge, const Task& task) const;
 
   struct Step {
     std::int32_t to, edge;  // -1: an edge without faces

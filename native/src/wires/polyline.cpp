@@ -20,7 +20,7 @@ double fraction(std::size_t sample) { return (static_cast<double>(sample) + 0.5)
 
 }  // namespace
 
-double length_of(const std::vector<Vector>& points) {
+double length_of(std::span<const Vector> points) {
   double length = 0.0;
   for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
   return length;

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "seamwire/surface/vector.hpp"
@@ -11,7 +12,7 @@
 namespace seamwire::detail {
 
 /// The length of the polyline through points.
-double length_of(const std::vector<Vector>& points);
+double length_of(std::span<const Vector> points);
 
 /// A line of straight segments, which tells how far points and edges are from it, by a tree of boxes over its segments.
 class Polyline {

@@ -57,20 +57,28 @@ void walk_boundary(const IntrinsicMesh& mesh, std::int32_t first, const Visit& v
 MeshEdges::MeshEdges(const IntrinsicMesh& mesh, const Task& task) : face_count(mesh.face_count()) {
   std::vector<std::int32_t> hole_of(3 * face_count, -1);
   half_edges.reserve(3 * face_count / 2 + 1);
+  faces.reserve(half_edges.capacity());
   const Poll poll(task, 0.0, 0.1, 3 * face_count);
   for (std::int32_t h = 0; index(h) < 3 * face_count; ++h) {
     poll.at(index(h));
-    std::int32_t first = h;
-    mesh.for_each_beyond(h, [&](std::int32_t other) { first = std::min(first, other); });
-    if (first < h) continue;
+    if (first_of_edge(mesh, h) < h) continue;
     half_edges.push_back(h);
-    if (mesh.twins[h] >= 0 || mesh.has_siblings(h)) continue;
+    if (const std::int32_t twin = mesh.twins[h]; twin >= 0 || mesh.has_siblings(h)) {
+      faces.push_back({h / 3, twin >= 0 ? twin / 3 : h / 3});
+      continue;
+    }
     if (hole_of[h] < 0) {
       const auto hole = static_cast<std::int32_t>(face_count + hole_count++);
       walk_boundary(mesh, h, [&](std::int32_t at) { hole_of[at] = hole; });
     }
-    holes.push_back(hole_of[h]);
+    faces.push_back({h / 3, hole_of[h]});
   }
+}
+
+std::int32_t MeshEdges::edge_of(std::int32_t half_edge) const {
+  const auto found = std::ranges::lower_bound(half_edges, half_edge);
+  if (found == half_edges.end() || *found != half_edge) return -1;
+  return static_cast<std::int32_t>(found - half_edges.begin());
 }
 
 std::vector<std::uint8_t> spanning_tree(const IntrinsicMesh& mesh, const MeshEdges& edges,

@@ -2,9 +2,7 @@
 #include "seamwire/wires/wire.hpp"
 
 #include <Eigen/Geometry>
-#include <cmath>
 #include <string>
-#include <utility>
 
 #include "detail/index.hpp"
 #include "surface/exact_unit.hpp"

@@ -12,12 +12,15 @@
 #include <stop_token>
 #include <string>
 #include <thread>
+#include <type_traits>
 #include <vector>
 
 #include "detail/computed_once.hpp"
 #include "seamwire/context/embedded_surface.hpp"
 #include "seamwire/context/surface_context.hpp"
+#include "seamwire/live/livewire.hpp"
 #include "seamwire/metric/metric_spec.hpp"
+#include "seamwire/seams/seam_planner.hpp"
 #include "shapes.hpp"
 
 namespace seamwire {
@@ -44,6 +47,15 @@ std::string message_of(const Call& call) {
     return error.what();
   }
   return "";
+}
+
+TEST(SurfaceContext, IsMadeOfASharedSurfaceThatIsNotConst) {
+  const shapes::Mesh mesh = shapes::torus(12, 8);
+  const auto surface = std::make_shared<Surface>(mesh.points, mesh.triangles);
+  EXPECT_EQ(SurfaceContext(surface).surface(), surface);
+  EXPECT_EQ(EmbeddedSurface(surface, MetricSpec::euclidean()).context().surface(), surface);
+  EXPECT_EQ(LiveWire(surface).surface(), surface);
+  EXPECT_TRUE((std::is_constructible_v<SeamPlanner, std::shared_ptr<Surface>>));
 }
 
 TEST(MetricSpecs, AreEqualExactlyIfAllTheirValuesAre) {

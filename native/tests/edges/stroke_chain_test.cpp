@@ -144,6 +144,28 @@ TEST(StrokesAlongEdges, LeadOnlyTheMetricThatTheyAreMeantFor) {
   EXPECT_EQ(wire(surface, {scribble}, from, to, MetricKind::kMax), wire(surface, {}, from, to));
 }
 
+// A hub beside the line has many neighbors. They are too far from the line for edges as short as those to the hub.
+TEST(StrokesAlongEdges, PassAVertexWithManyNeighbors) {
+  constexpr std::int32_t kHub = 8, kNeighbors = 60'000;
+  std::vector<Vector> points{{0, -0.3, 0}, {1, -0.3, 0}, {2, -0.3, 0}, {3, -0.3, 0},
+                             {0, 0.3, 0},  {1, 0.3, 0},  {2, 0.3, 0},  {3, 0.3, 0}};
+  std::vector<Triangle> triangles{{0, 1, kHub}, {1, 5, kHub}, {5, 4, kHub}, {4, 0, kHub},
+                                  {1, 2, 6},    {1, 6, 5},    {2, 3, 7},    {2, 7, 6}};
+  points.emplace_back(0.5, 0.1, 0);
+  for (std::int32_t i = 0; i < kNeighbors; ++i) {
+    const double a = 2 * std::numbers::pi * i / kNeighbors;
+    points.push_back(points[kHub] + 1e-3 * Vector(std::cos(a), std::sin(a), 0));
+    triangles.push_back({kHub, kHub + 1 + i, kHub + 1 + (i + 1) % kNeighbors});
+  }
+  const Surface surface(points, triangles);
+  const Metric plain = euclidean_metric(surface, principal_curvatures(surface));
+  const std::vector<Scribble> along{{.points = {{0.05, 0, 0}, {2.95, 0, 0}}, .faces = {3, 6}, .vertices = {}}};
+  const auto length = [&](const std::vector<Scribble>& scribbles) {
+    return edge_wires(make_edge_graph(surface, plain, nullptr, scribbles), {0}).trace({3}).length;
+  };
+  EXPECT_LT(length(along), 0.5 * length({})) << "edges along the stroke are cheap";
+}
+
 TEST(StrokesAlongEdges, HaveAGapWhereNoEdgesLeadAndEndWhereThereIsNoMovement) {
   std::vector<Vector> points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {3, 0, 0}, {4, 0, 0}, {4, 1, 0}};
   const Surface surface(points, {{0, 1, 2}, {3, 4, 5}});

@@ -103,7 +103,7 @@ TEST(GeodesicMesh, FindsAnglesBeyondAFullTurn) {
       const double opposite = std::min(2.0, 2 * std::sin(angle / count / 2));
       mesh.lengths.clear();
       for (int f = 0; f < count; ++f) mesh.lengths.insert(mesh.lengths.end(), {1.0, opposite, 1.0});
-      const detail::GeodesicMesh made(mesh);
+      const detail::GeodesicMesh made(mesh, {});
       return made.is_pseudo_source(made.internal_vertex(0));
     };
     const double most = std::numbers::pi * count;  // where the triangles have no height

@@ -97,7 +97,7 @@ TEST(PatchedMesh, IsTheMeshFromScratchAfterEveryStroke) {
     Metric former = base;
     Embedding embedding = embed(surface, base);
     ExactGeodesics geodesics(embedding.mesh);
-    GeodesicMesh own(embedding.mesh);
+    GeodesicMesh own(embedding.mesh, {});
     int patches = 0, more = 0, fewer = 0;
     for (int step = 0; step < 25; ++step) {
       if (scribbles.size() > 2 && random() % 2 == 0) {
@@ -109,8 +109,8 @@ TEST(PatchedMesh, IsTheMeshFromScratchAfterEveryStroke) {
       Embedding next = re_embed(surface, former, metric, embedding);
       more += next.mesh.face_count() > embedding.mesh.face_count();
       fewer += next.mesh.face_count() < embedding.mesh.face_count();
-      std::optional<GeodesicMesh> patched = own.patched(embedding.mesh, next.mesh);
-      GeodesicMesh made(next.mesh);
+      std::optional<GeodesicMesh> patched = own.patched(embedding.mesh, next.mesh, {});
+      GeodesicMesh made(next.mesh, {});
       if (patched) {
         ASSERT_NO_FATAL_FAILURE(expect_same(*patched, made));
       }
@@ -129,8 +129,8 @@ TEST(PatchedMesh, IsTheMeshFromScratchAfterEveryStroke) {
     EXPECT_GT(fewer, 3);
     // All strokes taken back.
     const Embedding back = re_embed(surface, former, base, embedding);
-    if (const auto patched = own.patched(embedding.mesh, back.mesh)) {
-      expect_same(*patched, GeodesicMesh(back.mesh));
+    if (const auto patched = own.patched(embedding.mesh, back.mesh, {})) {
+      expect_same(*patched, GeodesicMesh(back.mesh, {}));
     }
   }
 }
@@ -150,10 +150,10 @@ TEST(PatchedMesh, GivesTheSameDistancesBitForBitWhereOnlyLengthsChange) {
         mesh.lengths[h] *= 1 + 1e-3 * (static_cast<double>(random() % 100) / 50 - 1);
         if (const std::int32_t twin = mesh.twins[h]; twin >= 0) mesh.lengths[at(twin)] = mesh.lengths[h];
       }
-      const GeodesicMesh own(last);
-      const auto patched = own.patched(last, mesh);
+      const GeodesicMesh own(last, {});
+      const auto patched = own.patched(last, mesh, {});
       ASSERT_TRUE(patched);
-      expect_same(*patched, GeodesicMesh(mesh));
+      expect_same(*patched, GeodesicMesh(mesh, {}));
       former = ExactGeodesics(former, last, mesh);
       EXPECT_EQ(former.solve(0).distances(), ExactGeodesics(mesh).solve(0).distances());
       last = std::move(mesh);
@@ -161,18 +161,27 @@ TEST(PatchedMesh, GivesTheSameDistancesBitForBitWhereOnlyLengthsChange) {
   }
 }
 
-TEST(PatchedMesh, WhatWasLongLeavesNoTraceInTheMeanOfEdges) {
-  // Before, one triangle beside the others has edges so long that short ones are lost in a sum with them.
+// A grid, and a triangle beside it.
+Mesh grid_and_triangle() {
   Mesh mesh = shapes::grid(12);
   const auto first = static_cast<std::int32_t>(mesh.points.size());
   mesh.points.insert(mesh.points.end(), {{2, 0, 0}, {3, 0, 0}, {2, 1, 0}});
   mesh.triangles.push_back({first, first + 1, first + 2});
-  const IntrinsicMesh after = shapes::intrinsic(mesh);
-  IntrinsicMesh before = after;
-  for (std::size_t h = before.lengths.size() - 3; h < before.lengths.size(); ++h) before.lengths[h] *= 1e18;
-  const auto patched = GeodesicMesh(before).patched(before, after);
+  return mesh;
+}
+
+IntrinsicMesh with_last_triangle_scaled(IntrinsicMesh mesh, double factor) {
+  for (std::size_t h = mesh.lengths.size() - 3; h < mesh.lengths.size(); ++h) mesh.lengths[h] *= factor;
+  return mesh;
+}
+
+TEST(PatchedMesh, WhatWasLongLeavesNoTraceInTheMeanOfEdges) {
+  const IntrinsicMesh after = shapes::intrinsic(grid_and_triangle());
+  // So long that short ones are lost in a sum with them.
+  const IntrinsicMesh before = with_last_triangle_scaled(after, 1e18);
+  const auto patched = GeodesicMesh(before, {}).patched(before, after, {});
   ASSERT_TRUE(patched);
-  expect_same(*patched, GeodesicMesh(after));
+  expect_same(*patched, GeodesicMesh(after, {}));
 }
 
 TEST(PatchedMesh, SharesWhatIsFarFromTheChange) {
@@ -180,23 +189,23 @@ TEST(PatchedMesh, SharesWhatIsFarFromTheChange) {
   IntrinsicMesh mesh = before;
   mesh.lengths[0] *= 1.001;
   if (const std::int32_t twin = mesh.twins[0]; twin >= 0) mesh.lengths[at(twin)] = mesh.lengths[0];
-  const GeodesicMesh former(before);
-  const auto patched = former.patched(before, mesh);
+  const GeodesicMesh former(before, {});
+  const auto patched = former.patched(before, mesh, {});
   ASSERT_TRUE(patched);
   std::size_t shared = 0;
   for (std::int32_t h = 0; at(h) < former.half_edge_count(); ++h) shared += patched->shares(former, h);
   EXPECT_GT(shared, former.half_edge_count() * 8 / 10);
   EXPECT_LT(shared, former.half_edge_count());
-  expect_same(former, GeodesicMesh(before));  // which is not written to
+  expect_same(former, GeodesicMesh(before, {}));  // which is not written to
 }
 
 TEST(PatchedMesh, ChecksWhatHasChanged) {
   const IntrinsicMesh before = shapes::intrinsic(shapes::grid(12));
-  const GeodesicMesh former(before);
+  const GeodesicMesh former(before, {});
   const auto throws = [&](const auto& spoil) {
     IntrinsicMesh mesh = before;
     spoil(mesh);
-    EXPECT_THROW(former.patched(before, mesh), InvalidInput);
+    EXPECT_THROW(former.patched(before, mesh, {}), InvalidInput);
   };
   const std::size_t inner = static_cast<std::size_t>(
       std::ranges::find_if(before.twins, [](std::int32_t twin) { return twin >= 0; }) - before.twins.begin());
@@ -206,16 +215,24 @@ TEST(PatchedMesh, ChecksWhatHasChanged) {
   throws([&](IntrinsicMesh& mesh) { mesh.twins[inner] = -1; });  // its twin still names it
   throws([&](IntrinsicMesh& mesh) { mesh.triangles[5][0] = 1000; });
   throws([&](IntrinsicMesh& mesh) { mesh.lengths.pop_back(); });
-  EXPECT_THROW(former.patched(shapes::intrinsic(shapes::grid(11)), before), InvalidInput);
+  EXPECT_THROW(former.patched(shapes::intrinsic(shapes::grid(11)), before, {}), InvalidInput);
+}
+
+TEST(PatchedMesh, RefusesEdgesThatAreAllTooShort) {
+  const IntrinsicMesh after =
+      shapes::intrinsic(grid_and_triangle(), Eigen::Matrix3d(1e-78 * Eigen::Matrix3d::Identity()));
+  const GeodesicMesh former(with_last_triangle_scaled(after, 1e3), {});
+  EXPECT_THROW(former.patched(with_last_triangle_scaled(after, 1e3), after, {}), InvalidInput);
 }
 
 TEST(PatchedMesh, IsNotMadeWhereItWouldNotPay) {
   const IntrinsicMesh before = shapes::intrinsic(shapes::grid(12));
-  const GeodesicMesh former(before);
-  EXPECT_FALSE(former.patched(before, shapes::intrinsic(shapes::grid(12), 2 * Eigen::Matrix3d::Identity())));
+  const GeodesicMesh former(before, {});
+  EXPECT_FALSE(former.patched(
+      before, shapes::intrinsic(shapes::grid(12), Eigen::Matrix3d(2 * Eigen::Matrix3d::Identity())), {}));
   IntrinsicMesh mesh = before;
   mesh.loose_edges.push_back({0, 5, 1.0});
-  EXPECT_FALSE(former.patched(before, mesh));
+  EXPECT_FALSE(former.patched(before, mesh, {}));
   expect_same_distances(ExactGeodesics(ExactGeodesics(before), before, mesh), ExactGeodesics(mesh), 0);
 }
 

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "geodesics/path_tracing.hpp"
 #include "inserted_point.hpp"
 #include "intrinsic.hpp"
 #include "paths.hpp"
@@ -460,6 +461,27 @@ TEST(SurfacePoints, WhatIsNoPointIsRefused) {
             "max_distance is -1, not 0 or more");
   EXPECT_EQ(message([&] { geodesics.solve(std::array{right}, {.max_distance = nan, .targets = {}}); }),
             "max_distance is nan, not 0 or more");
+}
+
+// Rounding may lead a line out of the mesh. No vertex is nearer to the source then, and no corner of the source's face
+// is reached straight.
+TEST(SurfacePoints, APathWithoutALineAndWithoutEdgesToFollowEndsAtItsSource) {
+  const detail::GeodesicMesh plane(shapes::intrinsic(shapes::grid(4)), {});
+  std::int32_t border = 0;
+  while (plane.twin(border) >= 0) ++border;
+  const std::int32_t target = plane.half_edge(border).apex;
+  const auto count = static_cast<std::int32_t>(plane.vertex_count());
+  const detail::SourcePoints sources({detail::PlacedPoint::in_face(plane, {.face = 9, .weights = {0.2, 0.3, 0.5}})});
+  std::vector<double> distances(plane.vertex_count(), 2.0);
+  std::vector<detail::TraceRecord> records(plane.vertex_count(), {.half_edge = detail::TraceRecord::kLooseEdge});
+  distances[index(plane.external_vertex(target))] = 1.0;
+  records[index(target)] = {.x = 0.0, .y = -1.0, .half_edge = border, .source = count};
+  const IntrinsicPath path =
+      detail::trace_records({plane, distances, sources}, records, {}, detail::PlacedPoint::at_vertex(target), {});
+  ASSERT_EQ(path.points.size(), 2u);
+  EXPECT_EQ(path.points.front().face, 9);
+  EXPECT_EQ(path.points.back().vertex, target);
+  EXPECT_EQ(path.length, 1.0);
 }
 
 }  // namespace

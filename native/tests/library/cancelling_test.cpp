@@ -3,6 +3,7 @@
 // What takes long can be stopped, and looks often enough whether it is to be: counted, not timed.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -16,11 +17,13 @@
 #include "seamwire/geodesics/corridor_paths.hpp"
 #include "seamwire/geodesics/exact_geodesics.hpp"
 #include "seamwire/metric/scribble.hpp"
+#include "seamwire/parameterization/measure_map.hpp"
 #include "seamwire/parts/part_finder.hpp"
 #include "seamwire/seams/missing_cuts.hpp"
 #include "seamwire/seams/seam_planner.hpp"
 #include "seamwire/surface/nearest_points.hpp"
 #include "seamwire/surface/segments.hpp"
+#include "seamwire/wires/closed_wires.hpp"
 #include "seamwire/wires/snap.hpp"
 #include "seamwire/wires/wire.hpp"
 #include "shapes.hpp"
@@ -116,6 +119,17 @@ TEST_F(Cancelling, NearestPointsOfManyTriangles) {
   EXPECT_GE(looks_of([&](const Task& task) { nearest.find(mesh.points, {}, task); }), 10 * vertices / Poll::kSteps);
 }
 
+TEST_F(Cancelling, MeasuringAMap) {
+  std::vector<std::array<Eigen::Vector2d, 3>> uvs;
+  for (const Triangle& corners : mesh.triangles) {
+    auto& own = uvs.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i) own[i] = mesh.points[corners[i]].head<2>();
+  }
+  // Triangles are checked, turned and measured, and then sorted four times.
+  EXPECT_GE(looks_of([&](const Task& task) { map_energy(surface, uvs, {}, task); }),
+            (3 * faces + 4 * faces) / Poll::kSteps);
+}
+
 TEST_F(Cancelling, BuildingASurface) {
   const std::size_t half_edges = 3 * faces;
   expect_stops(6 * vertices + 4 * faces + 2 * edges + 5 * half_edges,
@@ -199,8 +213,20 @@ TEST_F(Cancelling, APathAtOnce) {
   expect_stops(counters.windows / 4, [&](const Task& task) { CorridorPaths(geodesics, 0, all).path(target, task); });
 }
 
+TEST_F(Cancelling, TheLoopsOfClosedWires) {
+  const Embedding embedding = embed(surface, euclidean_metric(surface, principal_curvatures(surface)));
+  const DistanceField field = ExactGeodesics(embedding.mesh).solve(0);
+  // The tree of the faces is taken apart, areas are added up, and the loops are rated.
+  std::size_t looks = 0;
+  closed_wires(surface, embedding, field, 3, {.stop = {}, .progress = [&](double fraction) {
+                                                looks += fraction >= 0.55 && fraction < 0.6;
+                                                return true;
+                                              }});
+  EXPECT_GE(looks, 3 * faces / Poll::kSteps);
+}
+
 TEST_F(Cancelling, ADetourOfATracedPath) {
-  const GeodesicMesh plane(shapes::intrinsic(shapes::grid(100)));
+  const GeodesicMesh plane(shapes::intrinsic(shapes::grid(100)), {});
   std::int32_t border = 0;
   while (plane.twin(border) >= 0) ++border;
   // The line from the target leaves the mesh, and the only nearer vertex is far away.

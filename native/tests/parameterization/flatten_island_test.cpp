@@ -111,11 +111,11 @@ void expect_isometric(const Island& island, std::span<const Vector> points, cons
 TEST(IslandMap, DevelopableSurfacesAreMappedIsometrically) {
   for (const shapes::Mesh& mesh : {shapes::grid(1), shapes::grid(12), shapes::grid(12, 0.3)}) {
     const Island island = whole(mesh);
-    expect_isometric(island, mesh.points, map_island(island, mesh.points, kExact));
+    expect_isometric(island, mesh.points, map_island(island, mesh.points, kExact, {}));
   }
   const shapes::Mesh cylinder = shapes::cylinder(16, 10);
   const Island slit = whole(cylinder, column(16, 10));
-  expect_isometric(slit, cylinder.points, map_island(slit, cylinder.points, kExact));
+  expect_isometric(slit, cylinder.points, map_island(slit, cylinder.points, kExact, {}));
 }
 
 TEST(IslandMap, AHalfSphereIsAsGoodAsTheBestMapThatKeepsCircles) {
@@ -127,7 +127,7 @@ TEST(IslandMap, AHalfSphereIsAsGoodAsTheBestMapThatKeepsCircles) {
     return Vector(std::sin(t) * std::cos(a), std::sin(t) * std::sin(a), std::cos(t));
   });
   const Island island = whole(mesh);
-  const IslandMap map = map_island(island, mesh.points, kExact);
+  const IslandMap map = map_island(island, mesh.points, kExact, {});
   EXPECT_FALSE(map.overlaps);
   EXPECT_NEAR(map.energy, 4.1405, 0.01);
 }
@@ -135,32 +135,32 @@ TEST(IslandMap, AHalfSphereIsAsGoodAsTheBestMapThatKeepsCircles) {
 TEST(IslandMap, DoesNotDependOnSizeAndPlace) {
   const shapes::Mesh mesh = shapes::bumpy(shapes::grid(12), 0.04);
   const Island island = whole(mesh);
-  const IslandMap map = map_island(island, mesh.points, kExact);
+  const IslandMap map = map_island(island, mesh.points, kExact, {});
   for (const double scale : {1e-140, 1e-6, 1e6, 1e140}) {
     std::vector<Vector> points = mesh.points;
     for (Vector& p : points) p = scale * p;
-    const IslandMap scaled = map_island(island, points, kExact);
+    const IslandMap scaled = map_island(island, points, kExact, {});
     EXPECT_NEAR(scaled.energy, map.energy, 1e-7);
     EXPECT_NEAR((scaled.uvs[7] - scaled.uvs[100]).norm() / scale, (map.uvs[7] - map.uvs[100]).norm(), 1e-4);
   }
   std::vector<Vector> points = mesh.points;
   for (Vector& p : points) p += Vector(1000, -300, 20);
-  EXPECT_NEAR(map_island(island, points, kExact).energy, map.energy, 1e-7);
+  EXPECT_NEAR(map_island(island, points, kExact, {}).energy, map.energy, 1e-7);
 }
 
 TEST(IslandMap, DoesNotDependOnTheOrderOfTriangles) {
   shapes::Mesh mesh = shapes::bumpy(shapes::grid(12), 0.04);
-  const double energy = map_island(whole(mesh), mesh.points, kExact).energy;
+  const double energy = map_island(whole(mesh), mesh.points, kExact, {}).energy;
   std::mt19937 random(8);
   std::ranges::shuffle(mesh.triangles, random);
   for (Triangle& t : mesh.triangles) std::ranges::rotate(t, t.begin() + 1);
-  EXPECT_NEAR(map_island(whole(mesh), mesh.points, kExact).energy, energy, 1e-7);
+  EXPECT_NEAR(map_island(whole(mesh), mesh.points, kExact, {}).energy, energy, 1e-7);
 }
 
 TEST(IslandMap, IsTheSameEachTime) {
   const shapes::Mesh mesh = shapes::bumpy(shapes::grid(12), 0.04);
   const Island island = whole(mesh);
-  const IslandMap one = map_island(island, mesh.points, {}), other = map_island(island, mesh.points, {});
+  const IslandMap one = map_island(island, mesh.points, {}, {}), other = map_island(island, mesh.points, {}, {});
   EXPECT_EQ(one.energy, other.energy);
   EXPECT_EQ(one.uvs, other.uvs);
 }
@@ -168,10 +168,10 @@ TEST(IslandMap, IsTheSameEachTime) {
 TEST(IslandMap, ABarrierKeepsAStaircaseFromCoveringItself) {
   const shapes::Mesh mesh = staircase(1.5, 60, 4);
   const Island island = whole(mesh);
-  const IslandMap free = map_island(island, mesh.points, {.keep_apart = false});
+  const IslandMap free = map_island(island, mesh.points, {.keep_apart = false}, {});
   EXPECT_TRUE(free.overlaps);
   EXPECT_LT(free.energy, 4.001);
-  const IslandMap apart = map_island(island, mesh.points, {});
+  const IslandMap apart = map_island(island, mesh.points, {}, {});
   EXPECT_FALSE(apart.overlaps);
   EXPECT_GT(apart.energy, free.energy);
   EXPECT_LT(apart.energy, 4.1);
@@ -182,7 +182,7 @@ TEST(IslandMap, ContinuesAfterACutHasBecomeLonger) {
   const shapes::Mesh mesh = shapes::cylinder(16, 10);
   std::set<Edge> cuts = column(16, 9);
   const Island before = whole(mesh, cuts), after = whole(mesh, column(16, 10));
-  const IslandMap first = map_island(before, mesh.points, kExact);
+  const IslandMap first = map_island(before, mesh.points, kExact, {});
   // Both have the same corners, so that each own vertex of the longer cut knows its place.
   std::vector<Point2> start(after.vertices.size());
   for (std::size_t f = 0; f < after.triangles.size(); ++f) {
@@ -191,11 +191,11 @@ TEST(IslandMap, ContinuesAfterACutHasBecomeLonger) {
           first.uvs[static_cast<std::size_t>(before.triangles[f][i])];
     }
   }
-  const IslandMap second = continue_map(after, mesh.points, start, kExact);
+  const IslandMap second = continue_map(after, mesh.points, start, kExact, {});
   expect_isometric(after, mesh.points, second);
   EXPECT_LT(second.energy, first.energy);
   EXPECT_FALSE(second.overlaps);
-  const IslandMap again = continue_map(after, mesh.points, second.uvs, kExact);
+  const IslandMap again = continue_map(after, mesh.points, second.uvs, kExact, {});
   EXPECT_LE(again.steps, 2U) << "nothing is left to do";
 }
 
@@ -205,7 +205,7 @@ TEST(IslandMap, LowTrianglesHaveFiniteMaps) {
   mesh.points[24] = 0.5 * (mesh.points[23] + mesh.points[25]);  // triangles without an area
   mesh.points[32] = mesh.points[31] + 1e-13 * Vector(0.3, 1.0, 0.0);
   const Island island = whole(mesh);
-  const IslandMap map = map_island(island, mesh.points, {});
+  const IslandMap map = map_island(island, mesh.points, {}, {});
   EXPECT_TRUE(std::isfinite(map.energy));
   for (const Point2& uv : map.uvs) EXPECT_TRUE(uv.allFinite());
   for (const double energy : triangle_energies(island, mesh.points, map.uvs)) EXPECT_TRUE(std::isfinite(energy));
@@ -213,18 +213,18 @@ TEST(IslandMap, LowTrianglesHaveFiniteMaps) {
 
 TEST(IslandMap, RefusesWhatHasNoMap) {
   const shapes::Mesh sphere = shapes::icosphere(1), torus = shapes::torus(8, 6);
-  EXPECT_THROW(map_island(whole(sphere), sphere.points, {}), InvalidInput);
-  EXPECT_THROW(map_island(whole(torus), torus.points, {}), InvalidInput);
+  EXPECT_THROW(map_island(whole(sphere), sphere.points, {}, {}), InvalidInput);
+  EXPECT_THROW(map_island(whole(torus), torus.points, {}, {}), InvalidInput);
   const Triangle& t = sphere.triangles[0];
   const auto [a, b] = std::minmax(t[0], t[1]);
-  EXPECT_THROW(map_island(whole(sphere, {{a, b}}), sphere.points, {}), InvalidInput) << "a loop of two edges";
+  EXPECT_THROW(map_island(whole(sphere, {{a, b}}), sphere.points, {}, {}), InvalidInput) << "a loop of two edges";
   const shapes::Mesh grid = shapes::grid(2);
   const Island island = whole(grid);
   std::vector<Point2> flat;
   for (const std::int32_t v : island.vertices) flat.emplace_back(grid.points[static_cast<std::size_t>(v)].head<2>());
-  EXPECT_THROW(continue_map(island, grid.points, std::vector<Point2>{flat[0]}, {}), InvalidInput);
+  EXPECT_THROW(continue_map(island, grid.points, std::vector<Point2>{flat[0]}, {}, {}), InvalidInput);
   std::swap(flat[0], flat[1]);
-  EXPECT_THROW(continue_map(island, grid.points, flat, {}), InvalidInput);
+  EXPECT_THROW(continue_map(island, grid.points, flat, {}, {}), InvalidInput);
 }
 
 TEST(IslandMap, AStartMustBeAMap) {
@@ -232,7 +232,7 @@ TEST(IslandMap, AStartMustBeAMap) {
   const Island island = whole(grid);
   std::vector<Point2> flat;
   for (const std::int32_t v : island.vertices) flat.emplace_back(grid.points[static_cast<std::size_t>(v)].head<2>());
-  const IslandMap same = continue_map(island, grid.points, flat, {});
+  const IslandMap same = continue_map(island, grid.points, flat, {}, {});
   EXPECT_NEAR(same.energy, 4.0, 1e-9);
   EXPECT_FALSE(same.overlaps);
   const auto middle = static_cast<std::size_t>(std::ranges::find(island.vertices, 12) - island.vertices.begin());
@@ -240,7 +240,7 @@ TEST(IslandMap, AStartMustBeAMap) {
     std::vector<Point2> start = flat;
     start[middle] = place;
     try {
-      continue_map(island, grid.points, start, {});
+      continue_map(island, grid.points, start, {}, {});
       return false;
     } catch (const InvalidInput&) {
       return true;
@@ -254,20 +254,21 @@ TEST(IslandMap, AStartMustBeAMap) {
   // No triangle of a start that lies on itself has a fault.
   const shapes::Mesh stairs = staircase(1.5, 60, 4);
   const Island turning = whole(stairs);
-  const IslandMap lying_on_itself = map_island(turning, stairs.points, {.keep_apart = false});
-  EXPECT_TRUE(continue_map(turning, stairs.points, lying_on_itself.uvs, {.max_steps = 2}).overlaps);
+  const IslandMap lying_on_itself = map_island(turning, stairs.points, {.keep_apart = false}, {});
+  EXPECT_TRUE(continue_map(turning, stairs.points, lying_on_itself.uvs, {.max_steps = 2}, {}).overlaps);
 }
 
 TEST(IslandMap, StopsOnceItIsCertainToBeWorse) {
   // A tube as a ring cannot have much less than 7.
   const shapes::Mesh mesh = shapes::cylinder(20, 30);
   const Island island = whole(mesh);
-  const IslandMap map = map_island(island, mesh.points, kExact);
+  const IslandMap map = map_island(island, mesh.points, kExact, {});
   EXPECT_GT(map.energy, 6.5);
-  const IslandMap worse = map_island(island, mesh.points, {.tolerance = 1e-9, .worse_than = 5.0});
+  const IslandMap worse = map_island(island, mesh.points, {.tolerance = 1e-9, .worse_than = 5.0}, {});
   EXPECT_LT(worse.steps, map.steps);
   EXPECT_GT(worse.energy, 5.0);
-  const IslandMap better = map_island(island, mesh.points, {.max_steps = 100, .tolerance = 1e-9, .worse_than = 8.0});
+  const IslandMap better =
+      map_island(island, mesh.points, {.max_steps = 100, .tolerance = 1e-9, .worse_than = 8.0}, {});
   EXPECT_EQ(better.energy, map.energy);
 }
 
@@ -293,13 +294,14 @@ TEST(Outline, TouchingIsNotCrossing) {
     }
     return map;
   };
-  EXPECT_FALSE(outline.covers_twice(at({Point2(0, 0), Point2(1, 0), Point2(0, 1), Point2(1, 1)}), 1e-6));
-  EXPECT_TRUE(outline.covers_twice(at({Point2(0, 0), Point2(1, 0), Point2(1, 1), Point2(0, 1)}), 1e-6)) << "a bow tie";
+  EXPECT_FALSE(outline.covers_twice(at({Point2(0, 0), Point2(1, 0), Point2(0, 1), Point2(1, 1)}), 1e-6, {}));
+  EXPECT_TRUE(outline.covers_twice(at({Point2(0, 0), Point2(1, 0), Point2(1, 1), Point2(0, 1)}), 1e-6, {}))
+      << "a bow tie";
   const auto touching = at({Point2(0, 0), Point2(2, 0), Point2(1, 0), Point2(1, 1)});
-  EXPECT_FALSE(outline.covers_twice(touching, 1e-6)) << "a corner on an edge";
+  EXPECT_FALSE(outline.covers_twice(touching, 1e-6, {})) << "a corner on an edge";
   const auto shallow = at({Point2(0, 0), Point2(2, 0), Point2(1, -1e-4), Point2(1, 1)});
-  EXPECT_TRUE(outline.covers_twice(shallow, 1e-6));
-  EXPECT_FALSE(outline.covers_twice(shallow, 1e-3));
+  EXPECT_TRUE(outline.covers_twice(shallow, 1e-6, {}));
+  EXPECT_FALSE(outline.covers_twice(shallow, 1e-3, {}));
 }
 
 TEST(Outline, AHoleThatIsTurnedInsideOutCoversThePlaneTwice) {
@@ -311,7 +313,7 @@ TEST(Outline, AHoleThatIsTurnedInsideOutCoversThePlaneTwice) {
   for (const std::int32_t v : island.vertices) {
     for (const double value : mesh.points[static_cast<std::size_t>(v)].head<2>()) map.push_back(value);
   }
-  EXPECT_FALSE(outline.covers_twice(map, 1e-6));
+  EXPECT_FALSE(outline.covers_twice(map, 1e-6, {}));
   // The own vertex of the middle that has a triangle below the slit.
   for (const Triangle& t : island.triangles) {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -321,11 +323,11 @@ TEST(Outline, AHoleThatIsTurnedInsideOutCoversThePlaneTwice) {
       if (island.vertices[own] == 12 && is_below && map[2 * own + 1] == 0.5) map[2 * own + 1] = 0.499;
     }
   }
-  EXPECT_FALSE(outline.covers_twice(map, 1e-6)) << "the slit is open";
+  EXPECT_FALSE(outline.covers_twice(map, 1e-6, {})) << "the slit is open";
   for (std::size_t v = 0; v < island.vertices.size(); ++v) {
     if (island.vertices[v] == 12 && map[2 * v + 1] == 0.499) map[2 * v + 1] = 0.501;
   }
-  EXPECT_TRUE(outline.covers_twice(map, 1e-6)) << "its sides lie over each other";
+  EXPECT_TRUE(outline.covers_twice(map, 1e-6, {})) << "its sides lie over each other";
 }
 
 TEST(Outline, CrossingsThroughVerticesCoverThePlaneTwice) {
@@ -356,16 +358,16 @@ TEST(Outline, CrossingsThroughVerticesCoverThePlaneTwice) {
   };
   for (const double turned : {0.0, 0.3}) {
     place(turned, outer, inner);
-    EXPECT_FALSE(outline.covers_twice(map, 1e-6)) << turned;
+    EXPECT_FALSE(outline.covers_twice(map, 1e-6, {})) << turned;
     std::vector<Point2> right = outer, left = inner;
     right[10] = {0, 1};
     left[10] = {1, 1};
     place(turned, right, left);
-    EXPECT_FALSE(outline.covers_twice(map, 1e-6)) << "the ends touch, turned by " << turned;
+    EXPECT_FALSE(outline.covers_twice(map, 1e-6, {})) << "the ends touch, turned by " << turned;
     right[10] = {0, 0};
     left[10] = {1, 0};
     place(turned, right, left);
-    EXPECT_TRUE(outline.covers_twice(map, 1e-6)) << "the end lies on the first square, turned by " << turned;
+    EXPECT_TRUE(outline.covers_twice(map, 1e-6, {})) << "the end lies on the first square, turned by " << turned;
   }
 }
 

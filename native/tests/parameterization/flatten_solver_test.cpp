@@ -73,10 +73,10 @@ TEST(BlockCholesky, SolvesAsDenseMatricesDo) {
   std::mt19937 random(5);
   for (const shapes::Mesh& mesh : {shapes::grid(1), shapes::grid(4), shapes::grid(13), shapes::icosphere(2),
                                    shapes::torus(12, 7), shapes::moebius(9)}) {
-    BlockCholesky solver(mesh.points.size(), edges_of(mesh.triangles));
+    BlockCholesky solver(mesh.points.size(), edges_of(mesh.triangles), {});
     const Eigen::MatrixXd dense = fill(solver, mesh, random);
     const Eigen::VectorXd right = Eigen::VectorXd::Random(dense.rows());
-    ASSERT_TRUE(solver.factor());
+    ASSERT_TRUE(solver.factor({}));
     Eigen::VectorXd solution = right;
     solver.solve({solution.data(), static_cast<std::size_t>(solution.size())});
     EXPECT_LT((dense * solution - right).norm(), 1e-11 * right.norm()) << mesh.points.size() << " vertices";
@@ -84,13 +84,13 @@ TEST(BlockCholesky, SolvesAsDenseMatricesDo) {
 }
 
 TEST(BlockCholesky, TakesVerticesWithoutEdges) {
-  BlockCholesky solver(3, std::vector<Edge>{{0, 2}});
+  BlockCholesky solver(3, std::vector<Edge>{{0, 2}}, {});
   solver.clear();
   for (std::int32_t v = 0; v < 3; ++v) {
     const BlockEntry at = solver.block(v, v);
     solver.values()[at.offset] = solver.values()[at.offset + at.row + at.column] = 2.0;
   }
-  ASSERT_TRUE(solver.factor());
+  ASSERT_TRUE(solver.factor({}));
   std::vector<double> x{2, 4, 6, 8, 10, 12};
   solver.solve(x);
   for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(x[i], static_cast<double>(i + 1), 1e-14);
@@ -99,13 +99,13 @@ TEST(BlockCholesky, TakesVerticesWithoutEdges) {
 TEST(BlockCholesky, SaysWhereAMatrixIsNotPositiveDefinite) {
   const shapes::Mesh mesh = shapes::grid(6);
   std::mt19937 random(1);
-  BlockCholesky solver(mesh.points.size(), edges_of(mesh.triangles));
+  BlockCholesky solver(mesh.points.size(), edges_of(mesh.triangles), {});
   fill(solver, mesh, random);
   solver.values()[solver.block(17, 17).offset] = -1.0;
-  EXPECT_FALSE(solver.factor());
+  EXPECT_FALSE(solver.factor({}));
   fill(solver, mesh, random);
   solver.values()[solver.block(17, 17).offset] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(solver.factor());
+  EXPECT_FALSE(solver.factor({}));
 }
 
 TEST(BlockCholesky, StopsWhenToldTo) {
@@ -120,7 +120,7 @@ TEST(BlockCholesky, StopsWhenToldTo) {
   for (std::int32_t a = 0; a < kCount; ++a) {
     for (std::int32_t b = 0; b < a; ++b) all.push_back({a, b});
   }
-  BlockCholesky dense(kCount, all);
+  BlockCholesky dense(kCount, all, {});
   dense.clear();
   for (std::int32_t v = 0; v < kCount; ++v) {
     const BlockEntry at = dense.block(v, v);
@@ -253,7 +253,7 @@ TEST(SymmetricDirichlet, DerivativesAreThoseOfDifferences) {
   Mapped mapped = random_map(70, 4);              // more than a kernel takes at once
   for (double& value : mapped.map) value *= 0.5;  // shrunk triangles have a negative twist
   const SymmetricDirichlet energy(mapped.triangles, mapped.points);
-  BlockCholesky solver(mapped.points.size(), edges_of(mapped.triangles));
+  BlockCholesky solver(mapped.points.size(), edges_of(mapped.triangles), {});
   std::vector<TriangleBlocks> blocks;
   for (const auto& [a, b, c] : mapped.triangles) {
     blocks.push_back({solver.block(a, a), solver.block(b, b), solver.block(c, c), solver.block(a, b),

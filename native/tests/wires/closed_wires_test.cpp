@@ -13,6 +13,7 @@
 #include <numbers>
 #include <vector>
 
+#include "seamwire/geodesics/exact_geodesics.hpp"
 #include "seamwire/metric/metric.hpp"
 #include "shapes.hpp"
 

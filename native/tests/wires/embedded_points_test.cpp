@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "embeddings.hpp"
+#include "seamwire/geodesics/exact_geodesics.hpp"
 #include "seamwire/wires/wire.hpp"
 #include "shapes.hpp"
 #include "unowned.hpp"

@@ -88,7 +88,7 @@ TEST(FaceRings, InARegularMeshGrowBySixTimesTheRing) {
   const shapes::Mesh mesh = shapes::torus(40, 30);
   const Surface surface(mesh.points, mesh.triangles);
   for (const int rings : {0, 1, 2, 5}) {
-    EXPECT_EQ(faces_within_rings(surface, {700}, rings).size(), 1 + 6 * rings * (rings + 1));
+    EXPECT_EQ(faces_within_rings(surface, {700}, rings, {}).size(), 1 + 6 * rings * (rings + 1));
   }
 }
 
@@ -97,7 +97,7 @@ TEST(FaceRings, AreTheFacesThatShareVerticesUpToTheBoundary) {
   const Surface surface(mesh.points, mesh.triangles);
   std::set<std::int32_t> expected{0, 5, 200};
   for (int ring = 0; ring < 4; ++ring) {
-    EXPECT_TRUE(std::ranges::equal(faces_within_rings(surface, {200, 0, 5}, ring), expected));
+    EXPECT_TRUE(std::ranges::equal(faces_within_rings(surface, {200, 0, 5}, ring, {}), expected));
     std::set<std::int32_t> vertices;
     for (const std::int32_t face : expected) {
       vertices.insert(mesh.triangles[at(face)].begin(), mesh.triangles[at(face)].end());
@@ -111,12 +111,12 @@ TEST(FaceRings, AreTheFacesThatShareVerticesUpToTheBoundary) {
 
 TEST(FaceRings, GoOnOverAnEdgeWithThreeFaces) {
   const Surface fin({{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {-1, 0, 0}, {0, 0, 1}}, {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}});
-  EXPECT_EQ(faces_within_rings(fin, {0}, 1), (std::vector<std::int32_t>{0, 1, 2}));
+  EXPECT_EQ(faces_within_rings(fin, {0}, 1, {}), (std::vector<std::int32_t>{0, 1, 2}));
 }
 
 TEST(FaceRings, OfNoFaceThereAreNone) {
   const shapes::Mesh mesh = shapes::grid(3);
-  EXPECT_TRUE(faces_within_rings(Surface(mesh.points, mesh.triangles), {}, 5).empty());
+  EXPECT_TRUE(faces_within_rings(Surface(mesh.points, mesh.triangles), {}, 5, {}).empty());
 }
 
 TEST(RefinedWire, IntegratesShorterWhereDirectionsTurn) {
@@ -167,8 +167,8 @@ TEST(RefinedWire, ThereIsNoneOfAWireWithoutFaces) {
   const Metric metric = circular_metric(surface, 5);
   const SurfacePoint end = SurfacePoint(3);
   const WireRefinement how{.max_error = 0.01, .mean_edge_length = 0.1};
-  EXPECT_FALSE(refined_wire(shared(surface), metric, {}, end, SurfacePoint(9), how));
-  EXPECT_FALSE(refined_wire(shared(surface), metric, First(surface, metric, end, end).wire, end, end, how));
+  EXPECT_FALSE(refined_wire(shared(surface), metric, {}, end, SurfacePoint(9), how, {}));
+  EXPECT_FALSE(refined_wire(shared(surface), metric, First(surface, metric, end, end).wire, end, end, how, {}));
 }
 
 TEST(RefinedWire, IsCancelled) {

@@ -12,6 +12,7 @@
 #include <queue>
 #include <set>
 
+#include "seamwire/geodesics/exact_geodesics.hpp"
 #include "seamwire/metric/metric.hpp"
 #include "seamwire/wires/snap.hpp"
 #include "shapes.hpp"

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "seamwire/api.hpp"
 #include "seamwire/edges/edge_adjacency.hpp"
-#include "seamwire/embedding/embedding.hpp"
 #include "seamwire/metric/curvature.hpp"
 #include "seamwire/metric/metric.hpp"
 #include "seamwire/metric/metric_spec.hpp"
@@ -35,6 +36,12 @@ class SEAMWIRE_API SurfaceContext {
   /// \param surface the surface, not null
   /// \throws InvalidInput if the surface is null
   SurfaceContext(std::shared_ptr<const Surface> surface);
+  /// Make the context of a surface from any pointer that converts, such as std::shared_ptr<Surface>.
+  ///
+  /// \param surface the surface, not null
+  /// \throws InvalidInput if the surface is null
+  template <std::convertible_to<std::shared_ptr<const Surface>> Shared>
+  SurfaceContext(Shared surface) : SurfaceContext(std::shared_ptr<const Surface>(std::move(surface))) {}
   /// Make the context of a surface that is built when it is first needed.
   ///
   /// \param points as in the constructor of Surface

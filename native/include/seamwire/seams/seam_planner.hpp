@@ -109,21 +109,12 @@ class SEAMWIRE_API SeamPlanner {
  public:
   /// Measure a surface, on several threads.
   ///
-  /// \param context the surface
+  /// \param context the surface, or what SurfaceContext is made of
   /// \param options how seams are planned
   /// \param task progress and cancellation
   /// \throws InvalidInput if an option is out of range, or check_strength() rejects the strength
   /// \throws Cancelled if the task is cancelled
   explicit SeamPlanner(const SurfaceContext& context, const SeamPlannerOptions& options = {}, const Task& task = {});
-  /// Measure a surface in its own context, on several threads.
-  ///
-  /// \param surface the surface, not null
-  /// \param options how seams are planned
-  /// \param task progress and cancellation
-  /// \throws InvalidInput if the surface is null, an option is out of range, or check_strength() rejects the strength
-  /// \throws Cancelled if the task is cancelled
-  explicit SeamPlanner(std::shared_ptr<const Surface> surface, const SeamPlannerOptions& options = {},
-                       const Task& task = {});
 
   /// Plan seams.
   ///

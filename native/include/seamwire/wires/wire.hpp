@@ -7,7 +7,7 @@
 
 #include "seamwire/api.hpp"
 #include "seamwire/embedding/embedding.hpp"
-#include "seamwire/geodesics/exact_geodesics.hpp"
+#include "seamwire/geodesics/distance_field.hpp"
 #include "seamwire/surface/surface.hpp"
 
 namespace seamwire {
