@@ -55,8 +55,8 @@ struct EmbedOptions {
 /// Within a triangle, the embedding's metric is the constant form that gives the three sides their lengths. The metric
 /// that it approximates varies linearly between the forms at the corners.
 struct Resolution {
-  /// The least EmbedOptions::max_error that all triangles meet. An estimate of the mean relative error of distances, not
-  /// a proved bound (docs/benchmarks/exactness.md).
+  /// The least EmbedOptions::max_error that all triangles meet. An estimate of the mean relative error of distances,
+  /// not a proved bound (docs/benchmarks/exactness.md).
   double estimated_error = 0.0;
   /// Number of triangles that miss `max_error`. They are 14 bisections deep, or the budget or the cap allows no more
   /// triangles.

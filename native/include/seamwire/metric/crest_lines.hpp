@@ -26,8 +26,8 @@ struct CrestLines {
   /// All lines one after another, in the caller's coordinates. Each point is on an edge. A closed line ends with its
   /// first point.
   std::vector<Vector> points;
-  std::vector<Edge> edges;    ///< per point: its edge, in the caller's vertices
-  std::vector<double> t;  ///< per point: its place on the edge, 0 at the first vertex, 1 at the second
+  std::vector<Edge> edges;  ///< per point: its edge, in the caller's vertices
+  std::vector<double> t;    ///< per point: its place on the edge, 0 at the first vertex, 1 at the second
   /// Per point: k1, in the unit of Curvature. Above 0 on ridges and below 0 on valleys, except where a gap is bridged.
   std::vector<double> curvatures;
   /// Line i has the points starts[i] to starts[i + 1] - 1. There is one more start than lines.

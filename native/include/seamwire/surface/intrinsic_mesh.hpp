@@ -21,8 +21,8 @@ struct LooseEdge {
 /// them.
 struct IntrinsicMesh : TriangleConnectivity {
   std::int32_t vertex_count = 0;  ///< number of vertices, with or without triangles
-  /// Per half-edge: its length, above 0. It is the same for all half-edges of an edge. The longest edge of a triangle is
-  /// shorter than the two others together, by at least 1e-13 of its length.
+  /// Per half-edge: its length, above 0. It is the same for all half-edges of an edge. The longest edge of a triangle
+  /// is shorter than the two others together, by at least 1e-13 of its length.
   std::vector<double> lengths;
   std::vector<LooseEdge> loose_edges;  ///< edges without a triangle
 };
