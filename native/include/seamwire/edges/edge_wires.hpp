@@ -10,7 +10,7 @@
 
 namespace seamwire {
 
-/// A picked vertex `a`, or a picked edge between `a` and `b`.
+/// One end of a chain of edges: the vertex `a`, or the edge between `a` and `b`.
 struct Pick {
   std::int32_t a = -1;  ///< the vertex, or one end of the edge
   std::int32_t b = -1;  ///< the other end of the edge; -1 if a vertex was picked

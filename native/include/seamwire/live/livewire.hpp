@@ -96,7 +96,7 @@ struct LiveWires {
   bool solved() const { return std::ranges::all_of(wires, &LiveCandidate::solved); }
 };
 
-/// A closed chain of edges.
+/// A closed chain of edges, as from shortest_cycle(). Across the surface, LiveClosedWire is its counterpart.
 struct LiveLoop {
   /// The chain, which does not repeat its first vertex. Empty if there is no chain, or not yet.
   std::vector<std::int32_t> vertices;

@@ -109,7 +109,7 @@ class SEAMWIRE_API SeamPlanner {
  public:
   /// Measure a surface, on several threads.
   ///
-  /// \param context the surface, or what SurfaceContext is made of
+  /// \param context the surface
   /// \param options how seams are planned
   /// \param task progress and cancellation
   /// \throws InvalidInput if an option is out of range, or check_strength() rejects the strength

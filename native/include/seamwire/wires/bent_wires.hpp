@@ -10,7 +10,7 @@
 
 namespace seamwire {
 
-/// A closed cut through two points, as two wires.
+/// A closed cut across the faces, through two points: a ClosedWire that was bent to a second point. It has two wires.
 struct BentWire {
   Wire there;  ///< from the seed to the second point
   Wire back;   ///< from the second point to the seed

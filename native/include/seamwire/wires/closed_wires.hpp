@@ -12,7 +12,8 @@
 
 namespace seamwire {
 
-/// A closed cut through the seed of a field: two of its shortest wires, to the ends of an edge, and that edge.
+/// A closed cut across the faces, through one point: two of a field's shortest wires, to the ends of an edge, and that
+/// edge. BentWire has a cut through two points.
 struct ClosedWire {
   Wire wire;  ///< from the seed to the seed, which is both the first and the last point
   /// Whether the cut separates the surface. It does not if the loop runs around or through a handle, or once around a
