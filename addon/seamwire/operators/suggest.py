@@ -80,7 +80,9 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         default="AUTO",
     )
     symmetric: bpy.props.BoolProperty(
-        name="Symmetric", description="Let wires follow the mirror plane or come in pairs if the mesh is symmetric", default=True
+        name="Symmetric",
+        description="Let wires follow the mirror plane or come in pairs if the mesh is symmetric",
+        default=True,
     )
     selected: bpy.props.BoolProperty(
         name="Selected Only", description="Cut only islands with selected faces", default=False
