@@ -2075,8 +2075,8 @@ class SeamPlanner:
     front : (3,) array_like of float, optional
         The direction from the surface towards a viewer. Seams hide from there. None: they hide from ambient light only.
     mirror : {0, 1, 2}, optional
-        The axis along which a plane mirrors the surface: through the origin, or else through the middle of its box. Seams
-        come in pairs if the surface is symmetric.
+        The axis along which a plane mirrors the surface: through the origin, or else through the middle of its box. On a
+        symmetric surface, most seams run along the plane or come in mirrored pairs.
     weights : (n,) array_like of float, optional
         The cost of seams at each vertex, as a factor. Infinity keeps seams away.
     seams : (k, 2) array_like of int, optional
@@ -2122,7 +2122,8 @@ class SeamPlanner:
             The smallest number of islands. Limbs are separated first, then large islands are cut into halves. There are fewer
             islands only if no seam may run inside of any.
         steps : int
-            The largest number of Newton steps in each piece. 0: 4000.
+            The number of Newton steps after which the search in a piece ends. It finishes what it has begun, so a small number
+            may be exceeded many times. A piece that misses the bound is searched again, with as many steps. 0: 4000.
         progress : callable, optional
             Called repeatedly with the fraction done. Returning False cancels, and `best_so_far` keeps the best plan.
 
@@ -2158,7 +2159,8 @@ class PartFinder:
     ----------
     surface : Surface
     mirror : {0, 1, 2}, optional
-        The axis along which a plane mirrors the surface, as for `SeamPlanner`. Parts of a symmetric surface are symmetric.
+        The axis along which a plane mirrors the surface, as for `SeamPlanner`. Parts are symmetric where the triangles
+        are.
     marked : (k, 2) array_like of int, optional
         Edges where an artist expects a border: marked sharp, or between materials.
     seams : (k, 2) array_like of int, optional
@@ -2200,7 +2202,8 @@ class PartFinder:
         kept, dropped : (k, 2) array_like of int, optional
             Edges that have to be borders, and edges that must not be.
         parted : array_like of int, optional
-            A triangle for each part that is cut in two, one after another.
+            A triangle for each part that is cut in two, one after another. The cut through a symmetric part is symmetric if
+            such a cut leaves each half a fifth of the area.
         progress : callable, optional
             Called repeatedly with the fraction done. Returning False cancels.
 
