@@ -44,13 +44,12 @@ class Poll {
   std::size_t steps_ = 0;
 };
 
-/// Sorts items by their keys. If the task stops it, the items are in no order, and some may be lost.
-template <class T, class KeyOf>
-void sort_by(std::vector<T>& items, const KeyOf& key_of, const Task& task, double progress) {
-  Poll poll(task, progress, progress, 1);
-  std::ranges::sort(items, {}, [&](const T& item) {
+/// std::ranges::sort() with looks at the task. If it stops the sort, the items are in no order, and some may be lost.
+template <class T, class Order = std::ranges::less, class KeyOf = std::identity>
+void polled_sort(std::vector<T>& items, Poll poll, const Order& order = {}, const KeyOf& key_of = {}) {
+  std::ranges::sort(items, [&](const T& one, const T& other) {
     poll.next();
-    return std::invoke(key_of, item);
+    return order(std::invoke(key_of, one), std::invoke(key_of, other));
   });
 }
 
@@ -107,16 +106,6 @@ std::vector<T> copied(const std::vector<T>& from, const Task& task, double progr
     copy.insert(copy.end(), next, next + static_cast<std::ptrdiff_t>(count));
   }
   return copy;
-}
-
-/// std::ranges::sort() with looks at the task.
-template <class T, class Less = std::ranges::less>
-void polled_sort(std::vector<T>& items, const Task& task, const Less& less = {}) {
-  Poll poll(task);
-  std::ranges::sort(items, [&](const T& one, const T& other) {
-    poll.next();
-    return less(one, other);
-  });
 }
 
 }  // namespace seamwire::detail

@@ -538,7 +538,7 @@ Parts PartFinder::find(double amount, const PartEdits& edits, const Task& task) 
   std::vector<std::uint8_t> is_border = impl.borders(amount, edits, own);
   for (std::size_t e = 0; e < is_border.size(); ++e) is_border[e] = is_border[e] != 0 && is_seam[e] == 0 ? 1 : 0;
   std::vector<Edge> borders = impl.edges_along(is_border, own);
-  polled_sort(borders, own);
+  polled_sort(borders, Poll(own));
   own.check(kParted);
   std::vector<Edge> cuts = borders;
   cuts.insert(cuts.end(), impl.options.seams.begin(), impl.options.seams.end());

@@ -233,7 +233,7 @@ Polygons find_polygons(const PlanMesh& mesh, std::span<const FaceFrame> frames, 
     const double skew = skew_of(mesh, frames, h);
     if (skew != kInfinity) pairs.emplace_back(skew, e);
   }
-  polled_sort(pairs, task);
+  polled_sort(pairs, Poll(task));
   for (const auto& [skew, e] : pairs) {
     poll.next();
     const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];

@@ -90,7 +90,7 @@ PlanMesh plan_mesh(const Surface& surface, const Task& task) {
 std::vector<std::uint8_t> marked_edges(const PlanMesh& mesh, std::vector<Edge> edges, const Task& task) {
   Poll poll(task);
   for (Edge& edge : edges) edge = ascending(edge[0], edge[1]);
-  polled_sort(edges, task);
+  polled_sort(edges, Poll(task));
   std::vector<std::uint8_t> is_marked;
   for (const std::int32_t h : mesh.half_edge_of) {
     poll.next();

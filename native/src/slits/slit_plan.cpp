@@ -154,7 +154,7 @@ std::shared_ptr<const PieceMap> piece_map(std::span<const Vector> points, Island
 double mean_energy(std::vector<std::pair<double, double>> energies, const Task& task) {
   double area = 0.0;
   for (const auto& [energy, own] : energies) area += own;
-  polled_sort(energies, task, std::ranges::greater());
+  polled_sort(energies, Poll(task), std::ranges::greater());
   WorstArea worst(area);
   double sum = 0.0;
   for (const auto& [energy, own] : energies) {

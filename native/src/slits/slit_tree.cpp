@@ -216,7 +216,7 @@ class HandleLoops {
       poll_.next();
       if (island_.twins[h] > h && !is_in_tree(h)) inner.push_back({-loop_price(h), h});
     }
-    polled_sort(inner, task_);
+    polled_sort(inner, Poll(task_));
     DisjointSets faces(island_.triangles.size());
     std::vector<std::vector<std::int32_t>> loops;
     for (const auto& [price, h] : inner) {

@@ -32,7 +32,7 @@ class Cuts {
       edges_.push_back(ascending(a, b));
       touched_[a] = touched_[b] = 1;
     }
-    polled_sort(edges_, task);
+    polled_sort(edges_, Poll(task));
   }
   bool contains(std::int32_t a, std::int32_t b) const {
     return touched_[a] != 0 && touched_[b] != 0 && std::binary_search(edges_.begin(), edges_.end(), ascending(a, b));

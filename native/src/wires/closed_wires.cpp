@@ -282,7 +282,7 @@ class CutLocus {
       const auto [face, beyond] = edges.faces[e];
       closing.push_back({(~bits << 32U) | e, h, face_of(face), face_of(beyond)});
     }
-    sort_by(closing, &Closing::key, task_, 0.3);
+    polled_sort(closing, Poll(task_, 0.3, 0.3, 1), std::ranges::less(), &Closing::key);
     return closing;
   }
 
@@ -350,7 +350,7 @@ class CutLocus {
 
   std::vector<Rated> rate(std::vector<CutEdge> edges) {
     const auto key = [](const CutEdge& edge) { return std::pair(edge.length, edge.half_edge); };
-    sort_by(edges, key, task_, 0.6);
+    polled_sort(edges, Poll(task_, 0.6, 0.6, 1), std::ranges::less(), key);
     std::vector<Rated> rated;
     double best = kInfinity;
     for (const CutEdge& edge : edges) {
