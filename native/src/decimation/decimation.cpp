@@ -46,6 +46,21 @@ double longest_square(const std::array<Vector, 3>& corners) {
   return std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
 }
 
+/// The twin of each half-edge: the one that joins the same vertices the other way.
+std::vector<std::int32_t> twins_of(const std::vector<Triangle>& triangles) {
+  std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> half_edges;
+  for (std::size_t h = 0; h < 3 * triangles.size(); ++h) {
+    const Triangle& t = triangles[h / 3];
+    half_edges[{t[h % 3], t[(h + 1) % 3]}] = static_cast<std::int32_t>(h);
+  }
+  std::vector<std::int32_t> twins(3 * triangles.size(), -1);
+  for (const auto& [ends, h] : half_edges) {
+    const auto twin = half_edges.find({ends.second, ends.first});
+    if (twin != half_edges.end()) twins[h] = twin->second;
+  }
+  return twins;
+}
+
 /// A mesh whose edges are being collapsed.
 class Collapsing {
  public:
@@ -92,6 +107,7 @@ class Collapsing {
       const Entry back = this->entry(entry.to, entry.from);
       if (is_valid(entry) && back < entry) push(back);
     }
+    queue_ = {};  // result() needs memory too
   }
 
   DecimatedMesh result(const Task& task) const;
@@ -349,19 +365,12 @@ DecimatedMesh Collapsing::result(const Task& task) const {
     out.mesh.points.push_back(mesh_.points[v]);
     out.mesh.sources.push_back(mesh_.sources[v]);
   }
-  std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> half_edges;
   for (std::size_t f = 0; f < triangles_.size(); ++f) {
     if (is_gone_[f] != 0) continue;
-    const auto at = static_cast<std::int32_t>(3 * out.mesh.triangles.size());
     const Triangle& t = triangles_[f];
     out.mesh.triangles.push_back({number[t[0]], number[t[1]], number[t[2]]});
-    for (std::int32_t i = 0; i < 3; ++i) half_edges[{number[t[i]], number[t[(i + 1) % 3]]}] = at + i;
   }
-  out.mesh.twins.assign(3 * out.mesh.triangles.size(), -1);
-  for (const auto& [ends, h] : half_edges) {
-    const auto twin = half_edges.find({ends.second, ends.first});
-    if (twin != half_edges.end()) out.mesh.twins[h] = twin->second;
-  }
+  out.mesh.twins = twins_of(out.mesh.triangles);
   out.mesh.scale = mesh_.scale;
   connect(out.mesh, std::nullopt, task);
   for (const std::int32_t h : out.mesh.half_edge_of) {

@@ -87,7 +87,7 @@ class Joining {
         parents_(regions.size()),
         links_(regions.size()),
         task_(task),
-        poll_(task, 0.0, 1.0, borders.size() + 2 * regions.size(), Poll::kFewSteps) {
+        poll_(task, 0.0, 1.0, borders.size() + 5 * regions.size(), Poll::kFewSteps) {
     std::iota(parents_.begin(), parents_.end(), 0);
     for (const RegionBorder& border : borders) {
       poll_.next();
@@ -101,7 +101,10 @@ class Joining {
     join_gainful();
     join_small();
     std::vector<std::int32_t> found;
-    for (std::size_t r = 0; r < parents_.size(); ++r) found.push_back(root(static_cast<std::int32_t>(r)));
+    for (std::size_t r = 0; r < parents_.size(); ++r) {
+      poll_.next();
+      found.push_back(root(static_cast<std::int32_t>(r)));
+    }
     polled_clear(links_, task_);
     return found;
   }
@@ -119,6 +122,7 @@ class Joining {
 
   void join_gainful() {
     for (std::int32_t a = 0; index(a) < links_.size(); ++a) {
+      poll_.next();
       for (const auto& [b, link] : links_[a]) {
         if (a < b) offer(a, b, link);
       }
@@ -208,6 +212,7 @@ class Joining {
       if (neighbor_of_small(r) >= 0) small.emplace(regions_[r].area, r);
     };
     for (std::int32_t r = 0; index(r) < parents_.size(); ++r) {
+      poll_.next();
       if (parents_[r] == r) add(r);
     }
     while (!small.empty()) {
