@@ -240,6 +240,9 @@ def all_work() -> dict[str, tuple[Callable[[int], Work], float]]:
         "SeamPlanner.plan, a fan": seam_plan(fan),
         "LiveWire, edges": live("edges"),
         "LiveWire.set_metric, edges": after_live("edges", lambda on, n: (on.set_metric("campen"), shown(on, n))),
+        "LiveWire.set_scribbles, edges": after_live(
+            "edges", lambda on, n: (on.set_scribbles([stroke(on.surface)]), shown(on, n))
+        ),
         "LiveWire.loop": after_live("edges", lambda on, _: settled(on, lambda: on.loop((0, 1)))),
         "LiveWire.edge_loop": after_live("edges", lambda on, _: on.edge_loop((0, 1))),
         "LiveWire.extend_straight": after_live("edges", lambda on, _: on.extend_straight((0, 1))),
@@ -247,11 +250,6 @@ def all_work() -> dict[str, tuple[Callable[[int], Work], float]]:
     }
     return {
         **{name: (prepare, MOST_GROWTH) for name, prepare in work.items()},
-        # The search along edges takes instructions in proportion to n, but its arrays outgrow the caches.
-        "LiveWire.set_scribbles, edges": (
-            after_live("edges", lambda on, n: (on.set_scribbles([stroke(on.surface)]), shown(on, n))),
-            1.4,
-        ),
         # Newton's steps factor a sparse matrix. On a planar mesh that takes n^1.5 (George, "Nested Dissection of a Regular Finite
         # Element Mesh", 1973).
         "flatten": (after(lambda n: (*torus(n), ring(n)), sw.flatten), 1.5),

@@ -245,8 +245,8 @@ Parameters
 ----------
 surface : Surface
 mirror : {0, 1, 2}, optional
-    The axis along which a plane mirrors the surface, as for `SeamPlanner`. Parts are symmetric where the triangles
-    are.
+    The axis along which a plane mirrors the surface, as for `SeamPlanner`. Parts are then symmetric wherever the
+    triangles are mirrored.
 marked : (k, 2) array_like of int, optional
     Edges where an artist expects a border: marked sharp, or between materials.
 seams : (k, 2) array_like of int, optional

@@ -5,7 +5,7 @@
 The method is that of Zhuang, Zou, Carr, Ju, "Anisotropic geodesics for live-wire mesh segmentation" (2014).
 
 Points are in the caller's coordinates. Lengths and curvatures are those of the model scaled to the unit cube (Section 3
-of the paper), unless the name says otherwise. Arrays that a result hands out are read-only views of its memory.
+of the paper), unless a docstring says otherwise. Arrays that a result hands out are read-only views of its memory.
 
 Wrong input raises ValueError, and the message names the element. Long functions release the GIL and take `progress`, a
 function of the fraction done. If it returns False, the function raises Cancelled. When the interpreter exits, long
@@ -549,7 +549,8 @@ class Embedding:
     def with_lengths(self, lengths: ArrayLike) -> Embedding:
         """Return the same triangles with other lengths.
 
-        The lengths may come from another way of embedding, or from your own metric.
+        The lengths may come from another way of embedding, or from your own metric. Attributes that describe the subdivision,
+        such as `mean_edge_length`, stay as they are. `estimated_error` and its like are None.
 
         Parameters
         ----------
@@ -2159,8 +2160,8 @@ class PartFinder:
     ----------
     surface : Surface
     mirror : {0, 1, 2}, optional
-        The axis along which a plane mirrors the surface, as for `SeamPlanner`. Parts are symmetric where the triangles
-        are.
+        The axis along which a plane mirrors the surface, as for `SeamPlanner`. Parts are then symmetric wherever the
+        triangles are mirrored.
     marked : (k, 2) array_like of int, optional
         Edges where an artist expects a border: marked sharp, or between materials.
     seams : (k, 2) array_like of int, optional

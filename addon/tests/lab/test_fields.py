@@ -184,7 +184,7 @@ def test_where_lines_pass_one_vertex_the_stronger_counts() -> None:
     # Two lines pass vertex 5. The second is a valley.
     crossed = SimpleNamespace(
         edges=np.array([[4, 5], [5, 6], [6, 7], [5, 8], [8, 9]], dtype=np.int32),
-        parts=np.array([0.9, 0.1, 0.4, 0.0, 1.0]),
+        t=np.array([0.9, 0.1, 0.4, 0.0, 1.0]),
         curvatures=np.array([2.0, 2.0, 2.0, -1.0, -1.0]),
         starts=np.array([0, 3, 5], dtype=np.int32),
         strengths=np.array([4.0, 1.5]),

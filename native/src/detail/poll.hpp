@@ -25,7 +25,7 @@ class Poll {
         length_(end - begin),
         total_(static_cast<double>(std::max<std::size_t>(total, 1))),
         mask_(steps_between - 1) {}
-  /// For a loop that reports no progress, or whose steps nobody knows.
+  /// Reports 0 all the time: for the beginning of work, or for a task whose progress only rises.
   explicit Poll(const Task& task, std::size_t steps_between = kSteps) : Poll(task, 0.0, 0.0, 1, steps_between) {}
   Poll(Task&& task, double begin, double end, std::size_t total, std::size_t steps_between = kSteps) = delete;
   explicit Poll(Task&& task, std::size_t steps_between = kSteps) = delete;

@@ -38,7 +38,7 @@ class TotalAngle {
 };
 
 /// How much shorter than the two other edges together the longest edge of a triangle is, in its own length. With less,
-/// the place of the third corner is lost in rounding, and windows go astray behind it: distances were up to 43 % off.
+/// the place of the third corner is lost in rounding, and windows go astray behind it.
 constexpr double kLeastSlack = 1e-13;
 
 /// Lengths above this are refused, and meshes whose longest edge is shorter than the inverse. The square of a

@@ -183,8 +183,8 @@ class Tracer {
     return along_edges.edges.back().to;
   }
 
-  /// From `vertex` to its source in one segment, whatever is between them. For where no vertex is nearer to the source,
-  /// which is then a point in a face, or as near as the vertex itself.
+  /// From `vertex` to its source in one segment, whatever is between them. Used if no vertex is nearer to the source.
+  /// The source is then a point in a face, or it is as near as the vertex itself.
   std::int32_t end_line(std::int32_t vertex, const TraceRecord& record) {
     const std::int32_t source = origin(record.source);
     if (is_point(source)) {

@@ -384,9 +384,9 @@ void detail::check_scribble(const Surface& surface, const Scribble& scribble, st
                          std::to_string(list->size()) + " faces or vertices for them");
     }
   }
-  if (!(scribble.eta >= 1 && scribble.eta <= kLargestEigenvalue)) {
+  if (!(std::isfinite(scribble.eta) && scribble.eta >= 1)) {
     throw InvalidInput("eta of " + name(number_of_scribble) + " is " + text(scribble.eta) +
-                       ", not a number from 1 to 1e150");
+                       ", not a finite number of at least 1");
   }
   if (scribble.rings < 1) {
     throw InvalidInput("rings of " + name(number_of_scribble) + " is " + std::to_string(scribble.rings) +

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "parameterization/cut_open.hpp"
 
+#include <algorithm>
 #include <cstddef>
 
 #include "detail/disjoint_sets.hpp"

@@ -207,9 +207,9 @@ class Flattener {
 };
 
 /// The islands of the corner fans, with vertices of the caller's.
-std::vector<Island> islands_of(const Surface& surface, std::span<const Edge> cut_edges) {
-  const Cuts cuts(surface, cut_edges, "cuts");
-  std::vector<Island> islands = cut_open(corner_fans(surface), cut_half_edges(surface, cuts));
+std::vector<Island> islands_of(const Surface& surface, std::span<const Edge> cut_edges, const Task& task) {
+  const Cuts cuts(surface, cut_edges, "cuts", task);
+  std::vector<Island> islands = cut_open(corner_fans(surface), cut_half_edges(surface, cuts, task), task);
   for (Island& island : islands) {
     for (std::int32_t& v : island.vertices) v = corner_fans(surface).vertices[v];
   }
@@ -264,11 +264,11 @@ FlatIsland describe(const Surface& surface, const MappedIsland& mapped) {
 
 Flattening flatten(const Surface& surface, std::span<const Edge> cuts, const FlattenOptions& options,
                    const Task& task) {
-  task.check(0.0);
-  const std::vector<Island> islands = islands_of(surface, cuts);
-  task.check(0.0);
+  const Task beginning = part_of(task, 0.0, 0.0);
+  const std::vector<Island> islands = islands_of(surface, cuts, beginning);
   Flattening result;
-  result.islands = face_segments(surface, cuts);
+  result.islands = face_segments(surface, cuts, beginning);
+  task.check(0.0);
   const std::vector<MappedIsland> mapped = map_all(surface, islands, options, task);
   result.uvs.assign(surface.face_count(), {Point2::Zero(), Point2::Zero(), Point2::Zero()});
   result.by_island.resize(result.islands.empty() ? 0 : index(std::ranges::max(result.islands) + 1));

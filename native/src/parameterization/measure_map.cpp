@@ -216,8 +216,7 @@ class OverlapTest {
       if (twin < 0) continue;
       is_cut[h] = map.island(index(h / 3)) != map.island(index(twin / 3)) || !map.is_continuous(h) ? 1 : 0;
     }
-    task.check(0.5);
-    for (const Island& piece : cut_open(corner_fans(surface), is_cut)) {
+    for (const Island& piece : cut_open(corner_fans(surface), is_cut, part_of(task, 0.5, 0.5))) {
       poll_.next();
       add_piece(piece);
     }

@@ -381,7 +381,7 @@ std::vector<PlannedWire> PlannedWires::along(const PlanMesh& mesh, std::span<con
         continue;
       }
       PlannedWire wire = is_without ? along_edges(mesh, chain) : std::move(one);
-      laid.push_back({std::move(open[i]), std::move(wire), away});
+      laid.push_back({std::move(open[i]), std::move(wire), is_without ? 0.0 : away});
     }
     const auto on_edges = [&](const Chain& chain) { return along_edges(mesh, chain); };
     open = again.empty() ? take_touching(mesh, *surface_, rim_, wires, laid, on_edges, task) : std::move(again);

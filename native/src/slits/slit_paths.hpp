@@ -104,7 +104,7 @@ struct PathRules {
   Half half = Half::kAny;
   /// Exponent of the price for a unit of length: 1 for the cheapest path, 0 for the shortest.
   double exponent = 1.0;
-  std::span<const std::uint8_t> barred_edges = {};  ///< of each edge: 1 where no path may run; empty: nowhere
+  std::span<const std::uint8_t> barred_edges = {};  ///< of each edge: 1 where no path may run; empty: no edge is barred
 };
 
 /// The cheapest paths over edges from a cut to every vertex of a mesh. A path pays for its edges and its turns.
@@ -126,8 +126,8 @@ std::vector<std::int32_t> chain_along(const PlanMesh& mesh, std::span<const Vect
                                       std::int32_t from, std::int32_t to, std::span<const std::uint8_t> barred,
                                       const EdgePrices& prices, const Task& task);
 
-/// Edge distances from a vertex over all triangles' edges, polygons' diagonals included; infinite if unreachable.
-/// Throws Cancelled.
+/// Edge distances from the nearest of some vertices over all triangles' edges, polygons' diagonals included; infinite
+/// if unreachable. Throws Cancelled.
 std::vector<double> edge_distances(const PlanMesh& mesh, std::span<const std::int32_t> from, const Task& task);
 
 /// Finds slits that lead from a cut to places on the mesh, in mirrored pairs on a symmetric mesh. Throws Cancelled.

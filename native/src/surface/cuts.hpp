@@ -20,7 +20,7 @@ namespace seamwire::detail {
 class Cuts {
  public:
   /// Throws InvalidInput for a vertex out of range, under the name of `what`; Cancelled.
-  Cuts(const Surface& surface, std::span<const Edge> edges, const std::string& what, const Task& task = {})
+  Cuts(const Surface& surface, std::span<const Edge> edges, const std::string& what, const Task& task)
       : touched_(surface.vertex_count(), 0) {
     Poll poll(task);
     for (const auto& [a, b] : edges) {

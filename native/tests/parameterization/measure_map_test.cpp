@@ -386,7 +386,7 @@ TEST(MeasureMap, ManyPiecesAreMeasuredAndCanBeCancelled) {
   const std::vector<std::int32_t> islands(squares.uvs.size(), 0);
   EXPECT_TRUE(measure_map(squares.surface, squares.uvs, islands).overlapping.empty());
   int asked = 0;
-  const Task task{.stop = {}, .progress = [&](double) { return ++asked < 50; }};
+  const Task task{.stop = {}, .progress = [&](double fraction) { return fraction < 0.5 || ++asked < 50; }};
   EXPECT_THROW(measure_map(squares.surface, squares.uvs, islands, task), Cancelled);
 }
 

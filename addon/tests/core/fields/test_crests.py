@@ -93,7 +93,7 @@ def crossed() -> Crests:
     return Crests(
         points=np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0], [0, 2, 0]]),
         edges=np.array([[4, 5], [5, 6], [6, 7], [5, 8], [8, 9]], dtype=np.int32),
-        parts=np.array([0.9, 0.1, 0.4, 0.0, 1.0]),
+        t=np.array([0.9, 0.1, 0.4, 0.0, 1.0]),
         faces=np.array([0, 1, -1, 2, -1], dtype=np.int32),
         curvatures=np.array([2.0, 2.0, 2.0, -1.0, -1.0]),
         starts=np.array([0, 3, 5], dtype=np.int32),

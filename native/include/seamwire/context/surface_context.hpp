@@ -36,7 +36,8 @@ class SEAMWIRE_API SurfaceContext {
   /// \param surface the surface, not null
   /// \throws InvalidInput if the surface is null
   SurfaceContext(std::shared_ptr<const Surface> surface);
-  /// Make the context of a surface from any pointer that converts, such as std::shared_ptr<Surface>.
+  /// The same from any pointer that converts, such as std::shared_ptr<Surface>. What takes a SurfaceContext takes these
+  /// pointers too.
   ///
   /// \param surface the surface, not null
   /// \throws InvalidInput if the surface is null

@@ -28,7 +28,7 @@ struct Scribble {
   std::vector<std::int32_t> faces;
   /// Per point: the caller's vertex, or -1 if `faces` has the point. Empty if all points are in triangles.
   std::vector<std::int32_t> vertices;
-  double eta = 20;  ///< at the stroke, the eigenvalues become eta and 1 / eta; from 1 to kLargestEigenvalue
+  double eta = 20;  ///< at the stroke, the eigenvalues become eta and 1 / eta; finite, 1 or more
   int rings = 10;   ///< k, 1 or more: nothing changes from the k-th ring of vertices around the stroke on
   /// Nothing changes from this distance on; finite, above 0, in the caller's unit. Replaces `rings` if set.
   std::optional<double> radius = std::nullopt;

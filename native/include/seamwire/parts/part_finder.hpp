@@ -15,7 +15,7 @@ namespace seamwire {
 /// Options of a PartFinder.
 struct PartOptions {
   /// The axis, 0 (x) to 2 (z), in whose direction the surface is mirrored, as in SeamPlannerOptions. Parts are then
-  /// symmetric where the triangles are, see also PartEdits::parted. -1: they need not be.
+  /// symmetric wherever the triangles are mirrored. PartEdits::parted has an exception. -1: they need not be.
   int mirror = -1;
   /// Edges where an artist expects a border, as vertex pairs: edges marked sharp, or edges between materials.
   std::vector<Edge> marked = {};
