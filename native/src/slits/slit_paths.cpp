@@ -70,7 +70,7 @@ TurningPaths slit_paths(const PlanMesh& mesh, const EdgePrices& prices, const Re
                         const Task& task) {
   const auto side = [&](std::int32_t v) { return reflection->sides[v]; };
   const double plane_width = 0.5 * median_length(mesh);
-  const bool hugs_plane = rules.half == Half::kNearPlane || (rules.half == Half::kPlane && !reflection->is_exact);
+  const bool hugs_plane = reflection != nullptr && rules.half == Half::kPlane && !reflection->is_exact;
   const auto edge_price = [&](std::int32_t e, std::int32_t a, std::int32_t b) {
     if (!rules.barred_edges.empty() && rules.barred_edges[e] != 0) return kInfinity;
     if (from[b] != 0 || (ends[a] != 0 && from[a] == 0)) return kInfinity;
@@ -198,12 +198,10 @@ const TurningPaths& SlitFinder::paths_in(Half half) const {
 
 const TurningPaths& SlitFinder::paths_to(std::int32_t vertex) const {
   if (!problem_.reflection) return paths_in(Half::kAny);
-  const auto half = static_cast<Half>(problem_.reflection->sides[vertex]);
-  const TurningPaths& paths = paths_in(half);
-  if (std::isfinite(paths.price(vertex))) return paths;
+  const TurningPaths& paths = paths_in(static_cast<Half>(problem_.reflection->sides[vertex]));
   // Edges across the mirror plane leave places on it without a path in it. Pieces that are not symmetric themselves
   // have places without a path on their side.
-  return paths_in(half == Half::kPlane ? Half::kNearPlane : Half::kAny);
+  return std::isfinite(paths.price(vertex)) ? paths : paths_in(Half::kAny);
 }
 
 double SlitFinder::price_to(std::int32_t vertex) const { return paths_to(vertex).price(vertex); }

@@ -20,8 +20,7 @@ enum class Half : std::int8_t {
   kNegative = -1,  ///< along the mirror plane, then off it to the negative side, and not back
   kPlane = 0,      ///< along the mirror plane alone
   kPositive = 1,   ///< along the mirror plane, then off it to the positive side
-  kNearPlane = 2,  ///< anywhere, but as near to the mirror plane as possible
-  kAny = 3,        ///< anywhere
+  kAny = 2,        ///< anywhere
 };
 
 /// Cheapest paths over edges that also pay for their turns.
@@ -152,7 +151,7 @@ class SlitFinder {
   Task task_;
   double exponent_;
   std::vector<std::uint8_t> barred_edges_;
-  mutable std::array<std::optional<TurningPaths>, 5> paths_;  // by half, found when first asked for
+  mutable std::array<std::optional<TurningPaths>, 4> paths_;  // by half, found when first asked for
 };
 
 /// The mirror image of the part of a path that leaves the mirror plane; empty if it has none. `is_on_cut`: where it may

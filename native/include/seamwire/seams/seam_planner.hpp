@@ -98,8 +98,8 @@ struct SeamPlan {
 /// and exchanges them while the distortion stays within a bound.
 ///
 /// Slits follow sharp edges, creases and thin rims that are near. On a symmetric surface, most slits run along the
-/// mirror plane or come in mirrored pairs. A slit stays alone if its image would part an island. Where no edges lie in
-/// the plane, slits run beside it. Large surfaces are planned on a simplified mesh.
+/// mirror plane or come in mirrored pairs. A slit stays alone if its image would part an island. So does a slit
+/// to a place on the plane to which no edges in the plane lead. Large surfaces are planned on a simplified mesh.
 ///
 /// Existing seams divide the surface into pieces. Each piece is planned by itself, and together with its mirror image
 /// if it has one. Congruent pieces that are equally visible are planned once.
