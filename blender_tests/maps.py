@@ -87,8 +87,7 @@ def in_square(obj: bpy.types.Object) -> bool:
 def energy(obj: bpy.types.Object, aspect: float = 1.0) -> float:
     """Return the symmetric Dirichlet energy of the map at its best scale, the mean over the area of the visible triangles.
 
-    The worst triangles are left out, as far as they have 0.1 % of the area. `aspect` is the width over the height of the image that the
-    map lies on.
+    The worst 0.1 % of the area is left out. `aspect` is the width over the height of the image that the map lies on.
     """
     uvs, corners = triangles(obj)
     weights = areas(corners)
@@ -107,8 +106,10 @@ def energy(obj: bpy.types.Object, aspect: float = 1.0) -> float:
     for left_out in (0.0, 0.001):
         square = np.sqrt(smaller @ weights / (larger @ weights))  # of the best scale
         order = np.argsort(square * larger + smaller / square)
-        kept = order[np.cumsum(weights[order]) <= (1.0 - left_out + 1e-9) * weights.sum()]
-        larger, smaller, weights = larger[kept], smaller[kept], weights[kept]
+        larger, smaller, weights = larger[order], smaller[order], weights[order]
+        before = np.cumsum(weights) - weights
+        weights = np.clip((1.0 - left_out) * weights.sum() - before, 0.0, weights)
+        larger, smaller, weights = (values[weights > 0.0] for values in (larger, smaller, weights))
     return float(2.0 * np.sqrt((larger @ weights) * (smaller @ weights)) / weights.sum())
 
 
