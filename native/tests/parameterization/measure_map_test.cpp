@@ -377,10 +377,10 @@ TEST(MeasureMap, CombsInEachOtherTakeTimeInProportion) {
   });
 }
 
-TEST(MeasureMap, ManyPiecesAreMeasuredAndCanBeCancelled) {
+TEST(MeasureMap, AHundredThousandPiecesAreMeasuredAndCanBeCancelled) {
   std::vector<Eigen::Vector2d> places;
-  for (int i = 0; i < 100; ++i) {
-    for (int j = 0; j < 100; ++j) places.emplace_back(i, j);
+  for (int i = 0; i < 316; ++i) {
+    for (int j = 0; j < 316; ++j) places.emplace_back(i, j);
   }
   const Squares squares = squares_at(places);
   const std::vector<std::int32_t> islands(squares.uvs.size(), 0);
