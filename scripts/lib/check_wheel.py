@@ -84,8 +84,9 @@ def faults_of_wheel(wheel: Path, platform: str, python: str) -> list[str]:
         tags = re.findall(r"^Tag: (\S+)", archive.read(metadata).decode(), re.M)
         if tag not in tags or len(tags) != 1:
             faults.append(f"its tags are {', '.join(tags)}")
-        if module not in archive.namelist():
-            return [*faults, f"{module} is not in it"]
+        missing = {module, "seamwire_core-stubs/__init__.pyi"}.difference(archive.namelist())
+        if missing:
+            return [*faults, *(f"{name} is not in it" for name in sorted(missing))]
         return faults + faults_of_module(Path(archive.extract(module, folder)), platform, python)
 
 
