@@ -16,7 +16,9 @@ ROOT = Path(__file__).parents[3]
 
 def test_the_stub_is_that_of_the_module() -> None:
     made = runpy.run_path(str(ROOT / "scripts/lib/python_stub.py"))["stub"]()
-    assert Path(sw.__file__).with_name("seamwire_core-stubs").joinpath("__init__.pyi").read_text(encoding="utf-8") == made
+    assert (
+        Path(sw.__file__).with_name("seamwire_core-stubs").joinpath("__init__.pyi").read_text(encoding="utf-8") == made
+    )
 
 
 def test_everything_says_what_it_is(surface: sw.Surface, metric: sw.Metric, field: sw.DistanceField) -> None:
