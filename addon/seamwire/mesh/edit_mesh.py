@@ -282,7 +282,7 @@ def _arrays(obj: bpy.types.Object, data: bpy.types.Mesh, columns: _Columns, poin
     points = points.astype(np.float64)
     edges, visible = columns["edges"], ~columns["hidden edges"]
     seams = edges[visible & columns["seams"]]
-    marked = edges[visible & (columns["sharp edges"] | _between_materials(data, columns))]
+    marked = tuple(edges[visible & marks] for marks in (columns["sharp edges"], _between_materials(data, columns)))
     edges = edges[visible]
     if len(edges) == 0:
         raise NothingVisibleError("No edge of the mesh is visible")
