@@ -86,7 +86,7 @@ def enable_addon(folder: str | None) -> None:
     else:
         names = [module.__name__ for module in addon_utils.modules() if module.__name__.split(".")[-1] == "seamwire"]
     for name in names:
-        module = addon_utils.enable(name, default_set=True)
+        module = addon_utils.enable(name)
         if module is not None:
             # By one name, however it is installed.
             for part in pkgutil.walk_packages(module.__path__, f"{name}."):
