@@ -85,6 +85,7 @@ class Suggestion:
 
     def __init__(self, obj: bpy.types.Object, options: SearchOptions, faces: NDArray[np.integer] | None) -> None:
         self._core = native.load()
+        self.name = obj.name_full  # threads must not ask Blender
         self.mesh = ObjectSession(obj)
         arrays = self.mesh.arrays
         self.along: Along = options.along or self.mesh.find_auto().along
@@ -255,11 +256,6 @@ class Suggestion:
             found = plan.uvs  # unwrapping may open islands further
         if self._planner is planner:
             self.layout = np.asarray(found)
-
-    @property
-    def name(self) -> str:
-        """The full name of the object."""
-        return self.mesh.obj.name_full
 
     @property
     def best_so_far(self) -> seamwire_core.SeamPlan | None:
