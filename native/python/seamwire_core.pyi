@@ -2184,7 +2184,7 @@ class PartFinder:
         surface: Surface,
         *,
         mirror: Literal[0, 1, 2] | None = None,
-        marked: Iterable[ArrayLike] | None = None,
+        marked: list[ArrayLike] | None = None,
         seams: ArrayLike | None = None,
         progress: Callable[[float], bool | None] | None = None,
     ) -> None: ...
