@@ -28,7 +28,8 @@ namespace {
 
 using Corners = std::array<Eigen::Vector2d, 3>;
 
-/// Parts of an outline that cross by less than this part of the island's size only touch.
+/// Outlines that cross by less than this part of the map's size, or of its largest coordinate, only touch. UVs are
+/// rounded to single precision, more than once where islands are moved, and the largest one tells by how much.
 constexpr double kTouching = 1e-6;
 
 void check_map(const Surface& surface, std::span<const Corners> uvs, std::span<const std::int32_t> islands,
@@ -227,13 +228,12 @@ class OverlapTest {
     std::vector<std::int32_t> found;
     for (std::int32_t i = 0; index(i) < islands_.size(); ++i) {
       poll_.next();
-      const double tolerance = kTouching * islands_[index(i)].box.sizes().maxCoeff();
       std::vector<IslandPiece> pieces = pieces_of(i);
       const auto is_double = [&](const IslandPiece& piece) {
-        return piece.outline->overlaps(*piece.outline, tolerance, pair_poll_);
+        return piece.outline->overlaps(*piece.outline, tolerance(), pair_poll_);
       };
       if (is_bad[i] != 0 || islands_[index(i)].is_wound || std::ranges::any_of(pieces, is_double) ||
-          do_any_overlap(pieces, tolerance, pair_poll_)) {
+          do_any_overlap(pieces, tolerance(), pair_poll_)) {
         found.push_back(i);
       }
     }
@@ -241,17 +241,13 @@ class OverlapTest {
   }
 
   std::vector<std::int32_t> colliding() {
-    double largest = 0.0;
     std::vector<IslandPiece> pieces;
     for (std::int32_t i = 0; index(i) < islands_.size(); ++i) {
       const std::vector<IslandPiece> own = pieces_of(i);
       pieces.insert(pieces.end(), own.begin(), own.end());
-      if (own.empty()) continue;
-      const Eigen::AlignedBox2d& box = islands_[index(i)].box;
-      largest = std::max({largest, box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff()});
     }
     std::vector<std::uint8_t> is_colliding(islands_.size(), 0);
-    mark_colliding(pieces, kTouching * largest, is_colliding, pair_poll_);
+    mark_colliding(pieces, tolerance(), is_colliding, pair_poll_);
     std::vector<std::int32_t> found;
     for (std::int32_t i = 0; index(i) < is_colliding.size(); ++i) {
       if (is_colliding[index(i)] != 0) found.push_back(i);
@@ -262,9 +258,13 @@ class OverlapTest {
  private:
   struct IslandOutline {
     std::vector<PieceOutline> pieces;
-    Eigen::AlignedBox2d box;
     bool is_wound = false;  // closed, or around an inner vertex twice
   };
+
+  double tolerance() const {
+    if (box_.isEmpty()) return 0.0;
+    return kTouching * box_.min().cwiseAbs().cwiseMax(box_.max().cwiseAbs()).cwiseMax(box_.sizes()).maxCoeff();
+  }
 
   std::vector<IslandPiece> pieces_of(std::int32_t island) const {
     std::vector<IslandPiece> pieces;
@@ -283,7 +283,7 @@ class OverlapTest {
       double longest = 0.0;
       for (std::size_t i = 0; i < 3; ++i) {
         own[index(piece.triangles[f][i])] = corners[i];
-        island.box.extend(corners[i]);
+        box_.extend(corners[i]);
         longest = std::max(longest, (corners[(i + 1) % 3] - corners[i]).norm());
       }
       const double doubled = map_.cross(index(piece.faces[f]));
@@ -327,6 +327,7 @@ class OverlapTest {
   const HalfEdgeMap& map_;
   Poll poll_, pair_poll_;
   std::vector<IslandOutline> islands_;
+  Eigen::AlignedBox2d box_;  // of the map
 };
 
 }  // namespace

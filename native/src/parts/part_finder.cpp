@@ -21,6 +21,7 @@
 #include "detail/edge_chains.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
+#include "detail/rounded.hpp"
 #include "detail/text.hpp"
 #include "parts/parting_cuts.hpp"
 #include "prices/border_odds.hpp"
@@ -406,7 +407,7 @@ std::vector<Region> PartFinder::Impl::regions_of(const Polygons& own, const Task
     const auto& [diagonal, area] = sizes.of_piece[sizes.pieces.of_face[f]];
     if (!(diagonal > 0.0)) continue;
     Region& region = found[own.of_face[f]];
-    region.area += frames[f].area / (diagonal * diagonal);
+    region.area += rounded(frames[f].area) / (diagonal * diagonal);
     region.least_area = tuning::kLeastPart * area / (diagonal * diagonal);
   }
   if (!problem.reflection) return found;

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
-#include <numbers>
 #include <numeric>
 #include <queue>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -521,7 +521,6 @@ void mark_rims(const SlitProblem& problem, std::span<const std::int32_t> pieces,
                std::vector<std::uint8_t>& is_marked, const Task& task) {
   const PlanMesh& mesh = *problem.mesh;
   const std::vector<FaceFrame> frames = face_frames(mesh, task);
-  const double least_cosine = std::cos(degrees * std::numbers::pi / 180.0);
   DisjointSets regions(mesh.face_count());
   std::vector<double> areas(mesh.face_count(), 0.0);
   std::vector<std::size_t> corners(mesh.face_count(), 0);
@@ -535,7 +534,8 @@ void mark_rims(const SlitProblem& problem, std::span<const std::int32_t> pieces,
         const std::int32_t twin = mesh.twins[h], edge = mesh.edge_of[h];
         if (twin < h || problem.is_seam[edge] != 0) continue;
         inner.push_back(h);
-        const bool is_smooth = frames[f].normal.dot(frames[twin / 3].normal) > least_cosine;
+        const Vector &one = frames[f].normal, &other = frames[twin / 3].normal;
+        const bool is_smooth = !one.isZero() && !other.isZero() && degrees_between(one, other) < degrees;
         if (is_smooth || problem.prices.of_edge[edge] == kInfinity) regions.join(f, twin / 3);
       }
     }
@@ -587,11 +587,20 @@ std::size_t count_blocks(const SlitProblem& problem) {
 std::vector<Slit> halving_cuts(SlitProblem problem, std::size_t count, const Task& task) {
   std::vector<std::uint8_t> is_marked(problem.mesh->edge_count(), 0);
   const Task own = part_of(task, 0.0, 0.0);
+  // A piece that could not be halved is not tried again as long as it has the same triangles.
+  std::set<std::pair<std::int32_t, std::size_t>> whole;  // by first triangle and number of triangles
+  const auto is_halved = [&](std::int32_t p) {
+    const std::vector<std::int32_t>& faces = problem.by_piece[p].faces;
+    if (whole.contains({faces.front(), faces.size()})) return false;
+    if (mark_half(problem, p, is_marked, own)) return true;
+    whole.emplace(faces.front(), faces.size());
+    return false;
+  };
   while (index(problem.pieces.count) < count) {
     std::vector<std::int32_t> order(problem.by_piece.size());
     std::iota(order.begin(), order.end(), 0);
     std::ranges::stable_sort(order, std::ranges::greater(), [&](std::int32_t p) { return problem.by_piece[p].area; });
-    if (std::ranges::none_of(order, [&](std::int32_t p) { return mark_half(problem, p, is_marked, own); })) break;
+    if (std::ranges::none_of(order, is_halved)) break;
     for (std::size_t e = 0; e < is_marked.size(); ++e) problem.is_seam[e] |= is_marked[e];
     find_pieces_of(problem, own);
   }

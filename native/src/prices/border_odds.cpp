@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "prices/border_odds.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -14,6 +15,7 @@
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
 #include "detail/poll.hpp"
+#include "detail/rounded.hpp"
 #include "tuning/constants.hpp"
 
 namespace seamwire::detail {
@@ -21,26 +23,85 @@ namespace {
 
 constexpr std::size_t kMostEdges = 24;  // around a vertex; lines end at the middle of larger fans
 
-/// In degrees.
-double angle_between(const Vector& one, const Vector& other) {
-  return 180.0 / std::numbers::pi * std::atan2(one.cross(other).norm(), one.dot(other));
-}
-
 /// How far the two triangles beside a half-edge are from a rectangle, in degrees; kInfinity if they are no quad.
 double skew_of(const PlanMesh& mesh, std::span<const FaceFrame> frames, std::int32_t h) {
   const std::int32_t twin = mesh.twins[h];
-  const double fold = angle_between(frames[h / 3].normal, frames[twin / 3].normal);
+  const double fold = degrees_between(frames[h / 3].normal, frames[twin / 3].normal);
   if (!(fold < tuning::kMostFold)) return kInfinity;
   const std::array<Vector, 4> corners{mesh.points[mesh.tail(h)], mesh.points[mesh.apex(twin)], mesh.points[mesh.tip(h)],
                                       mesh.points[mesh.apex(h)]};
   double deviation = 0.0;
   for (std::size_t i = 0; i < 4; ++i) {
     const Vector& at = corners[i];
-    deviation += std::abs(angle_between(corners[(i + 1) % 4] - at, corners[(i + 3) % 4] - at) - 90.0);
+    deviation += std::abs(degrees_between(corners[(i + 1) % 4] - at, corners[(i + 3) % 4] - at) - 90.0);
   }
   const double skew = fold + deviation / 4.0;
   return skew < tuning::kMostSkew ? skew : kInfinity;
 }
+
+/// The box around some points that has the least diagonal of all directions. A box along the axes would depend on how
+/// the points are turned.
+class LeastBox {
+ public:
+  LeastBox(std::span<const Vector> points, std::span<const std::int32_t> chosen) {
+    if (chosen.empty()) return;
+    Vector middle = Vector::Zero();
+    for (const std::int32_t v : chosen) middle += points[v] / static_cast<double>(chosen.size());
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    for (const std::int32_t v : chosen) spread += (points[v] - middle) * (points[v] - middle).transpose();
+    axes_ = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors();
+    if (chosen.size() <= kMostPoints) {
+      for (const std::int32_t v : chosen) points_.push_back(points[v] - middle);
+      return;
+    }
+    for (int i = 0; i < kDirections; ++i) {  // on a sphere, spread evenly (Fibonacci spiral)
+      const double height = (2.0 * i + 1.0) / kDirections - 1.0, turn = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
+      const double radius = std::sqrt(1.0 - height * height);
+      const Vector direction = axes_ * Vector(radius * std::cos(turn), radius * std::sin(turn), height);
+      const auto along = [&](std::int32_t v) { return points[v].dot(direction); };
+      points_.push_back(points[*std::ranges::max_element(chosen, {}, along)] - middle);
+    }
+  }
+
+  double diagonal() const {
+    if (points_.empty()) return 0.0;
+    Eigen::Matrix3d best = axes_;
+    double least = squared_diagonal(best);
+    const auto turn = [&](const Eigen::Matrix3d& from, int axis, double angle) {
+      const Eigen::Matrix3d turned = from * Eigen::AngleAxisd(angle, Vector::Unit(axis)).toRotationMatrix();
+      const double squared = squared_diagonal(turned);
+      if (!(squared < least)) return false;
+      least = squared;
+      best = turned;
+      return true;
+    };
+    constexpr int kSteps = 12;
+    for (int axis = 0; axis < 6; ++axis) {
+      const Eigen::Matrix3d start = best;
+      for (int step = 1; step < kSteps; ++step) turn(start, axis % 3, 0.5 * std::numbers::pi * step / kSteps);
+    }
+    constexpr double kFinest = 1e-6;
+    for (double angle = 0.1; angle > kFinest;) {
+      bool is_better = false;
+      for (int axis = 0; axis < 3; ++axis) is_better = turn(best, axis, angle) || turn(best, axis, -angle) || is_better;
+      if (!is_better) angle *= 0.5;
+    }
+    return std::sqrt(least);
+  }
+
+ private:
+  static constexpr std::size_t kMostPoints = 400;
+  static constexpr int kDirections = 120;
+
+  double squared_diagonal(const Eigen::Matrix3d& axes) const {
+    Eigen::AlignedBox3d box;
+    for (const Vector& point : points_) box.extend(Vector(axes.transpose() * point));
+    return box.diagonal().squaredNorm();
+  }
+
+  Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();  // principal ones
+  std::vector<Vector> points_;
+};
 
 class BendFinder {
  public:
@@ -49,7 +110,7 @@ class BendFinder {
   double degrees(std::int32_t e) const {
     const std::int32_t h = mesh_.half_edge_of[e], twin = mesh_.twins[h];
     const Vector &one = frames_[h / 3].normal, &other = frames_[twin / 3].normal;
-    const double angle = angle_between(one, other);
+    const double angle = degrees_between(one, other);
     const Vector along = mesh_.points[mesh_.tip(h)] - mesh_.points[mesh_.tail(h)];
     return one.cross(other).dot(along) < 0.0 ? -angle : angle;
   }
@@ -57,7 +118,7 @@ class BendFinder {
   /// Between the normals of the faces that one reaches by going straight away from an edge on both sides.
   double wide_degrees(std::int32_t e, double distance) const {
     const std::int32_t h = mesh_.half_edge_of[e], twin = mesh_.twins[h];
-    return angle_between(normal_at(h, distance), normal_at(twin, distance));
+    return degrees_between(normal_at(h, distance), normal_at(twin, distance));
   }
 
  private:
@@ -66,6 +127,8 @@ class BendFinder {
     const Vector across = (mesh_.points[mesh_.tip(h)] - mesh_.points[mesh_.tail(h)]).normalized();
     Vector at = 0.5 * (mesh_.points[mesh_.tip(h)] + mesh_.points[mesh_.tail(h)]);
     const Vector middle = at;
+    constexpr double kFlat = 1e-5;
+    const double flat = kFlat * mesh_.lengths[mesh_.edge_of[h]];
     const auto height = [&](std::int32_t v) { return (mesh_.points[v] - middle).dot(across); };
     constexpr int kMostTriangles = 64;
     double gone = 0.0;
@@ -75,7 +138,8 @@ class BendFinder {
       // Leave through the side whose ends lie on both sides of the plane.
       const double own = height(tip);
       const double end = height(mesh_.tip(h));
-      const bool is_next = (own > 0.0) != (end > 0.0);
+      // A corner on the plane counts as below it, though it is a little above by rounding.
+      const bool is_next = (own > flat) != (end > flat);
       const std::int32_t side = first + (is_next ? (k + 1) % 3 : (k + 2) % 3);
       const double a = height(mesh_.tail(side)), b = height(mesh_.tip(side));
       const double t = a != b ? std::clamp(a / (a - b), 0.0, 1.0) : 0.5;
@@ -296,7 +360,7 @@ std::vector<std::vector<std::int32_t>> find_lines(const PlanMesh& mesh, const Po
       double least = tuning::kMostTurn;
       for (std::size_t k = 0; k < around.size(); ++k) {
         if (k == i) continue;
-        const double turn = angle_between(in, mesh.points[around[k].vertex] - mesh.points[v]);
+        const double turn = degrees_between(in, mesh.points[around[k].vertex] - mesh.points[v]);
         const bool is_opposite =
             around.size() == 4 && !mesh.is_boundary(around[i].edge) && !share_polygon(around[i].edge, around[k].edge);
         if (is_opposite && turn < tuning::kOverVertex) {
@@ -344,16 +408,23 @@ std::vector<std::vector<std::int32_t>> find_lines(const PlanMesh& mesh, const Po
 
 PieceSizes measure_pieces(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Task& task) {
   PieceSizes sizes{find_pieces(mesh, std::vector<std::uint8_t>(mesh.edge_count(), 0), task), {}};
-  std::vector<Eigen::AlignedBox3d> boxes(index(sizes.pieces.count));
-  sizes.of_piece.resize(boxes.size());
+  std::vector<std::vector<std::int32_t>> vertices(index(sizes.pieces.count));
+  sizes.of_piece.resize(vertices.size());
+  std::vector<std::uint8_t> is_known(mesh.vertex_count(), 0);
   const Poll poll(task);
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
     poll.at(f);
     const std::int32_t piece = sizes.pieces.of_face[f];
-    for (const std::int32_t v : mesh.triangles[f]) boxes[piece].extend(mesh.points[v]);
+    for (const std::int32_t v : mesh.triangles[f]) {
+      if (std::exchange(is_known[v], std::uint8_t{1}) == 0) vertices[piece].push_back(v);
+    }
     sizes.of_piece[piece].area += frames[f].area;
   }
-  for (std::size_t p = 0; p < boxes.size(); ++p) sizes.of_piece[p].diagonal = boxes[p].diagonal().norm();
+  for (std::size_t p = 0; p < vertices.size(); ++p) {
+    task.check(0.0);
+    sizes.of_piece[p].area = rounded(sizes.of_piece[p].area);
+    sizes.of_piece[p].diagonal = rounded(LeastBox(mesh.points, vertices[p]).diagonal());
+  }
   return sizes;
 }
 

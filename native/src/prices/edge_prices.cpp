@@ -9,6 +9,7 @@
 
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
+#include "detail/rounded.hpp"
 #include "detail/run_on_threads.hpp"
 #include "prices/border_odds.hpp"
 #include "seamwire/surface/ray_tree.hpp"
@@ -26,10 +27,11 @@ Vector on_hemisphere(int i, int count, const Vector& axis) {
   return std::sqrt(1.0 - height * height) * (std::cos(turn) * x + std::sin(turn) * y) + height * axis;
 }
 
-/// The same with a density that is proportional to the cosine of the angle to the axis.
-Vector by_cosine(int i, int count, const Vector& axis) {
+/// The same with a density that is proportional to the cosine of the angle to the axis. `x`: a unit vector across the
+/// axis, from which the directions are counted.
+Vector by_cosine(int i, int count, const Vector& axis, const Vector& x) {
   const double radius = std::sqrt((i + 0.5) / count), turn = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
-  const Vector x = axis.unitOrthogonal(), y = axis.cross(x);
+  const Vector y = axis.cross(x);
   return radius * (std::cos(turn) * x + std::sin(turn) * y) + std::sqrt(std::max(1.0 - radius * radius, 0.0)) * axis;
 }
 
@@ -60,6 +62,13 @@ Visibility find_visibility(const PlanMesh& mesh, const std::optional<Vector>& fr
   const RayTree rays(mesh.points, mesh.triangles);
   rays.wait(task);
   const std::vector<Vector> normals = vertex_normals(mesh, face_frames(mesh, task), task);
+  // Rays are counted from an edge of the mesh, so that they turn with it.
+  std::vector<std::int32_t> beside(mesh.vertex_count(), -1);
+  for (const Triangle& t : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (beside[t[i]] < 0) beside[t[i]] = t[(i + 1) % 3];
+    }
+  }
   std::vector<Vector> views;
   for (int i = 0; front && i < tuning::kViews; ++i) {
     views.push_back(on_hemisphere(i, tuning::kViews, front->stableNormalized()));
@@ -72,10 +81,13 @@ Visibility find_visibility(const PlanMesh& mesh, const std::optional<Vector>& fr
     if (normal.isZero()) return;
     const Vector origin = mesh.points[v] + kAbove * (sizes.empty() ? 1.0 : sizes[v]) * normal;
     const auto is_free = [&](const Vector& direction) {
-      return direction.dot(normal) > 0.0 && rays.first_hit(origin, direction).triangle < 0;
+      return direction.dot(normal) > 0.0 && !rays.is_met(origin, direction);
     };
+    const Vector along = mesh.points[beside[v]] - mesh.points[v];
+    Vector across = along - along.dot(normal) * normal;
+    across = across.squaredNorm() > 1e-12 * along.squaredNorm() ? Vector(across.normalized()) : normal.unitOrthogonal();
     int seen = 0;
-    for (int i = 0; i < tuning::kSkyRays; ++i) seen += is_free(by_cosine(i, tuning::kSkyRays, normal)) ? 1 : 0;
+    for (int i = 0; i < tuning::kSkyRays; ++i) seen += is_free(by_cosine(i, tuning::kSkyRays, normal, across)) ? 1 : 0;
     found.ambient[v] = static_cast<double>(seen) / tuning::kSkyRays;
     if (!front) return;
     const auto views_that_see = std::ranges::count_if(views, is_free);
@@ -157,7 +169,7 @@ std::vector<double> shape_prices(const PlanMesh& mesh, const EdgeBends& bends, s
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     poll.at(index(e));
     const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
-    const double width = twin < 0 ? 0.0 : (middle(twin) - middle(h)).norm();
+    const double width = twin < 0 ? 0.0 : rounded((middle(twin) - middle(h)).norm());
     const double curvature = width > 0.0 ? std::abs(bends.own[e]) * std::numbers::pi / 180.0 / width : 0.0;
     const double ridge = 1.0 - tuning::kRidgeSaving * std::clamp(curvature / tuning::kRidgeCurvature, 0.0, 1.0);
     prices.push_back(ridge * price_of_cut(std::max(odds[e], tuning::kFlatOdds)) / price_of_cut(tuning::kFlatOdds));
@@ -187,6 +199,7 @@ EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const
                        std::span<const double> weights, const Task& task) {
   const std::vector<FaceFrame> frames = face_frames(mesh, task);
   EdgePrices prices{.of_edge = {}, .visibility = openness(mesh, visibility, reflection, frames), .is_exposed = {}};
+  for (double& open : prices.visibility) open = rounded(open);
   const Polygons polygons = find_polygons(mesh, frames, {}, task);
   const PieceSizes sizes = measure_pieces(mesh, frames, task);
   const EdgeBends bends = bends_over_edges(mesh, frames, polygons, sizes, task);

@@ -4,11 +4,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
+#include "detail/rounded.hpp"
 #include "prices/point_tree.hpp"
 #include "surface/corner_fans.hpp"
 #include "surface/joined_faces.hpp"
@@ -61,7 +63,7 @@ void connect(PlanMesh& mesh, std::optional<std::span<const Edge>> real_edges, co
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     poll.next();
     const std::int32_t a = mesh.tail(mesh.half_edge_of[e]), b = mesh.tip(mesh.half_edge_of[e]);
-    mesh.lengths.push_back((mesh.points[b] - mesh.points[a]).norm());
+    mesh.lengths.push_back(rounded((mesh.points[b] - mesh.points[a]).norm()));
     const std::int32_t one = mesh.sources[a], other = mesh.sources[b];
     const Edge edge{std::min(one, other), std::max(one, other)};
     const bool is_real = a != b && (!real_edges || std::ranges::binary_search(*real_edges, edge));
@@ -127,6 +129,23 @@ FaceFrame face_frame(const PlanMesh& mesh, const Triangle& triangle) {
   return {size > 0.0 ? Vector(doubled / size) : Vector(Vector::Zero()), 0.5 * size};
 }
 
+bool have_area(const PlanMesh& mesh, std::span<const Triangle> triangles) {
+  constexpr double kLeastHeight = 1e-6;  // of the diagonal: coordinates may have been rounded to single precision
+  Eigen::AlignedBox3d box;
+  for (const Triangle& t : triangles) {
+    for (const std::int32_t v : t) box.extend(mesh.points[v]);
+  }
+  if (box.isEmpty()) return false;
+  const double least = kLeastHeight * box.diagonal().norm();
+  return std::ranges::any_of(triangles, [&](const Triangle& t) {
+    double longest = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      longest = std::max(longest, (mesh.points[t[(i + 1) % 3]] - mesh.points[t[i]]).norm());
+    }
+    return 2.0 * face_frame(mesh, t).area > least * longest;
+  });
+}
+
 std::vector<FaceFrame> face_frames(const PlanMesh& mesh, const Task& task) {
   std::vector<FaceFrame> frames;
   frames.reserve(mesh.face_count());
@@ -136,6 +155,12 @@ std::vector<FaceFrame> face_frames(const PlanMesh& mesh, const Task& task) {
     frames.push_back(face_frame(mesh, triangle));
   }
   return frames;
+}
+
+double degrees_between(const Vector& one, const Vector& other) {
+  constexpr double kGrid = 1024.0;  // steps in a degree
+  const double degrees = 180.0 / std::numbers::pi * std::atan2(one.cross(other).norm(), one.dot(other));
+  return std::round(kGrid * degrees) / kGrid;
 }
 
 std::vector<Vector> vertex_normals(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Task& task) {

@@ -26,7 +26,7 @@ struct PlanMesh : TriangleConnectivity {
   std::vector<Vector> points;
   std::vector<std::int32_t> edge_of;       ///< the edge of each half-edge
   std::vector<std::int32_t> half_edge_of;  ///< one half-edge of each edge
-  std::vector<double> lengths;             ///< of each edge
+  std::vector<double> lengths;             ///< of each edge, rounded
   double median_length = 0.0;              ///< of the edges; 0 without edges
   /// Whether seams may run along an edge. They may not where triangulating a polygon has created it.
   std::vector<std::uint8_t> is_real;
@@ -63,8 +63,15 @@ struct FaceFrame {
   double area = 0.0;
 };
 FaceFrame face_frame(const PlanMesh& mesh, const Triangle& triangle);
+/// Whether any of some triangles is more than a point or a line: higher than a millionth of the box around them all.
+bool have_area(const PlanMesh& mesh, std::span<const Triangle> triangles);
+
 /// Throws Cancelled.
 std::vector<FaceFrame> face_frames(const PlanMesh& mesh, const Task& task);
+
+/// The angle between two directions in degrees, rounded to a thousandth, so that the angles of a turned model lie on
+/// the same side of every threshold. 0 if a vector is zero.
+double degrees_between(const Vector& one, const Vector& other);
 
 /// Unit normals at vertices, weighted by the angles at corners. Throws Cancelled.
 std::vector<Vector> vertex_normals(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Task& task);

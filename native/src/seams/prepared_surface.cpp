@@ -14,6 +14,7 @@
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "prices/edge_prices.hpp"
+#include "seamwire/errors.hpp"
 #include "tuning/constants.hpp"
 
 namespace seamwire::detail {
@@ -308,6 +309,9 @@ std::vector<double> PreparedSurface::weights_at(std::span<const std::int32_t> ve
 void PreparedSurface::find_meshes(const Task& task) {
   mesh = std::make_shared<const PlanMesh>(plan_mesh(*surface, task));
   const PlanMesh& whole = *mesh;
+  if (!whole.triangles.empty() && !have_area(whole, whole.triangles)) {
+    throw InvalidInput("the surface has no area: all its triangles are points or lines");
+  }
   std::vector<std::uint8_t> is_seam = marked_edges(whole, options.seams, task);
   std::optional<Reflection> reflection;
   if (options.mirror >= 0) reflection = find_reflection(whole, options.mirror, part_of(task, 0.0, 0.2));

@@ -51,12 +51,13 @@ SlitPlan SlitSolver::solve_changed(std::vector<Slit> slits, const SlitPlan& befo
   const double reserve = std::isfinite(before.energy) ? kReserve + all_before / area - before.energy : 0.0;
   plan.work = for_each(pieces, task, [&](std::int32_t p, const Task& own_task) {
     const double own = problem_.by_piece[p].area;
+    if (!problem_.by_piece[p].has_area) return 0.0;
     std::optional<Island> island = open_piece(problem_, cut, p, own_task);
     if (!island) return 0.0;
     MapOptions options = kPlanMap;
     if (pieces.size() == 1 && own > 0.0) options.worse_than = ((most + reserve) * area - others) / own;
     IslandMap map = map_island(*island, problem_.mesh->points, options, own_task);
-    const double steps = static_cast<double>(map.steps) * own;
+    const double steps = static_cast<double>(map.steps) * problem_.by_piece[p].work;
     if (!map.uvs.empty()) {
       plan.maps[p] = piece_map(problem_.mesh->points, std::move(*island), std::move(map));
     }
@@ -94,7 +95,7 @@ SlitPlan SlitSolver::relaxed(const SlitPlan& plan, RelaxedMaps& known, const Tas
   loose.work = for_each(changed, task, [&](std::int32_t p, const Task& own) {
     const PieceMap& before = *plan.maps[p];
     IslandMap map = continue_map(before.island, problem_.mesh->points, before.map.uvs, options, own);
-    const double steps = static_cast<double>(map.steps) * problem_.by_piece[p].area;
+    const double steps = static_cast<double>(map.steps) * problem_.by_piece[p].work;
     known.relaxed[p] = piece_map(problem_.mesh->points, before.island, std::move(map));
     known.from[p] = plan.maps[p];
     return steps;
@@ -121,7 +122,7 @@ SlitPlan SlitSolver::continued(const SlitPlan& before, const Slit& slit, const M
     std::optional<Island> island = open_piece(problem_, cut, p, task);
     if (!island || !before.maps[p]) return plan;
     IslandMap map = continue_map(*island, problem_.mesh->points, carried_over(*before.maps[p], *island), options, task);
-    plan.work += static_cast<double>(map.steps) * problem_.by_piece[p].area;
+    plan.work += static_cast<double>(map.steps) * problem_.by_piece[p].work;
     plan.maps[p] = piece_map(problem_.mesh->points, std::move(*island), std::move(map));
   }
   sum_up(problem_, plan, task);

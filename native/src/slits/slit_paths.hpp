@@ -10,6 +10,7 @@
 
 #include "detail/indexed_heap.hpp"
 #include "detail/poll.hpp"
+#include "detail/rounded.hpp"
 #include "prices/edge_prices.hpp"
 #include "prices/plan_mesh.hpp"
 #include "slits/slit_plan.hpp"
@@ -83,7 +84,7 @@ std::vector<std::int32_t> TurningPaths::add(std::span<const std::int32_t> from, 
       if (total == kInfinity) continue;
       if (arrived_by >= 0) {
         const Vector ahead = (mesh_.points[next.vertex] - mesh_.points[v]).normalized();
-        total += turning * (1.0 - direction.dot(ahead));
+        total += turning * rounded_share(1.0 - direction.dot(ahead));
       }
       const std::int32_t d = 2 * next.edge + (mesh_.tail(mesh_.half_edge_of[next.edge]) == v ? 0 : 1);
       // A path that starts here replaces one that only passes, at the same price too.

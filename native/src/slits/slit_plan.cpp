@@ -70,7 +70,10 @@ void find_pieces_of(SlitProblem& problem, const Task& task) {
     piece.area += frames[f].area;
     problem.areas.push_back(frames[f].area);
   }
+  constexpr double kLeastWork = 0.01;  // of a piece's share of the triangles
   for (SlitProblem::Piece& piece : problem.by_piece) {
+    const double share = static_cast<double>(piece.faces.size()) / static_cast<double>(mesh.face_count());
+    piece.work = std::max(piece.area, kLeastWork * share);
     bool has_inner = false, has_open = false;
     for (const std::int32_t f : piece.faces) {
       poll.next();
@@ -82,7 +85,8 @@ void find_pieces_of(SlitProblem& problem, const Task& task) {
         piece.twins.push_back(is_inner ? 3 * place[twin / 3] + twin % 3 : -1);
       }
     }
-    piece.may_be_cut = has_open || !has_inner;
+    piece.has_area = have_area(mesh, piece.triangles);
+    piece.may_be_cut = piece.has_area && (has_open || !has_inner);
   }
 }
 

@@ -19,6 +19,7 @@
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
 #include "detail/poll.hpp"
+#include "detail/rounded.hpp"
 #include "detail/run_on_threads.hpp"
 #include "detail/shortest_paths.hpp"
 #include "slits/slit_paths.hpp"
@@ -34,7 +35,7 @@ IslandGraph::IslandGraph(const Island& island, std::span<const Vector> points, c
   for (const Triangle& t : island.triangles) {
     poll.next();
     const double area = 0.5 * (point(t, 1) - point(t, 0)).cross(point(t, 2) - point(t, 0)).norm();
-    for (const std::int32_t v : t) areas[v] += area / 3.0;
+    for (const std::int32_t v : t) areas[v] += rounded(area / 3.0);
   }
   neighbors = Csr<Neighbor>(island.vertices.size(), [&](const auto& visit) {
     for (std::size_t h = 0; h < island.twins.size(); ++h) {
@@ -43,7 +44,7 @@ IslandGraph::IslandGraph(const Island& island, std::span<const Vector> points, c
       if (twin >= 0 && index(twin) < h) continue;
       const Triangle& t = island.triangles[h / 3];
       const std::size_t i = h % 3;
-      const double length = (point(t, i + 1) - point(t, i)).norm();
+      const double length = rounded((point(t, i + 1) - point(t, i)).norm());
       visit(t[i], Neighbor{t[(i + 1) % 3], length});
       visit(t[(i + 1) % 3], Neighbor{t[i], length});
     }
@@ -117,7 +118,7 @@ std::vector<std::int32_t> IslandGraph::peaks(std::span<const double> heights, do
 }
 
 PieceBody::PieceBody(const SlitProblem& problem, std::int32_t piece, const Task& task)
-    : size(std::sqrt(problem.by_piece[piece].area)),
+    : size(rounded(std::sqrt(problem.by_piece[piece].area))),
       island(std::move(islands_of(problem, problem.is_seam, piece, task).front())),
       graph(island, problem.mesh->points, task) {
   for (const std::vector<std::int32_t>& loop : island.boundaries()) {
@@ -371,9 +372,9 @@ class TreeGrowth {
       tree_.roots.push_back(root);
       join(state, std::vector<std::int32_t>{root});
     } else {
-      std::ranges::stable_sort(loops, std::ranges::greater(),
-                               [&](const auto& loop) { return loop_length(loop, problem_.mesh->points); });
-      for (const std::vector<std::int32_t>& loop : loops) state.cut_length += loop_length(loop, problem_.mesh->points);
+      const auto length = [&](const auto& loop) { return rounded(loop_length(loop, problem_.mesh->points)); };
+      std::ranges::stable_sort(loops, std::ranges::greater(), length);
+      for (const std::vector<std::int32_t>& loop : loops) state.cut_length += length(loop);
       root = loops.front().front();
       for (std::size_t i = 1; i < loops.size(); ++i) state.add({loops[i], Terminal::Kind::kLoop});
       join(state, loops.front());

@@ -139,7 +139,15 @@ RayTree::RayTree(std::vector<Vector> points, std::vector<Triangle> triangles) : 
   parts_->thread = std::jthread([parts = parts_.get()](const std::stop_token& stop) { parts->build(stop); });
 }
 
-RayHit RayTree::first_hit(const Vector& given_origin, const Vector& given_direction) const {
+RayHit RayTree::first_hit(const Vector& origin, const Vector& direction) const {
+  return find_hit(origin, direction, false);
+}
+
+bool RayTree::is_met(const Vector& origin, const Vector& direction) const {
+  return find_hit(origin, direction, true).triangle >= 0;
+}
+
+RayHit RayTree::find_hit(const Vector& given_origin, const Vector& given_direction, bool is_any_enough) const {
   const int exponent = parts_->exponent, of_direction = extreme_exponent({&given_direction, 1});
   const Vector origin = exponent == 0 ? given_origin : scaled(given_origin, -exponent);
   const Vector direction = of_direction == 0 ? given_direction : scaled(given_direction, -of_direction);
@@ -159,7 +167,7 @@ RayHit RayTree::first_hit(const Vector& given_origin, const Vector& given_direct
   };
   std::array<std::int32_t, BoxTree::kMostDepth> waiting{};  // a node at each depth
   std::size_t count = tree.nodes.empty() ? 0 : 1;
-  while (count > 0) {
+  while (count > 0 && !(is_any_enough && search.best.triangle >= 0)) {
     const BoxTree::Node& node = tree.nodes[waiting[--count]];
     // Better hits may have been found since it was put there.
     const auto [in, out] = search.inside(node.box, search.best.distance);

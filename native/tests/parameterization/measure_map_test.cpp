@@ -208,6 +208,39 @@ TEST(MeasureMap, IslandsThatTouchDoNotCollide) {
   EXPECT_TRUE(measure_map(squares.surface, rounded, islands).colliding.empty());
 }
 
+TEST(MeasureMap, WhatTouchesToSinglePrecisionDoesNotOverlap) {
+  // Eight squares around a hole, and a ninth square that hangs on one of them and fills the hole of the map.
+  shapes::QuadMesh ring = shapes::quad_grid(3);
+  ring.points.insert(ring.points.end(), {{1.0 / 3, 2.0 / 3, 1.0 / 3}, {2.0 / 3, 2.0 / 3, 1.0 / 3}});
+  ring.quads[4] = {16, 17, 10, 9};
+  const Surface surface = ring.surface();
+  std::vector<Eigen::Vector2d> places;
+  for (const Vector& p : ring.points) places.push_back(p.head<2>());
+  places[16] = places[5];
+  places[17] = places[6];
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> shift(0.0, 0.9);
+  const auto map = [&](double deeper) {
+    const Eigen::Vector2d corner(shift(random), shift(random));
+    CornerUvs uvs;
+    for (const Triangle& t : surface.triangles()) {
+      uvs.emplace_back();
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Eigen::Vector2d at = corner + 0.059 * places[static_cast<std::size_t>(t[i])] +
+                                   (t[i] >= 16 ? Eigen::Vector2d(0.0, -deeper) : Eigen::Vector2d(0.0, 0.0));
+        for (Eigen::Index k = 0; k < 2; ++k) uvs.back()[i][k] = static_cast<double>(static_cast<float>(at[k]));
+      }
+    }
+    return measure_map(surface, uvs);
+  };
+  for (int i = 0; i < 100; ++i) {
+    const MapReport touching = map(0.0);
+    ASSERT_TRUE(touching.flipped.empty());
+    ASSERT_TRUE(touching.overlapping.empty());
+    ASSERT_EQ(map(1e-5).overlapping.size(), 1U) << "deeper than rounding";
+  }
+}
+
 TEST(MeasureMap, FindsIslandsOnOthers) {
   struct Case {
     Eigen::Vector2d place;

@@ -20,6 +20,8 @@ namespace {
 
 using Chain = std::vector<std::int32_t>;
 
+constexpr double kRounded = 1e-4;  // of lengths, which have 16 bits
+
 /// Each edge costs its length, and turns are free.
 EdgePrices by_length(const PlanMesh& mesh) {
   EdgePrices prices;
@@ -42,7 +44,7 @@ TEST(SlitPaths, AreTheShortestWherePricesAreLengths) {
   const TurningPaths paths = paths_from(mesh, by_length(mesh), {0});
   for (std::int32_t v = 0; v < 49; ++v) {
     const std::int32_t column = v % 7, row = v / 7;
-    EXPECT_NEAR(paths.price(v), (column + row) / 6.0, 1e-12);
+    EXPECT_NEAR(paths.price(v), (column + row) / 6.0, kRounded);
     const Chain path = paths.path(v);
     if (v == 0) continue;
     EXPECT_EQ(path.size(), static_cast<std::size_t>(v % 7 + v / 7) + 1);
@@ -56,7 +58,7 @@ TEST(SlitPaths, TakeFewTurnsIfTurnsCost) {
   EdgePrices prices = by_length(mesh);
   prices.turning = 0.01;
   const TurningPaths paths = paths_from(mesh, prices, {0});
-  EXPECT_NEAR(paths.price(48), 2.0 + 0.01, 1e-12) << "one turn";
+  EXPECT_NEAR(paths.price(48), 2.0 + 0.01, kRounded) << "one turn";
   const Chain path = paths.path(48);
   std::size_t turns = 0;
   for (std::size_t i = 2; i < path.size(); ++i) turns += path[i] - path[i - 1] != path[i - 1] - path[i - 2] ? 1 : 0;
@@ -86,7 +88,7 @@ TEST(SlitPaths, EndAtRims) {
   for (std::int32_t row = 0; row < 7; ++row) wall.push_back(7 * row + 3);
   const EdgePrices prices = by_length(mesh);
   const TurningPaths paths = slit_paths(mesh, prices, nullptr, flags_at(mesh, {0}), flags_at(mesh, wall), {}, {});
-  EXPECT_NEAR(paths.price(3), 0.5, 1e-12);
+  EXPECT_NEAR(paths.price(3), 0.5, kRounded);
   EXPECT_EQ(paths.price(4), kInfinity);
 }
 
@@ -196,8 +198,8 @@ TEST(EdgeDistances, PassOverDiagonals) {
   const PlanMesh mesh = plan_mesh(shapes::quad_grid(4).surface(), {});
   const Chain from = {0};
   const std::vector<double> distances = edge_distances(mesh, from, {});
-  EXPECT_NEAR(distances[24], std::sqrt(2.0), 1e-12);
-  EXPECT_NEAR(distances[4], 1.0, 1e-12);
+  EXPECT_NEAR(distances[24], std::sqrt(2.0), kRounded);
+  EXPECT_NEAR(distances[4], 1.0, kRounded);
   EXPECT_EQ(edge_distances(mesh, {}, {})[0], kInfinity);
 }
 

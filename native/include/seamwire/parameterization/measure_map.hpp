@@ -35,9 +35,9 @@ struct MapReport {
 
 /// Measure any UV map of a surface.
 ///
-/// Islands and parts of islands may touch. Outlines of one island that cross by less than 1e-6 of its size only touch.
-/// Between islands, the limit is 1e-6 of the largest coordinate. An island may be mirrored as a whole. Triangles that
-/// the surface left out are not measured.
+/// Islands and parts of islands may touch. Outlines that cross by less than 1e-6 of the map's size, or of its largest
+/// coordinate, only touch, because UVs are rounded to single precision. An island may be mirrored as a whole. Triangles
+/// that the surface left out are not measured.
 ///
 /// The time is n log n for most maps with n triangles. Two kinds of maps take longer:
 ///

@@ -113,6 +113,7 @@ class SEAMWIRE_API SeamPlanner {
   /// \param options how seams are planned
   /// \param task progress and cancellation
   /// \throws InvalidInput if an option is out of range, or check_strength() rejects the strength
+  /// \throws InvalidInput if the surface has no area
   /// \throws Cancelled if the task is cancelled
   explicit SeamPlanner(const SurfaceContext& context, const SeamPlannerOptions& options = {}, const Task& task = {});
 

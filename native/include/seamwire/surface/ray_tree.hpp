@@ -43,6 +43,8 @@ class SEAMWIRE_API RayTree {
   /// \param direction where it leads, of any length
   /// \returns the first hit. Of several triangles at the same distance, it has the smallest number.
   RayHit first_hit(const Vector& origin, const Vector& direction) const;
+  /// Return whether a ray meets any triangle. This takes less time than finding the first one.
+  bool is_met(const Vector& origin, const Vector& direction) const;
 
   /// Return whether the tree is built.
   bool ready() const;
@@ -54,6 +56,7 @@ class SEAMWIRE_API RayTree {
 
  private:
   struct Parts;  // ray_tree.cpp
+  RayHit find_hit(const Vector& origin, const Vector& direction, bool is_any_enough) const;
   std::shared_ptr<Parts> parts_;
 };
 
