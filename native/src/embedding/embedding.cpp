@@ -95,7 +95,7 @@ constexpr double kErrorOfBudget = 0.005;
 
 void check_metric(const Surface& surface, const Metric& metric) {
   check_size(surface, metric);
-  check_finite(metric);
+  check_tensors(metric);
 }
 
 void check(const EmbeddingInput& input) {
@@ -103,13 +103,13 @@ void check(const EmbeddingInput& input) {
   check_size(input.surface, input.metric);
   if (input.faces) {
     for (const std::int32_t f : *input.callers_faces) {
-      for (const std::int32_t v : input.surface.triangles()[f]) check_finite(input.metric, index(v));
+      for (const std::int32_t v : input.surface.triangles()[f]) check_tensor(input.metric, index(v));
     }
     for (const Edge& edge : input.surface.loose_edges()) {
-      for (const std::int32_t v : edge) check_finite(input.metric, index(v));
+      for (const std::int32_t v : edge) check_tensor(input.metric, index(v));
     }
   } else {
-    check_finite(input.metric);
+    check_tensors(input.metric);
   }
   if (!(options.sigma >= 0)) throw InvalidInput("sigma is " + text(options.sigma) + ", not 0 or more");
   if (!(options.max_error >= 0 && options.max_error <= 1)) {
