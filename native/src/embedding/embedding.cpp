@@ -42,10 +42,12 @@ bool is_valid_as_given(const Surface& surface, const Metric& metric, std::int32_
   Triangle corners = corner_fans(surface).triangles[face];
   for (std::int32_t& v : corners) v = corner_fans(surface).vertices[v];
   const auto [a, b, c] = corners;
-  std::array lengths{edge_length(surface, metric, a, b), edge_length(surface, metric, b, c),
-                     edge_length(surface, metric, c, a)};
-  std::ranges::sort(lengths);
-  return lengths[2] < (lengths[0] + lengths[1]) * (1 - kValidityMargin);
+  const std::array lengths{edge_length(surface, metric, a, b), edge_length(surface, metric, b, c),
+                           edge_length(surface, metric, c, a)};
+  const auto side = [&](std::int32_t from, std::int32_t to) {
+    return Vector((surface.points()[to] - surface.points()[from]) * surface.scale());
+  };
+  return has_valid_lengths(lengths.data()) || are_lengths_of(lengths.data(), {side(a, b), side(b, c), side(c, a)});
 }
 
 /// re_embed() for an embedding that is local; normals of the two metrics must be equal. At most `most` triangles are
