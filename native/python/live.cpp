@@ -343,8 +343,10 @@ std::unique_ptr<LiveClosedWires> closed_wires_through(const LiveWireObject& obje
 }
 
 ClosedCutId cut_id_from(const py::object& value, const std::string& name) {
-  const py::sequence pair = sequence_from(value, name, "two numbers, the id of a LiveClosedWire");
-  if (py::len(pair) != 2) throw InvalidInput(name + ": expected the id of a LiveClosedWire, two numbers");
+  const bool is_pair = py::isinstance<py::sequence>(value) && PySequence_Size(value.ptr()) == 2;
+  PyErr_Clear();  // an array without dimensions is a sequence without a length
+  if (!is_pair) throw InvalidInput(name + ": expected the id of a LiveClosedWire, two numbers");
+  const auto pair = py::cast<py::sequence>(value);
   return {.metric = count_from(py::object(pair[0]), name), .number = count_from(py::object(pair[1]), name)};
 }
 
