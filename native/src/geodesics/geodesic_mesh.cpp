@@ -45,7 +45,7 @@ constexpr double kLeastSlack = 1e-13;
 /// triangle's area is a product of four lengths, which would overflow or underflow.
 constexpr double kLongest = 1e76;
 
-using seamwire::text;
+using seamwire::detail::text;
 std::string text(std::int32_t number) { return std::to_string(number); }
 
 void check_vertex(const IntrinsicMesh& mesh, std::int32_t vertex, const char* what, std::size_t number) {
