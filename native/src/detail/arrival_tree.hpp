@@ -41,7 +41,8 @@ class ArrivalTree {
     }
   }
 
-  /// A lower bound of the turn onto an edge from those over which no path has arrived; infinite if there are none.
+  /// A lower bound of the turn onto an edge from those over which no path has arrived. Infinite once paths have arrived
+  /// over all of them.
   /// `direction`: the vector of the edge.
   double least_turn_missing(const Direction& direction) const {
     double best = kInfinity;
