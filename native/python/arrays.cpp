@@ -13,12 +13,20 @@ namespace {
 
 constexpr std::size_t kMaxCount = std::numeric_limits<std::int32_t>::max();
 
-/// NumPy's asarray().
-py::array array_from(py::handle value) { return py::array(py::module_::import("numpy").attr("asarray")(value)); }
-
 /// Whether NumPy refused a ragged list or the like. A MemoryError or KeyboardInterrupt is another matter.
 bool is_refusal(const py::error_already_set& error) {
   return error.matches(PyExc_ValueError) || error.matches(PyExc_TypeError);
+}
+
+/// NumPy's array of a value. Throws InvalidInput, which begins with what is wanted, if it cannot be one.
+py::array array_from(py::handle value, const std::string& wanted) {
+  try {
+    return py::array(py::module_::import("numpy").attr("asarray")(value));
+  } catch (py::error_already_set& error) {
+    if (!is_refusal(error)) throw;
+    throw InvalidInput(wanted + ", got a " + type_name(value) + " that cannot be converted to an array (" +
+                       std::string(py::str(error.value())) + ")");
+  }
 }
 
 /// "(4, 2)"
@@ -29,14 +37,7 @@ py::array rows_from(py::handle value, py::ssize_t columns, const char* kinds, co
                     const std::string& name) {
   const PythonCall calling;
   const std::string wanted = name + ": expected " + what + " of shape (n, " + std::to_string(columns) + ")";
-  py::array array;
-  try {
-    array = array_from(value);
-  } catch (py::error_already_set& error) {
-    if (!is_refusal(error)) throw;
-    throw InvalidInput(wanted + ", got a " + type_name(value) + " that cannot be converted to an array (" +
-                       std::string(py::str(error.value())) + ")");
-  }
+  py::array array = array_from(value, wanted);
   const bool empty_list = array.ndim() == 1 && array.shape(0) == 0;  // NumPy makes it float64
   if (empty_list) return py::array(py::dtype::of<std::int32_t>(), std::vector<py::ssize_t>{0, columns});
   if (std::strchr(kinds, array.dtype().kind()) == nullptr) {
@@ -130,14 +131,29 @@ std::vector<Vector> points_from(py::handle value, const std::string& name) {
   return to;
 }
 
+Triangle triangle_from(py::handle value, const std::string& name) {
+  const std::vector<std::int32_t> numbers = numbers_from(value, name);
+  if (numbers.size() != 3) throw InvalidInput(name + ": expected 3 numbers, got " + std::to_string(numbers.size()));
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+py::sequence sequence_from(py::handle value, const std::string& name, const char* of) {
+  const bool is_sequence = PySequence_Check(value.ptr()) != 0 && !py::isinstance<py::str>(value) &&
+                           !py::isinstance<py::bytes>(value) && PySequence_Size(value.ptr()) >= 0;
+  PyErr_Clear();  // an array without dimensions is a sequence without a length
+  if (!is_sequence) throw InvalidInput(name + ": expected a sequence of " + of + ", got a " + type_name(value));
+  return py::reinterpret_borrow<py::sequence>(value);
+}
+
 std::vector<Triangle> triangles_from(py::handle value, const std::string& name) { return indices_from<3>(value, name); }
 
 std::vector<Edge> edges_from(py::handle value, const std::string& name) { return indices_from<2>(value, name); }
 
 std::vector<std::int32_t> numbers_from(py::handle value, const std::string& name) {
   const PythonCall calling;
-  const py::array array = array_from(value);
-  if (array.ndim() != 1) throw InvalidInput(name + ": expected integers of shape (n,), got shape " + shape_of(array));
+  const std::string wanted = name + ": expected integers of shape (n,)";
+  const py::array array = array_from(value, wanted);
+  if (array.ndim() != 1) throw InvalidInput(wanted + ", got shape " + shape_of(array));
   std::vector<std::int32_t> to;
   if (array.shape(0) == 0) return to;  // NumPy makes an empty list float64
   to.reserve(static_cast<std::size_t>(array.shape(0)));
@@ -151,10 +167,9 @@ std::int32_t number_from(py::handle value, const std::string& name) {
 
 std::vector<double> values_from(py::handle value, const std::string& name) {
   const PythonCall calling;
-  const py::array given = array_from(value);
-  if (given.ndim() != 1) {
-    throw InvalidInput(name + ": expected real numbers of shape (n,), got shape " + shape_of(given));
-  }
+  const std::string wanted = name + ": expected real numbers of shape (n,)";
+  const py::array given = array_from(value, wanted);
+  if (given.ndim() != 1) throw InvalidInput(wanted + ", got shape " + shape_of(given));
   if (given.shape(0) == 0) return {};  // NumPy makes an empty list float64
   const py::array column = rows_from(given.attr("reshape")(-1, 1), 1, "fiu", "real numbers", name);
   const py::array array = column.attr("astype")("float64");
@@ -173,15 +188,11 @@ Vector vector_from(py::handle value, const std::string& name) {
 CornerUvs corner_uvs_from(py::handle value, const std::string& name) {
   static_assert(sizeof(CornerUvs::value_type) == 6 * sizeof(double), "corners are read as rows of numbers");
   const PythonCall calling;
-  const auto refuse = [&] { throw InvalidInput(name + ": expected real numbers of shape (m, 3, 2)"); };
-  py::array array;
-  try {
-    array = array_from(value);
-  } catch (py::error_already_set& error) {
-    if (!is_refusal(error)) throw;
-    refuse();
+  const std::string wanted = name + ": expected real numbers of shape (m, 3, 2)";
+  const py::array array = array_from(value, wanted);
+  if (array.ndim() != 3 || array.shape(1) != 3 || array.shape(2) != 2) {
+    throw InvalidInput(wanted + ", got shape " + shape_of(array));
   }
-  if (array.ndim() != 3 || array.shape(1) != 3 || array.shape(2) != 2) refuse();
   const std::vector<double> numbers = values_from(array.attr("reshape")(-1), name);
   CornerUvs uvs(numbers.size() / 6);
   if (!uvs.empty()) std::ranges::copy(numbers, uvs.front().front().data());
@@ -190,7 +201,11 @@ CornerUvs corner_uvs_from(py::handle value, const std::string& name) {
 
 std::size_t count_from(py::handle value, const std::string& name) {
   const auto count = PyNumber_AsSsize_t(value.ptr(), nullptr);  // clamps what is too large
-  if (count == -1 && PyErr_Occurred() != nullptr) throw py::error_already_set();
+  if (count == -1 && PyErr_Occurred() != nullptr) {
+    const py::error_already_set error;
+    if (!is_refusal(error)) throw error;
+    throw InvalidInput(name + ": expected an integer, got a " + type_name(value));
+  }
   if (count < 0) throw InvalidInput(name + ": expected a number that is not negative");
   return static_cast<std::size_t>(count);
 }

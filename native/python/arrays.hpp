@@ -32,6 +32,8 @@ std::vector<Edge> edges_from(py::handle value, const std::string& name);
 std::vector<std::int32_t> numbers_from(py::handle value, const std::string& name);
 /// An integer.
 std::int32_t number_from(py::handle value, const std::string& name);
+/// Three integers of shape (3,).
+Triangle triangle_from(py::handle value, const std::string& name);
 /// Real numbers of shape (n,).
 std::vector<double> values_from(py::handle value, const std::string& name);
 /// Three real numbers of shape (3,).
@@ -43,6 +45,21 @@ std::size_t count_from(py::handle value, const std::string& name);
 
 /// The name of a value's type, for messages.
 std::string type_name(py::handle value);
+
+/// A sequence that is not a text. `of`: what it should have, for messages.
+py::sequence sequence_from(py::handle value, const std::string& name, const char* of);
+/// A sequence of objects of a bound class T, whose name in Python is `of`.
+template <class T>
+std::vector<T> objects_from(py::handle value, const std::string& name, const char* of) {
+  std::vector<T> objects;
+  for (const py::handle item : sequence_from(value, name, of)) {
+    if (!py::isinstance<T>(item)) {
+      throw InvalidInput(name + ": expected a sequence of " + of + ", got a " + type_name(item) + " in it");
+    }
+    objects.push_back(item.cast<const T&>());
+  }
+  return objects;
+}
 
 /// Returns a read-only view of memory. The view keeps the owner of that memory alive.
 template <class T>

@@ -92,8 +92,9 @@ py::list left_out_of(const CutPlan& plan) {
   return left_out;
 }
 
-py::object node_at(const CutPlan& plan, const Triangle& corners, const std::array<double, 3>& barycentric) {
-  const std::int32_t node = plan.node_at(corners, barycentric);
+py::object node_at(const CutPlan& plan, const py::object& corners, const py::object& barycentric) {
+  const Vector weights = vector_from(barycentric, "barycentric");
+  const std::int32_t node = plan.node_at(triangle_from(corners, "corners"), {weights.x(), weights.y(), weights.z()});
   return node < 0 ? py::none() : py::object(py::int_(node));
 }
 
@@ -133,6 +134,11 @@ Returns
 -------
 int or None
     The node there, or the one that was moved away from there. None if no cut passes.
+
+Raises
+------
+ValueError
+    If an array has the wrong shape or type.
 )")
       .def("__repr__", [](const CutPlan& plan) {
         return "<CutPlan: " + std::to_string(plan.splits.size()) + " edges and " + std::to_string(plan.across.size()) +
@@ -141,12 +147,13 @@ int or None
 }
 
 CutPlan make_cut_plan(const py::object& points, const py::object& triangles, const py::object& polygons,
-                      const std::vector<CutCurve>& curves, const py::object& progress) {
+                      const py::object& curves, const py::object& progress) {
   const std::vector<Vector> own_points = points_from(points, "points");
   const std::vector<Triangle> own_triangles = triangles_from(triangles, "triangles");
   const std::vector<std::int32_t> own_polygons = numbers_from(polygons, "polygons");
+  const std::vector<CutCurve> own_curves = objects_from<CutCurve>(curves, "curves", "CutCurve");
   return Watch(progress).run([&](const Task& task) {
-    return plan_cuts({.points = own_points, .triangles = own_triangles, .polygons = own_polygons}, curves, task);
+    return plan_cuts({.points = own_points, .triangles = own_triangles, .polygons = own_polygons}, own_curves, task);
   });
 }
 

@@ -295,6 +295,7 @@ std::shared_ptr<EmbeddingObject> EmbeddingObject::with_lengths(const std::vector
     throw InvalidInput("lengths has " + std::to_string(lengths.size()) + " items: there are " + std::to_string(count) +
                        " edges");
   }
+  const std::vector<double> before = mesh.lengths;
   std::size_t next = 0;
   for (std::size_t h = 0; h < mesh.twins.size(); ++h) {
     const auto half_edge = static_cast<std::int32_t>(h);
@@ -304,6 +305,9 @@ std::shared_ptr<EmbeddingObject> EmbeddingObject::with_lengths(const std::vector
                          [&](std::int32_t other) { mesh.lengths[static_cast<std::size_t>(other)] = length; });
   }
   for (LooseEdge& edge : mesh.loose_edges) edge.length = lengths[next++];
+  for (std::size_t h = 0; h < mesh.lengths.size() && !mesh.areas.empty(); ++h) {
+    if (mesh.lengths[h] != before[h]) mesh.areas[h / 3] = 0.0;
+  }
   auto object = std::make_shared<EmbeddingObject>(
       EmbeddedSurface(embedded.context(), embedded.shared_metric(), std::move(changed)));
   object->geodesics(Task{});  // checks the lengths

@@ -212,8 +212,9 @@ void set_metric(const LiveWireObject& object, const std::string& metric, Optiona
   without_gil([&] { object.live->set_metrics(metrics); });
 }
 
-void set_scribbles(const LiveWireObject& object, std::vector<Scribble> scribbles) {
-  without_gil([&] { object.live->set_scribbles(std::move(scribbles)); });
+void set_scribbles(const LiveWireObject& object, const py::object& scribbles) {
+  std::vector<Scribble> strokes = objects_from<Scribble>(scribbles, "scribbles", "Scribble");
+  without_gil([&] { object.live->set_scribbles(std::move(strokes)); });
 }
 
 py::object feature_strength(const LiveWireObject& object) {
@@ -342,7 +343,8 @@ std::unique_ptr<LiveClosedWires> closed_wires_through(const LiveWireObject& obje
 }
 
 ClosedCutId cut_id_from(const py::object& value, const std::string& name) {
-  const bool is_pair = py::isinstance<py::sequence>(value) && py::len(value) == 2;
+  const bool is_pair = py::isinstance<py::sequence>(value) && PySequence_Size(value.ptr()) == 2;
+  PyErr_Clear();  // an array without dimensions is a sequence without a length
   if (!is_pair) throw InvalidInput(name + ": expected the id of a LiveClosedWire, two numbers");
   const auto pair = py::cast<py::sequence>(value);
   return {.metric = count_from(py::object(pair[0]), name), .number = count_from(py::object(pair[1]), name)};
@@ -422,20 +424,21 @@ ValueError
 )");
 }
 
-std::vector<std::int32_t> stops_from(const py::iterable& stops, std::size_t vertex_count) {
+std::vector<std::int32_t> stops_from(const py::object& stops, std::size_t vertex_count) {
+  if (!py::isinstance<py::iterable>(stops)) throw InvalidInput("stops: expected vertices, got a " + type_name(stops));
   std::vector<std::int32_t> vertices;
   for (const py::handle stop : stops) vertices.push_back(vertex_from(stop, vertex_count, "stops"));
   return vertices;
 }
 
-std::unique_ptr<EdgeChain> extend(const LiveWireObject& object, const py::object& edge, const py::iterable& stops) {
+std::unique_ptr<EdgeChain> extend(const LiveWireObject& object, const py::object& edge, const py::object& stops) {
   const Edge from = edge_from(edge, object.vertex_count, "edge");
   const std::vector<std::int32_t> vertices = stops_from(stops, object.vertex_count);
   return without_gil([&] { return std::make_unique<EdgeChain>(object.live->extend_straight(from, vertices)); });
 }
 
 std::unique_ptr<EdgeLoop> edge_loop_through(const LiveWireObject& object, const py::object& edge,
-                                            const py::iterable& stops) {
+                                            const py::object& stops) {
   const Edge through = edge_from(edge, object.vertex_count, "edge");
   const std::vector<std::int32_t> vertices = stops_from(stops, object.vertex_count);
   return without_gil([&] { return std::make_unique<EdgeLoop>(object.live->edge_loop(through, vertices)); });

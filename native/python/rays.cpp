@@ -17,8 +17,6 @@
 namespace seamwire::python {
 namespace {
 
-using ThreeNumbers = std::array<double, 3>;
-
 Held<RayTree> make_tree(const py::object& points, const py::object& triangles) {
   auto own_points = points_from(points, "points");
   auto own_triangles = triangles_from(triangles, "triangles");
@@ -26,10 +24,9 @@ Held<RayTree> make_tree(const py::object& points, const py::object& triangles) {
   return make_held<RayTree>(std::move(own_points), std::move(own_triangles));
 }
 
-py::object first_hit(const RayTree& tree, const ThreeNumbers& origin, const ThreeNumbers& direction) {
-  const auto look = [&] {
-    return tree.first_hit({origin[0], origin[1], origin[2]}, {direction[0], direction[1], direction[2]});
-  };
+py::object first_hit(const RayTree& tree, const py::object& origin, const py::object& direction) {
+  const Vector from = vector_from(origin, "origin"), along = vector_from(direction, "direction");
+  const auto look = [&] { return tree.first_hit(from, along); };
   // The tree answers within microseconds. Without the tree, all triangles are tested.
   const RayHit hit = tree.ready() ? look() : without_gil(look);
   return hit.triangle < 0 ? py::none().cast<py::object>() : py::make_tuple(hit.triangle, hit.distance);
@@ -134,6 +131,11 @@ Returns
 -------
 (int, float) or None
     The triangle's number, and its distance in lengths of `direction`. None if the ray meets no triangle.
+
+Raises
+------
+ValueError
+    If an array has the wrong shape or type.
 )")
       .def_property_readonly("ready", &RayTree::ready, "bool: whether the tree is built.")
       .def(

@@ -96,12 +96,12 @@ ValueError
       });
 }
 
-Held<MetricObject> apply(const SurfaceObject& surface, const MetricObject& metric,
-                         const std::vector<Scribble>& scribbles, const std::optional<std::string>& follow,
-                         const py::object& progress) {
+Held<MetricObject> apply(const SurfaceObject& surface, const MetricObject& metric, const py::object& scribbles,
+                         const std::optional<std::string>& follow, const py::object& progress) {
+  const std::vector<Scribble> strokes = objects_from<Scribble>(scribbles, "scribbles", "Scribble");
   const std::optional<MetricKind> meant = kind_from(follow);
   return Watch(progress).run([&](const Task& task) {
-    return make_held<MetricObject>(apply_scribbles(*surface.surface, metric.metric, scribbles, meant, task));
+    return make_held<MetricObject>(apply_scribbles(*surface.surface, metric.metric, strokes, meant, task));
   });
 }
 

@@ -1666,6 +1666,11 @@ class RayTree:
         -------
         (int, float) or None
             The triangle's number, and its distance in lengths of `direction`. None if the ray meets no triangle.
+
+        Raises
+        ------
+        ValueError
+            If an array has the wrong shape or type.
         """
     ready: bool
     """bool: whether the tree is built."""
@@ -1818,6 +1823,11 @@ class CutPlan:
         -------
         int or None
             The node there, or the one that was moved away from there. None if no cut passes.
+
+        Raises
+        ------
+        ValueError
+            If an array has the wrong shape or type.
         """
 
 def plan_cuts(

@@ -40,6 +40,12 @@ EmbeddedSurface::EmbeddedSurface(const SurfaceContext& context, const MetricSpec
   known.embedded.push_back(data_);
 }
 
+EmbeddedSurface detail::embedded_in(const SurfaceContext& context, const MetricSpec& spec,
+                                    std::shared_ptr<const Metric> metric, const EmbedOptions& options,
+                                    const Task& task) {
+  return {context, spec, std::move(metric), options, task};
+}
+
 EmbeddedSurface::EmbeddedSurface(const SurfaceContext& context, std::shared_ptr<const Metric> metric,
                                  const EmbedOptions& options, const Task& task)
     : data_(std::make_shared<Data>(context, std::move(metric), options, task)) {
@@ -50,6 +56,7 @@ EmbeddedSurface::EmbeddedSurface(const SurfaceContext& context, std::shared_ptr<
                                  Embedding embedding)
     : data_(std::make_shared<Data>(context, std::move(metric), embedding.options, Task{})) {
   check_size(*data_->surface, *data_->metric);
+  check_tensors(*data_->metric);
   data_->embedding = std::make_shared<const Embedding>(std::move(embedding));
   points();  // it says what embedding is not of the surface
 }

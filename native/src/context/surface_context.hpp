@@ -27,6 +27,13 @@ struct EmbeddedSurface::Data {
   detail::ComputedOnce<EmbeddedPoints> points;
 };
 
+namespace detail {
+/// The surface in the metric of a spec, filed in the context under that spec. `metric` must be make_metric() of it.
+/// Throws what the constructor of EmbeddedSurface throws.
+EmbeddedSurface embedded_in(const SurfaceContext& context, const MetricSpec& spec, std::shared_ptr<const Metric> metric,
+                            const EmbedOptions& options, const Task& task);
+}  // namespace detail
+
 struct SurfaceContext::Data {
   /// The arguments of Surface's constructor.
   struct Input {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "detail/infinity.hpp"
@@ -30,14 +31,23 @@ class ArrivalTree {
     if (count > 0) build(directions, 0, count, -1);
   }
 
-  /// A path has arrived over an edge.
+  /// A path has arrived over an edge, for the first time.
   void arrive(std::int32_t edge, double cost) {
-    for (std::int32_t n = leaf_[static_cast<std::size_t>(edge)]; n >= 0;
-         n = nodes_[static_cast<std::size_t>(n)].above) {
-      double& least = nodes_[static_cast<std::size_t>(n)].least;
-      if (!(cost < least)) break;
-      least = cost;
+    for (std::int32_t n = leaf_[static_cast<std::size_t>(edge)]; n >= 0;) {
+      Node& node = nodes_[static_cast<std::size_t>(n)];
+      node.least = std::min(node.least, cost);
+      --node.missing;
+      n = node.above;
     }
+  }
+
+  /// A lower bound of the turn onto an edge from those over which no path has arrived. Infinite once paths have arrived
+  /// over all of them.
+  /// `direction`: the vector of the edge.
+  double least_turn_missing(const Direction& direction) const {
+    double best = kInfinity;
+    if (!nodes_.empty() && nodes_.front().missing > 0) find_missing(0, direction, best);
+    return best * (1.0 - kRounding);
   }
 
   /// Calls `visit(edge)` for arrivals from which an edge may cost less than all that were visited: `visit` returns the
@@ -56,6 +66,7 @@ class ArrivalTree {
   struct Node {
     Direction low, high;  // the box around the vectors
     double least;         // the least cost of an arrival
+    std::size_t missing;  // edges over which no path has arrived
     std::int32_t above, left, right;
     std::size_t begin, end;  // in order_
   };
@@ -65,6 +76,7 @@ class ArrivalTree {
     Node node{.low = {kInfinity, kInfinity, kInfinity},
               .high = {-kInfinity, -kInfinity, -kInfinity},
               .least = kInfinity,
+              .missing = end - begin,
               .above = above,
               .left = -1,
               .right = -1,
@@ -98,11 +110,35 @@ class ArrivalTree {
     return number;
   }
 
-  static double bound(const Node& node, const Direction& direction, double weight) {
-    if (node.least == kInfinity) return kInfinity;
+  static double least_turn(const Node& node, const Direction& direction) {
     double turn = 1.0;
     for (std::size_t k = 0; k < 3; ++k) turn += std::min(node.low[k] * direction[k], node.high[k] * direction[k]);
-    return node.least + weight * std::max(0.0, turn);
+    return std::max(0.0, turn);
+  }
+  static double bound(const Node& node, const Direction& direction, double weight) {
+    return node.least == kInfinity ? kInfinity : node.least + weight * least_turn(node, direction);
+  }
+
+  /// Of a node that is split no further, the bound of its box will do.
+  void find_missing(std::int32_t number, const Direction& direction, double& best) const {
+    const Node& node = nodes_[static_cast<std::size_t>(number)];
+    if (node.left < 0) {
+      best = std::min(best, least_turn(node, direction));
+      return;
+    }
+    std::array<std::int32_t, 2> below{node.left, node.right};
+    std::array<double, 2> turns{};
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Node& half = nodes_[static_cast<std::size_t>(below[k])];
+      turns[k] = half.missing == 0 ? kInfinity : least_turn(half, direction);
+    }
+    if (turns[1] < turns[0]) {
+      std::swap(below[0], below[1]);
+      std::swap(turns[0], turns[1]);
+    }
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (turns[k] < best) find_missing(below[k], direction, best);
+    }
   }
 
   template <class Visit>

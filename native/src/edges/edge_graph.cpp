@@ -111,7 +111,7 @@ class StrokeChains {
 EdgeGraph::EdgeGraph(const Surface& surface, const Metric& metric, std::shared_ptr<const EdgeAdjacency> adjacency,
                      const Task& task) {
   check_size(surface, metric);
-  check_finite(metric);
+  check_tensors(metric);
   const std::size_t edges = surface.edges().size();
   const double begins = adjacency ? 0.0 : 0.5;
   adjacency_ = adjacency ? std::move(adjacency) : make_edge_adjacency(surface, part_of(task, 0.0, begins));

@@ -168,8 +168,8 @@ inline EdgeSearch::Crossing& EdgeSearch::crossing_at(std::int32_t v) {
       .first->second;
 }
 
-/// The cost up to and with an edge that leaves a crossing, and the settled edge before it: of those whose chains can go
-/// on over it, the cheapest, and of equal ones the first. The edge is -1 if there is none.
+/// The least cost of a chain that goes on over an edge from a crossing, and the settled edge before it. Of equal ones
+/// it is the first. Without such a chain it is infinity, and -1.
 template <class Look>
 std::pair<double, std::int32_t> EdgeSearch::cheapest(const Crossing& crossing, std::int32_t to,
                                                      const Look& look) const {
@@ -233,7 +233,7 @@ std::int32_t EdgeSearch::run(const Remaining& remaining, const Done& done, const
     }
   };
   // Gives an edge that waits its cost; or returns false, and it waits for longer. Chains that arrive later cost at
-  // least as much as the queue's floor, and the edge.
+  // least as much as the queue's floor, the edge, and a turn from an edge over which no chain has arrived.
   const auto ends_waiting = [&](std::int32_t e, double key) {
     const std::int32_t u = graph_.tail(e), v = states_[e].head;
     Crossing& crossing = crossing_at(u);
@@ -245,8 +245,13 @@ std::int32_t EdgeSearch::run(const Remaining& remaining, const Done& done, const
     }
     if (++crossing.waits[e - crossing.first] < kMostWaits) {
       const double step = graph_.length(e) + remaining(v) - remaining(u);
-      queue_.push(std::min(known, queue_.floor() + step), e, least(e));
-      return false;
+      const double turn = graph_.is_drawn(e) ? 0.0 : crossing.arrivals.least_turn_missing(graph_.direction(e));
+      const double turned = turn_cost_ > 0 ? turn_cost_ * turn : 0.0;
+      const double next = std::min(known, queue_.floor() + step + turned);
+      if (next < kInfinity) {
+        queue_.push(next, e, least(e));
+        return false;
+      }
     }
     crossing.relaxed.push_back(e);
     if (before < 0) {

@@ -17,29 +17,11 @@
 namespace seamwire::detail {
 namespace {
 
-using OpenMesh::FaceHandle;
-using OpenMesh::HalfedgeHandle;
+// A length in a metric that differs from the one in space by this fraction or less does so by rounding.
+constexpr double kSameLength = 1e-12;
 
 // Faces whose corners memory is asked for in advance.
 constexpr std::size_t kAhead = 8;
-
-// The numbers of half-edges, -1 for those without a face.
-std::vector<std::int32_t> numbers_of(const std::vector<HalfedgeHandle>& half_edges, std::size_t count) {
-  std::vector<std::int32_t> numbers(count, -1);
-  for (std::size_t h = 0; h < half_edges.size(); ++h) numbers[half_edges[h].idx()] = static_cast<std::int32_t>(h);
-  return numbers;
-}
-
-void flatten(const HalfEdgeMesh& mesh, BisectedMesh& flat) {
-  const std::vector<HalfedgeHandle> half_edges = half_edges_of_faces(mesh);
-  const std::vector<std::int32_t> numbers = numbers_of(half_edges, mesh.n_halfedges());
-  flat.triangles.resize(half_edges.size() / 3);
-  flat.twins.resize(half_edges.size());
-  for (std::size_t h = 0; h < half_edges.size(); ++h) {
-    flat.triangles[h / 3][h % 3] = mesh.from_vertex_handle(half_edges[h]).idx();
-    flat.twins[h] = numbers[half_edges[h].idx() ^ 1];
-  }
-}
 
 // For each half-edge, the next one in its cycle that is left, -1 if there is no other. `moved`: the new number of each,
 // -1 for those that are not left; `next` is in the old numbers, the result in the new ones.
@@ -56,6 +38,14 @@ std::vector<std::int32_t> left_of_cycles(const std::vector<std::int32_t>& next, 
 }
 
 }  // namespace
+
+bool are_lengths_of(const double* lengths, const std::array<Vector, 3>& sides) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double in_space = sides[i].norm();
+    if (!(std::abs(lengths[i] - in_space) <= kSameLength * in_space)) return false;
+  }
+  return has_area(sides[0], sides[1], sides[2]);
+}
 
 bool keeps_numbers(const Surface& surface) {
   const auto& vertex_of_fan = corner_fans(surface).vertices;
@@ -93,7 +83,7 @@ BisectedMesh::BisectedMesh(const EmbeddingInput& input, const Task& task, double
     poll.at(index(fan));
     set_node(fan);
   }
-  if (is_cleaned_) {
+  if (cleaned_) {
     is_degenerate_origin_.assign(corner_fans(surface).triangles.size(), false);
     for (std::int32_t f = 0; index(f) < given_faces_; ++f) {
       if (is_degenerate(f)) is_degenerate_origin_[origins[f]] = true;
@@ -107,60 +97,46 @@ BisectedMesh::BisectedMesh(const EmbeddingInput& input, const Task& task, double
 void BisectedMesh::take_faces(const EmbeddingInput& input, const Task& task, double progress) {
   const std::vector<std::int32_t> zero_area = half_edge_faces(surface, surface.report().zero_area_faces);
   const auto has_area = [&](std::int32_t f) { return !std::ranges::binary_search(zero_area, f); };
-  std::optional<CleanMesh> clean;
-  if (!input.faces || !std::ranges::all_of(*input.faces, has_area)) clean = remove_degenerate_faces(surface, metric);
-  is_cleaned_ = clean.has_value();
-  if (clean) {
-    flatten(clean->mesh, *this);
-    cleaned_vertex_of_fan_ = std::move(clean->vertex_of_fan);
-    vertex_of_fan_ = cleaned_vertex_of_fan_;
-    if (!clean->names.empty()) relink_siblings(*clean);
-    origins = std::move(clean->origins);
-    merged_ = std::move(clean->merged);
+  if (!input.faces || !std::ranges::all_of(*input.faces, has_area)) {
+    cleaned_ = cleaned_fans(surface, part_of(task, progress, progress));
+  }
+  if (cleaned_) {
+    vertex_of_fan_ = cleaned_->vertices;
+    for (const auto& [from, to] : cleaned_->merged)
+      merged_.push_back({from, to, edge_length(surface, metric, from, to)});
     const auto is_embedded = [&](std::int32_t f) {
       return !input.faces || std::ranges::binary_search(*input.faces, f);
     };
     const auto removed =
-        std::ranges::count_if(zero_area, is_embedded) - std::ranges::count_if(clean->degenerate, is_embedded);
+        std::ranges::count_if(zero_area, is_embedded) - std::ranges::count_if(cleaned_->degenerate, is_embedded);
     degenerate_faces_removed = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, removed));
-    if (!input.faces) return;
-    std::vector<std::int32_t> selected;
-    for (std::int32_t f = 0; index(f) < origins.size(); ++f) {
-      if (std::ranges::binary_search(*input.faces, origins[f])) selected.push_back(f);
+    if (!input.faces) {
+      take_all(*cleaned_, task, progress);
+      origins = copied(cleaned_->origins, task, progress);
+      return;
     }
-    select(std::exchange(static_cast<TriangleConnectivity&>(*this), {}), selected);
-    std::erase_if(origins, [&](std::int32_t origin) { return !std::ranges::binary_search(*input.faces, origin); });
+    std::vector<std::int32_t> selected;
+    for (const std::int32_t f : *input.faces) {
+      const auto first = std::ranges::lower_bound(cleaned_->by_origin, std::pair(f, 0));
+      for (auto at = first; at != cleaned_->by_origin.end() && at->first == f; ++at) selected.push_back(at->second);
+    }
+    std::ranges::sort(selected);
+    select(*cleaned_, selected);
+    for (const std::int32_t f : selected) origins.push_back(cleaned_->origins[f]);
   } else if (input.faces) {
     select(corner_fans(surface), *input.faces);
     origins = *input.faces;
   } else {
-    triangles = copied(corner_fans(surface).triangles, task, progress);
-    twins = copied(corner_fans(surface).twins, task, progress);
-    siblings = copied(corner_fans(surface).siblings, task, progress);
+    take_all(corner_fans(surface), task, progress);
     origins.resize(triangles.size());
     std::iota(origins.begin(), origins.end(), 0);
   }
 }
 
-// Siblings are the half-edges of one edge that are left, if they still have the same ends.
-void BisectedMesh::relink_siblings(const CleanMesh& clean) {
-  using Key = std::tuple<std::int32_t, Edge, std::int32_t>;  // name, ends, half-edge
-  std::vector<Key> open;
-  const std::vector<HalfedgeHandle> half_edges = half_edges_of_faces(clean.mesh);
-  for (std::int32_t h = 0; index(h) < twins.size(); ++h) {
-    if (twins[h] >= 0) continue;
-    const auto [a, b] = std::minmax({vertex_of_fan_[tail(h)], vertex_of_fan_[tip(h)]});
-    open.emplace_back(clean.names[half_edges[h].idx() / 2], Edge{a, b}, h);
-  }
-  std::ranges::sort(open);
-  siblings.assign(twins.size(), -1);
-  const auto edge = [](const Key& key) { return std::pair(std::get<0>(key), std::get<1>(key)); };
-  for (auto from = open.begin(); from != open.end();) {
-    const auto to = std::find_if(from, open.end(), [&](const Key& key) { return edge(key) != edge(*from); });
-    std::vector<std::int32_t> cycle;
-    for (; from != to; ++from) cycle.push_back(std::get<2>(*from));
-    link(cycle);
-  }
+void BisectedMesh::take_all(const TriangleConnectivity& all, const Task& task, double progress) {
+  triangles = copied(all.triangles, task, progress);
+  twins = copied(all.twins, task, progress);
+  siblings = copied(all.siblings, task, progress);
 }
 
 // Makes half-edges of one edge siblings.
@@ -313,6 +289,10 @@ void BisectedMesh::measure_all(const Task& task, double progress) {
     }
   }
   mean_edge_length_ = edges == 0 ? 0.0 : sum / static_cast<double>(edges);
+}
+
+bool BisectedMesh::is_as_in_space(std::int32_t f) const {
+  return are_lengths_of(&lengths[3 * index(f)], {vector(3 * f), vector(3 * f + 1), vector(3 * f + 2)});
 }
 
 bool BisectedMesh::is_degenerate(std::int32_t f) const {
@@ -558,7 +538,16 @@ Embedding BisectedMesh::to_embedding(bool is_scheme_local) && {
   mesh.vertex_count = static_cast<std::int32_t>(points_.size());
   std::vector<std::int32_t> holes;
   for (std::int32_t f = 0; index(f) < triangles.size(); ++f) {
-    if (!is_valid(f)) holes.push_back(f);
+    if (has_room(f)) continue;
+    if (is_as_in_space(f)) {
+      mesh.areas.resize(triangles.size(), 0.0);
+      mesh.areas[f] = area(vector(3 * f), vector(3 * f + 1), vector(3 * f + 2));
+    } else {
+      holes.push_back(f);
+    }
+  }
+  if (!mesh.areas.empty()) {
+    for (auto f = holes.rbegin(); f != holes.rend(); ++f) mesh.areas.erase(mesh.areas.begin() + *f);
   }
   out.invalid_left = holes.size();
   const bool is_plain = !callers_faces_ && keeps_numbers(surface);
@@ -592,7 +581,7 @@ Embedding BisectedMesh::to_embedding(bool is_scheme_local) && {
   for (const auto& [a, b] : surface.loose_edges()) {
     mesh.loose_edges.push_back({a, b, edge_length(surface, metric, a, b)});
   }
-  out.is_local = is_scheme_local && is_plain && holes.empty() && !is_cleaned_;
+  out.is_local = is_scheme_local && is_plain && holes.empty() && !cleaned_;
   if (!out.is_local) out.unreachable = unreachable(mesh);
   return out;
 }

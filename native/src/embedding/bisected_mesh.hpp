@@ -20,7 +20,7 @@
 
 namespace seamwire::detail {
 
-struct CleanMesh;
+struct CleanedFans;
 
 /// Whether vertices and faces have the same numbers in the corner fans as in the surface.
 bool keeps_numbers(const Surface& surface);
@@ -41,6 +41,20 @@ struct EmbeddingInput {
   /// The caller's faces that are embedded, and those of the surface's corner fans, both ascending; nullopt: all.
   std::optional<std::vector<std::int32_t>> callers_faces, faces;
 };
+
+/// A triangle is valid if its longest edge is shorter than the others together by this fraction. Exact geodesics unfold
+/// triangles, and the square root in the unfolding leaves half of the digits.
+inline constexpr double kValidityMargin = 1e-10;
+
+/// Whether three lengths are those of a valid triangle.
+inline bool has_valid_lengths(const double* l) {
+  const double most = std::max({l[0], l[1], l[2]});
+  return most < (l[0] + l[1] + l[2] - most) * (1 - kValidityMargin);
+}
+
+/// Whether three lengths are those of the sides of a triangle with an area. Its area is then known better from the
+/// sides than from the lengths.
+bool are_lengths_of(const double* lengths, const std::array<Vector, 3>& sides);
 
 /// How an edge is measured.
 enum class EdgeRule {
@@ -83,8 +97,9 @@ class BisectedMesh : public TriangleConnectivity {  // until to_embedding(), two
   const SpaceForm& form(std::int32_t v) const { return node(v).form; }
   /// A half-edge in the unit cube.
   Vector vector(std::int32_t h) const { return (node(tip(h)).point - node(tail(h)).point) * surface.scale(); }
-  /// Whether the lengths fulfill the triangle inequality, with some room for rounding.
-  bool is_valid(std::int32_t f) const;
+  /// Whether the lengths fulfill the triangle inequality, with some room for rounding; or are those of a triangle in
+  /// space that is so thin that rounding leaves no room.
+  bool is_valid(std::int32_t f) const { return has_room(f) || is_as_in_space(f); }
   /// Whether a triangle is degenerate in space.
   bool is_degenerate(std::int32_t f) const;
   /// Whether it is a part of a face that was degenerate from the beginning.
@@ -138,14 +153,16 @@ class BisectedMesh : public TriangleConnectivity {  // until to_embedding(), two
   const MetricNode& node(std::int32_t v) const { return index(v) < fans_ ? nodes_[v] : new_nodes_[index(v) - fans_]; }
   TensorAt tensor_at(std::int32_t v) const;
   void take_faces(const EmbeddingInput& input, const Task& task, double progress);
+  void take_all(const TriangleConnectivity& all, const Task& task, double progress);
   void select(const TriangleConnectivity& all, const std::vector<std::int32_t>& faces);
   std::int32_t external_vertex(std::int32_t v) const;
+  bool has_room(std::int32_t f) const { return has_valid_lengths(&lengths[3 * index(f)]); }
+  bool is_as_in_space(std::int32_t f) const;
   double measure_with_middle(std::int32_t h) const;
   std::pair<Vector, Vector> end_normals(std::int32_t h) const;
   double norm_in_middle(std::int32_t h, const Vector& e) const;
   Vector normal(std::int32_t v) const;
   TensorAt midpoint(std::int32_t h) const;
-  void relink_siblings(const CleanMesh& clean);
   void bisect_siblings(std::int32_t h);
   void link(const std::vector<std::int32_t>& cycle);
   void make_twins_of_pairs();
@@ -158,10 +175,10 @@ class BisectedMesh : public TriangleConnectivity {  // until to_embedding(), two
   std::vector<std::int32_t> unreachable(const IntrinsicMesh& mesh) const;
 
   EdgeRule rule_ = EdgeRule::kEnds;
+  std::shared_ptr<const CleanedFans> cleaned_;              // null: as the surface has them
   std::optional<std::vector<std::int32_t>> callers_faces_;  // that are embedded, ascending; nullopt: all
   std::vector<std::int32_t> selected_fans_;                 // then: the surface's corner fans that they have, ascending
   std::vector<std::int32_t> vertex_of_selected_;            // and the vertices of these
-  std::vector<std::int32_t> cleaned_vertex_of_fan_;         // see CleanMesh
   std::span<const std::int32_t> vertex_of_fan_;
   std::size_t fans_ = 0;
   std::size_t given_faces_ = 0;
@@ -173,8 +190,7 @@ class BisectedMesh : public TriangleConnectivity {  // until to_embedding(), two
   std::vector<std::int32_t> number_of_new_;
   std::vector<Vector> points_;     // in the caller's coordinates, the caller's vertices first
   std::vector<bool> is_turned_;    // per fan: its side is the other one than its vertex's normal's; empty: none
-  std::vector<LooseEdge> merged_;  // see CleanMesh
-  bool is_cleaned_ = false;
+  std::vector<LooseEdge> merged_;  // see CleanedFans
   double mean_edge_length_ = 0.0;
   std::vector<bool> is_degenerate_origin_;  // per face of the surface's corner fans; empty: none is
 };
@@ -191,15 +207,6 @@ inline double BisectedMesh::measure(std::int32_t h) const {
 inline void BisectedMesh::set_length(std::int32_t h, double length) {
   lengths[h] = length;
   for_each_beyond(h, [&](std::int32_t other) { lengths[other] = length; });
-}
-
-/// A triangle is valid if its longest edge is shorter than the others together by this fraction. Exact geodesics unfold
-/// triangles, and the square root in the unfolding leaves half of the digits.
-inline constexpr double kValidityMargin = 1e-10;
-
-inline bool BisectedMesh::is_valid(std::int32_t f) const {
-  const double *l = &lengths[3 * index(f)], most = std::max({l[0], l[1], l[2]});
-  return most < (l[0] + l[1] + l[2] - most) * (1 - kValidityMargin);
 }
 
 inline double BisectedMesh::perimeter(std::int32_t f, Perimeter kind) const {

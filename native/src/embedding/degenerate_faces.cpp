@@ -6,12 +6,15 @@
 #include <array>
 #include <map>
 #include <numeric>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 #include "surface/corner_fans.hpp"
 #include "surface/face_height.hpp"
+#include "surface/half_edge_mesh.hpp"
 
 namespace seamwire::detail {
 
@@ -27,12 +30,23 @@ constexpr double kEqual = 1e-9;
 // Passes over the degenerate faces, each because some could be removed in the one before.
 constexpr int kMostPasses = 64;
 
+// OpenMesh's half-edges, but for those of deleted faces, in the order of faces, each from its first corner on, as
+// OpenMesh lists them.
+std::vector<HalfedgeHandle> half_edges_of_faces(const HalfEdgeMesh& mesh) {
+  std::vector<HalfedgeHandle> half_edges;
+  half_edges.reserve(3 * mesh.n_faces());
+  for (const FaceHandle f : mesh.faces()) {
+    const HalfedgeHandle last = mesh.halfedge_handle(f), first = mesh.next_halfedge_handle(last);
+    half_edges.insert(half_edges.end(), {first, mesh.next_halfedge_handle(first), last});
+  }
+  return half_edges;
+}
+
 /// Removes degenerate faces from a mesh.
 class DegenerateFaces {
  public:
-  DegenerateFaces(const Surface& surface, const Metric& metric)
+  explicit DegenerateFaces(const Surface& surface)
       : surface_(surface),
-        metric_(metric),
         mesh_(half_edge_mesh(surface)),
         origins_(mesh_.n_faces()),
         vertex_of_fan_(corner_fans(surface).vertices),
@@ -44,7 +58,7 @@ class DegenerateFaces {
   }
 
   /// The faces given, in ascending order, and others that become degenerate.
-  CleanMesh remove(std::vector<FaceHandle> degenerate) {
+  CleanedFans remove(std::vector<FaceHandle> degenerate) {
     const auto is_done = [&](FaceHandle f) { return is_removed(f) || !is_degenerate(f); };
     bool progress = !degenerate.empty();
     for (int pass = 0; progress && pass < kMostPasses; ++pass) {
@@ -62,19 +76,57 @@ class DegenerateFaces {
       std::sort(degenerate.begin(), degenerate.end());
       degenerate.erase(std::unique(degenerate.begin(), degenerate.end()), degenerate.end());
     }
-    CleanMesh clean;
+    CleanedFans clean;
+    flatten(clean);
     for (const FaceHandle f : mesh_.faces()) clean.origins.push_back(origins_[f.idx()]);
+    for (std::size_t f = 0; f < clean.origins.size(); ++f) {
+      clean.by_origin.emplace_back(clean.origins[f], static_cast<std::int32_t>(f));
+    }
+    std::ranges::sort(clean.by_origin);
     for (const FaceHandle f : degenerate) clean.degenerate.push_back(origins_[f.idx()]);
     std::ranges::sort(clean.degenerate);
-    for (std::int32_t& name : names_) name = same_edges_.find(name);
-    clean.names = std::move(names_);
+    clean.vertices = std::move(vertex_of_fan_);
+    if (!names_.empty()) relink_siblings(clean);
     clean.merged = std::move(merged_);
-    clean.vertex_of_fan = std::move(vertex_of_fan_);
-    clean.mesh = std::move(mesh_);
     return clean;
   }
 
  private:
+  // The triangles that are left, and which of their half-edges are twins.
+  void flatten(CleanedFans& flat) const {
+    const std::vector<HalfedgeHandle> half_edges = half_edges_of_faces(mesh_);
+    std::vector<std::int32_t> numbers(mesh_.n_halfedges(), -1);
+    for (std::size_t h = 0; h < half_edges.size(); ++h) numbers[half_edges[h].idx()] = static_cast<std::int32_t>(h);
+    flat.triangles.resize(half_edges.size() / 3);
+    flat.twins.resize(half_edges.size());
+    for (std::size_t h = 0; h < half_edges.size(); ++h) {
+      flat.triangles[h / 3][h % 3] = mesh_.from_vertex_handle(half_edges[h]).idx();
+      flat.twins[h] = numbers[half_edges[h].idx() ^ 1];
+    }
+  }
+
+  // Siblings are the half-edges of one edge that are left, if they still have the same ends.
+  void relink_siblings(CleanedFans& flat) {
+    using Key = std::tuple<std::int32_t, Edge, std::int32_t>;  // name, ends, half-edge
+    std::vector<Key> open;
+    const std::vector<HalfedgeHandle> half_edges = half_edges_of_faces(mesh_);
+    for (std::int32_t h = 0; index(h) < flat.twins.size(); ++h) {
+      if (flat.twins[h] >= 0) continue;
+      const auto [a, b] = std::minmax({flat.vertices[flat.tail(h)], flat.vertices[flat.tip(h)]});
+      open.emplace_back(same_edges_.find(names_[half_edges[h].idx() / 2]), Edge{a, b}, h);
+    }
+    std::ranges::sort(open);
+    flat.siblings.assign(flat.twins.size(), -1);
+    const auto edge = [](const Key& key) { return std::pair(std::get<0>(key), std::get<1>(key)); };
+    for (auto from = open.begin(); from != open.end();) {
+      const auto to = std::find_if(from, open.end(), [&](const Key& key) { return edge(key) != edge(*from); });
+      for (auto at = from; to - from > 1 && at != to; ++at) {
+        flat.siblings[std::get<2>(*at)] = std::get<2>(at + 1 == to ? *from : *(at + 1));
+      }
+      from = to;
+    }
+  }
+
   // From the face's first corner on, as OpenMesh lists its vertices.
   std::array<HalfedgeHandle, 3> sides(FaceHandle f) const {
     const HalfedgeHandle a = mesh_.halfedge_handle(f), b = mesh_.next_halfedge_handle(a);
@@ -144,7 +196,7 @@ class DegenerateFaces {
     if (from == to) return false;
     const std::vector<HalfedgeHandle> edges = edges_between(from, to);
     if (!std::ranges::all_of(edges, [&](HalfedgeHandle h) { return can_collapse(h); })) return false;
-    merged_.push_back({from, to, edge_length(surface_, metric_, from, to)});
+    merged_.push_back({from, to});
     // What has been collapsed may make a later edge impossible to collapse: then its fan keeps its vertex.
     for (const HalfedgeHandle h : edges) {
       if (can_collapse(h)) collapse(h);
@@ -213,34 +265,25 @@ class DegenerateFaces {
   }
 
   const Surface& surface_;
-  const Metric& metric_;
   HalfEdgeMesh mesh_;
   std::vector<std::int32_t> origins_;
   std::vector<std::int32_t> vertex_of_fan_;
   std::map<std::int32_t, std::vector<VertexHandle>> fans_merged_;  // those that a vertex has from others
   std::vector<std::int32_t> names_;                                // per edge: a number in the sets; empty: no siblings
   DisjointSets same_edges_;
-  std::vector<LooseEdge> merged_;
+  std::vector<Edge> merged_;
   bool has_collapsed_ = false;
 };
 
 }  // namespace
 
-std::vector<HalfedgeHandle> half_edges_of_faces(const HalfEdgeMesh& mesh) {
-  std::vector<HalfedgeHandle> half_edges;
-  half_edges.reserve(3 * mesh.n_faces());
-  for (const FaceHandle f : mesh.faces()) {
-    const HalfedgeHandle last = mesh.halfedge_handle(f), first = mesh.next_halfedge_handle(last);
-    half_edges.insert(half_edges.end(), {first, mesh.next_halfedge_handle(first), last});
-  }
-  return half_edges;
-}
-
-std::optional<CleanMesh> remove_degenerate_faces(const Surface& surface, const Metric& metric) {
+std::shared_ptr<const CleanedFans> cleaned_fans(const Surface& surface, const Task& task) {
+  if (surface.report().zero_area_faces.empty()) return nullptr;
   std::vector<FaceHandle> degenerate;
   for (const std::int32_t f : half_edge_faces(surface, surface.report().zero_area_faces)) degenerate.emplace_back(f);
-  if (degenerate.empty()) return std::nullopt;
-  return DegenerateFaces(surface, metric).remove(std::move(degenerate));
+  if (degenerate.empty()) return nullptr;
+  return corner_fans(surface).cleaned->get(
+      task, [&](const Task&) { return DegenerateFaces(surface).remove(std::move(degenerate)); });
 }
 
 }  // namespace seamwire::detail

@@ -42,10 +42,12 @@ bool is_valid_as_given(const Surface& surface, const Metric& metric, std::int32_
   Triangle corners = corner_fans(surface).triangles[face];
   for (std::int32_t& v : corners) v = corner_fans(surface).vertices[v];
   const auto [a, b, c] = corners;
-  std::array lengths{edge_length(surface, metric, a, b), edge_length(surface, metric, b, c),
-                     edge_length(surface, metric, c, a)};
-  std::ranges::sort(lengths);
-  return lengths[2] < (lengths[0] + lengths[1]) * (1 - kValidityMargin);
+  const std::array lengths{edge_length(surface, metric, a, b), edge_length(surface, metric, b, c),
+                           edge_length(surface, metric, c, a)};
+  const auto side = [&](std::int32_t from, std::int32_t to) {
+    return Vector((surface.points()[to] - surface.points()[from]) * surface.scale());
+  };
+  return has_valid_lengths(lengths.data()) || are_lengths_of(lengths.data(), {side(a, b), side(b, c), side(c, a)});
 }
 
 /// re_embed() for an embedding that is local; normals of the two metrics must be equal. At most `most` triangles are
@@ -95,7 +97,7 @@ constexpr double kErrorOfBudget = 0.005;
 
 void check_metric(const Surface& surface, const Metric& metric) {
   check_size(surface, metric);
-  check_finite(metric);
+  check_tensors(metric);
 }
 
 void check(const EmbeddingInput& input) {
@@ -103,13 +105,13 @@ void check(const EmbeddingInput& input) {
   check_size(input.surface, input.metric);
   if (input.faces) {
     for (const std::int32_t f : *input.callers_faces) {
-      for (const std::int32_t v : input.surface.triangles()[f]) check_finite(input.metric, index(v));
+      for (const std::int32_t v : input.surface.triangles()[f]) check_tensor(input.metric, index(v));
     }
     for (const Edge& edge : input.surface.loose_edges()) {
-      for (const std::int32_t v : edge) check_finite(input.metric, index(v));
+      for (const std::int32_t v : edge) check_tensor(input.metric, index(v));
     }
   } else {
-    check_finite(input.metric);
+    check_tensors(input.metric);
   }
   if (!(options.sigma >= 0)) throw InvalidInput("sigma is " + text(options.sigma) + ", not 0 or more");
   if (!(options.max_error >= 0 && options.max_error <= 1)) {

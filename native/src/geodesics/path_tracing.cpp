@@ -264,7 +264,9 @@ class Tracer {
     const double segment = distance(here, at_u);
     const Passed candidate{path_.length + segment + at(u), u, half_edge, segment, path_.length, path_.points.size()};
     if (candidate.length < best_.length) best_ = candidate;
-    if (!is_near || std::abs(at(u) + norm(aside) - at(vertex)) > kSnapDistance * at(vertex)) return false;
+    // By way of `here`: where triangles are thin, the line may have passed a vertex that is near to it already.
+    const double over_u = distance(from, here) + segment + at(u);
+    if (!is_near || std::abs(over_u - at(vertex)) > kSnapDistance * at(vertex)) return false;
     best_ = candidate;
     return true;
   }

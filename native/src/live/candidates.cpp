@@ -5,7 +5,6 @@
 #include <variant>
 
 namespace seamwire::detail {
-
 LiveCandidate snapped_candidate(const Prepared& prepared, Wire wire, const Task& task) {
   LiveCandidate candidate;
   candidate.metric = prepared.spec;
@@ -30,13 +29,13 @@ Wire wire_of(const SeedSolution& solution, const WireEnd& target, const Task& ta
   return to ? trace_wire(on.surface(), on.embedding(), *solution.field, *to, task) : Wire{};
 }
 
-LiveCandidate candidate_of(const SeedSolution& solution, const WireEnd& target) {
+LiveCandidate candidate_of(const SeedSolution& solution, const WireEnd& target, const Task& task) {
   const Prepared& prepared = *solution.prepared;
   LiveCandidate candidate;
   candidate.metric = prepared.spec;
   if (solution.field) {
-    Wire wire = wire_of(solution, target, {});
-    return wire.points.empty() ? candidate : candidate_between(prepared, std::move(wire), solution.seed, target, {});
+    Wire wire = wire_of(solution, target, task);
+    return wire.points.empty() ? candidate : candidate_between(prepared, std::move(wire), solution.seed, target, task);
   }
   if (!solution.wires) return candidate;
   EdgeChain chain = solution.wires->trace(std::get<Pick>(target));

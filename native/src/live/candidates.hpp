@@ -56,7 +56,8 @@ LiveCandidate candidate_between(const Prepared& prepared, Wire wire, const WireE
 /// The wire of a field to a target; without points if no wire leads there. Throws Cancelled.
 Wire wire_of(const SeedSolution& solution, const WireEnd& target, const Task& task);
 
-/// The candidate of a solution to a target; without points if no wire leads there. It is not marked as final.
-LiveCandidate candidate_of(const SeedSolution& solution, const WireEnd& target);
+/// The candidate of a solution to a target; without points if no wire leads there. It is not marked as final. Throws
+/// Cancelled.
+LiveCandidate candidate_of(const SeedSolution& solution, const WireEnd& target, const Task& task);
 
 }  // namespace seamwire::detail

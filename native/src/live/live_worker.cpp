@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <mutex>
 #include <utility>
 
 #include "seamwire/edges/shortest_cycle.hpp"
@@ -14,6 +16,9 @@ namespace {
 /// Fraction of a wire's work, that of its seed included, at which its refinement begins.
 constexpr double kRefinementBegins = 0.99;
 
+/// Over so many faces a wire is traced and snapped to edges within a few milliseconds.
+constexpr std::size_t kMostFacesAtOnce = 30'000;
+
 double loop_turning_for(std::size_t edges) { return std::max(20.0, std::sqrt(static_cast<double>(edges)) / 4.0); }
 
 }  // namespace
@@ -23,6 +28,7 @@ LiveWorker::LiveWorker(std::size_t which, const SurfaceContext& context, std::sh
     : which_(which),
       context_(context),
       settings_(settings),
+      is_large_(settings.along == Along::kSurface && context.face_count() > kMostFacesAtOnce),
       right_of_way_(std::move(right_of_way)),
       solver_(which, context, settings, right_of_way_, targets_) {
   seeds_.post({.metrics = std::move(metrics), .preparing = {}, .seed = std::nullopt});
@@ -33,6 +39,7 @@ LiveWorker::LiveWorker(std::size_t which, const SurfaceContext& context, std::sh
 LiveWorker::~LiveWorker() {
   request_stop();
   thread_.join();
+  if (tracer_.joinable()) tracer_.join();
 }
 
 void LiveWorker::request_stop() {
@@ -42,6 +49,7 @@ void LiveWorker::request_stop() {
   seeds_.close();
   targets_.close();
   loops_.close();
+  traces_.close();
   tell_right_of_way();
   events_.add();
 }
@@ -57,6 +65,7 @@ void LiveWorker::change_metric(std::shared_ptr<MetricSet> metrics) {
   seeds_.post(std::move(request), SeedBox::Former::kKeep);
   targets_.withdraw();  // until it is asked for again; after the post, so that no work for the former metric is left
   loops_.withdraw();    // what is found in the former metric answers nothing
+  traces_.withdraw();
   tell_right_of_way();
   events_.add(before);
 }
@@ -65,6 +74,7 @@ void LiveWorker::seed(const WireEnd& seed, bool forward) {
   const std::shared_ptr<const SeedRequest> before = seeds_.newest();
   seeds_.post({.metrics = before->metrics, .preparing = before->preparing, .seed = seed, .is_forward = forward});
   targets_.withdraw();  // after the post, so that no work for the former seed is left
+  traces_.withdraw();
   loops_.interrupt();
   tell_right_of_way();
 }
@@ -77,19 +87,56 @@ LiveWorker::Known LiveWorker::wire(const WireEnd& target) {
   const TargetBox::Reading known = targets_.read();
   // Another thread may have asked for another target meanwhile.
   const bool is_known = known.is_newest && known.answer->target == target &&
-                        known.answer->seed_number == seeds_.number() && (known.answer->is_refined || !found.is_newest);
+                        known.answer->seed_number == seeds_.number() &&
+                        (known.answer->candidate.solved || !found.is_newest);
   if (is_known) {
     seeds_.give_back(std::move(found.answer));
     return {.candidate = known.answer->candidate, .first_length = known.answer->first_length};
   }
   if (!found.answer) return {};
   const bool is_solved = found.is_newest && found.answer->is_final(target);  // before it is looked up
-  LiveCandidate candidate = candidate_of(*found.answer, target);
-  candidate.solved = is_solved;
-  candidate.final = is_solved && !needs_refining;
+  std::optional<LiveCandidate> candidate;
+  if (!is_large_) {
+    candidate = candidate_of(*found.answer, target, {});
+  } else if (!found.is_newest) {
+    candidate = traced(found.answer, target);
+  }
   seeds_.give_back(std::move(found.answer));
-  const double length = candidate.length;
+  if (!candidate) {  // a preview will do meanwhile
+    const bool is_previewed =
+        known.is_newest && known.answer->target == target && known.answer->seed_number == seeds_.number();
+    return is_previewed ? Known{known.answer->candidate, known.answer->first_length} : Known{};
+  }
+  candidate->solved = is_solved;
+  candidate->final = is_solved && !needs_refining;
+  const double length = candidate->length;
   return {.candidate = std::move(candidate), .first_length = length};
+}
+
+/// The candidate of a former solution, which the second thread traces; nullopt until then.
+std::optional<LiveCandidate> LiveWorker::traced(const std::shared_ptr<const SeedSolution>& solution,
+                                                const WireEnd& target) {
+  TraceRequest request{.solution = solution, .target = target};
+  if (const auto newest = traces_.newest(); !newest || *newest != request) {
+    traces_.post(request);
+    std::call_once(begin_tracing_, [this] { tracer_ = std::jthread([this] { run_tracer(); }); });
+  }
+  const TraceBox::Reading found = traces_.read();
+  return found.answers(request) ? std::optional(*found.answer) : std::nullopt;
+}
+
+void LiveWorker::run_tracer() {
+  while (!quit_.stop_requested()) {
+    const std::uint64_t seen = events_.count();
+    if (const std::optional<TraceBox::Job> job = traces_.take()) {
+      traces_.answer(*job, [&] {
+        const Task task{.stop = job->stop, .progress = {}};
+        return std::make_shared<const LiveCandidate>(candidate_of(*job->request->solution, job->request->target, task));
+      });
+    } else if (!quit_.stop_requested()) {
+      events_.wait_beyond(seen);
+    }
+  }
 }
 
 /// Euclidean lengths are exact in any embedding, and wires along edges have no embedding.
@@ -98,6 +145,10 @@ bool LiveWorker::refines() const {
   const std::shared_ptr<const SeedRequest> newest = seeds_.newest();
   const std::vector<MetricSpec>& metrics = newest->metrics->metrics.wires;
   return which_ < metrics.size() && metrics[which_].family != MetricFamily::kEuclidean;
+}
+
+bool LiveWorker::works_on_targets() const {
+  return refines() || (is_large_ && which_ < seeds_.newest()->metrics->count());
 }
 
 void LiveWorker::find_loop(const LoopPlace& through) {
@@ -122,12 +173,14 @@ LiveClosedWires LiveWorker::closed_wires(const LoopPlace& through) const {
 
 double LiveWorker::progress() const {
   if (!seeds_.is_finished()) return solver_.progress(*seeds_.newest());
-  return targets_.is_finished() || !refines() ? 1.0 : kRefinementBegins;
+  return is_wire_finished() ? 1.0 : kRefinementBegins;
 }
 
 std::exception_ptr LiveWorker::error() const {
-  const std::exception_ptr error = seeds_.error();
-  return error ? error : targets_.error();
+  for (const std::exception_ptr& error : {seeds_.error(), targets_.error(), traces_.error()}) {
+    if (error) return error;
+  }
+  return nullptr;
 }
 
 std::exception_ptr LiveWorker::loop_error() const {
@@ -157,7 +210,7 @@ bool LiveWorker::work() {
     work_on(*job);
     return true;
   }
-  if (refines()) {
+  if (works_on_targets()) {
     if (const std::optional<TargetBox::Job> job = targets_.take()) {
       // A seed that came before the target was taken did not stop it.
       if (seeds_.is_finished()) work_on(*job);
@@ -183,7 +236,11 @@ void LiveWorker::work_on(const TargetBox::Job& job) {
   const SeedBox::Reading found = seeds_.read();
   targets_.answer(job, [&]() -> std::shared_ptr<const TargetWire> {
     if (!found.answer) return nullptr;
-    return std::make_shared<const TargetWire>(solver_.refine(found, *job.request, job.stop));
+    std::function<void(TargetWire)> show;
+    if (is_large_) {
+      show = [&](TargetWire wire) { targets_.show(job, std::make_shared<const TargetWire>(std::move(wire))); };
+    }
+    return std::make_shared<const TargetWire>(solver_.refine(found, *job.request, refines(), show, job.stop));
   });
 }
 

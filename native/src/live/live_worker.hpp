@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <exception>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <stop_token>
 #include <thread>
@@ -26,20 +27,21 @@ using LoopPlace = std::variant<Edge, WireEnd, BendPlace>;
 using LoopAnswer = std::variant<EdgeChain, LiveClosedWires>;
 
 /// One of the threads behind a LiveWire, for one of its metrics. It builds the surface if nobody does yet, prepares the
-/// metric, then answers the newest seed, refines the wire to the newest target, and answers the newest loop. No member
-/// waits for the thread but wait_until_idle() and the destructor.
+/// metric, then answers the newest seed, refines the wire to the newest target, and answers the newest loop. On a
+/// large surface, a second thread traces the former metric's wires meanwhile. No member waits for the threads but
+/// wait_until_idle() and the destructor.
 class LiveWorker {
  public:
   /// `which`: the metric's number. If there is no such metric, there is nothing to do. `right_of_way`: shared by all
   /// workers of a live wire; the thread of the first metric has it.
   LiveWorker(std::size_t which, const SurfaceContext& context, std::shared_ptr<MetricSet> metrics,
              const LiveSettings& settings, std::shared_ptr<RightOfWay> right_of_way);
-  /// Waits until the thread has ended.
+  /// Waits until the threads have ended.
   ~LiveWorker();
   LiveWorker(const LiveWorker&) = delete;
   LiveWorker& operator=(const LiveWorker&) = delete;
 
-  /// Tells the thread to end.
+  /// Tells the threads to end.
   void request_stop();
 
   /// Keeps the solution, as that of the former metric, until the same seed has one in this metric. Forgets the loop.
@@ -76,8 +78,18 @@ class LiveWorker {
 
  private:
   using LoopBox = Mailbox<LoopPlace, LoopAnswer>;
+  /// A wire of a solution to a target.
+  struct TraceRequest {
+    std::shared_ptr<const SeedSolution> solution;
+    WireEnd target;
+
+    friend bool operator==(const TraceRequest&, const TraceRequest&) = default;
+  };
+  using TraceBox = Mailbox<TraceRequest, LiveCandidate>;
 
   void run();
+  void run_tracer();
+  std::optional<LiveCandidate> traced(const std::shared_ptr<const SeedSolution>& solution, const WireEnd& target);
   bool work();
   void work_on(const SeedBox::Job& job);
   void work_on(const TargetBox::Job& job);
@@ -86,13 +98,14 @@ class LiveWorker {
   EdgeChain find_cycle(const Edge& edge, const std::stop_token& stop) const;
   void tell_right_of_way();
   bool refines() const;
-  bool is_idle() const {
-    return seeds_.is_finished() && (targets_.is_finished() || !refines()) && loops_.is_finished();
-  }
+  bool works_on_targets() const;
+  bool is_wire_finished() const { return (targets_.is_finished() || !works_on_targets()) && traces_.is_finished(); }
+  bool is_idle() const { return seeds_.is_finished() && is_wire_finished() && loops_.is_finished(); }
 
   const std::size_t which_;
   const SurfaceContext context_;
   const LiveSettings settings_;
+  const bool is_large_;  // tracing a wire and snapping it to edges takes longer than a caller can wait
   const std::shared_ptr<RightOfWay> right_of_way_;
   std::stop_source quit_;  // its state guards itself
 
@@ -100,9 +113,12 @@ class LiveWorker {
   SeedBox seeds_{events_};
   TargetBox targets_{events_};
   LoopBox loops_{events_};
+  TraceBox traces_{events_};
   SeedSolver solver_;
   std::optional<ClosedCutSearch> closed_cuts_;  // the thread's own; in the metrics of the newest seed
 
+  std::once_flag begin_tracing_;
+  std::jthread tracer_;  // begins with the first request
   std::jthread thread_;  // last, so that all else is there when it begins
 };
 

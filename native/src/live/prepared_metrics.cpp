@@ -156,7 +156,7 @@ Prepared prepare(const SurfaceContext& context, Along along, MetricSet& metrics,
   } else if (scribbled) {
     embedded.emplace(context, metric, options, task);
   } else {
-    embedded.emplace(context, spec, metric, options, task);
+    embedded = embedded_in(context, spec, metric, options, task);
   }
   embedded->points();
   // Whoever finds the embedding waits for its geodesics.

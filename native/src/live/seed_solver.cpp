@@ -167,23 +167,33 @@ void SeedSolver::make_preview(const SeedBox::Job& job, const Prepared& prepared,
   show_preview(asked, job.number, *target, std::move(candidate));
 }
 
-TargetWire SeedSolver::refine(const SeedBox::Reading& found, const WireEnd& target, const std::stop_token& stop) const {
-  TargetWire refined{
-      .seed_number = found.number, .target = target, .candidate = {}, .first_length = 0.0, .is_refined = true};
+TargetWire SeedSolver::refine(const SeedBox::Reading& found, const WireEnd& target, bool is_refined,
+                              const std::function<void(TargetWire)>& show, const std::stop_token& stop) const {
+  TargetWire answer{.seed_number = found.number, .target = target, .candidate = {}, .first_length = 0.0};
   const SeedSolution& solution = *found.answer;
   const Prepared& prepared = *solution.prepared;
   const EmbeddedSurface& on = *prepared.embedded;
   const Task task{.stop = stop, .progress = {}};
   Wire wire = wire_of(solution, target, task);
-  refined.first_length = wire.length;
-  const WireRefinement how{.max_error = settings_.max_error, .mean_edge_length = on.embedding().mean_edge_length};
-  if (std::optional<Wire> better =
-          refined_wire(prepared.surface, on.metric(), wire, point_of(solution.seed), point_of(target), how, task)) {
-    wire = *std::move(better);
+  answer.first_length = wire.length;
+  const auto take = [&](Wire of) {
+    answer.candidate = candidate_between(prepared, std::move(of), solution.seed, target, task);
+    answer.candidate.solved = true;
+  };
+  if (is_refined) {
+    if (show) {
+      take(wire);
+      show(answer);
+    }
+    const WireRefinement how{.max_error = settings_.max_error, .mean_edge_length = on.embedding().mean_edge_length};
+    if (std::optional<Wire> better =
+            refined_wire(prepared.surface, on.metric(), wire, point_of(solution.seed), point_of(target), how, task)) {
+      wire = *std::move(better);
+    }
   }
-  refined.candidate = candidate_between(prepared, std::move(wire), solution.seed, target, task);
-  refined.candidate.solved = refined.candidate.final = true;
-  return refined;
+  take(std::move(wire));
+  answer.candidate.final = answer.is_refined = true;
+  return answer;
 }
 
 /// The chains that are found can be seen from the beginning.

@@ -98,6 +98,19 @@ struct Eigenvalues {
   double l1, l2;
 };
 
+// Entries of a tensor differ by less than this fraction of the largest one if only rounding makes them differ.
+constexpr double kTensorRounding = 1e-14;
+
+// Whether a tensor with this largest entry may be so strong that rounding loses its smaller eigenvalue. It is the
+// inverse of the larger one.
+bool may_round_away(double largest) { return largest > 1e6 || largest < 1e-6; }
+
+// The sum of the principal minors: of the products of two eigenvalues each.
+double sum_of_minors(const Eigen::Matrix3d& m) {
+  return m(0, 0) * m(1, 1) - m(0, 1) * m(0, 1) + m(1, 1) * m(2, 2) - m(1, 2) * m(1, 2) + m(2, 2) * m(0, 0) -
+         m(2, 0) * m(2, 0);
+}
+
 // The metric whose minor eigenvector has the direction to follow, with the eigenvalues that `at` gives for a vertex.
 template <class EigenvaluesAt>
 Metric aligned_metric(const Curvature& curvature, Follow follow, const Task& task, const EigenvaluesAt& at) {
@@ -161,18 +174,33 @@ void detail::check_size(const Surface& surface, const Metric& metric) {
   check_sizes(surface, "metric", {metric.normals.size(), metric.tensors.size()});
 }
 
-void detail::check_finite(const Metric& metric) {
-  for (std::size_t v = 0; v < metric.size(); ++v) check_finite(metric, v);
+void detail::check_tensors(const Metric& metric) {
+  for (std::size_t v = 0; v < metric.size(); ++v) check_tensor(metric, v);
 }
 
-void detail::check_finite(const Metric& metric, std::size_t v) {
-  if (!metric.tensors[v].allFinite() || !metric.normals[v].allFinite()) {
-    throw InvalidInput("the metric at vertex " + std::to_string(v) + " is not finite");
+void detail::check_tensor(const Metric& metric, std::size_t v) {
+  const Eigen::Matrix3d& m = metric.tensors[v];
+  const auto fail = [&](const std::string& what) {
+    throw InvalidInput("the metric at vertex " + std::to_string(v) + " " + what);
+  };
+  if (!m.allFinite() || !metric.normals[v].allFinite()) fail("is not finite");
+  const double largest = m.cwiseAbs().maxCoeff();
+  if (largest > kLargestEigenvalue) {
+    fail("is too strong: its tensor has an entry above " + text(kLargestEigenvalue));
   }
-  if (metric.tensors[v].cwiseAbs().maxCoeff() > kLargestEigenvalue) {
-    throw InvalidInput("the metric at vertex " + std::to_string(v) + " is too strong: its tensor has an entry above " +
-                       text(kLargestEigenvalue));
-  }
+  const double skew = std::max({std::abs(m(0, 1) - m(1, 0)), std::abs(m(1, 2) - m(2, 1)), std::abs(m(2, 0) - m(0, 2))});
+  if (skew > kTensorRounding * largest) fail("is invalid: its tensor is not symmetric");
+  // Sums of the products of one, two and three eigenvalues, of the tensor over its largest entry. They are positive if
+  // all eigenvalues are. The third one is zero where there is a normal.
+  const Eigen::Matrix3d unit = largest > 0 ? Eigen::Matrix3d(m / largest) : m;
+  const double sum = unit.trace(), pairs = sum_of_minors(unit);
+  const Vector& normal = metric.normals[v];
+  const bool has_two = sum > 0 && pairs > kTensorRounding && normal.dot(unit * normal) >= -kTensorRounding;
+  const bool has_all = has_two && (!normal.isZero(0) || unit.determinant() > 0);
+  if (largest * kLargestEigenvalue >= 1 &&
+      (has_all || (sum > 0 && may_round_away(largest) && pairs >= -kTensorRounding)))
+    return;
+  fail("is invalid: its tensor has an eigenvalue that is not positive");
 }
 
 Metric feature_metric(const Surface& surface, const Curvature& curvature, Follow follow, const Strength& strength,
@@ -282,10 +310,8 @@ double max_anisotropy(const Metric& metric) {
 }
 
 double normal_weight(const Eigen::Matrix3d& m) {
-  // The third eigenvalue is zero, so the sum of the principal minors is the product of the other two.
-  const double product = m(0, 0) * m(1, 1) - m(0, 1) * m(0, 1) + m(1, 1) * m(2, 2) - m(1, 2) * m(1, 2) +
-                         m(2, 2) * m(0, 0) - m(2, 0) * m(2, 0);
-  return std::sqrt(std::max(0.0, product));
+  // The third eigenvalue is zero, so this is the product of the other two.
+  return std::sqrt(std::max(0.0, sum_of_minors(m)));
 }
 
 double ambient_norm(const TensorAt& at, const Vector& e) {

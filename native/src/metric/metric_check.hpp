@@ -11,9 +11,10 @@ namespace seamwire::detail {
 void check_size(const Surface& surface, const Curvature& curvature);
 void check_size(const Surface& surface, const Metric& metric);
 
-/// Throws InvalidInput where a tensor or a normal is not finite, or an eigenvalue above kLargestEigenvalue.
-void check_finite(const Metric& metric);
+/// Throws InvalidInput where a tensor or a normal is not finite, a tensor is not symmetric, its eigenvalues are not
+/// positive, or one is above kLargestEigenvalue.
+void check_tensors(const Metric& metric);
 /// The same for one vertex.
-void check_finite(const Metric& metric, std::size_t v);
+void check_tensor(const Metric& metric, std::size_t v);
 
 }  // namespace seamwire::detail

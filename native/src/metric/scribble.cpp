@@ -427,6 +427,7 @@ void detail::check_scribble(const Surface& surface, const Scribble& scribble, st
 Metric apply_scribbles(const Surface& surface, const Metric& metric, std::span<const Scribble> scribbles,
                        std::optional<MetricKind> kind, const Task& task) {
   check_size(surface, metric);
+  check_tensors(metric);
   Metric result{.normals = copied(metric.normals, task, 0.0), .tensors = copied(metric.tensors, task, 0.5)};
   if (scribbles.empty()) return result;
   Scribbler scribbler(surface, result, task);

@@ -2,13 +2,27 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <utility>
 #include <vector>
 
+#include "detail/computed_once.hpp"
 #include "detail/half_edge.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "seamwire/surface/triangle_connectivity.hpp"
 
 namespace seamwire::detail {
+
+/// The mesh inside a Surface without those triangles without an area that could be removed.
+struct CleanedFans : TriangleConnectivity {
+  std::vector<std::int32_t> origins;  ///< per triangle: that of CornerFans that it was
+  /// Pairs of an origin and a triangle, ascending. A triangle that was removed gives its place to its neighbor.
+  std::vector<std::pair<std::int32_t, std::int32_t>> by_origin;
+  std::vector<std::int32_t> vertices;  ///< as CornerFans::vertices, with the second one of merged vertices
+  /// Pairs of vertices at one place that were merged: triangles have the second one only.
+  std::vector<Edge> merged;
+  std::vector<std::int32_t> degenerate;  ///< the origins of the triangles without an area that are left, ascending
+};
 
 /// The mesh inside a Surface: manifold and consistently oriented. Where the caller's mesh is not, this mesh is cut
 /// open. Its vertices are corner fans: a vertex whose faces form several fans is here once for each fan. Siblings are
@@ -19,6 +33,8 @@ struct CornerFans : TriangleConnectivity {
   std::vector<std::int32_t> vertices;
   std::vector<std::int32_t> faces;    ///< the caller's face of each triangle, ascending
   std::vector<std::int32_t> leaving;  ///< of each fan: its half-edge in its last triangle
+  /// For cleaned_fans() (embedding/degenerate_faces.hpp): every embedding of the surface needs them.
+  std::shared_ptr<ComputedOnce<CleanedFans>> cleaned = std::make_shared<ComputedOnce<CleanedFans>>();
 
   /// Calls visit(h) for each half-edge h of triangles that begins at a fan, counter-clockwise: from the boundary on, or
   /// from leaving[fan] on. Returns whether the fan has a boundary.

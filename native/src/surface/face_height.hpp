@@ -20,12 +20,15 @@ inline constexpr double kNoArea = 1e-9;
 /// surface.
 inline constexpr double kLeastHeight = 0x1p-22;
 
-/// Whether a triangle with these sides, in the unit cube, has an area: of the two shorter ones, so that it does not
-/// matter which side is first.
-inline bool has_area(const Vector& a, const Vector& b, const Vector& c) {
+/// The area of a triangle with these sides: of the two shorter ones, so that it does not matter which side is first.
+inline double area(const Vector& a, const Vector& b, const Vector& c) {
   const double aa = a.squaredNorm(), bb = b.squaredNorm(), cc = c.squaredNorm(), longest = std::max({aa, bb, cc});
-  const Vector cross = aa == longest ? b.cross(c) : bb == longest ? c.cross(a) : a.cross(b);
-  return cross.norm() > kNoArea * longest;
+  return (aa == longest ? b.cross(c) : bb == longest ? c.cross(a) : a.cross(b)).norm() / 2;
+}
+
+/// Whether a triangle with these sides, in the unit cube, has an area.
+inline bool has_area(const Vector& a, const Vector& b, const Vector& c) {
+  return 2 * area(a, b, c) > kNoArea * std::max({a.squaredNorm(), b.squaredNorm(), c.squaredNorm()});
 }
 
 /// The triangles of corner_fans(surface) that are those of the caller's in a list, ascending as that is.

@@ -201,6 +201,7 @@ struct DoubleCover {
           mesh.twins.push_back(3 * (number[twin / 3] + (twin_other ? face_count : 0)) + twin % 3);
         }
         mesh.triangles.push_back(corners);
+        if (!below.areas.empty()) mesh.areas.push_back(below.areas[f]);
       }
       for (const LooseEdge& edge : below.loose_edges) {
         const std::int32_t shift = other ? vertex_count : 0;

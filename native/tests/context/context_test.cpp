@@ -329,6 +329,19 @@ TEST(EmbeddedSurface, OfOneContextMetricAndOptionsIsMadeOnce) {
   EXPECT_FALSE(EmbeddedSurface::find(context, spec)) << "nobody holds it any more";
 }
 
+TEST(EmbeddedSurface, OfAnyMetricIsNotFiledUnderASpec) {
+  const SurfaceContext context(bumpy_torus());
+  const MetricSpec spec = MetricSpec::euclidean();
+  const auto metric = std::make_shared<const Metric>(make_metric(context, MetricSpec::concave()));
+  static_assert(!std::is_constructible_v<EmbeddedSurface, const SurfaceContext&, const MetricSpec&,
+                                         std::shared_ptr<const Metric>, const EmbedOptions&>);
+  const EmbeddedSurface any(context, metric), same(context, metric, Embedding(any.embedding()));
+  for (const EmbeddedSurface& embedded : {any, same, any.with_metric(metric)}) EXPECT_FALSE(embedded.spec());
+  EXPECT_FALSE(EmbeddedSurface::find(context, spec));
+  EXPECT_FALSE(EmbeddedSurface::find(context, MetricSpec::concave()));
+  EXPECT_EQ(EmbeddedSurface(context, spec).metric().tensors, make_metric(context, spec).tensors);
+}
+
 TEST(EmbeddedSurface, InAnotherMetricIsTheOneMadeAnew) {
   const auto surface = bumpy_torus();
   const SurfaceContext context(surface);

@@ -429,7 +429,7 @@ TEST(EdgeWires, WhatIsFinalDuringTheSearchIsItsResult) {
     done = true;
   });
   for (std::int32_t i = 0; !done; ++i) {
-    const std::int32_t v = (i * 7919) % static_cast<std::int32_t>(surface.vertex_count());
+    const auto v = static_cast<std::int32_t>(i * 7919LL % static_cast<long long>(surface.vertex_count()));
     const Edge& edge =
         surface.edges()[static_cast<std::size_t>(i * 104729LL % static_cast<long long>(surface.edges().size()))];
     for (const Pick& target : {Pick{v}, Pick{edge[0], edge[1]}}) {

@@ -492,5 +492,28 @@ TEST(Embed, ReportsProgressAndStopsWhenTold) {
   EXPECT_THROW(embed(surface, metric, {}, {.stop = source.get_token(), .progress = {}}), Cancelled);
 }
 
+TEST(Embed, RepairsTheDegenerateFacesOfASurfaceOnce) {
+  shapes::Mesh mesh = shapes::grid(8, 0.2);
+  mesh.points[30] = mesh.points[31];  // two needles
+  const Surface surface = mesh.surface();
+  const Metric metric = euclidean_metric(surface, principal_curvatures(surface));
+  const Surface copy = surface;
+  const std::vector<std::int32_t> needle = surface.report().zero_area_faces;
+  ASSERT_FALSE(needle.empty());
+  const auto& cleaned = *detail::corner_fans(surface).cleaned;
+  EXPECT_FALSE(cleaned.peek());
+  const Embedding whole = embed(surface, metric);
+  const auto made = cleaned.peek();
+  ASSERT_TRUE(made);
+  std::vector<std::int32_t> around = needle;
+  for (const std::int32_t f : {needle.front() - 1, needle.front() + 1}) around.push_back(f);
+  const Embedding some = embed(copy, metric, {.faces = around});
+  EXPECT_EQ(detail::corner_fans(copy).cleaned->peek(), made) << "copies of a surface share it";
+  // The same triangles as in the whole.
+  std::set<Triangle> all(whole.mesh.triangles.begin(), whole.mesh.triangles.end());
+  EXPECT_FALSE(some.mesh.triangles.empty());
+  for (const Triangle& triangle : some.mesh.triangles) EXPECT_TRUE(all.contains(triangle));
+}
+
 }  // namespace
 }  // namespace seamwire

@@ -400,5 +400,65 @@ TEST(EmbeddedDistance, IsFiniteOverHoles) {
   }
 }
 
+// A plane of triangles that are all `aspect` times as long as high, turned in space.
+Mesh thin_plane(double aspect) {
+  Mesh mesh = shapes::grid(14, 0.3, 5);
+  const Eigen::AngleAxisd turned(0.7, Vector(1, 2, 3).normalized());
+  for (Vector& p : mesh.points) p = turned * Vector(p.x(), p.y() / aspect, 0.0);
+  return mesh;
+}
+
+// A plane where every triangle is split at a point so near to its first side that a cap results.
+Mesh capped_plane(double aspect) {
+  Mesh mesh = shapes::grid(5, 0.2, 3);
+  std::vector<Triangle> split;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const auto at = [&](std::int32_t v) { return mesh.points[static_cast<std::size_t>(v)]; };
+    const auto d = static_cast<std::int32_t>(mesh.points.size());
+    const Vector foot = 0.37 * at(a) + 0.63 * at(b);
+    mesh.points.push_back(foot + (at(c) - foot) / aspect);
+    split.insert(split.end(), {{a, b, d}, {b, c, d}, {c, a, d}});
+  }
+  mesh.triangles = split;
+  return mesh;
+}
+
+// Needles around a vertex, the others fat.
+Mesh needle_fan(double aspect) {
+  Mesh mesh;
+  mesh.points.emplace_back(0, 0, 0);
+  for (int i = 0; i < 30; ++i) mesh.points.emplace_back(std::cos(i / aspect), std::sin(i / aspect), 0);
+  for (int i = 1; i < 12; ++i) {
+    const double angle = std::numbers::pi * i / 6;
+    mesh.points.emplace_back(std::cos(angle), std::sin(angle), 0);
+  }
+  const auto rim = static_cast<std::int32_t>(mesh.points.size()) - 1;
+  for (std::int32_t i = 0; i < rim; ++i) mesh.triangles.push_back({0, 1 + i, 1 + (i + 1) % rim});
+  return mesh;
+}
+
+TEST(EmbeddedDistance, OnAPlaneOfSliversIsTheStraightLine) {
+  for (const double aspect : {1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8}) {
+    for (const Mesh& mesh : {thin_plane(aspect), capped_plane(aspect), needle_fan(aspect)}) {
+      const Surface surface = mesh.surface();
+      const Embedding embedding = embed(surface, euclidean_metric(surface, principal_curvatures(surface)));
+      EXPECT_EQ(embedding.clamped_edges, 0U);
+      EXPECT_EQ(embedding.invalid_left, 0U);
+      for (const std::int32_t seed : {0, 40}) {
+        const Vector& from = surface.points()[static_cast<std::size_t>(seed)];
+        const auto straight = [&](std::size_t v) { return surface.scale() * (surface.points()[v] - from).norm(); };
+        const DistanceField field = ExactGeodesics(embedding.mesh).solve(seed);
+        std::vector<double> lengths, distances(field.distances());
+        distances.resize(surface.vertex_count());
+        for (std::size_t v = 0; v < surface.vertex_count(); ++v) {
+          lengths.push_back(field.trace(static_cast<std::int32_t>(v)).length);
+        }
+        EXPECT_LT(largest_error(distances, straight), 1e-6) << aspect << ", " << mesh.triangles.size() << " triangles";
+        EXPECT_LT(largest_error(lengths, straight), 1e-6) << aspect << ", " << mesh.triangles.size() << " triangles";
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace seamwire

@@ -173,11 +173,15 @@ TEST(LiveWire, WhileTheMetricChangesTheWiresAreTheFormerOnesAndNotFinal) {
   LiveWire live(surface, kPlain);
   live.seed({0});
   ASSERT_TRUE(live.wait());
+  live.wires({900});
+  ASSERT_TRUE(live.wait());  // for the newest target
   const LiveWires before = live.wires({900});
+  EXPECT_TRUE(before.final());
   live.set_metrics(live_metrics(MetricFamily::kFeature, {.max_anisotropy = 8}));
-  const LiveWires now = live.wires({900});
+  LiveWires now = live.wires({900});
   EXPECT_FALSE(now.final());
   for (std::size_t which = 0; which < 2; ++which) {
+    while (!now.wires[which].final && now.wires[which].points.empty()) now = live.wires({900});
     if (now.wires[which].final) continue;
     EXPECT_EQ(now.wires[which].points, before.wires[which].points);
   }

@@ -508,5 +508,31 @@ TEST(LiveWire, WhatFailsOnAThreadIsThrownToTheCaller) {
   EXPECT_TRUE(live.wires({1}).final());
 }
 
+TEST(LiveWire, TracesWiresOfALargeSurfaceInTheBackground) {
+  const auto surface = shared(shapes::bumpy(shapes::torus(220, 110), 0.01));
+  ASSERT_GT(surface->face_count(), 40'000U);
+  LiveWire live(surface, in(MetricFamily::kEuclidean));
+  live.seed({7});
+  ASSERT_TRUE(live.wait());
+  // A caller that traced the wires itself would have them all at once.
+  int at_once = 0;
+  for (std::int32_t target = 12'000; target < 12'200; ++target) at_once += live.wires({target}).final() ? 1 : 0;
+  EXPECT_LT(at_once, 200);
+  ASSERT_TRUE(live.wait());
+  EXPECT_EQ(live.progress(), 1.0);
+  const Pick target{12'199};  // the newest one, whose work has taken the place of the others'
+  const LiveWires wires = live.wires(target);
+  ASSERT_TRUE(wires.final());
+  const Embedding embedding = embed(*surface, euclidean_metric(*surface, principal_curvatures(*surface)));
+  const Wire expected = trace_wire(*surface, embedding, ExactGeodesics(embedding.mesh).solve(7), target.a);
+  EXPECT_EQ(wires.wires[0].points, expected.points);
+  EXPECT_EQ(wires.wires[0].vertices, snap_to_edges(*surface, SnapGraph(*surface), expected));
+  live.seed({9});
+  live.wires(target);  // asked before the seed's distances are there
+  ASSERT_TRUE(live.wait());
+  ASSERT_TRUE(live.wires(target).final());
+  EXPECT_EQ(live.wires(target).wires[0].vertices.front(), 9);
+}
+
 }  // namespace
 }  // namespace seamwire

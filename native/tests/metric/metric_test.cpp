@@ -8,11 +8,19 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "metric/tangent_frame.hpp"
+#include "seamwire/context/embedded_surface.hpp"
+#include "seamwire/context/surface_context.hpp"
+#include "seamwire/edges/edge_graph.hpp"
+#include "seamwire/embedding/embedding.hpp"
+#include "seamwire/metric/curvature.hpp"
+#include "seamwire/metric/scribble.hpp"
 #include "shapes.hpp"
 
 namespace seamwire {
@@ -231,6 +239,55 @@ TEST(ConcaveMetric, RefusesWhatIsNoStrength) {
             std::string::npos);
   EXPECT_NE(message([&] { concave_metric(patch.surface, patch.curvature, 1e300); }).find("too strong"),
             std::string::npos);
+}
+
+TEST(Metrics, AreRefusedByNameIfATensorIsNotSymmetricAndPositive) {
+  const Surface surface = shapes::grid(3).surface();
+  const Metric good = euclidean_metric(surface, principal_curvatures(surface));
+  const std::vector<std::int32_t> faces{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17};
+  const auto expect_refused = [&](const Metric& bad, const std::string& why) {
+    const std::vector<std::string> messages{message([&] { embed(surface, bad); }),
+                                            message([&] { embed(surface, bad, {.faces = faces}); }),
+                                            message([&] { re_embed(surface, good, bad, embed(surface, good)); }),
+                                            message([&] { invalid_faces(surface, bad); }),
+                                            message([&] { apply_scribbles(surface, bad, {}); }),
+                                            message([&] { make_edge_graph(surface, bad); }),
+                                            message([&] {
+                                              EmbeddedSurface(SurfaceContext(std::make_shared<const Surface>(surface)),
+                                                              std::make_shared<const Metric>(bad),
+                                                              embed(surface, good));
+                                            })};
+    for (const std::string& each : messages) EXPECT_EQ(each, "the metric at vertex 6 " + why);
+  };
+  const auto with = [&](const Eigen::Matrix3d& tensor, const Vector& normal = Vector::UnitZ()) {
+    Metric metric = good;
+    metric.tensors[6] = tensor;
+    metric.normals[6] = normal;
+    return metric;
+  };
+  const auto diagonal = [](double x, double y, double z) { return Eigen::Matrix3d(Vector(x, y, z).asDiagonal()); };
+  const std::string not_positive = "is invalid: its tensor has an eigenvalue that is not positive";
+  expect_refused(with(Eigen::Matrix3d::Zero()), not_positive);
+  expect_refused(with(diagonal(1, 0, 0)), not_positive);
+  expect_refused(with(diagonal(1, -1, 0)), not_positive);
+  expect_refused(with(diagonal(1e8, -1e8, 0)), not_positive);
+  expect_refused(with(diagonal(-1, -1, 0)), not_positive);
+  expect_refused(with(diagonal(1e-200, 1e-200, 0)), not_positive);
+  expect_refused(with(diagonal(1, 1, 0), Vector::Zero()), not_positive);
+  expect_refused(with(diagonal(-1, -1, 1), Vector::Zero()), not_positive);
+  expect_refused(with(diagonal(5, 5, -1)), not_positive);
+  Eigen::Matrix3d skew = diagonal(1, 1, 0);
+  skew(0, 1) = 0.5;
+  expect_refused(with(skew), "is invalid: its tensor is not symmetric");
+  expect_refused(with(diagonal(1, kNan, 0)), "is not finite");
+  expect_refused(with(diagonal(kInfinity, 1, 0)), "is not finite");
+  expect_refused(with(diagonal(1, 1, 0), Vector(0, 0, kNan)), "is not finite");
+  // Positive, although rounding leaves little of the smaller eigenvalue.
+  for (const double l1 : {1.0, 20.0, 1e5, 1e9, 1e100}) {
+    const Vector e1 = Vector(0.6, 0.8, 0), e2 = Vector(-0.8, 0.6, 0);
+    const Metric strong = with(l1 * e1 * e1.transpose() + 1 / l1 * e2 * e2.transpose());
+    EXPECT_EQ(message([&] { make_edge_graph(surface, strong); }), "nothing thrown") << l1;
+  }
 }
 
 TEST(Metrics, RefuseEigenvaluesWhoseSquaresAreNoNumbers) {

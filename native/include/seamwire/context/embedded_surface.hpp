@@ -22,6 +22,12 @@
 namespace seamwire {
 
 class EmbeddedField;
+class EmbeddedSurface;
+
+namespace detail {
+EmbeddedSurface embedded_in(const SurfaceContext& context, const MetricSpec& spec, std::shared_ptr<const Metric> metric,
+                            const EmbedOptions& options, const Task& task);
+}  // namespace detail
 
 /// A surface in a metric: its embedding, the solver for geodesics on it, and the search for the caller's points on it.
 ///
@@ -41,17 +47,6 @@ class SEAMWIRE_API EmbeddedSurface {
   /// \throws Cancelled if the task is cancelled
   EmbeddedSurface(const SurfaceContext& context, const MetricSpec& spec, const EmbedOptions& options = {},
                   const Task& task = {});
-  /// Embed a surface in the metric that a spec describes, where make_metric() has made that metric already.
-  ///
-  /// \param context the surface
-  /// \param spec the metric
-  /// \param metric make_metric() of the spec, not null
-  /// \param options how far the subdivision goes
-  /// \param task progress and cancellation
-  /// \throws InvalidInput if the metric is null, or embed() rejects an argument
-  /// \throws Cancelled if the task is cancelled
-  EmbeddedSurface(const SurfaceContext& context, const MetricSpec& spec, std::shared_ptr<const Metric> metric,
-                  const EmbedOptions& options, const Task& task = {});
   /// Embed a surface in any metric.
   ///
   /// \param context the surface
@@ -67,8 +62,9 @@ class SEAMWIRE_API EmbeddedSurface {
   /// \param context the surface
   /// \param metric the metric of the embedding, not null
   /// \param embedding an embedding of the surface
-  /// \throws InvalidInput if the metric is null, or metric or embedding are of another surface, as far as their sizes
-  ///   tell
+  /// \throws InvalidInput if the metric is null, a tensor is invalid, or metric or embedding are of another surface, as
+  /// far
+  ///   as their sizes tell
   EmbeddedSurface(const SurfaceContext& context, std::shared_ptr<const Metric> metric, Embedding embedding);
 
   /// Embed the surface in a changed metric with re_embed(), which is faster where the metrics agree.
@@ -143,7 +139,12 @@ class SEAMWIRE_API EmbeddedSurface {
  private:
   friend class SurfaceContext;
   friend class EmbeddedField;
+  friend EmbeddedSurface detail::embedded_in(const SurfaceContext& context, const MetricSpec& spec,
+                                             std::shared_ptr<const Metric> metric, const EmbedOptions& options,
+                                             const Task& task);
   struct Data;
+  EmbeddedSurface(const SurfaceContext& context, const MetricSpec& spec, std::shared_ptr<const Metric> metric,
+                  const EmbedOptions& options, const Task& task);
   explicit EmbeddedSurface(std::shared_ptr<Data> data) : data_(std::move(data)) {}
   std::shared_ptr<Data> data_;
 };

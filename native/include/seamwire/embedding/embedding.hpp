@@ -131,8 +131,9 @@ struct Embedding {
 /// \param options how far the subdivision goes
 /// \param task progress and cancellation
 /// \returns the embedding
-/// \throws InvalidInput if the metric and the surface differ in size, a tensor is not finite or above
-///   kLargestEigenvalue, or an option is out of range
+/// \throws InvalidInput if the metric and the surface differ in size, a tensor is invalid (Metric::tensors), or an
+/// option
+///   is out of range
 /// \throws Cancelled if the task is cancelled
 /// \see Zhuang et al. 2014, Section 4.1
 SEAMWIRE_API Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions& options = {},
@@ -143,7 +144,7 @@ SEAMWIRE_API Embedding embed(const Surface& surface, const Metric& metric, const
 /// Only triangles around vertices where the metrics differ are bisected anew, and triangles that these bisections
 /// reach. The result is that of embed(surface, metric, options), except for the numbers of new vertices and triangles
 /// and for Embedding::mean_edge_length, see below.
-/// Apart from these triangles, the cost is one comparison of the metrics, vertex by vertex.
+/// Apart from these triangles, the cost is one comparison of the metrics, vertex by vertex, and one copy of `old`.
 ///
 /// This is embed() if `old` is not local (Embedding::is_local), or if the normals of the metrics differ. An embedding
 /// is not local in these cases:
@@ -174,8 +175,7 @@ SEAMWIRE_API Embedding re_embed(const Surface& surface, const Metric& former, co
 /// \param surface the surface
 /// \param metric a metric of its vertices
 /// \returns the caller's faces, ascending
-/// \throws InvalidInput if the metric and the surface differ in size, or a tensor is not finite or above
-///   kLargestEigenvalue
+/// \throws InvalidInput if the metric and the surface differ in size, or a tensor is invalid (Metric::tensors)
 SEAMWIRE_API std::vector<std::int32_t> invalid_faces(const Surface& surface, const Metric& metric);
 
 }  // namespace seamwire

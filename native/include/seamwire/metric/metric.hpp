@@ -24,7 +24,9 @@ inline constexpr double kLargestEigenvalue = 1e150;
 struct Metric {
   /// Unit normals. Zero at vertices without a face that has an area. There the metric is Euclidean.
   std::vector<Vector> normals;
-  std::vector<Eigen::Matrix3d> tensors;  ///< symmetric, l1 e1 e1^T + l2 e2 e2^T; maps the normal to zero
+  /// l1 e1 e1^T + l2 e2 e2^T, which maps the normal to zero. Whoever takes a metric throws InvalidInput for a tensor
+  /// that is not finite, not symmetric, or has an eigenvalue that is not positive or above kLargestEigenvalue.
+  std::vector<Eigen::Matrix3d> tensors;
 
   /// Return the number of vertices.
   std::size_t size() const { return tensors.size(); }

@@ -71,7 +71,7 @@ struct Scribble {
 ///   stroke and point.
 /// \throws InvalidInput if a point is farther from its face or vertex than 1/20 of the model's longest side
 /// \throws InvalidInput if lists differ in length, or `eta`, `rings` or `radius` is out of range
-/// \throws InvalidInput if the metric differs from the surface in size
+/// \throws InvalidInput if the metric differs from the surface in size, or a tensor is invalid (Metric::tensors)
 /// \throws Cancelled if the task is cancelled
 /// \see Zhuang et al. 2014, Section 5
 SEAMWIRE_API Metric apply_scribbles(const Surface& surface, const Metric& metric, std::span<const Scribble> scribbles,

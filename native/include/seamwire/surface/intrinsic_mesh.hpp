@@ -25,6 +25,9 @@ struct IntrinsicMesh : TriangleConnectivity {
   /// is shorter than the two others together, by at least 1e-13 of its length.
   std::vector<double> lengths;
   std::vector<LooseEdge> loose_edges;  ///< edges without a triangle
+  /// Empty, or per triangle: its area if it is so thin that the lengths leave too few digits of it. 0 elsewhere. The
+  /// lengths of a triangle with an area may miss the condition above by rounding.
+  std::vector<double> areas = {};
 };
 
 }  // namespace seamwire
