@@ -48,7 +48,9 @@ def _import_stl(path: str) -> None:
 
 
 def _import_fbx(path: str) -> None:
-    bpy.ops.import_scene.fbx(filepath=path)
+    # The older importer knows no FBX in text, and in Blender 5.0 it fails at lights.
+    is_new = "fbx_import" in dir(bpy.ops.wm)
+    (bpy.ops.wm.fbx_import if is_new else bpy.ops.import_scene.fbx)(filepath=path)
 
 
 def _import_gltf(path: str) -> None:

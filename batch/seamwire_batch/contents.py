@@ -31,6 +31,8 @@ _NO_GROUPS = {"", "default", "off", "(null)"}
 def contents(path: Path) -> dict[str, int]:
     """Return how much of each kind of data the open file has, which was read from a path."""
     objects = {obj for scene in bpy.data.scenes for obj in scene.objects}
+    for obj in objects:
+        obj.update_from_editmode()
     meshes = {obj.data for obj in objects if obj.type == "MESH"}
     keys = {block for mesh in meshes if mesh.shape_keys is not None for block in mesh.shape_keys.key_blocks[1:]}
     animated: list[bpy.types.ID] = [*objects, *(obj.data for obj in objects if obj.data is not None)]
@@ -69,7 +71,20 @@ def lost(before: Mapping[str, int], after: Mapping[str, int]) -> list[str]:
 def unmapped() -> set[str]:
     """Return the names of the mesh objects of all scenes that have faces, and no area in their active UV map."""
     objects = {obj for scene in bpy.data.scenes for obj in scene.objects if obj.type == "MESH"}
-    return {obj.name for obj in objects if len(obj.data.polygons) and not _uv_area(obj.data) > 0.0}
+    return {obj.name for obj in objects if not _has_map(obj)}
+
+
+def _has_map(obj: bpy.types.Object) -> bool:
+    """Whether a mesh object has a UV map with an area, or needs none."""
+    if obj.mode != "EDIT":
+        return not len(obj.data.polygons) or _uv_area(obj.data) > 0.0
+    # The mesh itself shows no UVs in Edit Mode.
+    obj.update_from_editmode()
+    mesh = obj.data.copy()
+    try:
+        return not len(mesh.polygons) or _uv_area(mesh) > 0.0
+    finally:
+        bpy.data.meshes.remove(mesh)
 
 
 def _uv_area(mesh: bpy.types.Mesh) -> float:

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 from place import ASSETS, ENDS, Place
 from seamwire_batch import cli, worker
-from seamwire_batch.jobs import Job, Journal, Machine, SeamOptions, UsageError, find_assets
+from seamwire_batch.jobs import Job, Journal, Machine, SeamOptions, UsageError, find_assets, read_list
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="processes end otherwise there")
 
@@ -200,6 +200,25 @@ def test_results_do_not_go_over_assets(tmp_path: Path) -> None:
     with pytest.raises(UsageError, match="the same results"):
         find_assets([str(place.assets / "x"), str(place.assets / "y")], place.out, recursive=False)
     assert cli.main([*place.words()[1:], str(place.assets / "x" / "a.obj"), "--out", str(place.assets / "x")]) == 2
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-le", "utf-16-be"])
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+def test_a_list_is_read_in_every_encoding(encoding: str, end: str, tmp_path: Path) -> None:
+    listed = tmp_path / "list.txt"
+    lines = ["/m/a.obj", "", '  "C:/x y/Hülle.obj"  ', "'b.obj' ", "\t", "c d.obj"]
+    listed.write_bytes(end.join(lines).encode(encoding))
+    assert read_list(listed) == ["/m/a.obj", "C:/x y/Hülle.obj", "b.obj", "c d.obj"]
+
+
+def test_a_list_may_have_names_in_any_bytes_but_must_be_a_text(tmp_path: Path) -> None:
+    listed = tmp_path / "list.txt"
+    listed.write_bytes(b"/m/\xff.obj\n")
+    assert [os.fsencode(name) for name in read_list(listed)] == [b"/m/\xff.obj"]
+    for data in (b"\x00\x01\x02\xd8\x00", b"\xff\xfe\x00\xd8\x00", b"PK\x00\x00\x00\x00"):
+        listed.write_bytes(data)
+        with pytest.raises(UsageError, match="this is not a text"):
+            read_list(listed)
 
 
 def test_a_list_names_assets_and_one_that_is_gone_is_a_failure(place: Place, tmp_path: Path) -> None:
