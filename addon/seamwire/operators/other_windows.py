@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Lets a chain, or an operator that takes steps, have the events of other windows. Blender gives an operator those of its own window only.
+"""Lets a chain, or an operator that takes steps, have the events of other windows.
 
-An operator listens in each other window while anything runs. `draw.py` has the operator.
+Blender sends an operator only the events of the window where it began. So an operator of `draw.py` listens in each other window meanwhile.
 """
 
 from __future__ import annotations

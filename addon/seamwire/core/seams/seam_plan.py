@@ -208,7 +208,7 @@ class PartEdits:
 
 @dataclass(frozen=True)
 class PartChoice:
-    """What an artist has chosen while parts are shown. It says completely what the parts are."""
+    """An artist's choice while parts are shown. It determines the parts completely."""
 
     amount: float  # of parts, from 0 to 1
     stretch: float  # the limit, in percent
