@@ -593,7 +593,6 @@ def test_undo_takes_back_each_click_notch_and_key_and_redo_makes_it_again(
     assert seams(prism)
 
 
-@pytest.mark.smoke
 @pytest.mark.every_blender
 def test_undo_with_nothing_to_take_back_says_so_once(ui: driver.Ui, prism: bpy.types.Object) -> None:
     before = snapshot(prism)
@@ -629,7 +628,6 @@ def test_undo_takes_back_a_cut_that_is_still_searched(
     assert not live().edits
 
 
-@pytest.mark.smoke
 @pytest.mark.every_blender
 @pytest.mark.parametrize("start", [50.0, 52.0])
 def test_the_wheel_leads_back_to_the_same_parts(ui: driver.Ui, suzanne: bpy.types.Object, start: float) -> None:
@@ -701,7 +699,6 @@ def workspace(ui: driver.Ui) -> Iterator[bpy.types.WorkSpace]:
     ui.wait(10)
 
 
-@pytest.mark.smoke
 @pytest.mark.every_blender
 @pytest.mark.parametrize("by", ["tab", "key"])
 def test_another_workspace_can_be_opened_meanwhile(
@@ -742,7 +739,6 @@ def test_a_workspace_in_another_mode_ends_it(
     assert seams(prism) == []
 
 
-@pytest.mark.smoke
 @pytest.mark.every_blender
 def test_clicks_in_the_sidebar_the_header_and_other_editors_are_blenders(
     ui: driver.Ui, prism: bpy.types.Object, monkeypatch: pytest.MonkeyPatch
@@ -781,7 +777,6 @@ def test_clicks_in_the_sidebar_the_header_and_other_editors_are_blenders(
     escape(ui)
 
 
-@pytest.mark.smoke
 @pytest.mark.every_blender
 def test_undo_in_another_window_is_that_of_the_preview(ui: driver.Ui, prism: bpy.types.Object) -> None:
     before = snapshot(prism)

@@ -585,7 +585,6 @@ def test_undo_in_another_window_is_that_of_the_chain(desk: Desk, is_late: bool) 
         desk.ui.wait_until(lambda: not listening)
 
 
-@pytest.mark.smoke
 @pytest.mark.every_blender
 def test_a_chain_goes_on_in_another_window(desk: Desk) -> None:
     ui = desk.ui
