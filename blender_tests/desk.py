@@ -187,6 +187,19 @@ def second_window(ui: driver.Ui) -> Iterator[dict[str, object]]:
         ui.wait(4)
 
 
+def send(
+    ui: driver.Ui, other: dict[str, object], kind: str, at: tuple[float, float] | None = None, **held: bool
+) -> None:
+    """Press and release a key or a button in another window, in the middle of its view or at another place of its region."""
+    region = other["region"]
+    x, y = at or (0.5 * region.width, 0.5 * region.height)
+    place = {"x": region.x + round(x), "y": region.y + round(y)}
+    other["window"].event_simulate(type="MOUSEMOVE", value="NOTHING", **place)
+    for value in ("PRESS", "RELEASE"):
+        other["window"].event_simulate(type=kind, value=value, **place, **held)
+        ui.wait(3)
+
+
 def dismiss(ui: driver.Ui) -> None:
     """Move away from a message of Blender's, which closes it."""
     for step in range(3):

@@ -139,6 +139,14 @@ SHAPES = {
 }
 
 
+def used(obj: bpy.types.Object) -> float:
+    """Return the area of all faces in the UV map."""
+    bm = bmesh.from_edit_mesh(obj.data)
+    layer = bm.loops.layers.uv.verify()
+    corners = [[loop[layer].uv for loop in loops] for loops in bm.calc_loop_triangles()]
+    return sum(abs((b - a).cross(c - a)) / 2.0 for a, b, c in corners)
+
+
 @pytest.mark.every_blender
 @pytest.mark.parametrize("parts", [0.0, 50.0])
 @pytest.mark.parametrize("shape", SHAPES)
@@ -159,6 +167,7 @@ def test_islands_are_discs_with_a_good_map_within_the_limit(
     assert float(re.search(r"stretch ([\d.]+) %, no overlap", told)[1]) == pytest.approx(
         100.0 * stretch_of(energy(obj)), abs=0.6
     )
+    assert float(re.search(r"([\d.]+) % of the UV square used", told)[1]) == pytest.approx(100.0 * used(obj), abs=0.6)
     after = snapshot(obj, with_seams=False)
     assert all(after[key] == before[key] for key in before if key not in {"uv layers"})
 

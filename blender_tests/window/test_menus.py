@@ -11,7 +11,7 @@ from seamwire.networks import network_operators as networks
 from seamwire.ui import menus
 
 TOP = [
-    "wm.tool_set_by_id",
+    "mesh.seamwire_choose_tool",
     "mesh.seamwire_suggest",
     "mesh.seamwire_close_gaps",
     "mesh.seamwire_unwrap",
@@ -23,7 +23,7 @@ TOP = [
 BLENDERS = {
     "VIEW3D_MT_edit_mesh_edges": ["VIEW3D_MT_seamwire"],
     "VIEW3D_MT_uv_map": ["VIEW3D_MT_seamwire"],
-    "VIEW3D_MT_edit_mesh_context_menu": ["wm.tool_set_by_id"],
+    "VIEW3D_MT_edit_mesh_context_menu": ["mesh.seamwire_choose_tool"],
     "TOPBAR_MT_file_import": ["mesh.seamwire_load_network"],
     "TOPBAR_MT_file_export": ["mesh.seamwire_save_network"],
 }

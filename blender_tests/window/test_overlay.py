@@ -140,7 +140,9 @@ class Sight:
             self.errors.append(error)
 
     def make(self, **options: object) -> Overlay:
-        return Overlay(lambda: self.session.picture, lambda: self.obj, Pose(self.arrays), self.arrays.to_object, **options)
+        return Overlay(
+            lambda: self.session.picture, lambda: self.obj, Pose(self.arrays), self.arrays.to_object, **options
+        )
 
     def wire(self, *vertices: int, along: str = "EDGES", marks: bool = True, points: object = None) -> Wire:
         curve = self.arrays.points[list(vertices)] if points is None else np.array(points)

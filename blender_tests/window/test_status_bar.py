@@ -37,7 +37,6 @@ def test_with_the_tool_it_shows_the_gestures_and_in_a_chain_its_keys(desk: Desk,
     assert redraw(desk, shown) == [], "another tool is active"
     desk.choose()
     assert redraw(desk, shown) == [
-        "Begin Wire",
         "Draw Line",
         "Alt: Add Loop",
         "Shift: Draw Stroke",
@@ -47,10 +46,10 @@ def test_with_the_tool_it_shows_the_gestures_and_in_a_chain_its_keys(desk: Desk,
     desk.ui.wait_until(lambda: desk.running)
     desk.ui.move(desk.at(44))
     desk.ui.wait_until(lambda: "Keep Wire" in shown)
-    assert "Begin Wire" not in shown
+    assert "Draw Line" not in shown
     desk.ui.key("ESC")
     desk.ui.wait_until(lambda: not desk.running)
-    assert "Begin Wire" in redraw(desk, shown)
+    assert "Draw Line" in redraw(desk, shown)
     choose(desk.ui, "builtin.select_box")
     assert redraw(desk, shown) == []
 

@@ -15,16 +15,18 @@ import numpy as np
 import pytest
 import stored
 import ui as driver
-from desk import choose, leave, second_window, undo_steps
+from desk import choose, leave, second_window, send, undo_steps
 from scene import add_suzanne, animate, changing, edit, head, mark_wires, seams, snapshot
 from seamwire.core.base import native
 from seamwire.core.seams.seam_plan import PartEdits
 from seamwire.mesh.seam_search import Suggestion
 from seamwire.operators import suggest_live
 from seamwire.operators.chain_state import running as chains
+from seamwire.operators.other_windows import listening
 from seamwire.operators.steps import Stepwise
 from seamwire.operators.steps import running as searches
 from seamwire.view.edited_objects import edited
+from seamwire.words.search_report import NOTHING_TO_UNDO, OTHER_KEY
 from stored import island_count
 
 
@@ -531,6 +533,266 @@ def test_an_error_while_slits_are_planned_ends_it(
     ui.wait_until(lambda: not searches)
     assert seams(prism) == []
     assert not edited.covered
+
+
+# Undo, and other keys
+
+
+def borders() -> list[list[int]]:
+    """Return the chains of vertices between the parts that are shown."""
+    return sorted(chain.tolist() for each in live()._search for chain in each.borders)
+
+
+@pytest.mark.smoke
+@pytest.mark.every_blender
+@pytest.mark.parametrize("key", ["Z", "BACK_SPACE"])
+def test_undo_takes_back_each_click_notch_and_key_and_redo_makes_it_again(
+    ui: driver.Ui, prism: bpy.types.Object, key: str
+) -> None:
+    invoke(ui)
+    shown = live()
+    ui.move((0.5 * ui.region.width, 0.5 * ui.region.height))
+
+    def state() -> object:
+        return (
+            count(),
+            borders(),
+            shown.amount,
+            shown.stretch,
+            dict(shown.edits),
+            len(shown._dim(next(iter(shown._search)))),
+        )
+
+    states = [state()]
+    for change in (
+        partial(ui.click, ui.on_screen(FRONT_SIDE)),
+        partial(ui.wheel, True),
+        partial(ui.event, "WHEELUPMOUSE", "PRESS", ctrl=True),
+        partial(ui.click, ui.on_screen(FRONT_RIM)),
+        partial(ui.click, ui.on_screen(FRONT_RIM)),
+        partial(ui.event, "PAGE_DOWN", "PRESS"),
+        partial(ui.event, "MINUS", "PRESS", ctrl=True),
+    ):
+        change()
+        ui.wait_until(lambda: not shown._searches)
+        states.append(state())
+        assert states[-1] != states[-2]
+    for before in states[-2::-1]:
+        ui.key(key, ctrl=key == "Z")
+        assert state() == before
+    for after in states[1:]:
+        ui.key("Z", ctrl=True, shift=True)
+        assert state() == after
+    ui.key(key, ctrl=key == "Z")
+    ui.click(ui.on_screen(FRONT_SIDE))
+    last = state()
+    ui.key("Z", ctrl=True, shift=True)
+    assert state() == last, "another change takes the place of those that were undone"
+    ui.wait_until(lambda: shown.is_planned)
+    keep(ui)
+    assert seams(prism)
+
+
+@pytest.mark.every_blender
+def test_undo_with_nothing_to_take_back_says_so_once(ui: driver.Ui, prism: bpy.types.Object) -> None:
+    before = snapshot(prism)
+    invoke(ui)
+    ui.move(ui.on_screen(TOP))
+    ui.key("Z", ctrl=True)
+    assert live().title.startswith(NOTHING_TO_UNDO)
+    ui.key("BACK_SPACE")
+    assert NOTHING_TO_UNDO not in live().title
+    ui.wheel(True)
+    ui.key("Z", ctrl=True)
+    ui.wait_until(lambda: live().is_planned)
+    escape(ui)
+    assert snapshot(prism) == before
+
+
+def test_undo_takes_back_a_cut_that_is_still_searched(
+    ui: driver.Ui, prism: bpy.types.Object, slow_cuts: threading.Event
+) -> None:
+    invoke(ui)
+    first = borders()
+    ui.click(ui.on_screen(FRONT_SIDE))
+    ui.wait(5)
+    assert live()._searches
+    ui.wheel(False, ui.on_screen(FRONT_SIDE))
+    assert len(live()._searches) == 2
+    ui.key("Z", ctrl=True)
+    assert len(live()._searches) == 1
+    ui.key("Z", ctrl=True)
+    ui.wait_until(lambda: live().is_planned)
+    assert not slow_cuts.is_set()
+    assert borders() == first
+    assert not live().edits
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize("start", [50.0, 52.0])
+def test_the_wheel_leads_back_to_the_same_parts(ui: driver.Ui, suzanne: bpy.types.Object, start: float) -> None:
+    invoke(ui, parts=start, distortion=20.0)
+    shown, seen = live(), {}
+    ui.move((0.5 * ui.region.width, 0.5 * ui.region.height))
+
+    def turn(up: bool, **held: bool) -> None:
+        ui.wheel(up, **held)
+        ui.wait_until(lambda: not shown._searches)
+        assert seen.setdefault(shown.amount, borders()) == borders(), "an amount has the same borders each time"
+
+    first = shown.amount, shown.stretch, borders()
+    for up, notches in ((True, 2), (False, 3), (True, 1)):
+        for _ in range(notches):
+            turn(up)
+            turn(up, ctrl=True)
+    assert (shown.amount, shown.stretch, borders()) == first
+
+
+@pytest.mark.smoke
+@pytest.mark.every_blender
+def test_a_key_that_does_nothing_says_once_which_keys_work(ui: driver.Ui, prism: bpy.types.Object) -> None:
+    before, sidebar = snapshot(prism), ui.space.show_region_ui
+    invoke(ui)
+    ui.move(ui.on_screen(TOP))
+    rotation = ui.view.view_rotation.copy()
+    ui.event("LEFT_SHIFT", "PRESS")
+    ui.key("NUMPAD_1")
+    ui.key("N")
+    ui.wait(5)
+    assert ui.space.show_region_ui != sidebar
+    ui.key("N")
+    assert ui.view.view_rotation != rotation
+    assert OTHER_KEY not in live().title
+    for key in ("F3", "F1", "TAB", "G", "X", "ONE", "THREE", "S", "H"):
+        ui.key(key)
+        assert live().title.startswith(OTHER_KEY)
+    ui.wheel(True)
+    assert OTHER_KEY not in live().title
+    ui.key("G")
+    assert OTHER_KEY not in live().title, "it was said"
+    escape(ui)
+    assert snapshot(prism) == before
+
+
+# Other editors and windows
+
+
+def place_in_area(ui: driver.Ui, kind: str) -> tuple[float, float]:
+    """Return the middle of an editor, from the corner of the viewport's region."""
+    area = next(area for area in ui.window.screen.areas if area.type == kind)
+    return area.x + 0.5 * area.width - ui.region.x, area.y + 0.5 * area.height - ui.region.y
+
+
+def tab(ui: driver.Ui, number: int) -> tuple[float, float]:
+    """Return where the name of a workspace stands in the bar at the top."""
+    return (
+        300.0 + 80.0 * number
+    ) * bpy.context.preferences.system.ui_scale - ui.region.x, ui.window.height - 12.0 - ui.region.y
+
+
+@pytest.fixture
+def workspace(ui: driver.Ui) -> Iterator[bpy.types.WorkSpace]:
+    """The workspace, which comes back after the test."""
+    before = ui.window.workspace
+    yield before
+    ui.window.workspace = before
+    ui.wait(10)
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize("by", ["tab", "key"])
+def test_another_workspace_can_be_opened_meanwhile(
+    ui: driver.Ui, prism: bpy.types.Object, workspace: bpy.types.WorkSpace, by: str
+) -> None:
+    before = snapshot(prism)
+    invoke(ui)
+    ui.wheel(True, ui.on_screen(TOP))
+    parts = count()
+    if by == "tab":
+        ui.click(tab(ui, 1))
+    else:
+        ui.move(place_in_area(ui, "OUTLINER"))
+        ui.key("PAGE_DOWN", ctrl=True)
+    ui.wait_until(lambda: ui.window.workspace != workspace)
+    ui.wait(10)
+    assert bpy.context.mode == "EDIT_MESH"
+    assert count() == parts
+    ui.key("Z", ctrl=True)
+    assert count() == 3
+    escape(ui)
+    assert snapshot(prism) == before
+    assert not edited.covered
+
+
+@pytest.mark.every_blender
+def test_a_workspace_in_another_mode_ends_it(
+    ui: driver.Ui, prism: bpy.types.Object, workspace: bpy.types.WorkSpace
+) -> None:
+    invoke(ui)
+    ui.window.workspace = bpy.data.workspaces["Sculpting"]
+    ui.wait_until(lambda: not searches)
+    assert not edited.covered
+    ui.window.workspace = workspace
+    ui.wait(10)
+    with ui.override():
+        bpy.ops.object.mode_set(mode="EDIT")
+    assert seams(prism) == []
+
+
+@pytest.mark.every_blender
+def test_clicks_in_the_sidebar_the_header_and_other_editors_are_blenders(
+    ui: driver.Ui, prism: bpy.types.Object, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    invoke(ui)
+    parts, heard = count(), []
+    follow = Stepwise._follow
+
+    def noted(self: Stepwise, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        result = follow(self, context, event)
+        if event.type in {"LEFTMOUSE", "RIGHTMOUSE", "A"} and event.value == "PRESS":
+            heard.append(result)
+        return result
+
+    monkeypatch.setattr(Stepwise, "_follow", noted)
+    ui.space.show_region_ui = True
+    ui.wait(10, redraw=True)
+    sidebar = next(region for region in ui.area.regions if region.type == "UI")
+    header = next(region for region in ui.area.regions if region.type == "HEADER")
+    try:
+        for at in (
+            (sidebar.x + 0.5 * sidebar.width - ui.region.x, 8.0),
+            (header.x + header.width - 4.0 - ui.region.x, header.y + 0.5 * header.height - ui.region.y),
+            place_in_area(ui, "OUTLINER"),
+            place_in_area(ui, "PROPERTIES"),
+        ):
+            ui.click(at)
+            ui.wait(3)
+    finally:
+        ui.space.show_region_ui = False
+    assert heard == 4 * [{"PASS_THROUGH"}]
+    ui.move(place_in_area(ui, "OUTLINER"))
+    ui.key("Z", ctrl=True)
+    assert live().title.startswith(NOTHING_TO_UNDO), "Undo in Blender would end it"
+    assert count() == parts
+    escape(ui)
+
+
+@pytest.mark.every_blender
+def test_undo_in_another_window_is_that_of_the_preview(ui: driver.Ui, prism: bpy.types.Object) -> None:
+    before = snapshot(prism)
+    with second_window(ui) as other:
+        invoke(ui)
+        ui.wheel(True, ui.on_screen(TOP))
+        assert count() == 9
+        send(ui, other, "LEFTMOUSE")
+        send(ui, other, "Z", ctrl=True)
+        assert count() == 3
+        send(ui, other, "Z", ctrl=True)
+        assert live().title.startswith(NOTHING_TO_UNDO)
+        assert bpy.context.mode == "EDIT_MESH"
+        escape(ui)
+        ui.wait_until(lambda: not listening)
+    assert snapshot(prism)["vertices"] == before["vertices"]
 
 
 # The limit of the stretch, and the map

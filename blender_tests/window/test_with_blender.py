@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import shutil
 from collections.abc import Iterable
 from pathlib import Path
@@ -12,7 +13,8 @@ import bpy
 import pytest
 import stored
 import ui as driver
-from desk import Desk, choose, dismiss, draw, second_window
+from bpy_extras.view3d_utils import location_3d_to_region_2d
+from desk import Desk, choose, dismiss, draw, second_window, send
 from scene import chain, changing, edit, fail, mark_wires, seams, set_seams
 from seamwire.core.drawing.picture import Role, SeedRole, ShownSeed
 from seamwire.core.drawing.session import Session
@@ -21,6 +23,7 @@ from seamwire.mesh import edit_mesh, finishes
 from seamwire.mesh.settings import TOOL
 from seamwire.operators import chain as chain_module
 from seamwire.operators.chain_state import running
+from seamwire.operators.other_windows import listening
 from seamwire.view.edited_objects import edited
 from seamwire.view.object_view import ObjectView
 from seamwire.view.overlay import Overlay
@@ -556,3 +559,65 @@ def test_beside_a_chain_another_window_says_that_it_must_end_first(
         assert "A chain is being drawn in another window" in "".join(capfd.readouterr())
         assert len(running) == 1
         running[0].drop()
+
+
+@pytest.mark.smoke
+@pytest.mark.every_blender
+@pytest.mark.parametrize("is_late", [False, True])
+def test_undo_in_another_window_is_that_of_the_chain(desk: Desk, is_late: bool) -> None:
+    with contextlib.ExitStack() as stack:
+        if not is_late:
+            other = stack.enter_context(second_window(desk.ui))
+        session = live(desk)
+        if is_late:
+            other = stack.enter_context(second_window(desk.ui))
+            desk.ui.move(desk.at(52))
+        send(desk.ui, other, "Z", ctrl=True)
+        assert session.wires == ()
+        assert session.seed is not None
+        send(desk.ui, other, "Z", ctrl=True, shift=True)
+        assert len(session.wires) == 1
+        send(desk.ui, other, "Z", ctrl=True)
+        send(desk.ui, other, "BACK_SPACE")
+        desk.ui.wait_until(lambda: not desk.running)
+        assert desk.obj.mode == "EDIT"
+        assert seams(desk.obj) == []
+        desk.ui.wait_until(lambda: not listening)
+
+
+@pytest.mark.every_blender
+def test_a_chain_goes_on_in_another_window(desk: Desk) -> None:
+    ui = desk.ui
+    with second_window(ui) as other:
+        session = live(desk)
+        area = other["area"]
+        view = area.spaces.active.region_3d
+
+        def at(vertex: int) -> tuple[float, float]:
+            point = (vertex % 9 / 4.0 - 1.0, vertex // 9 / 4.0 - 1.0, 0.0)
+            found = location_3d_to_region_2d(other["region"], view, point)
+            return found.x, found.y
+
+        send(ui, other, "LEFTMOUSE", at(53))
+        ui.wait_until(lambda: len(session.wires) == 2)
+        ui.click(desk.at(80))
+        ui.wait_until(lambda: len(session.wires) == 3)
+        send(ui, other, "RET", at(53))
+        ui.wait_until(lambda: not desk.running)
+        assert seams(desk.obj) == sorted([*ROW, *chain(44, 53), *chain(53, 62, 71, 80)])
+        ui.wait_until(lambda: not listening)
+    with ui.override():
+        bpy.ops.ed.undo()
+    assert seams(desk.obj) == []
+
+
+def test_another_key_in_another_window_ends_the_chain_first(desk: Desk) -> None:
+    with second_window(desk.ui) as other:
+        session = live(desk)
+        assert len(session.wires) == 1
+        send(desk.ui, other, "TAB")
+        desk.ui.wait_until(lambda: not desk.running)
+        assert desk.obj.mode == "OBJECT"
+        assert seams(desk.obj) == ROW
+        with desk.ui.override():
+            edit()

@@ -443,7 +443,7 @@ class SeamSearch:
         is_few = any(
             len(own) - suggestion.others < options.islands for own, suggestion in zip(missing, self, strict=True)
         )
-        maps = self._maps()
+        maps, used = self._maps()
         return Outcome(
             wires=sum(len(suggestion.wires) for suggestion in self),
             marked=sum(suggestion.marked for suggestion in self),
@@ -452,15 +452,17 @@ class SeamSearch:
             stretch=100.0 * mean_stretch(*zip(*maps, strict=True)) if maps else None,
             stretches=[100.0 * stretch_of(energy) for energy, _ in maps],
             stretch_wanted=options.stretch,
+            used=used,
             unwrapped=None if done is None else done.islands,
             faults=NO_FAULTS if done is None else done.faults,
         )
 
-    def _maps(self) -> list[tuple[float, float]]:
-        """Return the energy of each map, and the area of its surface."""
+    def _maps(self) -> tuple[list[tuple[float, float]], float | None]:
+        """Return the energy of each map, with the area of its surface, and how much of the UV square the maps in the meshes use."""
         if not self._options.unwraps:
-            return [(float(suggestion.best.energy), suggestion.area) for suggestion in self]
+            return [(float(suggestion.best.energy), suggestion.area) for suggestion in self], None
         if self._unwrapped is None:  # the maps on the meshes are those from before
-            return []
+            return [], None
         maps = {obj: found for obj in (each.mesh.obj for each in self) if (found := mapped(obj)) is not None}
-        return [(found.energy(uv_map.aspect(obj)), found.area) for obj, found in maps.items()]
+        energies = [(found.energy(uv_map.aspect(obj)), found.area) for obj, found in maps.items()]
+        return energies, sum(found.used for found in maps.values()) if maps else None

@@ -58,6 +58,7 @@ class Chain:
 
     def __init__(self, context: bpy.types.Context) -> None:
         self.window, self.workspace, self.manager = context.window, context.workspace, context.window_manager
+        self._mouse_window = context.window
         self.keys, self.clicks = keymaps.keys(context), DoubleClicks()
         self.notices = Notices()
         self.drawn_on: ObjectView | None = None
@@ -197,9 +198,10 @@ class Chain:
         """Return why the chain cannot go on, or an empty text. Raises what an overlay could not draw."""
         edited.take_error()
         reason = ""
-        if context.mode != "EDIT_MESH":
+        is_own = context.window == self.window  # another window may show another scene or workspace
+        if is_own and context.mode != "EDIT_MESH":
             reason = "Edit mode was left"
-        elif context.workspace != self.workspace:
+        elif is_own and context.workspace != self.workspace:
             reason = "Another workspace was opened"
         return self._follow_mesh(reason)
 
@@ -331,8 +333,8 @@ class Chain:
 
     def _leave_window(self) -> None:
         _set_status(None)
+        self.set_cursor("")
         if self.window in self.manager.windows.values():
-            self.set_cursor("")
             self._set_timer(False)
 
     # Its window
@@ -341,15 +343,24 @@ class Chain:
         """Show the result of a key in the status bar."""
         self.notices.hint = hint
 
+    def follow_mouse(self, window: bpy.types.Window) -> bool:
+        """Take note of the window that has an event. Return whether the chain can be drawn there: a drag stays in its window."""
+        if window != self._mouse_window and self.hold is None:
+            self.set_cursor("")
+            self._mouse_window = window
+        return window == self._mouse_window
+
     def set_cursor(self, shape: str) -> None:
         """Show another cursor, or Blender's own if the name is empty."""
         if shape == self._cursor:
             return
         self._cursor = shape
+        if self._mouse_window not in self.manager.windows.values():
+            return
         if shape:
-            self.window.cursor_modal_set(shape)
+            self._mouse_window.cursor_modal_set(shape)
         else:
-            self.window.cursor_modal_restore()
+            self._mouse_window.cursor_modal_restore()
 
     def _set_timer(self, wanted: bool) -> None:
         """Let Blender send an event at each tick, or no longer."""

@@ -77,7 +77,10 @@ def read(chain: Chain, context: bpy.types.Context, event: bpy.types.Event) -> Gi
         return Given(Sign.TICK, event)
     if chain.hold is not None:
         chain.hold.follow_modifiers(event)
-    place = place_of(chain.window, event)
+    can_draw = (
+        chain.follow_mouse(context.window) and context.mode == "EDIT_MESH"
+    )  # another window may show another scene
+    place = place_of(context.window, event) if can_draw else None
     double = chain.clicks.is_second(event, time.monotonic(), context.preferences)
     hold = chain.hold
     if hold is not None and event.type == hold.button and event.value == "RELEASE":
@@ -94,12 +97,12 @@ def read(chain: Chain, context: bpy.types.Context, event: bpy.types.Event) -> Gi
         return Given(Sign.NOTHING if what is Sign.ZOOM else what, event)
     if event.value != "PRESS" or hold is not None or event.type in _HARMLESS:
         return Given(Sign.NOTHING, event)
-    if not _is_over_settings(chain.window, event):
-        return Given(Sign.OTHER_TOOL, event)
     # Undo in Blender would take wires out of the mesh that the chain writes again. Backspace alone resets a setting.
     action = chain.keys.decode(event, double)
     is_undo = action in {Action.UNDO, Action.REDO} and (event.ctrl or event.oskey)
-    return Given(action if is_undo else Sign.NOTHING, event)
+    if _is_over_settings(context.window, event) or (is_undo and context.window != chain.window):
+        return Given(action if is_undo else Sign.NOTHING, event)
+    return Given(Sign.OTHER_TOOL, event)
 
 
 def _key(chain: Chain, context: bpy.types.Context, event: bpy.types.Event, double: bool) -> Action | Sign:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import traceback
 from itertools import count
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import bpy
 from bpy.app.handlers import persistent
@@ -19,6 +19,7 @@ from . import undo_steps
 from .chain_state import Stage, running
 from .edit_mesh_operator import NeedsEditMode
 from .keymaps import keys, takes
+from .other_windows import OPERATOR, listen, listening
 from .steps import running as steps
 
 if TYPE_CHECKING:
@@ -43,11 +44,72 @@ _ENOUGH = 3
 _kept = count(1)
 """Numbers the chains of this session of Blender that were kept."""
 
+_LOOK = 0.3
+"""Seconds between two looks at whether anything runs in another window."""
 _CHAIN_ELSEWHERE = "A chain is being drawn in another window: end it there first"
 _STEPS_ELSEWHERE = "{} is running: wait for it, or press Esc in its window"
 
 
-class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
+class _Follows:
+    """Gives an operator what passes the events of its window to a chain, and ends the chain. The operator has `_chain`."""
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Pass an event to the chain, and finish when the chain has ended."""
+        from .chain_acts import act
+        from .chain_events import read
+
+        chain = self._chain
+        if chain.stage is Stage.CLOSED:
+            return {"CANCELLED", "PASS_THROUGH"}
+        try:
+            trouble = chain.trouble(context)
+            if trouble:
+                chain.notices.add("WARNING", f"{trouble}: the chain has ended")
+                return self._finish(context) | {"PASS_THROUGH"}
+            chain.find_front()
+            passes = act(chain, read(chain, context, event))
+            if chain.stage is Stage.OVER:
+                result = self._finish(context)
+                return result | {"PASS_THROUGH"} if passes else result
+            return {"PASS_THROUGH"} if passes else {"RUNNING_MODAL"}
+        except Exception as error:
+            return self._failed(error)
+
+    def _finish(self, context: bpy.types.Context) -> set[str]:
+        try:
+            has_kept = self._chain.finish()
+        except ValueError as error:
+            has_kept = not self._chain.drop()
+            fate = "are in the mesh as they were last saved" if has_kept else "were not kept"
+            self._chain.notices.add("WARNING", f"{error}: the wires of this chain {fate}")
+            if has_kept:
+                undo_steps.push(undo_steps.DRAW)
+        self._chain.notices.tell(self.report)
+        if has_kept and next(_kept) >= _ENOUGH and preferences(context).text == "STEPS":
+            preferences(context).text = "INFORMATION"
+            context.preferences.is_dirty = True
+        return {"FINISHED"} if has_kept else {"CANCELLED"}
+
+    def _failed(self, error: Exception) -> set[str]:
+        traceback.print_exc()
+        previews, restored = self._chain.stage is Stage.PEEKING, False
+        try:
+            restored = self._chain.drop()
+        except Exception:
+            traceback.print_exc()
+            self._chain.close()
+        if previews:
+            return {"CANCELLED", "PASS_THROUGH"}
+        if not restored:
+            # The mesh may have a part of the wires.
+            undo_steps.push(undo_steps.DRAW)
+            self.report({"ERROR"}, f"Drawing failed, undo leads back: {error}")
+            return {"FINISHED"}
+        self.report({"ERROR"}, f"Drawing failed, and the mesh was restored: {error}")
+        return {"CANCELLED"}
+
+
+class MESH_OT_seamwire_draw(_Follows, NeedsEditMode, bpy.types.Operator):
     """Draw seams with live wires that follow the shape of the mesh"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_draw"
@@ -89,6 +151,7 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
         if running or steps:
             if self.first in _FOR_BLENDER:
                 return {"PASS_THROUGH"}
+            listen((running or steps)[0].window)  # this window is a new one
             self.report({"WARNING"}, _CHAIN_ELSEWHERE if running else _STEPS_ELSEWHERE.format(steps[0].bl_label))
             return {"CANCELLED"}
         if not any(area.type == "VIEW_3D" for area in context.window.screen.areas):
@@ -129,29 +192,14 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
         except Exception as error:
             return self._failed(error)
         context.window_manager.modal_handler_add(self)
+        listen(context.window)
         return {"RUNNING_MODAL"} if self.first != "PEEK" else {"RUNNING_MODAL", "PASS_THROUGH"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Pass an event to the chain, and finish when the chain has ended."""
-        from .chain_acts import act
-        from .chain_events import read
-
-        chain = self._chain
-        if chain.stage is Stage.CLOSED:
-            return {"CANCELLED", "PASS_THROUGH"}
-        try:
-            trouble = chain.trouble(context)
-            if trouble:
-                chain.notices.add("WARNING", f"{trouble}: the chain has ended")
-                return self._finish(context) | {"PASS_THROUGH"}
-            chain.find_front()
-            passes = act(chain, read(chain, context, event))
-            if chain.stage is Stage.OVER:
-                result = self._finish(context)
-                return result | {"PASS_THROUGH"} if passes else result
-            return {"PASS_THROUGH"} if passes else {"RUNNING_MODAL"}
-        except Exception as error:
-            return self._failed(error)
+        """Pass an event to the chain, and finish when the chain has ended. Other windows may be new."""
+        if running:
+            listen(running[0].window)
+        return super().modal(context, event)
 
     def _tell_problems(self, chain: Chain) -> None:
         """Report problems with the settings and with the wires that are stored with the mesh, once."""
@@ -163,39 +211,6 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
         if mesh.obj.modifiers:
             chain.say("Modifiers are ignored")
 
-    def _finish(self, context: bpy.types.Context) -> set[str]:
-        try:
-            has_kept = self._chain.finish()
-        except ValueError as error:
-            has_kept = not self._chain.drop()
-            fate = "are in the mesh as they were last saved" if has_kept else "were not kept"
-            self._chain.notices.add("WARNING", f"{error}: the wires of this chain {fate}")
-            if has_kept:
-                undo_steps.push(undo_steps.DRAW)
-        self._chain.notices.tell(self.report)
-        if has_kept and next(_kept) >= _ENOUGH and preferences(context).text == "STEPS":
-            preferences(context).text = "INFORMATION"
-            context.preferences.is_dirty = True
-        return {"FINISHED"} if has_kept else {"CANCELLED"}
-
-    def _failed(self, error: Exception) -> set[str]:
-        traceback.print_exc()
-        previews, restored = self._chain.stage is Stage.PEEKING, False
-        try:
-            restored = self._chain.drop()
-        except Exception:
-            traceback.print_exc()
-            self._chain.close()
-        if previews:
-            return {"CANCELLED", "PASS_THROUGH"}
-        if not restored:
-            # The mesh may have a part of the wires.
-            undo_steps.push(undo_steps.DRAW)
-            self.report({"ERROR"}, f"Drawing failed, undo leads back: {error}")
-            return {"FINISHED"}
-        self.report({"ERROR"}, f"Drawing failed, and the mesh was restored: {error}")
-        return {"CANCELLED"}
-
     def cancel(self, _context: bpy.types.Context) -> None:
         """End the chain when Blender stops the operator. Its wires are kept if the mesh still exists, without those that wait."""
         chain = self._chain
@@ -206,6 +221,42 @@ class MESH_OT_seamwire_draw(NeedsEditMode, bpy.types.Operator):
         except Exception:
             traceback.print_exc()
             chain.close()
+
+
+class MESH_OT_seamwire_listen(_Follows, bpy.types.Operator):
+    """Listen in a window beside that of what runs. A chain can be drawn in all windows"""  # noqa: D400 - a tooltip
+
+    bl_idname = OPERATOR
+    bl_label = "Seamwire Listen"
+    bl_options: ClassVar[set[str]] = {"INTERNAL"}
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        """Begin to listen. A timer lets it end soon, because Blender does not save automatically meanwhile."""
+        self._window = context.window.as_pointer()
+        listening.add(self._window)
+        self._timer = context.window_manager.event_timer_add(_LOOK, window=context.window)
+        context.window_manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Pass an event to what runs in another window. End when nothing runs."""
+        result = {"PASS_THROUGH"}
+        if not (running or steps):
+            result = {"CANCELLED", "PASS_THROUGH"}
+        elif not event.type.startswith("TIMER") and context.window != (running or steps)[0].window:
+            if running:
+                self._chain = running[0]
+                result = super().modal(context, event)
+            else:
+                result = steps[0].overhear(context, event)
+        if "CANCELLED" in result or "FINISHED" in result:
+            self.cancel(context)
+        return result
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Listen no longer."""
+        listening.discard(self._window)
+        context.window_manager.event_timer_remove(self._timer)
 
 
 def tell_mirrored(operator: bpy.types.Operator) -> None:
@@ -234,7 +285,8 @@ def _drop_all() -> None:
 
 
 register, unregister = together(
-    *classes(MESH_OT_seamwire_draw),
+    *classes(MESH_OT_seamwire_draw, MESH_OT_seamwire_listen),
+    (lambda: None, listening.clear),
     handler("save_pre", _on_save),
     handler("load_pre", _on_load),
     (lambda: None, _drop_all),

@@ -104,6 +104,24 @@ def is_harmless(event: bpy.types.Event, manager: bpy.types.WindowManager) -> boo
     return event.type in {"MOUSEMOVE", "INBETWEEN_MOUSEMOVE"} or (item is not None and _is_harmless(item))
 
 
+def is_for_blender(event: bpy.types.Event, context: bpy.types.Context) -> bool:
+    """Return whether an event beside running steps goes to Blender: it is harmless, or is neither over a 3D view nor undoes anything."""
+    from ..view.viewport import place_of
+
+    if is_harmless(event, context.window_manager):
+        return True
+    place = place_of(context.window, event)
+    if place is None:
+        return not undoes(event, context.window_manager)
+    return on_gizmo_with(event, place, context)
+
+
+def undoes(event: bpy.types.Event, manager: bpy.types.WindowManager) -> bool:
+    """Return whether an event would undo or redo a step of Blender's."""
+    item = _item_for(event, manager)
+    return item is not None and item.idname in {"ed.undo", "ed.redo", "ed.undo_history"}
+
+
 def right_click_cancels(manager: bpy.types.WindowManager) -> bool:
     """Return whether a right click cancels what runs. It does not if the user's keymap selects or moves the view with it."""
     keymap = user_keymap(manager, "3D View")
@@ -164,6 +182,11 @@ def _button(item: bpy.types.KeyMapItem, inputs: bpy.types.PreferencesInput) -> s
     """Return the button of a keymap item, or the direction of the wheel."""
     inwards, outwards = ("DOWN", "UP") if inputs.invert_zoom_wheel else ("UP", "DOWN")
     return {"WHEELINMOUSE": f"WHEEL{inwards}MOUSE", "WHEELOUTMOUSE": f"WHEEL{outwards}MOUSE"}.get(item.type, item.type)
+
+
+def on_gizmo_with(event: bpy.types.Event, place: Place, context: bpy.types.Context) -> bool:
+    """Return whether a button of the mouse is pressed on the navigation gizmo."""
+    return event.type.endswith("MOUSE") and not event.type.startswith("WHEEL") and on_gizmo(place, context.preferences)
 
 
 def on_gizmo(place: Place, preferences: bpy.types.Preferences) -> bool:

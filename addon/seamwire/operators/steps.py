@@ -15,7 +15,8 @@ import bpy
 
 from .chain_state import running as chains
 from .edit_mesh_operator import EditMeshOperator
-from .keymaps import is_harmless, right_click_cancels
+from .keymaps import is_for_blender, right_click_cancels, undoes
+from .other_windows import listen
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator, Sequence
@@ -26,6 +27,8 @@ if TYPE_CHECKING:
 
 running: list[Stepwise] = []
 """The operators that take steps beside the interface at the moment."""
+_ALWAYS = frozenset({"TIMER", "RET", "NUMPAD_ENTER"})
+"""Events that count wherever the mouse is."""
 _PERIOD = 0.05
 """Seconds between two looks at whether a step has ended."""
 _CONSOLE_PERIOD = 5.0
@@ -163,23 +166,41 @@ class Stepwise(EditMeshOperator):
         self._cleanup.callback(self._thread.shutdown)
         running.append(self)
         self._cleanup.callback(running.remove, self)
+        self.window = context.window
         result = self._advance()
         if result == {"RUNNING_MODAL"}:
             context.window_manager.modal_handler_add(self)
+            listen(self.window)
         return result
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Wait for a step, and take the next one. The view can be moved in the meantime."""
         if self not in running:
             return {"CANCELLED", "PASS_THROUGH"}
+        listen(self.window)
         try:
             return self._follow(context, event)
         except BaseException:
             self.end()
             raise
 
+    def overhear(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Return what a modal operator returns for an event of another window: only Undo, which would change the mesh, is not Blender's."""
+        if not undoes(event, context.window_manager):
+            return {"PASS_THROUGH"}
+        hand = None if self._cancelled else self._step.hand
+        if hand is not None and hand.take(context, event):
+            self._show()
+        return {"RUNNING_MODAL"}
+
     def _follow(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         hand = None if self._cancelled else self._step.hand
+        if context.workspace != self._workspace:
+            self._tell(None)
+            self._workspace = context.workspace
+        if context.mode != "EDIT_MESH" and not self._cancelled:
+            self.report({"WARNING"}, f"Edit Mode was left: {self.bl_label} has ended, and nothing has changed")
+            self._cancelled, hand = True, None
         taken = set() if hand is None else hand.take(context, event)
         if taken:
             if "PASS_THROUGH" not in taken:
@@ -187,7 +208,7 @@ class Stepwise(EditMeshOperator):
             return taken
         if self._cancels(context, event):
             self._cancelled = True
-        elif is_harmless(event, context.window_manager):
+        elif event.type not in _ALWAYS and is_for_blender(event, context):
             return {"PASS_THROUGH"}
         if event.type in {"RET", "NUMPAD_ENTER"} and event.value == "PRESS" and self._seen:
             self.enough = True
@@ -200,7 +221,11 @@ class Stepwise(EditMeshOperator):
 
     def _cancels(self, context: bpy.types.Context, event: bpy.types.Event) -> bool:
         """Return whether an event cancels the operator, as it does for Blender's own tools."""
+        from ..view.viewport import place_of
+
         if event.type == "RIGHTMOUSE":
+            if place_of(context.window, event) is None:
+                return False
             is_plain = not (event.ctrl or event.shift or event.alt or event.oskey)
             return is_plain and event.value in {"PRESS", "DOUBLE_CLICK"} and right_click_cancels(context.window_manager)
         return event.type == "ESC"

@@ -143,12 +143,12 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
 
     def _show_parts(self, context: bpy.types.Context, search: SeamSearch) -> Generator[Step, None, None]:
         """Yield steps until the artist has confirmed the parts that the views show, and seams are planned in them."""
-        from ..core.seams.seam_plan import edits_text
+        from ..core.seams.seam_plan import PartChoice, edits_text
         from ..view.plan_preview import PlanPreview
         from .suggest_live import LiveParts
 
         with closing(PlanPreview()) as preview:
-            live = LiveParts(context.window, search, preview, 0.01 * self.parts, self.distortion, lambda: self.enough)
+            live = LiveParts(search, preview, PartChoice(0.01 * self.parts, self.distortion), lambda: self.enough)
             while not live.is_done:
                 yield from _step(search, live.step())
             self.parts, self.distortion = 100.0 * live.amount, live.stretch

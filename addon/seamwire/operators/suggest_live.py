@@ -8,20 +8,22 @@ import time
 from collections import deque
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import bpy
 
 from ..core.base import native
-from ..core.seams.seam_plan import PartEdits, edges_of, mean_stretch, turned, turned_limit
+from ..core.seams.seam_plan import PartChoice, PartEdits, edges_of, mean_stretch, turned, turned_limit
 from ..view.plan_preview import Curves, PlanPreview, Pointed
 from ..view.viewport import place_of
-from ..words.search_report import LIVE_HINTS, parts_text
-from .keymaps import on_gizmo
+from ..words.keys import Action
+from ..words.search_report import LIVE_HINTS, NOTHING_TO_REDO, NOTHING_TO_UNDO, OTHER_KEY, parts_text
+from . import keymaps
 from .steps import Step
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     import numpy as np
     from numpy.typing import NDArray
@@ -30,8 +32,10 @@ if TYPE_CHECKING:
     from ..view.viewport import Place
     from .steps import Progress
 
-    Search = Callable[[Progress], tuple[float, dict[str, PartEdits]]]
-    """Finds other parts, and returns their amount and the edits. Any thread may call it."""
+    Search = Callable[[Progress], PartChoice]
+    """Finds other parts, and returns the choice that they belong to. Any thread may call it."""
+    Asked = tuple[Search, int | None]
+    """A search, and the place of its choice among those that were made, or None for a new choice."""
 
 _REST = 0.4
 """Seconds without a change until slits are planned."""
@@ -55,25 +59,24 @@ class LiveParts:
 
     def __init__(
         self,
-        window: bpy.types.Window,
         search: SeamSearch,
         preview: PlanPreview,
-        amount: float,
-        stretch: float,
+        choice: PartChoice,
         is_enough: Callable[[], bool],
     ) -> None:
-        self._window = window
         self._search = search
         self._preview = preview
         self._is_enough = is_enough
-        self.amount = amount  # of parts, from 0 to 1
-        self.stretch = stretch  # the limit, in percent
-        self.edits: dict[str, PartEdits] = {}  # the changes by clicks, by the name of the object
+        self._choices = [choice]  # each that was made, also those that were taken back
+        self._at = 0  # the one that is shown
         self.is_kept = False  # whether the artist has confirmed the parts
+        self._said = ""
+        self._told: set[str] = set()
         self._dropped: dict[str, list[NDArray[np.int32]]] = {}
         self._counts: dict[float, int] = {}
-        self._searches: deque[Search] = deque()
-        self._found: tuple[float, dict[str, PartEdits]] | None = None
+        self._turns: dict[tuple[float, int], float] = {}  # where notches led from amounts, and back
+        self._searches: deque[Asked] = deque()
+        self._found: tuple[Asked, PartChoice] | None = None
         self._version = self._worked_on = 0
         self._planned = -1
         self._rests_at = 0.0
@@ -86,14 +89,29 @@ class LiveParts:
 
     def step(self) -> Step:
         """Return the step that finds the parts that the artist has asked for, or waits and plans when the hand rests."""
-        if self._found is not None:
+        found, self._found = self._found, None
+        if found is not None and self._searches and self._searches[0] is found[0]:
             self._searches.popleft()
-            found, self._found = self._found, None
-            self._change_to(*found)
+            self._change_to(found[1], found[0][1])
         self._worked_on = self._version
         if self._searches:
             return Step("Finding parts", self._find, hand=self)
         return Step("Planning seams", self._plan, self._look, self)
+
+    @property
+    def amount(self) -> float:
+        """The amount of parts, from 0 to 1."""
+        return self._choices[self._at].amount
+
+    @property
+    def stretch(self) -> float:
+        """The limit of the stretch, in percent."""
+        return self._choices[self._at].stretch
+
+    @property
+    def edits(self) -> Mapping[str, PartEdits]:
+        """The changes by clicks, by the name of the object."""
+        return self._choices[self._at].edits
 
     @property
     def is_done(self) -> bool:
@@ -113,8 +131,9 @@ class LiveParts:
 
     @property
     def title(self) -> str:
-        """The amount and the number of parts, and the limit of the stretch."""
-        return parts_text(self.amount, self._search.part_count, self.stretch)
+        """The answer to the last key, the amount and the number of parts, and the limit of the stretch."""
+        text = parts_text(self.amount, self._search.part_count, self.stretch)
+        return f"{self._said}    {text}" if self._said else text
 
     @property
     def hints(self) -> Sequence[str]:
@@ -160,27 +179,60 @@ class LiveParts:
         """Take an event of the wheel, the mouse or the keys, as `Hand.take`."""
         if self.is_kept or not self._search.are_alive:
             return set()
-        place = place_of(self._window, event)
+        place = place_of(context.window, event)
         if event.type == "MOUSEMOVE":
             self._preview.point(None if place is None else self._preview.at(place))
             return {"PASS_THROUGH"}
-        if event.alt or event.oskey or event.value not in _PRESSES:
+        if event.value not in _PRESSES:
             return set()
-        if event.shift and event.type not in {"PLUS", "EQUAL"}:
-            return set()
-        is_wheel = event.type.startswith("WHEEL")
-        if event.type in _NOTCHES and (place is not None or not is_wheel):
-            (self._turn_stretch if event.ctrl else self._turn)(_NOTCHES[event.type])
+        act = self._act_for(event, place, keymaps.keys(context).decode(event))
+        if act is not None and not (place is not None and keymaps.on_gizmo_with(event, place, context)):
+            self._said = ""
+            act()
             return set(_TAKEN)
-        if event.ctrl:
-            return set()
-        if event.type in _CONFIRM:
-            self._keep()
-            return set(_TAKEN)
-        if event.type == "LEFTMOUSE" and place is not None and not on_gizmo(place, context.preferences):
-            self._click(place)
-            return set(_TAKEN)
+        if place is not None and not keymaps.is_for_blender(event, context) and not _is_modifier(event.type):
+            self._say(OTHER_KEY)
         return set()
+
+    def _act_for(self, event: bpy.types.Event, place: Place | None, action: Action | None) -> Callable[[], None] | None:
+        """Return what an event asks for. Over other editors only Enter does, and Undo, which would change the mesh."""
+        if action in {Action.UNDO, Action.REDO} and (place is not None or event.ctrl or event.oskey):
+            return partial(self._step_to, -1 if action is Action.UNDO else 1)
+        if event.alt or event.oskey or (event.shift and event.type not in {"PLUS", "EQUAL"}):
+            return None
+        if event.type in _NOTCHES and place is not None:
+            return partial(self._turn_stretch if event.ctrl else self._turn, _NOTCHES[event.type])
+        if event.ctrl:
+            return None
+        if event.type in _CONFIRM and (place is not None or event.type != "SPACE"):
+            return self._keep
+        if event.type == "LEFTMOUSE" and place is not None:
+            return partial(self._click, place)
+        return None
+
+    def _say(self, text: str) -> None:
+        """Answer a key until the next input. The same answer is given once."""
+        if text not in self._told:
+            self._told.add(text)
+            self._said = text
+
+    def _step_to(self, by: int) -> None:
+        """Take back the last change, by -1, or make it again, by 1. A search that has not ended is taken back first."""
+        at = self._at + by
+        if self._searches:
+            if by < 0:
+                self._searches.pop()
+                self._version += 1  # another step is needed
+        elif not 0 <= at < len(self._choices):
+            self._say(NOTHING_TO_UNDO if by < 0 else NOTHING_TO_REDO)
+        else:
+            choice = self._choices[at]
+
+            def search(progress: Progress) -> PartChoice:
+                self._search.count(choice.amount, choice.edits, progress)
+                return choice
+
+            self._begin(search, at)
 
     def _keep(self) -> None:
         """Keep the parts. The map is no longer shown."""
@@ -190,20 +242,24 @@ class LiveParts:
             self._show(suggestion)
 
     def _turn_stretch(self, notches: int) -> None:
-        found = turned_limit(self.stretch, notches)
-        if found != self.stretch:
-            self.stretch = found
-            self._search.limit_stretch(found)
-            self._change()
+        def search(_progress: Progress) -> PartChoice:
+            found = turned_limit(self.stretch, notches, self._choices[0].stretch)
+            return replace(self._choices[self._at], stretch=found)
+
+        self._begin(search)
 
     def _turn(self, notches: int) -> None:
-        def search(progress: Progress) -> tuple[float, dict[str, PartEdits]]:
-            until = time.monotonic() + _LOOKING
-            found = turned(
-                self.amount, notches, lambda amount: self._count(amount, progress), lambda: time.monotonic() < until
-            )
+        def search(progress: Progress) -> PartChoice:
+            amount, until = self.amount, time.monotonic() + _LOOKING
+            found = self._turns.get((amount, notches))
+            if found is None:
+                found = turned(
+                    amount, notches, lambda some: self._count(some, progress), lambda: time.monotonic() < until
+                )
             self._search.count(found, self.edits, progress)  # so that its parts are kept
-            return found, self.edits
+            if found != amount:
+                self._turns[amount, notches], self._turns[found, -notches] = found, amount
+            return replace(self._choices[self._at], amount=found)
 
         self._begin(search)
 
@@ -218,36 +274,45 @@ class LiveParts:
             return
         edits = {**self.edits, at.name: self._edited(self.edits.get(at.name, PartEdits()), at)}
 
-        def search(progress: Progress) -> tuple[float, dict[str, PartEdits]]:
-            count = self._search.count(self.amount, edits, progress)
+        def search(progress: Progress) -> PartChoice:
+            choice = self._choices[self._at]
+            count = self._search.count(choice.amount, edits, progress)
             is_uncut = at.border is None and count == self._search.part_count
-            return self.amount, self.edits if is_uncut else edits
+            return choice if is_uncut else replace(choice, edits=edits)
 
         self._begin(search)
         self._preview.point(self._preview.at(place))
 
-    def _begin(self, search: Search) -> None:
-        """Change the parts as a search says: at once if it is short, otherwise in a step."""
+    def _begin(self, search: Search, at: int | None = None) -> None:
+        """Change the parts as a search says: at once if it is short, otherwise in a step. The choice is new, or has a place already."""
         until = time.monotonic() + _INSTANT
         try:
             found = None if self._searches else search(lambda _: time.monotonic() < until)
         except self._cancelled:
             found = None
         if found is None:
-            self._searches.append(search)
+            self._searches.append((search, at))
         else:
-            self._change_to(*found)
+            self._change_to(found, at)
 
     def _find(self, progress: Progress) -> None:
+        asked = self._searches[0]
         with suppress(self._cancelled):
-            self._found = self._searches[0](progress)
+            # Undo may take the search back.
+            self._found = asked, asked[0](lambda done: progress(done) and asked in self._searches)
 
-    def _change_to(self, amount: float, edits: dict[str, PartEdits]) -> None:
-        if edits != self.edits:
-            self._counts.clear()
-        elif amount == self.amount:
+    def _change_to(self, choice: PartChoice, at: int | None) -> None:
+        """Go on to a choice that has a place among those that were made, or to a new one."""
+        before = self._choices[self._at]
+        if choice == before:
             return
-        self.amount, self.edits = amount, edits
+        if choice.edits != before.edits:
+            self._counts.clear()
+            self._turns.clear()
+        if at is None:
+            at = self._at + 1
+            self._choices[at:] = [choice]
+        self._at = at
         self._change()
 
     def _edited(self, edits: PartEdits, at: Pointed) -> PartEdits:
@@ -266,6 +331,7 @@ class LiveParts:
         """Choose the parts anew, and show them."""
         self._version += 1
         self._rests_at = time.monotonic() + _REST
+        self._search.limit_stretch(self.stretch)
         self._search.choose(self.amount, self.edits)
         for suggestion in self._search:
             self._show(suggestion)
@@ -290,6 +356,10 @@ class LiveParts:
         if suggestion.layout is not None and not self.is_kept:
             squares = suggestion.layout * (_scale_of(suggestion.mesh.obj) / self._square)
         self._preview.show(suggestion.mesh.obj, suggestion.mesh.arrays, curves, cuts, squares)
+
+
+def _is_modifier(key: str) -> bool:
+    return key == "OSKEY" or key.endswith(("_SHIFT", "_CTRL", "_ALT"))
 
 
 def _scale_of(obj: bpy.types.Object) -> float:

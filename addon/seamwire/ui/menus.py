@@ -5,12 +5,14 @@ from __future__ import annotations
 
 from functools import cache
 from pathlib import Path
+from typing import ClassVar
 
 import bpy
 
 from ..mesh.registration import classes, menu_entry, together
 from ..mesh.settings import TOOL, preferences, settings
 from ..operators import keymaps
+from ..operators.edit_mesh_operator import NeedsEditMode
 from ..operators.island_operators import ISLAND_ITEMS
 from ..operators.keymaps import HELP_PANEL
 from ..terms.options import SETTINGS
@@ -32,7 +34,7 @@ class VIEW3D_MT_seamwire(bpy.types.Menu):
     def draw(self, _context: bpy.types.Context) -> None:
         """Show what artists need most, and the submenus for everything else."""
         layout = self.layout
-        _draw_tool(layout)
+        layout.operator("mesh.seamwire_choose_tool")
         layout.operator("mesh.seamwire_suggest")
         layout.operator("mesh.seamwire_close_gaps")
         layout.operator("mesh.seamwire_unwrap")
@@ -90,9 +92,17 @@ SUBMENUS = (
 )
 
 
-def _draw_tool(layout: bpy.types.UILayout) -> None:
-    entry = layout.operator("wm.tool_set_by_id", text="Draw Seamwires")
-    entry.name, entry.space_type = TOOL, "VIEW_3D"
+class MESH_OT_seamwire_choose_tool(NeedsEditMode, bpy.types.Operator):
+    """Draw UV seams that follow the shape of the mesh: choose the tool"""  # noqa: D400 - a tooltip
+
+    # Blender indents `wm.tool_set_by_id` differently in menus, as it does buttons in the toolbar.
+    bl_idname = "mesh.seamwire_choose_tool"
+    bl_label = "Draw Seamwires"
+    bl_options: ClassVar[set[str]] = {"INTERNAL"}
+
+    def execute(self, _context: bpy.types.Context) -> set[str]:
+        """Choose the tool."""
+        return bpy.ops.wm.tool_set_by_id(name=TOOL, space_type="VIEW_3D")
 
 
 def _draw_submenu(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
@@ -102,7 +112,7 @@ def _draw_submenu(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
 
 def _draw_entry(menu: bpy.types.Menu, _context: bpy.types.Context) -> None:
     menu.layout.separator()
-    _draw_tool(menu.layout)
+    menu.layout.operator(MESH_OT_seamwire_choose_tool.bl_idname)
 
 
 _GUIDES = ("guide/index.md", "../../docs/guide/index.md")
@@ -154,7 +164,7 @@ def _box(layout: bpy.types.UILayout, heading: str) -> bpy.types.UILayout:
 
 register, unregister = together(
     *classes(VIEW3D_MT_seamwire, VIEW3D_MT_seamwire_finish, VIEW3D_MT_seamwire_islands, VIEW3D_MT_seamwire_views),
-    *classes(VIEW3D_PT_seamwire_help),
+    *classes(VIEW3D_PT_seamwire_help, MESH_OT_seamwire_choose_tool),
     *(menu_entry(name, _draw_submenu) for name in MENUS),
     menu_entry(CONTEXT_MENU, _draw_entry),
 )

@@ -37,12 +37,11 @@ _CLICKS = {
 }
 """The text for a click, by the session's intent."""
 _IDLE = (
-    ("CLICK", "Begin Wire", False),
     ("CLICK", "Draw Line", True),
     ("LOOP", "Add Loop", False),
     ("GUIDE", "Draw Stroke", True),
 )
-"""The gestures between chains: the name of the key, the text, and whether the mouse is dragged."""
+"""The gestures between chains: the name of the key, the text, and whether the mouse is dragged. Blender itself names a click."""
 
 
 @dataclass(frozen=True)

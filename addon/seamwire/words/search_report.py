@@ -22,6 +22,9 @@ LIVE_HINTS = (
     "Enter: Keep",
 )
 """The artist's choices while the parts are shown."""
+OTHER_KEY = "Only the wheel, clicks, Ctrl Z, Enter, Esc and keys that move the view work here"
+NOTHING_TO_UNDO = "Nothing to undo: the parts are as they were first shown"
+NOTHING_TO_REDO = "Nothing to redo"
 
 
 def parts_text(amount: float, number: int, stretch: float) -> str:
@@ -42,6 +45,7 @@ class Outcome:
     stretch_wanted: float = 0.0
     unwrapped: int | None = None  # the number of islands; None if nothing was to be unwrapped, or could be
     faults: MapFaults = NO_FAULTS  # of these islands
+    used: float | None = None  # the part of the UV square; None if there are no maps in the meshes
 
     @property
     def is_good(self) -> bool:
@@ -59,7 +63,7 @@ class Outcome:
         parts.append(count(len(self.missing), "island"))
         if any(self.missing):  # a cut to an eye would be in full view
             parts.append(f"{sum(cuts > 0 for cuts in self.missing)} with holes")
-        return ", ".join([*parts, *self._of_map(), *self._problems()])
+        return ", ".join([*parts, *self._of_map(), *self._problems(), *self._of_square()])
 
     def _text_without_wires(self) -> str:
         if self._problems():
@@ -77,6 +81,9 @@ class Outcome:
         elif self.unwrapped:
             parts.append("no overlap")
         return parts
+
+    def _of_square(self) -> list[str]:
+        return [] if self.used is None else [f"{100.0 * self.used:.0f} % of the UV square used"]
 
     def _problems(self) -> list[str]:
         parts = []

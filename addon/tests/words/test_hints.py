@@ -101,7 +101,6 @@ def test_before_the_first_click_the_hints_teach_the_gestures() -> None:
         "REMOVE": Key("X"),
     }
     assert idle_hints(keys) == [
-        ("MOUSE_LMB", "Begin Wire"),
         ("MOUSE_LMB_DRAG", "Draw Line"),
         ("MOUSE_LMB", "Alt: Add Loop"),
         ("MOUSE_LMB_DRAG", "Shift: Draw Stroke"),

@@ -12,7 +12,7 @@ import itertools
 import json
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -60,9 +60,12 @@ def stretch_of(energy: float) -> float:
     return math.exp(0.5 * math.acosh(max(energy, _ISOMETRY) / _ISOMETRY)) - 1.0
 
 
-def turned_limit(percent: float, notches: int) -> float:
-    """Return the next of `LIMITS` in percent, if there is one, after a turn of the wheel: by 1 for more stretch, by -1 for less."""
-    beyond = [limit for limit in LIMITS if notches * (limit - percent) > _SAME_LIMIT * percent]
+def turned_limit(percent: float, notches: int, first: float = LIMITS[0]) -> float:
+    """Return the next limit in percent, if there is one, after a turn of the wheel: by 1 for more stretch, by -1 for less.
+
+    It is one of `LIMITS`, or the `first` limit that was shown.
+    """
+    beyond = [limit for limit in (*LIMITS, first) if notches * (limit - percent) > _SAME_LIMIT * percent]
     return min(beyond, key=lambda limit: abs(limit - percent), default=percent)
 
 
@@ -201,6 +204,15 @@ class PartEdits:
             np.array(sorted(own & there), dtype=np.int32).reshape(-1, 2) for own in (self.kept, self.dropped)
         )
         return {"kept": kept, "dropped": dropped, "parted": np.array(parted, dtype=np.int32)}
+
+
+@dataclass(frozen=True)
+class PartChoice:
+    """An artist's choice while parts are shown. It determines the parts completely."""
+
+    amount: float  # of parts, from 0 to 1
+    stretch: float  # the limit, in percent
+    edits: Mapping[str, PartEdits] = field(default_factory=dict)  # the changes by clicks, by the name of the object
 
 
 def edits_text(edits: Mapping[str, PartEdits]) -> str:
