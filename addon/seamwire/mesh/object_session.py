@@ -338,11 +338,15 @@ class ObjectSession:
         self._set_seams(seams, self._labels)
         self._store()
         if adopt:
-            self.session.adopt(replace(plan.network, seed=None), self.plain_seams)
-            _taken_cuts.keep(
-                self.session.cursor.loops.cuts.taken(self.session.drawing.network), self.session.network, self.places
-            )
+            self.adopt(plan)
         return written
+
+    def adopt(self, plan: wire_labels.Plan) -> None:
+        """Let the session go on with the network that was written."""
+        self.session.adopt(replace(plan.network, seed=None), self.plain_seams)
+        _taken_cuts.keep(
+            self.session.cursor.loops.cuts.taken(self.session.drawing.network), self.session.network, self.places
+        )
 
     def add(self, wires: Iterable[Wire], strokes: Iterable[Stroke] = ()) -> None:
         """Go on with more wires and strokes, found elsewhere; `write` marks their edges."""
