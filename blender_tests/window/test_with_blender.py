@@ -6,6 +6,7 @@ from __future__ import annotations
 import shutil
 from collections.abc import Callable, Iterable
 from pathlib import Path
+from weakref import ref
 
 import bmesh
 import bpy
@@ -19,11 +20,12 @@ from seamwire.core.drawing.session import Session
 from seamwire.core.drawing.wire import WireGesture
 from seamwire.core.storage.serialization import Archive
 from seamwire.mesh import edit_mesh, finishes
-from seamwire.mesh.settings import TOOL
+from seamwire.mesh.settings import TOOL, settings
 from seamwire.operators import chain as chain_module
 from seamwire.operators import chain_events, keymaps
 from seamwire.operators.chain_state import running
 from seamwire.operators.drag_handlers import LineHold
+from seamwire.view import edited_objects
 from seamwire.view.edited_objects import EditedObjects, edited
 from seamwire.view.object_view import ObjectView
 from seamwire.view.overlay import Overlay
@@ -438,6 +440,44 @@ def test_a_script_that_removes_the_object_ends_the_chain(desk: Desk) -> None:
     bpy.data.objects.remove(desk.obj)
     desk.ui.move((300.0, 300.0))
     assert desk.left_clean()
+
+
+def test_renamed_within_a_chain_an_object_keeps_its_wires(desk: Desk) -> None:
+    session = live(desk)
+    desk.obj.name = desk.name = "Renamed"
+    desk.ui.move(desk.at(53))
+    assert session.cursor.target.pick == 53, "the live wire follows"
+    desk.ui.click(desk.at(53))
+    desk.ui.wait_until(lambda: len(session.wires) == 2)
+    bpy.data.objects.new("Grid", None)  # its former name is another object's
+    settings().xray = True
+    set_seams(desk.obj, (0, 1))
+    desk.ui.wait()
+    desk.ui.move(desk.at(50))
+    assert edited.views() == [edited.front]
+    assert desk.running
+    desk.ui.key("RET")
+    assert seams(desk.obj) == sorted([(0, 1), *ROW, (44, 53)])
+
+
+def test_what_is_prepared_is_freed_a_while_after_edit_mode_was_left(
+    desk: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    live(desk)
+    desk.ui.key("RET")
+    view, length = ref(edited.front), 0.5
+    monkeypatch.setattr(edited_objects, "_IDLE", length)
+    for mode in ("OBJECT", "EDIT", "OBJECT"):
+        with desk.ui.override():
+            bpy.ops.object.mode_set(mode=mode)
+        desk.ui.wait(4, redraw=True)
+        assert view() is not None, "Edit Mode may be entered again at once"
+    desk.ui.wait_until(lambda: view() is None, 3.0)
+    assert not edited.sweeper.is_running
+    with desk.ui.override():
+        bpy.ops.object.mode_set(mode="EDIT")
+    desk.ui.move(desk.at(50))
+    desk.ui.wait_until(lambda: len(desk.session.wires) == 1)
 
 
 def test_another_add_ons_seams_under_a_chain_are_heard_of(desk: Desk) -> None:

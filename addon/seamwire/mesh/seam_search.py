@@ -85,6 +85,7 @@ class Suggestion:
     def __init__(self, obj: bpy.types.Object, options: SearchOptions, faces: NDArray[np.integer] | None) -> None:
         self._core = native.load()
         self.mesh = ObjectSession(obj)
+        self.name = obj.name_full  # edits know it by this one, whatever it is called meanwhile
         arrays = self.mesh.arrays
         self.along: Along = options.along or self.mesh.find_auto().along
         self.finish: Finish = options.finish or self.mesh.find_auto().finish
@@ -254,11 +255,6 @@ class Suggestion:
             found = plan.uvs  # unwrapping may open islands further
         if self._planner is planner:
             self.layout = np.asarray(found)
-
-    @property
-    def name(self) -> str:
-        """The full name of the object."""
-        return self.mesh.obj.name_full
 
     @property
     def best_so_far(self) -> seamwire_core.SeamPlan | None:

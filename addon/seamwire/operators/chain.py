@@ -214,7 +214,7 @@ class Chain:
         if view is None or not (view.stale or not view.mesh.alive()):
             return reason
         # Blender reports a change of the mesh. Others may mark seams.
-        obj = bpy.data.objects.get(view.name)
+        obj = view.obj if view.exists else bpy.data.objects.get(view.name)
         if obj is None:
             self.drawn_on, self._is_saved = None, False
             return "The object was removed"
