@@ -8,6 +8,7 @@ from desk import Desk, draw, shows
 from scene import chain, changing, seams, snapshot
 from seamwire.core.drawing.picture import Role
 from seamwire.mesh import cut
+from seamwire.mesh.object_session import ObjectSession
 from seamwire.mesh.settings import settings
 from seamwire.view.edited_objects import edited
 from seamwire.words.notices import Notice, Notices
@@ -97,7 +98,7 @@ def test_drawing_goes_on_after_a_cut_on_the_mesh_as_it_is(cutting: Desk) -> None
     assert {(own[0], own[-1]) for own in chains(cutting.obj)} == {(0, 44), (72, 80)}
 
 
-@pytest.mark.parametrize("where", ["before", "within"])
+@pytest.mark.parametrize("where", ["before", "within", "after"])
 def test_an_error_while_cutting_loses_no_wire_and_undo_leads_back(
     cutting: Desk, monkeypatch: pytest.MonkeyPatch, where: str
 ) -> None:
@@ -112,7 +113,9 @@ def test_an_error_while_cutting_loses_no_wire_and_undo_leads_back(
         return found
 
     monkeypatch.setattr(Notices, "take", note)
-    monkeypatch.setattr(cut, *{"before": ("plan", fail), "within": ("_split", fail)}[where])
+    failing = {"before": (cut, "plan"), "within": (cut, "mark_seams"), "after": (ObjectSession, "take_over")}
+    monkeypatch.setattr(*failing[where], fail)
+    before = snapshot(cutting.obj, with_seams=False)
     session, ui = cutting.start(), cutting.ui
     ui.click(cutting.at(0), ctrl=True)
     ui.click(cutting.at(44))
@@ -121,9 +124,10 @@ def test_an_error_while_cutting_loses_no_wire_and_undo_leads_back(
     (error,) = [notice for notice in reported if notice.level == "ERROR"]
     assert "on purpose" in error.text
     assert cutting.left_clean()
-    if where == "before":
-        assert seams(cutting.obj), "the wire, along edges"
-        assert agree(cutting.obj)
+    assert error.text.startswith("Wires are kept")
+    assert seams(cutting.obj), "the wire, along edges"
+    assert agree(cutting.obj)
+    assert snapshot(cutting.obj, with_seams=False) == before
     ui.key("ESC")  # closes the report, which has opened below the mouse
     ui.wait(redraw=True)
     ui.key("Z", ctrl=True)

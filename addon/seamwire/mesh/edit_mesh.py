@@ -377,6 +377,27 @@ def visible_stretch(matrix: Matrix) -> NDArray[np.float64]:
     return (vectors * lengths) @ vectors.T
 
 
+@contextmanager
+def restored_after_errors(obj: bpy.types.Object) -> Iterator[None]:
+    """Let the edit mesh of an object be as it was before if an error occurs."""
+    obj.update_from_editmode()
+    before = obj.data.copy()
+    try:
+        yield
+    except Exception:
+        bm = bmesh.from_edit_mesh(obj.data)
+        mode = set(bm.select_mode)
+        bm.clear()
+        has_keys = before.shape_keys is not None
+        bm.from_mesh(before, use_shape_key=has_keys, shape_key_index=obj.active_shape_key_index if has_keys else 0)
+        bm.select_mode = mode
+        _numbered(bm)
+        bmesh.update_edit_mesh(obj.data)
+        raise
+    finally:
+        bpy.data.meshes.remove(before)
+
+
 def live_unwrap(context: bpy.types.Context) -> None:
     """Unwrap anew, as Blender's own tools for paths do after seams have changed, where the scene asks for it.
 
