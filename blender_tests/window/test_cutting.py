@@ -4,7 +4,7 @@
 import bpy
 import numpy as np
 import pytest
-from desk import Desk, draw, shows
+from desk import Desk, drag, draw, shows, undo_steps
 from scene import chain, changing, seams, snapshot
 from seamwire.core.drawing.picture import Role
 from seamwire.mesh import cut
@@ -96,6 +96,22 @@ def test_drawing_goes_on_after_a_cut_on_the_mesh_as_it_is(cutting: Desk) -> None
     assert agree(cutting.obj)
     assert set(chain(*range(72, 81))) <= set(seams(cutting.obj))
     assert {(own[0], own[-1]) for own in chains(cutting.obj)} == {(0, 44), (72, 80)}
+
+
+def test_a_line_elsewhere_is_kept_though_the_live_chain_is_cut_before_it(
+    cutting: Desk, capfd: pytest.CaptureFixture[str]
+) -> None:
+    session, ui = cutting.start(), cutting.ui
+    ui.click(cutting.at(0), ctrl=True)
+    ui.click(cutting.at(44))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    drag(cutting, cutting.at(63), cutting.at(71))
+    ui.wait_until(lambda: not cutting.running)
+    assert agree(cutting.obj)
+    assert [own[0] for own in chains(cutting.obj)] == [0, 63]
+    straight = (cutting.obj.data.vertices[0].co - cutting.obj.data.vertices[44].co).length
+    assert length(cutting) == pytest.approx(straight + 2.0, rel=0.02)
+    assert undo_steps(capfd)[-2:] == ["Draw Seamwires", "Draw Seamwires"]
 
 
 @pytest.mark.parametrize("where", ["before", "within", "after"])

@@ -393,6 +393,13 @@ class ObjectSession:
 
         return find
 
+    def triangles_at(self, points: NDArray[np.float64]) -> NDArray[np.int32]:
+        """Return the triangles nearest to points, (k, 3), in the session's coordinates."""
+        if not len(points) or not len(self.arrays.triangles):
+            return np.zeros(len(points), dtype=np.int32)
+        rows, _, _ = native.load().NearestPoints(self.arrays.points, self.arrays.triangles).find(points)
+        return np.asarray(rows, dtype=np.int32)
+
     def drop_changes(self, network: Network) -> None:
         """Go back to a network that the session had, whatever was drawn since."""
         self.session.adopt(replace(network, seed=None), self.plain_seams)
