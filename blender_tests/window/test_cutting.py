@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Chains across the surface that are cut into the faces when they end."""
 
+from pathlib import Path
+
 import bpy
 import numpy as np
 import pytest
@@ -112,6 +114,27 @@ def test_a_line_elsewhere_is_kept_though_the_live_chain_is_cut_before_it(
     straight = (cutting.obj.data.vertices[0].co - cutting.obj.data.vertices[44].co).length
     assert length(cutting) == pytest.approx(straight + 2.0, rel=0.02)
     assert undo_steps(capfd)[-2:] == ["Draw Seamwires", "Draw Seamwires"]
+
+
+def test_a_wire_within_a_face_is_in_a_file_that_is_saved_within_the_chain(cutting: Desk, tmp_path: Path) -> None:
+    settings().into_faces = True
+    session, ui = cutting.start(), cutting.ui
+    first, second = (cutting.ui.on_screen((-0.45 + x, -0.60 + x, 0.0)) for x in (0.0, 0.05))
+    ui.click(first)
+    ui.click(second)
+    ui.wait_until(lambda: len(session.wires) == 1)
+    assert len(session.wires[0].vertices) == 1
+    path = tmp_path / "a.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True)
+    with bpy.data.libraries.load(str(path), link=False) as (inside, wanted):
+        wanted.meshes = inside.meshes
+    (saved,) = (mesh for mesh in wanted.meshes if len(mesh.vertices) > 81)
+    assert any(edge.use_seam for edge in saved.edges)
+    ui.move(cutting.at(60))
+    ui.key("ESC")
+    ui.wait_until(lambda: not cutting.running)
+    assert len(chains(cutting.obj)) == 1
+    assert agree(cutting.obj)
 
 
 @pytest.mark.parametrize("where", ["before", "within", "after"])

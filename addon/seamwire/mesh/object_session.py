@@ -72,6 +72,24 @@ def forget_records() -> None:
     _taken_cuts.clear()
 
 
+def complete_records() -> None:
+    """Let every mesh hold the records that its labels call. Blender's undo brings back labels in Edit Mode, but no records."""
+    for obj in bpy.data.objects:
+        if obj.type == "MESH" and obj.mode == "EDIT":
+            obj.update_from_editmode()  # Blender does so too when it saves
+    for data in bpy.data.meshes:
+        labels = edit_mesh.stored_labels(data) if data.library is None else ()
+        if not len(labels):
+            continue
+        try:
+            own = Archive.parse(data.seamwire_wires)
+        except UnreadableError:
+            continue
+        unknown = [label for label in labels if not own.knows(label)]
+        if any(map(_archive.knows, unknown)) and own.merge(_archive):
+            data.seamwire_wires = own.text(labels)
+
+
 def _trimmed_archive() -> Archive:
     """Return the records of this file, the oldest ones dropped if they take too much memory. Sessions keep what they have."""
     global _archive
@@ -117,7 +135,7 @@ class ObjectSession:
         self._damaged = False
         self._renumbered = self._outdated = False
         self._unstored = False
-        self._adopt(self.cage.labels(), self.arrays.seams)
+        self._adopt(self.cage.labels(was_read=True), self.arrays.seams)
 
     # Symmetry
 

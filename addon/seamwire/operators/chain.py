@@ -334,12 +334,18 @@ class Chain:
             return None
 
     def save(self) -> None:
-        """Write the wires so far to the mesh, so that Blender saves them. The chain goes on."""
+        """Write the wires so far to the mesh, so that Blender saves them. The chain goes on, unless a wire must be cut for that."""
         if self.drawn_on is None:
             return
         let_blender_tell()
         self._follow_mesh()
-        if self.drawn_on is not None:
+        if self.drawn_on is None:
+            return
+        if any(len(wire.vertices) < 2 for wire in self.drawn_on.session.drawing.network.wires):
+            # A wire within a face has no edge that could hold it before it is cut.
+            self._attempt(self.let_go)
+            self._attempt(self.keep)
+        else:
             with suppress(ValueError):  # the mesh has other vertices: the chain ends at its next event
                 _write(self.drawn_on, adopt=False)
                 self._is_saved = True
