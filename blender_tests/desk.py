@@ -161,7 +161,7 @@ def drag(desk: Desk, start: tuple[float, float], end: tuple[float, float]) -> No
 def leave(ui: driver.Ui) -> None:
     """End what is drawn, however it stands, and forget what was prepared."""
     for chain in tuple(running):
-        chain.drop()
+        chain.finish()
     steps.end_all()
     edited.clear()
     if bpy.context.mode == "EDIT_MESH":

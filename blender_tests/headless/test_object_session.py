@@ -115,18 +115,24 @@ def test_a_deleted_object_does_not_stay_prepared(grid: bpy.types.Object) -> None
 
 
 @pytest.mark.usefixtures("unprepared")
-def test_objects_that_are_not_edited_stay_prepared_as_far_as_there_is_room(monkeypatch: pytest.MonkeyPatch) -> None:
-    prepared = []
+def test_objects_that_are_not_edited_stay_prepared_for_a_while(monkeypatch: pytest.MonkeyPatch) -> None:
+    prepared, now = [], 100.0
+    monkeypatch.setattr(edited_objects.time, "monotonic", lambda: now)
     for name in ("First", "Second", "Third"):
         add_grid(5, name=name)
         edit()
-        view = edited.of(bpy.context.active_object)
-        prepared.append(weakref.ref(view))
-        monkeypatch.setattr(edited_objects, "_MOST_IDLE", view.size + view.size // 2)
+        prepared.append(weakref.ref(edited.of(bpy.context.active_object)))
         bpy.ops.object.mode_set(mode="OBJECT")
-    del view
+        assert edited.sweep() is not None
+        now += 25.0
+    assert [one() is None for one in prepared] == [False, False, False]
+    edit()
+    assert edited.of(bpy.context.active_object) is prepared[2]()
+    assert edited.sweep() == 10.0
+    now += 100.0
+    assert edited.sweep() is None, "the object that is edited stays"
     gc.collect()
-    assert [one() is None for one in prepared] == [True, False, False]
+    assert [one() is None for one in prepared] == [True, True, False]
 
 
 @pytest.mark.usefixtures("unprepared")
@@ -164,9 +170,9 @@ def test_records_of_wires_that_undo_brings_back_end_with_the_file(grid: bpy.type
     grid.data.seamwire_wires = ""  # as undo leaves the mesh
     assert len(session_on(grid).session.wires) == 1
     name, path = grid.name, str(tmp_path / "other.blend")
-    grid.data.seamwire_wires = ""
     bpy.ops.wm.save_as_mainfile(filepath=path)
     bpy.ops.wm.open_mainfile(filepath=path)
+    bpy.data.objects[name].data.seamwire_wires = ""
     assert session_on(bpy.data.objects[name]).session.wires == ()
 
 

@@ -145,6 +145,35 @@ def test_undo_and_redo_take_wires_back_and_bring_them_again() -> None:
 
 
 @pytest.mark.every_blender
+@pytest.mark.every_blender
+@pytest.mark.parametrize("edited", [True, False], ids=["in Edit Mode", "in Object Mode"])
+def test_wires_that_undo_brings_back_while_nobody_looks_are_in_the_file(
+    drawn: bpy.types.Object, edited: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before = chains(drawn)
+    bpy.ops.ed.undo_push(message="Drawn")
+    mesh = session_on(drawn)
+    for wire in mesh.session.wires:
+        mesh.session.drop(wire)
+    write(mesh)
+    bpy.ops.ed.undo_push(message="Removed")
+    bpy.ops.mesh.select_all(action="SELECT")
+    for _ in range(2):
+        bpy.ops.mesh.extrude_region_move(TRANSFORM_OT_translate={"value": (0.0, 0.0, 1.0)})
+        bpy.ops.ed.undo_push(message="Extruded")
+    for _ in range(3):
+        bpy.ops.ed.undo()
+    if not edited:
+        mode("OBJECT")
+    name = bpy.context.active_object.name
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "a.blend"), check_existing=False)
+    forget(monkeypatch)
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "a.blend"))
+    obj = entered(bpy.data.objects[name])
+    assert chains(obj) == before
+    assert agree(obj)
+
+
 def test_undo_over_a_switch_of_modes_brings_them_back() -> None:
     name = add_grid(9).name
     edit()

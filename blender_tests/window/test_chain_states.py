@@ -130,6 +130,7 @@ class Walk:
 
     def fail(self) -> None:
         """Let the next event end on an error."""
+        self.is_free = True
         with self.monkeypatch.context() as broken:
             broken.setattr(chain_events, "read", partial(_raise, RuntimeError("broken")))
             self.ui.move(self.desk.at(20))
@@ -147,6 +148,9 @@ class Walk:
             broken.setattr(ObjectSession, "plan", partial(_raise, RuntimeError("broken")))
             self.ui.key("RET")
         dismiss(self.ui)
+
+    def drop(self) -> None:
+        self.desk.chain.drop()
 
     def key(self, name: str) -> None:
         self.ui.key(name)
@@ -196,7 +200,9 @@ WALKS: list[tuple[Stage, Cue, Do]] = [
     (Stage.OVER, Cue.KEEP, key("RET")),
     (Stage.OVER, Cue.DROP, Walk.fail_to_write),
     (Stage.OVER, Cue.DROP, Walk.fail_to_write_otherwise),
-    *((stage, Cue.DROP, Walk.fail) for stage in Stage if stage not in {Stage.OVER, Stage.CLOSED}),
+    *((stage, Cue.KEEP, Walk.fail) for stage in (Stage.READY, Stage.PEEKING, Stage.DRAWING, Stage.ENDING)),
+    (Stage.HOLDING, Cue.LET_GO, Walk.fail),
+    *((stage, Cue.DROP, Walk.drop) for stage in (Stage.READY, Stage.PEEKING, Stage.DRAWING, Stage.ENDING)),
 ]
 """How each transition is walked: the state before, the cue, and what brings it."""
 KEPT = {

@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Chains across the surface that are cut into the faces when they end."""
 
+from pathlib import Path
+
 import bpy
 import numpy as np
 import pytest
-from desk import Desk, draw, shows
+from desk import Desk, drag, draw, shows, undo_steps
 from scene import chain, changing, seams, snapshot
 from seamwire.core.drawing.picture import Role
 from seamwire.mesh import cut
+from seamwire.mesh.object_session import ObjectSession
 from seamwire.mesh.settings import settings
 from seamwire.view.edited_objects import edited
 from seamwire.words.notices import Notice, Notices
@@ -97,7 +100,44 @@ def test_drawing_goes_on_after_a_cut_on_the_mesh_as_it_is(cutting: Desk) -> None
     assert {(own[0], own[-1]) for own in chains(cutting.obj)} == {(0, 44), (72, 80)}
 
 
-@pytest.mark.parametrize("where", ["before", "within"])
+def test_a_line_elsewhere_is_kept_though_the_live_chain_is_cut_before_it(
+    cutting: Desk, capfd: pytest.CaptureFixture[str]
+) -> None:
+    session, ui = cutting.start(), cutting.ui
+    ui.click(cutting.at(0), ctrl=True)
+    ui.click(cutting.at(44))
+    ui.wait_until(lambda: len(session.wires) == 1)
+    drag(cutting, cutting.at(63), cutting.at(71))
+    ui.wait_until(lambda: not cutting.running)
+    assert agree(cutting.obj)
+    assert [own[0] for own in chains(cutting.obj)] == [0, 63]
+    straight = (cutting.obj.data.vertices[0].co - cutting.obj.data.vertices[44].co).length
+    assert length(cutting) == pytest.approx(straight + 2.0, rel=0.02)
+    assert undo_steps(capfd)[-2:] == ["Draw Seamwires", "Draw Seamwires"]
+
+
+def test_a_wire_within_a_face_is_in_a_file_that_is_saved_within_the_chain(cutting: Desk, tmp_path: Path) -> None:
+    settings().into_faces = True
+    session, ui = cutting.start(), cutting.ui
+    first, second = (cutting.ui.on_screen((-0.45 + x, -0.60 + x, 0.0)) for x in (0.0, 0.05))
+    ui.click(first)
+    ui.click(second)
+    ui.wait_until(lambda: len(session.wires) == 1)
+    assert len(session.wires[0].vertices) == 1
+    path = tmp_path / "a.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True)
+    with bpy.data.libraries.load(str(path), link=False) as (inside, wanted):
+        wanted.meshes = inside.meshes
+    (saved,) = (mesh for mesh in wanted.meshes if len(mesh.vertices) > 81)
+    assert any(edge.use_seam for edge in saved.edges)
+    ui.move(cutting.at(60))
+    ui.key("ESC")
+    ui.wait_until(lambda: not cutting.running)
+    assert len(chains(cutting.obj)) == 1
+    assert agree(cutting.obj)
+
+
+@pytest.mark.parametrize("where", ["before", "within", "after"])
 def test_an_error_while_cutting_loses_no_wire_and_undo_leads_back(
     cutting: Desk, monkeypatch: pytest.MonkeyPatch, where: str
 ) -> None:
@@ -112,7 +152,9 @@ def test_an_error_while_cutting_loses_no_wire_and_undo_leads_back(
         return found
 
     monkeypatch.setattr(Notices, "take", note)
-    monkeypatch.setattr(cut, *{"before": ("plan", fail), "within": ("_split", fail)}[where])
+    failing = {"before": (cut, "plan"), "within": (cut, "mark_seams"), "after": (ObjectSession, "take_over")}
+    monkeypatch.setattr(*failing[where], fail)
+    before = snapshot(cutting.obj, with_seams=False)
     session, ui = cutting.start(), cutting.ui
     ui.click(cutting.at(0), ctrl=True)
     ui.click(cutting.at(44))
@@ -121,9 +163,10 @@ def test_an_error_while_cutting_loses_no_wire_and_undo_leads_back(
     (error,) = [notice for notice in reported if notice.level == "ERROR"]
     assert "on purpose" in error.text
     assert cutting.left_clean()
-    if where == "before":
-        assert seams(cutting.obj), "the wire, along edges"
-        assert agree(cutting.obj)
+    assert error.text.startswith("Wires are kept")
+    assert seams(cutting.obj), "the wire, along edges"
+    assert agree(cutting.obj)
+    assert snapshot(cutting.obj, with_seams=False) == before
     ui.key("ESC")  # closes the report, which has opened below the mouse
     ui.wait(redraw=True)
     ui.key("Z", ctrl=True)

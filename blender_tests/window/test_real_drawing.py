@@ -83,7 +83,7 @@ def test_a_left_button_that_plays_the_middle_one_turns_the_view_between_chains_a
     assert running[0].session.seed == 36
     assert turn() > 0.02
     assert running[0].session.wires == ()
-    running[0].drop()
+    running[0].finish()
     assert seams(obj) == []
     choose(ui, "builtin.select_box")
 

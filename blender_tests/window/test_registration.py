@@ -9,8 +9,8 @@ import pytest
 import seamwire
 import traces
 import ui as driver
-from desk import Desk, draw
-from scene import seams
+from desk import Desk, draw, undo_steps
+from scene import chain, seams
 from seamwire.mesh.seam_search import Suggestion
 from seamwire.operators import keymaps, steps
 from seamwire.view.edited_objects import edited
@@ -19,7 +19,9 @@ from seamwire.words.keys import Action, Bindings
 
 @pytest.mark.smoke
 @pytest.mark.every_blender
-def test_disabled_while_drawing_it_ends_and_leaves_nothing_behind(desk: Desk) -> None:
+def test_disabled_while_drawing_it_keeps_the_wires_and_leaves_nothing_else_behind(
+    desk: Desk, capfd: pytest.CaptureFixture[str]
+) -> None:
     ui = desk.ui
     before = traces.traces()
     assert any("Mesh: wm.tool_set_by_id W" in one for one in before["keymap items"])
@@ -35,7 +37,8 @@ def test_disabled_while_drawing_it_ends_and_leaves_nothing_behind(desk: Desk) ->
         ui.move(desk.at(40))
         ui.pixels()
         assert traces.ours(traces.traces()) == []
-        assert desk.unchanged()
+        assert seams(desk.obj) == chain(*range(36, 45))
+        assert undo_steps(capfd)[-1] == "Draw Seamwires"
     finally:
         traces.enable()
     ui.wait()  # the user's keymaps follow at the next turn of the event loop

@@ -346,7 +346,7 @@ def test_beside_a_search_a_chain_in_another_window_is_refused_with_a_sentence(
         with bpy.context.temp_override(**other):
             assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT") == {"RUNNING_MODAL"}
         assert not bpy.ops.mesh.seamwire_suggest.poll(), "a chain is drawn in the other window"
-        chains[0].drop()
+        chains[0].finish()
 
 
 def test_seams_are_hidden_from_the_side_that_the_view_shows(

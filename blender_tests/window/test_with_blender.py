@@ -5,8 +5,9 @@ from __future__ import annotations
 
 import contextlib
 import shutil
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
+from weakref import ref
 
 import bmesh
 import bpy
@@ -14,17 +15,21 @@ import pytest
 import stored
 import ui as driver
 from bpy_extras.view3d_utils import location_3d_to_region_2d
-from desk import Desk, choose, dismiss, draw, second_window, send
+from desk import Desk, choose, dismiss, draw, second_window, send, undo_steps
 from scene import chain, changing, edit, fail, mark_wires, seams, set_seams
 from seamwire.core.drawing.picture import Role, SeedRole, ShownSeed
 from seamwire.core.drawing.session import Session
+from seamwire.core.drawing.wire import WireGesture
 from seamwire.core.storage.serialization import Archive
 from seamwire.mesh import edit_mesh, finishes
-from seamwire.mesh.settings import TOOL
+from seamwire.mesh.settings import TOOL, settings
 from seamwire.operators import chain as chain_module
+from seamwire.operators import chain_events, keymaps
 from seamwire.operators.chain_state import running
+from seamwire.operators.drag_handlers import LineHold
 from seamwire.operators.other_windows import listening
-from seamwire.view.edited_objects import edited
+from seamwire.view import edited_objects
+from seamwire.view.edited_objects import EditedObjects, edited
 from seamwire.view.object_view import ObjectView
 from seamwire.view.overlay import Overlay
 from seamwire.words.notices import Notice
@@ -440,6 +445,44 @@ def test_a_script_that_removes_the_object_ends_the_chain(desk: Desk) -> None:
     assert desk.left_clean()
 
 
+def test_renamed_within_a_chain_an_object_keeps_its_wires(desk: Desk) -> None:
+    session = live(desk)
+    desk.obj.name = desk.name = "Renamed"
+    desk.ui.move(desk.at(53))
+    assert session.cursor.target.pick == 53, "the live wire follows"
+    desk.ui.click(desk.at(53))
+    desk.ui.wait_until(lambda: len(session.wires) == 2)
+    bpy.data.objects.new("Grid", None)  # its former name is another object's
+    settings().xray = True
+    set_seams(desk.obj, (0, 1))
+    desk.ui.wait()
+    desk.ui.move(desk.at(50))
+    assert edited.views() == [edited.front]
+    assert desk.running
+    desk.ui.key("RET")
+    assert seams(desk.obj) == sorted([(0, 1), *ROW, (44, 53)])
+
+
+def test_what_is_prepared_is_freed_a_while_after_edit_mode_was_left(
+    desk: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    live(desk)
+    desk.ui.key("RET")
+    view, length = ref(edited.front), 0.5
+    monkeypatch.setattr(edited_objects, "_IDLE", length)
+    for mode in ("OBJECT", "EDIT", "OBJECT"):
+        with desk.ui.override():
+            bpy.ops.object.mode_set(mode=mode)
+        desk.ui.wait(4, redraw=True)
+        assert view() is not None, "Edit Mode may be entered again at once"
+    desk.ui.wait_until(lambda: view() is None, 3.0)
+    assert not edited.sweeper.is_running
+    with desk.ui.override():
+        bpy.ops.object.mode_set(mode="EDIT")
+    desk.ui.move(desk.at(50))
+    desk.ui.wait_until(lambda: len(desk.session.wires) == 1)
+
+
 def test_another_add_ons_seams_under_a_chain_are_heard_of(desk: Desk) -> None:
     session = live(desk)
     set_seams(desk.obj, (0, 1))
@@ -451,19 +494,85 @@ def test_another_add_ons_seams_under_a_chain_are_heard_of(desk: Desk) -> None:
     assert seams(desk.obj) == [(0, 1), *ROW]
 
 
-@pytest.mark.smoke
-def test_an_exception_ends_the_chain_and_leaves_the_mesh_as_it_was(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
-    session = live(desk)
+def break_overlay(desk: Desk, broken: pytest.MonkeyPatch) -> None:
+    broken.setattr(Overlay, "draw_in_scene", fail)
+    desk.ui.move(desk.at(54))
+    desk.ui.wait(redraw=True)
 
-    monkeypatch.setattr(session, "hover", fail)
-    desk.ui.move(desk.at(50))
-    assert not desk.running
-    monkeypatch.undo()
-    dismiss(desk.ui)
+
+def break_engine(desk: Desk, broken: pytest.MonkeyPatch) -> None:
+    """Let everything fail that the library computes, also while the chain ends."""
+    for name in ("commit", "aim", "poll"):
+        broken.setattr(WireGesture, name, fail, raising=False)
+    desk.ui.click(desk.at(50))
+
+
+def break_timer(desk: Desk, broken: pytest.MonkeyPatch) -> None:
+    broken.setattr(EditedObjects, "poll", fail)
+    edited.chain()
+    desk.ui.wait_until(lambda: not desk.running)
+
+
+def break_while_held(desk: Desk, broken: pytest.MonkeyPatch) -> None:
+    desk.ui.event("LEFTMOUSE", "PRESS", desk.at(10))
+    for name in ("move", "cancel"):
+        broken.setattr(LineHold, name, fail)
+
+
+BREAKS: dict[str, Callable[[Desk, pytest.MonkeyPatch], None]] = {
+    "hover": lambda desk, broken: broken.setattr(Session, "hover", fail),
+    "hints": lambda desk, broken: broken.setattr(chain_module, "status_makers", [fail]),
+    "poll": lambda desk, broken: broken.setattr(keymaps, "takes", fail),
+    "event": lambda desk, broken: broken.setattr(chain_events, "read", fail),
+    "ending": lambda desk, broken: broken.setattr(Session, "end_chain", fail),
+    "overlay": break_overlay,
+    "engine": break_engine,
+    "timer": break_timer,
+    "hold": break_while_held,
+}
+"""Errors within a chain."""
+
+
+@pytest.mark.parametrize("where", [pytest.param("overlay", marks=pytest.mark.smoke), *(BREAKS.keys() - {"overlay"})])
+def test_an_error_ends_the_chain_and_keeps_its_wires(
+    desk: Desk, where: str, reports: list[Notice], capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    session, ui = live(desk), desk.ui
+    ui.click(desk.at(53))
+    ui.wait_until(lambda: len(session.wires) == 2)
+    with monkeypatch.context() as broken:
+        BREAKS[where](desk, broken)
+        ui.move(desk.at(50))
+        ui.move(desk.at(51))
+        ui.key("RET")
+        ui.wait_until(lambda: not desk.running)
+    dismiss(ui)
+    driver.take_errors()
     assert desk.left_clean()
+    assert seams(desk.obj) == sorted([*ROW, (44, 53)])
+    assert undo_steps(capfd)[-1] == "Draw Seamwires"
+    assert Notice("ERROR", "Drawing ended on an error, and its wires are kept: as the test wants it") in reports
+    ui.key("Z", ctrl=True)
+    ui.wait(3)
     assert desk.unchanged()
     draw(desk, 36, 44)
     assert seams(desk.obj) == ROW, "the tool goes on"
+
+
+def test_an_error_after_a_script_has_changed_the_mesh_keeps_the_wires(
+    desk: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    live(desk)
+    with monkeypatch.context() as broken:
+        broken.setattr(Overlay, "draw_in_scene", fail)
+        with changing(desk.obj) as bm:
+            bm.verts.new((3.0, 0.0, 0.0))
+        desk.ui.wait(redraw=True)
+        desk.ui.move(desk.at(50))
+        desk.ui.wait_until(lambda: not desk.running)
+    dismiss(desk.ui)
+    driver.take_errors()
+    assert seams(desk.obj) == ROW
 
 
 @pytest.mark.parametrize(
@@ -525,19 +634,6 @@ def test_an_exception_in_the_first_click_leaves_blender_alive(desk: Desk, monkey
     assert seams(desk.obj) == ROW
 
 
-def test_an_exception_in_the_overlay_ends_the_chain(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
-    live(desk)
-    monkeypatch.setattr(Overlay, "draw_in_scene", fail)
-    desk.ui.move(desk.at(54))
-    desk.ui.wait(redraw=True)
-    desk.ui.move(desk.at(50))
-    assert not desk.running
-    monkeypatch.undo()
-    dismiss(desk.ui)
-    driver.take_errors()
-    assert desk.unchanged()
-
-
 def test_one_chain_at_a_time_and_only_in_edit_mode(desk: Desk) -> None:
     desk.start()
     with desk.ui.override():
@@ -558,7 +654,7 @@ def test_beside_a_chain_another_window_says_that_it_must_end_first(
             assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT", first="CLICK") == {"CANCELLED"}
         assert "A chain is being drawn in another window" in "".join(capfd.readouterr())
         assert len(running) == 1
-        running[0].drop()
+        running[0].finish()
 
 
 @pytest.mark.smoke

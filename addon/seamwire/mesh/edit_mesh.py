@@ -122,8 +122,8 @@ class Cage:
         if among is not None:
             there = {edge.index: edge for pair in among if (edge := _edge(bm, pair)) is not None}
             edges = [there[number] for number in sorted(there)]
-        elif was_read and not IS_OLD:
-            edges = [edges[row] for row in _labelled_rows(self.data)]
+        elif was_read:
+            edges = [edges[row] for row in np.flatnonzero(_label_column(self.data)).tolist()]
         found = [(label, edge) for edge in edges if (label := edge[layer])]
         return EdgeLabels(
             np.array([[v.index for v in edge.verts] for _, edge in found], dtype=np.int64).reshape(-1, 2),
@@ -174,14 +174,20 @@ class Cage:
         return found
 
 
-def _labelled_rows(data: bpy.types.Mesh) -> list[int]:
-    """Return the numbers of the edges that have a label in what Blender stored last of a mesh in edit mode."""
-    shared = data.copy()  # see `read`
+def _label_column(data: bpy.types.Mesh) -> NDArray[np.int32]:
+    """Return the label of each edge, (e,), in what Blender stored last of a mesh; nothing if no edge has any."""
+    shared = data.copy() if data.is_editmode else data  # see `read`
     try:
         attribute = shared.attributes.get(LABELS)
-        return [] if attribute is None else np.flatnonzero(column(attribute.data, "value", np.int32)).tolist()
+        return np.empty(0, np.int32) if attribute is None else column(attribute.data, "value", np.int32)
     finally:
-        bpy.data.meshes.remove(shared)
+        if shared is not data:
+            bpy.data.meshes.remove(shared)
+
+
+def stored_labels(data: bpy.types.Mesh) -> list[int]:
+    """Return the labels of the edges in what Blender stored last of a mesh, each once."""
+    return [label for label in np.unique(_label_column(data)).tolist() if label]
 
 
 def _edge(bm: bmesh.types.BMesh, pair: tuple[int, int]) -> bmesh.types.BMEdge | None:
@@ -211,7 +217,7 @@ class StoredMesh:
         row = self._row(pair)
         return row is not None and self.data.edges[row].use_seam
 
-    def labels(self, among: Iterable[tuple[int, int]] | None = None) -> EdgeLabels:
+    def labels(self, among: Iterable[tuple[int, int]] | None = None, was_read: bool = False) -> EdgeLabels:
         """As `Cage.labels`."""
         attribute = self.data.attributes.get(LABELS)
         if attribute is None:
@@ -378,6 +384,27 @@ def visible_stretch(matrix: Matrix) -> NDArray[np.float64]:
     if lengths[0] <= 1e-6 * lengths[2] or lengths[2] - lengths[0] <= 1e-5 * lengths[2]:
         return np.eye(3)
     return (vectors * lengths) @ vectors.T
+
+
+@contextmanager
+def restored_after_errors(obj: bpy.types.Object) -> Iterator[None]:
+    """Let the edit mesh of an object be as it was before if an error occurs."""
+    obj.update_from_editmode()
+    before = obj.data.copy()
+    try:
+        yield
+    except Exception:
+        bm = bmesh.from_edit_mesh(obj.data)
+        mode = set(bm.select_mode)
+        bm.clear()
+        has_keys = before.shape_keys is not None
+        bm.from_mesh(before, use_shape_key=has_keys, shape_key_index=obj.active_shape_key_index if has_keys else 0)
+        bm.select_mode = mode
+        _numbered(bm)
+        bmesh.update_edit_mesh(obj.data)
+        raise
+    finally:
+        bpy.data.meshes.remove(before)
 
 
 def live_unwrap(context: bpy.types.Context) -> None:

@@ -21,6 +21,7 @@ from ..words.reports import count, not_cut
 from . import cut as mesh_cut
 from . import slide as mesh_slide
 from .cut import CutError
+from .edit_mesh import restored_after_errors
 from .object_session import ObjectSession
 
 if TYPE_CHECKING:
@@ -66,8 +67,15 @@ def apply(mesh: ObjectSession, change: Change) -> tuple[ObjectSession | None, Fi
     """Let the mesh do what a change asks, once it has the wires: finish them, and take back cuts that are wires' no more.
 
     The session of the mesh ends if anything is done. Returns the session that goes on, or None if the mesh must be read again for one, and
-    the counts of everything that was done.
+    the counts of everything that was done. After an error that nobody expects, the mesh is as it was, with the wires along edges.
     """
+    if not any(map(change.finishes, mesh.session.wires)) and not _left_cuts(mesh, change.before):
+        return mesh, Finished()
+    with restored_after_errors(mesh.obj):
+        return _apply(mesh, change)
+
+
+def _apply(mesh: ObjectSession, change: Change) -> tuple[ObjectSession | None, Finished]:
     wires = [wire for wire in mesh.session.wires if change.finishes(wire)]
     drawn = {wire.vertices: wire.finish for wire in wires}
     reports = []

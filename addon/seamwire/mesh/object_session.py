@@ -77,6 +77,24 @@ def forget_records() -> None:
     _taken_cuts.clear()
 
 
+def complete_records() -> None:
+    """Let every mesh hold the records that its labels call. Blender's undo brings back labels in Edit Mode, but no records."""
+    for obj in bpy.data.objects:
+        if obj.type == "MESH" and obj.mode == "EDIT":
+            obj.update_from_editmode()  # Blender does so too when it saves
+    for data in bpy.data.meshes:
+        labels = edit_mesh.stored_labels(data) if data.library is None else ()
+        if not len(labels):
+            continue
+        try:
+            own = Archive.parse(data.seamwire_wires)
+        except UnreadableError:
+            continue
+        unknown = [label for label in labels if not own.knows(label)]
+        if any(map(_archive.knows, unknown)) and own.merge(_archive):
+            data.seamwire_wires = own.text(labels)
+
+
 def _trimmed_archive() -> Archive:
     """Return the records of this file, the oldest ones dropped if they take too much memory. Sessions keep what they have."""
     global _archive
@@ -122,7 +140,7 @@ class ObjectSession:
         self._damaged = False
         self._renumbered = self._outdated = False
         self._unstored = False
-        self._adopt(self.cage.labels(), self.arrays.seams)
+        self._adopt(self.cage.labels(was_read=True), self.arrays.seams)
 
     # Symmetry
 
@@ -343,11 +361,15 @@ class ObjectSession:
         self._set_seams(seams, self._labels)
         self._store()
         if adopt:
-            self.session.adopt(replace(plan.network, seed=None), self.plain_seams)
-            _taken_cuts.keep(
-                self.session.cursor.loops.cuts.taken(self.session.drawing.network), self.session.network, self.places
-            )
+            self.adopt(plan)
         return written
+
+    def adopt(self, plan: wire_labels.Plan) -> None:
+        """Let the session go on with the network that was written."""
+        self.session.adopt(replace(plan.network, seed=None), self.plain_seams)
+        _taken_cuts.keep(
+            self.session.cursor.loops.cuts.taken(self.session.drawing.network), self.session.network, self.places
+        )
 
     def add(self, wires: Iterable[Wire], strokes: Iterable[Stroke] = ()) -> None:
         """Go on with more wires and strokes, found elsewhere; `write` marks their edges."""
@@ -393,6 +415,13 @@ class ObjectSession:
             return FacePoint.at(found, rows[row], triangles, in_object)
 
         return find
+
+    def triangles_at(self, points: NDArray[np.float64]) -> NDArray[np.int32]:
+        """Return the triangles nearest to points, (k, 3), in the session's coordinates."""
+        if not len(points) or not len(self.arrays.triangles):
+            return np.zeros(len(points), dtype=np.int32)
+        rows, _, _ = native.load().NearestPoints(self.arrays.points, self.arrays.triangles).find(points)
+        return np.asarray(rows, dtype=np.int32)
 
     def drop_changes(self, network: Network) -> None:
         """Go back to a network that the session had, whatever was drawn since."""

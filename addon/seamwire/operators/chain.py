@@ -52,6 +52,8 @@ class Chain:
         The object that is drawn on. None if nothing has been drawn since the last step of undo.
     has_kept
         Whether the chain has changed a mesh.
+    failure
+        The error on which the chain ends, if there is one.
     notices
         What there is to report when the chain ends, and the hint about the last key.
     """
@@ -63,6 +65,7 @@ class Chain:
         self.notices = Notices()
         self.drawn_on: ObjectView | None = None
         self.has_kept = False
+        self.failure: Exception | None = None
         self._before = Network()  # what the object that is drawn on had at the last step
         self._seams = np.empty((0, 2), dtype=np.int32)  # its seams then
         self._titles: set[str] = set()
@@ -196,14 +199,16 @@ class Chain:
 
     def trouble(self, context: bpy.types.Context) -> str:
         """Return why the chain cannot go on, or an empty text. Raises what an overlay could not draw."""
-        edited.take_error()
         reason = ""
         is_own = context.window == self.window  # another window may show another scene or workspace
         if is_own and context.mode != "EDIT_MESH":
             reason = "Edit mode was left"
         elif is_own and context.workspace != self.workspace:
             reason = "Another workspace was opened"
-        return self._follow_mesh(reason)
+        # What is drawn can be kept after an error only if its mesh is known as it is now.
+        reason = self._follow_mesh(reason)
+        edited.take_error()
+        return reason
 
     def _follow_mesh(self, reason: str = "") -> str:
         """Follow a change of the mesh by others. Return why the chain cannot go on: because of the change, or for the given `reason`."""
@@ -211,7 +216,7 @@ class Chain:
         if view is None or not (view.stale or not view.mesh.alive()):
             return reason
         # Blender reports a change of the mesh. Others may mark seams.
-        obj = bpy.data.objects.get(view.name)
+        obj = view.obj if view.exists else bpy.data.objects.get(view.name)
         if obj is None:
             self.drawn_on, self._is_saved = None, False
             return "The object was removed"
@@ -230,21 +235,49 @@ class Chain:
     def finish(self, at_once: bool = False) -> bool:
         """Mark and clear what was drawn, as a step of Blender's undo, and return whether the chain has changed a mesh.
 
+        An error loses no wire, except if the wires cannot be written. Then the mesh is restored. The notices tell of it.
+
         Parameters
         ----------
         at_once
             Whether Blender stops the operator. Then there is no time to wait for wires, and no step of undo.
-
-        Raises
-        ------
-        ValueError
-            If an edge is gone. Then the mesh is unchanged.
         """
-        self.let_go()
-        self._follow_mesh()
-        self._keep_wires(at_once)
-        self.close(Cue.KEEP)
+        self._attempt(self.let_go)
+        self._attempt(self._follow_mesh)
+        try:
+            self._keep_wires(at_once)
+        except Exception as error:
+            self._give_up(error, at_once)
+        self._attempt(self.close, Cue.KEEP)
+        if self.failure is not None:
+            fate = ", and its wires are kept" if self.has_kept else ""
+            self.notices.add("ERROR", f"Drawing ended on an error{fate}: {self.failure}")
         return self.has_kept
+
+    def _attempt(self, work: Callable[..., object], *arguments: object) -> bool:
+        """Do some of the work that does not decide about the wires. Note an error instead of raising it. Return whether there was none."""
+        try:
+            work(*arguments)
+        except Exception as error:
+            traceback.print_exc()
+            self.failure = self.failure or error
+            return False
+        return True
+
+    def _give_up(self, error: Exception, at_once: bool) -> None:
+        """Restore the mesh because the wires cannot be written, and tell what became of them."""
+        is_known = isinstance(error, ValueError)
+        if not is_known:
+            traceback.print_exc()
+        fate = "were not kept"
+        self._attempt(self.drop)
+        if self._is_saved:
+            fate = "are in the mesh as they were last saved" if is_known else "are in the mesh in part, undo leads back"
+            self.has_kept = True
+            if not at_once:
+                undo_steps.push(undo_steps.DRAW)
+        self.notices.add("WARNING" if is_known else "ERROR", f"{error}: the wires of this chain {fate}")
+        self.failure = None
 
     def _keep_wires(self, at_once: bool = False) -> None:
         """End the chains of all objects after their last wires are computed, and write what was drawn as a step of Blender's undo.
@@ -254,21 +287,24 @@ class Chain:
         # The object that is drawn on comes first, because outside Edit Mode it is not among the views.
         drawn_on = [] if self.drawn_on is None else [self.drawn_on]
         for view in dict.fromkeys((*drawn_on, *edited.views())):
-            view.session.end_chain(wait=not at_once)
+            end = view.session.end_chain
+            if not self._attempt(end, not at_once):
+                self._attempt(end, False)
             drawing = view.session.drawing
             for told in (drawing.failure, drawing.warning):
                 if told:
                     self.notices.add("WARNING", str(told))
             drawing.failure = drawing.warning = NOTHING
         view = self.drawn_on
-        change = None if view is None else Change(self._before, view.session.network)
+        change = None if view is None else Change(self._before, view.session.drawing.network)
         title = undo_steps.EDIT if self._titles == {undo_steps.EDIT} else undo_steps.DRAW
         self._titles.clear()
         if view is None or change is None or not (self._is_saved or change):
             self.drawn_on = None
             return
+        plan = view.mesh.plan()
         try:
-            view.mesh.write(view.mesh.plan())
+            view.mesh.write(plan, adopt=False)
         except ValueError:
             raise
         except Exception:
@@ -279,14 +315,14 @@ class Chain:
         before, after = self._seams, view.mesh.arrays.seams
         marked, cleared = len(edges_after(after, (), before)), len(edges_after(before, (), after))
         # The wires are in the mesh by now. Whatever fails, a step of undo must lead back.
-        self._try("drawing them", view, view.renew)
+        self.has_kept = True
+        self._try("drawing them", view, lambda: (view.mesh.adopt(plan), view.renew()))
         done = self._try("finishing them", view, lambda: _apply(view, change)) or ""
         problem = ""
         if not at_once:
             if (marked or cleared or done) and bpy.context.mode == "EDIT_MESH":
                 problem = self._try("unwrapping", view, lambda: unwrap_after_chain(bpy.context)) or ""
-            undo_steps.push(title)
-        self.has_kept = True
+            self._attempt(undo_steps.push, title)
         told = f"{title}: {done or summary(change, marked, cleared)}"
         self.notices.add("WARNING" if problem else "INFO", f"{told}. {problem}" if problem else told)
 
@@ -301,20 +337,26 @@ class Chain:
             return None
 
     def save(self) -> None:
-        """Write the wires so far to the mesh, so that Blender saves them. The chain goes on."""
+        """Write the wires so far to the mesh, so that Blender saves them. The chain goes on, unless a wire must be cut for that."""
         if self.drawn_on is None:
             return
         let_blender_tell()
         self._follow_mesh()
-        if self.drawn_on is not None:
+        if self.drawn_on is None:
+            return
+        if any(len(wire.vertices) < 2 for wire in self.drawn_on.session.drawing.network.wires):
+            # A wire within a face has no edge that could hold it before it is cut.
+            self._attempt(self.let_go)
+            self._attempt(self.keep)
+        else:
             with suppress(ValueError):  # the mesh has other vertices: the chain ends at its next event
                 _write(self.drawn_on, adopt=False)
                 self._is_saved = True
 
-    def drop(self) -> bool:
+    def drop(self) -> None:
         """Undo everything since the last step.
 
-        Return False if wires that were saved stay in the mesh: after a change by others, the former wires cannot be written.
+        Wires that were saved stay in the mesh if the former wires cannot be written after a change by others.
         """
         view, self.drawn_on = self.drawn_on, None
         if view is not None and view.mesh.alive():
@@ -322,10 +364,9 @@ class Chain:
             if self._is_saved:
                 _write(view, adopt=True)
                 self._is_saved = False
-        self.close()
-        return not self._is_saved
+        self.close(Cue.DROP)
 
-    def close(self, cue: Cue = Cue.DROP) -> None:
+    def close(self, cue: Cue) -> None:
         """Put everything back. More than once does no harm."""
         if self.stage is not Stage.CLOSED:
             self.go(cue)

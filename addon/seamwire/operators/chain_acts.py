@@ -93,7 +93,7 @@ def release(chain: Chain, given: Given) -> None:
         chain.session.click(hold.snap)
         title = undo_steps.DRAW
     # The wires that were live before a line become a separate chain, with a separate step in Blender's undo.
-    elif hold.is_drag and (not (isinstance(hold, LineHold) and hold.starts_chain()) or _keep_chain(chain)):
+    elif hold.is_drag and (not (isinstance(hold, LineHold) and hold.starts_chain()) or _keep_chain(chain, hold)):
         title = hold.end()
     if title:
         chain.note(title)
@@ -103,14 +103,15 @@ def release(chain: Chain, given: Given) -> None:
         rehover(chain, given.place)
 
 
-def _keep_chain(chain: Chain) -> bool:
-    """Keep the live wires as a separate chain, and return whether the object is still the same."""
+def _keep_chain(chain: Chain, line: LineHold) -> bool:
+    """Keep the live wires as a separate chain before a line. Return whether the line is still on the mesh, which may be cut now."""
     view = edited.front
     assert view is not None
     chain.keep()
     if view not in edited.views():
-        chain.notices.add("WARNING", "The mesh was cut: draw the line once more")
-        return False
+        view = edited.of(view.obj)
+        if not line.draw_again(view):
+            return False
     chain.draw_on(view)
     return True
 

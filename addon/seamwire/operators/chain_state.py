@@ -37,7 +37,7 @@ class Cue(Enum):
     END = "the end is asked for, or the last wire is computed"
     SETTLE = "nothing is live any more"
     KEEP = "the operator ends"
-    DROP = "an error occurs, a file is loaded, or the add-on is disabled"
+    DROP = "the wires cannot be written"
 
 
 TRANSITIONS: dict[tuple[Stage, Cue], Stage] = {
@@ -52,8 +52,12 @@ TRANSITIONS: dict[tuple[Stage, Cue], Stage] = {
     (Stage.HOLDING, Cue.LET_GO): Stage.DRAWING,
     (Stage.ENDING, Cue.BEGIN): Stage.DRAWING,
     (Stage.ENDING, Cue.END): Stage.OVER,
-    **{(stage, Cue.KEEP): Stage.CLOSED for stage in Stage if stage not in {Stage.HOLDING, Stage.CLOSED}},
-    **{(stage, Cue.DROP): Stage.CLOSED for stage in Stage if stage is not Stage.CLOSED},
+    **{
+        (stage, cue): Stage.CLOSED
+        for stage in Stage
+        for cue in (Cue.KEEP, Cue.DROP)
+        if stage not in {Stage.HOLDING, Stage.CLOSED}
+    },
 }
 """Every allowed change of the state. `docs/development/structure.md` has the same table with what happens."""
 

@@ -174,6 +174,20 @@ class LineHold(Hold):
         live = session.seed is not None and not session.cursor.waiting
         return self._line is not None and live and not session.goes_on_from(self.snap)
 
+    def draw_again(self, view: ObjectView) -> bool:
+        """Draw the line once more on its object, which has other vertices now. Return whether that is possible."""
+        trail, place = self._trail, self._place
+        assert trail is not None
+        self._view, self._session, self._line = view, view.session, None
+        self.snap = view.snap(place.view, place.cursor)
+        if self.snap is None or not self._session.line_begin(self.snap):
+            return False
+        points = np.array(trail.points).reshape(-1, 3)
+        end = view.snap(trail.last.view, trail.last.cursor)
+        self._session.cursor.line_to(points, view.mesh.triangles_at(points), end)
+        self._line = self._session.cursor.line_release()
+        return self._line is not None
+
     def end(self) -> str:
         """Keep the wires that follow the line."""
         if self._line is None:

@@ -15,7 +15,6 @@ from ..mesh.registration import classes, handler, together
 from ..mesh.settings import notices, preferences, settings
 from ..terms.choices import ALONG, items
 from ..words.keys import Action, Key
-from . import undo_steps
 from .chain_state import Stage, running
 from .edit_mesh_operator import NeedsEditMode
 from .keymaps import keys, takes
@@ -73,40 +72,24 @@ class _Follows:
                 return result | {"PASS_THROUGH"} if passes else result
             return {"PASS_THROUGH"} if passes else {"RUNNING_MODAL"}
         except Exception as error:
-            return self._failed(error)
+            return self._failed(context, error)
 
     def _finish(self, context: bpy.types.Context) -> set[str]:
-        try:
-            has_kept = self._chain.finish()
-        except ValueError as error:
-            has_kept = not self._chain.drop()
-            fate = "are in the mesh as they were last saved" if has_kept else "were not kept"
-            self._chain.notices.add("WARNING", f"{error}: the wires of this chain {fate}")
-            if has_kept:
-                undo_steps.push(undo_steps.DRAW)
+        has_kept = self._chain.finish()
         self._chain.notices.tell(self.report)
         if has_kept and next(_kept) >= _ENOUGH and preferences(context).text == "STEPS":
             preferences(context).text = "INFORMATION"
             context.preferences.is_dirty = True
         return {"FINISHED"} if has_kept else {"CANCELLED"}
 
-    def _failed(self, error: Exception) -> set[str]:
+    def _failed(self, context: bpy.types.Context, error: Exception) -> set[str]:
+        """End the chain after an error. The wires up to there are kept."""
         traceback.print_exc()
-        previews, restored = self._chain.stage is Stage.PEEKING, False
-        try:
-            restored = self._chain.drop()
-        except Exception:
-            traceback.print_exc()
-            self._chain.close()
-        if previews:
+        if self._chain.stage is Stage.PEEKING:
+            self._chain.finish()
             return {"CANCELLED", "PASS_THROUGH"}
-        if not restored:
-            # The mesh may have a part of the wires.
-            undo_steps.push(undo_steps.DRAW)
-            self.report({"ERROR"}, f"Drawing failed, undo leads back: {error}")
-            return {"FINISHED"}
-        self.report({"ERROR"}, f"Drawing failed, and the mesh was restored: {error}")
-        return {"CANCELLED"}
+        self._chain.failure = error
+        return self._finish(context)
 
 
 class MESH_OT_seamwire_draw(_Follows, NeedsEditMode, bpy.types.Operator):
@@ -190,7 +173,7 @@ class MESH_OT_seamwire_draw(_Follows, NeedsEditMode, bpy.types.Operator):
                     tell_mirrored(self)
                 return result
         except Exception as error:
-            return self._failed(error)
+            return self._failed(context, error)
         context.window_manager.modal_handler_add(self)
         listen(context.window)
         return {"RUNNING_MODAL"} if self.first != "PEEK" else {"RUNNING_MODAL", "PASS_THROUGH"}
@@ -213,14 +196,8 @@ class MESH_OT_seamwire_draw(_Follows, NeedsEditMode, bpy.types.Operator):
 
     def cancel(self, _context: bpy.types.Context) -> None:
         """End the chain when Blender stops the operator. Its wires are kept if the mesh still exists, without those that wait."""
-        chain = self._chain
-        if chain.stage is Stage.CLOSED:
-            return
-        try:
-            chain.finish(at_once=True)
-        except Exception:
-            traceback.print_exc()
-            chain.close()
+        if self._chain.stage is not Stage.CLOSED:
+            self._chain.finish(at_once=True)
 
 
 class MESH_OT_seamwire_listen(_Follows, bpy.types.Operator):
@@ -272,22 +249,17 @@ def _on_save(*_: object) -> None:
 
 
 @persistent
-def _on_load(*_: object) -> None:
-    """End what is being drawn before another file is loaded."""
+def _end_all(*_: object) -> None:
+    """End the chain that is being drawn, and keep its wires. A file that cannot be loaded leaves the open one with them."""
     for chain in tuple(running):
-        chain.close()
-
-
-def _drop_all() -> None:
-    """End the chain that is being drawn, and restore the meshes."""
-    for chain in tuple(running):
-        chain.drop()
+        with bpy.context.temp_override(window=chain.window):
+            chain.finish()
 
 
 register, unregister = together(
     *classes(MESH_OT_seamwire_draw, MESH_OT_seamwire_listen),
     (lambda: None, listening.clear),
     handler("save_pre", _on_save),
-    handler("load_pre", _on_load),
-    (lambda: None, _drop_all),
+    handler("load_pre", _end_all),
+    (lambda: None, _end_all),
 )

@@ -272,7 +272,8 @@ class LiveParts:
         at = None if self._searches else self._preview.at(place)
         if at is None:
             return
-        edits = {**self.edits, at.name: self._edited(self.edits.get(at.name, PartEdits()), at)}
+        name = next(each.name for each in self._search if each.mesh.obj == at.obj)
+        edits = {**self.edits, name: self._edited(self.edits.get(name, PartEdits()), at)}
 
         def search(progress: Progress) -> PartChoice:
             choice = self._choices[self._at]
@@ -316,12 +317,12 @@ class LiveParts:
         self._change()
 
     def _edited(self, edits: PartEdits, at: Pointed) -> PartEdits:
-        suggestion = next(each for each in self._search if each.name == at.name)
+        suggestion = next(each for each in self._search if each.mesh.obj == at.obj)
         if at.border is None:
             return edits.part(int(suggestion.mesh.arrays.polygons[at.triangle]))
         if at.border < len(suggestion.borders):
             chain = suggestion.borders[at.border]
-            dropped = self._dropped.setdefault(at.name, [])
+            dropped = self._dropped.setdefault(suggestion.name, [])
             if all(edges_of(known) != edges_of(chain) for known in dropped):
                 dropped.append(chain)
             return edits.drop(edges_of(chain))

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The objects that are drawn on: which of them is under the mouse, what is drawn over them, and how they follow Blender.
 
-Prepared data of a mesh stays until its geometry changes, also between chains and while other tools are used. Whatever a view should
-show and does not is read by a timer. `draw` starts the timer, because Blender draws its views after each change of mode, tool or mesh.
+Prepared data of a mesh stays until its geometry changes, also between chains, while other tools are used, and for a while after Edit
+Mode was left. Whatever a view should show and does not is read by a timer. `draw` starts the timer, because Blender draws its views after
+each change of mode, tool or mesh.
 """
 
 from __future__ import annotations
@@ -30,24 +31,25 @@ _RHYTHM = 0.05
 """Seconds between two looks at running work: redraws stay below what the eye takes for a stop."""
 _PAUSE = 0.2
 """Seconds after which a mesh that Blender has changed is read anew: while it is being moved, it changes all the time."""
-_MOST_IDLE = 1_000_000_000
-"""The most bytes of the objects that stay prepared while they are not edited."""
+_IDLE = 60.0
+"""Seconds for which objects stay prepared while they are not edited."""
 
 
 class EditedObjects:
-    """The objects that are drawn on, by their names.
+    """The objects that are drawn on.
 
     `chain` lets the chain that is being drawn look at a changed mesh. It is None if no chain is drawn. While there is a chain, it updates
     the objects, and they are drawn with every tool.
     """
 
     def __init__(self) -> None:
-        self._views: dict[str, ObjectView] = {}
+        self._views: list[ObjectView] = []
         self._was_front = ""  # the object that was in front until it had to be read anew
         self._waits = False  # whether a mesh may have to be read
         self._states: dict[int, tuple[str, bool]] = {}  # the mode of each window, and whether it shows the tool
         self.front: ObjectView | None = None  # the one that was pointed at last
         self.timer = Timer(self.tick)
+        self.sweeper = Timer(self.sweep)
         self.chain: Callable[[], None] | None = None
         self.covered = False  # whether something else is drawn in place of the objects
 
@@ -55,26 +57,30 @@ class EditedObjects:
 
     def views(self) -> list[ObjectView]:
         """Return the objects in Edit Mode that were pointed at."""
-        return [view for view in self._views.values() if view.mesh.alive()]
+        return [view for view in self._views if view.mesh.alive()]
+
+    def _view_of(self, obj: bpy.types.Object) -> ObjectView | None:
+        """Return the view of an object, which may have another name now. Undo makes another object with the same name."""
+        name = obj.name_full
+        same = (view for view in self._views if view.exists and view.obj == obj)
+        return next(same, next((view for view in self._views if view.name == name), None))
 
     def of(self, obj: bpy.types.Object) -> ObjectView:
         """Return an object in edit mode, read anew where it has changed. Raises as `ObjectView`."""
-        name = obj.name_full
-        view = self._views.get(name)
+        view = self._view_of(obj)
         if view is not None and not self.chain and not self._is_current(view, obj):
-            self._remove(name)
+            self._remove(view)
             view = None
         if view is None:
             view = ObjectView(obj)
-            self._views[name] = view
-            if self.front is None and name == self._was_front:
+            self._views.append(view)
+            if self.front is None and view.name == self._was_front:
                 self.front = view
-            self._make_room()
         return view
 
     def best_along(self, obj: bpy.types.Object | None) -> Along:
         """Return how wires run on an object if the mesh decides: along edges as long as it is not read."""
-        view = None if obj is None else self._views.get(obj.name_full)
+        view = None if obj is None else self._view_of(obj)
         return "EDGES" if view is None else view.mesh.find_auto().along
 
     def _is_current(self, view: ObjectView, obj: bpy.types.Object) -> bool:
@@ -87,34 +93,34 @@ class EditedObjects:
         except ValueError:  # nothing of it is visible any more
             return False
 
-    def _remove(self, name: str) -> None:
-        view = self._views.pop(name, None)
-        if view is None:
+    def _remove(self, view: ObjectView) -> None:
+        if view not in self._views:
             return
+        self._views.remove(view)
         view.close()
         if self.front is view:
-            self.front, self._was_front = None, name
+            self.front, self._was_front = None, view.name
 
-    def _make_room(self) -> None:
-        """Forget objects that are not edited, the oldest first, where all together take too much memory."""
-        idle = {name: view.size for name, view in self._views.items() if not view.mesh.alive()}
-        spare = sum(idle.values()) - _MOST_IDLE
-        for name, size in idle.items():
-            if spare <= 0:
-                break
-            self._remove(name)
-            spare -= size
+    def sweep(self) -> float | None:
+        """Forget objects that have not been edited for a while, because they take much memory. Return the seconds until the next call."""
+        now, idle = time.monotonic(), [view for view in self._views if view.edited_until is not None]
+        for view in self._views:
+            view.edited_until = None if view.mesh.alive() else view.edited_until or now
+        for view in idle:
+            if view.edited_until is not None and now - view.edited_until >= _IDLE:
+                self._remove(view)
+        return min((view.edited_until + _IDLE - now for view in self._views if view.edited_until), default=None)
 
     def _drop_deleted(self) -> None:
         """Forget the objects that were deleted. Undo makes other objects with the same names."""
-        for name, view in tuple(self._views.items()):
-            if not view.exists and bpy.data.objects.get(name) is None:
-                self._remove(name)
+        for view in tuple(self._views):
+            if not view.exists and bpy.data.objects.get(view.name) is None:
+                self._remove(view)
 
     def forget(self, view: ObjectView) -> None:
         """Let an object be read anew, at the latest when the mesh has stayed as it is for a moment: it has other vertices now."""
         self._changed = time.monotonic()
-        self._remove(view.name)
+        self._remove(view)
         self.watch()
 
     def take_stock(self) -> None:
@@ -127,12 +133,13 @@ class EditedObjects:
 
     def clear(self, *_: object) -> None:
         """Forget all objects, and draw nothing any more."""
-        for name in tuple(self._views):
-            self._remove(name)
+        for view in tuple(self._views):
+            self._remove(view)
         self._was_front = ""
         self._waits = False
         self._states.clear()
         self.timer.stop()
+        self.sweeper.stop()
         self.chain, self.covered = None, False
         failures.clear()
 
@@ -164,7 +171,7 @@ class EditedObjects:
 
     def _at(self, obj: bpy.types.Object, place: Place) -> ObjectView | None:
         """Return an object that may be under the mouse: those that were read always, others where there is room."""
-        if obj.name_full not in self._views and not in_bounds(obj, place.view, place.cursor):
+        if self._view_of(obj) is None and not in_bounds(obj, place.view, place.cursor):
             return None
         if not obj.visible_in_viewport_get(place.area.spaces.active):
             return None
@@ -215,7 +222,7 @@ class EditedObjects:
 
     def make_layers(self) -> None:
         """Make the layers of all objects anew, because others are to be drawn."""
-        for view in self._views.values():
+        for view in self._views:
             view.make_layers()
         if self._views:
             self.on_settings()
@@ -231,10 +238,10 @@ class EditedObjects:
         """Read changed meshes again, and forget meshes with a new topology. A chain looks after its objects itself."""
         if self.chain:
             return
-        for name, view in tuple(self._views.items()):
-            obj = bpy.data.objects.get(name)
+        for view in tuple(self._views):
+            obj = bpy.data.objects.get(view.name)
             if obj is None or obj.type != "MESH":
-                self._remove(name)
+                self._remove(view)
             elif obj.mode == "EDIT" and not self._is_current(view, obj):
                 self.forget(view)
 
@@ -245,8 +252,8 @@ class EditedObjects:
                 failures.retry()
             return
         self._drop_deleted()
-        moved = {update.id.name_full for update in depsgraph.updates if update.is_updated_geometry}
-        self._move([view for view in self._views.values() if view.name in moved], depsgraph)
+        moved = {update.id.original for update in depsgraph.updates if update.is_updated_geometry}
+        self._move([view for view in self._views if view.exists and view.obj in moved], depsgraph)
         meshes = _changed_meshes(depsgraph)
         # A view whose edit mesh is gone is read anew in any case.
         changed = [view for view in self.views() if view.obj.data in meshes or view.is_stretched_anew]
@@ -268,7 +275,7 @@ class EditedObjects:
 
     def on_frame(self, _scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
         """Take note that another frame may show the objects in another pose. Blender tells of no update then."""
-        self._move(list(self._views.values()), depsgraph)
+        self._move(self._views, depsgraph)
 
     def _move(self, views: list[ObjectView], depsgraph: bpy.types.Depsgraph) -> None:
         """Take note that objects may be in another pose, and follow it if they are shown. A render works in another thread."""
@@ -285,7 +292,7 @@ class EditedObjects:
     def on_undo(self, *_: object) -> None:
         """Follow Blender's undo or redo: all edit meshes are others now."""
         failures.retry()
-        for view in self._views.values():
+        for view in self._views:
             view.stale = True
         self.refresh()
         self.redraw()
@@ -309,6 +316,9 @@ class EditedObjects:
         """
         if self.chain:
             return None
+        wait = self.sweep()
+        if wait is not None:
+            self.sweeper.start(after=wait)
         if time.monotonic() - self._changed > _PAUSE:
             self._read_next()
         self._follow_poses()
@@ -343,7 +353,7 @@ class EditedObjects:
     def _is_read(self, obj: bpy.types.Object) -> bool:
         if failures.has("read", obj.name_full):
             return True
-        view = self._views.get(obj.name_full)
+        view = self._view_of(obj)
         return view is not None and not view.stale and view.mesh.alive() and view.obj == obj
 
     _changed = _stale_since = 0.0
@@ -376,7 +386,7 @@ class EditedObjects:
             return  # another add-on draws the view into a picture
         has_tool = chosen.tool_is_active(context)
         is_new = self._follow_window(context.window, (context.mode, has_tool))
-        if has_tool and not self.chain and (is_new or self._unread()):
+        if not self.chain and (is_new or (has_tool and self._unread())):
             self.watch()
         if (has_tool or self.chain) and not self.covered and context.space_data.overlay.show_overlays:
             for view in self._drawn(context.space_data):
@@ -393,7 +403,7 @@ class EditedObjects:
 
     def _drawn(self, space: bpy.types.SpaceView3D) -> Iterator[ObjectView]:
         for obj in _in_edit_mode():
-            view = self._views.get(obj.name_full)
+            view = self._view_of(obj)
             if view is None or not view.mesh.alive() or not obj.visible_in_viewport_get(space):
                 continue
             # A mesh that changes for a long time is shown after it was read again.

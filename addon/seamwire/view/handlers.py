@@ -52,11 +52,16 @@ def _hand_on(method: str) -> Callable[..., None]:
     return call
 
 
-@persistent
-def _on_load(*_: object) -> None:
-    session = sys.modules.get(f"{__package__.rpartition('.')[0]}.mesh.object_session")
-    if session is not None:
-        session.forget_records()
+def _with_records(function: str) -> Callable[..., None]:
+    """Return a function that calls a function of the module that knows the records of wires."""
+
+    @persistent
+    def call(*_: object) -> None:
+        session = sys.modules.get(f"{__package__.rpartition('.')[0]}.mesh.object_session")
+        if session is not None:
+            getattr(session, function)()
+
+    return call
 
 
 def _begin() -> None:
@@ -81,6 +86,7 @@ register, unregister = together(
     handler("undo_post", _hand_on("on_undo")),
     handler("redo_post", _hand_on("on_undo")),
     handler("save_pre", _hand_on("refresh")),
+    handler("save_pre", _with_records("complete_records")),
     handler("load_pre", _hand_on("clear")),
-    handler("load_post", _on_load),
+    handler("load_post", _with_records("forget_records")),
 )

@@ -124,10 +124,6 @@ class ShownIslands:
             self._maker.ask(self._asked, wanted, meant)
 
 
-_BYTES_A_TRIANGLE = 1_150
-"""As measured on a grid of 180,000 triangles, the library's surface and the picker's trees included."""
-
-
 def in_bounds(obj: bpy.types.Object, view: Camera, cursor: tuple[float, float]) -> bool:
     """Whether a pixel lies within the bounds of an object, or within reach of them."""
     corners = np.array([(*corner, 1.0) for corner in obj.bound_box]) @ np.array(obj.matrix_world).T
@@ -187,7 +183,8 @@ class ObjectView:
             layers=self._layers,
         )
         self._strength: NDArray[np.float64] | None = None
-        self.name = obj.name_full  # when it was read
+        self._name = obj.name_full
+        self.edited_until: float | None = None  # when it was found out that it is not edited
         self.was_read()
         self.follow_pose()
         self.make_layers()
@@ -198,6 +195,13 @@ class ObjectView:
     def obj(self) -> bpy.types.Object:
         """The object; its data may be gone."""
         return self.mesh.obj
+
+    @property
+    def name(self) -> str:
+        """The full name of the object, or the last one that is known if its data are gone."""
+        if self.exists:
+            self._name = self.obj.name_full
+        return self._name
 
     @property
     def session(self) -> Session:
@@ -345,11 +349,6 @@ class ObjectView:
             return bool(self.obj.name)
         except ReferenceError:
             return False
-
-    @property
-    def size(self) -> int:
-        """About how many bytes are prepared for it."""
-        return _BYTES_A_TRIANGLE * len(self.mesh.arrays.triangles)
 
     def snap(self, view: Camera, cursor: tuple[float, float], plain: bool = False) -> Snap | None:
         """Return what is under the cursor; `plain`: what loops lead through, whatever was drawn on it.

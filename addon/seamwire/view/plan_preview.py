@@ -123,7 +123,7 @@ class Curves:
 class Pointed:
     """A border, a triangle, or both, under the mouse."""
 
-    name: str  # the full name of the object
+    obj: bpy.types.Object
     border: int | None  # counting on with those that were dropped
     triangle: int | None
 
@@ -206,8 +206,8 @@ class _ObjectPreview:
         triangle = None if hit is None else hit[0]
         for border, spot in self._segments.near(sight, _REACH * scale):
             if self._surface.can_pick(sight, spot):
-                return away(spot if hit is None else hit[1]), Pointed(self.obj.name_full, border, triangle)
-        return None if hit is None else (away(hit[1]), Pointed(self.obj.name_full, None, triangle))
+                return away(spot if hit is None else hit[1]), Pointed(self.obj, border, triangle)
+        return None if hit is None else (away(hit[1]), Pointed(self.obj, None, triangle))
 
     # Drawing
 
@@ -255,7 +255,7 @@ class PlanPreview:
     """The drawing, in all 3D views, until it is closed."""
 
     def __init__(self) -> None:
-        self._shown: dict[str, _ObjectPreview] = {}
+        self._shown: dict[int, _ObjectPreview] = {}  # by the addresses of the objects
         self._handle: object | None = None
 
     def show(
@@ -274,11 +274,12 @@ class PlanPreview:
         if self._handle is None and not bpy.app.background:
             self._handle = bpy.types.SpaceView3D.draw_handler_add(self._draw, (), "WINDOW", "POST_VIEW")
             edited.covered = True
-        if obj.name_full not in self._shown:
-            self._shown[obj.name_full] = _ObjectPreview(obj, arrays)
-        shown = self._shown[obj.name_full]
+        address = obj.as_pointer()
+        if address not in self._shown:
+            self._shown[address] = _ObjectPreview(obj, arrays)
+        shown = self._shown[address]
         failures.take("preview")  # another plan is another try
-        failures.attempt(("preview", "follow", obj.name_full), partial(shown.follow, curves, cuts, squares))
+        failures.attempt(("preview", "follow", address), partial(shown.follow, curves, cuts, squares))
         edited.redraw()
 
     def at(self, place: Place) -> Pointed | None:
@@ -288,15 +289,15 @@ class PlanPreview:
 
     def point(self, at: Pointed | None) -> None:
         """Highlight the border under the mouse, or no border."""
-        changed = [shown.point(at.border if at and at.name == name else None) for name, shown in self._shown.items()]
+        changed = [shown.point(at.border if at and at.obj == shown.obj else None) for shown in self._shown.values()]
         if any(changed):
             edited.redraw()
 
     def poll(self) -> None:
         """Show islands that were computed, and follow the poses of the meshes."""
-        for name, shown in self._shown.items():
-            failures.attempt(("preview", "follow", name), shown.repose)
-            failures.attempt(("preview", "islands", name), shown.check)
+        for address, shown in self._shown.items():
+            failures.attempt(("preview", "follow", address), shown.repose)
+            failures.attempt(("preview", "islands", address), shown.check)
         if any(shown.is_new for shown in self._shown.values()):
             edited.redraw()
 
@@ -316,7 +317,7 @@ class PlanPreview:
         if not self._shown or not context.space_data.overlay.show_overlays:
             return
         looks = looks_of(context.preferences.themes[0].view_3d, chosen.preferences())
-        for name, shown in self._shown.items():
+        for address, shown in self._shown.items():
             with suppress(ReferenceError):  # the object may be gone
                 if shown.obj.visible_in_viewport_get(context.space_data):
-                    failures.attempt(("preview", "draw", name), partial(shown.draw, looks))
+                    failures.attempt(("preview", "draw", address), partial(shown.draw, looks))

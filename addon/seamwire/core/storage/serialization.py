@@ -105,6 +105,7 @@ class Archive:
         self.wires: dict[int, Record] = {}
         self.strokes: dict[int, Record] = {}
         self._sets: dict[int, tuple[int, ...]] = {}
+        self._blocks: dict[int, _Block] = {}  # of the records of wires and strokes that were written
 
     @property
     def _kinds(self) -> dict[str, dict[int, Any]]:
@@ -139,13 +140,26 @@ class Archive:
         """Write what some labels stand for; an empty string where they stand for nothing."""
         used = set(labels)
         used |= {abs(member) for label in used for member in self.members(label)}
-        data = {
-            name: {number: kind[number] for number in sorted(used & kind.keys())} for name, kind in self._kinds.items()
-        }
-        if not any(data.values()):
+        blocks, is_empty = [], True
+        for name, kind in self._kinds.items():
+            own = [self._block(number, kind) for number in sorted(used & kind.keys())]
+            blocks.append(_Block.of(f'{"," if blocks else "{"}"{name}":{{'))
+            # A comma before each record but the first.
+            blocks += [block for each in own for block in (_COMMA, each)][1:]
+            blocks.append(_CLOSED)
+            is_empty = is_empty and not own
+        if is_empty:
             return ""
-        body = json.dumps(data, separators=(",", ":")).encode()
-        return f"{FORMAT} {VERSION} {base64.b64encode(zlib.compress(body, 9)).decode()}"
+        blocks.append(_CLOSED)
+        return f"{FORMAT} {VERSION} {base64.b64encode(_zipped(blocks)).decode()}"
+
+    def _block(self, number: int, kind: dict[int, Any]) -> _Block:
+        """Return a record with its number, zipped. It is zipped once, because it never changes."""
+        if kind is self._sets:
+            return _Block.of(_line(number, kind[number]))
+        if number not in self._blocks:
+            self._blocks[number] = _Block.of(_line(number, kind[number]))
+        return self._blocks[number]
 
     def merge(self, other: Archive) -> bool:
         """Take in the records of another archive.
@@ -206,6 +220,34 @@ class Archive:
             kind[number] = what
             self.size += _size(what)
         return number
+
+
+@dataclass(frozen=True)
+class _Block:
+    """A part of a text, and the same part zipped so that it can stand anywhere in a stream."""
+
+    plain: bytes
+    zipped: bytes
+
+    @classmethod
+    def of(cls, text: str) -> _Block:
+        deflate = zlib.compressobj(9, zlib.DEFLATED, -zlib.MAX_WBITS)
+        plain = text.encode()
+        return cls(plain, deflate.compress(plain) + deflate.flush(zlib.Z_SYNC_FLUSH))
+
+
+_COMMA, _CLOSED = _Block.of(","), _Block.of("}")
+
+
+def _line(number: int, what: object) -> str:
+    return f'"{number}":{json.dumps(what, separators=(",", ":"))}'
+
+
+def _zipped(blocks: Iterable[_Block]) -> bytes:
+    """Join blocks to one stream, as `zlib.decompress` reads it: a header, the blocks, an empty last block, and the checksum."""
+    blocks = list(blocks)
+    checksum = zlib.adler32(b"".join(block.plain for block in blocks))
+    return b"".join((b"\x78\xda", *(block.zipped for block in blocks), b"\x03\x00", checksum.to_bytes(4, "big")))
 
 
 def _size(what: object) -> int:
