@@ -6,6 +6,7 @@
 
 #include "mesh.hpp"
 #include "seamwire/parameterization/flatten.hpp"
+#include "seamwire/parts/limb_finder.hpp"
 #include "seamwire/parts/part_finder.hpp"
 #include "seamwire/seams/seam_planner.hpp"
 
@@ -32,6 +33,11 @@ int main() {
   const Parts parts = finder.find(0.5);
   std::printf("%zu parts, %zu borders\n", parts.count, parts.borders.size());
   //! [parts]
+
+  //! [limbs]
+  const Parts limbs = LimbFinder(std::make_shared<const Surface>(body, body_triangles)).find(0.5);
+  std::printf("%zu limbs\n", limbs.count);
+  //! [limbs]
 
   //! [plan]
   const auto [ring, ring_triangles] = torus();

@@ -14,6 +14,7 @@
 #include "held.hpp"
 #include "names.hpp"
 #include "rooms.hpp"
+#include "seamwire/parts/limb_finder.hpp"
 #include "seamwire/parts/part_finder.hpp"
 #include "seamwire/seams/seam_planner.hpp"
 #include "surface.hpp"
@@ -289,6 +290,49 @@ ValueError
 Cancelled
 )")
       .def("__repr__", [](const PartFinder&) { return std::string("<PartFinder>"); });
+  py::class_<LimbFinder>(module, "LimbFinder", R"(Finds the limbs of a surface: head, legs, arms and body of a figure.
+
+One search finds the limbs for all amounts. Each connected piece is divided by itself.
+
+Parameters
+----------
+surface : Surface
+progress : callable, optional
+    Called repeatedly with the fraction done. Returning False cancels.
+
+Raises
+------
+Cancelled
+)")
+      .def(py::init([](const SurfaceObject& surface, const py::object& progress) {
+             return Watch(progress).run([&](const Task& task) { return LimbFinder(surface.surface, task); });
+           }),
+           py::arg("surface"), py::kw_only(), py::arg("progress") = py::none())
+      .def(
+          "find",
+          [](const LimbFinder& finder, double amount, const py::object& progress) {
+            return Watch(progress).run([&](const Task& task) { return finder.find(amount, task); });
+          },
+          py::arg("amount") = 0.5, py::kw_only(), py::arg("progress") = py::none(), R"(Return the limbs for an amount.
+
+Parameters
+----------
+amount : float
+    From 0, which joins all that is connected, to 1. 0.5 suits most figures. A larger amount only divides limbs further.
+progress : callable, optional
+    Called repeatedly with the fraction done. Returning False cancels.
+
+Returns
+-------
+Parts
+
+Raises
+------
+ValueError
+    If the amount is out of range.
+Cancelled
+)")
+      .def("__repr__", [](const LimbFinder&) { return std::string("<LimbFinder>"); });
 }
 
 }  // namespace

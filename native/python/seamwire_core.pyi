@@ -2219,6 +2219,44 @@ class PartFinder:
         Cancelled
         """
 
+class LimbFinder:
+    """Finds the limbs of a surface: head, legs, arms and body of a figure.
+
+    One search finds the limbs for all amounts. Each connected piece is divided by itself.
+
+    Parameters
+    ----------
+    surface : Surface
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
+
+    Raises
+    ------
+    Cancelled
+    """
+
+    def __init__(self, surface: Surface, *, progress: Callable[[float], bool | None] | None = None) -> None: ...
+    def find(self, amount: float = 0.5, *, progress: Callable[[float], bool | None] | None = None) -> Parts:
+        """Return the limbs for an amount.
+
+        Parameters
+        ----------
+        amount : float
+            From 0, which joins all that is connected, to 1. 0.5 suits most figures. A larger amount only divides limbs further.
+        progress : callable, optional
+            Called repeatedly with the fraction done. Returning False cancels.
+
+        Returns
+        -------
+        Parts
+
+        Raises
+        ------
+        ValueError
+            If the amount is out of range.
+        Cancelled
+        """
+
 class CrestLines:
     """Ridges and valleys, the strongest first."""
 

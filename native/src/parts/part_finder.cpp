@@ -23,6 +23,7 @@
 #include "detail/poll.hpp"
 #include "detail/text.hpp"
 #include "parts/parting_cuts.hpp"
+#include "parts/parts_between.hpp"
 #include "prices/border_odds.hpp"
 #include "prices/edge_prices.hpp"
 #include "prices/plan_mesh.hpp"
@@ -308,34 +309,6 @@ std::vector<std::uint8_t> unmirrored_pairs(const PlanMesh& mesh, const Polygons&
   return is_found;
 }
 
-/// Leaves out edges that do not lie between two parts. `of_face`: the part of each of the surface's triangles.
-void leave_out_inner(const PlanMesh& mesh, std::span<const std::int32_t> of_face, std::vector<Edge>& edges,
-                     const Task& task) {
-  const Poll poll(task);
-  std::map<Edge, std::array<std::int32_t, 2>> parts_at;  // the least and the greatest
-  for (const Edge& edge : edges) parts_at[edge] = {std::numeric_limits<std::int32_t>::max(), -1};
-  for (std::int32_t h = 0; index(h) < mesh.twins.size(); ++h) {
-    poll.at(index(h));
-    const auto at = parts_at.find(ascending(mesh.sources[mesh.tail(h)], mesh.sources[mesh.tip(h)]));
-    if (at == parts_at.end()) continue;
-    auto& [least, greatest] = at->second;
-    least = std::min(least, of_face[mesh.faces[h / 3]]);
-    greatest = std::max(greatest, of_face[mesh.faces[h / 3]]);
-  }
-  std::erase_if(edges, [&](const Edge& edge) { return parts_at[edge][0] == parts_at[edge][1]; });
-}
-
-/// Chains of edges from junction to junction; closed ones end with their first vertex. `others`: edges that make
-/// junctions too.
-std::vector<std::vector<std::int32_t>> chains_of(std::size_t vertex_count, const std::vector<Edge>& edges,
-                                                 const std::vector<Edge>& others) {
-  std::vector<std::uint8_t> is_meeting(vertex_count, 0);
-  for (const Edge& edge : others) {
-    for (const std::int32_t v : edge) is_meeting[v] = 1;
-  }
-  return EdgeChains(vertex_count, edges).all([&](std::int32_t v) { return is_meeting[v] != 0; });
-}
-
 }  // namespace
 
 struct PartFinder::Impl {
@@ -350,7 +323,6 @@ struct PartFinder::Impl {
 
   void prepare(const Task& task);
   std::vector<Region> regions_of(const Polygons& own, const Task& task) const;
-  std::vector<Edge> edges_along(std::span<const std::uint8_t> is_marked, const Task& task) const;
   std::vector<std::uint8_t> marked(const std::vector<Edge>& edges, const char* name, const Task& task) const;
   std::vector<std::uint8_t> edited(const std::vector<Edge>& edges, const char* name, const Task& task) const;
   std::vector<std::int32_t> joined(double amount, const PartEdits& edits, const Task& task) const;
@@ -411,19 +383,6 @@ std::vector<Region> PartFinder::Impl::regions_of(const Polygons& own, const Task
   if (!problem.reflection) return found;
   const std::vector<std::int32_t> images = images_of(mesh, own, *problem.reflection, task);
   for (std::size_t p = 0; p < images.size(); ++p) found[p].image = images[p];
-  return found;
-}
-
-/// Marked edges, as vertices of the surface.
-std::vector<Edge> PartFinder::Impl::edges_along(std::span<const std::uint8_t> is_marked, const Task& task) const {
-  const PlanMesh& mesh = *problem.mesh;
-  const Poll poll(task);
-  std::vector<Edge> found;
-  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
-    poll.at(index(e));
-    const std::int32_t h = mesh.half_edge_of[e];
-    if (is_marked[e] != 0) found.push_back(ascending(mesh.sources[mesh.tail(h)], mesh.sources[mesh.tip(h)]));
-  }
   return found;
 }
 
@@ -537,17 +496,7 @@ Parts PartFinder::find(double amount, const PartEdits& edits, const Task& task) 
   const std::vector<std::uint8_t>& is_seam = impl.problem.is_seam;
   std::vector<std::uint8_t> is_border = impl.borders(amount, edits, own);
   for (std::size_t e = 0; e < is_border.size(); ++e) is_border[e] = is_border[e] != 0 && is_seam[e] == 0 ? 1 : 0;
-  std::vector<Edge> borders = impl.edges_along(is_border, own);
-  polled_sort(borders, Poll(own));
-  own.check(kParted);
-  std::vector<Edge> cuts = borders;
-  cuts.insert(cuts.end(), impl.options.seams.begin(), impl.options.seams.end());
-  Parts parts;
-  parts.of_face = face_segments(*impl.surface, cuts, own);
-  leave_out_inner(*impl.problem.mesh, parts.of_face, borders, own);
-  parts.borders = chains_of(impl.surface->vertex_count(), borders, impl.edges_along(is_seam, own));
-  for (const std::int32_t part : parts.of_face) parts.count = std::max(parts.count, index(part) + 1);
-  return parts;
+  return parts_between(*impl.surface, *impl.problem.mesh, is_border, impl.options.seams, part_of(own, kParted, 1.0));
 }
 
 }  // namespace seamwire
