@@ -20,6 +20,8 @@ from typing import Literal, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+__version__: str
+
 class Cancelled(RuntimeError): ...
 
 class SurfaceReport:

@@ -18,7 +18,7 @@ def grid(side: int) -> tuple[NDArray[np.float64], NDArray[np.int32]]:
 
 
 surface = sw.Surface(*grid(8))
-field = sw.distance_field(sw.embed(surface, sw.euclidean_metric(surface)), 0)
+field = sw.distance_field(sw.embed(surface, sw.euclidean_metric(surface, sw.principal_curvatures(surface))), 0)
 wire: sw.Wire = field.trace(80)
 length: float = wire.length
 corners: NDArray[np.float64] = wire.points

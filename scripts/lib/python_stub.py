@@ -26,6 +26,8 @@ from typing import Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+__version__: str
 '''
 CONTAINERS = {"list": "list[{}]", "tuple": "tuple[{}, ...]", "sequence": "Sequence[{}]", "iterable": "Iterable[{}]"}
 NAMES = {"float64": "NDArray[np.float64]", "int32": "NDArray[np.int32]", "callable": "Callable[[float], bool | None]"}

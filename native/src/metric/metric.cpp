@@ -5,6 +5,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <string>
+#include <utility>
 
 #include "detail/infinity.hpp"
 #include "detail/poll.hpp"

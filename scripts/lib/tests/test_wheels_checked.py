@@ -26,6 +26,7 @@ def wheel(folder: Path, name: str, tag: str, module: bytes) -> Path:
     path = folder / name
     with zipfile.ZipFile(path, "w") as archive:
         archive.writestr("seamwire_core.cp311-win_amd64.pyd", module)
+        archive.writestr("seamwire_core-stubs/__init__.pyi", "")
         archive.writestr("seamwire_core-1.0.dist-info/WHEEL", f"Wheel-Version: 1.0\nTag: {tag}\n")
     return path
 
@@ -112,6 +113,17 @@ def test_name_and_tags_have_to_agree(tmp_path: Path, monkeypatch: pytest.MonkeyP
     named = wheel(tmp_path, "seamwire_core-1.0-cp311-cp311-win_amd64.whl", "cp311-cp311-linux_x86_64", b"")
     assert check_wheel.faults_of_wheel(named, "windows-x64", "3.11") == ["its tags are cp311-cp311-linux_x86_64"]
     assert len(check_wheel.faults_of_wheel(named, "windows-x64", "3.13")) == 3, "name, tags, module"
+
+
+def test_a_wheel_has_types(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(check_wheel, "faults_of_module", lambda *_: [])
+    tag = "cp311-cp311-win_amd64"
+    path = tmp_path / f"seamwire_core-1.0-{tag}.whl"
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("seamwire_core.cp311-win_amd64.pyd", b"")
+        archive.writestr("seamwire_core-1.0.dist-info/WHEEL", f"Tag: {tag}\n")
+    missing = ["seamwire_core-stubs/__init__.pyi is not in it"]
+    assert check_wheel.faults_of_wheel(path, "windows-x64", "3.11") == missing
 
 
 @pytest.mark.skipif(platform.system() != "Linux", reason="the compiler makes no ELF files")
