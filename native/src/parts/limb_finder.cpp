@@ -2,6 +2,7 @@
 #include "seamwire/parts/limb_finder.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -19,11 +20,14 @@
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
 #include "detail/poll.hpp"
+#include "detail/shortest_paths.hpp"
 #include "detail/text.hpp"
 #include "parts/limb_field.hpp"
+#include "parts/minimum_cut.hpp"
 #include "parts/parts_between.hpp"
 #include "prices/plan_mesh.hpp"
 #include "seamwire/errors.hpp"
+#include "surface/real_edges.hpp"
 #include "tuning/constants.hpp"
 
 namespace seamwire {
@@ -41,6 +45,8 @@ struct LimbJoin {
 }  // namespace detail
 
 namespace {
+
+constexpr double kDiagonal = 1e6;  // price of an edge along which no border may run
 
 /// A border between two regions.
 struct Border {
@@ -186,6 +192,63 @@ void join_small(const PlanMesh& mesh, std::span<const double> areas, std::span<c
   }
 }
 
+/// Moves the border between each two parts to where it is shortest and most concave, within a band on both sides of it,
+/// because borders of joined triangles are jagged. `distances`: between the triangles at each edge.
+void smooth_borders(const PlanMesh& mesh, std::span<const double> distances, std::span<const double> weights,
+                    std::vector<std::int32_t>& of_face, const Task& task) {
+  Poll poll(task);
+  std::vector<std::int32_t> at_border;
+  std::map<std::array<std::int32_t, 2>, std::vector<std::int32_t>> band_of;  // the triangles of each two neighbors
+  for (std::size_t e = 0; e < mesh.edge_count(); ++e) {
+    poll.next();
+    const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
+    if (twin < 0 || of_face[h / 3] == of_face[twin / 3]) continue;
+    at_border.insert(at_border.end(), {h / 3, twin / 3});
+    band_of[ascending(of_face[h / 3], of_face[twin / 3])];
+  }
+  std::vector<double> depth(of_face.size(), kInfinity);  // of each triangle in its part
+  std::vector<double> deepest(of_face.size(), 0.0);      // of each part
+  find_shortest_paths(at_border, depth, [&](std::int32_t f, const auto& step) {
+    poll.next();
+    deepest[of_face[f]] = std::max(deepest[of_face[f]], depth[f]);
+    for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
+      const std::int32_t twin = mesh.twins[h];
+      if (twin >= 0 && of_face[twin / 3] == of_face[f]) step(twin / 3, distances[mesh.edge_of[h]]);
+    }
+  });
+  Csr<std::int32_t> faces_of(of_face.size(), [&](const auto& visit) {
+    for (std::int32_t f = 0; index(f) < of_face.size(); ++f) {
+      const double width = std::min(tuning::kLimbBand, tuning::kLimbBandShare * deepest[of_face[f]]);
+      if (depth[f] <= width) visit(of_face[f], f);
+    }
+  });
+  const std::vector<std::int32_t> before = of_face;
+  std::vector<std::int32_t> number(of_face.size(), -1);  // of a triangle in its band
+  for (auto& [pair, band] : band_of) {
+    for (const std::int32_t part : pair) band.insert(band.end(), faces_of[part].begin(), faces_of[part].end());
+    for (std::size_t i = 0; i < band.size(); ++i) number[band[i]] = static_cast<std::int32_t>(i);
+    const auto source = static_cast<std::int32_t>(band.size()), sink = source + 1;
+    MinimumCut network(band.size() + 2);
+    for (const std::int32_t f : band) {
+      for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
+        poll.next();
+        const std::int32_t twin = mesh.twins[h], other = twin / 3;
+        if (twin < 0 || std::ranges::find(pair, before[other]) == pair.end()) continue;
+        const std::int32_t e = mesh.edge_of[h];
+        const double price = mesh.is_real[e] != 0 ? weights[e] : kDiagonal;
+        if (number[other] < 0) {
+          network.add(number[f], before[other] == pair[0] ? source : sink, price);
+        } else if (f < other) {
+          network.add(number[f], number[other], price);
+        }
+      }
+    }
+    const std::vector<std::uint8_t> side = network.source_side(source, sink, task);
+    for (std::size_t i = 0; i < band.size(); ++i) of_face[band[i]] = side[i] != 0 ? pair[0] : pair[1];
+    for (const std::int32_t f : band) number[f] = -1;
+  }
+}
+
 }  // namespace
 
 struct LimbFinder::Impl {
@@ -193,6 +256,7 @@ struct LimbFinder::Impl {
   PlanMesh mesh;
   std::vector<double> areas;             // of each triangle, in areas of its connected piece
   std::vector<double> weights;           // of each edge
+  std::vector<double> distances;         // between the triangles at each edge, in roots of the area of their piece
   std::vector<std::vector<LimbJoin>> joins;  // for each connected piece, in their order
 
   void prepare(const Task& task);
@@ -204,6 +268,7 @@ void LimbFinder::Impl::prepare(const Task& task) {
   const Pieces pieces = find_pieces(mesh, std::vector<std::uint8_t>(mesh.edge_count(), 0), task);
   areas.assign(mesh.face_count(), 0.0);
   weights.assign(mesh.edge_count(), 0.0);
+  distances.assign(mesh.edge_count(), 0.0);
   joins.resize(index(pieces.count));
   const Csr<std::int32_t> faces_of(index(pieces.count), [&](const auto& visit) {
     for (std::int32_t f = 0; index(f) < mesh.face_count(); ++f) visit(pieces.of_face[f], f);
@@ -240,7 +305,10 @@ void LimbFinder::Impl::prepare(const Task& task) {
       if (mesh.is_real[e] == 0) diagonals.push_back(links.back());
     }
     const LimbField field = limb_field(faces, links, part_of(own, 0.0, 0.8));
-    for (std::size_t i = 0; i < links.size(); ++i) weights[edges_of[p][i]] = field.weights[i];
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      weights[edges_of[p][i]] = field.weights[i];
+      distances[edges_of[p][i]] = links[i].distance;
+    }
     Poll poll(own, 0.8, 1.0, 4 * faces.size(), Poll::kFewSteps);
     joins[p] = LimbJoining(faces, links, field).run(diagonals, poll);
     for (LimbJoin& join : joins[p]) {
@@ -272,10 +340,12 @@ Parts LimbFinder::find(double amount, const Task& task) const {
     }
   }
   join_small(impl.mesh, impl.areas, impl.weights, sets, own);
+  std::vector<std::int32_t> of_face = sets.numbering().of;
+  smooth_borders(impl.mesh, impl.distances, impl.weights, of_face, own);
   std::vector<std::uint8_t> is_border(impl.mesh.edge_count(), 0);
   for (std::size_t e = 0; e < is_border.size(); ++e) {
     const std::int32_t h = impl.mesh.half_edge_of[e], twin = impl.mesh.twins[h];
-    is_border[e] = twin >= 0 && sets.find(h / 3) != sets.find(twin / 3) ? 1 : 0;
+    is_border[e] = twin >= 0 && of_face[h / 3] != of_face[twin / 3] ? 1 : 0;
   }
   return parts_between(*impl.surface, impl.mesh, is_border, {}, own);
 }

@@ -325,6 +325,9 @@ inline constexpr double kLimbCompactness = 0.1;
 inline constexpr double kLimbArea = 0.006;
 /// Area of the least limb.
 inline constexpr double kSmallestLimb = 0.0015;
+/// Distance from a border up to which it may move, and that distance as a share of the depth of a part.
+inline constexpr double kLimbBand = 0.03;
+inline constexpr double kLimbBandShare = 0.5;
 /// What joining two limbs costs at least for the amount 0.5, and how many times that for the amount 0.
 inline constexpr double kLimbCost = 0.15;
 inline constexpr double kLimbRange = 7.477;
