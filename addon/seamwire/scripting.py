@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Functions for scripts: draw wires, suggest seams, unwrap and cut.
 
-Each works on one object, in Object Mode or Edit Mode, and leaves it in the mode that it had. They push no step of Blender's undo.
+Each works on one object. All objects keep their modes. The functions push no step of Blender's undo.
 
 Raises
 ------
@@ -19,20 +19,23 @@ from __future__ import annotations
 
 import math
 import operator
+from collections.abc import Mapping, Set
 from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import pairwise
+from numbers import Real
 from typing import TYPE_CHECKING, Union
 
 import bpy
+import numpy as np
 
 from .core.base import native
 from .core.network.picks import FacePoint, undirected
 from .core.offers.edge_loops import KIND_COSTS
-from .mesh import edit_mesh, finishes, settings
+from .mesh import edit_mesh, finishes, modes, settings
 from .mesh.object_session import ObjectSession
 from .terms.choices import ALONG, DEFAULT_FINISH, FINISHES, METRICS
-from .terms.options import Options, strength_name
+from .terms.options import STRENGTH_RANGE, Options, strength_name
 from .words.reports import HALFWAY, not_cut
 from .words.scripted import draw_chain, draw_loop
 
@@ -47,6 +50,8 @@ Seed = Union[int, "tuple[int, int]", "tuple[float, float, float]"]
 """A vertex, an edge as its two vertices, or a place in object coordinates."""
 TAKES = ("FIRST", *KIND_COSTS)
 """Which loop along edges `mark` takes: the first that a click would offer, or one of a kind."""
+_NO_LIMIT = 1e9
+"""Blender's limits beyond this are those of the type."""
 
 
 @dataclass(frozen=True)
@@ -105,13 +110,21 @@ def mark(
     _one_of("finish", finish, FINISHES)
     _one_of("metric", metric, METRICS)
     _one_of("take", take, TAKES)
+    clear = _bool("clear", clear)
+    if strength is not None:
+        strength = _in_range("strength", strength, *STRENGTH_RANGE)
+    axes = None
+    if mirror is not None:
+        axes = tuple(map(_axis, _listed("mirror", mirror, "axes, such as 'XY'", is_ordered=False)))
+    chains, loops = _listed("chains", chains, "chains"), _listed("loops", loops, "seeds")
+    strokes, avoid = _listed("strokes", strokes, "strokes"), _listed("avoid", avoid, "strokes")
     across = along == "SURFACE"
     if across and FINISHES[finish].cuts and clear:
         raise ValueError("A cut cannot clear seams: choose another finish")
     if across and take != "FIRST":
         raise ValueError("take needs along='EDGES'")
     with editing(obj):
-        mirrored = settings.mirror_axes(obj.data) if mirror is None else tuple(map(_axis, mirror))
+        mirrored = settings.mirror_axes(obj.data) if axes is None else axes
         options = Options(along=along, finish=finish, metric=metric, clear=clear, mirror=mirrored)
         if strength is not None:
             options = Options(**{**vars(options), strength_name(along): strength})
@@ -193,13 +206,13 @@ def _changing() -> Iterator[None]:
 
 def _call(work: Callable[..., set[str]], options: dict[str, object]) -> bool:
     """Call an operator, and return whether it did anything. Raise what this module promises."""
-    unknown = options.keys() - work.get_rna_type().properties.keys()
+    properties = work.get_rna_type().properties
+    unknown = options.keys() - (set(properties.keys()) - {"rna_type"})
     if unknown:
         raise TypeError(f"There is no option {sorted(unknown)[0]!r}")
+    options = {name: _value(name, value, properties[name]) for name, value in options.items()}
     try:
         return work(**options) == {"FINISHED"}
-    except TypeError as error:  # an option has a wrong value
-        raise ValueError(str(error)) from error
     except RuntimeError as error:
         text = str(error).strip().removeprefix("Error: ")
         raise (RuntimeError if text.startswith(HALFWAY) else ValueError)(text) from error
@@ -207,41 +220,10 @@ def _call(work: Callable[..., set[str]], options: dict[str, object]) -> bool:
 
 @contextmanager
 def editing(obj: bpy.types.Object, alone: bool = False) -> Iterator[None]:
-    """Have an object in Edit Mode, then restore all modes and selections. With `alone`, no other mesh may be in Edit Mode."""
+    """Have an object in Edit Mode, as `modes.editing` does, if there is the compiled part."""
     native.load()
-    if not isinstance(obj, bpy.types.Object):
-        raise ValueError(f"{obj!r} is not an object")
-    if obj.type != "MESH":
-        raise ValueError(f"{obj.name} has no mesh: it is of type {obj.type}")
-    layer = bpy.context.view_layer
-    if obj.name not in layer.objects:
-        raise ValueError(f"{obj.name} is not in the view layer {layer.name}")
-    if obj.mode == "EDIT":
-        others = [other.name for other in bpy.context.objects_in_mode_unique_data if other.data != obj.data]
-        if alone and others:
-            raise ValueError(f"Only {obj.name} may be in Edit Mode, but {', '.join(others)} is as well")
+    with modes.editing(obj, alone):
         yield
-        return
-    active, selected = layer.objects.active, [other for other in layer.objects if other.select_get()]
-    if active is not None and active.mode != "OBJECT":
-        raise ValueError(f"{active.name} is in another mode: change to Object Mode first")
-    for other in selected:
-        other.select_set(False)
-    layer.objects.active = obj
-    try:
-        obj.select_set(True)
-        try:
-            bpy.ops.object.mode_set(mode="EDIT")
-        except RuntimeError as error:  # the mesh is linked, or the object is hidden
-            raise ValueError(f"{obj.name} cannot be edited: {str(error).strip().removeprefix('Error: ')}") from None
-        yield
-    finally:
-        if obj.mode == "EDIT":
-            bpy.ops.object.mode_set(mode="OBJECT")
-        obj.select_set(False)
-        for other in selected:
-            other.select_set(True)
-        layer.objects.active = active
 
 
 class _Reader:
@@ -254,6 +236,7 @@ class _Reader:
 
     def chain(self, where: str, seeds: Sequence[Seed]) -> list[Pick]:
         """Return the picks of a chain."""
+        seeds = _listed(where, seeds, "seeds, such as [0, 512]")
         picks = [self._seed(f"{where}[{row}]", seed) for row, seed in enumerate(seeds)]
         if len(picks) < 2:
             raise ValueError(f"{where}: a chain needs at least two seeds")
@@ -271,6 +254,7 @@ class _Reader:
 
     def stroke(self, where: str, vertices: Sequence[int]) -> list[int]:
         """Return the vertices of a stroke."""
+        vertices = _listed(where, vertices, "vertices, such as [4, 90, 31]")
         numbers = [self._seed(f"{where}[{row}]", vertex, only_vertex=True) for row, vertex in enumerate(vertices)]
         if len(numbers) < 2:
             raise ValueError(f"{where}: a stroke needs at least two vertices")
@@ -290,17 +274,18 @@ class _Reader:
         return pick
 
     def _pick(self, where: str, seed: Seed) -> Pick:
+        vertex = _index(seed)
+        if vertex is not None:
+            return vertex
+        place: list[float] = []
         try:
-            return operator.index(seed)
-        except TypeError:
+            parts = _listed(where, seed, "numbers")
+            ends = [_index(part) for part in parts]
+            if len(ends) == 2 and None not in ends and ends[0] != ends[1]:
+                return ends[0], ends[1]
+            place = [_number(where, part) for part in parts] if len(parts) == 3 else []
+        except ValueError:
             pass
-        try:
-            parts = list(seed)
-            if len(parts) == 2 and parts[0] != parts[1]:
-                return operator.index(parts[0]), operator.index(parts[1])
-            place = [float(part) for part in parts] if len(parts) == 3 else []
-        except (TypeError, ValueError):
-            place = []
         if len(place) != 3 or not all(map(math.isfinite, place)):
             raise ValueError(
                 f"{where}: {seed!r} is neither a vertex, nor an edge such as (7, 9), nor a place such as (0.1, 0.0, 2.5)"
@@ -311,12 +296,75 @@ class _Reader:
             raise ValueError(f"{where}: {error}") from error
 
 
-def _one_of(name: str, value: str, allowed: Iterable[str]) -> None:
-    if value not in allowed:
+def _one_of(name: str, value: object, allowed: Iterable[str]) -> None:
+    if not isinstance(value, str) or value not in allowed:
         raise ValueError(f"{name}={value!r}: choose one of {', '.join(allowed)}")
 
 
-def _axis(name: str) -> int:
-    if name not in {"X", "Y", "Z"}:
+def _listed(where: str, values: object, of: str, is_ordered: bool = True) -> list[object]:
+    """Return values as a list. Raise ValueError if they are no list, or are a set or a text although the list `is_ordered`."""
+    try:
+        if isinstance(values, (Mapping, bytes)) or (is_ordered and isinstance(values, (Set, str))):
+            raise TypeError
+        return list(values)
+    except TypeError:
+        raise ValueError(f"{where}: {values!r} is not a list of {of}") from None
+
+
+def _index(value: object) -> int | None:
+    try:
+        return None if isinstance(value, bool) else operator.index(value)
+    except TypeError:
+        return None
+
+
+def _number(name: str, value: object) -> float:
+    try:
+        # NumPy registers its numbers as such.
+        number = float(value) if isinstance(value, Real) and not isinstance(value, bool) else math.nan
+    except OverflowError:
+        number = math.nan
+    if not math.isfinite(number):
+        raise ValueError(f"{name}={value!r}: choose a number")
+    return number
+
+
+def _in_range(name: str, value: object, low: float, high: float) -> float:
+    number = _number(name, value)
+    if not low <= number <= high:
+        limits = f"from {low:g} to {high:g}" if high < _NO_LIMIT else f"that is at least {low:g}"
+        raise ValueError(f"{name}={value!r}: choose a number {limits}")
+    return number
+
+
+def _bool(name: str, value: object) -> bool:
+    if not isinstance(value, (bool, np.bool_)) and not (isinstance(value, int) and value in {0, 1}):
+        raise ValueError(f"{name}={value!r}: choose True or False")
+    return bool(value)
+
+
+def _value(name: str, value: object, own: bpy.types.Property) -> object:
+    """Return the value of an operator's property. Raise ValueError if it is of another type, or out of range."""
+    if own.type == "BOOLEAN":
+        return _bool(name, value)
+    if own.type == "ENUM":
+        _one_of(name, value, own.enum_items.keys())
+    elif own.type == "STRING" and not isinstance(value, str):
+        raise ValueError(f"{name}={value!r}: choose a text")
+    elif own.type == "INT" and _index(value) is None:
+        raise ValueError(f"{name}={value!r}: choose a whole number")
+    elif own.type == "FLOAT" and own.is_array:
+        numbers = [_number(name, each) for each in _listed(name, value, "numbers")]
+        if len(numbers) != own.array_length:
+            raise ValueError(f"{name}={value!r}: choose {own.array_length} numbers")
+        return numbers
+    elif own.type in {"INT", "FLOAT"}:
+        number = _in_range(name, value, own.hard_min, own.hard_max)
+        return int(number) if own.type == "INT" else number
+    return value
+
+
+def _axis(name: object) -> int:
+    if not isinstance(name, str) or name not in {"X", "Y", "Z"}:
         raise ValueError(f"mirror: {name!r} is not an axis, such as 'X'")
     return "XYZ".index(name)

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from . import process, tables
-from .jobs import PARTS, Job, Journal, Machine, SeamOptions, UsageError, find_assets, is_done
+from .jobs import PARTS, Job, Journal, Machine, SeamOptions, UsageError, find_assets, is_done, read_list
 
 EPILOG = """\
 Exit codes: 0 if all assets are done, 1 if some are not and the table says why, 2 if nothing was begun. A run that was ended goes on when it
@@ -276,12 +276,7 @@ def work(arguments: argparse.Namespace) -> int:
     out = Path(arguments.out).resolve()
     given = list(arguments.assets)
     if arguments.list:
-        try:
-            # File names may have any bytes.
-            lines = Path(arguments.list).read_text(encoding="utf-8", errors="surrogateescape").splitlines()
-        except OSError as error:
-            raise UsageError(f"--list: {error}") from error
-        given += [line.strip() for line in lines if line.strip()]
+        given += read_list(Path(arguments.list))
     assets = find_assets(given, out, arguments.recursive)
     if not assets:
         raise UsageError("There are no assets: name files or folders of .blend, .obj, .fbx, .glb, .ply or .stl")

@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
+import codecs
 import hashlib
 import json
 import os
+import re
 import time
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass, field
@@ -156,6 +158,33 @@ def find_assets(given: Iterable[str], out: Path, recursive: bool) -> list[tuple[
                     f"{file} and {found[name]} would have the same results: run them into different folders"
                 )
     return [(file, name) for name, file in found.items()]
+
+
+def read_list(path: Path) -> list[str]:
+    """Return the assets that a text file names, one on each line, in quotes or not. Raise UsageError if it cannot be read.
+
+    The text is UTF-8 or UTF-16. In UTF-8, file names may have any bytes.
+    """
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise UsageError(f"--list: {error}") from error
+    if data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        encoding = "utf-16"
+    elif b"\0" in data:  # the first letter of a path is one of ASCII in most cases
+        encoding = "utf-16-be" if data.startswith(b"\0") else "utf-16-le"
+    else:
+        encoding = "utf-8-sig"
+    try:
+        text = data.decode(encoding, errors="surrogateescape" if encoding == "utf-8-sig" else "strict")
+    except UnicodeDecodeError:
+        text = "\0"
+    if "\0" in text:
+        raise UsageError(f"--list {path}: this is not a text. Save it as UTF-8")
+    lines = [line.strip() for line in re.split(r"[\r\n]+", text)]
+    quoted = (re.fullmatch(r"([\"'])(.+)\1", line) for line in lines)
+    names = [line if match is None else match[2] for line, match in zip(lines, quoted, strict=True)]
+    return [name for name in names if name]
 
 
 def _is_asset(path: Path) -> bool:

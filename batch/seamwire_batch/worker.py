@@ -36,6 +36,11 @@ if TYPE_CHECKING:
     from seamwire.mesh.object_session import ObjectSession
     from seamwire.networks.carry import Source
 
+    from seamwire_batch.assets import MeshObjects
+
+_MOST_SKIPPED = 20
+"""Objects that are skipped by name."""
+
 
 def limit_memory(megabytes: int) -> None:
     """Let this process take so much more memory than it has now; what asks for more fails.
@@ -86,7 +91,7 @@ def enable_addon(folder: str | None) -> None:
     else:
         names = [module.__name__ for module in addon_utils.modules() if module.__name__.split(".")[-1] == "seamwire"]
     for name in names:
-        module = addon_utils.enable(name, default_set=True)
+        module = addon_utils.enable(name)
         if module is not None:
             # By one name, however it is installed.
             for part in pkgutil.walk_packages(module.__path__, f"{name}."):
@@ -163,8 +168,11 @@ class Run:
         from seamwire.mesh.object_session import ObjectSession
 
         made: dict[str, str] = {}
-        for obj in mesh_objects():
-            source = _network_of(ObjectSession(obj))
+        for obj in mesh_objects().readable:
+            try:
+                source = _network_of(ObjectSession(obj))
+            except ValueError:
+                continue
             if not source.network.courses:
                 continue
             stem = f"source-{len(made)}"
@@ -178,18 +186,14 @@ class Run:
         """Open the asset, mark, unwrap, write, and return what it has then."""
         import bpy
 
-        from seamwire_batch.assets import AssetError, mesh_objects, open_asset, unwrap, write_asset
+        from seamwire_batch.assets import mesh_objects, open_asset, unwrap, write_asset
+        from seamwire_batch.contents import contents
 
         job = self._job
         path = Path(job["asset"])
         open_asset(path)
-        objects = mesh_objects()
-        if job["object"]:
-            objects = [obj for obj in objects if obj.name == job["object"]]
-        if not objects:
-            named = f" called {job['object']}" if job["object"] else ""
-            raise AssetError(f"There is no mesh object{named} with faces in it")
-        objects = self._chosen(objects)
+        before = contents(path)
+        objects = self._chosen(mesh_objects())
         options = values_for(bpy.ops.mesh.seamwire_unwrap, job["unwrap"])
         self._may_stack = bool(options.get("stack"))
         for obj in objects:
@@ -200,18 +204,33 @@ class Run:
                 bpy.ops.mesh.seamwire_store(what="ATTRIBUTE")
         numbers = self._measured(objects)
         self._save_networks(objects)
-        write_asset(self._folder / job["output"])
+        bare = self._check_open({obj.name for obj in objects})
+        written = self._folder / job["output"]
+        write_asset(written)
         if job["pictures"]:
             self._picture(objects)
+        self._check_written(written, before, bare)
         return numbers
 
     # Ways of marking
 
-    def _chosen(self, objects: list[bpy.types.Object]) -> list[bpy.types.Object]:
+    def _chosen(self, meshes: MeshObjects) -> list[bpy.types.Object]:
         """Return the objects that get seams: where one network is for one mesh, which one must be clear."""
+        from seamwire.networks.carry import Source
+
         from seamwire_batch.assets import AssetError
 
-        job = self._job
+        job, objects, skipped = self._job, meshes.found, meshes.skipped
+        if job["object"]:
+            objects = [obj for obj in objects if obj.name == job["object"]]
+            skipped = {obj: why for obj, why in skipped.items() if obj.name == job["object"]}
+        if not objects:
+            named = f" called {job['object']}" if job["object"] else ""
+            whys = ". ".join([*skipped.values()][:_MOST_SKIPPED])
+            raise AssetError(whys or f"There is no mesh object{named} with faces in it")
+        self.warnings += [f"Skipped: {why}" for why in [*skipped.values()][:_MOST_SKIPPED]]
+        if len(skipped) > _MOST_SKIPPED:
+            self.warnings.append(f"Skipped: {len(skipped) - _MOST_SKIPPED} other objects")
         if job["way"] == "suggest" or len(objects) == 1:
             return objects
         if job["way"] == "source":
@@ -219,7 +238,7 @@ class Run:
             if found:
                 return found
         if job["way"] == "network":
-            name = json.loads(Path(job["network"]).read_text(encoding="utf-8")).get("mesh", {}).get("name", "")
+            name = Source.load(Path(job["network"])).network.origin.name
             found = [obj for obj in objects if _plain(name) in {_plain(obj.name), _plain(obj.data.name)}]
             if len(found) == 1:
                 return found
@@ -288,6 +307,38 @@ class Run:
 
     # The results
 
+    def _check_open(self, chosen: set[str]) -> int:
+        """Raise AssetError if a chosen object has no UV map. Warn of objects that are not written. Return how many meshes have no map."""
+        import bpy
+
+        from seamwire_batch.assets import AssetError
+        from seamwire_batch.contents import unmapped
+
+        bare = unmapped()
+        if chosen & bare:
+            raise AssetError(f"{', '.join(sorted(chosen & bare))}: no UV map came out")
+        if not self._job["output"].endswith((".blend", ".glb")):
+            elsewhere = sorted(name for name in chosen if name not in bpy.context.scene.objects)
+            if elsewhere:
+                self.warnings.append(f"Not written, because only one scene can be: {', '.join(elsewhere)}")
+        return len(bare)
+
+    def _check_written(self, path: Path, before: dict[str, int], bare: int) -> None:
+        """Open the written file, which ends the one that is open. Raise AssetError if more meshes than `bare` have no UV map there.
+
+        Warn of data that the asset had `before`, and the written file does not have.
+        """
+        from seamwire_batch.assets import AssetError, open_asset
+        from seamwire_batch.contents import contents, lost, unmapped
+
+        open_asset(path)
+        missing = unmapped()
+        if len(missing) > bare:
+            raise AssetError(f"The written file has no UV map of {', '.join(sorted(missing))}")
+        gone = lost(before, contents(path))
+        if gone:
+            self.warnings.append(f"Lost in the {path.suffix[1:].upper()} file: {', '.join(gone)}")
+
     def _check_map(self, obj: bpy.types.Object) -> None:
         """Warn of what is wrong with the UV map that an object in edit mode has."""
         from seamwire.core.islands.map_faults import find_faults
@@ -299,6 +350,9 @@ class Run:
         surface = mapped(obj)
         if surface is None:
             return
+        hidden, faces = sum(face.hide for face in obj.data.polygons), len(obj.data.polygons)
+        if hidden:
+            self.warnings.append(f"{obj.name}: {hidden} of {faces} faces are hidden and were not unwrapped")
         told = in_words(find_faults(surface, may_stack=self._may_stack))
         if self._stretch_wanted:
             stretch = 100.0 * stretch_of(surface.energy(uv_map.aspect(obj)))
@@ -404,22 +458,18 @@ def _plain(name: str) -> str:
 
 @contextmanager
 def _editing(obj: bpy.types.Object) -> Iterator[None]:
-    """Have an object in Edit Mode, hidden or not; raises AssetError."""
+    """Have an object in Edit Mode, in whichever scene it is; raises AssetError."""
     from seamwire.scripting import editing
 
-    from seamwire_batch.assets import AssetError
+    from seamwire_batch.assets import AssetError, shown
 
-    hidden, *flags = obj.hide_get(), obj.hide_viewport, obj.hide_select
-    obj.hide_viewport = obj.hide_select = False
-    obj.hide_set(False)
     with ExitStack() as stack:
+        stack.enter_context(shown(obj))
         try:
             stack.enter_context(editing(obj))
         except ValueError as error:
             raise AssetError(str(error)) from error
         yield
-    obj.hide_viewport, obj.hide_select = flags
-    obj.hide_set(hidden)
 
 
 def _joined(objects: list[bpy.types.Object]) -> bpy.types.Object:

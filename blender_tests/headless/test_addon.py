@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the add-on says without its compiled part, and what enabling it reads."""
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -53,7 +54,7 @@ print("Read:", sorted(dict.fromkeys(name.split(".")[0] for name in set(sys.modul
     assert "seamwire_core" not in read
 
 
-def test_enabling_with_an_option_of_the_command_line_lists_the_add_on() -> None:
+def test_enabling_with_an_option_of_the_command_line_writes_no_preferences(tmp_path: Path) -> None:
     if not bpy.app.binary_path:
         pytest.skip("Blender as a Python module cannot be started again")
     if ADDON.startswith("bl_ext."):
@@ -61,15 +62,23 @@ def test_enabling_with_an_option_of_the_command_line_lists_the_add_on() -> None:
     code = f"""
 import addon_utils, bpy, sys
 assert {ADDON!r} not in bpy.context.preferences.addons
-assert addon_utils.enable({ADDON!r}, persistent=True) is not None  # as --addons does
 settings = sys.modules[{ADDON!r} + ".mesh.settings"]
 print("Set:", settings.settings().along, settings.preferences().line_width)
+settings.settings().along = "SURFACE"
+assert settings.settings().along == "SURFACE"
+bpy.ops.wm.save_userpref()
 addon_utils.disable({ADDON!r}, default_set=True)
-assert {ADDON!r} not in bpy.context.preferences.addons
+addon_utils.enable({ADDON!r}, default_set=True)
+assert settings.preferences() == bpy.context.preferences.addons[{ADDON!r}].preferences
 """
-    command = [bpy.app.binary_path, "--background", "--factory-startup", "--python-exit-code", "3"]
-    done = subprocess.run([*command, "--python-expr", code], capture_output=True, text=True, timeout=120)
-    assert "Set: AUTO 1.0" in done.stdout, done.stderr
+    environment = {**os.environ, "BLENDER_USER_CONFIG": str(tmp_path)}
+    command = [bpy.app.binary_path, "--background", "--factory-startup", "--addons", ADDON, "--python-exit-code", "3"]
+    done = subprocess.run(
+        [*command, "--python-expr", code], capture_output=True, text=True, timeout=120, env=environment
+    )
+    assert "Set: AUTO 1.0" in done.stdout and done.returncode == 0, done.stdout + done.stderr
+    stored = (tmp_path / "userpref.blend").read_bytes()
+    assert ADDON.encode() not in stored, "nothing but settings of Blender"
 
 
 def test_other_versions_of_blender_are_refused() -> None:

@@ -96,7 +96,7 @@ def test_an_attribute_of_that_name_and_another_kind_is_left_alone() -> None:
 
 def test_a_mesh_without_edges_is_refused() -> None:
     obj = add_object([(0, 0, 0)], [])
-    with pytest.raises(RuntimeError, match="No edge of the mesh is visible"):
+    with pytest.raises(RuntimeError, match="No face is visible"):
         bpy.ops.mesh.seamwire_lab_store(view="STRENGTH")
     assert not [name for name in obj.data.attributes.keys() if name == "feature_strength"]  # noqa: SIM118
 

@@ -204,12 +204,6 @@ def test_functions_on_whole_objects_work_on_one_object_only() -> None:
     assert len(other.data.vertices) > 25 == len(obj.data.vertices)
     with pytest.raises(ValueError, match="No kept wire runs across the surface"):
         seamwire.cut(obj)
-    edit()
-    obj.select_set(True)
-    edit()
-    assert obj.mode == other.mode == "EDIT"
-    with pytest.raises(ValueError, match="Only Marked may be in Edit Mode, but Other is as well"):
-        seamwire.unwrap(obj)
 
 
 def test_an_option_that_there_is_not_or_that_has_a_wrong_value_changes_nothing() -> None:
@@ -265,18 +259,6 @@ def test_objects_that_cannot_be_marked_are_refused() -> None:
     for work in (lambda obj: seamwire.mark(obj, [[0, 1]]), seamwire.suggest, seamwire.unwrap, seamwire.cut):
         with pytest.raises(ValueError, match="Lamp has no mesh: it is of type LIGHT"):
             work(lamp)
-    hidden = bpy.data.objects.new("Elsewhere", bpy.data.meshes.new("Elsewhere"))
-    with pytest.raises(ValueError, match="Elsewhere is not in the view layer"):
-        seamwire.mark(hidden, [[0, 1]])
-    with pytest.raises(ValueError, match="'Grid' is not an object"):
-        seamwire.mark("Grid", [[0, 1]])
-    beside, obj = add_grid(3, name="Beside"), add_grid(3)
-    beside.select_set(False)
-    bpy.ops.object.mode_set(mode="SCULPT")
-    with pytest.raises(ValueError, match="Grid is in another mode"):
-        seamwire.mark(beside, [[0, 1]])
-    bpy.ops.object.mode_set(mode="OBJECT")
-    assert seams(obj) == []
 
 
 def test_a_place_that_is_too_far_away_to_be_compared_is_refused() -> None:
@@ -374,7 +356,7 @@ def test_a_mesh_without_anything_visible_is_said() -> None:
     edit()
     bpy.ops.mesh.select_all(action="SELECT")
     bpy.ops.mesh.hide()
-    with pytest.raises(ValueError, match="No edge of the mesh is visible"):
+    with pytest.raises(ValueError, match="No face is visible in Grid"):
         mark("0 2")
     assert seams(obj) == []
 
@@ -383,7 +365,7 @@ def test_a_mesh_without_anything_visible_is_said() -> None:
 def test_a_mesh_without_edges_is_said(size: int) -> None:
     add_object([(0.0, 0.0, 0.0)] * size, [])
     edit()
-    with pytest.raises(ValueError, match=r"no vertex|No edge"):
+    with pytest.raises(ValueError, match=r"no vertex|No face"):
         mark("0 0")
 
 

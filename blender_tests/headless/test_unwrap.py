@@ -470,7 +470,7 @@ def test_with_nothing_visible_the_error_says_so_and_nothing_changes() -> None:
     bpy.ops.mesh.select_all(action="SELECT")
     bpy.ops.mesh.hide()
     before = snapshot(obj)
-    with pytest.raises(RuntimeError, match="No edge of the mesh is visible"):
+    with pytest.raises(RuntimeError, match="No face is visible in Grid"):
         unwrap()
     assert snapshot(obj) == before
     bpy.ops.object.mode_set(mode="OBJECT")

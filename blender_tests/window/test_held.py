@@ -12,7 +12,7 @@ from seamwire.mesh.settings import settings
 from seamwire.view.edited_objects import edited
 
 KEPT = chain(0, 1, 2, 3, 4)
-HELD = ("guide stroke", "avoid stroke", "line", "line that goes on", "seed")
+HELD = ("guide stroke", "avoid stroke", "line", "line that goes on", "seed", "wire")
 
 
 @pytest.fixture(autouse=True)
@@ -34,7 +34,7 @@ class Hand:
 
     def __init__(self, desk: Desk, what: str) -> None:
         self.desk, self.ui, self.what = desk, desk.ui, what
-        if what == "seed":
+        if what in {"seed", "wire"}:
             desk.choose()
             draw(desk, 0, 4)
             self.session = desk.session
@@ -44,16 +44,17 @@ class Hand:
             self.ui.click(desk.at(4))
         self.ui.wait_until(lambda: len(self.session.wires) == 1 and not self.session.cursor.computing)
 
-    def press(self) -> None:
-        """Press the button and move."""
-        start = {"line that goes on": 4, "seed": 0}.get(self.what, 36)
+    def press(self, then_released: bool = True) -> None:
+        """Press the button and move. The modifiers of a stroke may be released then."""
+        start = {"line that goes on": 4, "seed": 0, "wire": 2}.get(self.what, 36)
         desk, ui = self.desk, self.ui
         shift, ctrl = self.what.endswith("stroke"), self.what == "avoid stroke"
         ui.wait_until(lambda: not self.session.cursor.computing)
         ui.event("LEFTMOUSE", "PRESS", desk.at(start), shift=shift, ctrl=ctrl)
         for step in (1, 2, 3):
             ui.move((desk.at(start)[0] + 12.0 * step, desk.at(start)[1] + 12.0 * step), shift=shift, ctrl=ctrl)
-        ui.event("LEFT_SHIFT", "RELEASE")
+        if then_released:
+            ui.event("LEFT_SHIFT", "RELEASE")
         assert self.holds
 
     @property
@@ -134,6 +135,35 @@ def test_keys_while_a_button_is_held(desk: Desk, what: str, is_away: bool) -> No
         ui.key("RET")
     ui.wait_until(lambda: not desk.running)
     assert seams(desk.obj) == KEPT
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize("what", HELD)
+def test_what_cancels_a_drag_does_so_with_any_modifier_still_down(desk: Desk, what: str) -> None:
+    hand, ui = Hand(desk, what), desk.ui
+    own = {"shift": what.endswith("stroke"), "ctrl": what == "avoid stroke"}
+    cancels = [("Z", {**own, "ctrl": True})]
+    for names in ((), ("shift",), ("ctrl",), ("alt",), ("shift", "ctrl"), ("shift", "ctrl", "alt")):
+        cancels += [(key, {**own, **dict.fromkeys(names, True)}) for key in ("BACK_SPACE", "RIGHTMOUSE", "ESC")]
+    for key, held in cancels:
+        hand.press(then_released=False)
+        before = hand.chain()
+        ui.key(key, **held)
+        assert not hand.holds, (key, held)
+        ui.event("LEFTMOUSE", "RELEASE", desk.at(50), **held)
+        assert hand.chain() == before, (key, held)
+    if desk.running:
+        ui.key("RET")
+    ui.wait_until(lambda: not desk.running)
+    assert seams(desk.obj) == KEPT
+
+
+def test_x_ray_switches_while_the_modifiers_of_a_stroke_are_down(desk: Desk) -> None:
+    hand = Hand(desk, "guide stroke")
+    hand.press(then_released=False)
+    desk.ui.key("V", shift=True)
+    assert settings().xray
+    assert hand.holds
 
 
 def test_after_a_lost_release_the_next_press_begins_anew(desk: Desk) -> None:

@@ -242,7 +242,7 @@ def test_object_mode_shows_nothing_of_a_mesh_without_edges_and_says_why(ui: driv
     bpy.context.collection.objects.link(obj)
     bpy.context.view_layer.objects.active = obj
     settings().heat = "STRENGTH"
-    ui.wait_until(lambda: "No edge of the mesh is visible" in follower().problem)
+    ui.wait_until(lambda: "No face is visible" in follower().problem)
     ui.wait(5, redraw=True)
 
 

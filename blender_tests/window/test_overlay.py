@@ -140,7 +140,7 @@ class Sight:
             self.errors.append(error)
 
     def make(self, **options: object) -> Overlay:
-        return Overlay(lambda: self.session.picture, self.obj, Pose(self.arrays), self.arrays.to_object, **options)
+        return Overlay(lambda: self.session.picture, lambda: self.obj, Pose(self.arrays), self.arrays.to_object, **options)
 
     def wire(self, *vertices: int, along: str = "EDGES", marks: bool = True, points: object = None) -> Wire:
         curve = self.arrays.points[list(vertices)] if points is None else np.array(points)
@@ -157,7 +157,7 @@ class Sight:
             islands.poll()
             return replace(self.session.picture, islands=islands.newest)
 
-        self.overlay = Overlay(look, self.obj, Pose(self.arrays), self.arrays.to_object)
+        self.overlay = Overlay(look, lambda: self.obj, Pose(self.arrays), self.arrays.to_object)
 
     def pixels(self, **said: object) -> NDArray[np.float32]:
         self.session.say(**said)

@@ -151,6 +151,59 @@ def test_the_drawing_follows_while_the_animation_plays(posed: Posed) -> None:
     assert not view.stale, "the mesh itself has not changed, so it is not read again"
 
 
+def remake(posed: Posed) -> None:
+    """Let a script remove the object, and make another one of the same name and mesh in another pose."""
+    ui = posed.ui
+    with ui.override():
+        bpy.ops.object.mode_set(mode="OBJECT")
+        obj, mesh = posed.obj, posed.obj.data
+        made = obj.copy()
+        made.data = mesh.copy()
+        bpy.data.objects.remove(obj)
+        bpy.data.meshes.remove(mesh)
+        made.name = posed.name
+        bpy.context.collection.objects.link(made)
+        bpy.context.view_layer.objects.active = made
+        made.select_set(True)
+        posed.bone.location.x = ACROSS
+        edit()
+
+
+@pytest.mark.every_blender
+def test_another_object_of_the_same_name_is_drawn_on_in_its_pose(posed: Posed) -> None:
+    ui = posed.ui
+    posed.bone.location.x = 0.5 * ACROSS
+    choose(ui)
+    ui.wait_until(lambda: edited.front is not None)
+    view = edited.front
+    remake(posed)
+    ui.wait_until(lambda: edited.front is not None and not edited.front.stale and edited.front.exists)
+    assert edited.front is view, "what was prepared for the mesh still holds"
+    ui.move(posed.seen_at(40))
+    assert edited.front.session.cursor.target.pick == 40
+
+
+@pytest.mark.every_blender
+def test_all_objects_are_removed_while_a_pose_is_followed(posed: Posed) -> None:
+    ui = posed.ui
+    choose(ui)
+    for begins in (False, True):
+        ui.wait_until(lambda: edited.front is not None)
+        if begins:
+            ui.click(posed.seen_at(36, 0.0))
+            ui.move(posed.seen_at(40, 0.0))
+        posed.bone.location.x = ACROSS
+        posed.bone.id_data.update_tag()
+        for obj in tuple(bpy.data.objects):
+            bpy.data.objects.remove(obj)
+        ui.move((0.5 * ui.region.width, 0.5 * ui.region.height))
+        ui.wait(10, redraw=True)
+        assert not edited.views()
+        if not begins:
+            posed.__init__(ui)
+            choose(ui)
+
+
 @pytest.fixture
 def playing(desk: Desk) -> Iterator[Desk]:
     """The mesh with an armature that turns it, while its animation plays."""

@@ -2164,8 +2164,9 @@ class PartFinder:
     mirror : {0, 1, 2}, optional
         The axis along which a plane mirrors the surface, as for `SeamPlanner`. Parts are then symmetric wherever the
         triangles are mirrored.
-    marked : (k, 2) array_like of int, optional
-        Edges where an artist expects a border: marked sharp, or between materials.
+    marked : list of (k, 2) array_like of int, optional
+        Edges where an artist expects a border, for each kind of mark: marked sharp, or between materials. A kind counts
+        only on connected pieces where it marks at most 80 % of the inner edges. Marks that are everywhere say nothing.
     seams : (k, 2) array_like of int, optional
         The edges that are seams already. They part the surface.
     progress : callable, optional
@@ -2183,7 +2184,7 @@ class PartFinder:
         surface: Surface,
         *,
         mirror: Literal[0, 1, 2] | None = None,
-        marked: ArrayLike | None = None,
+        marked: Iterable[ArrayLike] | None = None,
         seams: ArrayLike | None = None,
         progress: Callable[[float], bool | None] | None = None,
     ) -> None: ...

@@ -35,7 +35,10 @@ LABELS = ".seamwire"
 
 
 class NothingVisibleError(ValueError):
-    """There is nothing of the mesh to work on: it has none, or all of it is hidden."""
+    """There is nothing of the mesh of an object to work on: it has none, or all of it is hidden."""
+
+    def __init__(self, obj: bpy.types.Object) -> None:
+        super().__init__(f"No face is visible in {obj.name}: it has no faces, or all are hidden")
 
 
 def edit_bmesh(data: bpy.types.Mesh) -> bmesh.types.BMesh:
@@ -282,10 +285,10 @@ def _arrays(obj: bpy.types.Object, data: bpy.types.Mesh, columns: _Columns, poin
     points = points.astype(np.float64)
     edges, visible = columns["edges"], ~columns["hidden edges"]
     seams = edges[visible & columns["seams"]]
-    marked = edges[visible & (columns["sharp edges"] | _between_materials(data, columns))]
+    marked = tuple(edges[visible & marks] for marks in (columns["sharp edges"], _between_materials(data, columns)))
     edges = edges[visible]
     if len(edges) == 0:
-        raise NothingVisibleError("No edge of the mesh is visible")
+        raise NothingVisibleError(obj)
     hidden = columns["hidden faces"]
     triangles, polygons = _cut(data, columns["corners"], points)
     partly_hidden = edges[:0]

@@ -44,12 +44,17 @@ if TYPE_CHECKING:
     from .settings import SeamwireSettings
 
 
+_EVERYWHERE = 0.8
+"""The fraction of the edges above which sharp edges say nothing about an artist: the whole mesh is shaded flat."""
+
+
 def auto_for(obj: bpy.types.Object, arrays: Arrays) -> Auto:
     """Return the values that Auto stands for on a mesh object whose mesh was read as arrays."""
     data = obj.data
     rigged = len(obj.vertex_groups) > 0 or data.shape_keys is not None
     sharp = edit_mesh.column(data.edges, "use_edge_sharp", np.bool_)
-    marks = (len(data.uv_layers) > 0, sharp.any(), data.has_custom_normals, len(data.materials) > 1)
+    is_sharp_here_and_there = sharp.any() and sharp.mean() <= _EVERYWHERE
+    marks = (len(data.uv_layers) > 0, is_sharp_here_and_there, data.has_custom_normals, len(data.materials) > 1)
     return placed_edges.auto_for(arrays.points, arrays.triangles, arrays.polygons, rigged, sum(marks))
 
 

@@ -34,7 +34,7 @@ def read(obj: bpy.types.Object) -> Arrays:
     """Read the edit mesh of an object; raises `edit_mesh.NothingVisibleError` where no face is visible."""
     arrays = edit_mesh.read(obj)
     if not len(arrays.triangles):
-        raise edit_mesh.NothingVisibleError("No face is visible")
+        raise edit_mesh.NothingVisibleError(obj)
     return arrays
 
 

@@ -36,6 +36,7 @@ from ..core.seams.seam_plan import (
 from ..terms.choices import FINISHES
 from ..terms.options import CLAMP_PERCENTILE, STRENGTHS
 from ..words.notices import Notices
+from ..words.reports import ALL_HIDDEN
 from ..words.search_report import Outcome
 from . import edit_mesh, finishes, uv_map
 from .object_session import ObjectSession, mirror_axes
@@ -84,6 +85,7 @@ class Suggestion:
 
     def __init__(self, obj: bpy.types.Object, options: SearchOptions, faces: NDArray[np.integer] | None) -> None:
         self._core = native.load()
+        self.name = obj.name_full  # threads must not ask Blender
         self.mesh = ObjectSession(obj)
         arrays = self.mesh.arrays
         self.along: Along = options.along or self.mesh.find_auto().along
@@ -256,11 +258,6 @@ class Suggestion:
             self.layout = np.asarray(found)
 
     @property
-    def name(self) -> str:
-        """The full name of the object."""
-        return self.mesh.obj.name_full
-
-    @property
     def best_so_far(self) -> seamwire_core.SeamPlan | None:
         """The best plan so far with a map of every part of the mesh, also while `plan` runs. Any thread may read it."""
         planner = self._planner
@@ -327,7 +324,7 @@ class SeamSearch:
 
     def __init__(self, objects: Iterable[bpy.types.Object], options: SearchOptions, selected: bool) -> None:
         self.notices = Notices()  # problems with the wires that are stored with the meshes
-        self.problem = "No face is visible"  # why no object can be cut
+        self.problem = ALL_HIDDEN  # why no object can be cut
         self._options = options
         self._unwrapped: Unwrapped | None = None
         self._found: list[Suggestion] = []
@@ -335,13 +332,14 @@ class SeamSearch:
             faces = edit_mesh.selected_faces(obj) if selected else None
             try:
                 suggestion = Suggestion(obj, options, faces)
+                if not len(suggestion.mesh.arrays.triangles):
+                    raise edit_mesh.NothingVisibleError(obj)
             except ValueError as error:
                 self.problem = str(error)
                 continue
             for notice in suggestion.mesh.notices.take():
                 self.notices.add(*notice)
-            if len(suggestion.mesh.arrays.triangles):
-                self._found.append(suggestion)
+            self._found.append(suggestion)
 
     def __iter__(self) -> Iterator[Suggestion]:
         return iter(self._found)

@@ -98,9 +98,11 @@ def mirror_axes(data: bpy.types.Mesh) -> tuple[int, ...]:
     return tuple(axis for axis, name in enumerate("xyz") if getattr(data, f"use_mirror_{name}"))
 
 
-def preferences(context: bpy.types.Context | None = None) -> bpy.types.AddonPreferences:
-    """Return the add-on's preferences."""
-    return (context or bpy.context).preferences.addons[ADDON].preferences
+def preferences(context: bpy.types.Context | None = None) -> bpy.types.AddonPreferences | bpy.types.PropertyGroup:
+    """Return the add-on's preferences. Blender lists no add-on that its option ``--addons`` enables: then they last until Blender ends."""
+    context = context or bpy.context
+    addon = context.preferences.addons.get(ADDON)
+    return context.window_manager.seamwire_defaults if addon is None else addon.preferences
 
 
 def settings(context: bpy.types.Context | None = None) -> SeamwireSettings:

@@ -26,6 +26,7 @@ from ..core.islands.copies import ShapedIsland, shaped_islands
 from ..core.islands.map_faults import NO_FAULTS, MapFaults, MappedSurface, find_faults, joined, turn_back
 from ..core.islands.straight_corners import find_straight
 from ..core.islands.uv_islands import NewIsland, boxes_of, in_rows, place, split_edges, uv_areas
+from ..words.reports import ALL_HIDDEN
 from . import edit_mesh, uv_map
 from .seam_islands import labels_of
 from .versions import IS_OLD
@@ -352,12 +353,16 @@ def unwrap_changed(
     maps, problem = [], ""
     for obj in context.objects_in_mode_unique_data:
         try:
-            maps.append(_Map(obj, every, by_library=method == "SEAMWIRE"))
+            found = _Map(obj, every, by_library=method == "SEAMWIRE")
+            if not found.count:
+                raise edit_mesh.NothingVisibleError(obj)
+            maps.append(found)
+        except edit_mesh.NothingVisibleError as error:
+            problem = problem or str(error)
         except ValueError as error:
             problem = f"{obj.name}: {error}"
-    if not any(found.count for found in maps):
-        raise ValueError(problem if not maps else "No face is visible: there is nothing to unwrap")
-    maps = [found for found in maps if found.count]
+    if not maps:
+        raise ValueError(problem or ALL_HIDDEN)
     unwrapped, faults = sum(len(found.changed) for found in maps), NO_FAULTS
     kept = sum(found.count for found in maps) - unwrapped
     if unwrapped:

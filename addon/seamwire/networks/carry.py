@@ -49,7 +49,7 @@ class Source:
     def load(cls, path: Path, with_mesh: bool = False) -> Source:
         """Read a network from a file, `with_mesh` also what `save` has written beside it. Raises ValueError."""
         try:
-            network = NetworkFile.parse(path.read_text(encoding="utf-8"))
+            network = NetworkFile.parse(path.read_text(encoding="utf-8-sig"))
         except (OSError, UnicodeDecodeError) as error:
             raise ValueError(f"Cannot read the file: {error}") from error
         if not with_mesh:

@@ -172,7 +172,7 @@ class Chain:
 
     def find_front(self) -> None:
         """Let the active object be in front if no object is, because a cut mesh is read anew. This may read the whole mesh."""
-        if edited.front is None:
+        if edited.front is None or not edited.front.exists:
             edited.front = edited.of(bpy.context.active_object)
 
     def draw_on(self, view: ObjectView) -> None:
@@ -239,6 +239,7 @@ class Chain:
             If an edge is gone. Then the mesh is unchanged.
         """
         self.let_go()
+        self._follow_mesh()
         self._keep_wires(at_once)
         self.close(Cue.KEEP)
         return self.has_kept
@@ -329,8 +330,7 @@ class Chain:
             self._cleanup.close()
 
     def _leave_window(self) -> None:
-        # All workspaces share the status bar, and the one of the chain may have been deleted.
-        bpy.data.workspaces[0].status_text_set(None)
+        _set_status(None)
         if self.window in self.manager.windows.values():
             self.set_cursor("")
             self._set_timer(False)
@@ -383,7 +383,7 @@ class Chain:
             edited.redraw()
         if self._shown != before:
             for make in status_makers:
-                self.workspace.status_text_set(make(self))
+                _set_status(make(self))
         # Last: what is shown may ask for more to be computed.
         self._set_timer(any(view.busy for view in edited.views()))
 
@@ -391,6 +391,11 @@ class Chain:
         self._shown = None
         if edited.front is not None:
             self.show()
+
+
+def _set_status(text: object) -> None:
+    # All workspaces share the status bar, and the one of the chain may have been deleted.
+    bpy.data.workspaces[0].status_text_set(text)
 
 
 def _leave_objects() -> None:

@@ -149,9 +149,9 @@ def click(chain: Chain, given: Given) -> None:
     elif not session.cursor.will_be_live and snap.to in {"SEED", "WIRE"}:
         # Whether it is a click or the beginning of a drag is known when the button or the mouse has moved.
         session.hover(snap)
-        chain.go(Cue.PRESS, SeedHold(event.type, view, place, snap))
+        chain.go(Cue.PRESS, SeedHold(event, view, place, snap))
     elif snap.to in {"MESH", "FEATURE", "SEAM"} or session.goes_on_from(snap):
-        chain.go(Cue.PRESS, LineHold(event.type, view, place, snap))
+        chain.go(Cue.PRESS, LineHold(event, view, place, snap))
     else:
         session.click(snap)
         chain.note(undo_steps.DRAW)
@@ -174,7 +174,7 @@ def begin_stroke(chain: Chain, given: Given) -> None:
     is_live = chain.session.seed is not None or chain.session.cursor.waiting
     view = edited.front if is_live or found is None else found
     chain.draw_on(view)
-    hold = StrokeHold(given.event.type, view, given.place)
+    hold = StrokeHold(given.event, view, given.place)
     hold.attracts, hold.scale = given.what is Action.GUIDE, bpy.context.preferences.system.ui_scale
     chain.go(Cue.PRESS, hold)
 

@@ -75,6 +75,8 @@ def read(chain: Chain, context: bpy.types.Context, event: bpy.types.Event) -> Gi
         chain.let_go()  # another window has received the release, and this press is not a drag's
     if event.type == "TIMER":
         return Given(Sign.TICK, event)
+    if chain.hold is not None:
+        chain.hold.follow_modifiers(event)
     place = place_of(chain.window, event)
     double = chain.clicks.is_second(event, time.monotonic(), context.preferences)
     hold = chain.hold
@@ -106,7 +108,8 @@ def _key(chain: Chain, context: bpy.types.Context, event: bpy.types.Event, doubl
         return Sign.ZOOM if event.ctrl else Action.NEXT
     if keymaps.takes(Key.of(event), context):
         return Sign.NOTHING
-    action = chain.keys.decode(event, double)
+    bindings = chain.keys if chain.hold is None else chain.keys.while_held(chain.hold.modifiers)
+    action = bindings.decode(event, double)
     if action is None:
         return Sign.OTHER_TOOL if keymaps.is_other(event, chain.manager) else Sign.NOTHING
     is_repeat = event.is_repeat and action not in {Action.UNDO, Action.REDO}

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..core.drawing.line import LineGesture
 from ..core.drawing.seed_drag import SeedDrag
+from ..words.keys import MODIFIERS
 from . import undo_steps
 
 if TYPE_CHECKING:
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from ..core.picking.camera import Camera
     from ..view.object_view import ObjectView
     from ..view.viewport import Place
+    from ..words.keys import Event
 
 STEP = 3.0
 """Pixels between two looks at the surface under a stroke: a hand moves the mouse farther from one event to the next."""
@@ -31,16 +33,23 @@ CLOSE_LENGTH = 6.0
 class Hold:
     """The thing that a pressed button drags on an object.
 
-    Once the mouse has moved beyond the threshold it `is_drag`. Until then it is a click at `snap`, which a stroke does not have.
+    The `modifiers` of the press are those that are still down. Once the mouse has moved beyond the threshold it `is_drag`. Until then it is
+    a click at `snap`, which a stroke does not have.
     """
 
-    def __init__(self, button: str, view: ObjectView, place: Place, snap: Snap | None = None) -> None:
-        self.button = button
+    def __init__(self, event: Event, view: ObjectView, place: Place, snap: Snap | None = None) -> None:
+        self.button = event.type
+        self.modifiers = list(MODIFIERS)
+        self.follow_modifiers(event)
         self._view = view
         self._session = view.session
         self._place = place
         self.snap = snap
         self.is_drag = False
+
+    def follow_modifiers(self, event: Event) -> None:
+        """Take note of the modifiers that are released."""
+        self.modifiers = [name for name in self.modifiers if getattr(event, name)]
 
     def move(self, place: Place, threshold: float) -> bool:
         """Follow the mouse. A drag begins beyond the threshold, in pixels. Return whether it is still held."""

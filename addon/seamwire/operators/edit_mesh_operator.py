@@ -7,7 +7,7 @@ import traceback
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, TypeVar
 
-from ..words.reports import HALFWAY
+from ..words.reports import ALL_HIDDEN, HALFWAY
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -105,15 +105,15 @@ class EditMeshOperator(NeedsEditMode):
         from ..core.base.native import NativeError
         from ..mesh.edit_mesh import NothingVisibleError
 
-        found, problems = {}, []
+        found, problems, hidden = {}, [], []
         for obj in context.objects_in_mode_unique_data:
             try:
                 found[obj] = work(obj)
-            except NothingVisibleError:
-                continue
+            except NothingVisibleError as error:
+                hidden.append(str(error))
             except (ValueError, NativeError) as error:
                 problems.append(str(error))
-        for problem in problems if found else problems[:1] or ["No face is visible"]:
+        for problem in problems if found else (*problems, *hidden, ALL_HIDDEN)[:1]:
             self.report({"WARNING"} if found else {"ERROR"}, problem)
         return found
 

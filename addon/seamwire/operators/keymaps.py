@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from ..words.keys import KEYS, Action, Bindings, Key
+from ..words.keys import KEYS, MODIFIERS, Action, Bindings, Key
 
 if TYPE_CHECKING:
     from ..view.viewport import Place
@@ -26,7 +26,7 @@ def key_of(item: bpy.types.KeyMapItem) -> Key:
     if item.any:
         return Key(item.type, item.value, -1, -1, -1, -1)
     # From 5.0 on a modifier of -1 means either; before, a flag tells.
-    return Key(item.type, item.value, *(int(getattr(item, name)) for name in ("ctrl", "shift", "alt", "oskey")))
+    return Key(item.type, item.value, *(int(getattr(item, name)) for name in MODIFIERS))
 
 
 def user_keymap(manager: bpy.types.WindowManager, name: str = NAME) -> bpy.types.KeyMap | None:
@@ -87,7 +87,6 @@ _HARMLESS = (
 )
 """How the names of operators begin that change neither the mesh nor the mode."""
 _HARMLESS_PIES = frozenset({"VIEW3D_MT_view_pie", "VIEW3D_MT_shading_pie", "VIEW3D_MT_shading_ex_pie"})
-_MODIFIERS = ("ctrl", "shift", "alt", "oskey")
 _GIZMO_MARGIN = 10.0
 _GIZMO_BUTTON = 28.0
 _GIZMO_BUTTONS = 5
@@ -112,7 +111,7 @@ def right_click_cancels(manager: bpy.types.WindowManager) -> bool:
         item.active
         and item.type == "RIGHTMOUSE"
         and item.idname.startswith(("view3d.select", *_NAVIGATION))
-        and (item.any or not any(int(getattr(item, name)) == 1 for name in _MODIFIERS))
+        and (item.any or not any(int(getattr(item, name)) == 1 for name in MODIFIERS))
         for item in keymap.keymap_items
     )
 
@@ -151,7 +150,7 @@ def takes(key: Key, context: bpy.types.Context) -> bool:
         and item.idname.startswith(_NAVIGATION)
         and _button(item, inputs) == key.type
         and item.key_modifier == "NONE"
-        and (item.any or all(int(getattr(item, name)) in {-1, getattr(key, name)} for name in _MODIFIERS))
+        and (item.any or all(int(getattr(item, name)) in {-1, getattr(key, name)} for name in MODIFIERS))
         for item in keymap.keymap_items
     )
 

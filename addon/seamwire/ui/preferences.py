@@ -12,10 +12,8 @@ from ..words.keys import Action
 from . import toolbar
 
 
-class SeamwirePreferences(bpy.types.AddonPreferences):
-    """The preferences that Blender stores."""
-
-    bl_idname = ADDON
+class _Chosen:
+    """The properties of the preferences."""
 
     tool: bpy.props.PointerProperty(type=SeamwireSettings)
 
@@ -49,6 +47,16 @@ class SeamwirePreferences(bpy.types.AddonPreferences):
             ("NONE", "Nothing", "No text"),
         ),
     )
+
+
+class SeamwireDefaults(_Chosen, bpy.types.PropertyGroup):
+    """The preferences while Blender does not list the add-on. They start with the defaults, and end with Blender."""
+
+
+class SeamwirePreferences(_Chosen, bpy.types.AddonPreferences):
+    """The preferences that Blender stores."""
+
+    bl_idname = ADDON
 
     def draw(self, context: bpy.types.Context) -> None:
         """Show the preferences."""
@@ -111,11 +119,12 @@ def _draw_key(box: bpy.types.UILayout, keys: bpy.types.KeyMap, item: bpy.types.K
         row.operator("preferences.keyitem_restore", text="", icon="BACK").item_id = item.id
 
 
-def _list() -> None:
-    """List the add-on in Blender's preferences, which hold its settings. Blender's option ``--addons`` does not."""
-    addons = bpy.context.preferences.addons
-    if ADDON not in addons:
-        addons.new().module = ADDON
+def _add_defaults() -> None:
+    bpy.types.WindowManager.seamwire_defaults = bpy.props.PointerProperty(type=SeamwireDefaults)
 
 
-register, unregister = together(*classes(SeamwirePreferences), (_list, lambda: None))
+def _remove_defaults() -> None:
+    del bpy.types.WindowManager.seamwire_defaults
+
+
+register, unregister = together(*classes(SeamwireDefaults, SeamwirePreferences), (_add_defaults, _remove_defaults))

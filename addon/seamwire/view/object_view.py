@@ -180,7 +180,7 @@ class ObjectView:
         own = ref(self)  # what was prepared for a view is freed with it, and not when Python looks for cycles
         self.overlay = Overlay(
             lambda: own().picture,
-            obj,
+            lambda: own().obj,
             self.pose,
             arrays.to_object,
             preferences=chosen.preferences(),
@@ -249,7 +249,6 @@ class ObjectView:
         self.was_read()
         self.has_moved()
         self._follow_picker().set_seams(self.mesh.plain_seams)
-        self.overlay.renew(self.obj)
         self.islands.set_seams(self.mesh.arrays.seams)
         self.measure(anew=True)
 

@@ -91,14 +91,14 @@ class Sheet:
 class Overlay:
     """The drawing of pictures over one object.
 
-    `picture` returns what is to be seen now. `to_object`, (3, 3), takes places of the pose to object coordinates. The `layers` lie below
-    the wires, and the list may change.
+    `picture` returns what is to be seen now, and `obj` the object, because Blender may replace it. `to_object`, (3, 3), takes places of the
+    pose to object coordinates. The `layers` lie below the wires, and the list may change.
     """
 
     def __init__(
         self,
         picture: Callable[[], Picture],
-        obj: bpy.types.Object,
+        obj: Callable[[], bpy.types.Object],
         pose: Pose,
         to_object: NDArray[np.float64],
         *,
@@ -107,6 +107,7 @@ class Overlay:
     ) -> None:
         self._picture = picture
         self._obj = obj
+        self._name = obj().name_full
         self._pose = pose
         self._preferences = preferences
         self._layers = layers
@@ -116,10 +117,6 @@ class Overlay:
         self._strokes: list[tuple[NDArray[np.float64], bool]] = []
         self._faces: ColoredFaces | None = None
         self._tinted: object = None
-
-    def renew(self, obj: bpy.types.Object) -> None:
-        """Go on over an object that was read anew."""
-        self._obj = obj
 
     def repose(self) -> None:
         """Draw everything where it is seen now."""
@@ -140,7 +137,7 @@ class Overlay:
             self._looks = looks
             self._sheets.clear()
         sheets = self._current_sheets(picture)
-        eye = Eye(bpy.context.region_data, self._obj.matrix_world @ self._to_object)
+        eye = Eye(bpy.context.region_data, self._obj().matrix_world @ self._to_object)
         if not any(self._ask_layers("draw_heat", eye)):
             self._draw_tint(eye, picture.islands)
         list(self._ask_layers("draw_lines", eye))
@@ -155,7 +152,7 @@ class Overlay:
     def _ask_layers(self, method: str, *arguments: object) -> Iterator[object]:
         """Call a method of each layer, and yield what it returns. A layer that fails yields None, and the others are still drawn."""
         for number, layer in enumerate(self._layers):
-            part = ("layer drawn", self._obj.name_full, number, method)
+            part = ("layer drawn", self._name, number, method)
             yield failures.attempt(part, partial(getattr(layer, method), *arguments))
 
     def _draw_tint(self, eye: Eye, found: Islands | None) -> None:

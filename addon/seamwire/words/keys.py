@@ -11,7 +11,7 @@ from enum import Enum
 from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
 
 class Event(Protocol):
@@ -49,7 +49,7 @@ class Key:
     @classmethod
     def of(cls, event: Event) -> Key:
         """Return what an event presses."""
-        return cls(event.type, event.value, *(int(getattr(event, name)) for name in ("ctrl", "shift", "alt", "oskey")))
+        return cls(event.type, event.value, *(int(getattr(event, name)) for name in MODIFIERS))
 
     def matches(self, event: Event, value: str) -> bool:
         """Whether an event is this key, taken for one of another value."""
@@ -87,7 +87,8 @@ class Key:
         return f"EVENT_{self.type}" if letter or function else ""
 
 
-_ANY = {"ctrl": -1, "shift": -1, "alt": -1, "oskey": -1}
+MODIFIERS = ("ctrl", "shift", "alt", "oskey")
+_ANY = dict.fromkeys(MODIFIERS, -1)
 
 
 class Action(Enum):
@@ -131,6 +132,8 @@ class Action(Enum):
         self.text, self.number, self.group, self.keys = text, number, group, keys
 
 
+_ENDING = frozenset({Action.END, Action.CANCEL, Action.UNDO})
+"""What cancels a drag."""
 KEYS = tuple((action, key) for action in Action for key in action.keys)
 """All actions with each of their keys."""
 
@@ -176,6 +179,15 @@ class Bindings:
     def without(self, taken: Callable[[Key], bool]) -> Bindings:
         """Return them without the keys that somebody else takes first."""
         return Bindings([(action, key) for action, key in self._keys if not taken(key)])
+
+    def while_held(self, own: Iterable[str]) -> Bindings:
+        """Return them while a button is held: its own modifiers need not be released, and what cancels or ends ignores all modifiers."""
+
+        def ignoring(key: Key, names: Iterable[str]) -> Key:
+            return replace(key, **{name: -1 for name in names if getattr(key, name) == 0})
+
+        ending = [(action, ignoring(key, MODIFIERS)) for action, key in self._keys if action in _ENDING]
+        return Bindings([*((action, ignoring(key, own)) for action, key in self._keys), *ending])
 
     def decode(self, event: Event, double: bool = False) -> Action | None:
         """Return what an event asks for; `double`: it is the second press of a double click."""

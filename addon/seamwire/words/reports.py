@@ -35,6 +35,8 @@ ADJUST_DRAWN = ("Point at a wire to change it:", "swap its path, drag its seeds,
 ADJUST_EDITED = ("Undo takes it back. To edit more, point at a wire:", "swap its path, drag its seeds, or remove it")
 """The text after something was moved, swapped, bent or removed."""
 
+ALL_HIDDEN = "All objects in Edit Mode are hidden: show them"
+"""The report of an operator that finds no object, because Blender leaves out hidden ones."""
 HALFWAY = "Stopped halfway"
 """The first words of an operator's report that an error came while meshes were changed."""
 

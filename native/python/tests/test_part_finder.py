@@ -39,12 +39,12 @@ def test_edits_and_seams_count(box: sw.Surface) -> None:
     around = [(0, 1), (1, 3), (2, 3), (0, 2)]
     assert sw.PartFinder(box).find(0.0, kept=around).count == 2
     assert sw.PartFinder(box, seams=around).find(0.0).count == 2
-    assert sw.PartFinder(box, mirror=0, marked=around).find(0.0).count == 1
+    assert sw.PartFinder(box, mirror=0, marked=[around]).find(0.0).count == 1
 
 
 @pytest.mark.parametrize(
     ("arguments", "message"),
-    [({"mirror": 5}, "mirror"), ({"marked": [(0, 99)]}, "marked"), ({"seams": [(0, -1)]}, "seams")],
+    [({"mirror": 5}, "mirror"), ({"marked": [[(0, 99)]]}, "marked"), ({"seams": [(0, -1)]}, "seams")],
 )
 def test_bad_options_are_refused(box: sw.Surface, arguments: dict[str, object], message: str) -> None:
     with pytest.raises(ValueError, match=message):

@@ -400,7 +400,7 @@ class Carrying {
         vertices_(vertices),
         original_(original),
         task_(task),
-        spread_(median_length(*simple.mesh)),
+        spread_(simple.mesh->median_length),
         is_on_cut_(cut_of(original, {}, {}).is_on_cut) {
     for (const Slit& slit : slits) {
       for (const auto* chain : {&slit.path, &slit.image}) {

@@ -105,8 +105,8 @@ void EdgeAdjacency::set_umbrella(const Surface& surface, std::int32_t fan) {
   boundary_edges_[v] = {first_edge, last_edge};
   is_open_[v] = true;
   if (first_edge >= 0 && last_edge >= 0) {
-    directions_[first_edge].z = std::sqrt(std::max(0.0, 1.0 + std::cos(total)));
-    directions_[last_edge].z = -directions_[first_edge].z;
+    directions_[first_edge][2] = std::sqrt(std::max(0.0, 1.0 + std::cos(total)));
+    directions_[last_edge][2] = -directions_[first_edge][2];
     if (star.size() > 2) {  // else it is the corner of a single face
       opposite_[first_edge] = last_edge;
       opposite_[last_edge] = first_edge;

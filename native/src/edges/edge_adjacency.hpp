@@ -36,8 +36,19 @@ class EdgeAdjacency {
   /// 1 - cos kappa of a chain that arrives against `back` and leaves over `out`, both directed edges from one vertex.
   double turn(std::int32_t back, std::int32_t out) const {
     const Direction &p = directions_[back], &r = directions_[out];
-    return std::max(0.0, 1.0 + p.x * r.x + p.y * r.y + p.z * r.z);
+    return std::max(0.0, 1.0 + p[0] * r[0] + p[1] * r[1] + p[2] * r[2]);
   }
+  /// The vector of a directed edge: the turn between two edges of a vertex is 1 plus the product of their vectors.
+  ///
+  /// In a closed umbrella of total angle T, the edge at angle a is the unit vector at 2 pi a / T. Then
+  /// -cos(2 pi (a - b) / T) = cos(pi |left - right| / T).
+  ///
+  /// In an open umbrella it is the unit vector at a itself, and the turn is pi minus the angle between. The third
+  /// components of the two boundary edges make their own turn zero. The other edges have no third component.
+  ///
+  /// Elsewhere it is the edge's direction in space.
+  using Direction = std::array<double, 3>;
+  const Direction& direction(std::int32_t e) const { return directions_[e]; }
 
   /// The directed edge that leaves the same vertex straight opposite, in a regular mesh of quads or of triangles and
   /// along a boundary; -1: the vertex is irregular there.
@@ -51,18 +62,6 @@ class EdgeAdjacency {
   }
 
  private:
-  /// A vector for each directed edge, such that the turn between two edges of a vertex is 1 plus their product.
-  ///
-  /// In a closed umbrella of total angle T, the edge at angle a is the unit vector at 2 pi a / T. Then
-  /// -cos(2 pi (a - b) / T) = cos(pi |left - right| / T).
-  ///
-  /// In an open umbrella it is the unit vector at a itself, and the turn is pi minus the angle between. The third
-  /// components of the two boundary edges make their own turn zero. The other edges have no third component.
-  ///
-  /// Elsewhere it is the edge's direction in space.
-  struct Direction {
-    double x, y, z;
-  };
   struct StarEdge {
     std::int32_t edge;
     double angle;

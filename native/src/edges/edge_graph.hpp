@@ -30,8 +30,11 @@ class EdgeGraph {
   std::int32_t find(std::int32_t a, std::int32_t b) const { return adjacency_->find(a, b); }
   std::int32_t checked(const Edge& edge, const std::string& what) const { return adjacency_->checked(edge, what); }
   double turn(std::int32_t back, std::int32_t out) const {
-    return !drawn_.empty() && drawn_[back] && drawn_[out] ? 0.0 : adjacency_->turn(back, out);
+    return is_drawn(back) && is_drawn(out) ? 0.0 : adjacency_->turn(back, out);
   }
+  const EdgeAdjacency::Direction& direction(std::int32_t e) const { return adjacency_->direction(e); }
+  /// Whether a scribble runs along it: turns between two such edges cost nothing.
+  bool is_drawn(std::int32_t e) const { return !drawn_.empty() && drawn_[e]; }
   double length(std::int32_t e) const { return lengths_[e]; }
   double mean_length() const { return mean_length_; }
 

@@ -10,8 +10,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
+#include "detail/arrival_tree.hpp"
 #include "detail/bucket_queue.hpp"
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
@@ -33,7 +36,7 @@ struct Unguided {
 
 /// A directed edge in a search. All bits zero: no chain has reached it.
 struct EdgeState {
-  static constexpr std::int32_t kUnreached = 0, kFirst = 1, kBlocked = -1;
+  static constexpr std::int32_t kUnreached = 0, kFirst = 1, kBlocked = -1, kWaiting = -2;
 
   double cost;          // of the cheapest chain up to and with it
   std::int32_t before;  // 2 + the directed edge before it in that chain; kFirst: none; or one of the others
@@ -52,12 +55,18 @@ struct EdgeState {
 /// vertex, the chain is that walk. Otherwise its beginnings are the search's own chains, because finding the cheapest
 /// of all simple chains is NP-hard.
 ///
+/// A vertex with many edges would take the square of their number in steps. So there a chain that arrives is only kept
+/// in a tree. Each edge that leaves waits in the queue with a lower bound of its cost. When it comes out, the tree
+/// gives its cheapest chain, and the edge is settled or waits again.
+///
 /// One thread runs it; what is settled does not change any more, and others may read that meanwhile.
 class EdgeSearch {
  public:
-  EdgeSearch(const EdgeGraph& graph, double turning)
+  /// At vertices with fewer edges than `many_edges` it looks at each pair of edges, which is quicker there.
+  EdgeSearch(const EdgeGraph& graph, double turning, std::int32_t many_edges = 64)
       : graph_(graph),
         turn_cost_(turning * graph.mean_length()),
+        many_edges_(many_edges),
         states_(graph.directed_count()),
         settled_(graph.directed_count()),
         arrival_(index(graph.vertex_count()), kInfinity),
@@ -101,6 +110,21 @@ class EdgeSearch {
     return graph_.length(to) + turn_cost_ * turns;
   }
 
+  /// A vertex with many edges.
+  struct Crossing {
+    std::int32_t first;                 // of the directed edges that leave it
+    ArrivalTree arrivals;               // of settled edges, named by their twins
+    std::vector<std::int32_t> numbers;  // of arrivals in their order; -1: none
+    std::vector<std::uint8_t> waits;    // how often each edge came out of the queue without being settled
+    std::vector<std::int32_t> relaxed;  // edges that wait no longer: each chain that arrives goes on over them
+    std::int32_t arrived = 0;
+  };
+  static constexpr std::uint8_t kMostWaits = 16;
+
+  Crossing& crossing_at(std::int32_t v);
+  template <class Look>
+  std::pair<double, std::int32_t> cheapest(const Crossing& crossing, std::int32_t to, const Look& look) const;
+
   bool has_settled(std::int32_t e) const { return settled_[e].load(std::memory_order_relaxed) != 0; }
 
   /// Whether the chain that ends with `e` visits `v` (its very first vertex is not looked at). Costs rise along a
@@ -119,6 +143,7 @@ class EdgeSearch {
 
   const EdgeGraph& graph_;
   double turn_cost_;
+  std::int32_t many_edges_;
   std::int32_t end_ = -1, onto_ = -1;
   ZeroedArray<EdgeState> states_;
   std::vector<std::atomic<std::uint8_t>> settled_;
@@ -126,7 +151,44 @@ class EdgeSearch {
   std::vector<double> arrival_;  // cost of the first chain that arrived at each vertex
   std::vector<std::int32_t> roots_;
   BucketQueue queue_;
+  std::unordered_map<std::int32_t, Crossing> crossings_;  // by the vertex
 };
+
+inline EdgeSearch::Crossing& EdgeSearch::crossing_at(std::int32_t v) {
+  const auto found = crossings_.find(v);
+  if (found != crossings_.end()) return found->second;
+  const std::int32_t first = graph_.begin(v);
+  const auto count = static_cast<std::size_t>(graph_.end(v) - first);
+  return crossings_
+      .try_emplace(v, Crossing{.first = first,
+                               .arrivals = {count, [&](std::int32_t i) { return graph_.direction(first + i); }},
+                               .numbers = std::vector<std::int32_t>(count, -1),
+                               .waits = std::vector<std::uint8_t>(count, 0),
+                               .relaxed = {}})
+      .first->second;
+}
+
+/// The cost up to and with an edge that leaves a crossing, and the settled edge before it: of those whose chains can go
+/// on over it, the cheapest, and of equal ones the first. The edge is -1 if there is none.
+template <class Look>
+std::pair<double, std::int32_t> EdgeSearch::cheapest(const Crossing& crossing, std::int32_t to,
+                                                     const Look& look) const {
+  double least = kInfinity;
+  std::int32_t before = -1, number = -1;
+  const double weight = graph_.is_drawn(to) ? 0.0 : turn_cost_;  // a scribble's own turns cost nothing
+  crossing.arrivals.visit_best(graph_.direction(to), weight, graph_.length(to), [&](std::int32_t i) {
+    look();
+    const std::int32_t back = crossing.first + i, from = graph_.twin(back);
+    if (crossing.numbers[i] < 0 || back == to) return least;
+    const double cost = states_[from].cost + cost_of_step(from, to);
+    const bool is_better = cost < least || (cost == least && crossing.numbers[i] < number);
+    if (!is_better || visits(from, graph_.head(to))) return least;
+    before = from;
+    number = crossing.numbers[i];
+    return least = cost;
+  });
+  return {least, before};
+}
 
 template <class Remaining, class Done>
 std::int32_t EdgeSearch::run(const Remaining& remaining, const Done& done, const Task& task) {
@@ -134,10 +196,13 @@ std::int32_t EdgeSearch::run(const Remaining& remaining, const Done& done, const
     return std::is_same_v<Remaining, Unguided> ? graph_.length(e) : 0.0;  // a guide may take back all of a step
   };
   std::size_t count = 0, looks = 0;
-  const auto relax = [&](std::int32_t from, std::int32_t to) {
+  const auto look = [&] {
     if (++looks % kStepsBetweenChecks == 0) {
       task.check(static_cast<double>(count) / static_cast<double>(graph_.directed_count()));
     }
+  };
+  const auto relax = [&](std::int32_t from, std::int32_t to) {
+    look();
     const double cost = states_[from].cost + cost_of_step(from, to);
     EdgeState& state = states_[to];
     if (!(cost < state.best())) return;
@@ -147,12 +212,61 @@ std::int32_t EdgeSearch::run(const Remaining& remaining, const Done& done, const
     state = {cost, from + 2, head};
     queue_.push(key, to, least(to));
   };
+  const auto arrive_at_crossing = [&](std::int32_t e, std::int32_t v) {
+    Crossing& crossing = crossing_at(v);
+    const std::int32_t back = graph_.twin(e), place = back - crossing.first;
+    crossing.numbers[place] = crossing.arrived++;
+    crossing.arrivals.arrive(place, states_[e].cost);
+    if (crossing.arrived > 1) {
+      for (const std::int32_t to : crossing.relaxed) {
+        if (to != back) relax(e, to);
+      }
+      return;
+    }
+    for (std::int32_t to = graph_.begin(v); to < graph_.end(v); ++to) {
+      if (states_[to].before != EdgeState::kUnreached) continue;
+      const std::int32_t head = graph_.head(to);
+      const double key = states_[e].cost + graph_.length(to) + remaining(head);
+      if (key == kInfinity) continue;
+      states_[to] = {kInfinity, EdgeState::kWaiting, head};
+      queue_.push(key, to, least(to));
+    }
+  };
+  // Gives an edge that waits its cost; or returns false, and it waits for longer. Chains that arrive later cost at
+  // least as much as the queue's floor, and the edge.
+  const auto ends_waiting = [&](std::int32_t e, double key) {
+    const std::int32_t u = graph_.tail(e), v = states_[e].head;
+    Crossing& crossing = crossing_at(u);
+    const auto [cost, before] = cheapest(crossing, e, look);
+    const double known = cost + remaining(v);
+    if (known <= key) {
+      states_[e] = {cost, before + 2, v};
+      return true;
+    }
+    if (++crossing.waits[e - crossing.first] < kMostWaits) {
+      const double step = graph_.length(e) + remaining(v) - remaining(u);
+      queue_.push(std::min(known, queue_.floor() + step), e, least(e));
+      return false;
+    }
+    crossing.relaxed.push_back(e);
+    if (before < 0) {
+      states_[e].before = EdgeState::kUnreached;
+    } else {
+      states_[e] = {cost, before + 2, v};
+      queue_.push(known, e, least(e));
+    }
+    return false;
+  };
   for (const std::int32_t e : roots_) queue_.push(states_[e].cost + remaining(graph_.head(e)), e, least(e));
   while (!queue_.empty()) {
     const auto [key, e, in_order] = queue_.pop();
     EdgeState& state = states_[e];
     const std::int32_t v = state.head;
-    if (has_settled(e) || key != state.cost + remaining(v)) continue;  // a better one came in between
+    if (state.before == EdgeState::kWaiting) {
+      if (!ends_waiting(e, key)) continue;
+    } else if (has_settled(e) || key != state.cost + remaining(v)) {
+      continue;  // a better one came in between
+    }
     if (state.previous() >= 0 && visits(state.previous(), v)) {
       state.cost = kInfinity;
       const std::int32_t u = graph_.tail(e);
@@ -167,6 +281,10 @@ std::int32_t EdgeSearch::run(const Remaining& remaining, const Done& done, const
     if (done(e)) return e;
     if (++count % kStepsBetweenReports == 0) floor_.store(queue_.floor(), std::memory_order_release);
     if (v == end_) continue;
+    if (graph_.end(v) - graph_.begin(v) >= many_edges_) {
+      arrive_at_crossing(e, v);
+      continue;
+    }
     const std::int32_t back = graph_.twin(e);
     for (std::int32_t to = graph_.begin(v); to < back; ++to) relax(e, to);
     for (std::int32_t to = back + 1; to < graph_.end(v); ++to) relax(e, to);

@@ -42,6 +42,9 @@ using HalfEdge = GeodesicMesh::HalfEdge;
 /// A distance that an edge makes shorter by more than this is not rounding.
 constexpr double kLate = 1.0 + 1e-9;
 
+/// Half-edges of the next vertex that memory is asked for in advance. A vertex may stay the next one for long.
+constexpr std::size_t kMostPrefetched = 16;
+
 class Wavefront {
  public:
   Wavefront(const GeodesicMesh& mesh, const SourcePoints& sources, const WavefrontOptions& options, const Task& task)
@@ -61,7 +64,9 @@ class Wavefront {
     while (!front_.queue().empty() || relax_left_out()) {
       if (may_stop && is_done(front_.queue().least_key())) break;
       const std::int32_t v = front_.queue().pop();
-      const auto next = front_.queue().empty() ? std::span<const std::int32_t>() : mesh_.out(front_.queue().least());
+      std::span<const std::int32_t> next;
+      if (!front_.queue().empty()) next = mesh_.out(front_.queue().least());
+      next = next.first(std::min(next.size(), kMostPrefetched));
       prefetch(next.data());
       expand_vertex(v);
       for (const std::int32_t h : next) mesh_.prefetch_half_edge(h);

@@ -104,8 +104,10 @@ void WindowEmission::emit(std::int32_t v) {
   if (arrival >= 0) corners = emit_shadow_windows(v, arrival, angle);
   if (corners == mesh_.out(v).size()) return;
   // All of the umbrellas that the path did not arrive in can be seen from v.
+  umbrella_.resize(corners);
+  std::ranges::sort(umbrella_, {}, &Corner::half_edge);
   for (const std::int32_t h : mesh_.out(v)) {
-    if (corners == 0 || std::ranges::find(umbrella_, h, &Corner::half_edge) == umbrella_.end()) {
+    if (!std::ranges::binary_search(umbrella_, h, {}, &Corner::half_edge)) {
       const double whole = mesh_.angle(h);
       emit_window(v, h, whole, 0.0, whole);
     }

@@ -117,13 +117,15 @@ class Flattener {
     const MapOptions options{
         .max_steps = options_.max_steps, .tolerance = options_.tolerance, .keep_apart = options_.keep_apart};
     std::optional<MappedIsland> started = continued(island, options, task);
-    const auto is_finished = [&](const IslandMap& map) {
-      return map.steps < options.max_steps && !(map.overlaps && options.keep_apart);
-    };
-    if (started && is_finished(started->map)) return std::move(*started);
-    MappedIsland result = from_tutte(island, options, task);
+    if (!started) return from_tutte(island, options, task);
+    if (started->map.is_finished && !(started->map.overlaps && options.keep_apart)) return std::move(*started);
     const auto rank = [](const IslandMap& map) { return std::pair(map.overlaps, map.energy); };
-    return started && rank(started->map) < rank(result.map) ? std::move(*started) : std::move(result);
+    try {
+      MappedIsland result = from_tutte(island, options, task);
+      return rank(started->map) < rank(result.map) ? std::move(*started) : std::move(result);
+    } catch (const InvalidInput&) {  // double precision cannot hold the embedding
+      return std::move(*started);
+    }
   }
 
   /// A straight map neither flips a triangle nor covers itself, because each quad is a rectangle of a grid.

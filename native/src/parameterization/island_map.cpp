@@ -214,22 +214,22 @@ class Minimizer {
   Minimizer(Problem& problem, std::vector<double> map, bool has_barrier, const MapOptions& options, const Task& task)
       : problem_(problem), map_(std::move(map)), has_barrier_(has_barrier), options_(options), task_(task) {}
 
-  /// Both phases; `steps` are those taken before.
-  void run(std::size_t steps) {
-    steps_ = steps;
+  /// Both phases.
+  void run() {
     while (steps_ < options_.max_steps && problem_.energy().move_rest_shapes(map_, kEnergyOfMovedShapes) > 0) {
       if (!step() || decrement_ < kEndOfFirstPhase) break;
     }
     problem_.energy().move_rest_shapes(map_, kInfinity);
-    while (steps_ < options_.max_steps) {
-      if (!step() || decrement_ < options_.tolerance) break;
-      if (energy_ - kReserve * decrement_ > options_.worse_than) break;
+    while (steps_ < options_.max_steps && !is_finished_) {
+      is_finished_ =
+          !step() || decrement_ < options_.tolerance || energy_ - kReserve * decrement_ > options_.worse_than;
     }
   }
   const std::vector<double>& map() const { return map_; }
   /// The last map without a barrier that is a good start with one; empty without such a map.
   const std::vector<double>& last_apart() const { return last_apart_; }
   std::size_t steps() const { return steps_; }
+  bool is_finished() const { return is_finished_; }
 
  private:
   /// How many times the quadratic model's decrease may still come.
@@ -353,14 +353,18 @@ class Minimizer {
   const MapOptions& options_;
   const Task& task_;
   std::size_t steps_ = 0;
+  bool is_finished_ = false;
   double energy_ = 0.0, decrement_ = 0.0;
 };
 
-IslandMap result_of(Problem& problem, const std::vector<double>& map, std::size_t steps, bool overlaps) {
+/// `steps`: those of a solve before.
+IslandMap result_of(Problem& problem, const Minimizer& solved, std::size_t steps, bool overlaps) {
+  const std::vector<double>& map = solved.map();
   IslandMap result;
   result.energy = problem.energy().energy(map);
   result.overlaps = overlaps;
-  result.steps = steps;
+  result.steps = steps + solved.steps();
+  result.is_finished = solved.is_finished();
   result.uvs.reserve(map.size() / 2);
   for (std::size_t i = 0; i < map.size(); i += 2) {
     result.uvs.emplace_back(map[i] * problem.unit(), map[i + 1] * problem.unit());
@@ -407,18 +411,17 @@ std::vector<double> parted(Problem& problem, const std::vector<double>& start, c
 IslandMap minimize(Problem& problem, const std::vector<double>& start, bool may_repeat, const MapOptions& options,
                    const Task& task) {
   Minimizer free(problem, start, false, options, task);
-  free.run(0);
+  free.run();
   const bool overlaps = problem.outline().covers_twice(free.map(), kTouchingDepth, task);
   // A barrier only adds to the energy.
   const bool is_hopeless = problem.energy().energy(free.map()) > options.worse_than;
   const bool repeats = overlaps && !is_hopeless && may_repeat && options.keep_apart;
   std::vector<double> other_start = repeats ? free.last_apart() : std::vector<double>{};
   if (repeats && other_start.empty()) other_start = parted(problem, start, task);
-  if (other_start.empty()) return result_of(problem, free.map(), free.steps(), overlaps);
+  if (other_start.empty()) return result_of(problem, free, 0, overlaps);
   Minimizer apart(problem, other_start, true, options, task);
-  apart.run(0);
-  return result_of(problem, apart.map(), free.steps() + apart.steps(),
-                   problem.outline().covers_twice(apart.map(), kTouchingDepth, task));
+  apart.run();
+  return result_of(problem, apart, free.steps(), problem.outline().covers_twice(apart.map(), kTouchingDepth, task));
 }
 
 }  // namespace

@@ -34,6 +34,8 @@ struct IslandMap {
   double energy = 0.0;  ///< symmetric Dirichlet energy E_d, mean over the area, 4 for an isometry; infinite without uvs
   bool overlaps = false;  ///< whether the outline crosses itself, so that the map overlaps itself
   std::size_t steps = 0;  ///< Newton steps taken
+  /// Whether the last solve ended before MapOptions::max_steps.
+  bool is_finished = false;
 };
 
 /// Maps an island to the plane. A flat island starts from its own shape, and others from Tutte's embedding (1963) on a

@@ -324,6 +324,7 @@ struct PartFinder::Impl {
   void prepare(const Task& task);
   std::vector<Region> regions_of(const Polygons& own, const Task& task) const;
   std::vector<std::uint8_t> marked(const std::vector<Edge>& edges, const char* name, const Task& task) const;
+  std::vector<std::uint8_t> telling_marks(const Task& task) const;
   std::vector<std::uint8_t> edited(const std::vector<Edge>& edges, const char* name, const Task& task) const;
   std::vector<std::int32_t> joined(double amount, const PartEdits& edits, const Task& task) const;
   std::vector<std::uint8_t> borders(double amount, const PartEdits& edits, const Task& task) const;
@@ -336,10 +337,10 @@ void PartFinder::Impl::prepare(const Task& task) {
   problem.mesh = std::make_shared<const PlanMesh>(plan_mesh(*surface, task));
   const PlanMesh& mesh = *problem.mesh;
   problem.is_seam = marked(options.seams, "seams", task);
-  const std::vector<std::uint8_t> is_marked = marked(options.marked, "marked", task);
   if (options.mirror >= 0) problem.reflection = find_reflection(mesh, options.mirror, part_of(task, 0.0, 0.2));
   const std::vector<FaceFrame> frames = face_frames(mesh, task);
   sizes = measure_pieces(mesh, frames, task);
+  const std::vector<std::uint8_t> is_marked = telling_marks(task);
   std::vector<double> size_at(mesh.vertex_count(), 0.0);  // the root of the area of each vertex's piece
   const Poll poll(task);
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
@@ -393,6 +394,30 @@ std::vector<std::uint8_t> PartFinder::Impl::marked(const std::vector<Edge>& edge
     for (const std::int32_t v : edge) check_index(v, surface->vertex_count(), std::string(name) + ": vertex");
   }
   return marked_edges(*problem.mesh, edges, task);
+}
+
+/// The marked edges of the mesh, without kinds of marks on pieces where nearly all edges have them.
+std::vector<std::uint8_t> PartFinder::Impl::telling_marks(const Task& task) const {
+  const PlanMesh& mesh = *problem.mesh;
+  const Poll poll(task);
+  const auto is_inner = [&](std::int32_t e) { return mesh.is_real[e] != 0 && !mesh.is_boundary(e); };
+  std::vector<std::uint8_t> found(mesh.edge_count(), 0);
+  for (const std::vector<Edge>& kind : options.marked) {
+    const std::vector<std::uint8_t> is_marked = marked(kind, "marked", task);
+    std::vector<double> with(sizes.of_piece.size(), 0.0), all = with;
+    for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+      poll.at(index(e));
+      if (!is_inner(e)) continue;
+      all[sizes.piece_of(mesh, e)] += 1.0;
+      with[sizes.piece_of(mesh, e)] += is_marked[e] != 0 ? 1.0 : 0.0;
+    }
+    for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
+      poll.at(index(e));
+      const std::int32_t piece = sizes.piece_of(mesh, e);
+      if (is_marked[e] != 0 && with[piece] <= tuning::kMarkedEverywhere * all[piece]) found[e] = 1;
+    }
+  }
+  return found;
 }
 
 /// Marks edges of the mesh and their mirror images.

@@ -227,7 +227,7 @@ EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const
   }
   if (hard > 0.0) prices.bargain = tuning::kBargain / hard;
   prices.of_slit = tuning::kSlitPrice * (1.0 - tuning::kHardSaving * hard);
-  prices.turning = length > 0.0 ? tuning::kTurnPrice * median_length(mesh) * sum / length : 0.0;
+  prices.turning = length > 0.0 ? tuning::kTurnPrice * mesh.median_length * sum / length : 0.0;
   return prices;
 }
 

@@ -17,12 +17,31 @@
 
 namespace seamwire::detail {
 
-std::int32_t PlanMesh::edge_between(std::int32_t a, std::int32_t b) const {
+namespace {
+
+/// The edge with the smallest number between two vertices; -1 without one. Of the two, the one with fewer neighbors
+/// tells. So asking for every edge of a surface takes a time in proportion to their number, whatever its vertices.
+std::int32_t first_edge(const Csr<PlanNeighbor>& neighbors, std::int32_t a, std::int32_t b) {
+  if (neighbors[b].size() < neighbors[a].size()) std::swap(a, b);
   std::int32_t found = -1;
   for (const PlanNeighbor& next : neighbors[a]) {
     if (next.vertex == b && (found < 0 || next.edge < found)) found = next.edge;
   }
   return found;
+}
+
+double median_of(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+std::int32_t PlanMesh::edge_between(std::int32_t a, std::int32_t b) const { return first_edge(neighbors, a, b); }
+std::int32_t PlanMesh::any_edge_between(std::int32_t a, std::int32_t b) const {
+  return first_edge(all_neighbors, a, b);
 }
 
 void connect(PlanMesh& mesh, std::optional<std::span<const Edge>> real_edges, const Task& task) {
@@ -48,6 +67,7 @@ void connect(PlanMesh& mesh, std::optional<std::span<const Edge>> real_edges, co
     const bool is_real = a != b && (!real_edges || std::ranges::binary_search(*real_edges, edge));
     mesh.is_real.push_back(is_real ? 1 : 0);
   }
+  mesh.median_length = median_of(mesh.lengths);
   const auto neighbors = [&](bool are_real) {
     return Csr<PlanNeighbor>(mesh.vertex_count(), [&](const auto& visit) {
       for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
@@ -145,14 +165,6 @@ std::vector<double> vertex_areas(const PlanMesh& mesh, std::span<const FaceFrame
   return areas;
 }
 
-double median_length(const PlanMesh& mesh) {
-  std::vector<double> lengths = mesh.lengths;
-  if (lengths.empty()) return 0.0;
-  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  return *middle;
-}
-
 Pieces find_pieces(const PlanMesh& mesh, std::span<const std::uint8_t> is_cut, const Task& task) {
   Poll poll(task);
   DisjointSets sets = joined_faces(mesh, [&](std::int32_t h) {
@@ -175,8 +187,7 @@ bool maps_edges(const PlanMesh& mesh, const Reflection& reflection, const Task& 
     const std::int32_t a = mesh.tail(h), b = mesh.tip(h);
     const std::int32_t a_image = reflection.images[a], b_image = reflection.images[b];
     if (!back(a, a_image) || !back(b, b_image)) continue;
-    const auto& around = mesh.all_neighbors[a_image];
-    mapped += std::ranges::any_of(around, [&](const PlanNeighbor& next) { return next.vertex == b_image; }) ? 1 : 0;
+    mapped += mesh.any_edge_between(a_image, b_image) >= 0 ? 1 : 0;
   }
   return static_cast<double>(mapped) >= tuning::kExactImages * static_cast<double>(mesh.edge_count());
 }
@@ -202,7 +213,7 @@ std::optional<Reflection> reflection_in(const PlanMesh& mesh, int axis, double o
   task.check(0.0);
   // On coarse meshes the nearest vertex may be far along the surface, though the surface is near.
   const PointTree tree(mesh.points, task);
-  const double radius = std::max(tuning::kNearImage * diagonal, tuning::kCoarseImage * median_length(mesh));
+  const double radius = std::max(tuning::kNearImage * diagonal, tuning::kCoarseImage * mesh.median_length);
   const auto surface_distance = [&](std::int32_t v, const Vector& point) {
     const Vector away = point - mesh.points[v];
     return normals[v].isZero() ? away.norm() : std::min(away.norm(), std::abs(away.dot(normals[v])));

@@ -27,6 +27,7 @@ struct PlanMesh : TriangleConnectivity {
   std::vector<std::int32_t> edge_of;       ///< the edge of each half-edge
   std::vector<std::int32_t> half_edge_of;  ///< one half-edge of each edge
   std::vector<double> lengths;             ///< of each edge
+  double median_length = 0.0;              ///< of the edges; 0 without edges
   /// Whether seams may run along an edge. They may not where triangulating a polygon has created it.
   std::vector<std::uint8_t> is_real;
   std::vector<std::int32_t> sources;  ///< the surface's vertex of each vertex
@@ -40,6 +41,8 @@ struct PlanMesh : TriangleConnectivity {
   bool is_boundary(std::int32_t edge) const { return twins[half_edge_of[edge]] < 0; }
   /// The real edge between two vertices, the one with the smaller number if there are two; -1 if they have no edge.
   std::int32_t edge_between(std::int32_t a, std::int32_t b) const;
+  /// The same with the diagonals of polygons.
+  std::int32_t any_edge_between(std::int32_t a, std::int32_t b) const;
 };
 
 /// The triangles of a surface without degenerate and duplicate ones. Vertices are the corner fans, so pieces that meet
@@ -68,9 +71,6 @@ std::vector<Vector> vertex_normals(const PlanMesh& mesh, std::span<const FaceFra
 
 /// A third of the area of the triangles around each vertex.
 std::vector<double> vertex_areas(const PlanMesh& mesh, std::span<const FaceFrame> frames);
-
-/// The median length of the edges; 0 without edges.
-double median_length(const PlanMesh& mesh);
 
 /// The connected pieces of a mesh that is cut along some edges: the piece of each face, numbered by first faces. Throws
 /// Cancelled.

@@ -26,8 +26,10 @@ constexpr double kSamePlace = 1e-5;   // of an exact mirror image, in roots of a
 /// The face whose corners are the mirror images of a face's corners; -1 without one.
 std::int32_t exact_image(const PlanMesh& mesh, const Reflection& reflection, std::int32_t f) {
   const auto& [a, b, c] = mesh.triangles[f];
-  const std::int32_t one = reflection.images[a], two = reflection.images[b], three = reflection.images[c];
+  std::int32_t one = reflection.images[a], two = reflection.images[b];
+  const std::int32_t three = reflection.images[c];
   if (one < 0 || two < 0 || three < 0) return -1;
+  if (mesh.all_neighbors[two].size() < mesh.all_neighbors[one].size()) std::swap(one, two);
   for (const PlanNeighbor& next : mesh.all_neighbors[one]) {
     if (next.vertex != two) continue;
     const std::int32_t h = mesh.half_edge_of[next.edge];

@@ -36,7 +36,7 @@ std::vector<double> excess_at_vertices(const SlitProblem& problem, const SlitPla
 /// Spreads amounts at vertices over about a radius, as heat spreads. The total stays.
 std::vector<double> spread(const PlanMesh& mesh, std::vector<double> amounts, double radius, const Task& task) {
   Poll poll(task);
-  const double median = median_length(mesh);
+  const double median = mesh.median_length;
   if (!(median > 0.0)) return amounts;
   const auto rounds = static_cast<int>(std::clamp(radius * radius / (median * median), 1.0, 200.0));
   std::vector<double> next(amounts.size());

@@ -49,6 +49,15 @@ std::vector<std::int32_t> exact_image(const SlitProblem& problem, std::span<cons
   return image;
 }
 
+/// The vertices that are marked.
+std::vector<std::int32_t> marked(std::span<const std::uint8_t> flags) {
+  std::vector<std::int32_t> vertices;
+  for (std::int32_t v = 0; index(v) < flags.size(); ++v) {
+    if (flags[v] != 0) vertices.push_back(v);
+  }
+  return vertices;
+}
+
 std::int32_t nearest_on_cut(const PlanMesh& mesh, std::span<const std::uint8_t> is_on_cut, const Vector& to) {
   std::int32_t nearest = -1;
   double least = kInfinity;
@@ -68,9 +77,18 @@ std::int32_t nearest_on_cut(const PlanMesh& mesh, std::span<const std::uint8_t> 
 TurningPaths slit_paths(const PlanMesh& mesh, const EdgePrices& prices, const Reflection* reflection,
                         std::span<const std::uint8_t> from, std::span<const std::uint8_t> ends, const PathRules& rules,
                         const Task& task) {
+  TurningPaths paths(mesh);
+  add_slit_paths(paths, mesh, prices, reflection, marked(from), from, ends, rules, task);
+  return paths;
+}
+
+std::vector<std::int32_t> add_slit_paths(TurningPaths& paths, const PlanMesh& mesh, const EdgePrices& prices,
+                                         const Reflection* reflection, std::span<const std::int32_t> vertices,
+                                         std::span<const std::uint8_t> from, std::span<const std::uint8_t> ends,
+                                         const PathRules& rules, const Task& task) {
   const auto side = [&](std::int32_t v) { return reflection->sides[v]; };
-  const double plane_width = 0.5 * median_length(mesh);
   const bool hugs_plane = reflection != nullptr && rules.half == Half::kPlane && !reflection->is_exact;
+  const double plane_width = hugs_plane ? 0.5 * mesh.median_length : 0.0;
   const auto edge_price = [&](std::int32_t e, std::int32_t a, std::int32_t b) {
     if (!rules.barred_edges.empty() && rules.barred_edges[e] != 0) return kInfinity;
     if (from[b] != 0 || (ends[a] != 0 && from[a] == 0)) return kInfinity;
@@ -85,9 +103,7 @@ TurningPaths slit_paths(const PlanMesh& mesh, const EdgePrices& prices, const Re
     if (!may_step(rules.half, side(a), side(b))) return kInfinity;
     return side(a) == 0 && side(b) == 0 ? 0.5 * price : price;
   };
-  TurningPaths paths(mesh);
-  paths.find(from, edge_price, prices.turning, -1, task);
-  return paths;
+  return paths.add(vertices, edge_price, prices.turning, -1, task);
 }
 
 std::vector<std::int32_t> TurningPaths::path(std::int32_t vertex) const {
@@ -124,10 +140,8 @@ std::vector<std::int32_t> chain_along(const PlanMesh& mesh, std::span<const Vect
     const double d = 0.5 * (distance(a) + distance(b));
     return prices.of_edge[e] * (1.0 + d * d * d * d);
   };
-  std::vector<std::uint8_t> starts(mesh.vertex_count(), 0);
-  starts[from] = 1;
   TurningPaths paths(mesh);
-  paths.find(starts, edge_price, prices.turning, to, task);
+  paths.add({&from, 1}, edge_price, prices.turning, to, task);
   return paths.path(to);
 }
 
@@ -168,7 +182,7 @@ std::vector<std::int32_t> mirrored_path(const SlitProblem& problem, std::span<co
   const std::int32_t from = starts_on_plane ? part.front() : nearest_on_cut(*problem.mesh, is_on_cut, line.front());
   const std::int32_t to = reflection.images[part.back()];
   if (from < 0 || to < 0 || from == to || barred[to] != 0) return {};
-  const double most_away = 2.0 * std::max(tuning::kMirrorSpread, median_length(*problem.mesh));
+  const double most_away = 2.0 * std::max(tuning::kMirrorSpread, problem.mesh->median_length);
   if ((problem.mesh->points[from] - line.front()).norm() > most_away) return {};  // the cut is elsewhere
   std::vector<std::int32_t> image =
       chain_along(*problem.mesh, line, tuning::kMirrorSpread, from, to, barred, problem.prices, task);
@@ -181,7 +195,7 @@ SlitFinder::SlitFinder(const SlitProblem& problem, std::span<const std::uint8_t>
                        std::vector<std::uint8_t> barred_edges)
     : problem_(problem),
       from_(from.begin(), from.end()),
-      is_on_cut_(is_on_cut.begin(), is_on_cut.end()),
+      is_on_cut_(is_on_cut),
       task_(std::move(task)),
       exponent_(exponent),
       barred_edges_(std::move(barred_edges)) {}
@@ -189,11 +203,28 @@ SlitFinder::SlitFinder(const SlitProblem& problem, std::span<const std::uint8_t>
 const TurningPaths& SlitFinder::paths_in(Half half) const {
   std::optional<TurningPaths>& paths = paths_[index(static_cast<std::int32_t>(half) + 1)];
   if (!paths) {
-    paths.emplace(slit_paths(*problem_.mesh, problem_.prices, half == Half::kAny ? nullptr : problem_.mirror(), from_,
-                             problem_.is_rim, {.half = half, .exponent = exponent_, .barred_edges = barred_edges_},
-                             task_));
+    paths.emplace(*problem_.mesh);
+    add(*paths, half, marked(from_));
   }
   return *paths;
+}
+
+std::vector<std::int32_t> SlitFinder::add(TurningPaths& paths, Half half,
+                                          std::span<const std::int32_t> vertices) const {
+  return add_slit_paths(paths, *problem_.mesh, problem_.prices, half == Half::kAny ? nullptr : problem_.mirror(),
+                        vertices, from_, problem_.is_rim,
+                        {.half = half, .exponent = exponent_, .barred_edges = barred_edges_}, task_);
+}
+
+std::vector<std::int32_t> SlitFinder::start_from(std::span<const std::int32_t> vertices) {
+  std::vector<std::int32_t> cheaper;
+  for (const std::int32_t v : vertices) from_[v] = 1;
+  for (std::size_t i = 0; i < paths_.size(); ++i) {
+    if (!paths_[i]) continue;
+    const std::vector<std::int32_t> own = add(*paths_[i], static_cast<Half>(static_cast<int>(i) - 1), vertices);
+    cheaper.insert(cheaper.end(), own.begin(), own.end());
+  }
+  return cheaper;
 }
 
 const TurningPaths& SlitFinder::paths_to(std::int32_t vertex) const {

@@ -5,10 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <optional>
+#include <queue>
 #include <set>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "detail/disjoint_sets.hpp"
@@ -160,10 +164,18 @@ std::vector<std::int32_t> find_tips(const SlitProblem& problem, const PieceBody&
 
 namespace {
 
-/// Something that the tree has to reach: any of some vertices.
+/// Something that the tree may come to: any of some vertices.
 struct Terminal {
+  enum class Kind : std::uint8_t {
+    kTip,
+    kLoop,
+    kHole,  ///< a loop that the tree need not reach
+  };
   std::vector<std::int32_t> vertices;
-  bool is_loop = false;
+  Kind kind = Kind::kTip;
+  bool is_open = true;  ///< whether the tree has not reached it
+
+  bool is_goal() const { return is_open && kind != Kind::kHole; }
 };
 
 /// Whether a seam may run along one of a vertex' edges.
@@ -311,18 +323,15 @@ std::vector<Slit> handle_slits(const SlitProblem& problem, const std::vector<std
 class TreeGrowth {
  public:
   TreeGrowth(const SlitProblem& problem, bool has_tips, const Task& task)
-      : problem_(problem),
-        is_on_cut_(problem.mesh->vertex_count(), 0),
-        marks_(problem.mesh->vertex_count(), 0),
-        has_tips_(has_tips),
-        task_(task) {}
+      : problem_(problem), is_on_cut_(problem.mesh->vertex_count(), 0), has_tips_(has_tips), task_(task) {}
 
   SlitTree grow() {
     for (std::int32_t p = 0; index(p) < problem_.by_piece.size(); ++p) {
       task_.check(0.0);
       begin_piece(p);
     }
-    reach_terminals();
+    // The mirror image of a slit may lie in another piece, and may reach terminals there.
+    for (std::size_t p = 0; p < states_.size(); ++p) reach_terminals(p);
     for (std::int32_t p = 0; index(p) < states_.size(); ++p) lengthen_short_cut(p);
     for (const std::int32_t root : tree_.roots) trim_stub(root);
     for (Slit& slit : tree_.slits) lengthen_single_edge(slit);
@@ -333,20 +342,30 @@ class TreeGrowth {
   /// A piece, and how far its tree has grown.
   struct State {
     PieceBody body;
-    std::vector<Terminal> terminals;               ///< what the tree has not reached yet
-    std::vector<std::vector<std::int32_t>> holes;  ///< loops that the tree need not reach, and has not reached
-    std::vector<std::int32_t> vertices;            ///< of its cut; boundary loops that are not reached yet are left out
-    double cut_length = 0.0;                       ///< with all of its boundary
+    std::vector<Terminal> terminals;
+    std::unordered_map<std::int32_t, std::vector<std::size_t>> terminals_at;  ///< by vertex
+    std::vector<std::int32_t> vertices;      ///< of its cut; boundary loops that are not reached yet are left out
+    std::unordered_set<std::int32_t> is_in;  ///< the same
+    double cut_length = 0.0;                 ///< with all of its boundary
+
+    void add(Terminal terminal) {
+      for (const std::int32_t v : terminal.vertices) terminals_at[v].push_back(terminals.size());
+      terminals.push_back(std::move(terminal));
+    }
   };
 
   void begin_piece(std::int32_t number) {
-    State& state = states_.emplace_back(
-        State{.body = PieceBody(problem_, number, task_), .terminals = {}, .holes = {}, .vertices = {}});
+    State& state = states_.emplace_back(State{
+        .body = PieceBody(problem_, number, task_), .terminals = {}, .terminals_at = {}, .vertices = {}, .is_in = {}});
     const PieceBody& body = state.body;
     const std::vector<double> distances = body.graph.mean_distances(task_);
     std::int32_t root = -1;
     std::vector<std::vector<std::int32_t>> loops = body.loops;
-    if (has_tips_) state.holes = leave_exposed_holes(body, distances, loops);
+    if (has_tips_) {
+      for (std::vector<std::int32_t>& hole : leave_exposed_holes(number, body, distances, loops)) {
+        state.add({std::move(hole), Terminal::Kind::kHole});
+      }
+    }
     if (loops.empty()) {
       root = find_root(problem_, body, distances);
       tree_.roots.push_back(root);
@@ -356,12 +375,14 @@ class TreeGrowth {
                                [&](const auto& loop) { return loop_length(loop, problem_.mesh->points); });
       for (const std::vector<std::int32_t>& loop : loops) state.cut_length += loop_length(loop, problem_.mesh->points);
       root = loops.front().front();
-      for (std::size_t i = 1; i < loops.size(); ++i) state.terminals.push_back({loops[i], true});
+      for (std::size_t i = 1; i < loops.size(); ++i) state.add({loops[i], Terminal::Kind::kLoop});
       join(state, loops.front());
     }
     cut_handles(state, root);
     if (!has_tips_) return;
-    for (const std::int32_t tip : find_tips(problem_, body, distances)) state.terminals.push_back({{tip}, false});
+    for (const std::int32_t tip : find_tips(problem_, body, distances)) {
+      if (!state.is_in.contains(tip)) state.add({{tip}, Terminal::Kind::kTip});
+    }
   }
 
   /// The length of a loop without the edges that it passes on both sides, as it does around an open seam.
@@ -377,21 +398,46 @@ class TreeGrowth {
   }
 
   /// Whether a loop is a hole in a wider surface, as an eye or an open seam is, and not the end of a tube.
-  bool is_hole(const PieceBody& body, const std::vector<std::int32_t>& loop) const {
+  bool is_hole(std::int32_t number, const std::vector<std::int32_t>& loop) const {
     const double length = one_sided_length(loop);
     if (!(length > 0.0)) return true;
-    const std::vector<double> away = edge_distances(*problem_.mesh, loop, task_);
-    double area = 0.0;
-    for (const std::int32_t f : body.island.faces) {
-      const Triangle& t = problem_.mesh->triangles[f];
-      if (std::ranges::all_of(t, [&](std::int32_t v) { return away[v] < length; })) area += problem_.areas[f];
+    const PlanMesh& mesh = *problem_.mesh;
+    Poll poll(task_);
+    // Around most loops little of the mesh is near, so distances are kept only where the search comes.
+    using Entry = std::pair<double, std::int32_t>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+    std::unordered_map<std::int32_t, double> least;
+    std::unordered_set<std::int32_t> is_done;
+    for (const std::int32_t v : loop) {
+      if (least.emplace(v, 0.0).second) open.emplace(0.0, v);
     }
-    return area > tuning::kLeastAround * length * length;
+    double area = 0.0;
+    while (!open.empty() && open.top().first < length) {
+      poll.next();
+      const auto [away, v] = open.top();
+      open.pop();
+      if (!is_done.insert(v).second) continue;
+      for (const auto& [next, edge] : mesh.all_neighbors[v]) {
+        // The last corner to be reached adds its triangle.
+        for (const std::int32_t h : {mesh.half_edge_of[edge], mesh.twins[mesh.half_edge_of[edge]]}) {
+          if (h < 0 || mesh.tail(h) != v || problem_.pieces.of_face[h / 3] != number) continue;
+          if (is_done.contains(mesh.tip(h)) && is_done.contains(mesh.apex(h))) area += problem_.areas[h / 3];
+        }
+        const double further = away + mesh.lengths[edge];
+        const auto [known, is_new] = least.emplace(next, further);
+        if (!is_new && !(further < known->second)) continue;
+        known->second = further;
+        open.emplace(further, next);
+      }
+      if (area > tuning::kLeastAround * length * length) return true;
+    }
+    return false;
   }
 
   /// Takes out and returns the holes that a slit from the hidden middle of the piece could only reach through an
   /// exposed place. An eye stays a hole of its island.
-  std::vector<std::vector<std::int32_t>> leave_exposed_holes(const PieceBody& body, std::span<const double> distances,
+  std::vector<std::vector<std::int32_t>> leave_exposed_holes(std::int32_t number, const PieceBody& body,
+                                                             std::span<const double> distances,
                                                              std::vector<std::vector<std::int32_t>>& loops) const {
     const std::vector<std::uint8_t>& exposed = problem_.prices.is_exposed;
     if (loops.empty() || std::ranges::none_of(body.island.vertices, [&](std::int32_t v) { return exposed[v] != 0; })) {
@@ -402,8 +448,8 @@ class TreeGrowth {
     const SlitFinder finder(problem_, from, from, task_);
     std::vector<std::vector<std::int32_t>> holes;
     std::erase_if(loops, [&](std::vector<std::int32_t>& loop) {
-      if (!is_hole(body, loop)) return false;
-      const std::int32_t nearest = cheapest(finder, {loop, true}).second;
+      if (!is_hole(number, loop)) return false;
+      const std::int32_t nearest = cheapest(finder, loop).second;
       const std::optional<Slit> slit = nearest < 0 ? std::nullopt : finder.slit_to(nearest);
       const bool is_left = slit && is_exposed(problem_, *slit);
       if (is_left) holes.push_back(std::move(loop));
@@ -416,10 +462,9 @@ class TreeGrowth {
   /// joined.
   void cut_handles(const State& state, std::int32_t root) {
     const PieceBody& body = state.body;
-    mark_reached(state);
     std::vector<std::vector<std::int32_t>> reached_loops;  // loops on the cut
     for (std::vector<std::int32_t>& loop : body.island.boundaries()) {
-      const auto is_on_cut = [&](std::int32_t own) { return is_reached(body.island.vertices[own]); };
+      const auto is_on_cut = [&](std::int32_t own) { return state.is_in.contains(body.island.vertices[own]); };
       if (std::ranges::any_of(loop, is_on_cut)) reached_loops.push_back(std::move(loop));
     }
     if (body.genus() == 0 && reached_loops.size() < 2) return;
@@ -436,32 +481,23 @@ class TreeGrowth {
     return from;
   }
 
-  /// Marks the cut of a piece, for is_reached().
-  void mark_reached(const State& state) {
-    ++mark_;
-    for (const std::int32_t v : state.vertices) marks_[v] = mark_;
-  }
-  bool is_reached(std::int32_t v) const { return marks_[v] == mark_; }
-
-  /// Adds vertices to the cut of a piece, and the loops and tips that are reached by that.
+  /// Adds vertices to the cut of a piece, and the loops and tips that are reached by that. A second slit to a hole
+  /// would part the piece.
   void join(State& state, std::vector<std::int32_t> vertices) {
     while (!vertices.empty()) {
-      for (const std::int32_t v : vertices) is_on_cut_[v] = 1;
-      state.vertices.insert(state.vertices.end(), vertices.begin(), vertices.end());
-      mark_reached(state);
-      const auto is_reached = [&](std::int32_t v) { return this->is_reached(v); };
-      vertices.clear();
-      std::erase_if(state.terminals, [&](const Terminal& terminal) {
-        if (std::ranges::none_of(terminal.vertices, is_reached)) return false;
-        if (terminal.is_loop) vertices.insert(vertices.end(), terminal.vertices.begin(), terminal.vertices.end());
-        return true;
-      });
-      // A second slit to a hole would part the piece.
-      std::erase_if(state.holes, [&](const std::vector<std::int32_t>& hole) {
-        if (std::ranges::none_of(hole, is_reached)) return false;
-        vertices.insert(vertices.end(), hole.begin(), hole.end());
-        return true;
-      });
+      const std::int32_t v = vertices.back();
+      vertices.pop_back();
+      is_on_cut_[v] = 1;
+      if (!state.is_in.insert(v).second) continue;
+      state.vertices.push_back(v);
+      const auto at = state.terminals_at.find(v);
+      if (at == state.terminals_at.end()) continue;
+      for (const std::size_t i : at->second) {
+        Terminal& terminal = state.terminals[i];
+        if (std::exchange(terminal.is_open, false)) {
+          vertices.insert(vertices.end(), terminal.vertices.begin(), terminal.vertices.end());
+        }
+      }
     }
   }
 
@@ -481,8 +517,7 @@ class TreeGrowth {
   void add(Slit slit) {
     add_chain(slit.path);
     if (slit.image.size() > 1) {
-      const std::vector<std::int32_t>& known = state_at(slit.image).vertices;
-      const bool has_start = std::ranges::find(known, slit.image.front()) != known.end();
+      const bool has_start = state_at(slit.image).is_in.contains(slit.image.front());
       if (!has_start || is_on_cut_[slit.image.back()] != 0) slit.image.clear();
     }
     if (!slit.image.empty()) add_chain(slit.image);
@@ -498,53 +533,56 @@ class TreeGrowth {
     return {problem_, flags(states_[number]), is_on_cut_, task_, 1.0, std::move(is_outside)};
   }
 
-  /// The vertex of a terminal that is cheapest to reach, with its price.
-  std::pair<double, std::int32_t> cheapest(const SlitFinder& finder, const Terminal& terminal) const {
+  /// The vertex of a tip or loop that is cheapest to reach, with its price.
+  std::pair<double, std::int32_t> cheapest(const SlitFinder& finder, std::span<const std::int32_t> vertices) const {
     const auto is_on_plane = [&](std::int32_t v) { return problem_.reflection && problem_.reflection->sides[v] == 0; };
     // A loop across the mirror plane is reached on the plane, for a slit elsewhere and its image would part it.
-    const bool has_plane = std::ranges::any_of(terminal.vertices, is_on_plane);
+    const bool has_plane = std::ranges::any_of(vertices, is_on_plane);
     std::pair<double, std::int32_t> best{kInfinity, -1};
-    for (const std::int32_t v : terminal.vertices) {
+    for (const std::int32_t v : vertices) {
       if (!has_plane || is_on_plane(v)) best = std::min(best, {finder.price_to(v), v});
     }
     return best;
   }
 
-  void reach_terminals() {
-    // Pieces take turns, for the mirror image of a slit may lie in another piece.
-    for (bool is_any_left = true; is_any_left;) {
-      is_any_left = false;
-      for (std::size_t p = 0; p < states_.size(); ++p) {
-        task_.check(0.0);
-        is_any_left = reach_terminal(p) || is_any_left;
+  /// Lets the tree of a piece reach its loops and tips, always the one that is cheapest to reach (Takahashi and
+  /// Matsuyama 1980). One search from the tree goes on as the tree grows.
+  void reach_terminals(std::size_t number) {
+    State& state = states_[number];
+    if (std::ranges::none_of(state.terminals, &Terminal::is_goal)) return;
+    SlitFinder finder = finder_in(number);
+    std::vector<std::pair<double, std::int32_t>> nearest(state.terminals.size(), {kInfinity, -1});
+    std::set<std::pair<std::pair<double, std::int32_t>, std::size_t>> open;
+    const auto look_at = [&](std::size_t i) {
+      open.erase({nearest[i], i});
+      if (!state.terminals[i].is_goal()) return;
+      nearest[i] = cheapest(finder, state.terminals[i].vertices);
+      if (nearest[i].second >= 0) open.emplace(nearest[i], i);
+    };
+    for (std::size_t i = 0; i < nearest.size(); ++i) look_at(i);
+    while (!open.empty()) {
+      task_.check(0.0);
+      const auto [reached, which] = *open.begin();
+      open.erase(open.begin());
+      Terminal& terminal = state.terminals[which];
+      if (!terminal.is_goal()) continue;
+      std::optional<Slit> slit = finder.slit_to(reached.second);
+      const bool is_loop = terminal.kind == Terminal::Kind::kLoop;
+      if (!slit || (!is_loop && is_exposed(problem_, *slit))) {  // out of reach, or through an exposed place
+        terminal.is_open = false;
+        continue;
       }
+      slit->is_needed = is_loop;
+      const std::size_t known = state.vertices.size();
+      join(state, terminal.vertices);
+      add(std::move(*slit));
+      std::set<std::size_t> changed;
+      for (const std::int32_t v : finder.start_from(std::span(state.vertices).subspan(known))) {
+        const auto at = state.terminals_at.find(v);
+        if (at != state.terminals_at.end()) changed.insert(at->second.begin(), at->second.end());
+      }
+      for (const std::size_t i : changed) look_at(i);
     }
-  }
-
-  /// Lets the tree of a piece reach its cheapest terminal, or gives that up. Whether more are left.
-  bool reach_terminal(std::size_t number) {
-    std::vector<Terminal>& terminals = states_[number].terminals;
-    if (terminals.empty()) return false;
-    const SlitFinder finder = finder_in(number);
-    std::pair<double, std::int32_t> best{kInfinity, -1};
-    std::size_t which = 0;
-    for (std::size_t i = 0; i < terminals.size(); ++i) {
-      const std::pair<double, std::int32_t> one = cheapest(finder, terminals[i]);
-      if (!(one < best)) continue;
-      best = one;
-      which = i;
-    }
-    std::optional<Slit> slit;
-    if (best.second >= 0) slit = finder.slit_to(best.second);
-    const Terminal reached = std::move(terminals[which]);
-    terminals.erase(terminals.begin() + static_cast<std::ptrdiff_t>(which));
-    if (!slit || (!reached.is_loop && is_exposed(problem_, *slit))) {  // out of reach, or through an exposed place
-      return !terminals.empty();
-    }
-    slit->is_needed = reached.is_loop;
-    if (reached.is_loop) join(states_[number], reached.vertices);
-    add(std::move(*slit));
-    return !terminals.empty();
   }
 
   /// A piece with hardly any cut gets a slit to the point farthest from its cut. Without tips only a closed one does.
@@ -610,8 +648,6 @@ class TreeGrowth {
   const SlitProblem& problem_;
   std::vector<State> states_;
   std::vector<std::uint8_t> is_on_cut_;  // of any piece
-  std::vector<std::int32_t> marks_;      // of each vertex: see mark_reached()
-  std::int32_t mark_ = 0;
   SlitTree tree_;
   bool has_tips_;
   const Task& task_;

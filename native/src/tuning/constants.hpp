@@ -126,6 +126,8 @@ inline constexpr double kConcaveDegrees = 20.0;
 inline constexpr double kOnPlaneDegrees = 10.0;
 /// Added where an artist expects a border. It is enough to make a border of a flat edge.
 inline constexpr double kMarked = 6.0;
+/// Share of the inner edges of a piece above which marks are everywhere, and say nothing.
+inline constexpr double kMarkedEverywhere = 0.8;
 /// Price of a cut along an edge that is a border for sure. Without it, any detour along such edges is free.
 inline constexpr double kLeastPrice = 0.05;
 /// Log odds are clamped to this, so that no edge alone decides. A clamp at 2 gave the same agreement with artists.

@@ -345,21 +345,68 @@ TEST(EdgeWires, StopWhenToldTo) {
   EXPECT_GT(last, 0.5);
 }
 
-TEST(EdgeWires, AskTheirTaskOftenAtVerticesOfManyEdges) {
-  constexpr std::size_t kSides = 1000;
+/// A vertex in the middle of `sides` others at about one distance.
+Surface pole(std::int32_t sides) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> about(-0.3, 0.3);
   std::vector<Vector> points{{0, 0, 0}};
   std::vector<Triangle> triangles;
-  for (std::size_t i = 0; i < kSides; ++i) {
-    const double angle = 2.0 * std::numbers::pi * static_cast<double>(i) / kSides;
-    points.emplace_back(std::cos(angle), std::sin(angle), 0.0);
-    const auto here = static_cast<std::int32_t>(1 + i), next = static_cast<std::int32_t>(1 + (i + 1) % kSides);
-    triangles.push_back({0, here, next});
+  for (std::int32_t i = 0; i < sides; ++i) {
+    const double angle = 2.0 * std::numbers::pi * (i + about(random)) / sides, radius = 1.0 + 0.1 * about(random);
+    points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0.0);
+    triangles.push_back({0, 1 + i, 1 + (i + 1) % sides});
   }
-  const auto graph = plain_graph(Surface(points, triangles));
-  std::size_t looks = 0;
-  edge_wires(graph, {1, -1}, 3.0, false, {.stop = {}, .progress = [&](double) { return ++looks > 0; }});
-  // Each chain that arrives in the middle goes on along each of its edges.
-  EXPECT_GE(looks, kSides * kSides / 2 / detail::kStepsBetweenChecks);
+  return {points, triangles};
+}
+
+TEST(EdgeWires, TakeStepsInProportionToTheEdgesAtAVertex) {
+  const auto steps = [](std::int32_t sides) {
+    const auto graph = plain_graph(pole(sides));
+    std::size_t looks = 0;
+    edge_wires(graph, {1, -1}, 3.0, false, {.stop = {}, .progress = [&](double) { return ++looks > 0; }});
+    return static_cast<double>(looks * detail::kStepsBetweenChecks);
+  };
+  const double few = steps(2000), many = steps(8000);
+  EXPECT_GT(few, 2000.0) << "the task is asked";
+  EXPECT_LT(many, 5.0 * few);
+}
+
+TEST(EdgeWires, AreTheSameHoweverManyEdgesCountAsMany) {
+  const auto expect_same = [](const Surface& surface, const std::vector<Scribble>& scribbles) {
+    const auto graph = make_edge_graph(surface, plain_metric(surface), nullptr, scribbles);
+    const auto directed = static_cast<std::int32_t>(graph->directed_count());
+    for (const double turning : {0.0, 0.5, 3.0, 40.0}) {
+      detail::EdgeSearch pairs(*graph, turning, directed + 1), trees(*graph, turning, 1);
+      for (detail::EdgeSearch* search : {&pairs, &trees}) {
+        search->block(5);
+        for (std::int32_t e = graph->begin(5); e < graph->end(5); ++e) search->start(e);
+        search->run(detail::Unguided(), [](std::int32_t) { return false; }, {});
+      }
+      for (std::int32_t e = 0; e < directed; ++e) {
+        ASSERT_EQ(trees.is_settled(e), pairs.is_settled(e)) << e;
+        if (!pairs.is_settled(e)) continue;
+        EXPECT_EQ(trees.state(e).cost, pairs.state(e).cost) << e;
+        EXPECT_EQ(trees.state(e).before, pairs.state(e).before) << e;
+      }
+      // Towards one vertex, with a bound of what remains.
+      const std::int32_t goal = 9;
+      detail::EdgeSearch to_goal(*graph, turning, 1);
+      to_goal.block(5);
+      for (std::int32_t e = graph->begin(5); e < graph->end(5); ++e) to_goal.start(e);
+      const auto straight = [&](std::int32_t v) { return scribbles.empty() ? plain_length(surface, v, goal) : 0.0; };
+      const std::int32_t last = to_goal.run(straight, [&](std::int32_t e) { return graph->head(e) == goal; }, {});
+      ASSERT_GE(last, 0);
+      EXPECT_EQ(to_goal.state(last).cost, pairs.state(last).cost);
+    }
+  };
+  expect_same(pole(120), {});
+  expect_same(shapes::grid(12, 0.3).surface(), {});
+  const Surface ball = shapes::bumpy(shapes::torus(24, 12), 0.05).surface();
+  expect_same(ball, {});
+  Scribble stroke;
+  stroke.vertices = {20, 60, 100};
+  for (const std::int32_t v : stroke.vertices) stroke.points.push_back(ball.points()[static_cast<std::size_t>(v)]);
+  expect_same(ball, {stroke});
 }
 
 // ---------------------------------------------------------------------------------------------------------------------

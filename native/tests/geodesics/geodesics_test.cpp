@@ -589,5 +589,24 @@ TEST(Geodesics, WrongInputIsNamed) {
   EXPECT_THROW(field.trace(16), InvalidInput);
 }
 
+TEST(ExactGeodesics, PassAVertexOfTwoLargeUmbrellas) {
+  // Two open fans around vertex 0. The work at a vertex is in proportion to its triangles: the square of their number
+  // would take a minute.
+  constexpr std::int32_t kTriangles = 200'000;
+  IntrinsicMesh mesh;
+  mesh.vertex_count = 1 + 2 * (kTriangles + 1);
+  const double side = 2.0 * std::sin(0.5 / kTriangles);
+  for (std::int32_t i = 0; i < 2 * kTriangles; ++i) {
+    const bool is_first = i % kTriangles == 0, is_last = i % kTriangles == kTriangles - 1;
+    const std::int32_t from = 1 + i + i / kTriangles, f = static_cast<std::int32_t>(mesh.triangles.size());
+    mesh.triangles.push_back({0, from, from + 1});
+    mesh.twins.insert(mesh.twins.end(), {is_first ? -1 : 3 * f - 1, -1, is_last ? -1 : 3 * f + 3});
+    mesh.lengths.insert(mesh.lengths.end(), {1.0, side, 1.0});
+  }
+  const DistanceField field = ExactGeodesics(mesh).solve(1);
+  EXPECT_NEAR(field.distances()[index(kTriangles + 1)], 2.0 * std::sin(0.5), 1e-6);  // over an angle of 1
+  EXPECT_EQ(field.distances()[index(mesh.vertex_count - 1)], 2.0);
+}
+
 }  // namespace
 }  // namespace seamwire

@@ -214,6 +214,53 @@ TEST(Flatten, AStartThatOverlapsIsGivenUp) {
   EXPECT_FALSE(flatten(surface, {}, options).by_island[0].overlaps);
 }
 
+TEST(Flatten, AStartThatIsSolvedIsUsedThoughBothSolvesTogetherTakeMoreStepsThanOneMay) {
+  // A flat staircase that turns one and a half times is solved without the barrier, and then with it.
+  const Surface surface = shapes::parametric(40, 3, false, false, [](double u, double v) {
+                            const double angle = 3 * std::numbers::pi * u, radius = 0.5 + 0.5 * v;
+                            return Vector(radius * std::cos(angle), radius * std::sin(angle), 0.1 * angle);
+                          }).surface();
+  FlattenOptions options;
+  options.start = flatten(surface, {}).uvs;
+  for (auto& corners : options.start) {
+    for (Eigen::Vector2d& uv : corners) uv = {-uv.y(), uv.x()};  // Tutte's embedding lies otherwise
+  }
+  const std::size_t needed = flatten(surface, {}, options).by_island[0].steps;
+  options.max_steps = needed - 1;
+  const Flattening again = flatten(surface, {}, options);
+  EXPECT_EQ(again.by_island[0].steps, needed);
+  for (std::size_t f = 0; f < surface.face_count(); ++f) {
+    EXPECT_LT((again.uvs[f][0] - options.start[f][0]).norm(), 0.05);
+  }
+}
+
+TEST(Flatten, AStartIsEnoughWhereNumbersCannotHoldTuttesEmbedding) {
+  // A tube that is one polygon with inner vertices: it cannot be opened further.
+  constexpr std::int32_t kRings = 900;
+  std::vector<Vector> points;
+  std::vector<Eigen::Vector2d> flat;
+  std::vector<Triangle> triangles;
+  for (std::int32_t ring = 0; ring < kRings; ++ring) {
+    for (std::int32_t i = 0; i < 3; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / 3.0;
+      points.emplace_back(std::cos(angle), std::sin(angle), -ring);
+      flat.emplace_back((kRings - ring) * std::cos(angle), (kRings - ring) * std::sin(angle));
+      if (ring == 0) continue;
+      const std::int32_t a = 3 * ring + i, b = 3 * ring + (i + 1) % 3;
+      triangles.insert(triangles.end(), {{a - 3, b - 3, b}, {a - 3, b, a}});
+    }
+  }
+  triangles.push_back({3 * kRings - 3, 3 * kRings - 2, 3 * kRings - 1});
+  const Surface surface(points, triangles, std::vector<Edge>{{0, 1}, {1, 2}, {0, 2}});
+  FlattenOptions options;
+  options.max_steps = 2;
+  EXPECT_THROW(flatten(surface, {}, options), InvalidInput);
+  for (const Triangle& t : triangles) options.start.push_back({flat[t[0]], flat[t[1]], flat[t[2]]});
+  const Flattening found = flatten(surface, {}, options);
+  EXPECT_EQ(found.by_island[0].steps, 2U) << "it is not finished";
+  EXPECT_TRUE(std::isfinite(found.energy));
+}
+
 TEST(Flatten, AStartThatIsNoMapIsNotUsed) {
   const Surface surface = shapes::grid(4).surface();
   FlattenOptions options;

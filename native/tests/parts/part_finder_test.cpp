@@ -168,7 +168,34 @@ TEST(PartFinder, parts_at_marked_edges) {
       ring.push_back(edge);
   }
   ASSERT_EQ(ring.size(), 24u);
-  EXPECT_EQ(PartFinder(surface, {.marked = ring}).find().count, 4u);
+  EXPECT_EQ(PartFinder(surface, {.marked = {ring}}).find().count, 4u);
+}
+
+TEST(PartFinder, ignores_marks_that_are_everywhere) {
+  // Two drums. All edges of one are marked, and a ring around the middle of the other.
+  const auto drum_alone = drum(24);
+  const auto count = static_cast<std::int32_t>(drum_alone->vertex_count());
+  std::vector<Vector> points = drum_alone->points();
+  std::vector<Triangle> triangles = drum_alone->triangles();
+  std::vector<Edge> edges = drum_alone->edges(), ring;
+  const std::vector<Edge> everywhere = edges;
+  for (std::int32_t v = 0; v < count; ++v) points.push_back(points[v] + Vector(0, 0, 3));
+  for (const auto& [a, b, c] : drum_alone->triangles()) triangles.push_back({count + a, count + b, count + c});
+  for (const auto& [a, b] : everywhere) {
+    edges.push_back({count + a, count + b});
+    if (std::abs(points[a].x()) + std::abs(points[b].x()) < 1e-9) ring.push_back(edges.back());
+  }
+  ASSERT_EQ(ring.size(), 24u);
+  const auto both = std::make_shared<const Surface>(points, triangles, edges);
+  const std::size_t without = PartFinder(both).find().count;
+  EXPECT_EQ(PartFinder(both, {.marked = {edges}}).find().count, without);
+  std::vector<Edge> marked = everywhere;
+  marked.insert(marked.end(), ring.begin(), ring.end());
+  EXPECT_EQ(PartFinder(both, {.marked = {marked}}).find().count, without + 1);
+  EXPECT_EQ(PartFinder(both, {.marked = {edges, ring}}).find().count, without + 1) << "another kind of mark counts";
+  std::vector<Edge> nearly = everywhere;
+  for (std::size_t i = 0; i < nearly.size(); i += 10) nearly[i] = nearly.back();
+  EXPECT_EQ(PartFinder(both, {.marked = {nearly}}).find().count, without);
 }
 
 TEST(PartFinder, follows_edits) {
@@ -219,7 +246,7 @@ TEST(PartFinder, parts_at_marked_edges_that_look_like_diagonals) {
     if (std::abs(a.x() - a.y()) < 1e-9 && std::abs(b.x() - b.y()) < 1e-9) line.push_back(edge);
   }
   ASSERT_EQ(line.size(), 6u) << "the diagonals of shapes::grid() run this way";
-  EXPECT_EQ(PartFinder(surface, {.marked = line}).find().count, 2u);
+  EXPECT_EQ(PartFinder(surface, {.marked = {line}}).find().count, 2u);
   EXPECT_EQ(PartFinder(surface, {.seams = line}).find().count, 2u);
   EXPECT_TRUE(PartFinder(surface, {.seams = line}).find().borders.empty());
 }
@@ -544,7 +571,7 @@ TEST(PartFinder, refuses_bad_arguments) {
   const auto surface = drum(12);
   EXPECT_THROW(PartFinder(nullptr), InvalidInput);
   EXPECT_THROW(PartFinder(surface, {.mirror = 3}), InvalidInput);
-  EXPECT_THROW(PartFinder(surface, {.marked = {{0, 100000}}}), InvalidInput);
+  EXPECT_THROW(PartFinder(surface, {.marked = {{{0, 100000}}}}), InvalidInput);
   EXPECT_THROW(PartFinder(surface, {.seams = {{-1, 0}}}), InvalidInput);
   const PartFinder finder(surface);
   EXPECT_THROW(finder.find(1.5), InvalidInput);

@@ -110,8 +110,8 @@ TEST(PlanMesh, PiecesAreNumberedByTheirFirstFaces) {
 }
 
 TEST(PlanMesh, MedianLength) {
-  EXPECT_NEAR(median_length(plan_mesh(shapes::grid(4).surface(), {})), 0.25, 1e-12);
-  EXPECT_EQ(median_length({}), 0.0);
+  EXPECT_NEAR(plan_mesh(shapes::grid(4).surface(), {}).median_length, 0.25, 1e-12);
+  EXPECT_EQ(PlanMesh().median_length, 0.0);
 }
 
 }  // namespace

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
+#include <optional>
 #include <vector>
 
 #include "seam_problems.hpp"
@@ -85,6 +88,46 @@ TEST(SlitPaths, EndAtRims) {
   const TurningPaths paths = slit_paths(mesh, prices, nullptr, flags_at(mesh, {0}), flags_at(mesh, wall), {}, {});
   EXPECT_NEAR(paths.price(3), 0.5, 1e-12);
   EXPECT_EQ(paths.price(4), kInfinity);
+}
+
+TEST(SlitPaths, FromMoreVerticesAreThoseOfAWholeSearch) {
+  const PlanMesh mesh = plan_mesh(shapes::bumpy(shapes::grid(20, 0.3), 0.05).surface(), {});
+  EdgePrices prices = by_length(mesh);
+  prices.turning = 0.02;
+  const std::vector<std::uint8_t> none(mesh.vertex_count(), 0);
+  Chain from = {0};
+  TurningPaths paths = paths_from(mesh, prices, from);
+  for (const std::int32_t next : {440, 220, 231, 20, 221, 100}) {
+    from.push_back(next);
+    const TurningPaths before = paths;
+    std::vector<std::int32_t> cheaper =
+        add_slit_paths(paths, mesh, prices, nullptr, {&next, 1}, flags_at(mesh, from), none, {}, {});
+    std::ranges::sort(cheaper);
+    const TurningPaths whole = paths_from(mesh, prices, from);
+    for (std::int32_t v = 0; v < static_cast<std::int32_t>(mesh.vertex_count()); ++v) {
+      ASSERT_NEAR(paths.price(v), whole.price(v), 1e-12);
+      ASSERT_EQ(paths.path(v), whole.path(v));
+      ASSERT_EQ(std::ranges::binary_search(cheaper, v), paths.price(v) < before.price(v));
+    }
+  }
+}
+
+TEST(SlitPaths, CostInProportionToTheEdgesOfAPole) {
+  constexpr std::int32_t kEdges = 60000;
+  shapes::Mesh cone{{{0, 0, 0.3}}, {}};
+  Chain rim;
+  for (std::int32_t i = 0; i < kEdges; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kEdges;
+    cone.points.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+    cone.triangles.push_back({0, 1 + i, 1 + (i + 1) % kEdges});
+    rim.push_back(1 + i);
+  }
+  const PlanMesh mesh = plan_mesh(cone.surface(), {});
+  EdgePrices prices = by_length(mesh);
+  prices.turning = 0.1;
+  EXPECT_NEAR(paths_from(mesh, prices, {1}).price(1 + kEdges / 2), 2.0 * mesh.lengths[mesh.edge_between(0, 1)], 0.15);
+  EXPECT_NEAR(paths_from(mesh, prices, rim).price(0), mesh.lengths[mesh.edge_between(0, 1)], 1e-12);
+  EXPECT_TRUE(find_reflection(mesh, 0, {})->is_exact) << "every edge's image is looked up";
 }
 
 TEST(SlitPaths, StayOnOneSideOfTheMirrorPlane) {

@@ -143,6 +143,42 @@ TEST(SlitTree, CutsATubeWhoseRimsAreOneSeam) {
   for (const bool has_tips : {true, false}) expect_discs(problem, grow_tree(problem, has_tips, {}));
 }
 
+TEST(SlitTree, ReachesThousandsOfHolesInAboutOneSearch) {
+  constexpr std::int32_t kSide = 160;
+  shapes::QuadMesh sieve = shapes::quad_grid(kSide);
+  std::int32_t quad = 0;
+  std::size_t holes = 0;
+  std::erase_if(sieve.quads, [&](const auto&) {
+    const std::int32_t column = quad % kSide, row = quad++ / kSide;
+    const bool is_hole = column % 3 == 1 && row % 3 == 1;
+    holes += is_hole ? 1 : 0;
+    return is_hole;
+  });
+  SlitProblem problem;
+  problem.mesh = std::make_shared<const PlanMesh>(plan_mesh(sieve.surface(), {}));
+  problem.is_seam.assign(problem.mesh->edge_count(), 0);
+  problem.prices.of_edge = problem.mesh->lengths;
+  for (std::size_t e = 0; e < problem.mesh->edge_count(); ++e) {
+    if (problem.mesh->is_real[e] == 0) problem.prices.of_edge[e] = kInfinity;
+  }
+  problem.prices.visibility.assign(problem.mesh->vertex_count(), 1.0);
+  // Holes stay holes where the surface between them is exposed, and this is looked up for each hole.
+  for (const double exposed_from : {2.0, 0.9}) {
+    problem.prices.is_exposed.clear();
+    for (const Vector& point : problem.mesh->points) {
+      problem.prices.is_exposed.push_back(point.x() > exposed_from * problem.mesh->scale ? 1 : 0);
+    }
+    find_pieces_of(problem, {});
+    const SlitTree tree = grow_tree(problem, true, {});
+    EXPECT_GT(tree.slits.size(), holes / 2);
+    if (exposed_from > 1.0) {
+      EXPECT_EQ(tree.slits.size(), holes);
+      expect_discs(problem, tree);
+      EXPECT_LE(length_of(problem, tree), 2.0 * static_cast<double>(holes) / kSide + 1e-9);
+    }
+  }
+}
+
 TEST(SlitTree, AnOpenSeamInAnExposedPlaceStaysAHole) {
   // Slits from a seam around half the ball would all begin in the exposed part. The tree grows where the ball is
   // hidden.

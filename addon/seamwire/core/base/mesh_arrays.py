@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -37,7 +37,7 @@ class Arrays:
     partly_hidden
         (h, 2) those of the visible edges that hidden faces have too.
     marked
-        (s, 2) those of the visible edges that are marked sharp, or that faces of several materials share.
+        (s, 2) those of the visible edges that are marked sharp, and (t, 2) those that faces of several materials share.
     """
 
     points: NDArray[np.float64]
@@ -47,7 +47,7 @@ class Arrays:
     to_object: NDArray[np.float64]
     seams: NDArray[np.int32]
     partly_hidden: NDArray[np.int32]
-    marked: NDArray[np.int32] = field(default_factory=lambda: np.empty((0, 2), dtype=np.int32))
+    marked: tuple[NDArray[np.int32], ...] = ()
 
     @property
     def in_object(self) -> NDArray[np.float64]:

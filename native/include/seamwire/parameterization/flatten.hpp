@@ -25,7 +25,7 @@ struct FlattenOptions {
   ///
   /// The island is solved from Tutte's embedding as well if `max_steps` are not enough, or if it overlaps although
   /// `keep_apart` is set. Then the map that does not overlap is kept. If both or neither overlap, the one with the
-  /// lower energy is kept.
+  /// lower energy is kept. The former map is enough for an island that cannot be solved from Tutte's embedding.
   CornerUvs start = {};
   /// Whether to solve islands whose outline crosses itself again, with a barrier that keeps the outline apart.
   bool keep_apart = true;

@@ -17,8 +17,10 @@ struct PartOptions {
   /// The axis, 0 (x) to 2 (z), in whose direction the surface is mirrored, as in SeamPlannerOptions. Parts are then
   /// symmetric wherever the triangles are mirrored. PartEdits::parted has an exception. -1: they need not be.
   int mirror = -1;
-  /// Edges where an artist expects a border, as vertex pairs: edges marked sharp, or edges between materials.
-  std::vector<Edge> marked = {};
+  /// Edges where an artist expects a border, as vertex pairs, for each kind of mark: edges that are marked sharp, edges
+  /// between materials. A kind counts only on connected pieces where it marks at most 80 % of the inner edges. Marks
+  /// that are everywhere, as on a flat-shaded mesh, say nothing.
+  std::vector<std::vector<Edge>> marked = {};
   /// Existing seams, as vertex pairs. They separate parts already.
   std::vector<Edge> seams = {};
 };
