@@ -323,7 +323,7 @@ Cancelled
 Parameters
 ----------
 amount : float
-    From 0, which joins all that is connected, to 1. 0.5 suits most figures. A larger amount only divides limbs further.
+    From 0, which joins all that is connected, to 1. 0.5 suits most figures. A larger amount divides limbs further.
 progress : callable, optional
     Called repeatedly with the fraction done. Returning False cancels.
 
@@ -337,6 +337,9 @@ ValueError
     If the amount is out of range.
 Cancelled
 )")
+      .def_property_readonly(
+          "flat_share", &LimbFinder::flat_share,
+          "float: the share of the area in flat faces. Machine parts have flat faces, figures do not.")
       .def("__repr__", [](const LimbFinder&) { return std::string("<LimbFinder>"); });
 }
 

@@ -2184,7 +2184,7 @@ class PartFinder:
         surface: Surface,
         *,
         mirror: Literal[0, 1, 2] | None = None,
-        marked: Iterable[ArrayLike] | None = None,
+        marked: list[ArrayLike] | None = None,
         seams: ArrayLike | None = None,
         progress: Callable[[float], bool | None] | None = None,
     ) -> None: ...
@@ -2259,6 +2259,8 @@ class LimbFinder:
             If the amount is out of range.
         Cancelled
         """
+    flat_share: float
+    """float: the share of the area in flat faces. Machine parts have flat faces, figures do not."""
 
 class CrestLines:
     """Ridges and valleys, the strongest first."""

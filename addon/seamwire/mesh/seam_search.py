@@ -58,6 +58,10 @@ Progress = Callable[[float], bool]
 _NO_EDITS = PartEdits()
 _CUT_CRUMB = 0.25
 """Cuts that run side by side cross here and there. A piece smaller than this fraction of the smallest planned island is merged."""
+_MOST_FLAT = 0.08
+"""The share of flat area above which a scan is a machine part, with rims, and below which it is a figure, with limbs."""
+_COARSE = 0.5
+"""The amount of limbs for the amount 1: seams need fewer limbs than people see."""
 _MEASURING = 0.1
 """The fraction of planning until the costs of wires are known."""
 
@@ -94,6 +98,7 @@ class Suggestion:
         self._front = None if options.front is None else self._in_object(options.front)
         self._within, self.others = self._islands_with(faces)
         self._finder: seamwire_core.PartFinder | None = None
+        self._limbs: seamwire_core.LimbFinder | None = None  # of a scan that is a figure
         self._last: tuple[float, PartEdits, seamwire_core.Parts] | None = None
         self._chosen: tuple[float, PartEdits, seamwire_core.Parts] | None = None
         self._planner: seamwire_core.SeamPlanner | None = None
@@ -135,6 +140,9 @@ class Suggestion:
         self._finder = self._core.PartFinder(
             arrays.surface, mirror=self._axis, marked=arrays.marked, seams=arrays.seams, progress=progress
         )
+        if self.along == "SURFACE":
+            limbs = self._core.LimbFinder(arrays.surface, progress=progress)
+            self._limbs = limbs if limbs.flat_share <= _MOST_FLAT else None
 
     def count(self, amount: float, edits: PartEdits, progress: Progress) -> int:
         """Return the number of parts for an amount from 0 to 1."""
@@ -160,7 +168,15 @@ class Suggestion:
             if known is not None and known[:2] == (amount, edits):
                 return known[2]
         arrays = self.mesh.arrays
-        found = self._finder.find(amount, **edits.on(arrays.edges, arrays.polygons), progress=progress)
+        changes = edits.on(arrays.edges, arrays.polygons)
+        least = amount
+        if self._limbs is not None:
+            # Borders of limbs alone part the mesh, except for the edits.
+            least = 0.0
+            limbs = self._limbs.find(_COARSE * amount, progress=progress)
+            borders = [np.stack([chain[:-1], chain[1:]], axis=1) for chain in limbs.borders]
+            changes["kept"] = np.concatenate([changes["kept"], *borders])
+        found = self._finder.find(least, **changes, progress=progress)
         self._last = amount, edits, found
         return found
 

@@ -59,6 +59,18 @@ struct Border {
   }
 };
 
+/// The area of flat triangles of a connected surface of area 1.
+double flat_area(std::span<const LimbFace> faces, std::span<const LimbLink> links) {
+  std::vector<std::uint8_t> is_bent(faces.size(), 0);
+  for (const auto& [one, other, length, distance] : links) {
+    const Vector &a = faces[one].normal, &b = faces[other].normal;
+    if (std::atan2(a.cross(b).norm(), a.dot(b)) >= tuning::kFlatLimb * distance) is_bent[one] = is_bent[other] = 1;
+  }
+  double area = 0.0;
+  for (std::size_t f = 0; f < faces.size(); ++f) area += is_bent[f] == 0 ? faces[f].area : 0.0;
+  return area;
+}
+
 /// Joins the faces of a connected surface of area 1, the cheapest two regions first, until one region is left.
 class LimbJoining {
  public:
@@ -254,10 +266,11 @@ void smooth_borders(const PlanMesh& mesh, std::span<const double> distances, std
 struct LimbFinder::Impl {
   std::shared_ptr<const Surface> surface;
   PlanMesh mesh;
-  std::vector<double> areas;             // of each triangle, in areas of its connected piece
-  std::vector<double> weights;           // of each edge
-  std::vector<double> distances;         // between the triangles at each edge, in roots of the area of their piece
+  std::vector<double> areas;                 // of each triangle, in areas of its connected piece
+  std::vector<double> weights;               // of each edge
+  std::vector<double> distances;             // between the triangles at each edge, in roots of the area of their piece
   std::vector<std::vector<LimbJoin>> joins;  // for each connected piece, in their order
+  double flat_share = 0.0;
 
   void prepare(const Task& task);
 };
@@ -279,7 +292,7 @@ void LimbFinder::Impl::prepare(const Task& task) {
     }
   });
   std::vector<std::int32_t> number(mesh.face_count(), -1);  // of a face in its piece
-  double done = 0.0;
+  double done = 0.0, all_area = 0.0;
   for (std::int32_t p = 0; p < pieces.count; ++p) {
     double area = 0.0;
     for (const std::int32_t f : faces_of[p]) area += frames[f].area;
@@ -304,6 +317,8 @@ void LimbFinder::Impl::prepare(const Task& task) {
       links.push_back({.one = one, .other = other, .length = scale * mesh.lengths[e], .distance = distance});
       if (mesh.is_real[e] == 0) diagonals.push_back(links.back());
     }
+    flat_share += area * flat_area(faces, links);
+    all_area += area;
     const LimbField field = limb_field(faces, links, part_of(own, 0.0, 0.8));
     for (std::size_t i = 0; i < links.size(); ++i) {
       weights[edges_of[p][i]] = field.weights[i];
@@ -316,7 +331,10 @@ void LimbFinder::Impl::prepare(const Task& task) {
       join.other = faces_of[p][join.other];
     }
   }
+  if (all_area > 0.0) flat_share /= all_area;
 }
+
+double LimbFinder::flat_share() const { return impl_->flat_share; }
 
 LimbFinder::LimbFinder(std::shared_ptr<const Surface> surface, const Task& task) {
   if (!surface) throw InvalidInput("surface is null");

@@ -327,6 +327,8 @@ inline constexpr double kLimbCompactness = 0.1;
 inline constexpr double kLimbArea = 0.006;
 /// Area of the least limb.
 inline constexpr double kSmallestLimb = 0.0015;
+/// Curvature below which a triangle is flat.
+inline constexpr double kFlatLimb = 0.3;
 /// Distance from a border up to which it may move, and that distance as a share of the depth of a part.
 inline constexpr double kLimbBand = 0.03;
 inline constexpr double kLimbBandShare = 0.5;

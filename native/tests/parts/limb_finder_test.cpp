@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <memory>
 #include <random>
 #include <set>
@@ -79,9 +80,17 @@ TEST(LimbFinder, ALargerAmountOnlyDivides) {
   for (const double amount : {0.2, 0.4, 0.6, 0.8, 1.0}) {
     const Parts fine = finder.find(amount);
     EXPECT_GE(fine.count, coarse.count);
-    std::set<std::pair<std::int32_t, std::int32_t>> pairs;
-    for (std::size_t f = 0; f < fine.of_face.size(); ++f) pairs.emplace(fine.of_face[f], coarse.of_face[f]);
-    EXPECT_EQ(pairs.size(), fine.count) << amount << ": a part lies in two parts of the amount before";
+    // Borders move a little, so that each is short.
+    std::vector<std::map<std::int32_t, std::size_t>> within(fine.count);
+    for (std::size_t f = 0; f < fine.of_face.size(); ++f) ++within[fine.of_face[f]][coarse.of_face[f]];
+    for (const auto& counts : within) {
+      std::size_t all = 0, most = 0;
+      for (const auto& [part, count] : counts) {
+        all += count;
+        most = std::max(most, count);
+      }
+      EXPECT_GE(10 * most, 9 * all) << amount << ": a part lies in two parts of the amount before";
+    }
     coarse = fine;
   }
   EXPECT_GT(coarse.count, 7u);
@@ -134,6 +143,14 @@ TEST(LimbFinder, SurfacesWithoutLimbsAreOnePart) {
     EXPECT_EQ(finder_of(mesh).find().count, 1u);
   }
   EXPECT_EQ(finder_of({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}}).find().count, 1u) << "no area";
+}
+
+TEST(LimbFinder, TellsFiguresFromMachineParts) {
+  EXPECT_LT(finder_of(star(4)).flat_share(), 0.05);
+  EXPECT_LT(finder_of(shapes::icosphere(4)).flat_share(), 0.05);
+  EXPECT_DOUBLE_EQ(finder_of(shapes::grid(8)).flat_share(), 1.0);
+  EXPECT_DOUBLE_EQ(LimbFinder(std::make_shared<const Surface>(shapes::quad_cube(8).surface())).flat_share(),
+                   1.0 - 30.0 / 128.0);
 }
 
 TEST(LimbFinder, RefusesWrongInput) {

@@ -13,7 +13,8 @@ namespace seamwire {
 /// Finds the limbs of a surface: head, legs, arms and body of a figure, as people see them.
 ///
 /// A limb is joined to the rest over a short or concave border. Each connected piece is divided by itself, and sizes
-/// are relative to it. One search finds the parts for all amounts: with a larger amount, parts are only divided further.
+/// are relative to it. One search finds the parts for all amounts. A larger amount divides parts further, and moves
+/// borders a little.
 ///
 /// Copies share the search. Several threads may call find() at once.
 ///
@@ -37,6 +38,11 @@ class SEAMWIRE_API LimbFinder {
   /// \throws InvalidInput if the amount is out of range
   /// \throws Cancelled if the task is cancelled
   Parts find(double amount = 0.5, const Task& task = {}) const;
+  /// Return the share of the area that lies in flat faces, from 0 to 1. Machine parts have flat faces, figures do not.
+  ///
+  /// A triangle is flat if its bend to each neighbor, over the distance of their centers, is below 0.3 radians per root
+  /// of the area of its piece.
+  double flat_share() const;
 
  private:
   struct Impl;
