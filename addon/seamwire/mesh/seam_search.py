@@ -60,6 +60,8 @@ _CUT_CRUMB = 0.25
 """Cuts that run side by side cross here and there. A piece smaller than this fraction of the smallest planned island is merged."""
 _MOST_FLAT = 0.08
 """The share of flat area above which a scan is a machine part, with rims, and below which it is a figure, with limbs."""
+_SCULPT = 20_000
+"""The number of triangles from which a mesh of edges that an artist placed is a sculpt: artists' game models have fewer."""
 _COARSE = 0.5
 """The amount of limbs for the amount 1: seams need fewer limbs than people see."""
 _MEASURING = 0.1
@@ -98,7 +100,7 @@ class Suggestion:
         self._front = None if options.front is None else self._in_object(options.front)
         self._within, self.others = self._islands_with(faces)
         self._finder: seamwire_core.PartFinder | None = None
-        self._limbs: seamwire_core.LimbFinder | None = None  # of a scan that is a figure
+        self._limbs: seamwire_core.LimbFinder | None = None  # of a scan or sculpt that is a figure
         self._last: tuple[float, PartEdits, seamwire_core.Parts] | None = None
         self._chosen: tuple[float, PartEdits, seamwire_core.Parts] | None = None
         self._planner: seamwire_core.SeamPlanner | None = None
@@ -140,7 +142,7 @@ class Suggestion:
         self._finder = self._core.PartFinder(
             arrays.surface, mirror=self._axis, marked=arrays.marked, seams=arrays.seams, progress=progress
         )
-        if self.along == "SURFACE":
+        if self.along == "SURFACE" or len(arrays.triangles) >= _SCULPT:
             limbs = self._core.LimbFinder(arrays.surface, progress=progress)
             self._limbs = limbs if limbs.flat_share <= _MOST_FLAT else None
 
@@ -173,12 +175,24 @@ class Suggestion:
         if self._limbs is not None:
             # Borders of limbs alone part the mesh, except for the edits.
             least = 0.0
-            limbs = self._limbs.find(_COARSE * amount, progress=progress)
-            borders = [np.stack([chain[:-1], chain[1:]], axis=1) for chain in limbs.borders]
-            changes["kept"] = np.concatenate([changes["kept"], *borders])
+            borders = self._borders_of_limbs(_COARSE * amount, progress)
+            changes["kept"] = np.concatenate([changes["kept"], borders])
         found = self._finder.find(least, **changes, progress=progress)
         self._last = amount, edits, found
         return found
+
+    def _borders_of_limbs(self, amount: float, progress: Progress) -> NDArray[np.int32]:
+        """Return the edges, (k, 2), between limbs. On a symmetric mesh, they are those of one side, and the finder adds their images."""
+        assert self._limbs is not None
+        found = self._limbs.find(amount, progress=progress)
+        chains = [np.stack([chain[:-1], chain[1:]], axis=1) for chain in found.borders]
+        edges = np.concatenate([np.empty((0, 2), dtype=np.int32), *chains])
+        if self._axis is None:
+            return edges
+        images = self.mesh.session.drawing.symmetry.partners((self._axis,))
+        along = self.mesh.arrays.points[:, self._axis]
+        is_upper = (images < 0) | (along >= along[images])
+        return edges[is_upper[edges].any(axis=1)]
 
     def _counted(self, parts: seamwire_core.Parts) -> int:
         """Return the number of parts. An island that is not to be cut is one part."""
