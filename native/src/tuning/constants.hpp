@@ -327,6 +327,9 @@ inline constexpr double kLimbCompactness = 0.1;
 inline constexpr double kLimbArea = 0.006;
 /// Area of the least limb.
 inline constexpr double kSmallestLimb = 0.0015;
+/// Share of the area in flat triangles up to which a shape is a figure. Scans of figures have up to 0.04, machine parts
+/// 0.12 and more.
+inline constexpr double kMostFlat = 0.08;
 /// Curvature below which a triangle is flat.
 inline constexpr double kFlatLimb = 0.3;
 /// Distance from a border up to which it may move, and that distance as a share of the depth of a part.

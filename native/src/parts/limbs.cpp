@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "seamwire/parts/limb_finder.hpp"
+#include "parts/limbs.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <memory>
 #include <queue>
 #include <span>
 #include <tuple>
@@ -21,29 +20,13 @@
 #include "detail/infinity.hpp"
 #include "detail/poll.hpp"
 #include "detail/shortest_paths.hpp"
-#include "detail/text.hpp"
 #include "parts/limb_field.hpp"
 #include "parts/minimum_cut.hpp"
-#include "parts/parts_between.hpp"
 #include "prices/plan_mesh.hpp"
-#include "seamwire/errors.hpp"
 #include "surface/real_edges.hpp"
 #include "tuning/constants.hpp"
 
-namespace seamwire {
-
-using namespace detail;
-
-namespace detail {
-
-/// One step of the joining: two regions, each named after one of its faces, and what joining them costs.
-struct LimbJoin {
-  double cost = 0.0;
-  std::int32_t one = -1, other = -1;
-};
-
-}  // namespace detail
-
+namespace seamwire::detail {
 namespace {
 
 constexpr double kDiagonal = 1e6;  // price of an edge along which no border may run
@@ -263,26 +246,12 @@ void smooth_borders(const PlanMesh& mesh, std::span<const double> distances, std
 
 }  // namespace
 
-struct LimbFinder::Impl {
-  std::shared_ptr<const Surface> surface;
-  PlanMesh mesh;
-  std::vector<double> areas;                 // of each triangle, in areas of its connected piece
-  std::vector<double> weights;               // of each edge
-  std::vector<double> distances;             // between the triangles at each edge, in roots of the area of their piece
-  std::vector<std::vector<LimbJoin>> joins;  // for each connected piece, in their order
-  double flat_share = 0.0;
-
-  void prepare(const Task& task);
-};
-
-void LimbFinder::Impl::prepare(const Task& task) {
-  mesh = plan_mesh(*surface, task);
-  const std::vector<FaceFrame> frames = face_frames(mesh, task);
-  const Pieces pieces = find_pieces(mesh, std::vector<std::uint8_t>(mesh.edge_count(), 0), task);
-  areas.assign(mesh.face_count(), 0.0);
-  weights.assign(mesh.edge_count(), 0.0);
-  distances.assign(mesh.edge_count(), 0.0);
-  joins.resize(index(pieces.count));
+Limbs::Limbs(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Pieces& pieces, const Task& task)
+    : mesh_(mesh),
+      areas_(mesh.face_count(), 0.0),
+      weights_(mesh.edge_count(), 0.0),
+      distances_(mesh.edge_count(), 0.0),
+      joins_(index(pieces.count)) {
   const Csr<std::int32_t> faces_of(index(pieces.count), [&](const auto& visit) {
     for (std::int32_t f = 0; index(f) < mesh.face_count(); ++f) visit(pieces.of_face[f], f);
   });
@@ -304,10 +273,10 @@ void LimbFinder::Impl::prepare(const Task& task) {
     std::vector<LimbFace> faces;
     for (const std::int32_t f : faces_of[p]) {
       number[f] = static_cast<std::int32_t>(faces.size());
-      areas[f] = frames[f].area / area;
+      areas_[f] = frames[f].area / area;
       Vector center = Vector::Zero();
       for (const std::int32_t v : mesh.triangles[f]) center += mesh.points[v] / 3.0;
-      faces.push_back({.center = scale * center, .normal = frames[f].normal, .area = areas[f]});
+      faces.push_back({.center = scale * center, .normal = frames[f].normal, .area = areas_[f]});
     }
     std::vector<LimbLink> links, diagonals;
     for (const std::int32_t e : edges_of[p]) {
@@ -317,55 +286,36 @@ void LimbFinder::Impl::prepare(const Task& task) {
       links.push_back({.one = one, .other = other, .length = scale * mesh.lengths[e], .distance = distance});
       if (mesh.is_real[e] == 0) diagonals.push_back(links.back());
     }
-    flat_share += area * flat_area(faces, links);
+    flat_share_ += area * flat_area(faces, links);
     all_area += area;
     const LimbField field = limb_field(faces, links, part_of(own, 0.0, 0.8));
     for (std::size_t i = 0; i < links.size(); ++i) {
-      weights[edges_of[p][i]] = field.weights[i];
-      distances[edges_of[p][i]] = links[i].distance;
+      weights_[edges_of[p][i]] = field.weights[i];
+      distances_[edges_of[p][i]] = links[i].distance;
     }
     Poll poll(own, 0.8, 1.0, 4 * faces.size(), Poll::kFewSteps);
-    joins[p] = LimbJoining(faces, links, field).run(diagonals, poll);
-    for (LimbJoin& join : joins[p]) {
+    joins_[p] = LimbJoining(faces, links, field).run(diagonals, poll);
+    for (LimbJoin& join : joins_[p]) {
       join.one = faces_of[p][join.one];
       join.other = faces_of[p][join.other];
     }
   }
-  if (all_area > 0.0) flat_share /= all_area;
+  if (all_area > 0.0) flat_share_ /= all_area;
 }
 
-double LimbFinder::flat_share() const { return impl_->flat_share; }
-
-LimbFinder::LimbFinder(std::shared_ptr<const Surface> surface, const Task& task) {
-  if (!surface) throw InvalidInput("surface is null");
-  auto impl = std::make_shared<Impl>();
-  impl->surface = std::move(surface);
-  impl->prepare(RisingProgress(task).task());
-  impl_ = std::move(impl);
-}
-
-Parts LimbFinder::find(double amount, const Task& task) const {
-  if (!(amount >= 0.0 && amount <= 1.0)) throw InvalidInput("amount is " + text(amount) + ", not from 0 to 1");
-  const RisingProgress rising(task);
-  const Task& own = rising.task();
-  const Impl& impl = *impl_;
+std::vector<std::int32_t> Limbs::find(double amount, const Task& task) const {
   const double most = amount > 0.0 ? tuning::kLimbCost * std::pow(tuning::kLimbRange, 1.0 - 2.0 * amount) : kInfinity;
-  DisjointSets sets(impl.mesh.face_count());
-  for (const std::vector<LimbJoin>& joins : impl.joins) {
+  DisjointSets sets(mesh_.face_count());
+  for (const std::vector<LimbJoin>& joins : joins_) {
     for (const auto& [cost, one, other] : joins) {
       if (cost > most) break;
       sets.join(one, other);
     }
   }
-  join_small(impl.mesh, impl.areas, impl.weights, sets, own);
+  join_small(mesh_, areas_, weights_, sets, task);
   std::vector<std::int32_t> of_face = sets.numbering().of;
-  smooth_borders(impl.mesh, impl.distances, impl.weights, of_face, own);
-  std::vector<std::uint8_t> is_border(impl.mesh.edge_count(), 0);
-  for (std::size_t e = 0; e < is_border.size(); ++e) {
-    const std::int32_t h = impl.mesh.half_edge_of[e], twin = impl.mesh.twins[h];
-    is_border[e] = twin >= 0 && of_face[h / 3] != of_face[twin / 3] ? 1 : 0;
-  }
-  return parts_between(*impl.surface, impl.mesh, is_border, {}, own);
+  smooth_borders(mesh_, distances_, weights_, of_face, task);
+  return of_face;
 }
 
-}  // namespace seamwire
+}  // namespace seamwire::detail
