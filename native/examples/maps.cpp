@@ -6,7 +6,6 @@
 
 #include "mesh.hpp"
 #include "seamwire/parameterization/flatten.hpp"
-#include "seamwire/parts/limb_finder.hpp"
 #include "seamwire/parts/part_finder.hpp"
 #include "seamwire/seams/seam_planner.hpp"
 
@@ -35,7 +34,8 @@ int main() {
   //! [parts]
 
   //! [limbs]
-  const Parts limbs = LimbFinder(std::make_shared<const Surface>(body, body_triangles)).find(0.5);
+  const PartFinder by_limbs(std::make_shared<const Surface>(body, body_triangles), {.by = PartsBy::kLimbs});
+  const Parts limbs = by_limbs.find(0.5);
   std::printf("%zu limbs\n", limbs.count);
   //! [limbs]
 

@@ -14,7 +14,6 @@
 #include "held.hpp"
 #include "names.hpp"
 #include "rooms.hpp"
-#include "seamwire/parts/limb_finder.hpp"
 #include "seamwire/parts/part_finder.hpp"
 #include "seamwire/seams/seam_planner.hpp"
 #include "surface.hpp"
@@ -206,9 +205,16 @@ Cancelled
       .def("__repr__", [](const SeamPlannerObject&) { return std::string("<SeamPlanner>"); });
 }
 
-PartFinder make_part_finder(const SurfaceObject& surface, const py::object& mirror, const py::object& marked,
-                            const py::object& seams, const py::object& progress) {
-  PartOptions options;
+PartsBy parts_by(const std::string& name) {
+  if (name == "rims") return PartsBy::kRims;
+  if (name == "limbs") return PartsBy::kLimbs;
+  if (name == "shape") return PartsBy::kShape;
+  throw InvalidInput("by: expected 'rims', 'limbs' or 'shape', got '" + name + "'");
+}
+
+PartFinder make_part_finder(const SurfaceObject& surface, const std::string& by, const py::object& mirror,
+                            const py::object& marked, const py::object& seams, const py::object& progress) {
+  PartOptions options{.by = parts_by(by)};
   if (!mirror.is_none()) options.mirror = number_from(mirror, "mirror");
   if (!marked.is_none()) {
     for (const py::handle& kind : marked) {
@@ -249,6 +255,9 @@ void bind_parts(py::module_& module) {
 Parameters
 ----------
 surface : Surface
+by : {'rims', 'limbs', 'shape'}
+    What separates parts: sharp rims, as of props and machines, or narrow and concave places, as between head, arms and
+    body of a figure. 'shape' takes limbs if at most 8 % of the area is flat.
 mirror : {0, 1, 2}, optional
     The axis along which a plane mirrors the surface, as for `SeamPlanner`. Parts are then symmetric wherever the
     triangles are mirrored.
@@ -266,8 +275,9 @@ ValueError
     If a parameter is out of range.
 Cancelled
 )")
-      .def(py::init(&make_part_finder), py::arg("surface"), py::kw_only(), py::arg("mirror") = py::none(),
-           py::arg("marked") = py::none(), py::arg("seams") = py::none(), py::arg("progress") = py::none())
+      .def(py::init(&make_part_finder), py::arg("surface"), py::kw_only(), py::arg("by") = "rims",
+           py::arg("mirror") = py::none(), py::arg("marked") = py::none(), py::arg("seams") = py::none(),
+           py::arg("progress") = py::none())
       .def("find", &find_parts, py::arg("amount") = 0.5, py::kw_only(), py::arg("kept") = py::none(),
            py::arg("dropped") = py::none(), py::arg("parted") = py::none(), py::arg("progress") = py::none(),
            R"(Find the parts.
@@ -294,53 +304,10 @@ ValueError
     If a parameter is out of range.
 Cancelled
 )")
-      .def("__repr__", [](const PartFinder&) { return std::string("<PartFinder>"); });
-  py::class_<LimbFinder>(module, "LimbFinder", R"(Finds the limbs of a surface: head, legs, arms and body of a figure.
-
-One search finds the limbs for all amounts. Each connected piece is divided by itself.
-
-Parameters
-----------
-surface : Surface
-progress : callable, optional
-    Called repeatedly with the fraction done. Returning False cancels.
-
-Raises
-------
-Cancelled
-)")
-      .def(py::init([](const SurfaceObject& surface, const py::object& progress) {
-             return Watch(progress).run([&](const Task& task) { return LimbFinder(surface.surface, task); });
-           }),
-           py::arg("surface"), py::kw_only(), py::arg("progress") = py::none())
-      .def(
-          "find",
-          [](const LimbFinder& finder, double amount, const py::object& progress) {
-            return Watch(progress).run([&](const Task& task) { return finder.find(amount, task); });
-          },
-          py::arg("amount") = 0.5, py::kw_only(), py::arg("progress") = py::none(), R"(Return the limbs for an amount.
-
-Parameters
-----------
-amount : float
-    From 0, which joins all that is connected, to 1. 0.5 suits most figures. A larger amount divides limbs further.
-progress : callable, optional
-    Called repeatedly with the fraction done. Returning False cancels.
-
-Returns
--------
-Parts
-
-Raises
-------
-ValueError
-    If the amount is out of range.
-Cancelled
-)")
       .def_property_readonly(
-          "flat_share", &LimbFinder::flat_share,
-          "float: the share of the area in flat faces. Machine parts have flat faces, figures do not.")
-      .def("__repr__", [](const LimbFinder&) { return std::string("<LimbFinder>"); });
+          "by", [](const PartFinder& finder) { return finder.by() == PartsBy::kLimbs ? "limbs" : "rims"; },
+          "{'rims', 'limbs'}: what separates parts.")
+      .def("__repr__", [](const PartFinder&) { return std::string("<PartFinder>"); });
 }
 
 }  // namespace

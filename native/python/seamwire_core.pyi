@@ -2161,6 +2161,9 @@ class PartFinder:
     Parameters
     ----------
     surface : Surface
+    by : {'rims', 'limbs', 'shape'}
+        What separates parts: sharp rims, as of props and machines, or narrow and concave places, as between head, arms and
+        body of a figure. 'shape' takes limbs if at most 8 % of the area is flat.
     mirror : {0, 1, 2}, optional
         The axis along which a plane mirrors the surface, as for `SeamPlanner`. Parts are then symmetric wherever the
         triangles are mirrored.
@@ -2183,6 +2186,7 @@ class PartFinder:
         self,
         surface: Surface,
         *,
+        by: Literal["rims", "limbs", "shape"] = "rims",
         mirror: Literal[0, 1, 2] | None = None,
         marked: list[ArrayLike] | None = None,
         seams: ArrayLike | None = None,
@@ -2221,46 +2225,8 @@ class PartFinder:
             If a parameter is out of range.
         Cancelled
         """
-
-class LimbFinder:
-    """Finds the limbs of a surface: head, legs, arms and body of a figure.
-
-    One search finds the limbs for all amounts. Each connected piece is divided by itself.
-
-    Parameters
-    ----------
-    surface : Surface
-    progress : callable, optional
-        Called repeatedly with the fraction done. Returning False cancels.
-
-    Raises
-    ------
-    Cancelled
-    """
-
-    def __init__(self, surface: Surface, *, progress: Callable[[float], bool | None] | None = None) -> None: ...
-    def find(self, amount: float = 0.5, *, progress: Callable[[float], bool | None] | None = None) -> Parts:
-        """Return the limbs for an amount.
-
-        Parameters
-        ----------
-        amount : float
-            From 0, which joins all that is connected, to 1. 0.5 suits most figures. A larger amount only divides limbs further.
-        progress : callable, optional
-            Called repeatedly with the fraction done. Returning False cancels.
-
-        Returns
-        -------
-        Parts
-
-        Raises
-        ------
-        ValueError
-            If the amount is out of range.
-        Cancelled
-        """
-    flat_share: float
-    """float: the share of the area in flat faces. Machine parts have flat faces, figures do not."""
+    by: Literal["rims", "limbs"]
+    """{'rims', 'limbs'}: what separates parts."""
 
 class CrestLines:
     """Ridges and valleys, the strongest first."""

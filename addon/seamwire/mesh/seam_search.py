@@ -58,8 +58,6 @@ Progress = Callable[[float], bool]
 _NO_EDITS = PartEdits()
 _CUT_CRUMB = 0.25
 """Cuts that run side by side cross here and there. A piece smaller than this fraction of the smallest planned island is merged."""
-_MOST_FLAT = 0.08
-"""The share of flat area above which a scan is a machine part, with rims, and below which it is a figure, with limbs."""
 _SCULPT = 20_000
 """The number of triangles from which a mesh of edges that an artist placed is a sculpt: artists' game models have fewer."""
 _COARSE = 0.5
@@ -100,7 +98,6 @@ class Suggestion:
         self._front = None if options.front is None else self._in_object(options.front)
         self._within, self.others = self._islands_with(faces)
         self._finder: seamwire_core.PartFinder | None = None
-        self._limbs: seamwire_core.LimbFinder | None = None  # of a scan or sculpt that is a figure
         self._last: tuple[float, PartEdits, seamwire_core.Parts] | None = None
         self._chosen: tuple[float, PartEdits, seamwire_core.Parts] | None = None
         self._planner: seamwire_core.SeamPlanner | None = None
@@ -139,12 +136,15 @@ class Suggestion:
         """Measure the mesh for parts."""
         arrays = self.mesh.arrays
         self._axis = self._mirror()
+        is_scan = self.along == "SURFACE" or len(arrays.triangles) >= _SCULPT
         self._finder = self._core.PartFinder(
-            arrays.surface, mirror=self._axis, marked=arrays.marked, seams=arrays.seams, progress=progress
+            arrays.surface,
+            by="shape" if is_scan else "rims",
+            mirror=self._axis,
+            marked=arrays.marked,
+            seams=arrays.seams,
+            progress=progress,
         )
-        if self.along == "SURFACE" or len(arrays.triangles) >= _SCULPT:
-            limbs = self._core.LimbFinder(arrays.surface, progress=progress)
-            self._limbs = limbs if limbs.flat_share <= _MOST_FLAT else None
 
     def count(self, amount: float, edits: PartEdits, progress: Progress) -> int:
         """Return the number of parts for an amount from 0 to 1."""
@@ -170,29 +170,10 @@ class Suggestion:
             if known is not None and known[:2] == (amount, edits):
                 return known[2]
         arrays = self.mesh.arrays
-        changes = edits.on(arrays.edges, arrays.polygons)
-        least = amount
-        if self._limbs is not None:
-            # Borders of limbs alone part the mesh, except for the edits.
-            least = 0.0
-            borders = self._borders_of_limbs(_COARSE * amount, progress)
-            changes["kept"] = np.concatenate([changes["kept"], borders])
-        found = self._finder.find(least, **changes, progress=progress)
+        own = _COARSE * amount if self._finder.by == "limbs" else amount
+        found = self._finder.find(own, **edits.on(arrays.edges, arrays.polygons), progress=progress)
         self._last = amount, edits, found
         return found
-
-    def _borders_of_limbs(self, amount: float, progress: Progress) -> NDArray[np.int32]:
-        """Return the edges, (k, 2), between limbs. On a symmetric mesh, they are those of one side, and the finder adds their images."""
-        assert self._limbs is not None
-        found = self._limbs.find(amount, progress=progress)
-        chains = [np.stack([chain[:-1], chain[1:]], axis=1) for chain in found.borders]
-        edges = np.concatenate([np.empty((0, 2), dtype=np.int32), *chains])
-        if self._axis is None:
-            return edges
-        images = self.mesh.session.drawing.symmetry.partners((self._axis,))
-        along = self.mesh.arrays.points[:, self._axis]
-        is_upper = (images < 0) | (along >= along[images])
-        return edges[is_upper[edges].any(axis=1)]
 
     def _counted(self, parts: seamwire_core.Parts) -> int:
         """Return the number of parts. An island that is not to be cut is one part."""

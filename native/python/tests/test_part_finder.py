@@ -89,7 +89,9 @@ def test_limbs_of_a_dumbbell() -> None:
     beside = first // 24 * 24 + (first + 1) % 24
     sides = [(first, beside, beside + 24), (first, beside + 24, first + 24)]
     surface = sw.Surface(points, np.concatenate([np.stack(side, axis=1) for side in sides]).astype(np.int32))
-    finder = sw.LimbFinder(surface)
+    finder = sw.PartFinder(surface, by="limbs")
+    assert finder.by == "limbs"
+    assert sw.PartFinder(surface).by == "rims"
     parts = finder.find(0.5)
     upper = parts.of_face[points[surface.triangles].mean(axis=1)[:, 2] > 0.5]
     lower = parts.of_face[points[surface.triangles].mean(axis=1)[:, 2] < -0.5]
@@ -99,3 +101,5 @@ def test_limbs_of_a_dumbbell() -> None:
     for wrong in (-1, 2, float("nan")):
         with pytest.raises(ValueError, match="amount"):
             finder.find(wrong)
+    with pytest.raises(ValueError, match="by: expected"):
+        sw.PartFinder(surface, by="tails")
