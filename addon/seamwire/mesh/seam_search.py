@@ -56,6 +56,8 @@ if TYPE_CHECKING:
 Progress = Callable[[float], bool]
 """Takes the finished fraction, and returns whether to continue."""
 _NO_EDITS = PartEdits()
+_LEAST_ISLAND = 0.003
+"""The fraction of the area of a figure below which no island is wanted."""
 _CUT_CRUMB = 0.25
 """Cuts that run side by side cross here and there. A piece smaller than this fraction of the smallest planned island is merged."""
 _SCULPT = 20_000
@@ -309,12 +311,14 @@ class Suggestion:
     def _areas(self) -> NDArray[np.float64]:
         return triangle_areas(self.mesh.arrays.in_object, self.mesh.arrays.triangles)
 
-    def smallest(self) -> float:
-        """Return the least part of the mesh's area that an island has: of those planned, or of those that may be."""
-        assert self.best is not None
+    def crumb(self) -> float:
+        """Return the fraction of the mesh's area below which islands beside cuts are merged."""
+        assert self.best is not None and self._finder is not None
+        if self._finder.by == "limbs":
+            return _LEAST_ISLAND
         areas = np.bincount(self.best.islands, self._areas)
         areas = areas[areas > 0.0]
-        return min(CRUMB, float(areas.min() / areas.sum())) if len(areas) else CRUMB
+        return _CUT_CRUMB * (min(CRUMB, float(areas.min() / areas.sum())) if len(areas) else CRUMB)
 
     @property
     def cuts(self) -> bool:
@@ -417,8 +421,8 @@ class SeamSearch:
     @property
     def crumb(self) -> float:
         """The fraction of a mesh's area below which islands beside cuts are merged."""
-        smallest = (suggestion.smallest() for suggestion in self if suggestion.along == "SURFACE" and suggestion.slits)
-        return _CUT_CRUMB * min(smallest, default=0.0)
+        crumbs = (suggestion.crumb() for suggestion in self if suggestion.along == "SURFACE" and suggestion.slits)
+        return min(crumbs, default=0.0)
 
     @property
     def to_cut(self) -> dict[ObjectSession, list[Wire]]:

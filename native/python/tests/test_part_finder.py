@@ -62,7 +62,7 @@ def test_bad_requests_are_refused(box: sw.Surface, amount: float, edits: dict[st
 
 def test_the_stub_names_what_there_is(box: sw.Surface) -> None:
     finder = sw.PartFinder(box)
-    assert {name for name in dir(finder) if not name.startswith("_")} == {"find"}
+    assert {name for name in dir(finder) if not name.startswith("_")} == {"find", "by"}
     assert {name for name in dir(finder.find()) if not name.startswith("_")} == {"of_face", "count", "borders"}
 
 

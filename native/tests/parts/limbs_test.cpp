@@ -90,7 +90,7 @@ TEST(Limbs, AreDividedByALargerAmount) {
         all += count;
         most = std::max(most, count);
       }
-      EXPECT_GE(10 * most, 6 * all) << amount << ": a part lies in two parts of the amount before";
+      EXPECT_GE(2 * most, all) << amount << ": a part lies in two parts of the amount before";
     }
     coarse = fine;
   }
