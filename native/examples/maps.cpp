@@ -33,6 +33,12 @@ int main() {
   std::printf("%zu parts, %zu borders\n", parts.count, parts.borders.size());
   //! [parts]
 
+  //! [limbs]
+  const PartFinder by_limbs(std::make_shared<const Surface>(body, body_triangles), {.by = PartsBy::kLimbs});
+  const Parts limbs = by_limbs.find(0.5);
+  std::printf("%zu limbs\n", limbs.count);
+  //! [limbs]
+
   //! [plan]
   const auto [ring, ring_triangles] = torus();
   const SeamPlanner planner(std::make_shared<const Surface>(ring, ring_triangles),

@@ -205,9 +205,16 @@ Cancelled
       .def("__repr__", [](const SeamPlannerObject&) { return std::string("<SeamPlanner>"); });
 }
 
-PartFinder make_part_finder(const SurfaceObject& surface, const py::object& mirror, const py::object& marked,
-                            const py::object& seams, const py::object& progress) {
-  PartOptions options;
+PartsBy parts_by(const std::string& name) {
+  if (name == "rims") return PartsBy::kRims;
+  if (name == "limbs") return PartsBy::kLimbs;
+  if (name == "shape") return PartsBy::kShape;
+  throw InvalidInput("by: expected 'rims', 'limbs' or 'shape', got '" + name + "'");
+}
+
+PartFinder make_part_finder(const SurfaceObject& surface, const std::string& by, const py::object& mirror,
+                            const py::object& marked, const py::object& seams, const py::object& progress) {
+  PartOptions options{.by = parts_by(by)};
   if (!mirror.is_none()) options.mirror = number_from(mirror, "mirror");
   if (!marked.is_none()) {
     for (const py::handle& kind : marked) {
@@ -248,6 +255,9 @@ void bind_parts(py::module_& module) {
 Parameters
 ----------
 surface : Surface
+by : {'rims', 'limbs', 'shape'}
+    What separates parts: sharp rims, as of props and machines, or narrow and concave places, as between head, arms and
+    body of a figure. 'shape' takes limbs if at most 8 % of the area is flat.
 mirror : {0, 1, 2}, optional
     The axis along which a plane mirrors the surface, as for `SeamPlanner`. Parts are then symmetric wherever the
     triangles are mirrored.
@@ -265,8 +275,9 @@ ValueError
     If a parameter is out of range.
 Cancelled
 )")
-      .def(py::init(&make_part_finder), py::arg("surface"), py::kw_only(), py::arg("mirror") = py::none(),
-           py::arg("marked") = py::none(), py::arg("seams") = py::none(), py::arg("progress") = py::none())
+      .def(py::init(&make_part_finder), py::arg("surface"), py::kw_only(), py::arg("by") = "rims",
+           py::arg("mirror") = py::none(), py::arg("marked") = py::none(), py::arg("seams") = py::none(),
+           py::arg("progress") = py::none())
       .def("find", &find_parts, py::arg("amount") = 0.5, py::kw_only(), py::arg("kept") = py::none(),
            py::arg("dropped") = py::none(), py::arg("parted") = py::none(), py::arg("progress") = py::none(),
            R"(Find the parts.
@@ -293,6 +304,9 @@ ValueError
     If a parameter is out of range.
 Cancelled
 )")
+      .def_property_readonly(
+          "by", [](const PartFinder& finder) { return finder.by() == PartsBy::kLimbs ? "limbs" : "rims"; },
+          "{'rims', 'limbs'}: what separates parts.")
       .def("__repr__", [](const PartFinder&) { return std::string("<PartFinder>"); });
 }
 

@@ -2171,6 +2171,9 @@ class PartFinder:
     Parameters
     ----------
     surface : Surface
+    by : {'rims', 'limbs', 'shape'}
+        What separates parts: sharp rims, as of props and machines, or narrow and concave places, as between head, arms and
+        body of a figure. 'shape' takes limbs if at most 8 % of the area is flat.
     mirror : {0, 1, 2}, optional
         The axis along which a plane mirrors the surface, as for `SeamPlanner`. Parts are then symmetric wherever the
         triangles are mirrored.
@@ -2193,6 +2196,7 @@ class PartFinder:
         self,
         surface: Surface,
         *,
+        by: Literal["rims", "limbs", "shape"] = "rims",
         mirror: Literal[0, 1, 2] | None = None,
         marked: list[ArrayLike] | None = None,
         seams: ArrayLike | None = None,
@@ -2231,6 +2235,8 @@ class PartFinder:
             If a parameter is out of range.
         Cancelled
         """
+    by: Literal["rims", "limbs"]
+    """{'rims', 'limbs'}: what separates parts."""
 
 class CrestLines:
     """Ridges and valleys, the strongest first."""

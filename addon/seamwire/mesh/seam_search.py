@@ -56,8 +56,14 @@ if TYPE_CHECKING:
 Progress = Callable[[float], bool]
 """Takes the finished fraction, and returns whether to continue."""
 _NO_EDITS = PartEdits()
+_LEAST_ISLAND = 0.003
+"""The fraction of the area of a figure below which no island is wanted."""
 _CUT_CRUMB = 0.25
 """Cuts that run side by side cross here and there. A piece smaller than this fraction of the smallest planned island is merged."""
+_SCULPT = 20_000
+"""The number of triangles from which a mesh of edges that an artist placed is a sculpt: artists' game models have fewer."""
+_COARSE = 0.5
+"""The amount of limbs for the amount 1: seams need fewer limbs than people see."""
 _MEASURING = 0.1
 """The fraction of planning until the costs of wires are known."""
 
@@ -133,8 +139,14 @@ class Suggestion:
         """Measure the mesh for parts."""
         arrays = self.mesh.arrays
         self._axis = self._mirror()
+        is_scan = self.along == "SURFACE" or len(arrays.triangles) >= _SCULPT
         self._finder = self._core.PartFinder(
-            arrays.surface, mirror=self._axis, marked=arrays.marked, seams=arrays.seams, progress=progress
+            arrays.surface,
+            by="shape" if is_scan else "rims",
+            mirror=self._axis,
+            marked=arrays.marked,
+            seams=arrays.seams,
+            progress=progress,
         )
 
     def count(self, amount: float, edits: PartEdits, progress: Progress) -> int:
@@ -161,7 +173,8 @@ class Suggestion:
             if known is not None and known[:2] == (amount, edits):
                 return known[2]
         arrays = self.mesh.arrays
-        found = self._finder.find(amount, **edits.on(arrays.edges, arrays.polygons), progress=progress)
+        own = _COARSE * amount if self._finder.by == "limbs" else amount
+        found = self._finder.find(own, **edits.on(arrays.edges, arrays.polygons), progress=progress)
         self._last = amount, edits, found
         return found
 
@@ -299,12 +312,14 @@ class Suggestion:
     def _areas(self) -> NDArray[np.float64]:
         return triangle_areas(self.mesh.arrays.in_object, self.mesh.arrays.triangles)
 
-    def smallest(self) -> float:
-        """Return the least part of the mesh's area that an island has: of those planned, or of those that may be."""
-        assert self.best is not None
+    def crumb(self) -> float:
+        """Return the fraction of the mesh's area below which islands beside cuts are merged."""
+        assert self.best is not None and self._finder is not None
+        if self._finder.by == "limbs":
+            return _LEAST_ISLAND
         areas = np.bincount(self.best.islands, self._areas)
         areas = areas[areas > 0.0]
-        return min(CRUMB, float(areas.min() / areas.sum())) if len(areas) else CRUMB
+        return _CUT_CRUMB * (min(CRUMB, float(areas.min() / areas.sum())) if len(areas) else CRUMB)
 
     @property
     def cuts(self) -> bool:
@@ -407,8 +422,8 @@ class SeamSearch:
     @property
     def crumb(self) -> float:
         """The fraction of a mesh's area below which islands beside cuts are merged."""
-        smallest = (suggestion.smallest() for suggestion in self if suggestion.along == "SURFACE" and suggestion.slits)
-        return _CUT_CRUMB * min(smallest, default=0.0)
+        crumbs = (suggestion.crumb() for suggestion in self if suggestion.along == "SURFACE" and suggestion.slits)
+        return min(crumbs, default=0.0)
 
     @property
     def to_cut(self) -> dict[ObjectSession, list[Wire]]:

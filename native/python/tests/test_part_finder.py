@@ -62,7 +62,7 @@ def test_bad_requests_are_refused(box: sw.Surface, amount: float, edits: dict[st
 
 def test_the_stub_names_what_there_is(box: sw.Surface) -> None:
     finder = sw.PartFinder(box)
-    assert {name for name in dir(finder) if not name.startswith("_")} == {"find"}
+    assert {name for name in dir(finder) if not name.startswith("_")} == {"find", "by"}
     assert {name for name in dir(finder.find()) if not name.startswith("_")} == {"of_face", "count", "borders"}
 
 
@@ -78,3 +78,28 @@ def test_the_search_can_be_cancelled(box: sw.Surface) -> None:
     assert finder.find(progress=lambda _: True).count == 6
     with pytest.raises(ZeroDivisionError):
         finder.find(progress=lambda done: 1 / 0)
+
+
+def test_limbs_of_a_dumbbell() -> None:
+    angles, heights = np.linspace(0, 2 * np.pi, 24, endpoint=False), np.linspace(-1.9, 1.9, 39)
+    radii = np.maximum(0.1, np.sqrt(np.maximum(0, 1 - (np.abs(heights) - 1) ** 2)))
+    ring = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    points = np.concatenate([np.column_stack([r * ring, np.full(24, z)]) for r, z in zip(radii, heights, strict=True)])
+    first = np.arange(38 * 24)
+    beside = first // 24 * 24 + (first + 1) % 24
+    sides = [(first, beside, beside + 24), (first, beside + 24, first + 24)]
+    surface = sw.Surface(points, np.concatenate([np.stack(side, axis=1) for side in sides]).astype(np.int32))
+    finder = sw.PartFinder(surface, by="limbs")
+    assert finder.by == "limbs"
+    assert sw.PartFinder(surface).by == "rims"
+    parts = finder.find(0.5)
+    upper = parts.of_face[points[surface.triangles].mean(axis=1)[:, 2] > 0.5]
+    lower = parts.of_face[points[surface.triangles].mean(axis=1)[:, 2] < -0.5]
+    assert len(set(upper)) == len(set(lower)) == 1
+    assert upper[0] != lower[0]
+    assert finder.find(0).count == 1
+    for wrong in (-1, 2, float("nan")):
+        with pytest.raises(ValueError, match="amount"):
+            finder.find(wrong)
+    with pytest.raises(ValueError, match="by: expected"):
+        sw.PartFinder(surface, by="tails")

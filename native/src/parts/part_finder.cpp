@@ -18,12 +18,14 @@
 #include <utility>
 #include <vector>
 
-#include "detail/edge_chains.hpp"
+#include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
 #include "detail/rounded.hpp"
 #include "detail/text.hpp"
+#include "parts/limbs.hpp"
 #include "parts/parting_cuts.hpp"
+#include "parts/parts_between.hpp"
 #include "prices/border_odds.hpp"
 #include "prices/edge_prices.hpp"
 #include "prices/plan_mesh.hpp"
@@ -289,15 +291,59 @@ std::vector<std::int32_t> images_of(const PlanMesh& mesh, const Polygons& polygo
   return images;
 }
 
-/// Marks the edge inside each pair of triangles that are mirrored, but not as a pair.
-std::vector<std::uint8_t> unmirrored_pairs(const PlanMesh& mesh, const Polygons& polygons, const Reflection& reflection,
-                                           const Task& task) {
+/// Each triangle as a polygon of its own.
+Polygons triangles_of(const PlanMesh& mesh) {
   Polygons triangles;
   triangles.count = mesh.face_count();
   triangles.of_face.resize(triangles.count);
   std::iota(triangles.of_face.begin(), triangles.of_face.end(), 0);
+  return triangles;
+}
+
+/// Gives triangles on the lower side of a mirror plane the labels of their images. The image of a label is another one,
+/// unless both meet at the plane. Labels are below the number of triangles, and then below twice that.
+void mirror_labels(const PlanMesh& mesh, const Reflection& reflection, std::vector<std::int32_t>& of_face,
+                   const Task& task) {
+  const auto shift = static_cast<std::int32_t>(of_face.size());
+  const std::vector<std::int32_t> images = images_of(mesh, triangles_of(mesh), reflection, task);
+  const std::vector<std::int32_t> before = of_face;
+  Poll poll(task);
+  std::vector<std::int32_t> known;  // in the order in which lower triangles without an image are reached
+  for (std::int32_t f = 0; f < shift; ++f) {
+    poll.next();
+    int side = 0;
+    for (const std::int32_t v : mesh.triangles[f]) side += reflection.sides[v];
+    if (side >= 0) continue;
+    of_face[f] = images[f] >= 0 ? before[images[f]] + shift : -1;
+  }
+  for (std::int32_t f = 0; f < shift; ++f) {
+    if (of_face[f] >= 0) known.push_back(f);
+  }
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    poll.next();
+    for (std::int32_t h = 3 * known[i]; h < 3 * known[i] + 3; ++h) {
+      const std::int32_t twin = mesh.twins[h];
+      if (twin < 0 || of_face[twin / 3] >= 0) continue;
+      of_face[twin / 3] = of_face[known[i]];
+      known.push_back(twin / 3);
+    }
+  }
+  for (std::int32_t f = 0; f < shift; ++f) {
+    if (of_face[f] < 0) of_face[f] = before[f];  // a piece without images
+  }
+  DisjointSets sets(2 * of_face.size());
+  for (std::int32_t h = 0; h < 3 * shift; ++h) {
+    const std::int32_t twin = mesh.twins[h];
+    if (twin >= 0 && of_face[h / 3] == of_face[twin / 3] + shift) sets.join(of_face[h / 3], of_face[twin / 3]);
+  }
+  for (std::int32_t& label : of_face) label = sets.find(label);
+}
+
+/// Marks the edge inside each pair of triangles that are mirrored, but not as a pair.
+std::vector<std::uint8_t> unmirrored_pairs(const PlanMesh& mesh, const Polygons& polygons, const Reflection& reflection,
+                                           const Task& task) {
   const std::vector<std::int32_t> images = images_of(mesh, polygons, reflection, task);
-  const std::vector<std::int32_t> triangle_images = images_of(mesh, triangles, reflection, task);
+  const std::vector<std::int32_t> triangle_images = images_of(mesh, triangles_of(mesh), reflection, task);
   const Poll poll(task);
   std::vector<std::uint8_t> is_found(mesh.edge_count(), 0);
   for (std::size_t e = 0; e < is_found.size(); ++e) {
@@ -307,34 +353,6 @@ std::vector<std::uint8_t> unmirrored_pairs(const PlanMesh& mesh, const Polygons&
     is_found[e] = triangle_images[h / 3] >= 0 && triangle_images[twin / 3] >= 0 ? 1 : 0;
   }
   return is_found;
-}
-
-/// Leaves out edges that do not lie between two parts. `of_face`: the part of each of the surface's triangles.
-void leave_out_inner(const PlanMesh& mesh, std::span<const std::int32_t> of_face, std::vector<Edge>& edges,
-                     const Task& task) {
-  const Poll poll(task);
-  std::map<Edge, std::array<std::int32_t, 2>> parts_at;  // the least and the greatest
-  for (const Edge& edge : edges) parts_at[edge] = {std::numeric_limits<std::int32_t>::max(), -1};
-  for (std::int32_t h = 0; index(h) < mesh.twins.size(); ++h) {
-    poll.at(index(h));
-    const auto at = parts_at.find(ascending(mesh.sources[mesh.tail(h)], mesh.sources[mesh.tip(h)]));
-    if (at == parts_at.end()) continue;
-    auto& [least, greatest] = at->second;
-    least = std::min(least, of_face[mesh.faces[h / 3]]);
-    greatest = std::max(greatest, of_face[mesh.faces[h / 3]]);
-  }
-  std::erase_if(edges, [&](const Edge& edge) { return parts_at[edge][0] == parts_at[edge][1]; });
-}
-
-/// Chains of edges from junction to junction; closed ones end with their first vertex. `others`: edges that make
-/// junctions too.
-std::vector<std::vector<std::int32_t>> chains_of(std::size_t vertex_count, const std::vector<Edge>& edges,
-                                                 const std::vector<Edge>& others) {
-  std::vector<std::uint8_t> is_meeting(vertex_count, 0);
-  for (const Edge& edge : others) {
-    for (const std::int32_t v : edge) is_meeting[v] = 1;
-  }
-  return EdgeChains(vertex_count, edges).all([&](std::int32_t v) { return is_meeting[v] != 0; });
 }
 
 }  // namespace
@@ -348,14 +366,16 @@ struct PartFinder::Impl {
   PieceSizes sizes;
   std::vector<double> odds;     // of each edge
   std::vector<Region> regions;  // of each polygon
+  std::optional<Limbs> limbs;
 
   void prepare(const Task& task);
   std::vector<Region> regions_of(const Polygons& own, const Task& task) const;
-  std::vector<Edge> edges_along(std::span<const std::uint8_t> is_marked, const Task& task) const;
   std::vector<std::uint8_t> marked(const std::vector<Edge>& edges, const char* name, const Task& task) const;
   std::vector<std::uint8_t> telling_marks(const Task& task) const;
   std::vector<std::uint8_t> edited(const std::vector<Edge>& edges, const char* name, const Task& task) const;
-  std::vector<std::int32_t> joined(double amount, const PartEdits& edits, const Task& task) const;
+  std::vector<std::int32_t> joined(double amount, std::span<const std::uint8_t> is_kept, const PartEdits& edits,
+                                   const Task& task) const;
+  std::vector<std::int32_t> joined_limbs(double amount, const PartEdits& edits, const Task& task) const;
   std::vector<std::uint8_t> borders(double amount, const PartEdits& edits, const Task& task) const;
 };
 
@@ -383,6 +403,10 @@ void PartFinder::Impl::prepare(const Task& task) {
   polygons = find_polygons(mesh, frames, is_border, task);
   if (problem.reflection) {
     take_apart(mesh, unmirrored_pairs(mesh, polygons, *problem.reflection, task), polygons, task);
+  }
+  if (options.by != PartsBy::kRims) {
+    limbs.emplace(mesh, frames, sizes.pieces, part_of(task, 0.8, 0.85));
+    if (options.by == PartsBy::kShape && limbs->flat_share() > tuning::kMostFlat) limbs.reset();
   }
   task.check(0.85);
   bends = bends_over_edges(mesh, frames, polygons, sizes, task);
@@ -413,19 +437,6 @@ std::vector<Region> PartFinder::Impl::regions_of(const Polygons& own, const Task
   if (!problem.reflection) return found;
   const std::vector<std::int32_t> images = images_of(mesh, own, *problem.reflection, task);
   for (std::size_t p = 0; p < images.size(); ++p) found[p].image = images[p];
-  return found;
-}
-
-/// Marked edges, as vertices of the surface.
-std::vector<Edge> PartFinder::Impl::edges_along(std::span<const std::uint8_t> is_marked, const Task& task) const {
-  const PlanMesh& mesh = *problem.mesh;
-  const Poll poll(task);
-  std::vector<Edge> found;
-  for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
-    poll.at(index(e));
-    const std::int32_t h = mesh.half_edge_of[e];
-    if (is_marked[e] != 0) found.push_back(ascending(mesh.sources[mesh.tail(h)], mesh.sources[mesh.tip(h)]));
-  }
   return found;
 }
 
@@ -478,9 +489,9 @@ std::vector<std::uint8_t> PartFinder::Impl::edited(const std::vector<Edge>& edge
 }
 
 /// The region of each triangle.
-std::vector<std::int32_t> PartFinder::Impl::joined(double amount, const PartEdits& edits, const Task& task) const {
+std::vector<std::int32_t> PartFinder::Impl::joined(double amount, std::span<const std::uint8_t> is_kept,
+                                                   const PartEdits& edits, const Task& task) const {
   const PlanMesh& mesh = *problem.mesh;
-  const std::vector<std::uint8_t> is_kept = edited(edits.kept, "kept", task);
   const std::vector<std::uint8_t> is_dropped = edited(edits.dropped, "dropped", task);
   // Two triangles with a kept edge between them are no quad.
   Polygons own_polygons = polygons;
@@ -509,17 +520,36 @@ std::vector<std::int32_t> PartFinder::Impl::joined(double amount, const PartEdit
   return of_face;
 }
 
+/// The limb of each triangle, by any numbers.
+std::vector<std::int32_t> PartFinder::Impl::joined_limbs(double amount, const PartEdits& edits,
+                                                         const Task& task) const {
+  const PlanMesh& mesh = *problem.mesh;
+  const std::vector<std::uint8_t> is_dropped = edited(edits.dropped, "dropped", task);
+  std::vector<std::int32_t> of_face = limbs->find(amount, task);
+  if (problem.reflection && problem.reflection->is_exact) mirror_labels(mesh, *problem.reflection, of_face, task);
+  DisjointSets sets(2 * of_face.size());
+  for (std::size_t e = 0; e < is_dropped.size(); ++e) {
+    const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
+    if (is_dropped[e] != 0 && twin >= 0) sets.join(of_face[h / 3], of_face[twin / 3]);
+  }
+  for (std::int32_t& label : of_face) label = sets.find(label);
+  return of_face;
+}
+
 /// Marks the borders of parts and the existing seams.
 std::vector<std::uint8_t> PartFinder::Impl::borders(double amount, const PartEdits& edits, const Task& task) const {
   const PlanMesh& mesh = *problem.mesh;
-  const std::vector<std::int32_t> region_of = joined(amount, edits, part_of(task, 0.0, kJoined));
+  const Task joining = part_of(task, 0.0, kJoined);
+  const std::vector<std::uint8_t> is_kept = edited(edits.kept, "kept", task);
+  const std::vector<std::int32_t> region_of =
+      limbs ? joined_limbs(amount, edits, joining) : joined(amount, is_kept, edits, joining);
   std::vector<std::uint8_t> is_border = problem.is_seam;
   const Poll poll(task);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     poll.at(index(e));
     const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
     if (twin < 0) continue;
-    if (region_of[h / 3] != region_of[twin / 3]) is_border[e] = 1;
+    if (is_kept[e] != 0 || region_of[h / 3] != region_of[twin / 3]) is_border[e] = 1;
   }
   if (edits.parted.empty()) return is_border;
   SlitProblem parted = problem;
@@ -544,6 +574,8 @@ std::vector<std::uint8_t> PartFinder::Impl::borders(double amount, const PartEdi
   return is_border;
 }
 
+PartsBy PartFinder::by() const { return impl_->limbs ? PartsBy::kLimbs : PartsBy::kRims; }
+
 PartFinder::PartFinder(std::shared_ptr<const Surface> surface, const PartOptions& options, const Task& task) {
   if (!surface) throw InvalidInput("surface is null");
   auto impl = std::make_shared<Impl>();
@@ -563,17 +595,7 @@ Parts PartFinder::find(double amount, const PartEdits& edits, const Task& task) 
   const std::vector<std::uint8_t>& is_seam = impl.problem.is_seam;
   std::vector<std::uint8_t> is_border = impl.borders(amount, edits, own);
   for (std::size_t e = 0; e < is_border.size(); ++e) is_border[e] = is_border[e] != 0 && is_seam[e] == 0 ? 1 : 0;
-  std::vector<Edge> borders = impl.edges_along(is_border, own);
-  polled_sort(borders, Poll(own));
-  own.check(kParted);
-  std::vector<Edge> cuts = borders;
-  cuts.insert(cuts.end(), impl.options.seams.begin(), impl.options.seams.end());
-  Parts parts;
-  parts.of_face = face_segments(*impl.surface, cuts, own);
-  leave_out_inner(*impl.problem.mesh, parts.of_face, borders, own);
-  parts.borders = chains_of(impl.surface->vertex_count(), borders, impl.edges_along(is_seam, own));
-  for (const std::int32_t part : parts.of_face) parts.count = std::max(parts.count, index(part) + 1);
-  return parts;
+  return parts_between(*impl.surface, *impl.problem.mesh, is_border, impl.options.seams, part_of(own, kParted, 1.0));
 }
 
 }  // namespace seamwire

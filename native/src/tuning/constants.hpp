@@ -310,4 +310,33 @@ inline constexpr double kWorse = 1.01;
 /// Distance of a slit from a straight line above which it gets another seed, along edges.
 inline constexpr double kStraight = 0.1;
 
+// Limbs. Lengths are in roots of the area of a piece, costs and areas in its area.
+
+/// Size of details that do not count.
+inline constexpr double kLimbDetail = 0.02;
+/// Resistance of a radian of concavity, in that of a unit of distance.
+inline constexpr double kLimbConcavity = 3.0;
+/// Distance between two faces below which they count as that far apart.
+inline constexpr double kLimbNear = 0.006;
+/// Concavity over a detail, in radians, that divides the weight of a border by e, and the least weight.
+inline constexpr double kLimbSteepness = 0.5;
+inline constexpr double kLeastLimbWeight = 0.02;
+/// Area of a region in squares of its perimeter below which it is joined more cheaply: a disc has 0.08.
+inline constexpr double kLimbCompactness = 0.1;
+/// Area below which a region is joined more cheaply.
+inline constexpr double kLimbArea = 0.006;
+/// Area of the least limb.
+inline constexpr double kSmallestLimb = 0.0015;
+/// Share of the area in flat triangles up to which a shape is a figure. Scans of figures have up to 0.04, machine parts
+/// 0.12 and more.
+inline constexpr double kMostFlat = 0.08;
+/// Curvature below which a triangle is flat.
+inline constexpr double kFlatLimb = 0.3;
+/// Distance from a border up to which it may move, and that distance as a share of the depth of a part.
+inline constexpr double kLimbBand = 0.03;
+inline constexpr double kLimbBandShare = 0.5;
+/// What joining two limbs costs at least for the amount 0.5, and how many times that for the amount 0.
+inline constexpr double kLimbCost = 0.15;
+inline constexpr double kLimbRange = 7.477;
+
 }  // namespace seamwire::detail::tuning

@@ -12,8 +12,17 @@
 
 namespace seamwire {
 
+/// What separates parts.
+enum class PartsBy {
+  kRims,   ///< sharp edges, as around the walls, lids and plugs of props and machines
+  kLimbs,  ///< narrow and concave places, as between head, arms and body of a figure
+  kShape,  ///< limbs if at most 8 % of the area is flat, otherwise rims
+};
+
 /// Options of a PartFinder.
 struct PartOptions {
+  /// What separates parts. Limbs do not depend on `marked`.
+  PartsBy by = PartsBy::kRims;
   /// The axis, 0 (x) to 2 (z), in whose direction the surface is mirrored, as in SeamPlannerOptions. Parts are then
   /// symmetric wherever the triangles are mirrored. PartEdits::parted has an exception. -1: they need not be.
   int mirror = -1;
@@ -43,17 +52,23 @@ struct Parts {
   std::vector<std::vector<std::int32_t>> borders;
 };
 
-/// Finds the parts of which an artist would make islands: the walls, lids and plugs of props and machines.
+/// Finds the parts of which an artist would make islands: the walls, lids and plugs of props and machines, or the limbs
+/// of figures.
 ///
 /// Each edge has log odds of being a border. They depend on how sharp it is, on its own and along the line of edges
 /// that it continues. Pairs of triangles that form a quad count as a quad. Two regions are joined if their common edges
 /// are probably not a border. A small region stays only if a sharp rim encloses it. Steps of a chamfer join a neighbor.
 /// A smooth body is one part.
 ///
+/// Limbs are joined over short or concave borders. Each connected piece is divided by itself, and sizes are relative to
+/// it. A larger amount divides limbs further, and moves borders a little.
+///
 /// Copies share the measured edges. Several threads may call find() at once.
 ///
 /// \see Keuper et al. 2015, "Efficient decomposition of image and mesh graphs by lifted multicuts", Section 5.1, for
-///   the greedy additive edge contraction
+///   the greedy additive edge contraction; Katz and Tal 2003, "Hierarchical mesh decomposition using fuzzy clustering
+///   and cuts", for distances that grow at concave edges; Liu and Zhang 2004, "Segmentation of 3D meshes through spectral
+///   clustering", for eigenvectors
 class SEAMWIRE_API PartFinder {
  public:
   /// Measure the edges of a surface.
@@ -74,6 +89,8 @@ class SEAMWIRE_API PartFinder {
   /// \throws InvalidInput if the amount, a vertex or a triangle is out of range
   /// \throws Cancelled if the task is cancelled
   Parts find(double amount = 0.5, const PartEdits& edits = {}, const Task& task = {}) const;
+  /// Return what separates parts: rims or limbs.
+  PartsBy by() const;
 
  private:
   struct Impl;
