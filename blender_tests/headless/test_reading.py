@@ -67,7 +67,8 @@ def test_edges_are_marked_that_are_sharp_or_between_materials() -> None:
     sharp.use_edge_sharp = True
     edit()
     column = [(2 + 5 * y, 7 + 5 * y) for y in range(4)]
-    assert sorted(tuple(sorted(pair)) for pair in edit_mesh.read(obj).marked.tolist()) == sorted([(5, 6), *column])
+    found = [sorted(tuple(sorted(pair)) for pair in kind.tolist()) for kind in edit_mesh.read(obj).marked]
+    assert found == [[(5, 6)], sorted(column)]
 
 
 @pytest.mark.parametrize("more", [(), ((0.5, 2.0), (0.5, -2.0))], ids=["quads", "pentagons"])

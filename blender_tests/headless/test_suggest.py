@@ -188,6 +188,32 @@ def test_strips_are_straight_only_within_the_limit(stretch: float, is_straight: 
     assert energy(obj) < energy_of(0.01 * stretch)
 
 
+def test_sharp_edges_that_are_everywhere_part_nothing() -> None:
+    found = []
+    for is_sharp in (False, True):
+        bpy.ops.mesh.primitive_uv_sphere_add(segments=16, ring_count=10)
+        obj = bpy.context.object
+        obj.data.edges.foreach_set("use_edge_sharp", [is_sharp] * len(obj.data.edges))
+        edit()
+        clear(obj)
+        assert suggest() == {"FINISHED"}
+        found.append(islands(obj))
+        bpy.ops.object.mode_set(mode="OBJECT")
+        bpy.data.objects.remove(obj)
+    assert found == [1, 1]
+
+
+@pytest.mark.parametrize("along", [(0.0, 0.0, 0.0), (0.3, 0.5, 0.81)])
+def test_a_mesh_without_area_is_refused_with_a_sentence(along: tuple[float, float, float]) -> None:
+    bpy.ops.mesh.primitive_uv_sphere_add(segments=24, ring_count=16)
+    obj = bpy.context.object
+    for vertex in obj.data.vertices:
+        vertex.co = (vertex.co.x * along[0], vertex.co.x * along[1], vertex.co.x * along[2])
+    edit()
+    with pytest.raises(RuntimeError, match="area|face"):
+        suggest()
+
+
 def test_less_stretch_takes_longer_seams() -> None:
     obj = add_suzanne()
     edit()
@@ -682,7 +708,7 @@ def test_sharp_marks_and_borders_of_materials_count() -> None:
     with changing(obj) as bm:
         for face in bm.faces:
             face.material_index = int(face.calc_center_median().x > 0.0)
-    found = {frozenset(edge) for edge in edit_mesh.read(obj).marked.tolist()}
+    found = {frozenset(edge) for edge in edit_mesh.read(obj).marked[1].tolist()}
     assert len(found) == 8
     assert suggest(parts=100.0, unwrap=False) == {"FINISHED"}
     assert {frozenset(edge) for edge in seams(obj)} == found

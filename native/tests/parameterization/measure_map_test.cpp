@@ -209,7 +209,7 @@ TEST(MeasureMap, IslandsThatTouchDoNotCollide) {
 }
 
 TEST(MeasureMap, WhatTouchesToSinglePrecisionDoesNotOverlap) {
-  // Eight squares around a hole, and a ninth square that hangs on one of them and fills the hole of the map.
+  // Eight squares around a hole, and a ninth square that is joined to one of them and fills the hole of the map.
   shapes::QuadMesh ring = shapes::quad_grid(3);
   ring.points.insert(ring.points.end(), {{1.0 / 3, 2.0 / 3, 1.0 / 3}, {2.0 / 3, 2.0 / 3, 1.0 / 3}});
   ring.quads[4] = {16, 17, 10, 9};
