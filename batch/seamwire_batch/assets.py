@@ -218,7 +218,7 @@ def mesh_objects() -> MeshObjects:
 def shown(obj: bpy.types.Object) -> Iterator[str]:
     """Have a scene and a view layer in the window in which an object can be edited, and yield an empty text.
 
-    If there is none, nothing changes, and the text says why.
+    Otherwise nothing changes, and the text says why.
     """
     from seamwire.mesh.modes import problem_with
 

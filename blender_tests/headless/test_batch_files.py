@@ -19,7 +19,7 @@ pytestmark = pytest.mark.every_blender
 
 
 def work(path: Path, output: str = "", **more: object) -> tuple[worker.Run, dict[str, Any]]:
-    """Work on an asset, and return the worker and the numbers. What it has written is open afterwards."""
+    """Work on an asset, and return the worker and the numbers. The written file is open afterwards."""
     folder = path.parent / "made"
     folder.mkdir(exist_ok=True)
     job = {

@@ -248,10 +248,11 @@ def test_cuts_that_interpolate_the_map_keep_all_uvs() -> None:
     check_whole(obj)
 
 
-def test_faces_that_were_hidden_are_unwrapped_when_they_are_shown() -> None:
+def test_hidden_faces_are_counted_and_unwrapped_when_they_are_shown(capfd: pytest.CaptureFixture) -> None:
     obj = add_ball()
     obj.data.polygons.foreach_set("hide", np.arange(144) % 12 < 5)
     unwrap_first(obj, SEAMWIRE)
+    assert "60 hidden faces have no place in the map" in capfd.readouterr().out
     obj.data.polygons.foreach_set("hide", np.zeros(144, dtype=bool))
     assert seamwire.unwrap(obj)
     check_whole(obj)

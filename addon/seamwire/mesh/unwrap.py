@@ -70,6 +70,7 @@ class Unwrapped:
     islands: int
     kept: int
     faults: MapFaults = NO_FAULTS
+    unmapped: int = 0  # the hidden faces that have no area in these maps
 
 
 @dataclass(frozen=True)
@@ -107,6 +108,7 @@ class _Map:
         drawn = self._drawn()
         labels = self._of_face[self.corners.faces[drawn[:, 0]]]
         self._triangles = drawn[labels >= 0]
+        self._hidden = drawn[labels < 0]
         self._labels = labels[labels >= 0]
         self._areas = triangle_areas(arrays.in_object, self.corners.vertices[self._triangles])
         is_seam = self._seams[self.corners.edges]
@@ -347,6 +349,13 @@ class _Map:
         longest = np.linalg.norm(places - np.roll(places, 1, axis=1), axis=2).max(axis=1, initial=0.0)
         return np.delete(np.arange(len(self._labels)), vanish[2.0 * uv_areas(places) <= _ON_LINE * longest])
 
+    def unmapped(self) -> int:
+        """Return how many hidden faces have no area in the UV map that the mesh has."""
+        if not len(self._hidden):
+            return 0
+        uvs = uv_map.read_uvs(self.obj).astype(np.float64)
+        return int(flat_faces(self._arrays.in_object, self.corners, self._hidden, uvs)[0].sum())
+
     def homes(self) -> NDArray[np.float64]:
         """Return the low corner of the tile of the UV plane that each island had before, (count, 2)."""
         middles = self._before[self._triangles].mean(axis=1)
@@ -368,7 +377,7 @@ class _Map:
         bm = edit_mesh.edit_bmesh(self.obj.data)
         layer = bm.edges.layers.int.get(UNWRAPPED) or bm.edges.layers.int.new(UNWRAPPED)
         plain, seam = self._signs(np.array([False, True])).tolist()
-        # What is no border between two faces may become one with new faces.
+        # New faces may meet at edges that have one face so far.
         between = self._between.tolist()
         for edge in bm.edges:
             if not edge.hide:
@@ -439,7 +448,7 @@ def unwrap_changed(
     for found in maps:
         if len(found.changed):
             found.remember()
-    return Unwrapped(unwrapped, kept, faults)
+    return Unwrapped(unwrapped, kept, faults, sum(found.unmapped() for found in maps) if unwrapped else 0)
 
 
 def _faults(maps: Sequence[_Map]) -> MapFaults:
