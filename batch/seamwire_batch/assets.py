@@ -197,7 +197,7 @@ def mesh_objects() -> MeshObjects:
     from seamwire.mesh.edit_mesh import NothingVisibleError
 
     found: dict[bpy.types.Mesh, bpy.types.Object] = {}
-    skipped: dict[bpy.types.Mesh, tuple[bpy.types.Object, str]] = {}
+    skipped: dict[bpy.types.Object, str] = {}
     for obj in sorted(bpy.data.objects, key=lambda obj: (obj.name, obj.library is not None)):
         if obj.type != "MESH" or obj.data in found or (obj.library is not None and not obj.users_scene):
             continue
@@ -207,18 +207,20 @@ def mesh_objects() -> MeshObjects:
         with shown(obj) as problem:
             if not problem and all(face.hide for face in obj.data.polygons):
                 problem = str(NothingVisibleError(obj))
+            if not problem and sum(face.area for face in obj.data.polygons) == 0.0:
+                problem = f"{obj.name} has no area: its faces are points or lines"
             if problem:
-                skipped.setdefault(obj.data, (obj, problem))
+                skipped[obj] = problem
             else:
                 found[obj.data] = obj
-    return MeshObjects(list(found.values()), dict(why for mesh, why in skipped.items() if mesh not in found))
+    return MeshObjects(list(found.values()), {obj: why for obj, why in skipped.items() if obj.data not in found})
 
 
 @contextmanager
 def shown(obj: bpy.types.Object) -> Iterator[str]:
     """Have a scene and a view layer in the window in which an object can be edited, and yield an empty text.
 
-    If there is none, nothing changes, and the text says why.
+    Otherwise nothing changes, and the text says why.
     """
     from seamwire.mesh.modes import problem_with
 

@@ -22,7 +22,7 @@ _OBJECTS = {
     "META": "metaballs",
     "SURFACE": "curved surfaces",
 }
-"""Objects that are no meshes."""
+"""The names of other types of objects."""
 _GROUP = "group "
 _NO_GROUPS = {"", "default", "off", "(null)"}
 """Groups of OBJ files that stand for no group."""

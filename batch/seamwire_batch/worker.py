@@ -366,6 +366,8 @@ class Run:
         from seamwire.mesh import edit_mesh
         from seamwire.mesh.seam_islands import labels_of, stretch_of
 
+        from seamwire_batch.assets import AssetError
+
         seams = islands = faces = 0
         angles, areas, weights, worst = [], [], [], 0.0
         for obj in objects:
@@ -386,7 +388,7 @@ class Run:
         if weights and np.concatenate(weights).sum() > 0.0:
             mean = [float(np.average(np.concatenate(one), weights=np.concatenate(weights))) for one in (angles, areas)]
         else:
-            self.warnings.append("It has no UV map to measure")
+            raise AssetError("It has no UV map to measure")
         return {
             "objects": len(objects),
             "faces": faces,

@@ -2,8 +2,10 @@
 """Unwrapping, for the islands alone whose seams have changed; all other UVs keep every bit.
 
 An island has changed if its UVs are torn at an edge without a seam, are connected across a seam, or have no area.
-Both can be intended, and unwrapping a flat island leaves a slit closed. Therefore a hidden edge layer stores the seams of the last
-unwrap. Edges that still agree with it do not count. Being a layer it goes with Blender's undo, saving, joining.
+New faces often have UVs of this kind, or are turned over, or overlap.
+Torn and connected UVs can be intended, and unwrapping a flat island leaves a slit closed. Therefore a hidden edge layer stores the
+seams of the last unwrap, where two faces meet. Edges that still agree with it do not count. Being a layer it goes with Blender's undo,
+saving, joining.
 Where a cut was taken back, nothing is torn any more that was: the layer tells that too.
 """
 
@@ -25,7 +27,16 @@ from ..core.base.geometry import triangle_areas
 from ..core.islands.copies import ShapedIsland, shaped_islands
 from ..core.islands.map_faults import NO_FAULTS, MapFaults, MappedSurface, find_faults, joined, turn_back
 from ..core.islands.straight_corners import find_straight
-from ..core.islands.uv_islands import NewIsland, boxes_of, in_rows, place, split_edges, uv_areas
+from ..core.islands.uv_islands import (
+    NewIsland,
+    boxes_of,
+    flat_faces,
+    in_rows,
+    one_way_around,
+    place,
+    split_edges,
+    uv_areas,
+)
 from ..words.reports import ALL_HIDDEN
 from . import edit_mesh, uv_map
 from .seam_islands import labels_of
@@ -44,6 +55,8 @@ STRAIGHT_COST = 0.05
 """How much a straight layout may add to an island's symmetric Dirichlet energy."""
 UP = (0.0, 0.0, 1.0)
 """The direction of the object that points up in the map."""
+_FOLDED = 0.25
+"""The part of an island's faces that must be turned over for the island to count as folded."""
 _ON_LINE = 1e-6
 """How far a UV may lie beside a line that it should lie on: UVs are rounded."""
 _MARGIN = 0.01
@@ -57,6 +70,7 @@ class Unwrapped:
     islands: int
     kept: int
     faults: MapFaults = NO_FAULTS
+    unmapped: int = 0  # the hidden faces that have no area in these maps
 
 
 @dataclass(frozen=True)
@@ -94,6 +108,7 @@ class _Map:
         drawn = self._drawn()
         labels = self._of_face[self.corners.faces[drawn[:, 0]]]
         self._triangles = drawn[labels >= 0]
+        self._hidden = drawn[labels < 0]
         self._labels = labels[labels >= 0]
         self._areas = triangle_areas(arrays.in_object, self.corners.vertices[self._triangles])
         is_seam = self._seams[self.corners.edges]
@@ -123,22 +138,61 @@ class _Map:
 
     def _find_changed(self) -> NDArray[np.bool_]:
         self._families = np.arange(self.count)
+        corners, seams, known, uvs = self.corners, self._seams, self._known, self._before
+        visible = self._of_face[corners.faces] >= 0
+        pairs, torn = split_edges(corners.vertices, np.where(visible, corners.edges, -1), corners.following, uvs)
+        edges = corners.edges[pairs[:, 0]]
+        self._between = np.zeros(len(seams), dtype=bool)
+        self._between[edges] = True
         if self._uvs is None:
             return np.ones(self.count, dtype=bool)
-        corners, seams, known = self.corners, self._seams, self._known
-        visible = self._of_face[corners.faces] >= 0
-        pairs, torn = split_edges(corners.vertices, np.where(visible, corners.edges, -1), corners.following, self._uvs)
         islands = self._of_face[corners.faces[pairs]]
         self._families = components(self.count, islands[~torn])
-        edges = corners.edges[pairs[:, 0]]
         odd = (torn != seams[edges]) & (known[edges] != self._signs(seams[edges]))
         odd |= known[edges] == JOINED
-        areas = uv_areas(self._uvs[self._triangles].astype(np.float64))
+        areas = uv_areas(uvs[self._triangles])
         changed = np.bincount(self._labels, areas, self.count) <= 0.0
         # An island without area on the model cannot have one in the map.
         changed &= np.bincount(self._labels, self._areas, self.count) > 0.0
         changed[islands[odd]] = True
+        plain, seam = self._signs(np.array([False, True]))
+        is_known = (known[edges] == plain) | (known[edges] == seam)
+        changed |= self._with_bad_faces(pairs[~torn & ~seams[edges]], islands[is_known])
+        if is_known.any():
+            changed |= self._overlapping(np.unique(islands[~is_known]))
         return changed
+
+    def _with_bad_faces(self, joints: NDArray[np.int64], known: NDArray[np.int32]) -> NDArray[np.bool_]:
+        """Return which islands, (count,), have faces that no map of them would have: without area, or turned over.
+
+        New faces have the UVs of their neighbors' corners, or none. `joints`, (k, 2), are corners at which two faces hold an edge that is
+        whole in the map. A map folded in two is intended, unless the island is one of the `known` ones, which Seamwire has unwrapped.
+        """
+        flat, turns = flat_faces(self._arrays.in_object, self.corners, self._triangles, self._before)
+        turns *= one_way_around(self.corners, joints)
+        bad = np.zeros(self.count, dtype=bool)
+        bad[self._of_face[flat & (self._of_face >= 0)]] = True
+        shown = np.flatnonzero((self._of_face >= 0) & (turns != 0))
+        labels = self._of_face[shown]
+        clockwise, sizes = (np.bincount(labels, each, self.count) for each in (turns[shown] < 0, turns[shown] != 0))
+        folded, is_known = (np.zeros(self.count, dtype=bool) for _ in range(2))
+        folded[self._of_face[self.corners.faces[joints[turns[self.corners.faces[joints]].prod(axis=1) < 0, 0]]]] = True
+        is_known[known] = True
+        few = np.minimum(clockwise, sizes - clockwise) < _FOLDED * sizes
+        return bad | (folded & (is_known | few))
+
+    def _overlapping(self, fresh: NDArray[np.int32]) -> NDArray[np.bool_]:
+        """Return which of some islands, (count,), overlap themselves or others."""
+        bad = np.zeros(self.count, dtype=bool)
+        if len(fresh):
+            surface = self.mapped()
+            sides = np.linalg.norm(surface.uvs - np.roll(surface.uvs, 1, axis=1), axis=2).max(axis=1, initial=0.0)
+            # Triangles that lie on a line cover nothing.
+            rows, report = surface.measured(2.0 * uv_areas(surface.uvs.astype(np.float64)) > _ON_LINE * sides**2)
+            if report is not None:
+                islands = np.unique(surface.labels[rows])[np.union1d(report.overlapping, report.colliding)]
+                bad[np.intersect1d(islands, fresh)] = True
+        return bad
 
     def _signs(self, seams: NDArray[np.bool_]) -> NDArray[np.int64]:
         """Return what the layer holds of edges that are seams, or are not."""
@@ -295,6 +349,13 @@ class _Map:
         longest = np.linalg.norm(places - np.roll(places, 1, axis=1), axis=2).max(axis=1, initial=0.0)
         return np.delete(np.arange(len(self._labels)), vanish[2.0 * uv_areas(places) <= _ON_LINE * longest])
 
+    def unmapped(self) -> int:
+        """Return how many hidden faces have no area in the UV map that the mesh has."""
+        if not len(self._hidden):
+            return 0
+        uvs = uv_map.read_uvs(self.obj).astype(np.float64)
+        return int(flat_faces(self._arrays.in_object, self.corners, self._hidden, uvs)[0].sum())
+
     def homes(self) -> NDArray[np.float64]:
         """Return the low corner of the tile of the UV plane that each island had before, (count, 2)."""
         middles = self._before[self._triangles].mean(axis=1)
@@ -316,9 +377,11 @@ class _Map:
         bm = edit_mesh.edit_bmesh(self.obj.data)
         layer = bm.edges.layers.int.get(UNWRAPPED) or bm.edges.layers.int.new(UNWRAPPED)
         plain, seam = self._signs(np.array([False, True])).tolist()
+        # New faces may meet at edges that have one face so far.
+        between = self._between.tolist()
         for edge in bm.edges:
             if not edge.hide:
-                edge[layer] = seam if edge.seam else plain
+                edge[layer] = (seam if edge.seam else plain) if between[edge.index] else 0
         bmesh.update_edit_mesh(self.obj.data, loop_triangles=False, destructive=False)
 
 
@@ -385,7 +448,7 @@ def unwrap_changed(
     for found in maps:
         if len(found.changed):
             found.remember()
-    return Unwrapped(unwrapped, kept, faults)
+    return Unwrapped(unwrapped, kept, faults, sum(found.unmapped() for found in maps) if unwrapped else 0)
 
 
 def _faults(maps: Sequence[_Map]) -> MapFaults:

@@ -69,7 +69,10 @@ class MESH_OT_seamwire_unwrap(EditMeshOperator, bpy.types.Operator):
             self.report({"INFO"}, "Nothing to unwrap: no island has changed")
             return {"CANCELLED"}
         parts = [f"{count(done.islands, 'island')} unwrapped", f"{done.kept} kept", *in_words(done.faults)]
-        self.report({"WARNING"} if done.faults else {"INFO"}, ", ".join(parts))
+        if done.unmapped:
+            has = "hidden face has no place", "hidden faces have no place"
+            parts.append(f"{count(done.unmapped, *has)} in the map")
+        self.report({"WARNING"} if done.faults or done.unmapped else {"INFO"}, ", ".join(parts))
         return {"FINISHED"}
 
 

@@ -9,6 +9,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..base.components import components
+from ..base.geometry import triangle_areas
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -18,6 +21,8 @@ if TYPE_CHECKING:
 
 _SAME = 1e-5
 """UVs nearer than this are one place: unwrapping gives corners that belong together the same numbers, packing rounds them."""
+_THIN = 1e-6
+"""A face with less area, as a part of its squared length, lies on a line."""
 _CELLS = 512
 """Cells along a side of the square in which room is looked for."""
 _GAP = 1.0 / _CELLS
@@ -134,6 +139,66 @@ def signed_uv_areas(corners: NDArray[np.float64]) -> NDArray[np.float64]:
 def uv_areas(corners: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the areas of triangles, (t, 3, 2)."""
     return np.abs(signed_uv_areas(corners))
+
+
+def flat_faces(
+    points: NDArray[np.float64],
+    corners: Corners,
+    triangles: NDArray[np.int64],
+    uvs: NDArray[np.float64],
+) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
+    """Find the faces that have a shape on the model, but lie on a line or a point in the map.
+
+    `triangles` are corners, (t, 3), and `uvs` are of corners, (c, 2). Returns whether each face is flat, (f,), and how it goes around in
+    the map, (f,): 1 against the clock, -1 with it, 0 if it lies on a line or has no triangles.
+    """
+    count = int(corners.faces.max(initial=-1)) + 1
+    faces = corners.faces[triangles[:, 0]]
+    signed = np.bincount(faces, signed_uv_areas(uvs[triangles]), count)
+    areas = np.bincount(faces, triangle_areas(points, corners.vertices[triangles]), count)
+    in_map, on_model = (_squared_sizes(places, corners.faces) for places in (uvs, points[corners.vertices]))
+    has_area = np.abs(signed) > _THIN * in_map  # not if a place is not a number
+    return (areas > _THIN * on_model) & ~has_area, np.where(has_area, np.sign(signed), 0.0)
+
+
+def one_way_around(corners: Corners, joints: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return for each face, (f,), 1 or -1 so that faces which share an edge go around in one way after multiplying.
+
+    `joints`, (k, 2), are the corners at which two faces hold an edge.
+    """
+    count = int(corners.faces.max(initial=-1)) + 1
+    one, two = joints.T
+    is_even = corners.vertices[one] == corners.vertices[corners.following[two]]
+    if is_even.all():
+        return np.ones(count, dtype=np.int64)
+    pieces = components(count, corners.faces[joints[is_even]])
+    signs = np.zeros(int(pieces.max(initial=-1)) + 1, dtype=np.int64)
+    beside: dict[int, set[int]] = {}
+    for a, b in np.unique(pieces[corners.faces[joints[~is_even]]], axis=0).tolist():
+        beside.setdefault(a, set()).add(b)
+        beside.setdefault(b, set()).add(a)
+    for start in beside:
+        waiting = [start] if signs[start] == 0 else []
+        signs[waiting] = 1
+        while waiting:
+            piece = waiting.pop()
+            for other in beside[piece]:
+                if signs[other] == 0:
+                    signs[other] = -signs[piece]
+                    waiting.append(other)
+    signs[signs == 0] = 1
+    return signs[pieces]
+
+
+def _squared_sizes(places: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Return the squared diagonals of the boxes around faces, (f,), whose corners, (c, d), come face by face."""
+    if not len(faces):
+        return np.zeros(0)
+    starts = np.flatnonzero(np.diff(faces, prepend=-1))
+    sizes = np.zeros(int(faces[-1]) + 1)
+    extents = np.maximum.reduceat(places, starts) - np.minimum.reduceat(places, starts)
+    sizes[faces[starts]] = (extents**2).sum(axis=1)
+    return sizes
 
 
 def boxes_of(corners: NDArray[np.float64]) -> NDArray[np.float64]:
