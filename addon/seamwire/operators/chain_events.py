@@ -75,7 +75,7 @@ def read(chain: Chain, context: bpy.types.Context, event: bpy.types.Event) -> Gi
         chain.let_go()  # another window has received the release, and this press is not a drag's
     if event.type == "TIMER":
         return Given(Sign.TICK, event)
-    if chain.hold is not None:
+    if chain.hold is not None and event.value in {"PRESS", "RELEASE"}:  # motions may come without the modifiers
         chain.hold.follow_modifiers(event)
     can_draw = (
         chain.follow_mouse(context.window) and context.mode == "EDIT_MESH"
