@@ -9,6 +9,7 @@ import pytest
 from desk import Desk, drag, draw, shows, undo_steps
 from scene import chain, changing, seams, snapshot
 from seamwire.core.drawing.picture import Role
+from seamwire.core.network.picks import FacePoint
 from seamwire.mesh import cut
 from seamwire.mesh.object_session import ObjectSession
 from seamwire.mesh.settings import settings
@@ -117,13 +118,15 @@ def test_a_line_elsewhere_is_kept_though_the_live_chain_is_cut_before_it(
 
 
 def test_a_wire_within_a_face_is_in_a_file_that_is_saved_within_the_chain(cutting: Desk, tmp_path: Path) -> None:
-    settings().into_faces = True
     session, ui = cutting.start(), cutting.ui
-    first, second = (cutting.ui.on_screen((-0.45 + x, -0.60 + x, 0.0)) for x in (0.0, 0.05))
-    ui.click(first)
-    ui.click(second)
-    ui.wait_until(lambda: len(session.wires) == 1)
-    assert len(session.wires[0].vertices) == 1
+    arrays = edited.front.mesh.arrays
+    cutting.chain.begin()
+    cutting.chain.draw_on(edited.front)
+    for weights in ((0.2, 0.2, 0.6), (0.1, 0.25, 0.65)):
+        place = np.array(weights) @ arrays.points[arrays.triangles[20]]
+        session.click(FacePoint.at(place, 20, arrays.triangles, arrays.points))
+        session.wait()
+    assert [len(wire.vertices) for wire in session.wires] == [1]
     path = tmp_path / "a.blend"
     bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True)
     with bpy.data.libraries.load(str(path), link=False) as (inside, wanted):

@@ -421,9 +421,13 @@ def live_unwrap(context: bpy.types.Context) -> None:
 def nothing_selected(context: bpy.types.Context) -> Iterator[None]:
     """Let nothing be selected at first, and restore the selections of all objects in edit mode afterwards."""
     selections = []
-    for obj in context.objects_in_mode_unique_data:
+    objects = list(context.objects_in_mode_unique_data)
+    # A million objects of Python take a second. Blender selects everything at once.
+    is_whole = all(_is_all_selected(obj.data) for obj in objects)
+    for obj in objects:
         bm = edit_bmesh(obj.data)
-        items = [item for sequence in (bm.verts, bm.edges, bm.faces) for item in sequence if item.select]
+        sequences = () if is_whole else (bm.verts, bm.edges, bm.faces)
+        items = [item for sequence in sequences for item in sequence if item.select]
         # Not iterated: Blender 4.3 cannot, on the Python 3.13 of Debian 13.
         history = [bm.select_history[i] for i in range(len(bm.select_history))]
         # The edit mesh is held, because its items end with the last that holds it.
@@ -432,7 +436,7 @@ def nothing_selected(context: bpy.types.Context) -> Iterator[None]:
         bpy.ops.mesh.select_all(action="DESELECT")
         yield
     finally:
-        bpy.ops.mesh.select_all(action="DESELECT")
+        bpy.ops.mesh.select_all(action="SELECT" if is_whole else "DESELECT")
         for data, _, items, history, active in selections:
             bm = edit_bmesh(data)
             for item in items:
@@ -442,6 +446,13 @@ def nothing_selected(context: bpy.types.Context) -> Iterator[None]:
                 bm.select_history.add(item)
             bm.faces.active = active
             bmesh.update_edit_mesh(data, loop_triangles=False, destructive=False)
+
+
+def _is_all_selected(data: bpy.types.Mesh) -> bool:
+    """Whether every vertex, edge and face of an edit mesh is selected."""
+    bm = bmesh.from_edit_mesh(data)
+    selected = data.total_vert_sel, data.total_edge_sel, data.total_face_sel
+    return selected == (len(bm.verts), len(bm.edges), len(bm.faces))
 
 
 def select_faces(obj: bpy.types.Object, faces: NDArray[np.integer]) -> None:

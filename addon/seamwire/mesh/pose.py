@@ -81,6 +81,18 @@ class Pose:
         return self._found[id(curve)]
 
 
+def _depsgraph_of(obj: bpy.types.Object) -> bpy.types.Depsgraph:
+    """Return the evaluated data of a scene with the object. The context may be that of a window with another scene."""
+    context = bpy.context
+    layers = {window: window.view_layer for window in context.window_manager.windows}
+    if context.view_layer.objects.get(obj.name) != obj:
+        for window, layer in layers.items():
+            if layer.objects.get(obj.name) == obj:
+                with context.temp_override(window=window):
+                    return bpy.context.evaluated_depsgraph_get()
+    return context.evaluated_depsgraph_get()
+
+
 def _cage_points(obj: bpy.types.Object, count: int) -> NDArray[np.float64] | None:
     """Return the vertices of an edit cage as modifiers bend it, (count, 3), in object coordinates. None: as the mesh has them.
 
@@ -90,7 +102,7 @@ def _cage_points(obj: bpy.types.Object, count: int) -> NDArray[np.float64] | Non
     active = [modifier for modifier in obj.modifiers if modifier.show_viewport and modifier.show_in_editmode]
     if not active or not active[-1].show_on_cage:
         return None
-    evaluated = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    evaluated = obj.evaluated_get(_depsgraph_of(obj))
     data = evaluated.to_mesh()
     try:
         if len(data.vertices) != count:

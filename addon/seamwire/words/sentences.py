@@ -20,6 +20,7 @@ SENTENCES = {
     "does-not-load": "Seamwire's compiled part does not load in this Blender (Python {version} on {system}): {why}",
     "drawing-failed": "Part of the drawing failed. It is tried again when the mode, the tool or the mesh changes: {why}",
     "end-lost": "{wire}: one of its seeds could not be placed on this mesh",
+    "loops-failed": "Loops could not be found: {why}",
     "ends-meet": "{wire}: both its seeds would be at vertex {vertex} of this mesh",
     "ends-where-it-begins": "The wire ends where it begins: click somewhere else",
     "file-by-newer": "A newer version of Seamwire wrote the file: it has version {version}, and this one reads up to {known}",

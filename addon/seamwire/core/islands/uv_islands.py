@@ -26,6 +26,8 @@ _THIN = 1e-6
 _CELLS = 512
 """Cells along a side of the square in which room is looked for."""
 _GAP = 1.0 / _CELLS
+_REACHES = ((8, 1), (32, 1), (128, 2), (_CELLS, 3), (_CELLS, 1))
+"""How far from its wanted place room for an island is looked for, in cells, and the cells from one try to the next."""
 
 
 @dataclass(frozen=True)
@@ -217,23 +219,23 @@ def place(islands: Sequence[NewIsland], taken: NDArray[np.float64]) -> list[NDAr
     sizes = [float(np.prod(np.ptp(corners, axis=0))) for corners in ready]
     placed: list[NDArray[np.float64]] = list(ready)
     squares: dict[tuple[float, ...], _Square] = {}
+    boxes = [taken]
     left_over = []
     for number in sorted(range(len(ready)), key=lambda number: -sizes[number]):
         island, corners = islands[number], ready[number]
         middle = 0.5 * (island.before.min(axis=0) + island.before.max(axis=0))
         low = np.floor(middle)
         if tuple(low) not in squares:
-            squares[tuple(low)] = _Square(low, taken)
+            squares[tuple(low)] = _Square(low, np.concatenate(boxes))
         square = squares[tuple(low)]
         spot = square.free_spot(np.ptp(corners, axis=0), middle)
         if spot is None:
             left_over.append(number)
             continue
         placed[number] = corners + (spot - corners.min(axis=0))
-        boxes = boxes_of(placed[number][island.triangles])
-        taken = np.concatenate([taken, boxes])
-        square.take(boxes)
-    edge = max(1.0, float(taken[:, 2].max(initial=0.0)))
+        boxes.append(boxes_of(placed[number][island.triangles]))
+        square.take(boxes[-1])
+    edge = max(1.0, float(np.concatenate(boxes)[:, 2].max(initial=0.0)))
     left, bottom, widest = edge + 4.0 * _GAP, 0.0, 0.0
     for number in left_over:
         width, height = np.ptp(ready[number], axis=0)
@@ -270,29 +272,74 @@ class _Square:
     def __init__(self, low: NDArray[np.float64], taken: NDArray[np.float64]) -> None:
         self._low = low
         self._full = np.zeros((_CELLS, _CELLS), dtype=bool)
+        # How many cells are taken below and left of each: four of these tell whether a rectangle is free.
+        self._sums = np.zeros((_CELLS + 1, _CELLS + 1), dtype=np.int32)
+        self._too_large: list[tuple[int, int]] = []  # rectangles for which there is no room
         self.take(taken)
 
     def take(self, boxes: NDArray[np.float64]) -> None:
         """Let bounds, (b, 4), be taken."""
+        if not len(boxes):
+            return
         low = np.clip(np.floor((boxes[:, :2] - self._low) * _CELLS), 0, _CELLS).astype(np.int64)
         high = np.clip(np.floor((boxes[:, 2:] - self._low) * _CELLS) + 1, 0, _CELLS).astype(np.int64)
+        left, bottom = low.min(axis=0)
+        right, top = high.max(axis=0)
+        if left == right or bottom == top:
+            return
+        low, high = low - (left, bottom), high - (left, bottom)
         # Each is counted up at its low corner and down behind its high one: sums tell how many cover a cell.
-        marks = np.zeros((_CELLS + 1, _CELLS + 1), dtype=np.int32)
+        marks = np.zeros((right - left + 1, top - bottom + 1), dtype=np.int32)
         for u, v, sign in ((low, low, 1), (high, low, -1), (low, high, -1), (high, high, 1)):
             np.add.at(marks, (u[:, 0], v[:, 1]), sign)
-        self._full |= marks.cumsum(axis=0, dtype=np.int32).cumsum(axis=1, dtype=np.int32)[:-1, :-1] > 0
+        full = self._full[left:right, bottom:top]
+        new = (marks.cumsum(axis=0).cumsum(axis=1)[:-1, :-1] > 0) & ~full
+        full |= new
+        more = new.cumsum(axis=0, dtype=np.int32).cumsum(axis=1, dtype=np.int32)
+        sums = self._sums[left + 1 :, bottom + 1 :]
+        wide, tall = more.shape
+        sums[:wide, :tall] += more
+        sums[:wide, tall:] += more[:, -1:]
+        sums[wide:, :tall] += more[-1]
+        sums[wide:, tall:] += more[-1, -1]
 
     def free_spot(self, size: NDArray[np.float64], middle: NDArray[np.float64]) -> NDArray[np.float64] | None:
-        """Return the low corner of the free rectangle of a size whose center is nearest to a place, or None."""
-        wide, tall = np.ceil((size + 2.0 * _GAP) * _CELLS).astype(np.int64)
-        if wide > _CELLS or tall > _CELLS:
+        """Return the low corner of a free rectangle of a size whose center is near a place, the nearest within some cells, or None."""
+        wide, tall = np.ceil((size + 2.0 * _GAP) * _CELLS).astype(np.int64).tolist()
+        if max(wide, tall) > _CELLS or any(wide >= width and tall >= height for width, height in self._too_large):
             return None
-        # How many cells are taken below and left of each: four of these tell whether a rectangle is free.
-        sums = np.zeros((_CELLS + 1, _CELLS + 1), dtype=np.int32)
-        sums[1:, 1:] = self._full.cumsum(axis=0, dtype=np.int32).cumsum(axis=1, dtype=np.int32)
-        free = sums[wide:, tall:] - sums[:-wide, tall:] - sums[wide:, :-tall] + sums[:-wide, :-tall] == 0
+        last = np.array([_CELLS - wide, _CELLS - tall])
         wanted = (middle - self._low - 0.5 * size - _GAP) * _CELLS
-        away = [(np.arange(count) - place) ** 2 for count, place in zip(free.shape, wanted, strict=True)]
-        distances = np.where(free, away[0][:, None] + away[1], np.inf)
-        nearest = np.unravel_index(distances.argmin(), free.shape)
-        return self._low + np.array(nearest) / _CELLS + _GAP if free[nearest] else None
+        begin = np.clip(np.rint(wanted), 0, last).astype(np.int64)
+        beside = np.abs(wanted - begin)
+        for reach, step in _REACHES:
+            found, away = self._nearest(wide, tall, wanted, begin, reach, step)
+            # Beyond the reach along either axis, everything is at least so far away.
+            bound = min(np.hypot(reach + beside[0], beside[1]), np.hypot(beside[0], reach + beside[1]))
+            if found is not None and away > bound and reach < _CELLS:
+                found, away = self._nearest(wide, tall, wanted, begin, int(np.ceil(away)), step)
+            if found is not None:
+                return self._low + np.array(found) / _CELLS + _GAP
+        self._too_large.append((wide, tall))
+        return None
+
+    def _nearest(
+        self, wide: int, tall: int, wanted: NDArray[np.float64], begin: NDArray[np.int64], reach: int, step: int
+    ) -> tuple[tuple[int, int] | None, float]:
+        """Return the low cell of the nearest free rectangle that is within a reach from a cell, or None, and how far away it is."""
+        # A step from the beginning leads to the beginning again.
+        first = begin - np.minimum(begin, reach) // step * step
+        end = np.minimum(begin + reach, np.array([_CELLS - wide, _CELLS - tall])) + 1
+        (left, bottom), (right, top) = first.tolist(), end.tolist()
+        sums = self._sums
+        columns, rows = slice(left, right, step), slice(bottom, top, step)
+        behind, above = slice(left + wide, right + wide, step), slice(bottom + tall, top + tall, step)
+        taken = sums[behind, above] - sums[columns, above]
+        free = np.flatnonzero(taken == sums[behind, rows] - sums[columns, rows])
+        if not len(free):
+            return None, np.inf
+        u, v = np.divmod(free, taken.shape[1])
+        u, v = left + step * u, bottom + step * v
+        away = (u - wanted[0]) ** 2 + (v - wanted[1]) ** 2
+        nearest = int(away.argmin())
+        return (int(u[nearest]), int(v[nearest])), float(np.sqrt(away[nearest]))

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import threading
+import traceback
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -12,6 +13,7 @@ import numpy as np
 
 from ..base.geometry import length_of
 from ..base.half_edges import after
+from ..base.messages import Refused
 from .turns import SurfaceEdges
 
 if TYPE_CHECKING:
@@ -86,14 +88,19 @@ class PartBorders:
         self._stop = threading.Event()
         self._working = threading.Lock()
         self._is_prepared = False
+        self._error: Exception | None = None
         self.is_complete = False
         # The number of the wall of each triangle; 0: not known.
         self._wall_of = np.zeros(len(triangles), dtype=np.int32)
         self._rims_of_walls: list[tuple[VertexChain, ...]] = [()]
 
     def ready(self) -> bool:
-        """Whether flat faces can be found. This begins to prepare them, and then to find the parts, on a thread that `stop` stops."""
+        """Whether flat faces can be found. This begins to prepare them, and then to find the parts, on a thread that `stop` stops.
+
+        Raises Refused if an error has ended that.
+        """
         if self._thread is None:
+            self._error = None
             self._stop = threading.Event()
             self._seams = self._seams_now()
             self._thread = threading.Thread(
@@ -102,6 +109,8 @@ class PartBorders:
             self._thread.start()
             if len(self._triangles) <= AT_ONCE:
                 self._thread.join()
+        if self._error is not None:
+            raise Refused("loops-failed", why=str(self._error))
         return self._is_prepared
 
     def stop(self) -> None:
@@ -124,13 +133,17 @@ class PartBorders:
 
     def _search(self, seams: NDArray[np.int32], stop: threading.Event) -> None:
         with self._working:  # a search that was stopped ends first
-            if not self._is_prepared:
-                self.half_edges.prepare()
-                self._is_prepared = True
             found: list[_Parts] = []
             try:
+                if not self._is_prepared:
+                    self.half_edges.prepare()
+                    self._is_prepared = True
                 for labels in () if stop.is_set() else self._find_parts(seams, lambda: not stop.is_set()):
                     found.append(_Parts(self.half_edges, labels))
+            except Exception as error:
+                traceback.print_exc()
+                # Without parts there are other loops.
+                self._error = None if self._is_prepared or stop.is_set() else error
             finally:
                 if not stop.is_set():
                     self._steps, self.is_complete = found, True

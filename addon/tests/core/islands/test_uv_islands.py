@@ -127,3 +127,22 @@ def test_islands_lie_in_rows_without_touching_at_one_scale() -> None:
     apart = ((low[:, None] > high[None]) | (high[:, None] < low[None])).any(axis=2)
     assert (apart | np.eye(40, dtype=bool)).all()
     assert in_rows(np.empty((0, 2)), np.empty(0, dtype=np.int64)).shape == (0, 2)
+
+
+@pytest.mark.parametrize("is_new", [False, True])
+def test_a_thousand_islands_find_room_side_by_side_at_once(is_new: bool) -> None:
+    dice = np.random.default_rng(5)
+    sizes = dice.uniform(0.01, 0.024, (1000, 2))
+    middles = dice.uniform(0.1, 0.9, (1000, 2))
+    islands = [
+        NewIsland(0.0 * SQUARE if is_new else SQUARE * size + middle, SQUARE * size, TRIANGLES, np.full(2, 0.5), 0.0)
+        for size, middle in zip(sizes, middles, strict=True)
+    ]
+    low, high = np.array([np.split(bounds(corners), 2) for corners in place(islands, taken((0, 0), (0.3, 1)))]).swapaxes(0, 1)
+    assert high - low == pytest.approx(sizes)
+    assert low[:, 0].min() > 0.3
+    assert high.max() <= 1.0
+    apart = ((low[:, None] > high[None]) | (high[:, None] < low[None])).any(axis=2)
+    assert (apart | np.eye(1000, dtype=bool)).all()
+    if not is_new:
+        assert np.abs(low - middles).mean() < 0.1

@@ -12,6 +12,7 @@ import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
 from seamwire.core.base.half_edges import after
+from seamwire.core.base.messages import Refused
 from seamwire.core.offers import part_borders
 from seamwire.core.offers.part_borders import PartBorders
 
@@ -175,4 +176,33 @@ def test_a_search_that_was_stopped_leaves_nothing_behind(monkeypatch: pytest.Mon
     assert not thread.is_alive()
     assert len(counts) == 1
     assert not parts.is_complete
+    assert not list(parts.around(0))
+
+
+@pytest.mark.parametrize("at_once", [True, False])
+def test_an_error_ends_the_preparation_with_its_reason(at_once: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail() -> None:
+        raise MemoryError("too large")
+
+    monkeypatch.setattr(part_borders, "AT_ONCE", 5_000 if at_once else 0)
+    parts = PartBorders(grid_points(SIZE), grid_triangles(SIZE), grid_edges(SIZE))
+    with monkeypatch.context() as broken:
+        broken.setattr(parts.half_edges, "prepare", fail)
+        if not at_once:
+            parts.ready()
+            parts.wait()
+        for _ in range(2):
+            with pytest.raises(Refused, match="too large"):
+                parts.ready()
+    assert parts.is_complete
+
+
+def test_an_error_while_parts_are_found_leaves_flat_faces() -> None:
+    def find(*_: object) -> Iterator[NDArray[np.int32]]:
+        raise RuntimeError("broken")
+        yield
+
+    parts = PartBorders(grid_points(SIZE), grid_triangles(SIZE), grid_edges(SIZE), find_parts=find)
+    assert parts.ready()
+    assert parts.is_complete
     assert not list(parts.around(0))
