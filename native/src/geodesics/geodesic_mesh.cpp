@@ -45,7 +45,7 @@ constexpr double kLeastSlack = 1e-13;
 /// triangle's area is a product of four lengths, which would overflow or underflow.
 constexpr double kLongest = 1e76;
 
-using detail::text;
+using seamwire::detail::text;
 std::string text(std::int32_t number) { return std::to_string(number); }
 
 void check_vertex(const IntrinsicMesh& mesh, std::int32_t vertex, const char* what, std::size_t number) {
@@ -64,7 +64,14 @@ void check_sizes(const IntrinsicMesh& mesh) {
     throw InvalidInput("siblings must be empty or have 3 entries a triangle: " + std::to_string(mesh.triangles.size()) +
                        " triangles, " + std::to_string(mesh.siblings.size()) + " siblings");
   }
+  if (!mesh.areas.empty() && mesh.areas.size() != mesh.triangles.size()) {
+    throw InvalidInput("areas must be empty or have an entry a triangle: " + std::to_string(mesh.triangles.size()) +
+                       " triangles, " + std::to_string(mesh.areas.size()) + " areas");
+  }
 }
+
+/// The area that is given for a triangle, or 0.
+double given_area(const IntrinsicMesh& mesh, std::size_t f) { return mesh.areas.empty() ? 0.0 : mesh.areas[f]; }
 
 void check_corners(const IntrinsicMesh& mesh, std::size_t f) {
   for (const std::int32_t v : mesh.triangles[f]) check_vertex(mesh, v, "triangle", f);
@@ -123,7 +130,11 @@ void check_triangle_inequality(const IntrinsicMesh& mesh, std::size_t f) {
   const double a = mesh.lengths[3 * f], b = mesh.lengths[3 * f + 1], c = mesh.lengths[3 * f + 2];
   const double longest = std::max({a, b, c});
   const double slack = a + b + c - longest - longest;
-  if (slack >= kLeastSlack * longest) return;
+  const double area = given_area(mesh, f);
+  if (!(area >= 0 && area <= longest * longest)) {
+    throw InvalidInput("triangle " + std::to_string(f) + ": an area of " + text(area) + " does not fit its lengths");
+  }
+  if (slack >= (area > 0 ? -kLeastSlack : kLeastSlack) * longest) return;
   throw InvalidInput("triangle " + std::to_string(f) + ": the lengths " + text(a) + ", " + text(b) + ", " + text(c) +
                      (slack < 0.0 ? " fail the triangle inequality" : " leave it no area"));
 }
@@ -220,10 +231,11 @@ void GeodesicMesh::set_face(const IntrinsicMesh& mesh, std::int32_t external) {
     return twin < 0 ? -1 : 3 * internal_face_[twin / 3] + twin % 3;
   };
   const double* lengths = &mesh.lengths[3 * index(external)];
+  const double area = given_area(mesh, index(external));
   const Triangle& triangle = mesh.triangles[external];
   faces_.edit(index(internal_face_[external])) = {
       .lengths = {lengths[0], lengths[1], lengths[2]},
-      .four_areas = four_areas(lengths[0], lengths[1], lengths[2]),
+      .four_areas = area > 0 ? 4 * area : four_areas(lengths[0], lengths[1], lengths[2]),
       .corners = {internal_vertex(triangle[0]), internal_vertex(triangle[1]), internal_vertex(triangle[2])},
       .twins = {twin_of(3 * external), twin_of(3 * external + 1), twin_of(3 * external + 2)}};
 }
@@ -402,6 +414,7 @@ std::optional<GeodesicMesh> GeodesicMesh::patched(const IntrinsicMesh& before, c
   if (std::max(count, former_count) - common > most) return std::nullopt;
   if (!are_same(before.loose_edges, mesh.loose_edges)) return std::nullopt;
   if (!before.siblings.empty() || !mesh.siblings.empty()) return std::nullopt;
+  if (!before.areas.empty() || !mesh.areas.empty()) return std::nullopt;
   const auto vertices = index(mesh.vertex_count), former_vertices = vertex_count();
 
   // Entries that differ from before, because their numbers changed, or because they or what they name get another
