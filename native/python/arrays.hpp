@@ -46,13 +46,14 @@ std::size_t count_from(py::handle value, const std::string& name);
 /// The name of a value's type, for messages.
 std::string type_name(py::handle value);
 
-/// A sequence that is not a text. `of`: what it should have, for messages.
+/// A sequence that is not a text. `of`: what it should have, for messages. Loops over it must own each item, because a
+/// sequence may make its items when they are asked for.
 py::sequence sequence_from(py::handle value, const std::string& name, const char* of);
 /// A sequence of objects of a bound class T, whose name in Python is `of`.
 template <class T>
 std::vector<T> objects_from(py::handle value, const std::string& name, const char* of) {
   std::vector<T> objects;
-  for (const py::handle item : sequence_from(value, name, of)) {
+  for (const py::object item : sequence_from(value, name, of)) {
     if (!py::isinstance<T>(item)) {
       throw InvalidInput(name + ": expected a sequence of " + of + ", got a " + type_name(item) + " in it");
     }

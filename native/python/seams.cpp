@@ -217,8 +217,8 @@ PartFinder make_part_finder(const SurfaceObject& surface, const std::string& by,
   PartOptions options{.by = parts_by(by)};
   if (!mirror.is_none()) options.mirror = number_from(mirror, "mirror");
   if (!marked.is_none()) {
-    for (const py::handle& kind : marked) {
-      options.marked.push_back(edges_from(py::reinterpret_borrow<py::object>(kind), "marked"));
+    for (const py::object kind : sequence_from(marked, "marked", "arrays of edges")) {
+      options.marked.push_back(edges_from(kind, "marked"));
     }
   }
   if (!seams.is_none()) options.seams = edges_from(seams, "seams");
