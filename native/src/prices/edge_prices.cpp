@@ -30,7 +30,8 @@ Vector on_hemisphere(int i, int count, const Vector& axis) {
 /// The same with a density that is proportional to the cosine of the angle to the axis. `x`: a unit vector across the
 /// axis, from which the directions are counted.
 Vector by_cosine(int i, int count, const Vector& axis, const Vector& x) {
-  const double radius = std::sqrt((i + 0.5) / count), turn = i * std::numbers::pi * (3.0 - std::sqrt(5.0));
+  // No ray has the direction of x or runs across it, where it could lie in the plane of a triangle.
+  const double radius = std::sqrt((i + 0.5) / count), turn = (i + 0.5) * std::numbers::pi * (3.0 - std::sqrt(5.0));
   const Vector y = axis.cross(x);
   return radius * (std::cos(turn) * x + std::sin(turn) * y) + std::sqrt(std::max(1.0 - radius * radius, 0.0)) * axis;
 }
