@@ -9,9 +9,10 @@ import bpy
 import numpy as np
 import pytest
 import ui as driver
-from desk import WHITE, Desk, choose, draw, leave, reset_settings, shows
+from desk import WHITE, Desk, choose, draw, leave, reset_settings, second_window, shows
 from scene import add_grid, animate, chain, edit, seams
 from seamwire.mesh import edit_mesh
+from seamwire.mesh.pose import Pose
 from seamwire.mesh.settings import settings
 from seamwire.view.edited_objects import edited
 
@@ -195,3 +196,27 @@ def test_frames_do_not_read_the_mesh_again(playing: Desk, reads: list[bpy.types.
     assert bpy.context.scene.frame_current != frame, "it plays"
     ui.key("RET")
     assert seams(desk.obj) == chain(*range(36, 45))
+
+
+def test_an_object_of_another_windows_scene_is_posed_by_its_own_scene(ui: driver.Ui) -> None:
+    scene = bpy.context.scene
+    with second_window(ui) as other:
+        with bpy.context.temp_override(**other):
+            bpy.ops.scene.new(type="EMPTY")
+            new = bpy.context.scene
+            obj = add_grid(5)
+            obj.modifiers.new("Wave", "SIMPLE_DEFORM").deform_method = "BEND"
+            obj.modifiers[0].show_on_cage = obj.modifiers[0].show_in_editmode = True
+            bpy.ops.object.mode_set(mode="EDIT")
+        ui.wait(4)
+        try:
+            pose = Pose(edit_mesh.read(obj))
+            with ui.override():
+                assert bpy.context.scene == scene
+                pose.follow(obj)
+            assert pose.is_bent
+        finally:
+            with bpy.context.temp_override(**other):
+                bpy.ops.object.mode_set(mode="OBJECT")
+            other["window"].scene = scene
+            bpy.data.scenes.remove(new)

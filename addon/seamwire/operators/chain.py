@@ -13,6 +13,7 @@ import numpy as np
 from ..core.base.messages import NOTHING
 from ..core.drawing.change import Change
 from ..core.network.network import Network, Snap, edges_after
+from ..core.network.picks import FacePoint
 from ..mesh import finishes
 from ..mesh import settings as chosen
 from ..view.edited_objects import edited
@@ -353,7 +354,9 @@ class Chain:
         """Return whether there is a wire within a face that can be cut. Before that it has no edge that could hold it."""
         network = view.session.drawing.network
         cuts = [wire for wire in network.wires if wire.cuts and Change(self._before, network).finishes(wire)]
-        if all(len(wire.vertices) > 1 for wire in cuts):
+        # A wire that ends within a face is cut once the chain has led out of the face.
+        is_inside = network.seed is not None and isinstance(network.seed.pick, FacePoint)
+        if is_inside or all(len(wire.vertices) > 1 for wire in cuts):
             return False
         with suppress(ValueError):
             finishes.plan_cut(view.mesh, cuts)
