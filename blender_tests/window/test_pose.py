@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 import pytest
 import ui as driver
-from desk import WHITE, Desk, choose, draw, leave, reset_settings, second_window, shows
+from desk import WHITE, Desk, choose, draw, leave, reset_settings, shows
 from scene import add_grid, animate, chain, edit, seams
 from seamwire.mesh import edit_mesh
 from seamwire.mesh.pose import Pose
@@ -199,24 +199,26 @@ def test_frames_do_not_read_the_mesh_again(playing: Desk, reads: list[bpy.types.
 
 
 def test_an_object_of_another_windows_scene_is_posed_by_its_own_scene(ui: driver.Ui) -> None:
-    scene = bpy.context.scene
-    with second_window(ui) as other:
-        with bpy.context.temp_override(**other):
-            bpy.ops.scene.new(type="EMPTY")
-            new = bpy.context.scene
+    scene, new = bpy.context.scene, bpy.data.scenes.new("Other")
+    with ui.override():
+        bpy.ops.wm.window_new_main()
+    window = bpy.context.window_manager.windows[-1]
+    window.scene = new
+    ui.wait(4)
+    try:
+        with bpy.context.temp_override(window=window):
             obj = add_grid(5)
-            obj.modifiers.new("Wave", "SIMPLE_DEFORM").deform_method = "BEND"
-            obj.modifiers[0].show_on_cage = obj.modifiers[0].show_in_editmode = True
+            bent = obj.modifiers.new("Moved", "DISPLACE")
+            bent.show_on_cage = bent.show_in_editmode = True
             bpy.ops.object.mode_set(mode="EDIT")
-        ui.wait(4)
-        try:
+        with ui.override():
+            assert bpy.context.scene == scene
             pose = Pose(edit_mesh.read(obj))
-            with ui.override():
-                assert bpy.context.scene == scene
-                pose.follow(obj)
-            assert pose.is_bent
-        finally:
-            with bpy.context.temp_override(**other):
-                bpy.ops.object.mode_set(mode="OBJECT")
-            other["window"].scene = scene
-            bpy.data.scenes.remove(new)
+            pose.follow(obj)
+        assert pose.is_bent
+    finally:
+        with bpy.context.temp_override(window=window):
+            bpy.ops.object.mode_set(mode="OBJECT")
+            bpy.ops.wm.window_close()
+        ui.wait(4)
+        bpy.data.scenes.remove(new)
