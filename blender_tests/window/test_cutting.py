@@ -122,22 +122,28 @@ def test_a_wire_within_a_face_is_in_a_file_that_is_saved_within_the_chain(cuttin
     arrays = edited.front.mesh.arrays
     cutting.chain.begin()
     cutting.chain.draw_on(edited.front)
+    session.click(2)
     for weights in ((0.2, 0.2, 0.6), (0.1, 0.25, 0.65)):
         place = np.array(weights) @ arrays.points[arrays.triangles[20]]
         session.click(FacePoint.at(place, 20, arrays.triangles, arrays.points))
         session.wait()
-    assert [len(wire.vertices) for wire in session.wires] == [1]
-    path = tmp_path / "a.blend"
-    bpy.ops.wm.save_as_mainfile(filepath=str(path), copy=True)
-    with bpy.data.libraries.load(str(path), link=False) as (inside, wanted):
+    assert len(session.wires[-1].vertices) == 1
+    path = str(tmp_path / "a.blend")
+    bpy.ops.wm.save_as_mainfile(filepath=path, copy=True)
+    assert len(session.wires) == 2, "it is not cut before it leads out of the face"
+    session.click(44)
+    session.wait()
+    drawn = sum(np.linalg.norm(np.diff(wire.points, axis=0), axis=1).sum() for wire in session.wires)
+    bpy.ops.wm.save_as_mainfile(filepath=path, copy=True)
+    with bpy.data.libraries.load(path, link=False) as (inside, wanted):
         wanted.meshes = inside.meshes
     (saved,) = (mesh for mesh in wanted.meshes if len(mesh.vertices) > 81)
     assert any(edge.use_seam for edge in saved.edges)
     ui.move(cutting.at(60))
     ui.key("ESC")
     ui.wait_until(lambda: not cutting.running)
-    assert len(chains(cutting.obj)) == 1
     assert agree(cutting.obj)
+    assert length(cutting) == pytest.approx(drawn, rel=1e-3), "both wires"
 
 
 @pytest.mark.parametrize("where", ["before", "within", "after"])

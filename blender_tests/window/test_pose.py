@@ -12,6 +12,7 @@ import ui as driver
 from desk import WHITE, Desk, choose, draw, leave, reset_settings, shows
 from scene import add_grid, animate, chain, edit, seams
 from seamwire.mesh import edit_mesh
+from seamwire.mesh.pose import Pose
 from seamwire.mesh.settings import settings
 from seamwire.view.edited_objects import edited
 
@@ -248,3 +249,29 @@ def test_frames_do_not_read_the_mesh_again(playing: Desk, reads: list[bpy.types.
     assert bpy.context.scene.frame_current != frame, "it plays"
     ui.key("RET")
     assert seams(desk.obj) == chain(*range(36, 45))
+
+
+def test_an_object_of_another_windows_scene_is_posed_by_its_own_scene(ui: driver.Ui) -> None:
+    scene, new = bpy.context.scene, bpy.data.scenes.new("Other")
+    with ui.override():
+        bpy.ops.wm.window_new_main()
+    window = bpy.context.window_manager.windows[-1]
+    window.scene = new
+    ui.wait(4)
+    try:
+        with bpy.context.temp_override(window=window):
+            obj = add_grid(5)
+            bent = obj.modifiers.new("Moved", "DISPLACE")
+            bent.show_on_cage = bent.show_in_editmode = True
+            bpy.ops.object.mode_set(mode="EDIT")
+        with ui.override():
+            assert bpy.context.scene == scene
+            pose = Pose(edit_mesh.read(obj))
+            pose.follow(obj)
+        assert pose.is_bent
+    finally:
+        with bpy.context.temp_override(window=window):
+            bpy.ops.object.mode_set(mode="OBJECT")
+            bpy.ops.wm.window_close()
+        ui.wait(4)
+        bpy.data.scenes.remove(new)

@@ -84,10 +84,9 @@ class Pose:
 def _depsgraph_of(obj: bpy.types.Object) -> bpy.types.Depsgraph:
     """Return the evaluated data of a scene with the object. The context may be that of a window with another scene."""
     context = bpy.context
-    layers = {window: window.view_layer for window in context.window_manager.windows}
     if context.view_layer.objects.get(obj.name) != obj:
-        for window, layer in layers.items():
-            if layer.objects.get(obj.name) == obj:
+        for window in context.window_manager.windows:
+            if window.view_layer.objects.get(obj.name) == obj:
                 with context.temp_override(window=window):
                     return bpy.context.evaluated_depsgraph_get()
     return context.evaluated_depsgraph_get()

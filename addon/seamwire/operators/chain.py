@@ -13,6 +13,7 @@ import numpy as np
 from ..core.base.messages import NOTHING
 from ..core.drawing.change import Change
 from ..core.network.network import Network, Snap, edges_after
+from ..core.network.picks import FacePoint
 from ..mesh import finishes
 from ..mesh import settings as chosen
 from ..view.edited_objects import edited
@@ -255,7 +256,7 @@ class Chain:
         return self.has_kept
 
     def _attempt(self, work: Callable[..., object], *arguments: object) -> bool:
-        """Do some of the work that does not decide about the wires. Note an error instead of raising it. Return whether there was none."""
+        """Do work that does not decide about the wires. Note an error instead of raising it, and return whether there was none."""
         try:
             work(*arguments)
         except Exception as error:
@@ -344,14 +345,26 @@ class Chain:
         self._follow_mesh()
         if self.drawn_on is None:
             return
-        if any(len(wire.vertices) < 2 for wire in self.drawn_on.session.drawing.network.wires):
-            # A wire within a face has no edge that could hold it before it is cut.
+        if self._must_cut(self.drawn_on):
             self._attempt(self.let_go)
             self._attempt(self.keep)
         else:
             with suppress(ValueError):  # the mesh has other vertices: the chain ends at its next event
                 _write(self.drawn_on, adopt=False)
                 self._is_saved = True
+
+    def _must_cut(self, view: ObjectView) -> bool:
+        """Return whether there is a wire within a face that can be cut. Before that it has no edge that could hold it."""
+        network = view.session.drawing.network
+        cuts = [wire for wire in network.wires if wire.cuts and Change(self._before, network).finishes(wire)]
+        # A wire that ends within a face is cut once the chain has led out of the face.
+        is_inside = network.seed is not None and isinstance(network.seed.pick, FacePoint)
+        if is_inside or all(len(wire.vertices) > 1 for wire in cuts):
+            return False
+        with suppress(ValueError):
+            finishes.plan_cut(view.mesh, cuts)
+            return True
+        return False
 
     def drop(self) -> None:
         """Undo everything since the last step.

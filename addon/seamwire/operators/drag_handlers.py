@@ -61,6 +61,11 @@ class Hold:
             self.is_drag = True
         return self.drag(place)
 
+    def go_to(self, view: ObjectView) -> None:
+        """Hold the same place of an object that was read anew."""
+        self._view, self._session = view, view.session
+        self.snap = view.snap(self._place.view, self._place.cursor)
+
     def cancel(self) -> None:
         """Cancel without a change."""
         raise NotImplementedError
@@ -176,10 +181,9 @@ class LineHold(Hold):
 
     def draw_again(self, view: ObjectView) -> bool:
         """Draw the line once more on its object, which has other vertices now. Return whether that is possible."""
-        trail, place = self._trail, self._place
+        trail, self._line = self._trail, None
         assert trail is not None
-        self._view, self._session, self._line = view, view.session, None
-        self.snap = view.snap(place.view, place.cursor)
+        self.go_to(view)
         if self.snap is None or not self._session.line_begin(self.snap):
             return False
         points = np.array(trail.points).reshape(-1, 3)

@@ -61,6 +61,7 @@ class EditedObjects:
 
     def _view_of(self, obj: bpy.types.Object) -> ObjectView | None:
         """Return the view of an object, which may have another name now. Undo makes another object with the same name."""
+        self._follow_names()
         name = obj.name_full
         same = (view for view in self._views if view.exists and view.obj == obj)
         return next(same, next((view for view in self._views if view.name == name), None))
@@ -77,6 +78,10 @@ class EditedObjects:
             if self.front is None and view.name == self._was_front:
                 self.front = view
         return view
+
+    def _follow_names(self) -> None:
+        for view in self._views:
+            view.follow_name()
 
     def best_along(self, obj: bpy.types.Object | None) -> Along:
         """Return how wires run on an object if the mesh decides: along edges as long as it is not read."""
@@ -238,6 +243,7 @@ class EditedObjects:
         """Read changed meshes again, and forget meshes with a new topology. A chain looks after its objects itself."""
         if self.chain:
             return
+        self._follow_names()
         for view in tuple(self._views):
             obj = bpy.data.objects.get(view.name)
             if obj is None or obj.type != "MESH":

@@ -183,7 +183,7 @@ class ObjectView:
             layers=self._layers,
         )
         self._strength: NDArray[np.float64] | None = None
-        self._name = obj.name_full
+        self.name = obj.name_full  # the last one that is known
         self.edited_until: float | None = None  # when it was found out that it is not edited
         self.was_read()
         self.follow_pose()
@@ -195,13 +195,6 @@ class ObjectView:
     def obj(self) -> bpy.types.Object:
         """The object; its data may be gone."""
         return self.mesh.obj
-
-    @property
-    def name(self) -> str:
-        """The full name of the object, or the last one that is known if its data are gone."""
-        if self.exists:
-            self._name = self.obj.name_full
-        return self._name
 
     @property
     def session(self) -> Session:
@@ -349,6 +342,11 @@ class ObjectView:
             return bool(self.obj.name)
         except ReferenceError:
             return False
+
+    def follow_name(self) -> None:
+        """Take note of the object's name, which finds it again after undo has made another object."""
+        if self.exists:
+            self.name = self.obj.name_full
 
     def snap(self, view: Camera, cursor: tuple[float, float], plain: bool = False) -> Snap | None:
         """Return what is under the cursor; `plain`: what loops lead through, whatever was drawn on it.

@@ -138,7 +138,9 @@ def test_a_thousand_islands_find_room_side_by_side_at_once(is_new: bool) -> None
         NewIsland(0.0 * SQUARE if is_new else SQUARE * size + middle, SQUARE * size, TRIANGLES, np.full(2, 0.5), 0.0)
         for size, middle in zip(sizes, middles, strict=True)
     ]
-    low, high = np.array([np.split(bounds(corners), 2) for corners in place(islands, taken((0, 0), (0.3, 1)))]).swapaxes(0, 1)
+    low, high = np.array(
+        [np.split(bounds(corners), 2) for corners in place(islands, taken((0, 0), (0.3, 1)))]
+    ).swapaxes(0, 1)
     assert high - low == pytest.approx(sizes)
     assert low[:, 0].min() > 0.3
     assert high.max() <= 1.0
