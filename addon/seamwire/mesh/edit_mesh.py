@@ -388,7 +388,7 @@ def visible_stretch(matrix: Matrix) -> NDArray[np.float64]:
 
 @contextmanager
 def restored_after_errors(obj: bpy.types.Object) -> Iterator[None]:
-    """Let the edit mesh of an object be as it was before if an error occurs."""
+    """Restore the edit mesh of an object if an error occurs."""
     obj.update_from_editmode()
     before = obj.data.copy()
     try:

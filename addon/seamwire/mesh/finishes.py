@@ -67,7 +67,7 @@ def apply(mesh: ObjectSession, change: Change) -> tuple[ObjectSession | None, Fi
     """Let the mesh do what a change asks, once it has the wires: finish them, and take back cuts that are wires' no more.
 
     The session of the mesh ends if anything is done. Returns the session that goes on, or None if the mesh must be read again for one, and
-    the counts of everything that was done. After an error that nobody expects, the mesh is as it was, with the wires along edges.
+    the counts of everything that was done. After an unexpected error the mesh is restored, with the wires along edges.
     """
     if not any(map(change.finishes, mesh.session.wires)) and not _left_cuts(mesh, change.before):
         return mesh, Finished()

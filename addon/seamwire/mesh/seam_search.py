@@ -93,7 +93,7 @@ class Suggestion:
         self._core = native.load()
         self.name = obj.name_full  # threads must not ask Blender
         self.mesh = ObjectSession(obj)
-        self.name = obj.name_full  # edits know it by this one, whatever it is called meanwhile
+        self.name = obj.name_full  # edits use this name, even if the object is renamed meanwhile
         arrays = self.mesh.arrays
         self.along: Along = options.along or self.mesh.find_auto().along
         self.finish: Finish = options.finish or self.mesh.find_auto().finish
