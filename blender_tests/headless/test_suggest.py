@@ -210,7 +210,7 @@ def test_a_mesh_without_area_is_refused_with_a_sentence(along: tuple[float, floa
     for vertex in obj.data.vertices:
         vertex.co = (vertex.co.x * along[0], vertex.co.x * along[1], vertex.co.x * along[2])
     edit()
-    with pytest.raises(RuntimeError, match="area|face"):
+    with pytest.raises(RuntimeError, match=r"(area|face)"):
         suggest()
 
 
