@@ -31,9 +31,9 @@ class Limbs {
 
  private:
   const PlanMesh& mesh_;
-  std::vector<double> areas_;                // of each triangle, in areas of its piece
-  std::vector<double> weights_;              // of each edge
-  std::vector<double> distances_;            // between the triangles at each edge, in roots of the area of their piece
+  std::vector<double> areas_;                 // of each triangle, in areas of its piece
+  std::vector<double> weights_;               // of each edge
+  std::vector<double> distances_;             // between the triangles at each edge, in roots of the area of their piece
   std::vector<std::vector<LimbJoin>> joins_;  // for each piece, in their order
   double flat_share_ = 0.0;
 };
