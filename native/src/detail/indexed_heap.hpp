@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "detail/zeroed_array.hpp"
+
 namespace seamwire::detail {
 
 /// A priority queue of numbers, each in it once at most: least key first; of equal keys, the lesser number, so that the
@@ -14,7 +16,7 @@ namespace seamwire::detail {
 class IndexedHeap {
  public:
   /// For the numbers below `size`.
-  explicit IndexedHeap(std::size_t size) : place_(size, -1) {}
+  explicit IndexedHeap(std::size_t size) : place_(size) {}
 
   bool empty() const { return heap_.empty(); }
 
@@ -24,21 +26,21 @@ class IndexedHeap {
   /// Puts a number in, or gives it a key that is not greater than the one it has.
   void lower(std::int32_t number, double key) {
     std::int32_t& place = place_[number];
-    if (place < 0) {
-      place = static_cast<std::int32_t>(heap_.size());
+    if (place == 0) {
       heap_.emplace_back();
+      place = static_cast<std::int32_t>(heap_.size());
     }
-    rise(static_cast<std::size_t>(place), {key, number});
+    rise(static_cast<std::size_t>(place - 1), {key, number});
   }
 
   void clear() {
-    for (const Entry& entry : heap_) place_[entry.second] = -1;
+    for (const Entry& entry : heap_) place_[entry.second] = 0;
     heap_.clear();
   }
 
   std::int32_t pop() {
     const std::int32_t least = heap_.front().second;
-    place_[least] = -1;
+    place_[least] = 0;
     const Entry last = heap_.back();
     heap_.pop_back();
     if (!heap_.empty()) sink(last);
@@ -50,7 +52,7 @@ class IndexedHeap {
 
   void put(std::size_t at, const Entry& entry) {
     heap_[at] = entry;
-    place_[entry.second] = static_cast<std::int32_t>(at);
+    place_[entry.second] = static_cast<std::int32_t>(at) + 1;
   }
   void rise(std::size_t at, const Entry& entry) {
     while (at > 0) {
@@ -78,7 +80,7 @@ class IndexedHeap {
   }
 
   std::vector<Entry> heap_;
-  std::vector<std::int32_t> place_;
+  ZeroedArray<std::int32_t> place_;  ///< of each number in the heap, plus one; 0: it is not there
 };
 
 }  // namespace seamwire::detail

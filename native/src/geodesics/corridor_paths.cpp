@@ -23,6 +23,7 @@
 #include "detail/indexed_heap.hpp"
 #include "detail/poll.hpp"
 #include "detail/prefetch.hpp"
+#include "detail/zeroed_array.hpp"
 #include "geodesics/geodesic_mesh.hpp"
 #include "geodesics/path_tracing.hpp"
 #include "geodesics/wavefront.hpp"
@@ -73,13 +74,16 @@ class DeltaStepping {
   }
 
   /// Final where it is below radius(), else an upper bound; infinite where nothing led yet.
-  float at(std::int32_t vertex) const { return reached_[vertex].distance; }
+  float at(std::int32_t vertex) const {
+    const Reached& known = reached_[vertex];
+    return known.before == kUnknown ? std::numeric_limits<float>::infinity() : known.distance;
+  }
 
   /// A shortest chain of hops from the seed to a vertex whose distance is final. Of the path only the points are set, a
   /// vertex each.
   IntrinsicPath chain(std::int32_t vertex) const {
     IntrinsicPath path;
-    for (std::int32_t v = vertex; v >= 0; v = reached_[v].from) path.points.push_back({.vertex = v});
+    for (std::int32_t v = vertex; v >= 0; v = reached_[v].before - kBefore) path.points.push_back({.vertex = v});
     std::reverse(path.points.begin(), path.points.end());
     return path;
   }
@@ -95,9 +99,10 @@ class DeltaStepping {
   static constexpr std::size_t kStepsBetweenChecks = 2048;
 
   struct Reached {
-    float distance = std::numeric_limits<float>::infinity();
-    std::int32_t from = -1;
+    float distance;
+    std::int32_t before;  ///< the vertex before on the chain from the seed, -1 at the seed, plus kBefore; or kUnknown
   };
+  static constexpr std::int32_t kUnknown = 0, kBefore = 2;
   struct Entry {
     float distance;
     std::int32_t vertex;
@@ -108,8 +113,8 @@ class DeltaStepping {
 
   void relax(std::int32_t vertex, float distance, std::int32_t from) {
     Reached& known = reached_[vertex];
-    if (!(distance < known.distance)) return;
-    known = {distance, from};
+    if (!(distance < at(vertex))) return;
+    known = {distance, from + kBefore};
     bucket(std::max(bucket_of(distance), current_)).push_back({distance, vertex});
     ++waiting_;
   }
@@ -123,7 +128,7 @@ class DeltaStepping {
   }
 
   const GeodesicMesh& mesh_;
-  std::vector<Reached> reached_;
+  ZeroedArray<Reached> reached_;
   std::vector<std::vector<Entry>> buckets_;  ///< a ring: no hop is longer than all but one of them
   float width_ = 1.0F, per_width_ = 1.0F;
   std::size_t current_ = 0,
@@ -184,13 +189,17 @@ struct CorridorPaths::Impl {
         options(with),
         corridor_vertices(with.corridor_vertices > 0 ? with.corridor_vertices : default_corridor(mesh->vertex_count())),
         from_seed(*mesh, seed_corner),
-        to_target(mesh->vertex_count(), kUnknown),
+        to_target(mesh->vertex_count()),
         queue(mesh->vertex_count()),
         cutter(*mesh) {}
 
   void find_corridor(const PlacedPoint& to, const Task& task);
 
-  static constexpr float kUnknown = std::numeric_limits<float>::infinity();
+  /// The length of a way along hops, if it is known.
+  struct Way {
+    float length;
+    bool is_known;
+  };
 
   std::shared_ptr<const GeodesicMesh> mesh;
   PlacedPoint seed;
@@ -198,7 +207,7 @@ struct CorridorPaths::Impl {
   CorridorPathOptions options;
   std::size_t corridor_vertices;
   DeltaStepping from_seed;
-  std::vector<float> to_target;        ///< along hops; known of `touched` only
+  ZeroedArray<Way> to_target;          ///< known of `touched` only
   IndexedHeap queue;                   ///< by the length of the path over a vertex
   std::vector<std::int32_t> touched;   ///< looked at for the current target
   std::vector<std::int32_t> corridor;  ///< its vertices
@@ -208,7 +217,7 @@ struct CorridorPaths::Impl {
 /// Until the seed is in the corridor and it is as large as it may be.
 void CorridorPaths::Impl::find_corridor(const PlacedPoint& to, const Task& task) {
   const std::int32_t target = corner_of(*mesh, to);
-  for (const std::int32_t v : touched) to_target[v] = kUnknown;
+  for (const std::int32_t v : touched) to_target[v] = {};
   touched.clear();
   corridor.clear();
   queue.clear();
@@ -216,13 +225,13 @@ void CorridorPaths::Impl::find_corridor(const PlacedPoint& to, const Task& task)
   // Distances beyond the target may not be known yet. The rest of the path is then at least as long.
   const float reach = from_seed.at(target);
   const auto length_over = [&](std::int32_t v) {
-    return static_cast<double>(to_target[v]) + static_cast<double>(std::min(from_seed.at(v), reach));
+    return static_cast<double>(to_target[v].length) + static_cast<double>(std::min(from_seed.at(v), reach));
   };
   const auto relax = [&](std::int32_t v, float distance) {
-    float& known = to_target[v];
-    if (!(distance < known)) return;
-    if (known == kUnknown) touched.push_back(v);
-    known = distance;
+    Way& known = to_target[v];
+    if (known.is_known && !(distance < known.length)) return;
+    if (!known.is_known) touched.push_back(v);
+    known = {distance, true};
     queue.lower(v, length_over(v));
   };
 
@@ -237,7 +246,7 @@ void CorridorPaths::Impl::find_corridor(const PlacedPoint& to, const Task& task)
     corridor.push_back(v);
     if (corridor.size() % kWorkBetweenChecks == 0) task.check(0.0);
     has_source = has_source || v == seed_corner;
-    mesh->for_each_hop(v, [&](std::int32_t head, float hop) { relax(head, to_target[v] + hop); });
+    mesh->for_each_hop(v, [&](std::int32_t head, float hop) { relax(head, to_target[v].length + hop); });
   }
   for (const PlacedPoint* end : std::array<const PlacedPoint*, 2>{&seed, &to}) {
     for (const PlacedPoint::InFace& in : end->faces) corridor.push_back(mesh->half_edge(3 * in.face).tail);
