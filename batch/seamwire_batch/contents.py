@@ -98,7 +98,7 @@ def _uv_area(mesh: bpy.types.Mesh) -> float:
 
 
 def _is_animated(item: bpy.types.ID) -> bool:
-    data = item.animation_data
+    data = getattr(item, "animation_data", None)  # images, which empties show, have none
     return data is not None and (data.action is not None or len(data.nla_tracks) > 0)
 
 

@@ -13,6 +13,7 @@ from maps import energy, flipped, in_square, overlapping_pairs, triangles
 from mathutils import Matrix
 from scene import add_grid, add_object, add_scan, add_suzanne, changing, edit, mark_wires, seams, snapshot
 from seamwire.core.base import native
+from seamwire.core.base.geometry import triangle_areas
 from seamwire.core.islands.islands import IslandMaker
 from seamwire.core.seams.gaps import Gap, GapFinder
 from seamwire.core.seams.seam_plan import PartEdits, edits_text, energy_of, stretch_of
@@ -565,6 +566,35 @@ def test_only_scans_get_vertices(make: Callable[[], bpy.types.Object], is_cut: b
     assert suggest() == {"FINISHED"}
     bpy.ops.object.mode_set(mode="OBJECT")
     assert (len(obj.data.vertices) > vertices) == is_cut
+
+
+def add_star(subdivisions: int) -> bpy.types.Object:
+    """Add a ball with six limbs, along the axes."""
+    obj = add_ball("Star", subdivisions)
+    points = np.empty((len(obj.data.vertices), 3), dtype=np.float32)
+    obj.data.vertices.foreach_get("co", points.reshape(-1))
+    points /= np.linalg.norm(points, axis=1)[:, None]
+    nearest = np.arccos(np.minimum(1.0, np.abs(points).max(axis=1)))
+    points *= (1.0 + 2.0 * np.exp(-((nearest / 0.35) ** 4)))[:, None]
+    obj.data.vertices.foreach_set("co", points.reshape(-1))
+    obj.data.update()
+    return obj
+
+
+@pytest.mark.parametrize("finish", ["SNAP", "CUT"])
+def test_scans_of_figures_are_parted_into_limbs(finish: str) -> None:
+    obj = add_star(4)
+    edit()
+    assert suggest(along="SURFACE", finish=finish) == {"FINISHED"}
+    assert is_good_map(obj)
+    arrays = edit_mesh.read(obj)
+    labels = seam_islands.labels_of(arrays)
+    areas = np.bincount(labels, triangle_areas(arrays.points, arrays.triangles))
+    assert areas.min() > 0.003 * areas.sum()
+    centers = arrays.points[arrays.triangles].mean(axis=1)
+    tips = [labels[(sign * centers[:, axis]).argmax()] for axis in range(3) for sign in (-1.0, 1.0)]
+    assert len(set(tips)) == 6, "each limb is an island, beside the body"
+    assert len(areas) >= 7
 
 
 @pytest.mark.parametrize("finish", ["SNAP", "SLIDE", "CUT"])

@@ -256,8 +256,8 @@ Parameters
 ----------
 surface : Surface
 by : {'rims', 'limbs', 'shape'}
-    What separates parts: sharp rims, as of props and machines, or narrow and concave places, as between head, arms and
-    body of a figure. 'shape' takes limbs if at most 8 % of the area is flat.
+    What separates parts. 'rims': sharp edges, as of props and machines. 'limbs': narrow and concave places, as between
+    head, arms and body of a figure. 'shape': limbs if at most 8 % of the area is flat, otherwise rims.
 mirror : {0, 1, 2}, optional
     The axis along which a plane mirrors the surface, as for `SeamPlanner`. Parts are then symmetric wherever the
     triangles are mirrored.

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from contextlib import contextmanager, nullcontext
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from typing import TYPE_CHECKING
 
 import bpy
@@ -30,7 +30,8 @@ def problem_with(obj: object) -> str:
     layer = bpy.context.view_layer
     # Blender adds new objects and collections to the layer, and computes where objects are, only as it updates.
     layer.update()
-    if obj not in tuple(layer.objects):
+    # A linked object may have the name of another one.
+    if layer.objects.get(name) != obj and obj not in tuple(layer.objects):
         return f"{name} is not in the view layer {layer.name}: {_whereabouts(obj)}"
     if not obj.visible_get():
         return f"{name} cannot be edited: it is hidden. Show it and its collections"
@@ -111,7 +112,7 @@ def _select(objects: Iterable[bpy.types.Object]) -> None:
         each.select_set(True)
 
 
-def _in_view(obj: bpy.types.Object) -> contextmanager:
+def _in_view(obj: bpy.types.Object) -> AbstractContextManager[None]:
     """Return a context in which operators see an object, even if the 3D view is a local view of others."""
     view = bpy.context.space_data
     if isinstance(view, bpy.types.SpaceView3D) and view.local_view and not obj.local_view_get(view):

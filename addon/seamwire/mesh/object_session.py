@@ -78,11 +78,13 @@ def forget_records() -> None:
 
 
 def complete_records() -> None:
-    """Let every mesh hold the records that its labels call. Blender's undo brings back labels in Edit Mode, but no records."""
+    """Store the missing records of all meshes. Blender's undo restores labels, but not records."""
+    if not (_archive.wires or _archive.strokes):
+        return
     for obj in bpy.data.objects:
         if obj.type == "MESH" and obj.mode == "EDIT":
             obj.update_from_editmode()  # Blender does so too when it saves
-    for data in bpy.data.meshes:
+    for data in list(bpy.data.meshes):
         labels = edit_mesh.stored_labels(data) if data.library is None else ()
         if not len(labels):
             continue

@@ -91,9 +91,8 @@ class Suggestion:
 
     def __init__(self, obj: bpy.types.Object, options: SearchOptions, faces: NDArray[np.integer] | None) -> None:
         self._core = native.load()
-        self.name = obj.name_full  # threads must not ask Blender
+        self.name = obj.name_full  # also after a rename, because edits use it; threads must not ask Blender
         self.mesh = ObjectSession(obj)
-        self.name = obj.name_full  # edits use this name, even if the object is renamed meanwhile
         arrays = self.mesh.arrays
         self.along: Along = options.along or self.mesh.find_auto().along
         self.finish: Finish = options.finish or self.mesh.find_auto().finish

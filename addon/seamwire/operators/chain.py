@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import traceback
-from contextlib import ExitStack, suppress
+from contextlib import ExitStack, nullcontext, suppress
 from typing import TYPE_CHECKING, TypeVar
 
 import bpy
@@ -27,6 +27,7 @@ from .unwrap_islands import unwrap_after_chain
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from contextlib import AbstractContextManager
 
     from ..core.drawing.session import Session
     from ..view.object_view import ObjectView
@@ -178,7 +179,8 @@ class Chain:
     def find_front(self) -> None:
         """Let the active object be in front if no object is, because a cut mesh is read anew. This may read the whole mesh."""
         if edited.front is None or not edited.front.exists:
-            edited.front = edited.of(bpy.context.active_object)
+            with self._at_home():
+                edited.front = edited.of(bpy.context.active_object)
 
     def draw_on(self, view: ObjectView) -> None:
         """Draw on this object. Wires drawn on another object become a separate chain."""
@@ -195,7 +197,10 @@ class Chain:
 
     def keep(self) -> None:
         """Keep what was drawn as a separate step of undo, and go on."""
-        self._keep_wires()
+        with self._at_home():
+            self._keep_wires()
+        if self.failure is not None:
+            raise self.failure
         self.find_front()
 
     def trouble(self, context: bpy.types.Context) -> str:
@@ -206,9 +211,11 @@ class Chain:
             reason = "Edit mode was left"
         elif is_own and context.workspace != self.workspace:
             reason = "Another workspace was opened"
-        # What is drawn can be kept after an error only if its mesh is known as it is now.
+        # After an error, wires can be kept only if the mesh is known as it is.
         reason = self._follow_mesh(reason)
         edited.take_error()
+        if self.failure is not None:
+            raise self.failure
         return reason
 
     def _follow_mesh(self, reason: str = "") -> str:
@@ -243,19 +250,25 @@ class Chain:
         at_once
             Whether Blender stops the operator. Then there is no time to wait for wires, and no step of undo.
         """
-        self._attempt(self.let_go)
-        self._attempt(self._follow_mesh)
-        try:
-            self._keep_wires(at_once)
-        except Exception as error:
-            self._give_up(error, at_once)
-        self._attempt(self.close, Cue.KEEP)
+        with self._at_home():
+            self.attempt(self.let_go)
+            self.attempt(self._follow_mesh)
+            try:
+                self._keep_wires(at_once)
+            except Exception as error:
+                self._give_up(error, at_once)
+            self.attempt(self.close, Cue.KEEP)
         if self.failure is not None:
             fate = ", and its wires are kept" if self.has_kept else ""
             self.notices.add("ERROR", f"Drawing ended on an error{fate}: {self.failure}")
         return self.has_kept
 
-    def _attempt(self, work: Callable[..., object], *arguments: object) -> bool:
+    def _at_home(self) -> AbstractContextManager[None]:
+        """Return a context in which Blender works on the scene of the chain. Another window may show another scene."""
+        is_open = self.window in self.manager.windows.values()
+        return bpy.context.temp_override(window=self.window) if is_open else nullcontext()
+
+    def attempt(self, work: Callable[..., object], *arguments: object) -> bool:
         """Do work that does not decide about the wires. Note an error instead of raising it, and return whether there was none."""
         try:
             work(*arguments)
@@ -271,26 +284,27 @@ class Chain:
         if not is_known:
             traceback.print_exc()
         fate = "were not kept"
-        self._attempt(self.drop)
+        self.attempt(self.drop)
         if self._is_saved:
             fate = "are in the mesh as they were last saved" if is_known else "are in the mesh in part, undo leads back"
             self.has_kept = True
             if not at_once:
-                undo_steps.push(undo_steps.DRAW)
+                self.attempt(undo_steps.push, undo_steps.DRAW)
         self.notices.add("WARNING" if is_known else "ERROR", f"{error}: the wires of this chain {fate}")
         self.failure = None
 
     def _keep_wires(self, at_once: bool = False) -> None:
         """End the chains of all objects after their last wires are computed, and write what was drawn as a step of Blender's undo.
 
-        It reports clicks that waited and could not be done. `at_once` is that of `finish`, and it raises as `finish` does.
+        It reports clicks that waited and could not be done. `at_once` is that of `finish`. Raises ValueError if an edge is gone. Then
+        the mesh is unchanged.
         """
         # The object that is drawn on comes first, because outside Edit Mode it is not among the views.
         drawn_on = [] if self.drawn_on is None else [self.drawn_on]
         for view in dict.fromkeys((*drawn_on, *edited.views())):
             end = view.session.end_chain
-            if not self._attempt(end, not at_once):
-                self._attempt(end, False)
+            if not self.attempt(end, not at_once):
+                self.attempt(end, False)
             drawing = view.session.drawing
             for told in (drawing.failure, drawing.warning):
                 if told:
@@ -323,7 +337,7 @@ class Chain:
         if not at_once:
             if (marked or cleared or done) and bpy.context.mode == "EDIT_MESH":
                 problem = self._try("unwrapping", view, lambda: unwrap_after_chain(bpy.context)) or ""
-            self._attempt(undo_steps.push, title)
+            self.attempt(undo_steps.push, title)
         told = f"{title}: {done or summary(change, marked, cleared)}"
         self.notices.add("WARNING" if problem else "INFO", f"{told}. {problem}" if problem else told)
 
@@ -346,15 +360,17 @@ class Chain:
         if self.drawn_on is None:
             return
         if self._must_cut(self.drawn_on):
-            self._attempt(self.let_go)
-            self._attempt(self.keep)
+            self.attempt(self.let_go)
+            self.attempt(self.keep)
         else:
-            with suppress(ValueError):  # the mesh has other vertices: the chain ends at its next event
+            was_saved, self._is_saved = self._is_saved, True  # an error may leave a part of the wires
+            try:
                 _write(self.drawn_on, adopt=False)
-                self._is_saved = True
+            except ValueError:  # the mesh has other vertices, and nothing was written: the chain ends at its next event
+                self._is_saved = was_saved
 
     def _must_cut(self, view: ObjectView) -> bool:
-        """Return whether there is a wire within a face that can be cut. Before that it has no edge that could hold it."""
+        """Return whether a wire lies within a face and can be cut. Until it is cut, no edge can store it."""
         network = view.session.drawing.network
         cuts = [wire for wire in network.wires if wire.cuts and Change(self._before, network).finishes(wire)]
         # A wire that ends within a face is cut once the chain has led out of the face.

@@ -111,6 +111,7 @@ def _keep_chain(chain: Chain, line: LineHold) -> bool:
     if view not in edited.views():
         view = edited.of(view.obj)
         if not line.draw_again(view):
+            chain.notices.add("WARNING", "The mesh was cut, and the line has no place on it: draw it again")
             return False
     chain.draw_on(view)
     return True

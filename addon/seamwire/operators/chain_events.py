@@ -77,9 +77,9 @@ def read(chain: Chain, context: bpy.types.Context, event: bpy.types.Event) -> Gi
         return Given(Sign.TICK, event)
     if chain.hold is not None and event.value in {"PRESS", "RELEASE"}:  # motions may come without the modifiers
         chain.hold.follow_modifiers(event)
-    can_draw = (
-        chain.follow_mouse(context.window) and context.mode == "EDIT_MESH"
-    )  # another window may show another scene
+    # Another window may show another scene, where other objects are edited.
+    is_same = context.view_layer == chain.window.view_layer and context.mode == "EDIT_MESH"
+    can_draw = chain.follow_mouse(context.window) and is_same
     place = place_of(context.window, event) if can_draw else None
     double = chain.clicks.is_second(event, time.monotonic(), context.preferences)
     hold = chain.hold
@@ -100,7 +100,10 @@ def read(chain: Chain, context: bpy.types.Context, event: bpy.types.Event) -> Gi
     # Undo in Blender would take wires out of the mesh that the chain writes again. Backspace alone resets a setting.
     action = chain.keys.decode(event, double)
     is_undo = action in {Action.UNDO, Action.REDO} and (event.ctrl or event.oskey)
-    if _is_over_settings(context.window, event) or (is_undo and context.window != chain.window):
+    # Windows without a view, such as Blender's preferences, belong to Blender.
+    has_view = any(area.type == "VIEW_3D" for area in context.window.screen.areas)
+    is_elsewhere = context.window != chain.window and (is_undo or not has_view)
+    if _is_over_settings(context.window, event) or is_elsewhere:
         return Given(action if is_undo else Sign.NOTHING, event)
     return Given(Sign.OTHER_TOOL, event)
 

@@ -12,13 +12,13 @@ from bpy.app.handlers import persistent
 
 from ..core.base.native import NativeError
 from ..mesh.registration import classes, handler, together
-from ..mesh.settings import notices, preferences, settings
+from ..mesh.settings import ADDON, notices, preferences, settings
 from ..terms.choices import ALONG, items
 from ..words.keys import Action, Key
 from .chain_state import Stage, running
 from .edit_mesh_operator import NeedsEditMode
 from .keymaps import keys, takes
-from .other_windows import OPERATOR, listen, listening
+from .other_windows import OPERATOR, listen, listening, stop_listening
 from .steps import running as steps
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ _STEPS_ELSEWHERE = "{} is running: wait for it, or press Esc in its window"
 
 
 class _Follows:
-    """Gives an operator what passes the events of its window to a chain, and ends the chain. The operator has `_chain`."""
+    """A `modal` method that passes events to `_chain`, and ends with it."""
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Pass an event to the chain, and finish when the chain has ended."""
@@ -79,7 +79,8 @@ class _Follows:
         self._chain.notices.tell(self.report)
         if has_kept and next(_kept) >= _ENOUGH and preferences(context).text == "STEPS":
             preferences(context).text = "INFORMATION"
-            context.preferences.is_dirty = True
+            # Blender does not list an add-on that is enabled for one run, and must store nothing of it.
+            context.preferences.is_dirty |= ADDON in context.preferences.addons
         return {"FINISHED"} if has_kept else {"CANCELLED"}
 
     def _failed(self, context: bpy.types.Context, error: Exception) -> set[str]:
@@ -174,8 +175,8 @@ class MESH_OT_seamwire_draw(_Follows, NeedsEditMode, bpy.types.Operator):
                 return result
         except Exception as error:
             return self._failed(context, error)
-        context.window_manager.modal_handler_add(self)
         listen(context.window)
+        context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"} if self.first != "PEEK" else {"RUNNING_MODAL", "PASS_THROUGH"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
@@ -210,8 +211,7 @@ class MESH_OT_seamwire_listen(_Follows, bpy.types.Operator):
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         """Begin to listen. A timer lets it end soon, because Blender does not save automatically meanwhile."""
         self._window = context.window.as_pointer()
-        listening.add(self._window)
-        self._timer = context.window_manager.event_timer_add(_LOOK, window=context.window)
+        listening[self._window] = context.window_manager.event_timer_add(_LOOK, window=context.window)
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
@@ -232,8 +232,9 @@ class MESH_OT_seamwire_listen(_Follows, bpy.types.Operator):
 
     def cancel(self, context: bpy.types.Context) -> None:
         """Listen no longer."""
-        listening.discard(self._window)
-        context.window_manager.event_timer_remove(self._timer)
+        timer = listening.pop(self._window, None)
+        if timer is not None:
+            context.window_manager.event_timer_remove(timer)
 
 
 def tell_mirrored(operator: bpy.types.Operator) -> None:
@@ -245,20 +246,20 @@ def tell_mirrored(operator: bpy.types.Operator) -> None:
 def _on_save(*_: object) -> None:
     """Let files hold what is drawn so far."""
     for chain in running:
-        chain.save()
+        chain.attempt(chain.save)
 
 
 @persistent
 def _end_all(*_: object) -> None:
     """End the chain that is being drawn, and keep its wires. A file that cannot be loaded leaves the open one with them."""
     for chain in tuple(running):
-        with bpy.context.temp_override(window=chain.window):
-            chain.finish()
+        chain.finish()
+        chain.notices.tell(lambda _kind, text: print(f"Seamwire: {text}"))
 
 
 register, unregister = together(
     *classes(MESH_OT_seamwire_draw, MESH_OT_seamwire_listen),
-    (lambda: None, listening.clear),
+    (lambda: None, stop_listening),
     handler("save_pre", _on_save),
     handler("load_pre", _end_all),
     (lambda: None, _end_all),

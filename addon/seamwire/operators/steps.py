@@ -7,7 +7,7 @@ Esc or a right click cancels the operator, and nothing changes. Enter ends a ste
 from __future__ import annotations
 
 import time
-from contextlib import ExitStack, suppress
+from contextlib import ExitStack
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
@@ -156,7 +156,6 @@ class Stepwise(EditMeshOperator):
         self.is_beside = True
         self._steps = self.steps(context)
         self._cancelled, self._fraction, self._seen = False, 0.0, ""
-        self._workspace = context.workspace
         self._work: Future[None] | None = None
         self._thread = ThreadPoolExecutor(1, "seamwire steps")
         self._cleanup = ExitStack()
@@ -169,8 +168,8 @@ class Stepwise(EditMeshOperator):
         self.window = context.window
         result = self._advance()
         if result == {"RUNNING_MODAL"}:
-            context.window_manager.modal_handler_add(self)
             listen(self.window)
+            context.window_manager.modal_handler_add(self)
         return result
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
@@ -185,7 +184,7 @@ class Stepwise(EditMeshOperator):
             raise
 
     def overhear(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Return what a modal operator returns for an event of another window: only Undo, which would change the mesh, is not Blender's."""
+        """Handle an event of another window. Undo is taken, because it would change the mesh. Everything else passes through."""
         if not undoes(event, context.window_manager):
             return {"PASS_THROUGH"}
         hand = None if self._cancelled else self._step.hand
@@ -195,9 +194,6 @@ class Stepwise(EditMeshOperator):
 
     def _follow(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         hand = None if self._cancelled else self._step.hand
-        if context.workspace != self._workspace:
-            self._tell(None)
-            self._workspace = context.workspace
         if context.mode != "EDIT_MESH" and not self._cancelled:
             self.report({"WARNING"}, f"Edit Mode was left: {self.bl_label} has ended, and nothing has changed")
             self._cancelled, hand = True, None
@@ -294,8 +290,9 @@ class Stepwise(EditMeshOperator):
         self._tell("    ".join([*texts, "Esc or Right Click: Cancel" if is_right else "Esc: Cancel"]))
 
     def _tell(self, text: str | None) -> None:
-        with suppress(ReferenceError):  # the workspace may be gone with its file
-            self._workspace.status_text_set(text)
+        # A function is shared by the status bars of all workspaces, and a text is not.
+        draw = None if text is None else lambda header, _context: header.layout.label(text=text)
+        bpy.data.workspaces[0].status_text_set(draw)
 
 
 def end_all() -> None:

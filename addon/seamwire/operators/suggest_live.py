@@ -217,22 +217,29 @@ class LiveParts:
             self._said = text
 
     def _step_to(self, by: int) -> None:
-        """Take back the last change, by -1, or make it again, by 1. A search that has not ended is taken back first."""
-        at = self._at + by
-        if self._searches:
+        """Take back the last change, by -1, or make it again, by 1. A change whose search has not ended is taken back first."""
+        waiting, waits_at = self._searches[-1] if self._searches else (None, None)
+        if waiting is not None and waits_at is None:
             if by < 0:
-                self._searches.pop()
-                self._version += 1  # another step is needed
-        elif not 0 <= at < len(self._choices):
+                self._drop_search()
+            return
+        at = (self._at if waits_at is None else waits_at) + by
+        if not 0 <= at < len(self._choices):
             self._say(NOTHING_TO_UNDO if by < 0 else NOTHING_TO_REDO)
-        else:
-            choice = self._choices[at]
+            return
+        if waiting is not None:
+            self._drop_search()  # the new search goes on from where that one leads
+        choice = self._choices[at]
 
-            def search(progress: Progress) -> PartChoice:
-                self._search.count(choice.amount, choice.edits, progress)
-                return choice
+        def search(progress: Progress) -> PartChoice:
+            self._search.count(choice.amount, choice.edits, progress)
+            return choice
 
-            self._begin(search, at)
+        self._begin(search, at)
+
+    def _drop_search(self) -> None:
+        self._searches.pop()
+        self._version += 1  # another step is needed
 
     def _keep(self) -> None:
         """Keep the parts. The map is no longer shown."""

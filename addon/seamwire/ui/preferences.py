@@ -50,7 +50,7 @@ class _Chosen:
 
 
 class SeamwireDefaults(_Chosen, bpy.types.PropertyGroup):
-    """The preferences while Blender does not list the add-on. They start with the defaults, and end with Blender."""
+    """The preferences while Blender does not list the add-on. They start with the defaults, and are not stored in Blender's preferences."""
 
 
 class SeamwirePreferences(_Chosen, bpy.types.AddonPreferences):

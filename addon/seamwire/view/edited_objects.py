@@ -61,10 +61,12 @@ class EditedObjects:
 
     def _view_of(self, obj: bpy.types.Object) -> ObjectView | None:
         """Return the view of an object, which may have another name now. Undo makes another object with the same name."""
-        self._follow_names()
+        for view in self._views:
+            if view.obj == obj and view.exists:
+                view.name = obj.name_full
+                return view
         name = obj.name_full
-        same = (view for view in self._views if view.exists and view.obj == obj)
-        return next(same, next((view for view in self._views if view.name == name), None))
+        return next((view for view in self._views if view.name == name and not view.exists), None)
 
     def of(self, obj: bpy.types.Object) -> ObjectView:
         """Return an object in edit mode, read anew where it has changed. Raises as `ObjectView`."""

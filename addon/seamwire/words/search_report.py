@@ -19,6 +19,7 @@ LIVE_HINTS = (
     "Ctrl Wheel: Stretch",
     "Click Border: Drop or Keep",
     "Click Island: Cut",
+    "Ctrl Z: Undo",
     "Enter: Keep",
 )
 """The artist's choices while the parts are shown."""

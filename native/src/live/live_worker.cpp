@@ -39,7 +39,7 @@ LiveWorker::LiveWorker(std::size_t which, const SurfaceContext& context, std::sh
 LiveWorker::~LiveWorker() {
   request_stop();
   thread_.join();
-  if (tracer_.joinable()) tracer_.join();
+  if (tracer_) tracer_->join();
 }
 
 void LiveWorker::request_stop() {
@@ -119,7 +119,7 @@ std::optional<LiveCandidate> LiveWorker::traced(const std::shared_ptr<const Seed
   TraceRequest request{.solution = solution, .target = target};
   if (const auto newest = traces_.newest(); !newest || *newest != request) {
     traces_.post(request);
-    std::call_once(begin_tracing_, [this] { tracer_ = std::jthread([this] { run_tracer(); }); });
+    std::call_once(begin_tracing_, [this] { tracer_.emplace([this] { run_tracer(); }); });
   }
   const TraceBox::Reading found = traces_.read();
   return found.answers(request) ? std::optional(*found.answer) : std::nullopt;

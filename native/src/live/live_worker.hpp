@@ -118,7 +118,7 @@ class LiveWorker {
   std::optional<ClosedCutSearch> closed_cuts_;  // the thread's own; in the metrics of the newest seed
 
   std::once_flag begin_tracing_;
-  std::jthread tracer_;  // begins with the first request
+  std::optional<std::jthread> tracer_;  // begins with the first request
   std::jthread thread_;  // last, so that all else is there when it begins
 };
 

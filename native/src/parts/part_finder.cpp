@@ -291,7 +291,7 @@ std::vector<std::int32_t> images_of(const PlanMesh& mesh, const Polygons& polygo
   return images;
 }
 
-/// Each triangle as a polygon of its own.
+/// Each triangle as a separate polygon.
 Polygons triangles_of(const PlanMesh& mesh) {
   Polygons triangles;
   triangles.count = mesh.face_count();

@@ -37,7 +37,7 @@ struct SlitProblem {
   struct Piece : TriangleConnectivity {
     std::vector<std::int32_t> faces;
     double area = 0.0;
-    /// The cost of a Newton step on the map of the piece, as a share of a step on all maps: its area, or at least a
+    /// The cost of a Newton step on the map of the piece, as a share of a step on all maps. That is its area, or at least a
     /// hundredth of its share of the triangles.
     double work = 0.0;
     bool has_area = true;  ///< if not, the search has no map of the piece

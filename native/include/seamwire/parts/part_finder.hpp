@@ -66,9 +66,10 @@ struct Parts {
 /// Copies share the measured edges. Several threads may call find() at once.
 ///
 /// \see Keuper et al. 2015, "Efficient decomposition of image and mesh graphs by lifted multicuts", Section 5.1, for
-///   the greedy additive edge contraction; Katz and Tal 2003, "Hierarchical mesh decomposition using fuzzy clustering
-///   and cuts", for distances that grow at concave edges; Liu and Zhang 2004, "Segmentation of 3D meshes through
-///   spectral clustering", for eigenvectors
+///   the greedy additive edge contraction
+/// \see Katz and Tal 2003, "Hierarchical mesh decomposition using fuzzy clustering and cuts", for distances that grow
+///   at concave edges
+/// \see Liu and Zhang 2004, "Segmentation of 3D meshes through spectral clustering", for eigenvectors
 class SEAMWIRE_API PartFinder {
  public:
   /// Measure the edges of a surface.
