@@ -119,7 +119,7 @@ class LiveWorker {
 
   std::once_flag begin_tracing_;
   std::optional<std::jthread> tracer_;  // begins with the first request
-  std::jthread thread_;  // last, so that all else is there when it begins
+  std::jthread thread_;                 // last, so that all else is there when it begins
 };
 
 }  // namespace seamwire::detail
