@@ -16,7 +16,7 @@ from seamwire.mesh import settings as chosen
 from seamwire.view import plan_preview
 from seamwire.view.edited_objects import EditedObjects, edited
 from seamwire.view.overlay import Overlay
-from seamwire.view.plan_preview import PlanPreview
+from seamwire.view.plan_preview import Curves, PlanPreview
 
 
 class Broken:
@@ -133,12 +133,14 @@ def test_a_preview_that_failed_is_tried_again_with_the_next_plan(
     preview = PlanPreview()
     try:
         for _ in range(2):
-            preview.show(desk.obj, arrays, [arrays.in_object[36:45]], np.array([(36, 37)], dtype=np.int32))
+            preview.show(
+                desk.obj, arrays, Curves(slits=[arrays.in_object[36:45]]), np.array([(36, 37)], dtype=np.int32)
+            )
             desk.ui.wait(3, redraw=True)
         assert broken.calls == 2
         assert told() == 1
         broken.is_broken = False
-        preview.show(desk.obj, arrays, [arrays.in_object[36:45]], np.array([(36, 37)], dtype=np.int32))
+        preview.show(desk.obj, arrays, Curves(slits=[arrays.in_object[36:45]]), np.array([(36, 37)], dtype=np.int32))
         desk.ui.wait(3, redraw=True)
         assert broken.calls > 3
     finally:

@@ -259,8 +259,8 @@ by : {'rims', 'limbs', 'shape'}
     What separates parts. 'rims': sharp edges, as of props and machines. 'limbs': narrow and concave places, as between
     head, arms and body of a figure. 'shape': limbs if at most 8 % of the area is flat, otherwise rims.
 mirror : {0, 1, 2}, optional
-    The axis along which a plane mirrors the surface, as for `SeamPlanner`. Parts are then symmetric wherever the
-    triangles are mirrored.
+    The axis along which a plane mirrors the surface, as for `SeamPlanner`. Rims are then symmetric wherever the
+    triangles are mirrored. Limbs are symmetric if at least 95 % of the edges are mirrored.
 marked : list of (k, 2) array_like of int, optional
     Edges where an artist expects a border, for each kind of mark: marked sharp, or between materials. A kind counts
     only on connected pieces where it marks at most 80 % of the inner edges. Marks that are everywhere say nothing.

@@ -546,9 +546,15 @@ Embedding BisectedMesh::to_embedding(bool is_scheme_local) && {
       holes.push_back(f);
     }
   }
-  if (!mesh.areas.empty()) {
-    for (auto f = holes.rbegin(); f != holes.rend(); ++f) mesh.areas.erase(mesh.areas.begin() + *f);
+  std::size_t kept = 0;
+  for (std::size_t f = 0, hole = 0; f < mesh.areas.size(); ++f) {
+    if (hole < holes.size() && index(holes[hole]) == f) {
+      ++hole;
+    } else {
+      mesh.areas[kept++] = mesh.areas[f];
+    }
   }
+  mesh.areas.resize(kept);
   out.invalid_left = holes.size();
   const bool is_plain = !callers_faces_ && keeps_numbers(surface);
   if (!is_plain) {

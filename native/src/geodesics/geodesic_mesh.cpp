@@ -366,7 +366,8 @@ bool is_same_face(const IntrinsicMesh& one, const IntrinsicMesh& other, std::siz
   const auto same = [f](const auto& a, const auto& b) {
     return a[3 * f] == b[3 * f] && a[3 * f + 1] == b[3 * f + 1] && a[3 * f + 2] == b[3 * f + 2];
   };
-  return one.triangles[f] == other.triangles[f] && same(one.twins, other.twins) && same(one.lengths, other.lengths);
+  return one.triangles[f] == other.triangles[f] && same(one.twins, other.twins) && same(one.lengths, other.lengths) &&
+         given_area(one, f) == given_area(other, f);
 }
 
 bool are_same(const std::vector<LooseEdge>& these, const std::vector<LooseEdge>& those) {
@@ -414,7 +415,6 @@ std::optional<GeodesicMesh> GeodesicMesh::patched(const IntrinsicMesh& before, c
   if (std::max(count, former_count) - common > most) return std::nullopt;
   if (!are_same(before.loose_edges, mesh.loose_edges)) return std::nullopt;
   if (!before.siblings.empty() || !mesh.siblings.empty()) return std::nullopt;
-  if (!before.areas.empty() || !mesh.areas.empty()) return std::nullopt;
   const auto vertices = index(mesh.vertex_count), former_vertices = vertex_count();
 
   // Entries that differ from before, because their numbers changed, or because they or what they name get another

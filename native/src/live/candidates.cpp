@@ -5,6 +5,7 @@
 #include <variant>
 
 namespace seamwire::detail {
+
 LiveCandidate snapped_candidate(const Prepared& prepared, Wire wire, const Task& task) {
   LiveCandidate candidate;
   candidate.metric = prepared.spec;

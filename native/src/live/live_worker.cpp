@@ -17,7 +17,7 @@ namespace {
 constexpr double kRefinementBegins = 0.99;
 
 /// Over so many faces a wire is traced and snapped to edges within a few milliseconds.
-constexpr std::size_t kMostFacesAtOnce = 30'000;
+constexpr std::size_t kMostFacesAtOnce = 100'000;
 
 double loop_turning_for(std::size_t edges) { return std::max(20.0, std::sqrt(static_cast<double>(edges)) / 4.0); }
 
@@ -84,6 +84,7 @@ LiveWorker::Known LiveWorker::wire(const WireEnd& target) {
   if (!before || *before != target) targets_.post(target);
   const bool needs_refining = refines();  // before the answer is read, which may be of a metric that needs it
   SeedBox::Reading found = seeds_.read();
+  if (found.is_newest && traces_.newest()) traces_.withdraw();  // with the former solution
   const TargetBox::Reading known = targets_.read();
   // Another thread may have asked for another target meanwhile.
   const bool is_known = known.is_newest && known.answer->target == target &&

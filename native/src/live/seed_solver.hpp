@@ -58,8 +58,8 @@ class SeedSolver {
   /// metric. Null if there is no seed, no such metric, or the seed is not part of the surface.
   std::shared_ptr<const SeedSolution> solve(const SeedBox::Job& job, const std::shared_ptr<const SeedSolution>& former,
                                             SeedBox& seeds);
-  /// The wire of a solution to a target, refined in its corridor if `is_refined`. `show` gets it before it is refined.
-  /// `target`: without a face or vertex in the embedding, there is no wire. Throws Cancelled.
+  /// The wire of a solution to a target, refined in its corridor if `is_refined`. `show`, if set, gets the unrefined
+  /// wire first. `target`: without a face or vertex in the embedding, there is no wire. Throws Cancelled.
   TargetWire refine(const SeedBox::Reading& found, const WireEnd& target, bool is_refined,
                     const std::function<void(TargetWire)>& show, const std::stop_token& stop) const;
   /// Fraction of a request's work, preparation included, that is done, as far as it is the request being worked on.

@@ -12,7 +12,6 @@
 #include <span>
 #include <vector>
 
-#include "detail/index.hpp"
 #include "tuning/constants.hpp"
 
 namespace seamwire::detail {
@@ -79,7 +78,7 @@ void orthonormalize(Eigen::MatrixXd& columns, const Eigen::VectorXd& masses) {
 LimbField limb_field(std::span<const LimbFace> faces, std::span<const LimbLink> links, const Task& task) {
   const auto count = static_cast<Eigen::Index>(faces.size());
   Eigen::VectorXd masses(count);
-  for (Eigen::Index f = 0; f < count; ++f) masses[f] = std::max(faces[f].area, 1e-9 / static_cast<double>(count));
+  for (Eigen::Index f = 0; f < count; ++f) masses[f] = faces[f].area;
   task.check(0.0);
   const Eigen::MatrixX3d normals = smooth_normals(faces, links, masses);
   task.check(0.2);

@@ -42,18 +42,6 @@ struct Border {
   }
 };
 
-/// The area of flat triangles of a connected surface of area 1.
-double flat_area(std::span<const LimbFace> faces, std::span<const LimbLink> links) {
-  std::vector<std::uint8_t> is_bent(faces.size(), 0);
-  for (const auto& [one, other, length, distance] : links) {
-    const Vector &a = faces[one].normal, &b = faces[other].normal;
-    if (std::atan2(a.cross(b).norm(), a.dot(b)) >= tuning::kFlatLimb * distance) is_bent[one] = is_bent[other] = 1;
-  }
-  double area = 0.0;
-  for (std::size_t f = 0; f < faces.size(); ++f) area += is_bent[f] == 0 ? faces[f].area : 0.0;
-  return area;
-}
-
 /// Joins the faces of a connected surface of area 1, the cheapest two regions first, until one region is left.
 class LimbJoining {
  public:
@@ -192,14 +180,18 @@ void join_small(const PlanMesh& mesh, std::span<const double> areas, std::span<c
 void smooth_borders(const PlanMesh& mesh, std::span<const double> distances, std::span<const double> weights,
                     std::vector<std::int32_t>& of_face, const Task& task) {
   Poll poll(task);
+  constexpr Edge kNone{-1, -1};
+  std::vector<Edge> nearest(of_face.size(), kNone);  // the two parts at the border that is nearest to each triangle
   std::vector<std::int32_t> at_border;
-  std::map<std::array<std::int32_t, 2>, std::vector<std::int32_t>> band_of;  // the triangles of each two neighbors
   for (std::size_t e = 0; e < mesh.edge_count(); ++e) {
     poll.next();
     const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
     if (twin < 0 || of_face[h / 3] == of_face[twin / 3]) continue;
-    at_border.insert(at_border.end(), {h / 3, twin / 3});
-    band_of[ascending(of_face[h / 3], of_face[twin / 3])];
+    for (const std::int32_t f : {h / 3, twin / 3}) {
+      if (nearest[f] != kNone) continue;
+      nearest[f] = ascending(of_face[h / 3], of_face[twin / 3]);
+      at_border.push_back(f);
+    }
   }
   std::vector<double> depth(of_face.size(), kInfinity);  // of each triangle in its part
   std::vector<double> deepest(of_face.size(), 0.0);      // of each part
@@ -208,19 +200,19 @@ void smooth_borders(const PlanMesh& mesh, std::span<const double> distances, std
     deepest[of_face[f]] = std::max(deepest[of_face[f]], depth[f]);
     for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
       const std::int32_t twin = mesh.twins[h];
-      if (twin >= 0 && of_face[twin / 3] == of_face[f]) step(twin / 3, distances[mesh.edge_of[h]]);
+      if (twin < 0 || of_face[twin / 3] != of_face[f]) continue;
+      if (step(twin / 3, distances[mesh.edge_of[h]])) nearest[twin / 3] = nearest[f];
     }
   });
-  Csr<std::int32_t> faces_of(of_face.size(), [&](const auto& visit) {
-    for (std::int32_t f = 0; index(f) < of_face.size(); ++f) {
-      const double width = std::min(tuning::kLimbBand, tuning::kLimbBandShare * deepest[of_face[f]]);
-      if (depth[f] <= width) visit(of_face[f], f);
-    }
-  });
+  // A triangle is in the band of its nearest border. Those that are deeper in their part stay.
+  std::map<Edge, std::vector<std::int32_t>> band_of;
+  for (std::int32_t f = 0; index(f) < of_face.size(); ++f) {
+    const double width = std::min(tuning::kLimbBand, tuning::kLimbBandShare * deepest[of_face[f]]);
+    if (depth[f] < width) band_of[nearest[f]].push_back(f);
+  }
   const std::vector<std::int32_t> before = of_face;
   std::vector<std::int32_t> number(of_face.size(), -1);  // of a triangle in its band
-  for (auto& [pair, band] : band_of) {
-    for (const std::int32_t part : pair) band.insert(band.end(), faces_of[part].begin(), faces_of[part].end());
+  for (const auto& [pair, band] : band_of) {
     for (std::size_t i = 0; i < band.size(); ++i) number[band[i]] = static_cast<std::int32_t>(i);
     const auto source = static_cast<std::int32_t>(band.size()), sink = source + 1;
     MinimumCut network(band.size() + 2);
@@ -246,6 +238,33 @@ void smooth_borders(const PlanMesh& mesh, std::span<const double> distances, std
 
 }  // namespace
 
+double flat_share(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Pieces& pieces, const Task& task) {
+  const Poll poll(task);
+  std::vector<double> area_of(index(pieces.count), 0.0);
+  for (std::size_t f = 0; f < frames.size(); ++f) area_of[pieces.of_face[f]] += frames[f].area;
+  std::vector<Vector> centers(frames.size(), Vector::Zero());
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    for (const std::int32_t v : mesh.triangles[f]) centers[f] += mesh.points[v] / 3.0;
+  }
+  std::vector<std::uint8_t> is_bent(frames.size(), 0);
+  for (std::size_t e = 0; e < mesh.edge_count(); ++e) {
+    poll.at(e);
+    const std::int32_t h = mesh.half_edge_of[e], one = h / 3, other = mesh.twins[h] / 3;
+    if (mesh.twins[h] < 0) continue;
+    const Vector middle = 0.5 * (mesh.points[mesh.tail(h)] + mesh.points[mesh.tip(h)]);
+    const double distance = (centers[one] - middle).norm() + (centers[other] - middle).norm();
+    const Vector &a = frames[one].normal, &b = frames[other].normal;
+    const double bend = std::atan2(a.cross(b).norm(), a.dot(b)) * std::sqrt(area_of[pieces.of_face[one]]);
+    if (bend >= tuning::kFlatLimb * distance) is_bent[one] = is_bent[other] = 1;
+  }
+  double flat = 0.0, all = 0.0;
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    all += frames[f].area;
+    if (is_bent[f] == 0) flat += frames[f].area;
+  }
+  return all > 0.0 ? flat / all : 1.0;
+}
+
 Limbs::Limbs(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Pieces& pieces, const Task& task)
     : mesh_(mesh),
       areas_(mesh.face_count(), 0.0),
@@ -261,19 +280,23 @@ Limbs::Limbs(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Piec
     }
   });
   std::vector<std::int32_t> number(mesh.face_count(), -1);  // of a face in its piece
-  double done = 0.0, all_area = 0.0;
+  double done = 0.0;
   for (std::int32_t p = 0; p < pieces.count; ++p) {
     double area = 0.0;
     for (const std::int32_t f : faces_of[p]) area += frames[f].area;
     const double share = static_cast<double>(faces_of[p].size()) / static_cast<double>(mesh.face_count());
     const Task own = part_of(task, done, done + share);
     done += share;
-    if (!(area > 0.0)) continue;
+    if (!(area > 0.0)) {
+      for (const std::int32_t f : faces_of[p]) joins_[p].push_back({.cost = 0.0, .one = faces_of[p][0], .other = f});
+      continue;
+    }
     const double scale = 1.0 / std::sqrt(area);
     std::vector<LimbFace> faces;
     for (const std::int32_t f : faces_of[p]) {
       number[f] = static_cast<std::int32_t>(faces.size());
-      areas_[f] = frames[f].area / area;
+      // No area is 0, so that means of places are defined.
+      areas_[f] = std::max(frames[f].area / area, 1e-9 / static_cast<double>(faces_of[p].size()));
       Vector center = Vector::Zero();
       for (const std::int32_t v : mesh.triangles[f]) center += mesh.points[v] / 3.0;
       faces.push_back({.center = scale * center, .normal = frames[f].normal, .area = areas_[f]});
@@ -286,8 +309,6 @@ Limbs::Limbs(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Piec
       links.push_back({.one = one, .other = other, .length = scale * mesh.lengths[e], .distance = distance});
       if (mesh.is_real[e] == 0) diagonals.push_back(links.back());
     }
-    flat_share_ += area * flat_area(faces, links);
-    all_area += area;
     const LimbField field = limb_field(faces, links, part_of(own, 0.0, 0.8));
     for (std::size_t i = 0; i < links.size(); ++i) {
       weights_[edges_of[p][i]] = field.weights[i];
@@ -300,7 +321,6 @@ Limbs::Limbs(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Piec
       join.other = faces_of[p][join.other];
     }
   }
-  if (all_area > 0.0) flat_share_ /= all_area;
 }
 
 std::vector<std::int32_t> Limbs::find(double amount, const Task& task) const {

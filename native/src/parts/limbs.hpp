@@ -17,7 +17,10 @@ struct LimbJoin {
   std::int32_t one = -1, other = -1;
 };
 
-/// The limbs of a mesh. Each connected piece is divided by itself, and sizes are relative to it.
+/// The share of the area in triangles that hardly bend to their neighbors; 1 without area. Throws Cancelled.
+double flat_share(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Pieces& pieces, const Task& task);
+
+/// The limbs of a mesh. Each connected piece is divided separately. Sizes are relative to the piece.
 class Limbs {
  public:
   /// Searches a mesh, once for all amounts. The mesh must outlive this. Throws Cancelled.
@@ -26,16 +29,12 @@ class Limbs {
   /// The limb of each triangle, numbered from 0. `amount`: from 0, which joins each piece, to 1. Throws Cancelled.
   std::vector<std::int32_t> find(double amount, const Task& task) const;
 
-  /// The share of the area in triangles that hardly bend to their neighbors.
-  double flat_share() const { return flat_share_; }
-
  private:
   const PlanMesh& mesh_;
   std::vector<double> areas_;                 // of each triangle, in areas of its piece
   std::vector<double> weights_;               // of each edge
   std::vector<double> distances_;             // between the triangles at each edge, in roots of the area of their piece
   std::vector<std::vector<LimbJoin>> joins_;  // for each piece, in their order
-  double flat_share_ = 0.0;
 };
 
 }  // namespace seamwire::detail

@@ -300,8 +300,8 @@ Polygons triangles_of(const PlanMesh& mesh) {
   return triangles;
 }
 
-/// Gives triangles on the lower side of a mirror plane the labels of their images. The image of a label is another one,
-/// unless both meet at the plane. Labels are below the number of triangles, and then below twice that.
+/// Gives triangles on the lower side of a mirror plane the labels of their images. The image of label k is k plus the
+/// number of triangles. If a label touches its image, the two become one.
 void mirror_labels(const PlanMesh& mesh, const Reflection& reflection, std::vector<std::int32_t>& of_face,
                    const Task& task) {
   const auto shift = static_cast<std::int32_t>(of_face.size());
@@ -331,6 +331,12 @@ void mirror_labels(const PlanMesh& mesh, const Reflection& reflection, std::vect
   for (std::int32_t f = 0; f < shift; ++f) {
     if (of_face[f] < 0) of_face[f] = before[f];  // a piece without images
   }
+  DisjointSets polygons(of_face.size());  // parts have whole polygons
+  for (std::size_t e = 0; e < mesh.edge_count(); ++e) {
+    const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
+    if (mesh.is_real[e] == 0 && twin >= 0) polygons.join(h / 3, twin / 3);
+  }
+  for (std::int32_t f = 0; f < shift; ++f) of_face[f] = of_face[polygons.find(f)];
   DisjointSets sets(2 * of_face.size());
   for (std::int32_t h = 0; h < 3 * shift; ++h) {
     const std::int32_t twin = mesh.twins[h];
@@ -404,9 +410,10 @@ void PartFinder::Impl::prepare(const Task& task) {
   if (problem.reflection) {
     take_apart(mesh, unmirrored_pairs(mesh, polygons, *problem.reflection, task), polygons, task);
   }
-  if (options.by != PartsBy::kRims) {
+  const bool is_figure =
+      options.by == PartsBy::kShape && flat_share(mesh, frames, sizes.pieces, task) <= tuning::kMostFlat;
+  if (options.by == PartsBy::kLimbs || is_figure) {
     limbs.emplace(mesh, frames, sizes.pieces, part_of(task, 0.8, 0.85));
-    if (options.by == PartsBy::kShape && limbs->flat_share() > tuning::kMostFlat) limbs.reset();
   }
   task.check(0.85);
   bends = bends_over_edges(mesh, frames, polygons, sizes, task);

@@ -314,7 +314,7 @@ inline constexpr double kStraight = 0.1;
 
 /// Size of details that do not count.
 inline constexpr double kLimbDetail = 0.02;
-/// Resistance of a radian of concavity, in that of a unit of distance.
+/// A radian of concavity resists as much as this distance.
 inline constexpr double kLimbConcavity = 3.0;
 /// Distance between two faces below which they count as that far apart.
 inline constexpr double kLimbNear = 0.006;
@@ -335,7 +335,7 @@ inline constexpr double kFlatLimb = 0.3;
 /// Distance from a border up to which it may move, and that distance as a share of the depth of a part.
 inline constexpr double kLimbBand = 0.03;
 inline constexpr double kLimbBandShare = 0.5;
-/// What joining two limbs costs at least for the amount 0.5, and how many times that for the amount 0.
+/// Joins up to this cost are made at the amount 0.5. Near 0, the limit is kLimbRange times as high.
 inline constexpr double kLimbCost = 0.15;
 inline constexpr double kLimbRange = 7.477;
 

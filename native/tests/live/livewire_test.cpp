@@ -509,18 +509,18 @@ TEST(LiveWire, WhatFailsOnAThreadIsThrownToTheCaller) {
 }
 
 TEST(LiveWire, TracesWiresOfALargeSurfaceInTheBackground) {
-  const auto surface = shared(shapes::bumpy(shapes::torus(220, 110), 0.01));
-  ASSERT_GT(surface->face_count(), 40'000U);
+  const auto surface = shared(shapes::bumpy(shapes::torus(320, 160), 0.01));
+  ASSERT_GT(surface->face_count(), 100'000U);
   LiveWire live(surface, in(MetricFamily::kEuclidean));
   live.seed({7});
   ASSERT_TRUE(live.wait());
   // A caller that traced the wires itself would have them all at once.
   int at_once = 0;
-  for (std::int32_t target = 12'000; target < 12'200; ++target) at_once += live.wires({target}).final() ? 1 : 0;
+  for (std::int32_t target = 25'000; target < 25'200; ++target) at_once += live.wires({target}).final() ? 1 : 0;
   EXPECT_LT(at_once, 200);
   ASSERT_TRUE(live.wait());
   EXPECT_EQ(live.progress(), 1.0);
-  const Pick target{12'199};  // the newest one, whose work has taken the place of the others'
+  const Pick target{25'199};  // the newest one, whose work has taken the place of the others'
   const LiveWires wires = live.wires(target);
   ASSERT_TRUE(wires.final());
   const Embedding embedding = embed(*surface, euclidean_metric(*surface, principal_curvatures(*surface)));

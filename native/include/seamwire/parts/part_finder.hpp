@@ -23,8 +23,9 @@ enum class PartsBy {
 struct PartOptions {
   /// What separates parts. Limbs do not depend on `marked`.
   PartsBy by = PartsBy::kRims;
-  /// The axis, 0 (x) to 2 (z), in whose direction the surface is mirrored, as in SeamPlannerOptions. Parts are then
-  /// symmetric wherever the triangles are mirrored. PartEdits::parted has an exception. -1: they need not be.
+  /// The axis, 0 (x) to 2 (z), in whose direction the surface is mirrored, as in SeamPlannerOptions. Rims are then
+  /// symmetric wherever the triangles are mirrored. Limbs are symmetric if at least 95 % of the edges are mirrored.
+  /// PartEdits::parted has an exception. -1: parts need not be symmetric.
   int mirror = -1;
   /// Edges where an artist expects a border, as vertex pairs, for each kind of mark: edges that are marked sharp, edges
   /// between materials. A kind counts only on connected pieces where it marks at most 80 % of the inner edges. Marks
@@ -60,8 +61,8 @@ struct Parts {
 /// are probably not a border. A small region stays only if a sharp rim encloses it. Steps of a chamfer join a neighbor.
 /// A smooth body is one part.
 ///
-/// Limbs are joined over short or concave borders. Each connected piece is divided by itself, and sizes are relative to
-/// it. A larger amount divides limbs further, and moves borders a little.
+/// Limbs are joined over short or concave borders. Each connected piece is divided separately. Sizes are
+/// relative to the piece. A larger amount divides limbs further, and moves borders a little.
 ///
 /// Copies share the measured edges. Several threads may call find() at once.
 ///
