@@ -130,13 +130,21 @@ TEST(Limbs, EndAtRealEdgesOnly) {
   std::ranges::shuffle(real, random);
   real.resize(real.size() * 3 / 4);
   const auto surface = std::make_shared<const Surface>(mesh.points, mesh.triangles, real);
-  const Parts parts = PartFinder(surface, {.by = PartsBy::kLimbs}).find();
-  EXPECT_GE(parts.count, 6u);
-  for (const std::vector<std::int32_t>& border : parts.borders) {
-    for (std::size_t i = 1; i < border.size(); ++i) {
-      EXPECT_TRUE(detail::has_edge(*surface, {border[i - 1], border[i]}));
+  for (const int mirror : {-1, 0}) {
+    const Parts parts = PartFinder(surface, {.by = PartsBy::kLimbs, .mirror = mirror}).find();
+    EXPECT_GE(parts.count, 6u);
+    for (const std::vector<std::int32_t>& border : parts.borders) {
+      for (std::size_t i = 1; i < border.size(); ++i) {
+        EXPECT_TRUE(detail::has_edge(*surface, {border[i - 1], border[i]}));
+      }
     }
   }
+}
+
+TEST(Limbs, GoOnOverTrianglesWithoutArea) {
+  // A cancelled extrusion leaves such a ring.
+  const shapes::Mesh drum = shapes::lathe(24, {{-1, 0}, {-1, 0.5}, {0, 0.5}, {0, 0.5}, {1, 0.5}, {1, 0}});
+  EXPECT_EQ(finder_of(drum).find(0.0).count, 1u);
 }
 
 TEST(Limbs, AreOneWhereTheSurfaceHasNone) {
