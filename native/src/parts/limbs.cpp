@@ -204,7 +204,7 @@ void smooth_borders(const PlanMesh& mesh, std::span<const double> distances, std
       if (step(twin / 3, distances[mesh.edge_of[h]])) nearest[twin / 3] = nearest[f];
     }
   });
-  // A triangle is in the band of its nearest border. Those that are deeper in their part stay.
+  // A triangle is in the band of its nearest border. Triangles that lie deeper in their part stay.
   std::map<Edge, std::vector<std::int32_t>> band_of;
   for (std::int32_t f = 0; index(f) < of_face.size(); ++f) {
     const double width = std::min(tuning::kLimbBand, tuning::kLimbBandShare * deepest[of_face[f]]);

@@ -2,12 +2,10 @@
 #include "seamwire/parts/part_finder.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -30,7 +28,6 @@
 #include "prices/edge_prices.hpp"
 #include "prices/plan_mesh.hpp"
 #include "seamwire/errors.hpp"
-#include "seamwire/surface/segments.hpp"
 #include "seamwire/task.hpp"
 #include "slits/slit_plan.hpp"
 #include "surface/real_edges.hpp"

@@ -41,8 +41,9 @@ class TurningPaths {
         price_(mesh.vertex_count(), kInfinity) {}
 
   /// Finds the paths from some vertices, to a vertex, or with -1 to all. `edge_price(e, a, b)`: what edge e costs from
-  /// vertex a to b, or kInfinity. `turning`: what a turn by 90 degrees costs. With the same prices it can be called
-  /// again, for paths from more vertices. Returns the vertices to which paths have become cheaper. Throws Cancelled.
+  /// vertex a to b, or kInfinity. `turning`: what a turn by 90 degrees costs. After a call with -1 it can be called
+  /// again with the same prices, for paths from more vertices. Returns the vertices to which paths have become cheaper.
+  /// Throws Cancelled.
   template <class EdgePrice>
   std::vector<std::int32_t> add(std::span<const std::int32_t> from, const EdgePrice& edge_price, double turning,
                                 std::int32_t until, const Task& task);
@@ -66,8 +67,8 @@ class TurningPaths {
   // A path arrives at a vertex by a directed edge: 2 e from the start of the edge's half-edge to its end, 2 e + 1 back.
   std::vector<std::int32_t> before_;   // of each directed edge: the one before it, -1 if it leaves a start
   std::vector<std::int32_t> arrival_;  // of each vertex: the directed edge by which the cheapest path arrives
-  std::vector<std::int32_t>
-      arrived_;  // of each vertex with many edges: the paths that have come since the cheapest one
+  // Of each vertex with many edges: the paths that have come since the cheapest one.
+  std::vector<std::int32_t> arrived_;
   std::vector<double> price_;
 };
 

@@ -37,8 +37,8 @@ struct SlitProblem {
   struct Piece : TriangleConnectivity {
     std::vector<std::int32_t> faces;
     double area = 0.0;
-    /// What a Newton step on the map of this piece costs, as a share of a step on all maps: the area of the piece, but
-    /// at least a hundredth of its share of the triangles.
+    /// The cost of a Newton step on the map of this piece, as a share of a step on all maps. It is the area of the
+    /// piece, or a hundredth of its share of the triangles if that is more.
     double work = 0.0;
     bool has_area = true;  ///< if not, the search has no map of the piece
     /// Whether a seam may run inside. If not, the piece stays as it is, and its map does not count.

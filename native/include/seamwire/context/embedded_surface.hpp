@@ -63,8 +63,7 @@ class SEAMWIRE_API EmbeddedSurface {
   /// \param metric the metric of the embedding, not null
   /// \param embedding an embedding of the surface
   /// \throws InvalidInput if the metric is null, a tensor is invalid, or metric or embedding are of another surface, as
-  /// far
-  ///   as their sizes tell
+  ///   far as their sizes tell
   EmbeddedSurface(const SurfaceContext& context, std::shared_ptr<const Metric> metric, Embedding embedding);
 
   /// Embed the surface in a changed metric with re_embed(), which is faster where the metrics agree.

@@ -48,8 +48,7 @@ class EdgeGraph;
 /// \param task progress and cancellation
 /// \returns the graph, never null
 /// \throws InvalidInput if the metric or the adjacency is of another surface, or apply_scribbles() rejects the metric
-/// or
-///   a stroke
+///   or a stroke
 /// \throws Cancelled if the task is cancelled
 SEAMWIRE_API std::shared_ptr<const EdgeGraph> make_edge_graph(const Surface& surface, const Metric& metric,
                                                               std::shared_ptr<const EdgeAdjacency> adjacency = nullptr,

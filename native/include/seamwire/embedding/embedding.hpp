@@ -132,8 +132,7 @@ struct Embedding {
 /// \param task progress and cancellation
 /// \returns the embedding
 /// \throws InvalidInput if the metric and the surface differ in size, a tensor is invalid (Metric::tensors), or an
-/// option
-///   is out of range
+///   option is out of range
 /// \throws Cancelled if the task is cancelled
 /// \see Zhuang et al. 2014, Section 4.1
 SEAMWIRE_API Embedding embed(const Surface& surface, const Metric& metric, const EmbedOptions& options = {},
