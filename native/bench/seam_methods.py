@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from seam_measures import SeamMesh
 
+    Floats = NDArray[np.float64]
     Integers = NDArray[np.int64]
 
 _SAME = 1e-6
@@ -52,12 +53,15 @@ class Seams:
         The map of the method itself. None: the benchmark flattens the seams.
     of_triangles
         Whether seams may run along the diagonals of polygons.
+    is_cut
+        Whether the method cut faces. The seams then lie on the triangles of its map, which have more points than the model.
     """
 
     pairs: Integers
     info: dict[str, Any] = field(default_factory=dict)
     uv_map: UvMap | None = None
     of_triangles: bool = False
+    is_cut: bool = False
 
 
 def cached(file: Path, find: Callable[[], Seams]) -> Seams:
@@ -104,19 +108,18 @@ def pairs_of(chain: Integers) -> Integers:
 
 
 def from_blender(model: Model, file: Path) -> Seams:
-    """Read the seams and the map that *Suggest Seamwires* made in Blender.
+    """Read the map that *Suggest Seamwires* made in Blender by default, as addon/bench/blender_maps.py writes it."""
+    uv_map = UvMap.read(file)
+    # Cutting faces only adds points within the box.
+    uv_map = replace(uv_map, points=centered(uv_map.points))
+    info = uv_map.info | {"is_packed": True}
+    return Seams(uv_map.seams, info, uv_map, is_cut=len(uv_map.points) != len(model.points))
 
-    The file has the mesh as vertices ``P``, corners ``lv``, loop triangles ``lt`` and ``uv``, its seams ``seam`` as
-    vertex pairs, and ``info``. The vertices have the model's order.
-    """
-    with np.load(file) as arrays:
-        if len(arrays["P"]) != len(model.points):
-            raise ValueError(f"{file} has other vertices than the model")
-        triangles = arrays["lv"][arrays["lt"]].astype(np.int64)
-        uvs = arrays["uv"][arrays["lt"]].astype(np.float64)
-        info = json.loads(str(arrays["info"])) | {"is_packed": True}
-        seams = arrays["seam"].reshape(-1, 2).astype(np.int64)
-    return Seams(seams, info, UvMap(model.points, triangles, uvs) if np.ptp(uvs) > 0 else None)
+
+def centered(points: Floats) -> Floats:
+    """Move points (n, 3) to the origin, and scale them so that the longest side of their box is 2."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    return (points - (low + high) / 2) * 2 / (high - low).max()
 
 
 def sharp(mesh: SeamMesh, angle: float) -> Seams:
@@ -170,9 +173,9 @@ def flattened(model: Model, seams: Seams) -> tuple[UvMap, Integers]:
 
 
 def map_measures(model: Model, seams: Seams) -> dict[str, float | None]:
-    """Return the energy of the map of seams, and how many islands overlap, triangles are flipped and UVs lie outside.
+    """Return the energy of the map of seams, how many islands overlap, triangles are flipped and UVs lie outside, and the used share.
 
-    A map that does not exist has no numbers. Only packed maps can lie outside the tile.
+    A map that does not exist has no numbers. Only packed maps can lie outside the tile, and use a share of it.
     """
     try:
         uv_map, islands = (seams.uv_map, None) if seams.uv_map else flattened(model, seams)
@@ -185,11 +188,13 @@ def map_measures(model: Model, seams: Seams) -> dict[str, float | None]:
         )
     except ValueError as error:
         print(f"{model.name}: no map: {error}", file=sys.stderr)
-        return {"energy": None, "overlapping": None, "flips": None, "outside": None}
+        return {"energy": None, "overlapping": None, "flips": None, "outside": None, "used": None}
+    one, other = (uv_map.uvs[:, k] - uv_map.uvs[:, 0] for k in (1, 2))
     is_out = (uv_map.uvs < -_SAME) | (uv_map.uvs > 1 + _SAME)
     return {
         "energy": float(report.energy),
         "overlapping": len(report.overlapping) + (len(report.colliding) if seams.uv_map else 0),
         "flips": len(report.flipped),
         "outside": int(is_out.any(axis=(1, 2)).sum()) if seams.uv_map else None,
+        "used": float(np.abs(one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]).sum() / 2) if seams.uv_map else None,
     }
