@@ -41,10 +41,22 @@ from typing import TYPE_CHECKING
 import numpy as np
 import seam_methods
 from auto_seams_report import tables_on, with_tables
-from parts_report import AMOUNTS, ARTIST, OURS, SHARP_45, UVGAMI, XATLAS, Result, class_of, tables, votes_table
+from parts_report import (
+    AMOUNTS,
+    ARTIST,
+    OURS,
+    SHARP_45,
+    UVGAMI,
+    XATLAS,
+    Result,
+    class_of,
+    scan_table,
+    tables,
+    votes_table,
+)
 from seam_measures import Artist, SeamMesh
 from seam_methods import Seams, cached, centered
-from uv_maps import Model, read_frames
+from uv_maps import Model, UvMap, read_frames
 from uv_measures import Reference
 from uv_pictures import Surface, best_view, draw_columns
 
@@ -73,6 +85,7 @@ def main() -> None:
     """Find seams, measure, print and draw what the options say."""
     options = parsed_options()
     results: list[Result] = []
+    scans: dict[str, dict[str, float]] = {}
     drawn: dict[str, tuple[Model, dict[str, Surface]]] = {}
     for folder in options.data:
         frames = read_frames(folder)
@@ -81,15 +94,19 @@ def main() -> None:
                 continue
             model = Model.read(file, frames.get(file.stem))
             model = dataclasses.replace(model, points=centered(model.points))
-            found, surfaces = measured(model, options)
+            if model.seams is not None and not len(model.seams):
+                model = dataclasses.replace(model, seams=None)
+            found, surfaces, own_map = measured(model, options)
             results += found
+            if own_map is not None and model.artist_seams is None:
+                scans[model.name] = seam_methods.scan_measures(own_map)
             drawn[model.name] = model, surfaces
             print(model.name, *(f"{r.method} {r['agree'] or 0:.2f}" for r in found), file=sys.stderr, flush=True)
     if not drawn:
         sys.exit("no models")
     if options.json:
         options.json.write_text(json.dumps([dataclasses.asdict(result) for result in results], indent=1) + "\n")
-    made = tables(results)
+    made = tables(results) | {"parts-scans": scan_table(scans)}
     if options.votes:
         votes, key = (json.loads(file.read_text()) for file in (options.votes, options.blind / "key.json"))
         made["parts-votes"] = votes_table(votes, key, {result.model: result.kind for result in results})
@@ -125,16 +142,16 @@ def parsed_options() -> argparse.Namespace:
     return parser.parse_args()
 
 
-def measured(model: Model, options: argparse.Namespace) -> tuple[list[Result], dict[str, Surface]]:
-    """Return the results of a model, if an artist marked its seams, and its surface with the seams of each method."""
+def measured(model: Model, options: argparse.Namespace) -> tuple[list[Result], dict[str, Surface], UvMap | None]:
+    """Return the results of a model, if an artist marked its seams, its surface with the seams of each method, and our map."""
     mesh = SeamMesh(model)
     triangles = SeamMesh(
         dataclasses.replace(model, start=np.arange(0, model.triangles.size + 1, 3), corners=model.triangles.ravel())
     )
     artist = None
-    if model.artist_seams is not None and len(model.artist_seams):
+    if model.artist_seams is not None:
         artist = Artist(mesh, model.artist_seams, Reference(model).mirror_axis)
-    results, surfaces = [], {}
+    results, surfaces, own_map = [], {}, None
     for method, find in methods(model, mesh, options).items():
         if options.methods and method not in options.methods:
             continue
@@ -143,6 +160,8 @@ def measured(model: Model, options: argparse.Namespace) -> tuple[list[Result], d
         except (RuntimeError, ValueError, IndexError, KeyError) as error:
             print(f"{model.name}: {method}: failed: {error!r}", file=sys.stderr, flush=True)
             continue
+        if method == OURS:
+            own_map = seams.uv_map
         if seams.is_cut and seams.uv_map is not None:
             cut = seams.uv_map
             surfaces[method] = Surface(cut.points, cut.triangles, cut.islands, cut.seams)
@@ -155,7 +174,7 @@ def measured(model: Model, options: argparse.Namespace) -> tuple[list[Result], d
             results.append(Result(model.name, method, kind, len(model.start) - 1, artist.islands, values))
         mask = on.mask(seams.pairs)
         surfaces[method] = Surface(model.points, model.triangles, triangle_islands(on, mask, model), on.edges[mask])
-    return results, surfaces
+    return results, surfaces, own_map
 
 
 def triangle_islands(mesh: SeamMesh, mask: np.ndarray, model: Model) -> np.ndarray:
@@ -174,7 +193,7 @@ def methods(model: Model, mesh: SeamMesh, options: argparse.Namespace) -> dict[s
         return kept(f"ours {amount:g}", lambda: seam_methods.ours(model, amount))
 
     found: dict[str, Callable[[], Seams]] = {}
-    if model.artist_seams is not None and len(model.artist_seams):
+    if model.artist_seams is not None:
         found = {ARTIST: lambda: Seams(model.artist_seams), OURS: our(DEFAULT_AMOUNT)}
         found |= {f"{OURS} {amount:g}": our(amount) for amount in AMOUNTS}
     if options.blender:

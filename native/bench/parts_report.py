@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from auto_seams_report import markdown, median, shown
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     Values = Sequence[float | None]
 
@@ -254,6 +254,13 @@ def votes_table(votes: dict[str, str], key: dict[str, dict[str, str]], kinds: di
         for method in methods
     ]
     return markdown(["kept", "models", *CLASSES], rows)
+
+
+def scan_table(scans: Mapping[str, Mapping[str, float]]) -> str:
+    """Return the table of models without an artist's seams, with a row for each."""
+    decimals = {"triangles": 0, "islands": 0, "crumbs": 0, "used": 2, "flat": 2, "ms": 2}
+    rows = [[name, *(shown(values[key], places) for key, places in decimals.items())] for name, values in scans.items()]
+    return markdown(["model", "triangles", "islands", "crumbs", "used", "flat slits", "ms a triangle"], rows)
 
 
 def tables(results: Sequence[Result]) -> dict[str, str]:

@@ -43,7 +43,7 @@ _ACCEPTED = 0.6
 _KINK = np.radians(60.0)
 _PRESS = 0.4
 """A press takes a chain this far, of the diagonal."""
-_CRUMB = 0.003
+CRUMB = 0.003
 """A smaller island is a crumb, of the area."""
 _RIM = 0.9
 """Share of a crumb's border that has to be sharp if a rim is the reason for it."""
@@ -154,7 +154,7 @@ class SeamMesh:
         for side in pairs[border].T:
             around += np.bincount(side, lengths[border], len(areas))
             of_rim += np.bincount(side, (lengths * sharp)[border], len(areas))
-        return int(((areas < _CRUMB * areas.sum()) & (of_rim < _RIM * around)).sum())
+        return int(((areas < CRUMB * areas.sum()) & (of_rim < _RIM * around)).sum())
 
     def loose_ends(self, seams: Bools) -> int:
         """Return the number of vertices inside the surface where exactly one seam edge ends."""

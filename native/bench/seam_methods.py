@@ -16,8 +16,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import seamwire_core as sw
+from seam_measures import CRUMB
 from seam_planning import cut_edges, triangulated
-from uv_maps import Model, UvMap
+from uv_maps import Model, UvMap, triangle_areas
 from uv_pictures import arranged
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "addon"))
@@ -33,6 +34,8 @@ if TYPE_CHECKING:
     Integers = NDArray[np.int64]
 
 _SAME = 1e-6
+_FLAT = 2.0
+"""Degrees between triangles of a flat face."""
 _STRENGTH = 10.0
 """The add-on's strength for wires along edges."""
 _AXES = (0, 2, 1)
@@ -189,12 +192,42 @@ def map_measures(model: Model, seams: Seams) -> dict[str, float | None]:
     except ValueError as error:
         print(f"{model.name}: no map: {error}", file=sys.stderr)
         return {"energy": None, "overlapping": None, "flips": None, "outside": None, "used": None}
-    one, other = (uv_map.uvs[:, k] - uv_map.uvs[:, 0] for k in (1, 2))
     is_out = (uv_map.uvs < -_SAME) | (uv_map.uvs > 1 + _SAME)
     return {
         "energy": float(report.energy),
         "overlapping": len(report.overlapping) + (len(report.colliding) if seams.uv_map else 0),
         "flips": len(report.flipped),
         "outside": int(is_out.any(axis=(1, 2)).sum()) if seams.uv_map else None,
-        "used": float(np.abs(one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]).sum() / 2) if seams.uv_map else None,
+        "used": used_share(uv_map) if seams.uv_map else None,
     }
+
+
+def scan_measures(uv_map: UvMap) -> dict[str, float]:
+    """Return the islands of a packed map, its crumbs, its used share, the share of slits in flat faces, and its milliseconds a triangle."""
+    areas = triangle_areas(uv_map.points, uv_map.triangles)
+    of_island = np.bincount(uv_map.islands, areas)
+    inner = uv_map.inner_edges
+    corners = uv_map.points[uv_map.triangles]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normals /= np.maximum(np.linalg.norm(normals, axis=1), np.finfo(float).tiny)[:, None]
+    cosines = (normals[inner.faces[:, 0]] * normals[inner.faces[:, 1]]).sum(axis=1)
+    bends = np.zeros(len(areas))
+    for side in inner.faces.T:
+        np.maximum.at(bends, side, np.degrees(np.arccos(np.clip(cosines, -1, 1))))
+    is_slit = inner.torn & (np.diff(uv_map.islands[inner.faces], axis=1)[:, 0] == 0)
+    is_flat = is_slit & (bends[inner.faces].max(axis=1) < _FLAT)
+    lengths = np.linalg.norm(np.diff(uv_map.points[inner.vertices], axis=1)[:, 0], axis=1)
+    return {
+        "triangles": len(areas),
+        "islands": len(of_island),
+        "crumbs": int((of_island < CRUMB * areas.sum()).sum()),
+        "used": used_share(uv_map),
+        "flat": float(lengths[is_flat].sum() / max(lengths[is_slit].sum(), np.finfo(float).tiny)),
+        "ms": 1e3 * uv_map.info["cpu"] / len(areas),
+    }
+
+
+def used_share(uv_map: UvMap) -> float:
+    """Return the area of a packed map, as a share of the UV square."""
+    one, other = (uv_map.uvs[:, k] - uv_map.uvs[:, 0] for k in (1, 2))
+    return float(np.abs(one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]).sum() / 2)

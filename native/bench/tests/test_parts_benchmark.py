@@ -16,7 +16,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 import parts_report as report
 from many_boxes import boxes
 from seam_measures import Artist, SeamMeasures, SeamMesh
-from seam_methods import Seams, cached, centered, from_blender, map_measures, ours, sharp
+from seam_methods import Seams, cached, centered, from_blender, map_measures, ours, scan_measures, sharp
 from uv_maps import Frame, Model, UvMap
 from uv_pictures import Surface, best_view, draw_columns
 
@@ -309,3 +309,19 @@ def test_the_best_view_shows_the_seams(tmp_path: Path) -> None:
     assert 90 < azimuth < 270
     draw_columns(tmp_path / "sheet.png", ["a", "b"], [("box", Frame(), [(view, surface), (view, None)])], 60)
     assert (tmp_path / "sheet.png").stat().st_size > 1000
+
+
+def test_slits_in_flat_faces_of_a_scan_are_measured() -> None:
+    model = grid(range(5), range(5))
+    points = model.points.copy()
+    points[points[:, 0] > 2, 2] = points[points[:, 0] > 2, 0] - 2  # bends at x = 2
+    uvs = model.points[model.triangles, :2] / 8
+    in_slit = (model.triangles == 7) & (model.points[model.triangles].mean(axis=1)[:, 1:2] > 1)
+    uvs[in_slit] += 1e-3  # opens the edges around a vertex at (2, 1)
+    found = scan_measures(UvMap(points, model.triangles, uvs, {"cpu": 0.032}))
+    assert (found["triangles"], found["islands"], found["crumbs"]) == (32, 1, 0)
+    assert found["ms"] == pytest.approx(1.0)
+    assert found["used"] == pytest.approx(0.25, abs=1e-3)
+    assert found["flat"] == 0.0, "the slits lie at the bend"
+    flat = scan_measures(UvMap(model.points, model.triangles, uvs, {"cpu": 0.032}))
+    assert flat["flat"] == pytest.approx(1.0)
