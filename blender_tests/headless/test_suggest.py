@@ -189,6 +189,19 @@ def test_strips_are_straight_only_within_the_limit(stretch: float, is_straight: 
     assert energy(obj) < energy_of(0.01 * stretch)
 
 
+def test_the_same_sphere_always_gets_the_same_seams() -> None:
+    """Blender adds the faces of a sphere in another order each time."""
+    found = set()
+    for _ in range(12):
+        bpy.ops.mesh.primitive_uv_sphere_add(segments=16, ring_count=10)
+        edit()
+        assert suggest() == {"FINISHED"}
+        found.add(frozenset(seams(bpy.context.object)))
+        bpy.ops.object.mode_set(mode="OBJECT")
+        bpy.data.objects.remove(bpy.context.object)
+    assert len(found) == 1
+
+
 def test_sharp_edges_that_are_everywhere_part_nothing() -> None:
     found = []
     for is_sharp in (False, True):

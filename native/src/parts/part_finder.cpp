@@ -22,6 +22,7 @@
 #include "detail/rounded.hpp"
 #include "detail/text.hpp"
 #include "parts/limbs.hpp"
+#include "parts/nets.hpp"
 #include "parts/parting_cuts.hpp"
 #include "parts/parts_between.hpp"
 #include "prices/border_odds.hpp"
@@ -378,8 +379,15 @@ struct PartFinder::Impl {
   std::vector<std::uint8_t> edited(const std::vector<Edge>& edges, const char* name, const Task& task) const;
   std::vector<std::int32_t> joined(double amount, std::span<const std::uint8_t> is_kept, const PartEdits& edits,
                                    const Task& task) const;
+  std::vector<std::uint8_t> folds(std::span<const std::int32_t> region_of, double amount,
+                                  std::span<const std::uint8_t> is_kept, const Task& task) const;
   std::vector<std::int32_t> joined_limbs(double amount, const PartEdits& edits, const Task& task) const;
-  std::vector<std::uint8_t> borders(double amount, const PartEdits& edits, const Task& task) const;
+  /// Edges of the mesh: 1 for each.
+  struct Borders {
+    std::vector<std::uint8_t> is_border;  ///< borders between parts, and existing seams
+    std::vector<std::uint8_t> is_rim;     ///< borders at rims, which may lie inside of a net
+  };
+  Borders borders(double amount, const PartEdits& edits, const Task& task) const;
 };
 
 void PartFinder::Impl::prepare(const Task& task) {
@@ -524,6 +532,27 @@ std::vector<std::int32_t> PartFinder::Impl::joined(double amount, std::span<cons
   return of_face;
 }
 
+/// Marks the edges over which regions of a net stay together.
+std::vector<std::uint8_t> PartFinder::Impl::folds(std::span<const std::int32_t> region_of, double amount,
+                                                  std::span<const std::uint8_t> is_kept, const Task& task) const {
+  const PlanMesh& mesh = *problem.mesh;
+  const double bias = amount > 0.0 ? bias_of(amount) : -kInfinity;
+  std::vector<std::uint8_t> may_fold;
+  for (std::size_t e = 0; e < mesh.edge_count(); ++e) {
+    may_fold.push_back(problem.is_seam[e] == 0 && is_kept[e] == 0 && odds[e] + bias < tuning::kMostFolded ? 1 : 0);
+  }
+  std::vector<double> diagonals;
+  for (const PieceSize& size : sizes.of_piece) diagonals.push_back(size.diagonal);
+  return find_folds({.mesh = mesh,
+                     .pieces = sizes.pieces,
+                     .diagonals = diagonals,
+                     .region_of = region_of,
+                     .may_fold = may_fold,
+                     .is_parting = is_kept,
+                     .reflection = problem.mirror()},
+                    task);
+}
+
 /// The limb of each triangle, by any numbers.
 std::vector<std::int32_t> PartFinder::Impl::joined_limbs(double amount, const PartEdits& edits,
                                                          const Task& task) const {
@@ -540,22 +569,25 @@ std::vector<std::int32_t> PartFinder::Impl::joined_limbs(double amount, const Pa
   return of_face;
 }
 
-/// Marks the borders of parts and the existing seams.
-std::vector<std::uint8_t> PartFinder::Impl::borders(double amount, const PartEdits& edits, const Task& task) const {
+PartFinder::Impl::Borders PartFinder::Impl::borders(double amount, const PartEdits& edits, const Task& task) const {
   const PlanMesh& mesh = *problem.mesh;
   const Task joining = part_of(task, 0.0, kJoined);
   const std::vector<std::uint8_t> is_kept = edited(edits.kept, "kept", task);
   const std::vector<std::int32_t> region_of =
       limbs ? joined_limbs(amount, edits, joining) : joined(amount, is_kept, edits, joining);
-  std::vector<std::uint8_t> is_border = problem.is_seam;
+  std::vector<std::uint8_t> is_fold(mesh.edge_count(), 0);
+  if (!limbs) is_fold = folds(region_of, amount, is_kept, part_of(task, 0.0, kJoined));
+  Borders found{problem.is_seam, std::vector<std::uint8_t>(mesh.edge_count(), 0)};
+  std::vector<std::uint8_t>& is_border = found.is_border;
   const Poll poll(task);
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     poll.at(index(e));
     const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
     if (twin < 0) continue;
-    if (is_kept[e] != 0 || region_of[h / 3] != region_of[twin / 3]) is_border[e] = 1;
+    found.is_rim[e] = region_of[h / 3] != region_of[twin / 3] && is_fold[e] == 0 ? 1 : 0;
+    if (is_kept[e] != 0 || found.is_rim[e] != 0) is_border[e] = 1;
   }
-  if (edits.parted.empty()) return is_border;
+  if (edits.parted.empty()) return found;
   SlitProblem parted = problem;
   const std::vector<std::uint8_t> is_dropped = edited(edits.dropped, "dropped", task);
   for (std::size_t e = 0; e < is_dropped.size(); ++e) {
@@ -575,7 +607,7 @@ std::vector<std::uint8_t> PartFinder::Impl::borders(double amount, const PartEdi
     for (std::size_t e = 0; e < is_cut.size(); ++e) is_border[e] |= is_cut[e];
     done += step;
   }
-  return is_border;
+  return found;
 }
 
 PartsBy PartFinder::by() const { return impl_->limbs ? PartsBy::kLimbs : PartsBy::kRims; }
@@ -597,9 +629,10 @@ Parts PartFinder::find(double amount, const PartEdits& edits, const Task& task) 
   const Task& own = rising.task();
   const Impl& impl = *impl_;
   const std::vector<std::uint8_t>& is_seam = impl.problem.is_seam;
-  std::vector<std::uint8_t> is_border = impl.borders(amount, edits, own);
+  auto [is_border, is_rim] = impl.borders(amount, edits, own);
   for (std::size_t e = 0; e < is_border.size(); ++e) is_border[e] = is_border[e] != 0 && is_seam[e] == 0 ? 1 : 0;
-  return parts_between(*impl.surface, *impl.problem.mesh, is_border, impl.options.seams, part_of(own, kParted, 1.0));
+  return parts_between(*impl.surface, *impl.problem.mesh, is_border, is_rim, impl.options.seams,
+                       part_of(own, kParted, 1.0));
 }
 
 }  // namespace seamwire

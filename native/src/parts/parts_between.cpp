@@ -24,9 +24,10 @@ Edge edge_of_surface(const PlanMesh& mesh, std::int32_t half_edge) {
   return ascending(mesh.sources[mesh.tail(half_edge)], mesh.sources[mesh.tip(half_edge)]);
 }
 
-/// Leaves out edges that do not lie between two parts. `of_face`: the part of each of the surface's triangles.
-void leave_out_inner(const PlanMesh& mesh, std::span<const std::int32_t> of_face, std::vector<Edge>& edges,
-                     const Task& task) {
+/// Leaves out edges that are no rims and do not lie between two parts. `of_face`: the part of each of the surface's
+/// triangles.
+void leave_out_inner(const PlanMesh& mesh, std::span<const std::uint8_t> is_rim, std::span<const std::int32_t> of_face,
+                     std::vector<Edge>& edges, const Task& task) {
   const Poll poll(task);
   std::map<Edge, std::array<std::int32_t, 2>> parts_at;  // the least and the greatest
   for (const Edge& edge : edges) parts_at[edge] = {std::numeric_limits<std::int32_t>::max(), -1};
@@ -34,17 +35,24 @@ void leave_out_inner(const PlanMesh& mesh, std::span<const std::int32_t> of_face
     poll.at(index(h));
     const auto at = parts_at.find(edge_of_surface(mesh, h));
     if (at == parts_at.end()) continue;
+    if (is_rim[mesh.edge_of[h]] != 0) {
+      parts_at.erase(at);
+      continue;
+    }
     auto& [least, greatest] = at->second;
     least = std::min(least, of_face[mesh.faces[h / 3]]);
     greatest = std::max(greatest, of_face[mesh.faces[h / 3]]);
   }
-  std::erase_if(edges, [&](const Edge& edge) { return parts_at[edge][0] == parts_at[edge][1]; });
+  std::erase_if(edges, [&](const Edge& edge) {
+    const auto at = parts_at.find(edge);
+    return at != parts_at.end() && at->second[0] == at->second[1];
+  });
 }
 
 }  // namespace
 
 Parts parts_between(const Surface& surface, const PlanMesh& mesh, std::span<const std::uint8_t> is_border,
-                    std::span<const Edge> seams, const Task& task) {
+                    std::span<const std::uint8_t> is_rim, std::span<const Edge> seams, const Task& task) {
   const Poll poll(task);
   std::vector<Edge> borders;
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
@@ -56,7 +64,7 @@ Parts parts_between(const Surface& surface, const PlanMesh& mesh, std::span<cons
   cuts.insert(cuts.end(), seams.begin(), seams.end());
   Parts parts;
   parts.of_face = face_segments(surface, cuts, task);
-  leave_out_inner(mesh, parts.of_face, borders, task);
+  leave_out_inner(mesh, is_rim, parts.of_face, borders, task);
   std::vector<std::uint8_t> is_meeting(surface.vertex_count(), 0);
   for (const Edge& edge : seams) {
     for (const std::int32_t v : edge) is_meeting[v] = 1;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "detail/disjoint_sets.hpp"
@@ -30,6 +31,34 @@ std::int32_t first_edge(const Csr<PlanNeighbor>& neighbors, std::int32_t a, std:
     if (next.vertex == b && (found < 0 || next.edge < found)) found = next.edge;
   }
   return found;
+}
+
+/// Takes over the triangles of a surface in an order that depends on their vertices alone, each from its lowest vertex
+/// on. Blender's primitives have their faces in another order each time. Seams must not depend on it.
+void take_triangles(const CornerFans& fans, PlanMesh& mesh, const Task& task) {
+  Poll poll(task);
+  std::vector<std::int32_t> order(fans.triangles.size()), first(order.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::vector<Triangle> turned = fans.triangles;
+  for (std::size_t f = 0; f < turned.size(); ++f) {
+    poll.next();
+    const auto lowest = std::ranges::min_element(turned[f]);
+    first[f] = static_cast<std::int32_t>(lowest - turned[f].begin());
+    std::rotate(turned[f].begin(), lowest, turned[f].end());  // Clang 14 cannot read std::ranges::rotate
+  }
+  polled_sort(order, Poll(task), {}, [&](std::int32_t f) { return std::pair(turned[f], f); });
+  std::vector<std::int32_t> place(order.size());
+  for (std::size_t k = 0; k < order.size(); ++k) place[order[k]] = static_cast<std::int32_t>(k);
+  for (const std::int32_t f : order) {
+    poll.next();
+    mesh.triangles.push_back(turned[f]);
+    mesh.faces.push_back(fans.faces[f]);
+    for (std::int32_t i = 0; i < 3; ++i) {
+      const std::int32_t twin = fans.twins[3 * f + (first[f] + i) % 3];
+      const std::int32_t other = twin / 3;
+      mesh.twins.push_back(twin < 0 ? -1 : 3 * place[other] + (twin % 3 - first[other] + 3) % 3);
+    }
+  }
 }
 
 double median_of(std::vector<double> values) {
@@ -88,9 +117,7 @@ void connect(PlanMesh& mesh, std::optional<std::span<const Edge>> real_edges, co
 PlanMesh plan_mesh(const Surface& surface, const Task& task) {
   task.check(0.0);
   PlanMesh mesh;
-  mesh.triangles = corner_fans(surface).triangles;
-  mesh.twins = corner_fans(surface).twins;
-  mesh.faces = corner_fans(surface).faces;
+  take_triangles(corner_fans(surface), mesh, task);
   mesh.sources = corner_fans(surface).vertices;
   // The model's size first, so that no square overflows.
   mesh.scale = surface.scale();

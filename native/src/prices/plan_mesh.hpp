@@ -45,8 +45,8 @@ struct PlanMesh : TriangleConnectivity {
   std::int32_t any_edge_between(std::int32_t a, std::int32_t b) const;
 };
 
-/// The triangles of a surface without degenerate and duplicate ones. Vertices are the corner fans, so pieces that meet
-/// only in a vertex are apart. Throws Cancelled.
+/// The triangles of a surface without degenerate and duplicate ones. They are in the same order for every order of the
+/// surface's triangles. Vertices are the corner fans, so pieces that meet only in a vertex are apart. Throws Cancelled.
 PlanMesh plan_mesh(const Surface& surface, const Task& task);
 
 /// Fills in edges, lengths and neighbors of a mesh whose points, triangles and twins are known. `real_edges`: between

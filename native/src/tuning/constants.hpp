@@ -176,6 +176,15 @@ inline constexpr std::array<double, 3> kSeedShares{0.2, 0.3, 0.4};
 /// Edges without a mirror image, for each edge with one, up to which a piece is cut symmetrically.
 inline constexpr double kMostWithoutImage = 0.05;
 
+// Nets: pieces of flat parts that open as cardboard does.
+
+/// Log odds from which a rim is never a fold of a net. At the far end of the scale, the sides of a cube are islands.
+inline constexpr double kMostFolded = 4.0;
+/// Distance in diagonals of a piece that unfolded triangles may leave between them.
+inline constexpr double kNetGap = 1e-3;
+/// Parts of a piece that opens as a net, at most.
+inline constexpr std::size_t kMostPanels = 24;
+
 // Limbs whose necks are cut if more islands are wanted.
 
 /// Share of the way from a tip to the farthest vertex beyond which nothing is part of the limb.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <random>
 #include <vector>
 
 #include "shapes.hpp"
@@ -32,6 +33,24 @@ TEST(PlanMesh, HasAreaOneWhateverTheUnit) {
       EXPECT_LT((mesh.points[v] - scaled).norm(), 1e-12) << size;
     }
   }
+}
+
+TEST(PlanMesh, DoesNotDependOnTheOrderOfTriangles) {
+  shapes::Mesh ball = shapes::icosphere(2);
+  const PlanMesh mesh = plan_mesh(ball.surface(), {});
+  std::mt19937 random(5);
+  std::vector<std::int32_t> order(ball.triangles.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::shuffle(order, random);
+  shapes::Mesh shuffled = ball;
+  for (std::size_t f = 0; f < order.size(); ++f) {
+    const Triangle& from = ball.triangles[order[f]];
+    for (std::size_t i = 0; i < 3; ++i) shuffled.triangles[f][i] = from[(i + f) % 3];
+  }
+  const PlanMesh other = plan_mesh(shuffled.surface(), {});
+  EXPECT_EQ(other.triangles, mesh.triangles);
+  EXPECT_EQ(other.twins, mesh.twins);
+  for (std::size_t f = 0; f < order.size(); ++f) EXPECT_EQ(order[other.faces[f]], mesh.faces[f]);
 }
 
 TEST(PlanMesh, NumbersEachEdgeOnce) {
