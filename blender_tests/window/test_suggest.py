@@ -383,16 +383,16 @@ def test_the_wheel_and_keys_give_more_or_fewer_parts(
     ui.move((0.5 * ui.region.width, 0.5 * ui.region.height))
     ui.event(more, "PRESS")
     assert count() == 9, "each side is a part"
-    amount = live().amount
+    amount = live().choice.amount
     ui.event(more, "PRESS")
-    assert (count(), live().amount) == (9, amount), "there are no more"
+    assert (count(), live().choice.amount) == (9, amount), "there are no more"
     ui.event(fewer, "PRESS")
     assert count() == 3
     ui.event(fewer, "PRESS")
     assert count() == 1
     assert ui.view.view_distance == distance
     ui.event(more, "PRESS")
-    chosen = live().amount
+    chosen = live().choice.amount
     ui.key("SPACE")
     ui.wait_until(lambda: not searches, 60.0)
     assert island_count(prism) == 3
@@ -452,7 +452,7 @@ def test_a_long_cut_is_a_step_and_the_wheel_turns_after_it(
     slow_cuts.set()
     ui.wait_until(lambda: not live()._searches)
     assert count() == 2, "all is one part, which is cut"
-    assert not live().edits[prism.name].dropped
+    assert not live().choice.edits[prism.name].dropped
     keep(ui)
     assert island_count(prism) == 2
 
@@ -491,10 +491,10 @@ def test_adjust_last_operation_has_what_was_clicked(ui: driver.Ui, prism: bpy.ty
 def test_hidden_borders_and_other_regions_take_no_clicks(ui: driver.Ui, prism: bpy.types.Object) -> None:
     invoke(ui)
     ui.click(ui.on_screen((0.0, 0.97, -0.8)))  # the rim behind the prism
-    behind = dict(live().edits)
+    behind = dict(live().choice.edits)
     assert all(not edits.dropped for edits in behind.values())
     ui.click((5.0, 5.0))  # beside the mesh
-    assert live().edits == behind
+    assert live().choice.edits == behind
 
 
 @pytest.mark.smoke
@@ -557,9 +557,9 @@ def test_undo_takes_back_each_click_notch_and_key_and_redo_makes_it_again(
         return (
             count(),
             borders(),
-            shown.amount,
-            shown.stretch,
-            dict(shown.edits),
+            shown.choice.amount,
+            shown.choice.stretch,
+            dict(shown.choice.edits),
             len(shown._dim(next(iter(shown._search)))),
         )
 
@@ -625,7 +625,7 @@ def test_undo_takes_back_a_cut_that_is_still_searched(
     ui.wait_until(lambda: live().is_planned)
     assert not slow_cuts.is_set()
     assert borders() == first
-    assert not live().edits
+    assert not live().choice.edits
 
 
 @pytest.mark.every_blender
@@ -638,14 +638,14 @@ def test_the_wheel_leads_back_to_the_same_parts(ui: driver.Ui, suzanne: bpy.type
     def turn(up: bool, **held: bool) -> None:
         ui.wheel(up, **held)
         ui.wait_until(lambda: not shown._searches)
-        assert seen.setdefault(shown.amount, borders()) == borders(), "an amount has the same borders each time"
+        assert seen.setdefault(shown.choice.amount, borders()) == borders(), "an amount has the same borders each time"
 
-    first = shown.amount, shown.stretch, borders()
+    first = shown.choice.amount, shown.choice.stretch, borders()
     for up, notches in ((True, 2), (False, 3), (True, 1)):
         for _ in range(notches):
             turn(up)
             turn(up, ctrl=True)
-    assert (shown.amount, shown.stretch, borders()) == first
+    assert (shown.choice.amount, shown.choice.stretch, borders()) == first
 
 
 @pytest.mark.smoke
@@ -808,18 +808,18 @@ def test_ctrl_and_the_wheel_or_keys_change_the_limit_of_the_stretch(
 ) -> None:
     invoke(ui)
     shown = live()
-    parts, amount = count(), shown.amount
+    parts, amount = count(), shown.choice.amount
     ui.move((0.5 * ui.region.width, 0.5 * ui.region.height))
     ui.wait_until(lambda: shown.is_planned)
     version = shown._version
     ui.event(more, "PRESS", ctrl=True)
-    assert shown.stretch == 22.0
+    assert shown.choice.stretch == 22.0
     assert shown._version > version, "another plan is needed"
     for _ in range(2):
         ui.event(fewer, "PRESS", ctrl=True)
-    assert shown.stretch == 13.0
+    assert shown.choice.stretch == 13.0
     assert "Stretch: up to 13 %" in shown.title
-    assert (count(), shown.amount) == (parts, amount)
+    assert (count(), shown.choice.amount) == (parts, amount)
     ui.wait_until(lambda: shown.is_planned)
     keep(ui)
     assert bpy.context.window_manager.operators[-1].distortion == pytest.approx(13.0)

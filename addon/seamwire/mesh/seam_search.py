@@ -40,7 +40,7 @@ from ..words.reports import ALL_HIDDEN
 from ..words.search_report import Outcome
 from . import edit_mesh, finishes, uv_map
 from .object_session import ObjectSession, mirror_axes
-from .seam_islands import labels_of, mapped, missing_cuts
+from .seam_islands import labels_of, maps_of, missing_cuts
 from .unwrap import STRAIGHT_COST, UP, Layout, Unwrapped, unwrap_changed
 
 if TYPE_CHECKING:
@@ -343,18 +343,25 @@ class SeamSearch:
         self._options = options
         self._unwrapped: Unwrapped | None = None
         self._found: list[Suggestion] = []
+        hidden: list[str] = []
         for obj in objects:
             faces = edit_mesh.selected_faces(obj) if selected else None
             try:
                 suggestion = Suggestion(obj, options, faces)
                 if not len(suggestion.mesh.arrays.triangles):
                     raise edit_mesh.NothingVisibleError(obj)
+            except edit_mesh.NothingVisibleError as error:
+                self.problem = str(error)
+                hidden.append(self.problem)
+                continue
             except ValueError as error:
                 self.problem = str(error)
                 continue
             for notice in suggestion.mesh.notices.take():
                 self.notices.add(*notice)
             self._found.append(suggestion)
+        for problem in hidden if self._found else ():
+            self.notices.add("WARNING", problem)
 
     def __iter__(self) -> Iterator[Suggestion]:
         return iter(self._found)
@@ -384,9 +391,9 @@ class SeamSearch:
         for suggestion, share in self._shares(progress):
             suggestion.choose(amount, edits.get(suggestion.name, _NO_EDITS), share)
 
-    def limit_stretch(self, percent: float) -> None:
-        """Let the next plans have another mean stretch. `choose` drops those for the stretch before."""
-        self._options = replace(self._options, stretch=percent)
+    def limit(self, stretch: float, islands: int) -> None:
+        """Let the next plans have another mean stretch, in percent, and number of islands. `choose` drops the plans before."""
+        self._options = replace(self._options, stretch=stretch, islands=islands)
 
     @property
     def part_count(self) -> int:
@@ -478,6 +485,6 @@ class SeamSearch:
             return [(float(suggestion.best.energy), suggestion.area) for suggestion in self], None
         if self._unwrapped is None:  # the maps on the meshes are those from before
             return [], None
-        maps = {obj: found for obj in (each.mesh.obj for each in self) if (found := mapped(obj)) is not None}
+        maps = maps_of(each.mesh.obj for each in self)
         energies = [(found.energy(uv_map.aspect(obj)), found.area) for obj, found in maps.items()]
         return energies, sum(found.used for found in maps.values()) if maps else None

@@ -162,7 +162,7 @@ class Stepwise(EditMeshOperator):
         self._cleanup.callback(self._tell, None)
         self._cleanup.callback(manager.event_timer_remove, manager.event_timer_add(_PERIOD, window=context.window))
         self._cleanup.callback(self._steps.close)
-        self._cleanup.callback(self._thread.shutdown)
+        self._cleanup.callback(self._thread.shutdown, wait=False)
         running.append(self)
         self._cleanup.callback(running.remove, self)
         self.window = context.window
@@ -208,7 +208,8 @@ class Stepwise(EditMeshOperator):
             return {"PASS_THROUGH"}
         if event.type in {"RET", "NUMPAD_ENTER"} and event.value == "PRESS" and self._seen:
             self.enough = True
-        is_waiting = self._is_at_work or (hand is not None and not hand.is_over and not self._is_broken)
+        is_open = hand is not None and not hand.is_over
+        is_waiting = not self._cancelled and (self._is_at_work or (is_open and not self._has_failed))
         if is_waiting:
             self._show()
         if is_waiting or not (event.type == "TIMER" or self._cancelled):
@@ -231,16 +232,19 @@ class Stepwise(EditMeshOperator):
         return self._work is not None and not self._work.done()
 
     @property
-    def _is_broken(self) -> bool:
-        """Whether the step is cancelled, or its work has ended on an error."""
-        return self._cancelled or (self._work is not None and self._work.done() and self._work.exception() is not None)
+    def _has_failed(self) -> bool:
+        """Whether the step's work has ended on an error."""
+        return self._work is not None and self._work.done() and self._work.exception() is not None
 
     def cancel(self, _context: bpy.types.Context) -> None:
         """End because Blender quits or loads a file."""
         self.end()
 
     def end(self) -> None:
-        """Cancel the step that runs, wait for its thread, and put everything back. More than once does no harm."""
+        """Cancel the step that runs, and put everything back. More than once does no harm.
+
+        The thread ends in the background, because long work may look seldom at whether it goes on. Its result is dropped.
+        """
         self._cancelled = True
         self._cleanup.close()
 

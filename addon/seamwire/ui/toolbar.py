@@ -31,8 +31,11 @@ _OBJECTS = f"{__package__.rpartition('.')[0]}.view.edited_objects"
 
 
 def draw_header(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
-    """Show at most six controls in a row, and the help. Blender shows the mirror of the mesh beside them."""
+    """Show how a job begins and ends, at most six controls, and the help. Blender shows the mirror of the mesh beside them."""
     chosen, along = settings(context), along_of(context)
+    jobs = layout.row(align=True)
+    jobs.operator("mesh.seamwire_suggest", text="Suggest")
+    jobs.operator("mesh.seamwire_unwrap", text="Unwrap")
     row = layout.row(align=True)
     row.ui_units_x = 8.5
     for name, label in _SHORT_ALONG:

@@ -24,7 +24,7 @@ from ..mesh.pose import Pose
 from .edited_objects import edited
 from .failures import failures
 from .gpu_draw import ColoredFaces, Eye, Within, blended, draw_over, sees_through
-from .overlay import Sheet
+from .overlay import Sheet, draw_corner, free_room
 from .theme import Looks, hue_colors, looks_of
 
 if TYPE_CHECKING:
@@ -256,7 +256,8 @@ class PlanPreview:
 
     def __init__(self) -> None:
         self._shown: dict[int, _ObjectPreview] = {}  # by the addresses of the objects
-        self._handle: object | None = None
+        self._handles: list[object] = []
+        self._rows: Sequence[tuple[str, str]] = ()
 
     def show(
         self,
@@ -271,8 +272,12 @@ class PlanPreview:
         With the wires, the edges `cuts`, (c, 2), are seams. `squares`, (m, 3, 2), is the map of the corners of its triangles, in squares
         of a checker pattern, if it is drawn.
         """
-        if self._handle is None and not bpy.app.background:
-            self._handle = bpy.types.SpaceView3D.draw_handler_add(self._draw, (), "WINDOW", "POST_VIEW")
+        if not self._handles and not bpy.app.background:
+            add = bpy.types.SpaceView3D.draw_handler_add
+            self._handles += [
+                add(self._draw, (), "WINDOW", "POST_VIEW"),
+                add(self._draw_corner, (), "WINDOW", "POST_PIXEL"),
+            ]
             edited.covered = True
         address = obj.as_pointer()
         if address not in self._shown:
@@ -281,6 +286,12 @@ class PlanPreview:
         failures.take("preview")  # another plan is another try
         failures.attempt(("preview", "follow", address), partial(shown.follow, curves, cuts, squares))
         edited.redraw()
+
+    def tell(self, rows: Sequence[tuple[str, str]]) -> None:
+        """Show text in the corner of the views, as `draw_corner` draws it."""
+        if rows != self._rows:
+            self._rows = rows
+            edited.redraw()
 
     def at(self, place: Place) -> Pointed | None:
         """Return what is under the mouse, of the object that is nearest to the viewer."""
@@ -303,21 +314,37 @@ class PlanPreview:
 
     def close(self) -> None:
         """Draw nothing any more."""
-        if self._handle is not None:
-            bpy.types.SpaceView3D.draw_handler_remove(self._handle, "WINDOW")
+        if self._handles:
             edited.covered = False
             edited.redraw()
-        self._handle = None
+        while self._handles:
+            bpy.types.SpaceView3D.draw_handler_remove(self._handles.pop(), "WINDOW")
         for shown in self._shown.values():
             shown.close()
         self._shown.clear()
 
-    def _draw(self) -> None:
-        context = bpy.context
-        if not self._shown or not context.space_data.overlay.show_overlays:
-            return
-        looks = looks_of(context.preferences.themes[0].view_3d, chosen.preferences())
+    def _seen_here(self) -> dict[int, _ObjectPreview]:
+        """Return what is seen in the view that Blender is drawing now, by the addresses of the objects."""
+        space, layer = bpy.context.space_data, bpy.context.view_layer
+        found = {}
         for address, shown in self._shown.items():
             with suppress(ReferenceError):  # the object may be gone
-                if shown.obj.visible_in_viewport_get(context.space_data):
-                    failures.attempt(("preview", "draw", address), partial(shown.draw, looks))
+                is_in_scene = layer.objects.get(shown.obj.name) == shown.obj  # another window may show another scene
+                if is_in_scene and space.overlay.show_overlays and shown.obj.visible_in_viewport_get(space):
+                    found[address] = shown
+        return found
+
+    def _draw(self) -> None:
+        looks = looks_of(bpy.context.preferences.themes[0].view_3d, chosen.preferences())
+        for address, shown in self._seen_here().items():
+            failures.attempt(("preview", "draw", address), partial(shown.draw, looks))
+
+    def _draw_corner(self) -> None:
+        looks = looks_of(bpy.context.preferences.themes[0].view_3d, chosen.preferences())
+        if looks.text == "NONE" or not self._seen_here():
+            return
+        room = free_room(bpy.context.area, bpy.context.region)
+        if room[2] <= 0.0:
+            return
+        with blended("NONE"):
+            draw_corner(self._rows, room[:2], bpy.context.preferences.system.ui_scale)
