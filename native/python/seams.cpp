@@ -111,8 +111,8 @@ void bind_seam_plan(py::module_& module) {
                     "float: Newton steps that planning took, each times the share of the surface.")
       .def_property_readonly(
           "uvs", &uvs_of,
-          "(m, 3, 2) float64 or None: the planned map, in the caller's unit of length. In a plan that was found on\n"
-          "the way, it belongs to the slits of the search. Wires across the surface may run beside them.")
+          "(m, 3, 2) float64 or None: the planned map, in the caller's unit of length. None for a plan that\n"
+          "was found on the way.")
       .def("__repr__", [](const SeamPlan& plan) {
         return "<SeamPlan: " + std::to_string(plan.wires.size()) + " wires, " + std::to_string(plan.island_count) +
                " islands>";

@@ -111,8 +111,7 @@ class Suggestion:
         self.best: seamwire_core.SeamPlan | None = None  # the plan to carry out
         self.straight_cost = STRAIGHT_COST  # for `Layout`: less, if the plan would exceed its limit otherwise
         self.slits: list[Wire] = []  # the wires of this plan
-        # The map of this plan as unwrapping lays it out, (m, 3, 2) in the object's units.
-        self.layout: NDArray[np.float64] | None = None
+        self._bound = 0.0  # on the energy of plans
         self.marked = 0  # how many edges `write` made seams
 
     def _islands_with(self, faces: NDArray[np.integer] | None) -> tuple[NDArray[np.bool_] | None, int]:
@@ -162,7 +161,7 @@ class Suggestion:
             corners = self.mesh.arrays.triangles[self._within].tolist()
             inside = {undirected(side) for a, b, c in corners for side in ((a, b), (b, c), (c, a))}
             self.borders = [chain for chain in self.borders if edges_of(chain) <= inside]
-        self._planner = self.best = self.layout = None
+        self._planner = self.best = None
         self.slits = []
 
     def _found(self, amount: float, edits: PartEdits, progress: Progress) -> seamwire_core.Parts:
@@ -219,6 +218,7 @@ class Suggestion:
         The symmetric Dirichlet energy of the map is at most `energy`, and what is to be cut becomes at least so many `islands`. As soon as
         `is_enough` returns True, the best plan so far counts. The first one is waited for.
         """
+        self._bound = energy
         # Other parts may be chosen meanwhile, which drops the planner.
         self._planner = planner = self._core.SeamPlanner(
             self.mesh.arrays.surface,
@@ -245,14 +245,15 @@ class Suggestion:
         if self._planner is not planner:
             return  # the plan is for other parts
         from_object = np.linalg.inv(self.mesh.arrays.to_object)
-        self.straight_cost = min(STRAIGHT_COST, max(0.0, energy - found.energy))
+        self.straight_cost = self._straight_cost_of(found)
         self.best, self.slits = found, planned_wires(found, self.along, STRENGTHS[self.along], from_object)
 
-    def lay_out(self, progress: Progress) -> None:
-        """Find how the islands of the plan will lie in the UV map."""
-        planner, plan, arrays = self._planner, self.best, self.mesh.arrays
-        if plan is None or plan.uvs is None:
-            return
+    def layout_of(self, plan: seamwire_core.SeamPlan, progress: Progress) -> NDArray[np.float64] | None:
+        """Return how the islands of a plan will lie in the UV map, (m, 3, 2) in the object's units; None if unwrapping opens them further.
+
+        Any thread may call it.
+        """
+        arrays = self.mesh.arrays
         try:
             found = self._core.flatten(
                 arrays.in_object,
@@ -260,15 +261,17 @@ class Suggestion:
                 self.edges_of(plan),
                 start=plan.uvs,
                 keep_apart=False,
-                straighten=self.straight_cost,
+                straighten=self._straight_cost_of(plan),
                 up=UP,
                 edges=arrays.edges,
                 progress=progress,
             ).uvs
         except ValueError:
-            found = plan.uvs  # unwrapping may open islands further
-        if self._planner is planner:
-            self.layout = np.asarray(found)
+            found = plan.uvs
+        return None if found is None else np.asarray(found)
+
+    def _straight_cost_of(self, plan: seamwire_core.SeamPlan) -> float:
+        return min(STRAIGHT_COST, max(0.0, self._bound - float(plan.energy)))
 
     @property
     def best_so_far(self) -> seamwire_core.SeamPlan | None:
@@ -405,11 +408,6 @@ class SeamSearch:
         energy = energy_of(0.01 * self._options.stretch)
         for suggestion, share in self._shares(progress):
             suggestion.plan(energy, self._options.islands, share, is_enough)
-
-    def lay_out(self, progress: Progress) -> None:
-        """Find how the islands of the plans will lie in the UV map."""
-        for suggestion, share in self._shares(progress):
-            suggestion.lay_out(share)
 
     def _shares(self, progress: Progress) -> Iterator[tuple[Suggestion, Progress]]:
         for number, suggestion in enumerate(self):

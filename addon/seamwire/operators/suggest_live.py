@@ -83,7 +83,7 @@ class LiveParts:
         self._version = self._worked_on = 0
         self._planned = -1
         self._rests_at = 0.0
-        self._seen: dict[Suggestion, tuple[object, object]] = {}
+        self._seen: dict[Suggestion, object] = {}
         self._found_map: FoundMap | None = None
         self._square = _square_size(search)
         self._cancelled = native.load().Cancelled
@@ -148,7 +148,6 @@ class LiveParts:
         with suppress(self._cancelled):
             self._search.plan(goes_on, is_enough=self._is_enough)
             self._planned = version
-            self._search.lay_out(lambda _: goes_on(1.0) and not self.is_kept)
 
     def _look(self) -> str:
         """Show plans that are new, and return the stretch and the length of their seams."""
@@ -156,14 +155,11 @@ class LiveParts:
             return ""
         self._preview.poll()
         plans = {each: plan for each in self._search if (plan := each.best_so_far) is not None}
-        is_new = False
-        for suggestion, plan in plans.items():
-            seen = self._seen.get(suggestion, (None, None))
-            if seen[0] is not plan or seen[1] is not suggestion.layout:
-                self._seen[suggestion] = plan, suggestion.layout
-                self._show(suggestion)
-                is_new = True
-        if is_new and len(plans) == len(self._search):
+        new = [suggestion for suggestion, plan in plans.items() if self._seen.get(suggestion) is not plan]
+        for suggestion in new:
+            self._seen[suggestion] = plans[suggestion]
+            self._show(suggestion)
+        if new and len(plans) == len(self._search):
             energy = mean_stretch([float(plan.energy) for plan in plans.values()], [each.area for each in plans])
             length = _in_units(sum(each.length_of(plan) for each, plan in plans.items()))
             islands = sum(plan.island_count for plan in plans.values())
@@ -380,17 +376,18 @@ class LiveParts:
         curves = Curves(
             [points[chain] for chain in suggestion.borders], [points[chain] for chain in self._dim(suggestion)]
         )
-        cuts = suggestion.seams
+        cuts, unfold, version = suggestion.seams, None, self._version
         if plan is not None:
             curves = replace(curves, slits=[wire.points for wire in plan.wires])
             cuts = suggestion.edges_of(plan)
-        uvs = suggestion.layout
-        if uvs is None and plan is not None:
-            uvs = plan.uvs  # the best map so far
-        squares = None
-        if uvs is not None and not self.is_kept:
-            squares = uvs * (_scale_of(suggestion.mesh.obj) / self._square)
-        self._preview.show(suggestion.mesh.obj, suggestion.mesh.arrays, curves, cuts, squares)
+        if plan is not None and not self.is_kept:
+            per_unit = _scale_of(suggestion.mesh.obj) / self._square
+
+            def unfold() -> NDArray[np.float64] | None:
+                found = suggestion.layout_of(plan, lambda _: self._version == version and not self.is_kept)
+                return None if found is None else found * per_unit
+
+        self._preview.show(suggestion.mesh.obj, suggestion.mesh.arrays, curves, cuts, unfold)
 
 
 def _scale_of(obj: bpy.types.Object) -> float:

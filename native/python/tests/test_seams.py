@@ -165,8 +165,7 @@ def test_another_thread_sees_the_best_plan_so_far(torus: sw.Surface) -> None:
     best = planner.best_so_far
     assert best is not None
     assert best.not_discs == 0
-    report = sw.measure_map(torus.points, torus.triangles, best.uvs, best.islands)
-    assert report.energy == pytest.approx(best.energy, rel=1e-3), "it has the map of what was found"
+    assert best.uvs is None
     finished = planner.plan(distortion=np.inf)
     np.testing.assert_array_equal(planner.best_so_far.islands, finished.islands)
 

@@ -77,13 +77,8 @@ class WholePlan {
     }
   }
 
-  /// The present plan, with the map that belongs to its slits.
-  SeamPlan shown(const Task& task) {
-    SeamPlan plan = plan_with(chains(), task);
-    add_maps_of_slits(plan, task);
-    fill_left_out(*prepared_.surface, plan.islands, plan.uvs);
-    return plan;
-  }
+  /// The present plan, without a map.
+  SeamPlan shown(const Task& task) const { return plan_with(chains(), task); }
 
   /// The plan with the map that belongs to its wires. Wires that leave a piece without a good map come nearer to the
   /// slits. `bound`: on the energy of each group.
@@ -96,6 +91,9 @@ class WholePlan {
       const auto place = [&](double share) { return kMeasureBegins * (attempt + share) / kMostTries; };
       SeamPlan plan = plan_with(slits, part_of(task, place(0.0), place(kMapBegins)));
       bool is_again = false;
+      plan.uvs.assign(prepared_.surface->face_count(), {Point2::Zero(), Point2::Zero(), Point2::Zero()});
+      energies_.clear();
+      is_mapped_ = true;
       if (prepared_.wires->are_across()) {
         const std::vector<std::uint8_t> is_cut = marked_edges(mesh, cuts_of(plan, prepared_.options.seams), task);
         const CutMaps maps = solve_cut(mesh, is_cut, part_of(task, place(kMapBegins), place(1.0)));
@@ -106,10 +104,12 @@ class WholePlan {
           is_again = true;
         }
         if (is_again) continue;
-        begin_map(plan);
         add_maps(plan, mesh, nullptr, maps, task);
       } else {
-        add_maps_of_slits(plan, task);
+        for (const auto& [group, place] : places_) {
+          const GroupProblem& own = groups()[group];
+          add_maps(plan, *own.original.mesh, &own.places[place], plans_[group].result().maps, task);
+        }
       }
       fill_left_out(*prepared_.surface, plan.islands, plan.uvs);
       measure(plan, part_of(task, kMeasureBegins, 1.0));
@@ -202,21 +202,6 @@ class WholePlan {
       kept.push_back(is_good || !std::isfinite(planned.energy) ? 1 : 0);
     }
     return kept;
-  }
-
-  /// Begins a map without UVs.
-  void begin_map(SeamPlan& plan) {
-    plan.uvs.assign(prepared_.surface->face_count(), {Point2::Zero(), Point2::Zero(), Point2::Zero()});
-    energies_.clear();
-    is_mapped_ = true;
-  }
-
-  void add_maps_of_slits(SeamPlan& plan, const Task& task) {
-    begin_map(plan);
-    for (const auto& [group, place] : places_) {
-      const GroupProblem& own = groups()[group];
-      add_maps(plan, *own.original.mesh, &own.places[place], plans_[group].result().maps, task);
-    }
   }
 
   /// Adds UVs. `place`: where the faces and vertices of the maps' mesh are on the whole mesh; null: in the same place.
@@ -402,7 +387,7 @@ class Planning {
   }
 
   /// Works on small groups at the same time, then on the others one after another.
-  void for_each_group(const Task& task, const std::function<void(std::size_t, const Task&)>& work) {
+  void for_each_group(const Task& task, const std::function<void(std::size_t, const Task&)>& work) const {
     std::vector<std::size_t> small, large;
     for (std::size_t g = 0; g < plans_.size(); ++g) (is_small(g) ? small : large).push_back(g);
     const auto size = [&](std::size_t g) { return static_cast<double>(groups()[g].searched().mesh->face_count()); };
@@ -450,7 +435,7 @@ class Planning {
     return goal_.distortion + level;
   }
 
-  void tell() {
+  void tell() const {
     if (found_) found_(whole_.shown(part_of(task_, 0.0, 0.0)));
   }
 

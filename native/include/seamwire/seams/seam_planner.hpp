@@ -67,8 +67,8 @@ struct PlannedWire {
 /// In the plan that SeamPlanner::plan() returns, the cuts run along `vertices` of all wires and along the given seams.
 /// `islands`, `uvs`, `energy` and `is_reached` belong to these cuts.
 ///
-/// A plan that is only shown has the map and the energy of the slits that the search works on. Its wires may be some
-/// distance away from these slits.
+/// A plan that is only shown has the energy of the slits that the search works on. Its wires may be some distance away
+/// from these slits.
 struct SeamPlan {
   std::vector<PlannedWire> wires;     ///< without the existing seams
   std::vector<std::int32_t> islands;  ///< the island of each of the caller's triangles, numbered as in face_segments()
@@ -87,7 +87,7 @@ struct SeamPlan {
   /// Newton steps that planning took, each times its fraction of the surface.
   double steps = 0.0;
   /// The planned map: UVs of the caller's corners, in the caller's unit of length. Triangles that the surface left out
-  /// get theirs as in flatten(). Islands without a map have UVs of zero.
+  /// get theirs as in flatten(). Empty for a plan that is shown during the search.
   CornerUvs uvs;
 };
 
