@@ -7,13 +7,14 @@ import bpy
 import numpy as np
 import pytest
 import ui as driver
-from desk import Desk, choose, drag, draw, said, undo_steps
+from desk import Desk, choose, drag, draw, said, second_window, undo_steps
 from scene import chain, seams, snapshot
 from seamwire.core.drawing.picture import Role
 from seamwire.mesh.settings import preferences, settings
 from seamwire.operators import keymaps
 from seamwire.ui import status_bar
 from seamwire.view.edited_objects import edited
+from seamwire.words import corner
 
 
 def nothing_else_changed(desk: Desk) -> None:
@@ -76,6 +77,47 @@ def test_clearing_takes_seams_away_and_breaks_the_wires_there(desk: Desk) -> Non
     desk.start()
     desk.ui.key("S")
     assert not settings().clear, "S turns it round within a chain"
+
+
+@pytest.mark.smoke
+@pytest.mark.every_blender
+@pytest.mark.parametrize("end", ["RET", "ESC", "new chain", "mode"])
+def test_s_and_e_end_with_the_chain_and_the_view_shows_them(desk: Desk, end: str) -> None:
+    desk.choose()
+    ui = desk.ui
+    ui.click(desk.at(36), ctrl=True)
+    ui.key("E")
+    ui.key("S")
+    assert settings().clear
+    with second_window(ui):
+        shown = [corner.lines(view.session.picture) for view in edited.views() if view.session.picture.front]
+        assert len(shown) == 1, "all windows draw the same object"
+        assert shown[0][-1] == "Clearing seams"
+        assert shown[0][-2].startswith("Across the surface")
+    assert "Clear" in said() or "Mark" in said()
+    if end == "new chain":
+        ui.click(desk.at(20), ctrl=True)
+        assert desk.running
+    elif end == "mode":
+        with ui.override():
+            bpy.ops.object.mode_set(mode="OBJECT")
+        ui.wait_until(lambda: not desk.running)
+    else:
+        ui.key(end)
+        ui.wait_until(lambda: not desk.running)
+    assert not settings().clear
+    assert settings().along == "AUTO"
+
+
+def test_a_setting_that_the_header_changes_meanwhile_stays(desk: Desk) -> None:
+    desk.start()
+    desk.ui.move(desk.at(40))
+    desk.ui.key("E")
+    settings().along = "EDGES"
+    desk.ui.key("ESC")
+    desk.ui.wait_until(lambda: not desk.running)
+    assert settings().along == "EDGES"
+    settings().along = "AUTO"
 
 
 @pytest.mark.smoke
