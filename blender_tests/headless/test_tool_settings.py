@@ -27,11 +27,10 @@ class Layout:
         assert hasattr(owner, name)
         self.shown.append(name)
 
-    def prop_enum(self, owner: object, name: str, value: str, **_options: object) -> None:
-        """Note a property once, though each of its values has a button."""
-        assert value in owner.bl_rna.properties[name].enum_items
-        if name not in self.shown:
-            self.shown.append(name)
+    def operator(self, name: str, **_options: object) -> None:
+        """Note an operator that there is."""
+        getattr(bpy.ops.mesh, name.partition(".")[2]).get_rna_type()
+        self.shown.append(name)
 
     def popover(self, panel: str, **_options: object) -> None:
         """Note a popover that there is."""

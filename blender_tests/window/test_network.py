@@ -11,7 +11,7 @@ from desk import Desk, choose, drag, draw, said, second_window, undo_steps
 from scene import chain, seams, snapshot
 from seamwire.core.drawing.picture import Role
 from seamwire.mesh.settings import preferences, settings
-from seamwire.operators import keymaps
+from seamwire.operators import keymaps, steps
 from seamwire.ui import status_bar
 from seamwire.view.edited_objects import edited
 from seamwire.words import corner
@@ -453,3 +453,26 @@ def test_where_the_mouse_has_moved_since_x_is_blenders(cone: Desk, monkeypatch: 
     ui.wait_until(lambda: bool(asked))
     ui.key("ESC")
     assert len(session.wires) == 1
+
+
+@pytest.mark.smoke
+@pytest.mark.every_blender
+@pytest.mark.parametrize("name", ["unwrap", "suggest"])
+def test_the_buttons_of_the_header_keep_a_live_chain_first(desk: Desk, name: str, capfd: pytest.CaptureFixture[str]) -> None:
+    ui = desk.ui
+    desk.choose()
+    ui.click(desk.at(36), ctrl=True)
+    ui.click(desk.at(44))
+    ui.wait_until(lambda: len(desk.session.wires) == 1)
+    ui.move(desk.at(52))
+    assert desk.running
+    with ui.override():
+        operator = getattr(bpy.ops.mesh, f"seamwire_{name}")
+        assert operator("INVOKE_DEFAULT") == {"FINISHED" if name == "unwrap" else "RUNNING_MODAL"}
+    assert not desk.running
+    assert seams(desk.obj) == chain(*range(36, 45))
+    ui.wait(5)
+    ui.key("ESC")
+    ui.wait_until(lambda: not steps.running)
+    assert seams(desk.obj) == chain(*range(36, 45))
+    assert "Draw Seamwires" in undo_steps(capfd)

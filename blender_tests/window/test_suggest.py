@@ -393,6 +393,8 @@ def test_the_wheel_and_keys_give_more_or_fewer_parts(
     ui.event(more, "PRESS")
     assert (count(), live().choice.amount) == (9, amount), "there are no more"
     ui.event(fewer, "PRESS")
+    assert count() == 9, "the notch past the end is taken back"
+    ui.event(fewer, "PRESS")
     assert count() == 3
     ui.event(fewer, "PRESS")
     assert count() == 1
@@ -479,9 +481,10 @@ def test_escape_ends_a_long_cut(ui: driver.Ui, prism: bpy.types.Object, slow_cut
 def test_escape_does_not_wait_for_a_call_that_cannot_be_stopped(
     ui: driver.Ui, prism: bpy.types.Object, monkeypatch: pytest.MonkeyPatch, step: str
 ) -> None:
-    may_end, ended, do = threading.Event(), threading.Event(), getattr(Suggestion, step)
+    began, may_end, ended, do = threading.Event(), threading.Event(), threading.Event(), getattr(Suggestion, step)
 
     def deaf(self: Suggestion, *given: object) -> object:
+        began.set()
         may_end.wait(20.0)
         try:
             return do(self, *given)
@@ -492,7 +495,7 @@ def test_escape_does_not_wait_for_a_call_that_cannot_be_stopped(
     before = snapshot(prism)
     with ui.override():
         bpy.ops.mesh.seamwire_suggest("INVOKE_DEFAULT")
-    ui.wait(60)
+    ui.wait_until(began.is_set)
     start = time.monotonic()
     ui.key("ESC")
     assert not searches
@@ -790,13 +793,7 @@ class Corner:
 def test_other_windows_show_the_preview_if_they_show_the_scene(
     ui: driver.Ui, prism: bpy.types.Object, is_same: bool
 ) -> None:
-    first = ui.window.scene
-    with second_window(ui) as other:
-        if not is_same:
-            with bpy.context.temp_override(**other):
-                bpy.ops.scene.new(type="NEW")
-            ui.window.scene = first
-        ui.wait(5)
+    with second_window(ui, "" if is_same else "Other") as other:
         assert (other["window"].scene == ui.window.scene) is is_same
         invoke(ui)
         corner = Corner(other)
@@ -810,9 +807,6 @@ def test_other_windows_show_the_preview_if_they_show_the_scene(
         send(ui, other, "WHEELUPMOUSE")
         assert count() == 3
         escape(ui)
-        if not is_same:
-            bpy.data.scenes.remove(other["window"].scene)
-            ui.wait(5)
 
 
 # Every key of Blender's
@@ -854,6 +848,9 @@ def test_no_key_of_blenders_loses_anything(
     bpy.ops.wm.save_as_mainfile(filepath=str(path))  # so that saving asks for no name
     try:
         name = alone.name
+        with ui.override():
+            for _ in range(40):  # the history is full, so that no step of other tests is dropped
+                bpy.ops.ed.undo_push(message="Full")
         before, steps = snapshot(alone), undo_steps(capfd)
         invoke(ui)
         middle = (0.5 * ui.region.width, 0.5 * ui.region.height)
@@ -872,7 +869,10 @@ def test_no_key_of_blenders_loses_anything(
         assert edited.covered, "it is still shown"
         escape(ui)
         assert snapshot(bpy.data.objects[name]) == before
-        assert undo_steps(capfd) == steps
+        # Blender's own settings, such as snapping, add steps at the end.
+        kept = [step for step in undo_steps(capfd) if step != "Context Toggle"]
+        assert len(kept) > 20
+        assert kept == steps[len(steps) - len(kept) :]
     finally:
         with ui.override():
             bpy.ops.wm.read_homefile(app_template="", load_ui=False)

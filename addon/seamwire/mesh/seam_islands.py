@@ -151,7 +151,10 @@ def worst_island(obj: bpy.types.Object, kind: str) -> Worst | None:
 
 def mapped(obj: bpy.types.Object) -> MappedSurface | None:
     """Read the visible faces of an edit mesh with their places in its active UV map; None if there are no UVs or no visible faces."""
-    arrays = edit_mesh.read(obj)
+    try:
+        arrays = edit_mesh.read(obj)
+    except edit_mesh.NothingVisibleError:
+        return None
     corners, uvs = uv_map.read(obj)
     if uvs is None or not len(arrays.triangles):
         return None

@@ -7,10 +7,10 @@ import bpy
 
 from ..mesh.settings import settings
 from ..words.reports import count, in_words, square_used
-from .edit_mesh_operator import EditMeshOperator
+from .steps import AfterChain
 
 
-class MESH_OT_seamwire_unwrap(EditMeshOperator, bpy.types.Operator):
+class MESH_OT_seamwire_unwrap(AfterChain, bpy.types.Operator):
     """Unwrap the islands whose seams have changed. All other UVs stay in place"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_unwrap"

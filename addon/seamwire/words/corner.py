@@ -96,5 +96,5 @@ def rows_of_parts(
     ]
     if found is not None:
         rows.append((f"Seams: {found.length}", ""))
-        rows.append(("Search ended" if is_final else "Still searching: this is the best map so far", "Enter"))
+        rows.append(("Search ended" if is_final else "Searching: this is the best map so far", "Enter: Keep"))
     return rows

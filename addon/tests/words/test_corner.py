@@ -68,6 +68,6 @@ def test_while_parts_are_shown_each_value_has_its_keys() -> None:
         ("Islands: 14, at least 3", "Shift Wheel"),
         ("Stretch: 9.5 %, at most 17 %, 1 notch past the end", "Ctrl Wheel"),
         ("Seams: 2.3 m", ""),
-        ("Search ended", "Enter"),
+        ("Search ended", "Enter: Keep"),
     ]
     assert "best map so far" in rows_of_parts(choice, 12, {}, found, False)[-1][0]
