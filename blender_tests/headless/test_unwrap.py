@@ -521,9 +521,7 @@ def test_without_uvs_there_is_no_worst_island() -> None:
     assert snapshot(obj) == before
 
 
-@pytest.mark.parametrize(
-    "name", ["seamwire_unwrap", "seamwire_suggest", "seamwire_select_islands", "seamwire_store"]
-)
+@pytest.mark.parametrize("name", ["seamwire_unwrap", "seamwire_suggest", "seamwire_select_islands", "seamwire_store"])
 def test_an_object_that_is_hidden_beside_another_is_named(name: str, capfd: pytest.CaptureFixture[str]) -> None:
     hidden, shown = add_grid(5, name="Hidden"), add_grid(5, name="Shown")
     hidden.select_set(True)

@@ -120,7 +120,10 @@ def test_faces_that_rounding_turns_over_are_turned_back(
         pytest.skip("this Blender packs them to where rounding turns nothing over")
     assert left > 0
     told = capfd.readouterr().out
-    assert re.search(rf"Warning: 1 island unwrapped, 0 kept, 1 island overlaps, {left} faces? turned over, \d+ % of the UV square used\n", told)
+    assert re.search(
+        rf"Warning: 1 island unwrapped, 0 kept, 1 island overlaps, {left} faces? turned over, \d+ % of the UV square used\n",
+        told,
+    )
     assert unwrap(changed_only=False, straight=False, upright=False) == {"FINISHED"}
     assert turned_over(obj) == 0
     assert "Info: 1 island unwrapped, 0 kept, " in capfd.readouterr().out

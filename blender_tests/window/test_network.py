@@ -458,7 +458,9 @@ def test_where_the_mouse_has_moved_since_x_is_blenders(cone: Desk, monkeypatch: 
 @pytest.mark.smoke
 @pytest.mark.every_blender
 @pytest.mark.parametrize("name", ["unwrap", "suggest"])
-def test_the_buttons_of_the_header_keep_a_live_chain_first(desk: Desk, name: str, capfd: pytest.CaptureFixture[str]) -> None:
+def test_the_buttons_of_the_header_keep_a_live_chain_first(
+    desk: Desk, name: str, capfd: pytest.CaptureFixture[str]
+) -> None:
     ui = desk.ui
     desk.choose()
     ui.click(desk.at(36), ctrl=True)

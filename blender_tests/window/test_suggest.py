@@ -691,9 +691,7 @@ def test_the_wheel_leads_back_to_the_same_parts(ui: driver.Ui, suzanne: bpy.type
 
 @pytest.mark.every_blender
 @pytest.mark.parametrize("held", [{}, {"ctrl": True}, {"shift": True}])
-def test_the_wheel_leads_back_from_past_an_end(
-    ui: driver.Ui, prism: bpy.types.Object, held: dict[str, bool]
-) -> None:
+def test_the_wheel_leads_back_from_past_an_end(ui: driver.Ui, prism: bpy.types.Object, held: dict[str, bool]) -> None:
     invoke(ui, islands=2)
     shown, first = live(), live().choice
     ui.move((0.5 * ui.region.width, 0.5 * ui.region.height))

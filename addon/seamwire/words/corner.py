@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the corner of the view says: the first steps, what a click would take, how wires run, what the seams have parted, and the parts
-that Suggest shows."""
+"""What the corner of the view says of the picture of a drawing, and of the parts that Suggest shows."""
 
 from __future__ import annotations
 

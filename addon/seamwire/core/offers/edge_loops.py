@@ -326,8 +326,8 @@ class LoopOffers(Offers):
     def _with_part(self, edge: Edge, offers: tuple[Wire, ...]) -> tuple[Wire, ...]:
         """Return offers with the borders of the part under the cursor first, where the cursor is inside a face.
 
-        At an edge inside a small part, such as a bung, the rim of the part comes first. Otherwise the nearest border comes first, then the slit of a tube, then all borders at once, then each of the others, and
-        those of finer and coarser parts.
+        At an edge inside a small part, such as a bung, the rim of the part comes first. Otherwise the nearest border comes first, then the
+        slit of a tube, then all borders at once, then each of the others, and those of finer and coarser parts.
         """
         triangle, snap = self._triangle_at(edge), self._snap
         if snap is None or triangle is None or not offers:
