@@ -69,7 +69,8 @@ def shown_in(region: str) -> list[str]:
 @pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
 def test_the_header_has_at_most_six_controls_and_the_help(tool: chosen.SeamwireSettings, along: str) -> None:
     tool.along = along
-    *shown, help_panel = shown_in("TOOL_HEADER")
+    suggest, unwrap, *shown, help_panel = shown_in("TOOL_HEADER")
+    assert (suggest, unwrap) == ("mesh.seamwire_suggest", "mesh.seamwire_unwrap")
     assert 3 < len(shown) <= 6
     assert help_panel == HELP_PANEL
     assert {"along", "clear", "VIEW3D_PT_seamwire_overlays"} <= set(shown)

@@ -112,6 +112,8 @@ class Suggestion:
         self.straight_cost = STRAIGHT_COST  # for `Layout`: less, if the plan would exceed its limit otherwise
         self.slits: list[Wire] = []  # the wires of this plan
         self._bound = 0.0  # on the energy of plans
+        # The plan that was laid out last, and the result.
+        self._laid_out: tuple[seamwire_core.SeamPlan | None, NDArray[np.float64] | None] = (None, None)
         self.marked = 0  # how many edges `write` made seams
 
     def _islands_with(self, faces: NDArray[np.integer] | None) -> tuple[NDArray[np.bool_] | None, int]:
@@ -268,7 +270,13 @@ class Suggestion:
             ).uvs
         except ValueError:
             found = plan.uvs
-        return None if found is None else np.asarray(found)
+        self._laid_out = plan, None if found is None else np.asarray(found)
+        return self._laid_out[1]
+
+    def lay_out(self, progress: Progress) -> None:
+        """Lay out the plan that is to be carried out, if that helps to unwrap it, and was not done before."""
+        if self.best is not None and self._is_same and self._laid_out[0] is not self.best:
+            self.layout_of(self.best, progress)
 
     def _straight_cost_of(self, plan: seamwire_core.SeamPlan) -> float:
         return min(STRAIGHT_COST, max(0.0, self._bound - float(plan.energy)))
@@ -292,8 +300,15 @@ class Suggestion:
 
     def map(self) -> NDArray[np.float64] | None:
         """Return the map of the plan, (m, 3, 2), in the object's units; None if it has none, or the mesh is another one with the wires."""
-        is_same = not self.slits or self.along == "EDGES" or not FINISHES[self.finish].edits
-        return self.best.uvs if is_same and self.best is not None else None
+        if self.best is None or not self._is_same:
+            return None
+        plan, layout = self._laid_out
+        return layout if plan is self.best and layout is not None else self.best.uvs
+
+    @property
+    def _is_same(self) -> bool:
+        """Whether the wires leave the mesh as it is."""
+        return not self.slits or self.along == "EDGES" or not FINISHES[self.finish].edits
 
     def length_of(self, plan: seamwire_core.SeamPlan) -> float:
         """Return the length of the borders and the wires of a plan, in the scene's units."""
@@ -408,6 +423,11 @@ class SeamSearch:
         energy = energy_of(0.01 * self._options.stretch)
         for suggestion, share in self._shares(progress):
             suggestion.plan(energy, self._options.islands, share, is_enough)
+
+    def lay_out(self, progress: Progress) -> None:
+        """Lay out the plans of all meshes, so that unwrapping takes less time."""
+        for suggestion, share in self._shares(progress):
+            suggestion.lay_out(share)
 
     def _shares(self, progress: Progress) -> Iterator[tuple[Suggestion, Progress]]:
         for number, suggestion in enumerate(self):

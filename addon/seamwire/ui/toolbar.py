@@ -29,20 +29,21 @@ _OBJECTS = f"{__package__.rpartition('.')[0]}.view.edited_objects"
 
 
 def draw_header(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
-    """Show how a job begins and ends, at most six controls, and the help. Blender shows the mirror of the mesh beside them."""
+    """Show the buttons with which jobs begin and end, at most six controls, and the help. Blender shows the mirror of the mesh beside them."""
     chosen, along = settings(context), along_of(context)
     jobs = layout.row(align=True)
+    jobs.ui_units_x = 6
     jobs.operator("mesh.seamwire_suggest", text="Suggest")
     jobs.operator("mesh.seamwire_unwrap", text="Unwrap")
     row = layout.row()
-    row.ui_units_x = 6
+    row.ui_units_x = 5.5
     row.prop(chosen, "along", text="")
     if along == "SURFACE":
         finish = layout.row()
-        finish.ui_units_x = 5
-        finish.prop(chosen, "finish")
+        finish.ui_units_x = 3
+        finish.prop(chosen, "finish", text="")
     strength = layout.row()
-    strength.ui_units_x = 5
+    strength.ui_units_x = 5.5
     strength.prop(chosen, strength_name(along))
     if along == "SURFACE":
         layout.prop(chosen, "straight", text="Straight", toggle=True)
