@@ -171,11 +171,16 @@ def leave(ui: driver.Ui) -> None:
 
 
 @contextmanager
-def second_window(ui: driver.Ui) -> Iterator[dict[str, object]]:
-    """Open another window, return what to override the context with for its view, and close it."""
+def second_window(ui: driver.Ui, scene: str = "") -> Iterator[dict[str, object]]:
+    """Open another window, return what to override the context with for its view, and close it.
+
+    If a scene is named, the window shows a new scene of this name, which is removed too.
+    """
     with ui.override():
-        bpy.ops.wm.window_new()
+        (bpy.ops.wm.window_new_main if scene else bpy.ops.wm.window_new)()
     window = bpy.context.window_manager.windows[-1]
+    if scene:
+        window.scene = bpy.data.scenes.new(scene)
     ui.wait(5)
     area = next(area for area in window.screen.areas if area.type == "VIEW_3D")
     region = next(region for region in area.regions if region.type == "WINDOW")
@@ -185,6 +190,8 @@ def second_window(ui: driver.Ui) -> Iterator[dict[str, object]]:
         with bpy.context.temp_override(window=window):
             bpy.ops.wm.window_close()
         ui.wait(4)
+        if scene:
+            bpy.data.scenes.remove(bpy.data.scenes[scene])
 
 
 def send(

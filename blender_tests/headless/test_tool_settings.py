@@ -27,11 +27,10 @@ class Layout:
         assert hasattr(owner, name)
         self.shown.append(name)
 
-    def prop_enum(self, owner: object, name: str, value: str, **_options: object) -> None:
-        """Note a property once, though each of its values has a button."""
-        assert value in owner.bl_rna.properties[name].enum_items
-        if name not in self.shown:
-            self.shown.append(name)
+    def operator(self, name: str, **_options: object) -> None:
+        """Note an operator that there is."""
+        getattr(bpy.ops.mesh, name.partition(".")[2]).get_rna_type()
+        self.shown.append(name)
 
     def popover(self, panel: str, **_options: object) -> None:
         """Note a popover that there is."""
@@ -70,7 +69,8 @@ def shown_in(region: str) -> list[str]:
 @pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
 def test_the_header_has_at_most_six_controls_and_the_help(tool: chosen.SeamwireSettings, along: str) -> None:
     tool.along = along
-    *shown, help_panel = shown_in("TOOL_HEADER")
+    suggest, unwrap, *shown, help_panel = shown_in("TOOL_HEADER")
+    assert (suggest, unwrap) == ("mesh.seamwire_suggest", "mesh.seamwire_unwrap")
     assert 3 < len(shown) <= 6
     assert help_panel == HELP_PANEL
     assert {"along", "clear", "VIEW3D_PT_seamwire_overlays"} <= set(shown)

@@ -519,3 +519,19 @@ def test_without_uvs_there_is_no_worst_island() -> None:
     with pytest.raises(RuntimeError, match="unwrap first"):
         bpy.ops.mesh.seamwire_select_islands(which="WORST")
     assert snapshot(obj) == before
+
+
+@pytest.mark.parametrize("name", ["seamwire_unwrap", "seamwire_suggest", "seamwire_select_islands", "seamwire_store"])
+def test_an_object_that_is_hidden_beside_another_is_named(name: str, capfd: pytest.CaptureFixture[str]) -> None:
+    hidden, shown = add_grid(5, name="Hidden"), add_grid(5, name="Shown")
+    hidden.select_set(True)
+    edit()
+    for face in bmesh.from_edit_mesh(hidden.data).faces:
+        face.hide_set(True)
+    bmesh.update_edit_mesh(hidden.data)
+    set_seams(shown, range(10, 15))
+    capfd.readouterr()
+    getattr(bpy.ops.mesh, name)()
+    told = capfd.readouterr().out
+    assert "Warning: No face is visible in Hidden: it has no faces, or all are hidden\n" in told
+    assert "Shown" not in told

@@ -196,15 +196,17 @@ WALKS: list[tuple[Stage, Cue, Do]] = [
     (Stage.ENDING, Cue.END, Walk.compute),
     (Stage.ENDING, Cue.END, key("ESC")),
     (Stage.ENDING, Cue.END, key("BACK_SPACE")),
-    *((stage, Cue.KEEP, Walk.leave_mode) for stage in (Stage.READY, Stage.PEEKING, Stage.DRAWING, Stage.ENDING)),
-    (Stage.OVER, Cue.KEEP, key("RET")),
-    (Stage.OVER, Cue.DROP, Walk.fail_to_write),
-    (Stage.OVER, Cue.DROP, Walk.fail_to_write_otherwise),
-    *((stage, Cue.KEEP, Walk.fail) for stage in (Stage.READY, Stage.PEEKING, Stage.DRAWING, Stage.ENDING)),
+    *((stage, Cue.CLOSE, Walk.leave_mode) for stage in (Stage.READY, Stage.PEEKING, Stage.DRAWING, Stage.ENDING)),
+    (Stage.OVER, Cue.CLOSE, key("RET")),
+    (Stage.OVER, Cue.CLOSE, Walk.fail_to_write),
+    (Stage.OVER, Cue.CLOSE, Walk.fail_to_write_otherwise),
+    *((stage, Cue.CLOSE, Walk.fail) for stage in (Stage.READY, Stage.PEEKING, Stage.DRAWING, Stage.ENDING)),
     (Stage.HOLDING, Cue.LET_GO, Walk.fail),
-    *((stage, Cue.DROP, Walk.drop) for stage in (Stage.READY, Stage.PEEKING, Stage.DRAWING, Stage.ENDING)),
+    *((stage, Cue.CLOSE, Walk.drop) for stage in (Stage.READY, Stage.PEEKING, Stage.DRAWING, Stage.ENDING)),
 ]
 """How each transition is walked: the state before, the cue, and what brings it."""
+DROPS = (Walk.fail_to_write, Walk.fail_to_write_otherwise, Walk.drop)
+"""After these nothing is kept."""
 KEPT = {
     Stage.READY: [],
     Stage.PEEKING: [],
@@ -240,7 +242,7 @@ def test_the_transition(walk: Walk, stage: Stage, cue: Cue, do: Do) -> None:
     walk.ui.wait_until(lambda: (stage, cue) in walk.walked, seconds=5.0)
     if TRANSITIONS[stage, cue] is Stage.CLOSED:
         walk.ui.wait_until(lambda: not walk.desk.running)
-        kept = KEPT[stage] if cue is Cue.KEEP else []
+        kept = [] if do in DROPS else KEPT[stage]
         assert seams(walk.desk.obj) == kept
         assert walk.chain.stage is Stage.CLOSED
     walk.is_free = True

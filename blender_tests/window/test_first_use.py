@@ -52,7 +52,10 @@ def test_scans_start_across_the_surface_until_the_artist_chooses(scan: driver.Ui
     assert settings().along == "EDGES"
     scan.key("ESC")
     point_at(scan, (-0.3, 0.1, 0.0))
-    assert settings().along == "EDGES", "the artist has chosen"
+    assert edited.front.session.options.along == "SURFACE", "the key was for the chain"
+    settings().along = "EDGES"
+    point_at(scan, (0.1, 0.1, 0.0))
+    assert edited.front.session.options.along == "EDGES", "the artist has chosen"
 
 
 def test_pointing_at_objects_changes_no_setting(scan: driver.Ui) -> None:

@@ -7,13 +7,14 @@ import bpy
 import numpy as np
 import pytest
 import ui as driver
-from desk import Desk, choose, drag, draw, said, undo_steps
+from desk import Desk, choose, drag, draw, said, second_window, undo_steps
 from scene import chain, seams, snapshot
 from seamwire.core.drawing.picture import Role
 from seamwire.mesh.settings import preferences, settings
-from seamwire.operators import keymaps
+from seamwire.operators import keymaps, steps
 from seamwire.ui import status_bar
 from seamwire.view.edited_objects import edited
+from seamwire.words import corner
 
 
 def nothing_else_changed(desk: Desk) -> None:
@@ -76,6 +77,47 @@ def test_clearing_takes_seams_away_and_breaks_the_wires_there(desk: Desk) -> Non
     desk.start()
     desk.ui.key("S")
     assert not settings().clear, "S turns it round within a chain"
+
+
+@pytest.mark.smoke
+@pytest.mark.every_blender
+@pytest.mark.parametrize("end", ["RET", "ESC", "new chain", "mode"])
+def test_s_and_e_end_with_the_chain_and_the_view_shows_them(desk: Desk, end: str) -> None:
+    desk.choose()
+    ui = desk.ui
+    ui.click(desk.at(36), ctrl=True)
+    ui.key("E")
+    ui.key("S")
+    assert settings().clear
+    with second_window(ui):
+        shown = [corner.lines(view.session.picture) for view in edited.views() if view.session.picture.front]
+        assert len(shown) == 1, "all windows draw the same object"
+        assert shown[0][-1] == "Clearing seams"
+        assert shown[0][-2].startswith("Across the surface")
+    assert "Clear" in said() or "Mark" in said()
+    if end == "new chain":
+        ui.click(desk.at(20), ctrl=True)
+        assert desk.running
+    elif end == "mode":
+        with ui.override():
+            bpy.ops.object.mode_set(mode="OBJECT")
+        ui.wait_until(lambda: not desk.running)
+    else:
+        ui.key(end)
+        ui.wait_until(lambda: not desk.running)
+    assert not settings().clear
+    assert settings().along == "AUTO"
+
+
+def test_a_setting_that_the_header_changes_meanwhile_stays(desk: Desk) -> None:
+    desk.start()
+    desk.ui.move(desk.at(40))
+    desk.ui.key("E")
+    settings().along = "EDGES"
+    desk.ui.key("ESC")
+    desk.ui.wait_until(lambda: not desk.running)
+    assert settings().along == "EDGES"
+    settings().along = "AUTO"
 
 
 @pytest.mark.smoke
@@ -411,3 +453,28 @@ def test_where_the_mouse_has_moved_since_x_is_blenders(cone: Desk, monkeypatch: 
     ui.wait_until(lambda: bool(asked))
     ui.key("ESC")
     assert len(session.wires) == 1
+
+
+@pytest.mark.smoke
+@pytest.mark.every_blender
+@pytest.mark.parametrize("name", ["unwrap", "suggest"])
+def test_the_buttons_of_the_header_keep_a_live_chain_first(
+    desk: Desk, name: str, capfd: pytest.CaptureFixture[str]
+) -> None:
+    ui = desk.ui
+    desk.choose()
+    ui.click(desk.at(36), ctrl=True)
+    ui.click(desk.at(44))
+    ui.wait_until(lambda: len(desk.session.wires) == 1)
+    ui.move(desk.at(52))
+    assert desk.running
+    with ui.override():
+        operator = getattr(bpy.ops.mesh, f"seamwire_{name}")
+        assert operator("INVOKE_DEFAULT") == {"FINISHED" if name == "unwrap" else "RUNNING_MODAL"}
+    assert not desk.running
+    assert seams(desk.obj) == chain(*range(36, 45))
+    ui.wait(5)
+    ui.key("ESC")
+    ui.wait_until(lambda: not steps.running)
+    assert seams(desk.obj) == chain(*range(36, 45))
+    assert "Draw Seamwires" in undo_steps(capfd)

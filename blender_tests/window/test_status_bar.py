@@ -40,7 +40,6 @@ def test_with_the_tool_it_shows_the_gestures_and_in_a_chain_its_keys(desk: Desk,
         "Draw Line",
         "Alt: Add Loop",
         "Shift: Draw Stroke",
-        "Find All Seams: Edge > Seamwire > Suggest Seamwires",
     ]
     desk.ui.click(desk.at(40))
     desk.ui.wait_until(lambda: desk.running)

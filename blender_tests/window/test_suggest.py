@@ -5,7 +5,9 @@ from __future__ import annotations
 
 import shutil
 import threading
+import time
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -18,9 +20,11 @@ import ui as driver
 from desk import choose, leave, second_window, send, undo_steps
 from scene import add_suzanne, animate, changing, edit, head, mark_wires, seams, snapshot
 from seamwire.core.base import native
-from seamwire.core.seams.seam_plan import PartEdits
+from seamwire.core.seams.seam_plan import PartChoice, PartEdits
 from seamwire.mesh.seam_search import Suggestion
-from seamwire.operators import suggest_live
+from seamwire.mesh.settings import preferences
+from seamwire.operators import keymaps as operators_keymaps
+from seamwire.operators import suggest, suggest_live
 from seamwire.operators.chain_state import running as chains
 from seamwire.operators.other_windows import listening
 from seamwire.operators.steps import Stepwise
@@ -39,6 +43,7 @@ def suzanne(ui: driver.Ui) -> Iterator[bpy.types.Object]:
         bpy.ops.mesh.select_all(action="DESELECT")
         bpy.ops.ed.undo_push(message="Made")
     ui.look((0.82, 0.42, 0.18, 0.34), (0.0, 0.0, 0.0), 4.0)
+    suggest.kept_choices.clear()
     yield obj
     leave(ui)
 
@@ -55,6 +60,7 @@ def prism(ui: driver.Ui) -> Iterator[bpy.types.Object]:
         bpy.ops.mesh.select_all(action="DESELECT")
         bpy.ops.ed.undo_push(message="Made")
     ui.look((0.92, 0.38, 0.0, 0.0), (0.0, 0.0, 0.0), 5.0)
+    suggest.kept_choices.clear()
     yield obj
     leave(ui)
 
@@ -383,16 +389,18 @@ def test_the_wheel_and_keys_give_more_or_fewer_parts(
     ui.move((0.5 * ui.region.width, 0.5 * ui.region.height))
     ui.event(more, "PRESS")
     assert count() == 9, "each side is a part"
-    amount = live().amount
+    amount = live().choice.amount
     ui.event(more, "PRESS")
-    assert (count(), live().amount) == (9, amount), "there are no more"
+    assert (count(), live().choice.amount) == (9, amount), "there are no more"
+    ui.event(fewer, "PRESS")
+    assert count() == 9, "the notch past the end is taken back"
     ui.event(fewer, "PRESS")
     assert count() == 3
     ui.event(fewer, "PRESS")
     assert count() == 1
     assert ui.view.view_distance == distance
     ui.event(more, "PRESS")
-    chosen = live().amount
+    chosen = live().choice.amount
     ui.key("SPACE")
     ui.wait_until(lambda: not searches, 60.0)
     assert island_count(prism) == 3
@@ -452,7 +460,7 @@ def test_a_long_cut_is_a_step_and_the_wheel_turns_after_it(
     slow_cuts.set()
     ui.wait_until(lambda: not live()._searches)
     assert count() == 2, "all is one part, which is cut"
-    assert not live().edits[prism.name].dropped
+    assert not live().choice.edits[prism.name].dropped
     keep(ui)
     assert island_count(prism) == 2
 
@@ -467,6 +475,39 @@ def test_escape_ends_a_long_cut(ui: driver.Ui, prism: bpy.types.Object, slow_cut
     assert not slow_cuts.is_set()
     assert snapshot(prism) == before
     assert not edited.covered
+
+
+@pytest.mark.parametrize("step", ["measure", "plan"])
+def test_escape_does_not_wait_for_a_call_that_cannot_be_stopped(
+    ui: driver.Ui, prism: bpy.types.Object, monkeypatch: pytest.MonkeyPatch, step: str
+) -> None:
+    began, may_end, ended, do = threading.Event(), threading.Event(), threading.Event(), getattr(Suggestion, step)
+
+    def deaf(self: Suggestion, *given: object) -> object:
+        began.set()
+        may_end.wait(20.0)
+        try:
+            return do(self, *given)
+        finally:
+            ended.set()
+
+    monkeypatch.setattr(Suggestion, step, deaf)
+    before = snapshot(prism)
+    with ui.override():
+        bpy.ops.mesh.seamwire_suggest("INVOKE_DEFAULT")
+    ui.wait_until(began.is_set)
+    start = time.monotonic()
+    ui.key("ESC")
+    assert not searches
+    assert time.monotonic() - start < 1.0
+    assert not edited.covered
+    may_end.set()
+    ui.wait_until(ended.is_set)
+    ui.wait(5)
+    assert snapshot(prism) == before
+    monkeypatch.undo()
+    invoke(ui)
+    escape(ui)
 
 
 def test_adjust_last_operation_has_what_was_clicked(ui: driver.Ui, prism: bpy.types.Object) -> None:
@@ -491,10 +532,10 @@ def test_adjust_last_operation_has_what_was_clicked(ui: driver.Ui, prism: bpy.ty
 def test_hidden_borders_and_other_regions_take_no_clicks(ui: driver.Ui, prism: bpy.types.Object) -> None:
     invoke(ui)
     ui.click(ui.on_screen((0.0, 0.97, -0.8)))  # the rim behind the prism
-    behind = dict(live().edits)
+    behind = dict(live().choice.edits)
     assert all(not edits.dropped for edits in behind.values())
     ui.click((5.0, 5.0))  # beside the mesh
-    assert live().edits == behind
+    assert live().choice.edits == behind
 
 
 @pytest.mark.smoke
@@ -557,9 +598,9 @@ def test_undo_takes_back_each_click_notch_and_key_and_redo_makes_it_again(
         return (
             count(),
             borders(),
-            shown.amount,
-            shown.stretch,
-            dict(shown.edits),
+            shown.choice.amount,
+            shown.choice.stretch,
+            dict(shown.choice.edits),
             len(shown._dim(next(iter(shown._search)))),
         )
 
@@ -625,7 +666,7 @@ def test_undo_takes_back_a_cut_that_is_still_searched(
     ui.wait_until(lambda: live().is_planned)
     assert not slow_cuts.is_set()
     assert borders() == first
-    assert not live().edits
+    assert not live().choice.edits
 
 
 @pytest.mark.every_blender
@@ -638,14 +679,202 @@ def test_the_wheel_leads_back_to_the_same_parts(ui: driver.Ui, suzanne: bpy.type
     def turn(up: bool, **held: bool) -> None:
         ui.wheel(up, **held)
         ui.wait_until(lambda: not shown._searches)
-        assert seen.setdefault(shown.amount, borders()) == borders(), "an amount has the same borders each time"
+        assert seen.setdefault(shown.choice.amount, borders()) == borders(), "an amount has the same borders each time"
 
-    first = shown.amount, shown.stretch, borders()
+    first = shown.choice.amount, shown.choice.stretch, borders()
     for up, notches in ((True, 2), (False, 3), (True, 1)):
         for _ in range(notches):
             turn(up)
             turn(up, ctrl=True)
-    assert (shown.amount, shown.stretch, borders()) == first
+    assert (shown.choice.amount, shown.choice.stretch, borders()) == first
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize("held", [{}, {"ctrl": True}, {"shift": True}])
+def test_the_wheel_leads_back_from_past_an_end(ui: driver.Ui, prism: bpy.types.Object, held: dict[str, bool]) -> None:
+    invoke(ui, islands=2)
+    shown, first = live(), live().choice
+    ui.move((0.5 * ui.region.width, 0.5 * ui.region.height))
+    for up, notches in ((False, 12), (True, 24), (False, 12)):
+        for _ in range(notches):
+            ui.wheel(up, **held)
+            ui.wait_until(lambda: not shown._searches)
+    assert shown.choice == first
+    ui.wheel(True, **held)
+    assert shown.choice != first, "it turns at once"
+
+
+def test_shift_and_the_wheel_change_the_least_number_of_islands(ui: driver.Ui, prism: bpy.types.Object) -> None:
+    invoke(ui, parts=0.0)
+    ui.move((0.5 * ui.region.width, 0.5 * ui.region.height))
+    for _ in range(3):
+        ui.wheel(True, shift=True)
+    ui.wheel(False, shift=True)
+    assert live().choice.islands == 3
+    ui.key("Z", ctrl=True)
+    assert live().choice.islands == 4
+    ui.key("Z", ctrl=True, shift=True)
+    ui.wait_until(lambda: live().is_planned)
+    keep(ui)
+    assert island_count(prism) == 3
+    assert bpy.context.window_manager.operators[-1].islands == 3
+
+
+@pytest.mark.smoke
+@pytest.mark.every_blender
+def test_what_was_kept_belongs_to_the_mesh(ui: driver.Ui, prism: bpy.types.Object) -> None:
+    invoke(ui)
+    ui.click(ui.on_screen(FRONT_RIM))
+    ui.wheel(True)
+    ui.wheel(True, ctrl=True)
+    kept = live().choice
+    assert kept.edits
+    ui.wait_until(lambda: live().is_planned)
+    keep(ui)
+    ui.wait(5)
+    invoke(ui)
+    assert live().choice == replace(kept, edits={}), "with other seams clicks mean something else"
+    escape(ui)
+    with ui.override():
+        bpy.ops.ed.undo()
+    ui.wait(5)
+    invoke(ui)
+    assert live().choice == kept
+    escape(ui)
+    with ui.override():
+        bpy.ops.object.mode_set(mode="OBJECT")
+        bpy.ops.mesh.primitive_cylinder_add(vertices=9)
+        edit()
+    invoke(ui)
+    assert live().choice == PartChoice(0.5, 17.0), "another mesh begins with the defaults"
+    escape(ui)
+
+
+def test_the_corner_of_the_view_says_what_is_shown(ui: driver.Ui, prism: bpy.types.Object) -> None:
+    bare = ui.screen()
+    invoke(ui)
+    preview = live()._preview
+    assert preview._rows[0] == ("Parts: 3, amount 50 %", "Wheel")
+    ui.wheel(True, ui.on_screen(TOP))
+    assert preview._rows[0][0].startswith("Parts: 9")
+    ui.wait_until(lambda: live().is_planned and preview._rows[-1][0] == "Search ended")
+    assert any(text.startswith("Stretch: ") and ", at most 17 %" in text for text, _ in preview._rows)
+    ui.key("G")
+    assert preview._rows[0] == (OTHER_KEY, "")
+    size = 130
+    drawn = np.abs(ui.screen() - bare).max(axis=2)[8:size, 8:250] > 0.3
+    assert 0.02 < drawn.mean() < 0.5, "there is text"
+    preferences().text = "NONE"
+    blank = np.abs(ui.screen() - bare).max(axis=2)[8:size, 8:250] > 0.3
+    assert blank.mean() < 0.002
+    escape(ui)
+
+
+class Corner:
+    """What a region of a window draws of the preview."""
+
+    def __init__(self, other: dict[str, object]) -> None:
+        self.counts: list[int] = []
+        self._window = other["window"]
+        self._handle = bpy.types.SpaceView3D.draw_handler_add(self._note, (), "WINDOW", "POST_PIXEL")
+
+    def _note(self) -> None:
+        if bpy.context.window == self._window and searches:
+            self.counts.append(len(live()._preview._seen_here()))
+
+    def end(self) -> None:
+        bpy.types.SpaceView3D.draw_handler_remove(self._handle, "WINDOW")
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize("is_same", [True, False])
+def test_other_windows_show_the_preview_if_they_show_the_scene(
+    ui: driver.Ui, prism: bpy.types.Object, is_same: bool
+) -> None:
+    with second_window(ui, "" if is_same else "Other") as other:
+        assert (other["window"].scene == ui.window.scene) is is_same
+        invoke(ui)
+        corner = Corner(other)
+        try:
+            ui.wait_until(lambda: live().is_planned)
+            other["area"].tag_redraw()
+            ui.wait_until(lambda: bool(corner.counts))
+        finally:
+            corner.end()
+        assert set(corner.counts) == {1 if is_same else 0}
+        send(ui, other, "WHEELUPMOUSE")
+        assert count() == 3
+        escape(ui)
+
+
+# Every key of Blender's
+
+
+def pressed_keys() -> list[tuple[str, tuple[bool, bool, bool]]]:
+    """Return all keys in the keymaps of a 3D view in Edit Mode, with their modifiers, except those that end the preview."""
+    manager, found = bpy.context.window_manager, {}
+    for name in operators_keymaps.KEYMAPS:
+        keymap = operators_keymaps.user_keymap(manager, name)
+        for item in [] if keymap is None else keymap.keymap_items:
+            if item.active and item.map_type == "KEYBOARD" and item.value != "NOTHING":
+                held = tuple(int(getattr(item, modifier)) == 1 for modifier in ("shift", "ctrl", "alt"))
+                found.setdefault((item.type, held))
+    ending = {"RET", "NUMPAD_ENTER", "ESC", "SPACE"}
+    return [(kind, held) for kind, held in found if kind not in ending or (kind == "SPACE" and any(held))]
+
+
+def put_back(ui: driver.Ui, kind: str, held: dict[str, bool]) -> None:
+    """Close what a harmless key has opened: a popup, a window, a full screen, an animation."""
+    manager = bpy.context.window_manager
+    while len(manager.windows) > 1:
+        with bpy.context.temp_override(window=manager.windows[-1]):
+            bpy.ops.wm.window_close()
+        ui.wait(5)
+    if ui.window.screen.is_animation_playing:
+        with ui.override():
+            bpy.ops.screen.animation_cancel(restore_frame=True)
+    if ui.window.screen.show_fullscreen:
+        ui.key(kind, **held)
+        ui.wait(5)
+
+
+@pytest.mark.oldest_and_newest
+def test_no_key_of_blenders_loses_anything(
+    ui: driver.Ui, alone: bpy.types.Object, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "model.blend"
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))  # so that saving asks for no name
+    try:
+        name = alone.name
+        with ui.override():
+            for _ in range(40):  # the history is full, so that no step of other tests is dropped
+                bpy.ops.ed.undo_push(message="Full")
+        before, steps = snapshot(alone), undo_steps(capfd)
+        invoke(ui)
+        middle = (0.5 * ui.region.width, 0.5 * ui.region.height)
+        pressed = pressed_keys()
+        assert len(pressed) > 150
+        for kind, held in pressed:
+            modifiers = dict(zip(("shift", "ctrl", "alt"), held, strict=True))
+            ui.move(middle)
+            ui.key(kind, **modifiers)
+            ui.wait(2)
+            put_back(ui, kind, modifiers)
+            assert searches, f"{kind} {modifiers} has ended it"
+            assert bpy.context.mode == "EDIT_MESH", f"{kind} {modifiers}"
+            assert snapshot(bpy.data.objects[name]) == before, f"{kind} {modifiers}"
+        ui.wait_until(lambda: live().is_planned and not live()._searches, 60.0)
+        assert edited.covered, "it is still shown"
+        escape(ui)
+        assert snapshot(bpy.data.objects[name]) == before
+        # Blender's own settings, such as snapping, add steps at the end.
+        kept = [step for step in undo_steps(capfd) if step != "Context Toggle"]
+        assert len(kept) > 20
+        assert kept == steps[len(steps) - len(kept) :]
+    finally:
+        with ui.override():
+            bpy.ops.wm.read_homefile(app_template="", load_ui=False)
+        ui.wait(5)
 
 
 @pytest.mark.smoke
@@ -808,18 +1037,18 @@ def test_ctrl_and_the_wheel_or_keys_change_the_limit_of_the_stretch(
 ) -> None:
     invoke(ui)
     shown = live()
-    parts, amount = count(), shown.amount
+    parts, amount = count(), shown.choice.amount
     ui.move((0.5 * ui.region.width, 0.5 * ui.region.height))
     ui.wait_until(lambda: shown.is_planned)
     version = shown._version
     ui.event(more, "PRESS", ctrl=True)
-    assert shown.stretch == 22.0
+    assert shown.choice.stretch == 22.0
     assert shown._version > version, "another plan is needed"
     for _ in range(2):
         ui.event(fewer, "PRESS", ctrl=True)
-    assert shown.stretch == 13.0
+    assert shown.choice.stretch == 13.0
     assert "Stretch: up to 13 %" in shown.title
-    assert (count(), shown.amount) == (parts, amount)
+    assert (count(), shown.choice.amount) == (parts, amount)
     ui.wait_until(lambda: shown.is_planned)
     keep(ui)
     assert bpy.context.window_manager.operators[-1].distortion == pytest.approx(13.0)

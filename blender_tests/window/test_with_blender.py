@@ -682,6 +682,22 @@ def test_undo_in_another_window_is_that_of_the_chain(desk: Desk, is_late: bool) 
 
 
 @pytest.mark.every_blender
+def test_in_a_window_with_another_scene_undo_is_that_of_the_chain_and_a_click_keeps_it(desk: Desk) -> None:
+    ui = desk.ui
+    with second_window(ui, "Other") as other:
+        session = live(desk)
+        send(ui, other, "Z", ctrl=True)
+        assert session.wires == (), "undo in Blender would change this scene too"
+        send(ui, other, "Z", ctrl=True, shift=True)
+        assert len(session.wires) == 1
+        send(ui, other, "LEFTMOUSE")
+        ui.wait_until(lambda: not desk.running)
+        assert len(session.wires) == 1, "nothing was drawn there"
+        assert bpy.context.mode == "EDIT_MESH"
+    assert seams(desk.obj) == ROW
+
+
+@pytest.mark.every_blender
 def test_a_chain_goes_on_in_another_window(desk: Desk) -> None:
     ui = desk.ui
     with second_window(ui) as other:

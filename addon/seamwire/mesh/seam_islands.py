@@ -22,6 +22,8 @@ from ..core.islands.stretch import Stretch
 from . import edit_mesh, uv_map
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from numpy.typing import NDArray
 
     from ..core.base.mesh_arrays import Arrays
@@ -149,12 +151,20 @@ def worst_island(obj: bpy.types.Object, kind: str) -> Worst | None:
 
 def mapped(obj: bpy.types.Object) -> MappedSurface | None:
     """Read the visible faces of an edit mesh with their places in its active UV map; None if there are no UVs or no visible faces."""
-    arrays = edit_mesh.read(obj)
+    try:
+        arrays = edit_mesh.read(obj)
+    except edit_mesh.NothingVisibleError:
+        return None
     corners, uvs = uv_map.read(obj)
     if uvs is None or not len(arrays.triangles):
         return None
     own = uvs[corners.of_triangles(arrays)]
     return MappedSurface(arrays.in_object, arrays.triangles, arrays.polygons, labels_of(arrays), own, arrays.edges)
+
+
+def maps_of(objects: Iterable[bpy.types.Object]) -> dict[bpy.types.Object, MappedSurface]:
+    """Read those of the edit meshes that have a map."""
+    return {obj: found for obj in objects if (found := mapped(obj)) is not None}
 
 
 def stretch_of(obj: bpy.types.Object, arrays: Arrays) -> Stretch | None:

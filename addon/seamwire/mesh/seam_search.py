@@ -40,7 +40,7 @@ from ..words.reports import ALL_HIDDEN
 from ..words.search_report import Outcome
 from . import edit_mesh, finishes, uv_map
 from .object_session import ObjectSession, mirror_axes
-from .seam_islands import labels_of, mapped, missing_cuts
+from .seam_islands import labels_of, maps_of, missing_cuts
 from .unwrap import STRAIGHT_COST, UP, Layout, Unwrapped, unwrap_changed
 
 if TYPE_CHECKING:
@@ -111,8 +111,9 @@ class Suggestion:
         self.best: seamwire_core.SeamPlan | None = None  # the plan to carry out
         self.straight_cost = STRAIGHT_COST  # for `Layout`: less, if the plan would exceed its limit otherwise
         self.slits: list[Wire] = []  # the wires of this plan
-        # The map of this plan as unwrapping lays it out, (m, 3, 2) in the object's units.
-        self.layout: NDArray[np.float64] | None = None
+        self._bound = 0.0  # on the energy of plans
+        # The plan that was laid out last, and the result.
+        self._laid_out: tuple[seamwire_core.SeamPlan | None, NDArray[np.float64] | None] = (None, None)
         self.marked = 0  # how many edges `write` made seams
 
     def _islands_with(self, faces: NDArray[np.integer] | None) -> tuple[NDArray[np.bool_] | None, int]:
@@ -162,7 +163,7 @@ class Suggestion:
             corners = self.mesh.arrays.triangles[self._within].tolist()
             inside = {undirected(side) for a, b, c in corners for side in ((a, b), (b, c), (c, a))}
             self.borders = [chain for chain in self.borders if edges_of(chain) <= inside]
-        self._planner = self.best = self.layout = None
+        self._planner = self.best = None
         self.slits = []
 
     def _found(self, amount: float, edits: PartEdits, progress: Progress) -> seamwire_core.Parts:
@@ -219,6 +220,7 @@ class Suggestion:
         The symmetric Dirichlet energy of the map is at most `energy`, and what is to be cut becomes at least so many `islands`. As soon as
         `is_enough` returns True, the best plan so far counts. The first one is waited for.
         """
+        self._bound = energy
         # Other parts may be chosen meanwhile, which drops the planner.
         self._planner = planner = self._core.SeamPlanner(
             self.mesh.arrays.surface,
@@ -245,14 +247,15 @@ class Suggestion:
         if self._planner is not planner:
             return  # the plan is for other parts
         from_object = np.linalg.inv(self.mesh.arrays.to_object)
-        self.straight_cost = min(STRAIGHT_COST, max(0.0, energy - found.energy))
+        self.straight_cost = self._straight_cost_of(found)
         self.best, self.slits = found, planned_wires(found, self.along, STRENGTHS[self.along], from_object)
 
-    def lay_out(self, progress: Progress) -> None:
-        """Find how the islands of the plan will lie in the UV map."""
-        planner, plan, arrays = self._planner, self.best, self.mesh.arrays
-        if plan is None or plan.uvs is None:
-            return
+    def layout_of(self, plan: seamwire_core.SeamPlan, progress: Progress) -> NDArray[np.float64] | None:
+        """Return how the islands of a plan will lie in the UV map, (m, 3, 2) in the object's units; None if unwrapping opens them further.
+
+        Any thread may call it.
+        """
+        arrays = self.mesh.arrays
         try:
             found = self._core.flatten(
                 arrays.in_object,
@@ -260,15 +263,23 @@ class Suggestion:
                 self.edges_of(plan),
                 start=plan.uvs,
                 keep_apart=False,
-                straighten=self.straight_cost,
+                straighten=self._straight_cost_of(plan),
                 up=UP,
                 edges=arrays.edges,
                 progress=progress,
             ).uvs
         except ValueError:
-            found = plan.uvs  # unwrapping may open islands further
-        if self._planner is planner:
-            self.layout = np.asarray(found)
+            found = plan.uvs
+        self._laid_out = plan, None if found is None else np.asarray(found)
+        return self._laid_out[1]
+
+    def lay_out(self, progress: Progress) -> None:
+        """Lay out the plan that is to be carried out, if that helps to unwrap it, and was not done before."""
+        if self.best is not None and self._is_same and self._laid_out[0] is not self.best:
+            self.layout_of(self.best, progress)
+
+    def _straight_cost_of(self, plan: seamwire_core.SeamPlan) -> float:
+        return min(STRAIGHT_COST, max(0.0, self._bound - float(plan.energy)))
 
     @property
     def best_so_far(self) -> seamwire_core.SeamPlan | None:
@@ -289,8 +300,15 @@ class Suggestion:
 
     def map(self) -> NDArray[np.float64] | None:
         """Return the map of the plan, (m, 3, 2), in the object's units; None if it has none, or the mesh is another one with the wires."""
-        is_same = not self.slits or self.along == "EDGES" or not FINISHES[self.finish].edits
-        return self.best.uvs if is_same and self.best is not None else None
+        if self.best is None or not self._is_same:
+            return None
+        plan, layout = self._laid_out
+        return layout if plan is self.best and layout is not None else self.best.uvs
+
+    @property
+    def _is_same(self) -> bool:
+        """Whether the wires leave the mesh as it is."""
+        return not self.slits or self.along == "EDGES" or not FINISHES[self.finish].edits
 
     def length_of(self, plan: seamwire_core.SeamPlan) -> float:
         """Return the length of the borders and the wires of a plan, in the scene's units."""
@@ -343,18 +361,25 @@ class SeamSearch:
         self._options = options
         self._unwrapped: Unwrapped | None = None
         self._found: list[Suggestion] = []
+        hidden: list[str] = []
         for obj in objects:
             faces = edit_mesh.selected_faces(obj) if selected else None
             try:
                 suggestion = Suggestion(obj, options, faces)
                 if not len(suggestion.mesh.arrays.triangles):
                     raise edit_mesh.NothingVisibleError(obj)
+            except edit_mesh.NothingVisibleError as error:
+                self.problem = str(error)
+                hidden.append(self.problem)
+                continue
             except ValueError as error:
                 self.problem = str(error)
                 continue
             for notice in suggestion.mesh.notices.take():
                 self.notices.add(*notice)
             self._found.append(suggestion)
+        for problem in hidden if self._found else ():
+            self.notices.add("WARNING", problem)
 
     def __iter__(self) -> Iterator[Suggestion]:
         return iter(self._found)
@@ -384,9 +409,9 @@ class SeamSearch:
         for suggestion, share in self._shares(progress):
             suggestion.choose(amount, edits.get(suggestion.name, _NO_EDITS), share)
 
-    def limit_stretch(self, percent: float) -> None:
-        """Let the next plans have another mean stretch. `choose` drops those for the stretch before."""
-        self._options = replace(self._options, stretch=percent)
+    def limit(self, stretch: float, islands: int) -> None:
+        """Let the next plans have another mean stretch, in percent, and number of islands. `choose` drops the plans before."""
+        self._options = replace(self._options, stretch=stretch, islands=islands)
 
     @property
     def part_count(self) -> int:
@@ -400,7 +425,7 @@ class SeamSearch:
             suggestion.plan(energy, self._options.islands, share, is_enough)
 
     def lay_out(self, progress: Progress) -> None:
-        """Find how the islands of the plans will lie in the UV map."""
+        """Lay out the plans of all meshes, so that unwrapping takes less time."""
         for suggestion, share in self._shares(progress):
             suggestion.lay_out(share)
 
@@ -478,6 +503,6 @@ class SeamSearch:
             return [(float(suggestion.best.energy), suggestion.area) for suggestion in self], None
         if self._unwrapped is None:  # the maps on the meshes are those from before
             return [], None
-        maps = {obj: found for obj in (each.mesh.obj for each in self) if (found := mapped(obj)) is not None}
+        maps = maps_of(each.mesh.obj for each in self)
         energies = [(found.energy(uv_map.aspect(obj)), found.area) for obj, found in maps.items()]
         return energies, sum(found.used for found in maps.values()) if maps else None

@@ -71,6 +71,7 @@ class Unwrapped:
     kept: int
     faults: MapFaults = NO_FAULTS
     unmapped: int = 0  # the hidden faces that have no area in these maps
+    problems: Sequence[str] = ()  # why objects were left out
 
 
 @dataclass(frozen=True)
@@ -413,7 +414,7 @@ def unwrap_changed(
     ValueError, native.NativeError
         If there is nothing to unwrap, or it cannot be unwrapped; then nothing is changed.
     """
-    maps, problem = [], ""
+    maps, problems = [], []
     for obj in context.objects_in_mode_unique_data:
         try:
             found = _Map(obj, every, by_library=method == "SEAMWIRE")
@@ -421,11 +422,11 @@ def unwrap_changed(
                 raise edit_mesh.NothingVisibleError(obj)
             maps.append(found)
         except edit_mesh.NothingVisibleError as error:
-            problem = problem or str(error)
+            problems.append(str(error))
         except ValueError as error:
-            problem = f"{obj.name}: {error}"
+            problems.insert(0, f"{obj.name}: {error}")
     if not maps:
-        raise ValueError(problem or ALL_HIDDEN)
+        raise ValueError((*problems, ALL_HIDDEN)[0])
     unwrapped, faults = sum(len(found.changed) for found in maps), NO_FAULTS
     kept = sum(found.count for found in maps) - unwrapped
     if unwrapped:
@@ -448,7 +449,8 @@ def unwrap_changed(
     for found in maps:
         if len(found.changed):
             found.remember()
-    return Unwrapped(unwrapped, kept, faults, sum(found.unmapped() for found in maps) if unwrapped else 0)
+    unmapped = sum(found.unmapped() for found in maps) if unwrapped else 0
+    return Unwrapped(unwrapped, kept, faults, unmapped, problems)
 
 
 def _faults(maps: Sequence[_Map]) -> MapFaults:

@@ -79,6 +79,8 @@ class Chain:
         self._cursor = ""
         self._shown: tuple[tuple[object, ...], tuple[object, ...]] | None = None
         self._cleanup = ExitStack()
+        self._switched: dict[str, tuple[object, object]] = {}  # settings before a key changed them, and since then
+        self._cleanup.callback(self._switch_back)
         edited.chain = self._wake
         self._cleanup.callback(_leave_objects)
         self._cleanup.callback(self._leave_window)
@@ -118,8 +120,23 @@ class Chain:
     def begin_anew(self) -> None:
         """Keep the drawn wires as a separate chain, and begin another one."""
         self.keep()
+        self._switch_back()
         if self.stage is Stage.ENDING:
             self.go(Cue.BEGIN)
+
+    def switch(self, name: str, value: object) -> None:
+        """Change a setting until the chain ends."""
+        before, _ = self._switched.get(name, (getattr(chosen.settings(), name), None))
+        self._switched[name] = before, value
+        setattr(chosen.settings(), name, value)
+
+    def _switch_back(self) -> None:
+        """Restore the settings that keys have changed, except those that the artist has chosen otherwise meanwhile."""
+        settings = chosen.settings()
+        while self._switched:
+            name, (before, value) = self._switched.popitem()
+            if getattr(settings, name) == value:
+                setattr(settings, name, before)
 
     def let_go(self) -> None:
         """Cancel what a button holds."""
@@ -257,7 +274,7 @@ class Chain:
                 self._keep_wires(at_once)
             except Exception as error:
                 self._give_up(error, at_once)
-            self.attempt(self.close, Cue.KEEP)
+            self.attempt(self.close)
         if self.failure is not None:
             fate = ", and its wires are kept" if self.has_kept else ""
             self.notices.add("ERROR", f"Drawing ended on an error{fate}: {self.failure}")
@@ -393,12 +410,12 @@ class Chain:
             if self._is_saved:
                 _write(view, adopt=True)
                 self._is_saved = False
-        self.close(Cue.DROP)
+        self.close()
 
-    def close(self, cue: Cue) -> None:
+    def close(self) -> None:
         """Put everything back. More than once does no harm."""
         if self.stage is not Stage.CLOSED:
-            self.go(cue)
+            self.go(Cue.CLOSE)
             self._cleanup.close()
 
     def _leave_window(self) -> None:

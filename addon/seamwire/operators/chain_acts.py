@@ -280,7 +280,7 @@ def extend(chain: Chain, _given: Given) -> None:
 
 
 def toggle(name: str) -> Callable[[Chain, Given], None]:
-    """Return the function that changes a setting which is on or off."""
+    """Return the function that changes a view or an aid which is on or off."""
 
     def act(chain: Chain, given: Given) -> None:
         setattr(settings(), name, not getattr(settings(), name))
@@ -290,10 +290,19 @@ def toggle(name: str) -> Callable[[Chain, Given], None]:
     return act
 
 
+def clear(chain: Chain, _given: Given) -> None:
+    """Clear seams, or mark them again, until the chain ends."""
+    is_clearing = not settings().clear
+    chain.switch("clear", is_clearing)
+    chain.say("Clears seams until the chain ends" if is_clearing else "Marks seams")
+
+
 def switch(chain: Chain, given: Given) -> None:
-    """Draw across the surface, or along edges."""
+    """Draw across the surface, or along edges, until the chain ends."""
     assert given.place is not None
-    settings().along = "SURFACE" if chain.session.options.along == "EDGES" else "EDGES"
+    is_across = chain.session.options.along == "EDGES"
+    chain.switch("along", "SURFACE" if is_across else "EDGES")
+    chain.say(f"{'Across the surface' if is_across else 'Along edges'} until the chain ends")
     rehover(chain, given.place)
 
 
@@ -379,7 +388,7 @@ ACTS: dict[Action | Sign, Callable[[Chain, Given], bool | None]] = {
     Action.WEAKER: change_strength,
     Action.CLOSE: close,
     Action.EXTEND: extend,
-    Action.CLEAR: toggle("clear"),
+    Action.CLEAR: clear,
     Action.XRAY: toggle("xray"),
     Action.MIRROR: cycle_mirror,
     Action.SWITCH: switch,

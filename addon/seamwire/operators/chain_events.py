@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from ..mesh import settings as chosen
 from ..view.viewport import place_of
-from ..words.keys import WHEEL, Action, Key
+from ..words.keys import MODIFIER_KEYS, WHEEL, Action, Key
 from . import keymaps
 from .chain_state import Cue, Stage
 from .drag_handlers import LineHold, StrokeHold
@@ -22,9 +22,7 @@ if TYPE_CHECKING:
     from .chain import Chain
     from .drag_handlers import Hold
 
-_HARMLESS = frozenset(
-    {*WHEEL, *(f"{side}_{key}" for side in ("LEFT", "RIGHT") for key in ("SHIFT", "CTRL", "ALT")), "OSKEY"}
-)
+_HARMLESS = MODIFIER_KEYS.union(WHEEL)
 """Presses that change no mesh, wherever the mouse is."""
 
 
@@ -132,7 +130,7 @@ def _motion(event: bpy.types.Event, hold: Hold | None) -> Sign | None:
         return Sign.HOVER if hold is None else Sign.DRAG
     if event.type == "WINDOW_DEACTIVATE" or event.type.startswith("TIMER"):
         return Sign.NOTHING
-    return Sign.HOVER if event.type.endswith(("_ALT", "_CTRL", "_SHIFT")) else None
+    return Sign.HOVER if event.type in MODIFIER_KEYS else None
 
 
 def _turns_wheel(chain: Chain, context: bpy.types.Context, event: bpy.types.Event) -> bool:

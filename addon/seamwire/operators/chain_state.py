@@ -36,8 +36,7 @@ class Cue(Enum):
     WAIT = "the end is asked for, and a wire is still computed"
     END = "the end is asked for, or the last wire is computed"
     SETTLE = "nothing is live any more"
-    KEEP = "the operator ends"
-    DROP = "the wires cannot be written"
+    CLOSE = "the operator ends, or the wires cannot be written"
 
 
 TRANSITIONS: dict[tuple[Stage, Cue], Stage] = {
@@ -52,12 +51,7 @@ TRANSITIONS: dict[tuple[Stage, Cue], Stage] = {
     (Stage.HOLDING, Cue.LET_GO): Stage.DRAWING,
     (Stage.ENDING, Cue.BEGIN): Stage.DRAWING,
     (Stage.ENDING, Cue.END): Stage.OVER,
-    **{
-        (stage, cue): Stage.CLOSED
-        for stage in Stage
-        for cue in (Cue.KEEP, Cue.DROP)
-        if stage not in {Stage.HOLDING, Stage.CLOSED}
-    },
+    **{(stage, Cue.CLOSE): Stage.CLOSED for stage in Stage if stage not in {Stage.HOLDING, Stage.CLOSED}},
 }
 """Every allowed change of the state. `docs/development/structure.md` has the same table with what happens."""
 

@@ -103,17 +103,14 @@ class EditMeshOperator(NeedsEditMode):
         ValueErrors and NativeErrors of the work are reported, and the other objects are still worked on.
         """
         from ..core.base.native import NativeError
-        from ..mesh.edit_mesh import NothingVisibleError
 
-        found, problems, hidden = {}, [], []
+        found, problems = {}, []
         for obj in context.objects_in_mode_unique_data:
             try:
                 found[obj] = work(obj)
-            except NothingVisibleError as error:
-                hidden.append(str(error))
             except (ValueError, NativeError) as error:
                 problems.append(str(error))
-        for problem in problems if found else (*problems, *hidden, ALL_HIDDEN)[:1]:
+        for problem in problems if found else (*problems, ALL_HIDDEN)[:1]:
             self.report({"WARNING"} if found else {"ERROR"}, problem)
         return found
 

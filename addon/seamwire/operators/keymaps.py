@@ -69,7 +69,7 @@ def of_user(manager: bpy.types.WindowManager) -> Bindings:
     )
 
 
-_KEYMAPS = ("Mesh", "3D View Generic", "3D View", "Object Non-modal", "Frames", "Screen", "Screen Editing", "Window")
+KEYMAPS = ("Mesh", "3D View Generic", "3D View", "Object Non-modal", "Frames", "Screen", "Screen Editing", "Window")
 """The keymaps of a 3D view in Edit Mode, in the order in which Blender asks them."""
 _NAVIGATION = tuple(
     f"view3d.{name}"
@@ -137,7 +137,7 @@ def right_click_cancels(manager: bpy.types.WindowManager) -> bool:
 def _item_for(event: bpy.types.Event, manager: bpy.types.WindowManager) -> bpy.types.KeyMapItem | None:
     if event.value not in {"PRESS", "CLICK", "DOUBLE_CLICK", "CLICK_DRAG", "ANY"} or event.type.startswith("TIMER"):
         return None
-    for name in _KEYMAPS:
+    for name in KEYMAPS:
         keymap = user_keymap(manager, name)
         item = keymap.keymap_items.match_event(event) if keymap is not None else None
         if item is not None and item.active:

@@ -29,7 +29,7 @@ running: list[Stepwise] = []
 """The operators that take steps beside the interface at the moment."""
 _ALWAYS = frozenset({"TIMER", "RET", "NUMPAD_ENTER"})
 """Events that count wherever the mouse is."""
-_PERIOD = 0.05
+_PERIOD = 0.02
 """Seconds between two looks at whether a step has ended."""
 _CONSOLE_PERIOD = 5.0
 """Seconds between two lines about the progress."""
@@ -77,7 +77,34 @@ class Step:
     hand: Hand | None = None
 
 
-class Stepwise(EditMeshOperator):
+class AfterChain(EditMeshOperator):
+    """Gives an operator a poll, and ends the chain of its window: a button in the tool's header can be clicked while a wire is live."""
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Return whether a mesh is in Edit Mode, and neither a chain is drawn in another window nor an operator takes steps."""
+        if not super().poll(context):
+            return False
+        is_drawn = any(chain.window != context.window for chain in chains)
+        if is_drawn:
+            cls.poll_message_set("A chain is being drawn in another window")
+        elif running:
+            cls.poll_message_set(f"{running[0].bl_label} is running")
+        return not is_drawn and not running
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Keep the chain that is being drawn, then run."""
+        self.end_chain()
+        return super().execute(context)
+
+    def end_chain(self) -> None:
+        """Keep the chain that is being drawn."""
+        for chain in tuple(chains):
+            chain.finish()
+            chain.notices.tell(self.report)
+
+
+class Stepwise(AfterChain):
     """Gives an operator `execute`, and `invoke` with a thread for its steps. The operator has `steps`.
 
     Attributes
@@ -91,17 +118,6 @@ class Stepwise(EditMeshOperator):
     enough = False
     is_beside = False
 
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Return whether a mesh is in Edit Mode, and neither a chain is being drawn nor another operator takes steps."""
-        if not super().poll(context):
-            return False
-        if chains:
-            cls.poll_message_set("A chain is being drawn")
-        elif running:
-            cls.poll_message_set(f"{running[0].bl_label} is running")
-        return not chains and not running
-
     def steps(self, context: bpy.types.Context) -> Generator[Step, None, set[str]]:
         """Yield the steps, and return the operator's result.
 
@@ -114,6 +130,7 @@ class Stepwise(EditMeshOperator):
 
         The mouse pointer shows the progress of each step. Without a window the console does, while a step takes longer than a few seconds.
         """
+        self.end_chain()
         self.is_beside = False  # Adjust Last Operation executes the operator that was invoked
         self._steps = self.steps(context)
         pointer = context.window_manager
@@ -152,17 +169,19 @@ class Stepwise(EditMeshOperator):
 
         if bpy.app.background or context.window is None:
             return self.execute(context)
+        self.end_chain()
         manager = context.window_manager
         self.is_beside = True
         self._steps = self.steps(context)
         self._cancelled, self._fraction, self._seen = False, 0.0, ""
+        self._said: str | None = None
         self._work: Future[None] | None = None
         self._thread = ThreadPoolExecutor(1, "seamwire steps")
         self._cleanup = ExitStack()
         self._cleanup.callback(self._tell, None)
         self._cleanup.callback(manager.event_timer_remove, manager.event_timer_add(_PERIOD, window=context.window))
         self._cleanup.callback(self._steps.close)
-        self._cleanup.callback(self._thread.shutdown)
+        self._cleanup.callback(self._thread.shutdown, wait=False)
         running.append(self)
         self._cleanup.callback(running.remove, self)
         self.window = context.window
@@ -208,7 +227,8 @@ class Stepwise(EditMeshOperator):
             return {"PASS_THROUGH"}
         if event.type in {"RET", "NUMPAD_ENTER"} and event.value == "PRESS" and self._seen:
             self.enough = True
-        is_waiting = self._is_at_work or (hand is not None and not hand.is_over and not self._is_broken)
+        is_open = hand is not None and not hand.is_over
+        is_waiting = not self._cancelled and (self._is_at_work or (is_open and not self._has_failed))
         if is_waiting:
             self._show()
         if is_waiting or not (event.type == "TIMER" or self._cancelled):
@@ -231,16 +251,19 @@ class Stepwise(EditMeshOperator):
         return self._work is not None and not self._work.done()
 
     @property
-    def _is_broken(self) -> bool:
-        """Whether the step is cancelled, or its work has ended on an error."""
-        return self._cancelled or (self._work is not None and self._work.done() and self._work.exception() is not None)
+    def _has_failed(self) -> bool:
+        """Whether the step's work has ended on an error."""
+        return self._work is not None and self._work.done() and self._work.exception() is not None
 
     def cancel(self, _context: bpy.types.Context) -> None:
         """End because Blender quits or loads a file."""
         self.end()
 
     def end(self) -> None:
-        """Cancel the step that runs, wait for its thread, and put everything back. More than once does no harm."""
+        """Cancel the step that runs, and put everything back. More than once does no harm.
+
+        The thread ends in the background, because long work may look seldom at whether it goes on. Its result is dropped.
+        """
         self._cancelled = True
         self._cleanup.close()
 
@@ -290,6 +313,9 @@ class Stepwise(EditMeshOperator):
         self._tell("    ".join([*texts, "Esc or Right Click: Cancel" if is_right else "Esc: Cancel"]))
 
     def _tell(self, text: str | None) -> None:
+        if text == self._said:
+            return
+        self._said = text
         # A function is shared by the status bars of all workspaces, and a text is not.
         draw = None if text is None else lambda header, _context: header.layout.label(text=text)
         bpy.data.workspaces[0].status_text_set(draw)

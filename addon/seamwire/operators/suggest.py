@@ -4,13 +4,15 @@
 from __future__ import annotations
 
 from contextlib import closing
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
 import bpy
+from bpy.app.handlers import persistent
 from mathutils import Vector
 
-from ..mesh.registration import classes, together
+from ..mesh.registration import classes, handler, together
 from ..terms.choices import ALONG, AUTO_ALONG, AUTO_FINISH, FINISHES, items
 from .edit_mesh_operator import changing
 from .finish import cut_wires
@@ -19,10 +21,15 @@ from .steps import Step, Stepwise, end_all
 if TYPE_CHECKING:
     from collections.abc import Generator
 
+    from ..core.seams.seam_plan import PartChoice
     from ..mesh.seam_search import SeamSearch
 
+kept_choices: dict[tuple[tuple[str, int, int], ...], tuple[list[bytes], PartChoice]] = {}
+"""What was kept for meshes last in the file that is open: the seams that they had before, and the choice."""
 _BLENDERS_FRONT = (0.0, -1.0, 0.0)
 """The direction to the viewer in Blender's front view."""
+_BY_MESH = {"SKIP_SAVE"}
+"""Blender does not carry these options over to the next mesh."""
 
 
 class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
@@ -40,6 +47,7 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         min=0.0,
         max=100.0,
         precision=0,
+        options=_BY_MESH,
     )
     distortion: bpy.props.FloatProperty(
         name="Stretch",
@@ -52,6 +60,7 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         soft_min=5.0,
         soft_max=60.0,
         precision=0,
+        options=_BY_MESH,
     )
     islands: bpy.props.IntProperty(
         name="Islands",
@@ -59,6 +68,7 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         default=1,
         min=1,
         soft_max=64,
+        options=_BY_MESH,
     )
     front: bpy.props.EnumProperty(
         name="Hide From",
@@ -143,17 +153,32 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
 
     def _show_parts(self, context: bpy.types.Context, search: SeamSearch) -> Generator[Step, None, None]:
         """Yield steps until the artist has confirmed the parts that the views show, and seams are planned in them."""
-        from ..core.seams.seam_plan import PartChoice, edits_text
+        from ..core.seams.seam_plan import edits_text
         from ..view.plan_preview import PlanPreview
         from .suggest_live import LiveParts
 
         with closing(PlanPreview()) as preview:
-            live = LiveParts(search, preview, PartChoice(0.01 * self.parts, self.distortion), lambda: self.enough)
+            live = LiveParts(search, preview, self._first_choice(search), lambda: self.enough)
             while not live.is_done:
                 yield from _step(search, live.step())
-            self.parts, self.distortion = 100.0 * live.amount, live.stretch
-            self.edits = edits_text(live.edits)
+            choice = live.choice
+            self.parts, self.distortion, self.islands = 100.0 * choice.amount, choice.stretch, choice.islands
+            self.edits = edits_text(choice.edits)
+            kept_choices[_identity(search)] = _seams_of(search), choice
+            if self.unwrap:
+                yield from _step(search, Step("Unwrapping", search.lay_out))
             yield from _step(search, Step("Marking seams"))
+
+    def _first_choice(self, search: SeamSearch) -> PartChoice:
+        """Return the choice that is shown first: the one that was kept for these meshes, or the options."""
+        from ..core.seams.seam_plan import PartChoice, edits_of_text
+
+        is_given = any(map(self.properties.is_property_set, ("parts", "distortion", "islands", "edits")))
+        if not is_given and _identity(search) in kept_choices:
+            seams, choice = kept_choices[_identity(search)]
+            # Clicks belong to the borders that were shown. Other seams make other borders.
+            return choice if seams == _seams_of(search) else replace(choice, edits={})
+        return PartChoice(0.01 * self.parts, self.distortion, self.islands, edits_of_text(self.edits))
 
     def _front(self, context: bpy.types.Context) -> tuple[float, float, float] | None:
         """Return the direction to the viewer whom seams hide from, in world space, or None to hide from all sides."""
@@ -204,6 +229,16 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
             return 0
 
 
+def _identity(search: SeamSearch) -> tuple[tuple[str, int, int], ...]:
+    """Return what tells meshes from others in the file: names and sizes. Undo replaces the meshes themselves."""
+    meshes = (each.mesh for each in search)
+    return tuple((mesh.obj.data.name_full, len(mesh.arrays.points), len(mesh.arrays.triangles)) for mesh in meshes)
+
+
+def _seams_of(search: SeamSearch) -> list[bytes]:
+    return [each.mesh.arrays.seams.tobytes() for each in search]
+
+
 def _step(search: SeamSearch, step: Step) -> Generator[Step, None, None]:
     """Yield one step. Raise ValueError if a mesh changed during the step."""
     yield step
@@ -222,4 +257,11 @@ def _towards_viewer(context: bpy.types.Context) -> tuple[float, float, float]:
     return tuple(view.view_rotation @ Vector((0.0, 0.0, 1.0)))
 
 
-register, unregister = together(*classes(MESH_OT_seamwire_suggest), (lambda: None, end_all))
+@persistent
+def _forget_choices(*_: object) -> None:
+    kept_choices.clear()
+
+
+register, unregister = together(
+    *classes(MESH_OT_seamwire_suggest), handler("load_pre", _forget_choices), (lambda: None, end_all)
+)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections import deque
+from collections import Counter, deque
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
@@ -17,13 +17,14 @@ from ..core.base import native
 from ..core.seams.seam_plan import PartChoice, PartEdits, edges_of, mean_stretch, turned, turned_limit
 from ..view.plan_preview import Curves, PlanPreview, Pointed
 from ..view.viewport import place_of
-from ..words.keys import Action
+from ..words.corner import FoundMap, rows_of_parts
+from ..words.keys import MODIFIER_KEYS, Action
 from ..words.search_report import LIVE_HINTS, NOTHING_TO_REDO, NOTHING_TO_UNDO, OTHER_KEY, parts_text
 from . import keymaps
 from .steps import Step
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Sequence
 
     import numpy as np
     from numpy.typing import NDArray
@@ -50,6 +51,7 @@ _SQUARES = 28
 _CONFIRM = frozenset({"RET", "NUMPAD_ENTER", "SPACE"})
 _NOTCHES = {"WHEELUPMOUSE": 1, "WHEELDOWNMOUSE": -1, "PAGE_UP": 1, "PAGE_DOWN": -1, "PLUS": 1, "EQUAL": 1, "MINUS": -1}
 """How many notches each event turns."""
+_SIGNS = frozenset({"PLUS", "EQUAL", "MINUS"})
 _PRESSES = frozenset({"PRESS", "DOUBLE_CLICK"})
 _TAKEN = frozenset({"RUNNING_MODAL"})
 
@@ -75,12 +77,14 @@ class LiveParts:
         self._dropped: dict[str, list[NDArray[np.int32]]] = {}
         self._counts: dict[float, int] = {}
         self._turns: dict[tuple[float, int], float] = {}  # where notches led from amounts, and back
+        self._past: Counter[str] = Counter()  # the notches past an end, by what they turn
         self._searches: deque[Asked] = deque()
         self._found: tuple[Asked, PartChoice] | None = None
         self._version = self._worked_on = 0
         self._planned = -1
         self._rests_at = 0.0
-        self._seen: dict[Suggestion, tuple[object, object]] = {}
+        self._seen: dict[Suggestion, object] = {}
+        self._found_map: FoundMap | None = None
         self._square = _square_size(search)
         self._cancelled = native.load().Cancelled
         self._change()
@@ -99,19 +103,9 @@ class LiveParts:
         return Step("Planning seams", self._plan, self._look, self)
 
     @property
-    def amount(self) -> float:
-        """The amount of parts, from 0 to 1."""
-        return self._choices[self._at].amount
-
-    @property
-    def stretch(self) -> float:
-        """The limit of the stretch, in percent."""
-        return self._choices[self._at].stretch
-
-    @property
-    def edits(self) -> Mapping[str, PartEdits]:
-        """The changes by clicks, by the name of the object."""
-        return self._choices[self._at].edits
+    def choice(self) -> PartChoice:
+        """The choice that is shown."""
+        return self._choices[self._at]
 
     @property
     def is_done(self) -> bool:
@@ -132,7 +126,7 @@ class LiveParts:
     @property
     def title(self) -> str:
         """The answer to the last key, the amount and the number of parts, and the limit of the stretch."""
-        text = parts_text(self.amount, self._search.part_count, self.stretch)
+        text = parts_text(self.choice.amount, self._search.part_count, self.choice.stretch)
         return f"{self._said}    {text}" if self._said else text
 
     @property
@@ -154,7 +148,6 @@ class LiveParts:
         with suppress(self._cancelled):
             self._search.plan(goes_on, is_enough=self._is_enough)
             self._planned = version
-            self._search.lay_out(lambda _: goes_on(1.0) and not self.is_kept)
 
     def _look(self) -> str:
         """Show plans that are new, and return the stretch and the length of their seams."""
@@ -162,16 +155,23 @@ class LiveParts:
             return ""
         self._preview.poll()
         plans = {each: plan for each in self._search if (plan := each.best_so_far) is not None}
-        for suggestion, plan in plans.items():
-            seen = self._seen.get(suggestion, (None, None))
-            if seen[0] is not plan or seen[1] is not suggestion.layout:
-                self._seen[suggestion] = plan, suggestion.layout
-                self._show(suggestion)
-        if not plans:
-            return ""
-        energy = mean_stretch([float(plan.energy) for plan in plans.values()], [each.area for each in plans])
-        length = sum(each.length_of(plan) for each, plan in plans.items())
-        return f"stretch {100.0 * energy:.0f} %, seams {_in_units(length)}"
+        new = [suggestion for suggestion, plan in plans.items() if self._seen.get(suggestion) is not plan]
+        for suggestion in new:
+            self._seen[suggestion] = plans[suggestion]
+            self._show(suggestion)
+        if new and len(plans) == len(self._search):
+            energy = mean_stretch([float(plan.energy) for plan in plans.values()], [each.area for each in plans])
+            length = _in_units(sum(each.length_of(plan) for each, plan in plans.items()))
+            islands = sum(plan.island_count for plan in plans.values())
+            self._found_map = FoundMap(100.0 * energy, islands, length)
+        self._tell()
+        found = self._found_map
+        return "" if found is None else f"stretch {found.stretch:.0f} %, seams {found.length}"
+
+    def _tell(self) -> None:
+        """Show the choice, and the map that it makes, in the corner of the views."""
+        rows = rows_of_parts(self.choice, self._search.part_count, self._past, self._found_map, self.is_planned)
+        self._preview.tell([(self._said, ""), *rows] if self._said else rows)
 
     # The artist's hand
 
@@ -189,20 +189,25 @@ class LiveParts:
         if act is not None and not (place is not None and keymaps.on_gizmo_with(event, place, context)):
             self._said = ""
             act()
+            self._tell()
             return set(_TAKEN)
-        if place is not None and not keymaps.is_for_blender(event, context) and not _is_modifier(event.type):
+        if place is not None and not keymaps.is_for_blender(event, context) and event.type not in MODIFIER_KEYS:
             self._say(OTHER_KEY)
+            self._tell()
         return set()
 
     def _act_for(self, event: bpy.types.Event, place: Place | None, action: Action | None) -> Callable[[], None] | None:
         """Return what an event asks for. Over other editors only Enter does, and Undo, which would change the mesh."""
         if action in {Action.UNDO, Action.REDO} and (place is not None or event.ctrl or event.oskey):
             return partial(self._step_to, -1 if action is Action.UNDO else 1)
-        if event.alt or event.oskey or (event.shift and event.type not in {"PLUS", "EQUAL"}):
+        if event.alt or event.oskey:
             return None
         if event.type in _NOTCHES and place is not None:
-            return partial(self._turn_stretch if event.ctrl else self._turn, _NOTCHES[event.type])
-        if event.ctrl:
+            is_shifted = event.shift and event.type not in _SIGNS  # a keyboard may have the plus with Shift
+            if not (event.ctrl and is_shifted):
+                what = "stretch" if event.ctrl else "islands" if is_shifted else "amount"
+                return partial(self._turn, what, _NOTCHES[event.type])
+        if event.ctrl or event.shift:
             return None
         if event.type in _CONFIRM and (place is not None or event.type != "SPACE"):
             return self._keep
@@ -248,45 +253,55 @@ class LiveParts:
         for suggestion in self._search:
             self._show(suggestion)
 
-    def _turn_stretch(self, notches: int) -> None:
-        def search(_progress: Progress) -> PartChoice:
-            found = turned_limit(self.stretch, notches, self._choices[0].stretch)
-            return replace(self._choices[self._at], stretch=found)
+    def _turn(self, what: str, notches: int) -> None:
+        """Turn the amount of parts, the limit of the stretch or the number of islands by one notch.
 
-        self._begin(search)
+        Notches past an end are counted, so that as many notches back lead to the same choice again.
+        """
 
-    def _turn(self, notches: int) -> None:
         def search(progress: Progress) -> PartChoice:
-            amount, until = self.amount, time.monotonic() + _LOOKING
-            found = self._turns.get((amount, notches))
-            if found is None:
-                found = turned(
-                    amount, notches, lambda some: self._count(some, progress), lambda: time.monotonic() < until
-                )
-            self._search.count(found, self.edits, progress)  # so that its parts are kept
-            if found != amount:
-                self._turns[amount, notches], self._turns[found, -notches] = found, amount
-            return replace(self._choices[self._at], amount=found)
+            choice = self.choice
+            if self._past[what] * notches >= 0:
+                choice = self._turned(what, notches, progress)
+            if choice == self.choice:
+                self._past[what] += notches
+            return choice
 
         self._begin(search)
+
+    def _turned(self, what: str, notches: int, progress: Progress) -> PartChoice:
+        choice = self.choice
+        if what == "stretch":
+            return replace(choice, stretch=turned_limit(choice.stretch, notches, self._choices[0].stretch))
+        if what == "islands":
+            return replace(choice, islands=max(1, choice.islands + notches))
+        until = time.monotonic() + _LOOKING
+        found = self._turns.get((choice.amount, notches))
+        if found is None:
+            found = turned(
+                choice.amount, notches, lambda some: self._count(some, progress), lambda: time.monotonic() < until
+            )
+        self._search.count(found, choice.edits, progress)  # so that its parts are kept
+        if found != choice.amount:
+            self._turns[choice.amount, notches], self._turns[found, -notches] = found, choice.amount
+        return replace(choice, amount=found)
 
     def _count(self, amount: float, progress: Progress) -> int:
         if amount not in self._counts:
-            self._counts[amount] = self._search.count(amount, self.edits, progress)
+            self._counts[amount] = self._search.count(amount, self.choice.edits, progress)
         return self._counts[amount]
 
     def _click(self, place: Place) -> None:
         at = None if self._searches else self._preview.at(place)
         if at is None:
             return
-        name = next(each.name for each in self._search if each.mesh.obj == at.obj)
-        edits = {**self.edits, name: self._edited(self.edits.get(name, PartEdits()), at)}
+        suggestion = next(each for each in self._search if each.mesh.obj == at.obj)
+        edits = {**self.choice.edits, suggestion.name: self._edited(suggestion, at)}
 
         def search(progress: Progress) -> PartChoice:
-            choice = self._choices[self._at]
-            count = self._search.count(choice.amount, edits, progress)
+            count = self._search.count(self.choice.amount, edits, progress)
             is_uncut = at.border is None and count == self._search.part_count
-            return choice if is_uncut else replace(choice, edits=edits)
+            return self.choice if is_uncut else replace(self.choice, edits=edits)
 
         self._begin(search)
         self._preview.point(self._preview.at(place))
@@ -311,20 +326,23 @@ class LiveParts:
 
     def _change_to(self, choice: PartChoice, at: int | None) -> None:
         """Go on to a choice that has a place among those that were made, or to a new one."""
-        before = self._choices[self._at]
+        before = self.choice
         if choice == before:
             return
         if choice.edits != before.edits:
             self._counts.clear()
             self._turns.clear()
+        if at is not None or choice.edits != before.edits:
+            self._past.clear()
         if at is None:
             at = self._at + 1
             self._choices[at:] = [choice]
         self._at = at
         self._change()
 
-    def _edited(self, edits: PartEdits, at: Pointed) -> PartEdits:
-        suggestion = next(each for each in self._search if each.mesh.obj == at.obj)
+    def _edited(self, suggestion: Suggestion, at: Pointed) -> PartEdits:
+        """Return the edits of a mesh after a click."""
+        edits = self.choice.edits.get(suggestion.name, PartEdits())
         if at.border is None:
             return edits.part(int(suggestion.mesh.arrays.polygons[at.triangle]))
         if at.border < len(suggestion.borders):
@@ -339,16 +357,18 @@ class LiveParts:
         """Choose the parts anew, and show them."""
         self._version += 1
         self._rests_at = time.monotonic() + _REST
-        self._search.limit_stretch(self.stretch)
-        self._search.choose(self.amount, self.edits)
+        self._found_map = None
+        self._search.limit(self.choice.stretch, self.choice.islands)
+        self._search.choose(self.choice.amount, self.choice.edits)
         for suggestion in self._search:
             self._show(suggestion)
+        self._tell()
 
     # The picture
 
     def _dim(self, suggestion: Suggestion) -> list[NDArray[np.int32]]:
         """Return the borders that the artist has dropped."""
-        dropped = self.edits.get(suggestion.name, PartEdits()).dropped
+        dropped = self.choice.edits.get(suggestion.name, PartEdits()).dropped
         return [chain for chain in self._dropped.get(suggestion.name, ()) if edges_of(chain) <= dropped]
 
     def _show(self, suggestion: Suggestion) -> None:
@@ -356,18 +376,18 @@ class LiveParts:
         curves = Curves(
             [points[chain] for chain in suggestion.borders], [points[chain] for chain in self._dim(suggestion)]
         )
-        cuts = suggestion.seams
+        cuts, unfold, version = suggestion.seams, None, self._version
         if plan is not None:
             curves = replace(curves, slits=[wire.points for wire in plan.wires])
             cuts = suggestion.edges_of(plan)
-        squares = None
-        if suggestion.layout is not None and not self.is_kept:
-            squares = suggestion.layout * (_scale_of(suggestion.mesh.obj) / self._square)
-        self._preview.show(suggestion.mesh.obj, suggestion.mesh.arrays, curves, cuts, squares)
+        if plan is not None and not self.is_kept:
+            per_unit = _scale_of(suggestion.mesh.obj) / self._square
 
+            def unfold() -> NDArray[np.float64] | None:
+                found = suggestion.layout_of(plan, lambda _: self._version == version and not self.is_kept)
+                return None if found is None else found * per_unit
 
-def _is_modifier(key: str) -> bool:
-    return key == "OSKEY" or key.endswith(("_SHIFT", "_CTRL", "_ALT"))
+        self._preview.show(suggestion.mesh.obj, suggestion.mesh.arrays, curves, cuts, unfold)
 
 
 def _scale_of(obj: bpy.types.Object) -> float:

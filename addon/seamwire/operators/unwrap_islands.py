@@ -6,11 +6,11 @@ from __future__ import annotations
 import bpy
 
 from ..mesh.settings import settings
-from ..words.reports import count, in_words
-from .edit_mesh_operator import EditMeshOperator
+from ..words.reports import count, in_words, square_used
+from .steps import AfterChain
 
 
-class MESH_OT_seamwire_unwrap(EditMeshOperator, bpy.types.Operator):
+class MESH_OT_seamwire_unwrap(AfterChain, bpy.types.Operator):
     """Unwrap the islands whose seams have changed. All other UVs stay in place"""  # noqa: D400 - a tooltip
 
     bl_idname = "mesh.seamwire_unwrap"
@@ -61,10 +61,13 @@ class MESH_OT_seamwire_unwrap(EditMeshOperator, bpy.types.Operator):
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Unwrap, and report the number of islands."""
+        from ..mesh.seam_islands import maps_of
         from ..mesh.unwrap import Layout, unwrap_changed
 
         layout = Layout(self.straight, self.upright, self.stack)
         done = unwrap_changed(context, method=self.method, layout=layout, every=not self.changed_only)
+        for problem in done.problems:
+            self.report({"WARNING"}, problem)
         if not done.islands:
             self.report({"INFO"}, "Nothing to unwrap: no island has changed")
             return {"CANCELLED"}
@@ -72,6 +75,7 @@ class MESH_OT_seamwire_unwrap(EditMeshOperator, bpy.types.Operator):
         if done.unmapped:
             has = "hidden face has no place", "hidden faces have no place"
             parts.append(f"{count(done.unmapped, *has)} in the map")
+        parts.append(square_used(sum(each.used for each in maps_of(context.objects_in_mode_unique_data).values())))
         self.report({"WARNING"} if done.faults or done.unmapped else {"INFO"}, ", ".join(parts))
         return {"FINISHED"}
 

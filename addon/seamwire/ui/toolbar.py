@@ -25,28 +25,29 @@ VIEWS = "Views"
 GROUPS = tuple(dict.fromkeys(setting.group for setting in SETTINGS.values() if setting.group != VIEWS))
 """The groups of settings that have panels."""
 _STRENGTHS = {strength_name(along) for along in ALONG}
-_SHORT_ALONG = (("AUTO", "Auto"), ("EDGES", "Edges"), ("SURFACE", "Surface"))
-"""How the header names the choices of *Along*, so that Blender's controls have room beside ours."""
 _OBJECTS = f"{__package__.rpartition('.')[0]}.view.edited_objects"
 
 
 def draw_header(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
-    """Show at most six controls in a row, and the help. Blender shows the mirror of the mesh beside them."""
+    """Show the buttons with which jobs begin and end, at most six controls, and the help. Blender shows the mirror of the mesh beside them."""
     chosen, along = settings(context), along_of(context)
-    row = layout.row(align=True)
-    row.ui_units_x = 8.5
-    for name, label in _SHORT_ALONG:
-        row.prop_enum(chosen, "along", name, text=label)
+    jobs = layout.row(align=True)
+    jobs.ui_units_x = 6
+    jobs.operator("mesh.seamwire_suggest", text="Suggest")
+    jobs.operator("mesh.seamwire_unwrap", text="Unwrap")
+    row = layout.row()
+    row.ui_units_x = 5.5
+    row.prop(chosen, "along", text="")
     if along == "SURFACE":
         finish = layout.row()
-        finish.ui_units_x = 5
-        finish.prop(chosen, "finish")
+        finish.ui_units_x = 3
+        finish.prop(chosen, "finish", text="")
     strength = layout.row()
-    strength.ui_units_x = 6
+    strength.ui_units_x = 5.5
     strength.prop(chosen, strength_name(along))
     if along == "SURFACE":
         layout.prop(chosen, "straight", text="Straight", toggle=True)
-    layout.prop(chosen, "clear", toggle=True)
+    layout.prop(chosen, "clear", text="Clear", toggle=True)
     panels = layout.row(align=True)
     panels.popover(VIEW3D_PT_seamwire_overlays.bl_idname, text="Views")
     panels.popover(HELP_PANEL, text="", icon="QUESTION")

@@ -16,7 +16,7 @@ from ..core.network.picks import place_of, undirected
 from ..terms.choices import FINISHES
 from ..words import corner
 from .failures import failures
-from .gpu_draw import ColoredFaces, Eye, Lines, blended, draw_dots, draw_text, set_text, text_size
+from .gpu_draw import ColoredFaces, Eye, Lines, blended, draw_dots, draw_text, set_text, text_size, text_width
 from .layers import Legend, draw_legends
 from .theme import Looks, Style, hue_colors, looks_of
 
@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from .layers import Layer
 
 _NO_ROOM = (0.0, 0.0, 0.0, 0.0)
+_KEY_OPACITY = 0.6
 
 
 class Sheet:
@@ -177,7 +178,7 @@ class Overlay:
         scale = bpy.context.preferences.system.ui_scale
         with blended("NONE"):
             lines = () if self._looks.text == "NONE" else corner.lines(picture)
-            high = _draw_corner(lines, room[:2], scale)
+            high = draw_corner([(line, "") for line in lines], room[:2], scale)
             if self._looks.text == "STEPS":
                 left, bottom, width, height = room
                 above = (left, high, width, height - (high - bottom))
@@ -273,14 +274,20 @@ class Overlay:
         sheet.dot(styles.get(snap.to, looks.dot), snap.pick)
 
 
-def _draw_corner(lines: Sequence[str], at: tuple[float, float], scale: float) -> float:
-    """Draw lines of text above the lower left corner of the free room, top line first. Return the height where the room above begins."""
+def draw_corner(rows: Sequence[tuple[str, str]], at: tuple[float, float], scale: float) -> float:
+    """Draw rows of text above the lower left corner of the free room, top row first. Return the height where the room above begins.
+
+    Each row has a text, and the keys that belong to it.
+    """
     size = text_size(scale)
     set_text(size)
     x, y = at[0] + 1.2 * size, at[1] + 1.1 * size
-    color = (*bpy.context.preferences.themes[0].view_3d.space.text_hi, 1.0)
-    for line in reversed(lines):
-        draw_text(line, (x, y), color)
+    space = bpy.context.preferences.themes[0].view_3d.space
+    beside = x + max((text_width(text) for text, keys in rows if keys), default=0.0) + 1.5 * size
+    for text, keys in reversed(rows):
+        draw_text(text, (x, y), (*space.text_hi, 1.0))
+        if keys:
+            draw_text(keys, (beside, y), (*space.text_hi, _KEY_OPACITY))
         y += 1.5 * size
     return y - 1.1 * size
 

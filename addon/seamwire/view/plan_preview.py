@@ -16,6 +16,7 @@ import numpy as np
 from gpu_extras.batch import batch_for_shader
 
 from ..core.base import native
+from ..core.base.newest import Newest
 from ..core.islands.islands import IslandMaker
 from ..core.picking.camera import Segments, Sight
 from ..core.picking.surface import VisibleSurface
@@ -24,17 +25,19 @@ from ..mesh.pose import Pose
 from .edited_objects import edited
 from .failures import failures
 from .gpu_draw import ColoredFaces, Eye, Within, blended, draw_over, sees_through
-from .overlay import Sheet
+from .overlay import Sheet, draw_corner, free_room
 from .theme import Looks, hue_colors, looks_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
     from numpy.typing import NDArray
 
     from ..core.base.mesh_arrays import Arrays
     from .theme import Color, Style
     from .viewport import Place
+
+    Unfold = Callable[[], NDArray[np.float64] | None]
 
 
 @functools.cache
@@ -142,6 +145,10 @@ class _ObjectPreview:
         self._segments = Segments(self._seen)
         self._lines: Sheet | None = None
         self._faces: ColoredFaces | None = None
+        self._parts = 0  # counts other parts, whose maps are different ones
+        self._maps: Newest[tuple[int, Unfold], tuple[int, NDArray[np.float64] | None]] = Newest(
+            lambda request: (request[0], request[1]()), "seamwire map", (core.Cancelled,)
+        )
         self._squares: NDArray[np.float64] | None = None
         self._checks: CheckedFaces | None = None
         self._tinted: object = None
@@ -150,15 +157,26 @@ class _ObjectPreview:
 
     @property
     def is_new(self) -> bool:
-        """Whether there are islands that were not drawn yet."""
+        """Whether there are islands or a map that were not drawn yet."""
         found = self._islands.answer
-        return found is not None and found.key != self._tinted
+        return self._take_map() or (found is not None and found.key != self._tinted)
 
-    def follow(self, curves: Curves, cuts: NDArray[np.int32], squares: NDArray[np.float64] | None) -> None:
-        """Show other curves and another map, and ask for the islands of the cuts."""
-        self.repose()
-        if squares is not self._squares:
+    def _take_map(self) -> bool:
+        """Show the newest map, if it is for the parts that are shown, and return whether it is new."""
+        parts, squares = self._maps.answer or (None, None)
+        is_new = parts == self._parts and squares is not self._squares
+        if is_new:
             self._squares, self._checks = squares, None
+        return is_new
+
+    def follow(self, curves: Curves, cuts: NDArray[np.int32], unfold: Unfold | None) -> None:
+        """Show other curves, and ask for the islands of the cuts, and for the map. The former map stays until there is another."""
+        self.repose()
+        if unfold is None:
+            self._parts += 1
+            self._squares = self._checks = None
+        else:
+            self._maps.want((self._parts, unfold))
         self._curves = curves
         self._place_curves()
         self._count += 1
@@ -179,12 +197,14 @@ class _ObjectPreview:
             self.hovered = None  # other slits alone leave the highlight where it is
 
     def check(self) -> None:
-        """Raise what went wrong while islands were computed."""
+        """Raise what went wrong while islands and maps were computed."""
         self._islands.check()
+        self._maps.check()
 
     def close(self) -> None:
-        """Let go of the thread that computes islands."""
+        """Let go of the threads that compute islands and maps."""
         self._islands.close()
+        self._maps.close()
 
     # Under the mouse
 
@@ -256,7 +276,8 @@ class PlanPreview:
 
     def __init__(self) -> None:
         self._shown: dict[int, _ObjectPreview] = {}  # by the addresses of the objects
-        self._handle: object | None = None
+        self._handles: list[object] = []
+        self._rows: Sequence[tuple[str, str]] = ()
 
     def show(
         self,
@@ -264,23 +285,33 @@ class PlanPreview:
         arrays: Arrays,
         curves: Curves,
         cuts: NDArray[np.int32],
-        squares: NDArray[np.float64] | None = None,
+        unfold: Unfold | None = None,
     ) -> None:
         """Draw wires over an object, and tint the islands that they make, in place of what was drawn over it.
 
-        With the wires, the edges `cuts`, (c, 2), are seams. `squares`, (m, 3, 2), is the map of the corners of its triangles, in squares
-        of a checker pattern, if it is drawn.
+        With the wires, the edges `cuts`, (c, 2), are seams. `unfold` returns the map of the corners of its triangles, (m, 3, 2), in squares
+        of a checker pattern. It is called on a thread. None: no map is drawn.
         """
-        if self._handle is None and not bpy.app.background:
-            self._handle = bpy.types.SpaceView3D.draw_handler_add(self._draw, (), "WINDOW", "POST_VIEW")
+        if not self._handles and not bpy.app.background:
+            add = bpy.types.SpaceView3D.draw_handler_add
+            self._handles += [
+                add(self._draw, (), "WINDOW", "POST_VIEW"),
+                add(self._draw_corner, (), "WINDOW", "POST_PIXEL"),
+            ]
             edited.covered = True
         address = obj.as_pointer()
         if address not in self._shown:
             self._shown[address] = _ObjectPreview(obj, arrays)
         shown = self._shown[address]
         failures.take("preview")  # another plan is another try
-        failures.attempt(("preview", "follow", address), partial(shown.follow, curves, cuts, squares))
+        failures.attempt(("preview", "follow", address), partial(shown.follow, curves, cuts, unfold))
         edited.redraw()
+
+    def tell(self, rows: Sequence[tuple[str, str]]) -> None:
+        """Show text in the corner of the views, as `draw_corner` draws it."""
+        if rows != self._rows:
+            self._rows = rows
+            edited.redraw()
 
     def at(self, place: Place) -> Pointed | None:
         """Return what is under the mouse, of the object that is nearest to the viewer."""
@@ -303,21 +334,37 @@ class PlanPreview:
 
     def close(self) -> None:
         """Draw nothing any more."""
-        if self._handle is not None:
-            bpy.types.SpaceView3D.draw_handler_remove(self._handle, "WINDOW")
+        if self._handles:
             edited.covered = False
             edited.redraw()
-        self._handle = None
+        while self._handles:
+            bpy.types.SpaceView3D.draw_handler_remove(self._handles.pop(), "WINDOW")
         for shown in self._shown.values():
             shown.close()
         self._shown.clear()
 
-    def _draw(self) -> None:
-        context = bpy.context
-        if not self._shown or not context.space_data.overlay.show_overlays:
-            return
-        looks = looks_of(context.preferences.themes[0].view_3d, chosen.preferences())
+    def _seen_here(self) -> dict[int, _ObjectPreview]:
+        """Return what is seen in the view that Blender is drawing now, by the addresses of the objects."""
+        space, layer = bpy.context.space_data, bpy.context.view_layer
+        found = {}
         for address, shown in self._shown.items():
             with suppress(ReferenceError):  # the object may be gone
-                if shown.obj.visible_in_viewport_get(context.space_data):
-                    failures.attempt(("preview", "draw", address), partial(shown.draw, looks))
+                is_in_scene = layer.objects.get(shown.obj.name) == shown.obj  # another window may show another scene
+                if is_in_scene and space.overlay.show_overlays and shown.obj.visible_in_viewport_get(space):
+                    found[address] = shown
+        return found
+
+    def _draw(self) -> None:
+        looks = looks_of(bpy.context.preferences.themes[0].view_3d, chosen.preferences())
+        for address, shown in self._seen_here().items():
+            failures.attempt(("preview", "draw", address), partial(shown.draw, looks))
+
+    def _draw_corner(self) -> None:
+        looks = looks_of(bpy.context.preferences.themes[0].view_3d, chosen.preferences())
+        if looks.text == "NONE" or not self._seen_here():
+            return
+        room = free_room(bpy.context.area, bpy.context.region)
+        if room[2] <= 0.0:
+            return
+        with blended("NONE"):
+            draw_corner(self._rows, room[:2], bpy.context.preferences.system.ui_scale)

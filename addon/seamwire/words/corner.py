@@ -1,15 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the corner of the view says: the first steps, what a click would take, how wires run, and what the seams have parted."""
+"""What the corner of the view says of the picture of a drawing, and of the parts that Suggest shows."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ..terms.choices import KINDS, LOOPS, METRICS, ignores_shape
-from .reports import count
+from .reports import count, percent
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from ..core.drawing.picture import Picture
+    from ..core.seams.seam_plan import PartChoice
 
 
 STEPS = (
@@ -58,3 +62,38 @@ def lines(picture: Picture) -> list[str]:
     ]
     said = ", ".join(mode for mode in modes if mode)
     return [*found, said] if said else found
+
+
+@dataclass(frozen=True)
+class FoundMap:
+    """The best map so far of the parts that Suggest shows."""
+
+    stretch: float  # the mean, in percent
+    islands: int
+    length: str  # of all seams, in the scene's units
+
+
+def rows_of_parts(
+    choice: PartChoice, parts: int, past: Mapping[str, int], found: FoundMap | None, is_final: bool
+) -> list[tuple[str, str]]:
+    """Return what is to be read while Suggest shows parts, top line first: each text, and the keys that change it.
+
+    `past` counts the notches of the wheel that were turned past an end, by what they turn.
+    """
+
+    def beyond(what: str) -> str:
+        return f", {count(abs(past[what]), 'notch', 'notches')} past the end" if past.get(what) else ""
+
+    islands = f"at least {choice.islands}{beyond('islands')}"
+    stretch = f"at most {percent(choice.stretch)}{beyond('stretch')}"
+    if found is not None:
+        islands, stretch = f"{found.islands}, {islands}", f"{percent(found.stretch)}, {stretch}"
+    rows = [
+        (f"Parts: {parts}, amount {100.0 * choice.amount:.0f} %{beyond('amount')}", "Wheel"),
+        (f"Islands: {islands}", "Shift Wheel"),
+        (f"Stretch: {stretch}", "Ctrl Wheel"),
+    ]
+    if found is not None:
+        rows.append((f"Seams: {found.length}", ""))
+        rows.append(("Search ended" if is_final else "Searching: this is the best map so far", "Enter: Keep"))
+    return rows

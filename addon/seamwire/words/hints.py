@@ -64,7 +64,6 @@ def idle_hints(keys: Mapping[str, Key]) -> list[Hint]:
         icon = f"{key.icon}_DRAG" if is_drag and key.icon == "MOUSE_LMB" else key.icon
         before = key.modifiers if icon else key.text
         found.append((icon or "NONE", f"{before}: {text}" if before else text))
-    found.append(("SHADERFX", "Find All Seams: Edge > Seamwire > Suggest Seamwires"))
     return found
 
 

@@ -88,6 +88,10 @@ class Key:
 
 
 MODIFIERS = ("ctrl", "shift", "alt", "oskey")
+MODIFIER_KEYS = frozenset(
+    {*(f"{side}_{key}" for side in ("LEFT", "RIGHT") for key in ("SHIFT", "CTRL", "ALT")), "OSKEY"}
+)
+"""Blender's names of the keys that are held with others."""
 _ANY = dict.fromkeys(MODIFIERS, -1)
 
 

@@ -77,6 +77,11 @@ def in_words(faults: MapFaults) -> list[str]:
     return parts
 
 
+def square_used(share: float) -> str:
+    """Return how much of the UV square a map uses."""
+    return f"{100.0 * share:.0f} % of the UV square used"
+
+
 def percent(stretch: float) -> str:
     """Return a stretch, in percent, with one decimal place if it is small."""
     digits = 0 if stretch >= 10.0 else 1

@@ -8,21 +8,19 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ..core.islands.map_faults import NO_FAULTS, MapFaults
-from .reports import count, in_words, not_reached, percent
+from .reports import count, in_words, not_reached, percent, square_used
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
 
 LIVE_HINTS = (
-    "Wheel: More or Fewer Parts",
-    "Ctrl Wheel: Stretch",
     "Click Border: Drop or Keep",
     "Click Island: Cut",
     "Ctrl Z: Undo",
     "Enter: Keep",
 )
-"""The artist's choices while the parts are shown."""
+"""The artist's choices while the parts are shown, without those that the corner of the view has."""
 OTHER_KEY = "Only the wheel, clicks, Ctrl Z, Enter, Esc and keys that move the view work here"
 NOTHING_TO_UNDO = "Nothing to undo: the parts are as they were first shown"
 NOTHING_TO_REDO = "Nothing to redo"
@@ -84,7 +82,7 @@ class Outcome:
         return parts
 
     def _of_square(self) -> list[str]:
-        return [] if self.used is None else [f"{100.0 * self.used:.0f} % of the UV square used"]
+        return [] if self.used is None else [square_used(self.used)]
 
     def _problems(self) -> list[str]:
         parts = []

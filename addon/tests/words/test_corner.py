@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from seamwire.core.islands.islands import Islands
 from seamwire.core.seams.gaps import Gap
+from seamwire.core.seams.seam_plan import PartChoice
 from seamwire.terms.choices import KINDS
-from seamwire.words.corner import lines
+from seamwire.words.corner import FoundMap, lines, rows_of_parts
 from table import Table
 
 
@@ -51,3 +52,22 @@ def test_the_island_under_the_mouse_says_what_it_needs_once_the_mesh_is_parted()
 
 def test_candidates_have_names_of_what_is_seen() -> None:
     assert not any("curvature" in name for name in KINDS.values())
+
+
+def test_while_parts_are_shown_each_value_has_its_keys() -> None:
+    choice = PartChoice(0.55, 17.0, islands=3)
+    assert rows_of_parts(choice, 12, {}, None, False) == [
+        ("Parts: 12, amount 55 %", "Wheel"),
+        ("Islands: at least 3", "Shift Wheel"),
+        ("Stretch: at most 17 %", "Ctrl Wheel"),
+    ]
+    found = FoundMap(stretch=9.5, islands=14, length="2.3 m")
+    rows = rows_of_parts(choice, 12, {"amount": 2, "stretch": -1}, found, True)
+    assert rows == [
+        ("Parts: 12, amount 55 %, 2 notches past the end", "Wheel"),
+        ("Islands: 14, at least 3", "Shift Wheel"),
+        ("Stretch: 9.5 %, at most 17 %, 1 notch past the end", "Ctrl Wheel"),
+        ("Seams: 2.3 m", ""),
+        ("Search ended", "Enter: Keep"),
+    ]
+    assert "best map so far" in rows_of_parts(choice, 12, {}, found, False)[-1][0]

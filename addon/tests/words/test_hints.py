@@ -104,7 +104,6 @@ def test_before_the_first_click_the_hints_teach_the_gestures() -> None:
         ("MOUSE_LMB_DRAG", "Draw Line"),
         ("MOUSE_LMB", "Alt: Add Loop"),
         ("MOUSE_LMB_DRAG", "Shift: Draw Stroke"),
-        ("SHADERFX", "Find All Seams: Edge > Seamwire > Suggest Seamwires"),
     ]
 
 

@@ -326,12 +326,16 @@ class LoopOffers(Offers):
     def _with_part(self, edge: Edge, offers: tuple[Wire, ...]) -> tuple[Wire, ...]:
         """Return offers with the borders of the part under the cursor first, where the cursor is inside a face.
 
-        The nearest border comes first, then the slit of a tube, then all borders at once, then each of the others, and
-        those of finer and coarser parts.
+        At an edge inside a small part, such as a bung, the rim of the part comes first. Otherwise the nearest border comes first, then the
+        slit of a tube, then all borders at once, then each of the others, and those of finer and coarser parts.
         """
         triangle, snap = self._triangle_at(edge), self._snap
-        if snap is None or triangle is None or not snap.inside or not offers:
+        if snap is None or triangle is None or not offers:
             return offers
+        if not snap.inside:
+            rim = self._border(self._parts.plug_rim(triangle), edge)
+            is_at_rim = rim is None or undirected(edge) in rim.edges()
+            return offers if is_at_rim else _distinct([rim, *offers])
         nearest_first = [
             sorted(chains, key=lambda chain: self._gaps(_sides(chain), edge).min())
             for chains in self._parts.around(triangle)

@@ -42,6 +42,8 @@ _LARGEST_WALL = 10_000
 _LID_CORNERS = 8
 """A flat fan of at least so many faces is a lid."""
 _MOST_LIDS = 16
+_PLUG = 0.02
+"""The part of the mesh's area up to which a part inside of another one counts as a plug."""
 _SHARP = float(np.cos(np.radians(65.0)))
 """Two faces meet at a rim if the cosine between their normals is below this. The sides of a tube with six corners meet at 60 degrees."""
 
@@ -161,6 +163,13 @@ class PartBorders:
         """Yield the borders of the part that a triangle belongs to, for each of `AMOUNTS`."""
         for parts in self._steps:
             yield parts.borders(triangle)
+
+    def plug_rim(self, triangle: int) -> VertexChain:
+        """Return the rim around the small part that a triangle belongs to, such as a button or a bung, or nothing.
+
+        The part has no other border, and no boundary.
+        """
+        return next(filter(None, (parts.plug_rim(triangle) for parts in self._steps)), ())
 
     def rims(self, edge: Edge) -> tuple[VertexChain, ...]:
         """Return both rims of the tube inside of which an edge lies, or nothing.
@@ -309,6 +318,18 @@ class _Parts:
             chains = map(self.half_edges.chain, between)
             self._found[part] = tuple(chain for chain in chains if len(set(chain)) == len(chain) > 2)
         return self._found[part]
+
+    def plug_rim(self, triangle: int) -> VertexChain:
+        """Return the only border of the part with a triangle if the part is small, or nothing."""
+        areas = self._areas
+        if areas[self.labels[triangle]] > _PLUG * areas.sum():
+            return ()
+        borders = self.borders(triangle)
+        return borders[0] if len(borders) == 1 == len(self._all(int(self.labels[triangle]))) else ()
+
+    @cached_property
+    def _areas(self) -> NDArray[np.float64]:
+        return np.bincount(self.labels, self.half_edges.areas)
 
     def rims(self, triangle: int) -> tuple[VertexChain, ...]:
         """Return both rims of the part with a triangle if that is a tube, or nothing."""

@@ -120,7 +120,12 @@ class SurfaceEdges(HalfEdges):
     @cached_property
     def area(self) -> float:
         """The area of all triangles."""
-        return float(triangle_areas(self._points, self._triangles).sum())
+        return float(self.areas.sum())
+
+    @cached_property
+    def areas(self) -> NDArray[np.float64]:
+        """(m,) of the triangles."""
+        return triangle_areas(self._points, self._triangles)
 
     @cached_property
     def normals(self) -> NDArray[np.float64]:

@@ -212,6 +212,7 @@ class PartChoice:
 
     amount: float  # of parts, from 0 to 1
     stretch: float  # the limit, in percent
+    islands: int = 1  # the least number of each object
     edits: Mapping[str, PartEdits] = field(default_factory=dict)  # the changes by clicks, by the name of the object
 
 

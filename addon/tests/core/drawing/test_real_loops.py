@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
-from real_sessions import AROUND, RINGS, ball, halves, meridian, session_on, sides, tube
+from real_sessions import AROUND, RINGS, ball, caps, halves, meridian, quads_between_rings, session_on, sides, tube
 from seamwire.core.drawing.picture import Role
 from seamwire.core.drawing.session import Session
+from seamwire.core.network.network import Snap
 from seamwire.core.offers.edge_loops import corners
 from seamwire.terms.choices import Along
 from setting import use
@@ -19,7 +20,7 @@ from setting import use
 core = pytest.importorskip("seamwire_core")
 
 
-def hovered(session: Session, edge: tuple[int, int]) -> list[tuple[str, list[int]]]:
+def hovered(session: Session, edge: tuple[int, int] | Snap) -> list[tuple[str, list[int]]]:
     session.hover(edge, loop=True)
     session.wait()
     found = []
@@ -297,3 +298,37 @@ def test_what_the_library_refuses_is_said_and_undone_without_a_loss(ready: bool)
     assert str(session.drawing.message) == ""
     assert session.picture.active is not None
     assert session.click(LEFT + 3 * SIZE)
+
+
+def plate_with_bung() -> Session:
+    """Return a session on a box with a low bung of eight sides in the middle of its upper face.
+
+    Vertices 0 to 7 are the rim of the bung, 8 to 15 the foot of its wall, and 40 is in its middle.
+    """
+    angles = np.arange(8) * np.pi / 4.0
+    circle = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    square = 10.0 * circle / np.abs(circle).max(axis=1)[:, None]
+    rings = [(0.7 * circle, 0.4), (0.8 * circle, 0.0), (3.0 * circle, 0.0), (square, 0.0), (square, -5.0)]
+    points = np.vstack([*(np.column_stack([ring, np.full(8, z)]) for ring, z in rings), [0, 0, 0.4], [0, 0, -5.0]])
+    quads = quads_between_rings(5, 8)[:, ::-1]
+    fans = caps(5, 8)[:, ::-1]
+    edges = np.unique(np.concatenate([sides(quads), sides(fans)]), axis=0)
+    return session_on(points, np.concatenate([halves(quads), fans]), edges)
+
+
+@pytest.mark.parametrize("inside", [False, True])
+def test_on_a_bung_its_rim_comes_first(inside: bool) -> None:
+    session = plate_with_bung()
+    triangles = session.drawing.triangles.tolist()
+    spoke, triangle = (0, 40), next(row for row, corners in enumerate(triangles) if {0, 40} <= set(corners))
+    kind, vertices = hovered(session, Snap(spoke, triangle=triangle, inside=inside))[0]
+    assert (kind, vertices) == ("FLAT", list(range(8)))
+
+
+def test_on_a_large_lid_the_loop_through_the_edge_comes_first() -> None:
+    session = plate_with_bung()
+    triangles = session.drawing.triangles.tolist()
+    spoke, triangle = (32, 41), next(row for row, corners in enumerate(triangles) if {32, 41} <= set(corners))
+    kind, vertices = hovered(session, Snap(spoke, triangle=triangle))[0]
+    assert 41 in vertices
+    assert kind != "FLAT"
