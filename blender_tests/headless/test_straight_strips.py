@@ -118,7 +118,7 @@ def test_islands_without_an_up_stand_on_their_shorter_side() -> None:
     assert height > 1.5 * width, "around it is 6.2 long, along it 3"
 
 
-def test_blender_turns_islands_if_upright_is_not_wanted() -> None:
+def test_islands_lie_in_any_direction_if_upright_is_not_wanted() -> None:
     obj = add_barrel()
     for upright in (True, False):
         assert bpy.ops.mesh.seamwire_unwrap(upright=upright, changed_only=False) == {"FINISHED"}

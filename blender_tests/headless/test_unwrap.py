@@ -118,7 +118,7 @@ def test_a_mesh_without_uvs_is_flattened_and_packed() -> None:
     assert in_square(obj)
     low, high = boxes(triangles(obj)[0])
     assert (high - low).max() > 0.9, "it fills the square one way"
-    assert np.abs(signed_areas(triangles(obj)[0])).sum() > 0.4, "Blender packs it: in rows a third is covered"
+    assert np.abs(signed_areas(triangles(obj)[0])).sum() > 0.4, "in rows a third is covered"
 
 
 def test_the_flattening_stretches_less_than_blenders_unwrap() -> None:

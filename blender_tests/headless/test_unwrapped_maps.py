@@ -9,8 +9,11 @@ import bpy
 import numpy as np
 import pytest
 from maps import flipped, folded, in_square, overlapping_pairs, signed_areas, triangles
-from scene import add_grid, add_object, changing, edit, snapshot
+from mathutils.kdtree import KDTree
+from scene import add_grid, add_object, add_suzanne, changing, edit, snapshot
+from seamwire.mesh import edit_mesh
 from seamwire.mesh import unwrap as unwrapping
+from seamwire.mesh.seam_islands import labels_of
 from seamwire.mesh.versions import IS_OLD
 from seamwire.operators.unwrap_islands import unwrap_after_chain
 
@@ -132,8 +135,12 @@ def test_faces_that_rounding_turns_over_are_turned_back(
 @pytest.fixture
 def piled_up(monkeypatch: pytest.MonkeyPatch) -> None:
     """All islands are laid out at one place, and not packed."""
-    monkeypatch.setattr(unwrapping, "in_rows", lambda uvs, _: uvs / (4.0 * np.ptp(uvs)) + 0.5)
-    monkeypatch.setattr(unwrapping, "_pack", lambda *_: None)
+
+    def packed(solved: dict[object, tuple[np.ndarray, ...]], *_: object) -> np.ndarray:
+        flat = np.concatenate([uvs for _, uvs, _ in solved.values()])
+        return flat / (4.0 * np.ptp(flat)) + 0.5
+
+    monkeypatch.setattr(unwrapping, "_packed", packed)
 
 
 @pytest.mark.usefixtures("piled_up")
@@ -224,3 +231,53 @@ def test_many_corners_are_written_where_they_belong() -> None:
     places = np.array([tuple(loop.vert.co.xy) for face in bm.faces for loop in face.loops])
     lengths = [np.linalg.norm(column[:, None] - column, axis=2) for column in (uvs, places)]
     assert lengths[0] / lengths[0].max() == pytest.approx(lengths[1] / lengths[1].max(), abs=1e-4)
+
+
+def gaps(maps: list[np.ndarray]) -> float:
+    """Return the least distance between points on the sides of the triangles, (t, 3, 2), of different islands."""
+    steps = np.linspace(0.0, 1.0, 9)[:, None, None, None]
+    points = [((1.0 - steps) * uvs + steps * np.roll(uvs, -1, axis=1)).reshape(-1, 2) for uvs in maps]
+    least = np.inf
+    for number, one in enumerate(points):
+        for two in points[:number]:
+            tree = KDTree(len(two))
+            for index, (u, v) in enumerate(two):
+                tree.insert((u, v, 0.0), index)
+            tree.balance()
+            least = min(least, *(tree.find((u, v, 0.0))[2] for u, v in one))
+    return least
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize("upright", [True, False])
+def test_packed_islands_of_several_objects_fill_the_square_with_a_margin(upright: bool) -> None:
+    image = bpy.data.images.new("Wide", 200, 100)
+    material = bpy.data.materials.new("Wide")
+    material.use_nodes = True
+    node = material.node_tree.nodes.new("ShaderNodeTexImage")
+    node.image = image
+    material.node_tree.nodes.active = node
+    objects = [add_suzanne(1), add_suzanne()]
+    objects[0].data.materials.append(material)
+    for obj in objects:
+        obj.select_set(True)
+        obj.data.uv_layers.remove(obj.data.uv_layers[0])
+    edit()
+    for obj in objects:
+        with changing(obj) as bm:
+            for edge in bm.edges:
+                sides = [face.calc_center_median() for face in edge.link_faces]
+                edge.seam = len(sides) == 2 and any(sides[0][axis] * sides[1][axis] < 0.0 for axis in range(3))
+    assert unwrap(upright=upright) == {"FINISHED"}
+    maps = []
+    for obj in objects:
+        assert in_square(obj)
+        arrays = edit_mesh.read(obj)
+        of_face = dict(zip(arrays.polygons.tolist(), labels_of(arrays).tolist(), strict=True))
+        found = bmesh.from_edit_mesh(obj.data).calc_loop_triangles()
+        labels = np.array([of_face[each[0].face.index] for each in found])
+        maps += [triangles(obj)[0][labels == label] for label in range(labels.max() + 1)]
+    assert not overlapping_pairs(*objects)
+    assert len(maps) > 16
+    assert gaps(maps) > 0.99 / 256.0
+    assert np.abs(signed_areas(np.concatenate(maps))).sum() > 0.55

@@ -33,6 +33,7 @@
 #include "seamwire/metric/scribble.hpp"
 #include "seamwire/parameterization/flatten.hpp"
 #include "seamwire/parameterization/measure_map.hpp"
+#include "seamwire/parameterization/pack.hpp"
 #include "seamwire/seams/seam_planner.hpp"
 #include "seamwire/surface/ray_tree.hpp"
 #include "seamwire/surface/segments.hpp"
@@ -515,6 +516,15 @@ void check_map(Bytes& from, const Patience& patience, const Surface& surface) {
   options.start = flat.uvs;
   flat = flatten(surface, cuts, options, patience.task());
   check_sound();
+  const PackOptions packed{.turns = from.coin() ? PackTurns::kQuarters : PackTurns::kAny};
+  const Packing packing = pack_islands(flat.uvs, flat.islands, packed, patience.task());
+  for (std::size_t f = 0; f < flat.uvs.size(); ++f) {
+    const auto& placement = packing.placements[static_cast<std::size_t>(flat.islands[f])];
+    for (const Eigen::Vector2d& uv : flat.uvs[f]) {
+      const Eigen::Vector2d place = placement * uv.homogeneous();
+      require(place.minCoeff() > -1e-6 && place.maxCoeff() < 1.0 + 1e-6, "islands lie in the square");
+    }
+  }
 }
 
 void check_rays(Bytes& from, const Mesh& mesh) {
