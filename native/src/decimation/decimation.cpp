@@ -410,7 +410,7 @@ class Carrying {
   }
 
   std::optional<Slit> carried(const Slit& slit) {
-    Slit found{.path = chain(slit.path), .image = {}, .is_needed = slit.is_needed};
+    Slit found{.path = chain(slit.path), .image = {}, .is_needed = slit.is_needed, .is_join = slit.is_join};
     if (found.path.size() < 2) return std::nullopt;
     if (!slit.image.empty() && original_.reflection && original_.reflection->is_exact) {
       found.image = mirrored_path(original_, found.path, is_on_cut_, task_);

@@ -110,9 +110,16 @@ void GroupPlanning::add_rings(std::vector<Slit> rings, const Task& task) {
 }
 
 void GroupPlanning::grow(bool has_tips, const Task& task) {
-  SlitTree tree = grow_tree(problem(), has_tips, part_of(task, 0.0, 0.5));
-  roots_ = std::move(tree.roots);
-  start_ = SlitSolver(problem(), roots_).solve(std::move(tree.slits), part_of(task, 0.5, 1.0));
+  const auto grown = [&](const TreeGoal& goal, const Task& own) {
+    tree_goal_ = goal;
+    SlitTree tree = grow_tree(problem(), goal, part_of(own, 0.0, 0.5));
+    roots_ = std::move(tree.roots);
+    start_ = SlitSolver(problem(), roots_).solve(std::move(tree.slits), part_of(own, 0.5, 1.0));
+  };
+  // Without a bound on the energy, only discs are wanted.
+  grown({.has_tips = has_tips, .keeps_holes = has_tips}, part_of(task, 0.0, 0.9));
+  // Double precision may be unable to hold a map with holes.
+  if (has_tips && !std::isfinite(start_.energy)) grown({.has_tips = true, .keeps_holes = false}, part_of(task, 0.9, 1.0));
   show(start_, task);
 }
 
@@ -238,7 +245,7 @@ std::vector<Slit> GroupPlanning::completed(std::vector<Slit> slits, const std::v
   if (group_->simplified_at(level_) == nullptr) return slits;
   if (missing_cuts_of(group_->original, slits, task) > missing_cuts_of(problem(), simple, task)) {
     const SlitProblem original = with_seams(group_->original, slits, task);
-    std::ranges::move(grow_tree(original, false, part_of(task, 0.0, 0.0)).slits, std::back_inserter(slits));
+    std::ranges::move(grow_tree(original, {.has_tips = false, .keeps_holes = tree_goal_.keeps_holes}, part_of(task, 0.0, 0.0)).slits, std::back_inserter(slits));
   }
   return slits;
 }

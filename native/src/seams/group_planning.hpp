@@ -12,6 +12,7 @@
 #include "search/slit_search.hpp"
 #include "search/slit_solver.hpp"
 #include "slits/slit_plan.hpp"
+#include "slits/slit_tree.hpp"
 
 namespace seamwire::detail {
 
@@ -108,6 +109,7 @@ class GroupPlanning {
   std::vector<Slit> rings_;
   std::optional<SlitProblem> parted_;  // with rings
   std::size_t least_pieces_ = 0;
+  TreeGoal tree_goal_;
   std::vector<std::int32_t> roots_;
   std::vector<std::int32_t> missed_;  // pieces that the last search left without a map within the bound
   SlitPlan start_;

@@ -7,6 +7,7 @@
 
 #include "detail/index.hpp"
 #include "parameterization/cut_open.hpp"
+#include "parameterization/flat_holes.hpp"
 #include "surface/corner_fans.hpp"
 #include "surface/cuts.hpp"
 
@@ -29,13 +30,15 @@ std::vector<std::int32_t> missing_cuts(const Surface& surface, std::span<const E
   const std::vector<std::int32_t>& faces = corner_fans(surface).faces;
   std::vector<std::int32_t> missing(index(count), 0);
   std::vector<std::uint8_t> is_known(index(count), 0);
-  for (const Island& part : cut_open(corner_fans(surface), cut_half_edges(surface, cuts, task), task)) {
+  for (Island& part : cut_open(corner_fans(surface), cut_half_edges(surface, cuts, task), task)) {
     const std::int32_t segment = segments[faces[part.faces.front()]];
     if (std::exchange(is_known[segment], 1) != 0 ||
         std::ranges::any_of(part.faces, [&](std::int32_t f) { return segments[faces[f]] != segment; })) {
       throw InvalidInput("segments: they are those of other cuts");
     }
-    missing[segment] = static_cast<std::int32_t>(part.missing_cuts());
+    for (std::int32_t& v : part.vertices) v = corner_fans(surface).vertices[v];
+    const std::vector<std::uint8_t> is_kept = flat_holes(part, surface.points(), part.boundaries(), task);
+    missing[segment] = static_cast<std::int32_t>(part.missing_cuts() - std::ranges::count(is_kept, 1));
   }
   return missing;
 }

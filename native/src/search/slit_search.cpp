@@ -9,6 +9,7 @@
 
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
+#include "detail/rounded.hpp"
 #include "detail/run_on_threads.hpp"
 #include "search/slit_solver.hpp"
 #include "slits/slit_paths.hpp"
@@ -151,9 +152,129 @@ namespace {
 constexpr std::size_t kFullSolves = 2;  // of candidates at once
 constexpr std::size_t kBatch = 2;       // solves at once; the same on every machine
 
+/// The boundary loops of an island, of mesh vertices.
+std::vector<std::vector<std::int32_t>> loops_of(const Island& island) {
+  std::vector<std::vector<std::int32_t>> loops = island.boundaries();
+  for (std::vector<std::int32_t>& loop : loops) {
+    for (std::int32_t& v : loop) v = island.vertices[v];
+  }
+  return loops;
+}
+
+/// Finds slits from holes to other boundary loops of the same piece.
+class JoinFinder {
+ public:
+  JoinFinder(const SlitProblem& problem, const SlitPlan& plan, const Task& task)
+      : problem_(problem), task_(task), excess_(excess_at_vertices(problem, plan)) {
+    for (std::int32_t p = 0; index(p) < plan.maps.size(); ++p) {
+      if (plan.maps[p]) add_loops(p, loops_of(plan.maps[p]->island));
+    }
+    std::ranges::stable_sort(holes_, std::ranges::greater(), [](const Hole& hole) { return hole.excess; });
+  }
+
+  /// The slits from the holes around which the map is distorted most.
+  std::vector<Slit> most_useful() const {
+    std::vector<Slit> slits;
+    std::vector<std::uint8_t> is_done(loops_.size(), 0);
+    for (const Hole& hole : holes_) {
+      if (slits.size() == tuning::kJoins) break;
+      if (std::exchange(is_done[hole.loop], 1) != 0) continue;
+      std::optional<Slit> slit = join(hole.loop);
+      if (!slit) continue;
+      if (!slit->image.empty()) mark_loops_with(slit->image.back(), is_done);
+      slits.push_back(std::move(*slit));
+    }
+    return slits;
+  }
+
+ private:
+  struct Loop {
+    std::int32_t piece;
+    std::vector<std::int32_t> vertices;
+  };
+  struct Hole {
+    double excess;
+    std::size_t loop;
+  };
+
+  void add_loops(std::int32_t piece, std::vector<std::vector<std::int32_t>> loops) {
+    if (loops.size() < 2) return;
+    const auto length = [&](const auto& loop) { return rounded(loop_length(loop, problem_.mesh->points)); };
+    const auto longest = std::ranges::max_element(loops, {}, length) - loops.begin();
+    for (std::ptrdiff_t i = 0; i < std::ssize(loops); ++i) {
+      double excess = 0.0;
+      for (const std::int32_t v : loops[i]) excess += excess_[v];
+      if (i != longest && excess > 0.0) holes_.push_back({rounded(excess), loops_.size()});
+      loops_.push_back({piece, std::move(loops[i])});
+    }
+  }
+
+  void mark_loops_with(std::int32_t vertex, std::vector<std::uint8_t>& marks) const {
+    for (std::size_t i = 0; i < loops_.size(); ++i) {
+      if (lies_on(vertex, i)) marks[i] = 1;
+    }
+  }
+
+  bool lies_on(std::int32_t vertex, std::size_t loop) const {
+    return std::ranges::find(loops_[loop].vertices, vertex) != loops_[loop].vertices.end();
+  }
+  bool is_on_plane(std::int32_t v) const { return problem_.reflection && problem_.reflection->sides[v] == 0; }
+
+  /// The cheapest slit from another loop to a hole.
+  std::optional<Slit> join(std::size_t hole) const {
+    const PlanMesh& mesh = *problem_.mesh;
+    const std::vector<std::int32_t>& own = loops_[hole].vertices;
+    std::vector<std::uint8_t> from(mesh.vertex_count(), 0), is_outside(mesh.edge_count(), 1);
+    for (const std::int32_t v : own) from[v] = 1;
+    std::vector<std::uint8_t> starts = from;  // of images too
+    if (problem_.reflection) {
+      for (const std::int32_t v : own) {
+        if (problem_.reflection->images[v] >= 0) starts[problem_.reflection->images[v]] = 1;
+      }
+    }
+    for (const std::int32_t f : problem_.by_piece[loops_[hole].piece].faces) {
+      for (std::int32_t i = 0; i < 3; ++i) is_outside[mesh.edge_of[3 * f + i]] = 0;
+    }
+    const SlitFinder finder(problem_, from, starts, task_, 1.0, std::move(is_outside));
+    const bool has_plane = std::ranges::any_of(own, [&](std::int32_t v) { return is_on_plane(v); });
+    std::pair<double, std::int32_t> best{kInfinity, -1};
+    std::size_t other = hole;
+    for (std::size_t i = 0; i < loops_.size(); ++i) {
+      if (i == hole || loops_[i].piece != loops_[hole].piece) continue;
+      // Between two loops across the mirror plane, a slit elsewhere and its image would part the piece.
+      const bool stays_on_plane =
+          has_plane && std::ranges::any_of(loops_[i].vertices, [&](std::int32_t v) { return is_on_plane(v); });
+      for (const std::int32_t v : loops_[i].vertices) {
+        if ((stays_on_plane && !is_on_plane(v)) || from[v] != 0) continue;
+        const std::pair<double, std::int32_t> found{finder.price_to(v), v};
+        if (!(found < best)) continue;
+        best = found;
+        other = i;
+      }
+    }
+    std::optional<Slit> slit = best.second < 0 ? std::nullopt : finder.slit_to(best.second);
+    if (!slit) return std::nullopt;
+    slit->is_join = true;
+    for (auto* chain : {&slit->path, &slit->image}) std::ranges::reverse(*chain);
+    const auto joins_as_well = [&](std::size_t one, std::size_t two) {
+      return lies_on(slit->image.front(), one) && lies_on(slit->image.back(), two);
+    };
+    const bool parts = !slit->image.empty() && (joins_as_well(hole, other) || joins_as_well(other, hole));
+    if (parts) slit->image.clear();
+    return slit;
+  }
+
+  const SlitProblem& problem_;
+  Task task_;
+  std::vector<double> excess_;
+  std::vector<Loop> loops_;
+  std::vector<Hole> holes_;  // most distorted first
+};
+
 /// How a slit of a plan might become shorter.
 struct Cutback {
   double needed = 0.0;       ///< the share of its length that has to stay
+  bool is_whole = false;     ///< whether it goes whole or not at all
   std::size_t level = 0;     ///< which of kShorterShares is tried next; their number if all were tried in vain
   double ratio = kInfinity;  ///< saved price for each lost energy, as of the last look; infinite before the first one
   std::optional<SlitPlan> plan = std::nullopt;  ///< what comes of it, if it was looked at for the present plan
@@ -162,7 +283,9 @@ struct Cutback {
   double share() const { return std::max(tuning::kShorterShares[level], needed); }
   /// Goes on to a share that leaves more than has to stay.
   void skip_useless_shares() {
-    while (is_open() && (needed >= 1.0 || (level > 0 && tuning::kShorterShares[level] <= needed))) ++level;
+    while (is_open() && (needed >= 1.0 || (level > 0 && (is_whole || tuning::kShorterShares[level] <= needed)))) {
+      ++level;
+    }
   }
   void fail() {
     ++level;
@@ -258,14 +381,15 @@ class Search {
     std::vector<Slit> found;
     const SlitFinder cheap(problem_, cut.is_on_cut, cut.is_on_cut, task);
     const SlitFinder direct(problem_, cut.is_on_cut, cut.is_on_cut, task, 0.5);
+    const auto add = [&](std::optional<Slit> slit) {
+      const bool is_new = slit && (goal_.may_be_exposed || !is_exposed(problem_, *slit)) &&
+                          std::ranges::none_of(found, [&](const Slit& one) { return one.path == slit->path; });
+      if (is_new) found.push_back(std::move(*slit));
+    };
     for (const std::int32_t v : ends) {
-      for (const SlitFinder* finder : {&cheap, &direct}) {
-        std::optional<Slit> slit = finder->slit_to(v);
-        const bool is_new = slit && (goal_.may_be_exposed || !is_exposed(problem_, *slit)) &&
-                            std::ranges::none_of(found, [&](const Slit& one) { return one.path == slit->path; });
-        if (is_new) found.push_back(std::move(*slit));
-      }
+      for (const SlitFinder* finder : {&cheap, &direct}) add(finder->slit_to(v));
     }
+    for (Slit& slit : JoinFinder(problem_, plan, task).most_useful()) add(std::move(slit));
     return found;
   }
 
@@ -359,6 +483,8 @@ class Search {
     std::vector<Cutback> cutbacks(plan.slits.size());
     for (std::size_t k = 0; k < cutbacks.size(); ++k) {
       cutbacks[k].needed = needed_share(*problem_.mesh, plan.slits, k);
+      cutbacks[k].is_whole = plan.slits[k].is_join;
+      if (cutbacks[k].is_whole && cutbacks[k].needed > 0.0) cutbacks[k].needed = 1.0;
       cutbacks[k].skip_useless_shares();
     }
     return cutbacks;

@@ -196,7 +196,7 @@ std::optional<Slit> shortened(const PlanMesh& mesh, const Slit& slit, double sha
   const auto first = [](const std::vector<std::int32_t>& chain, std::size_t count) {
     return std::vector<std::int32_t>(chain.begin(), chain.begin() + static_cast<std::ptrdiff_t>(count));
   };
-  Slit left{.path = first(slit.path, kept_count(mesh, slit.path, share)), .image = {}, .is_needed = slit.is_needed};
+  Slit left{.path = first(slit.path, kept_count(mesh, slit.path, share)), .image = {}, .is_needed = slit.is_needed, .is_join = slit.is_join};
   if (left.path.size() < 2) return std::nullopt;
   if (slit.image.empty()) return left;
   // Without its prefix on the mirror plane the path is as long as its image.
@@ -246,10 +246,11 @@ std::vector<Slit> with_slit(const PlanMesh& mesh, std::span<const Slit> slits, c
   for (std::size_t k = 0; k < all.size(); ++k) {
     Slit& one = all[k];
     const bool is_continued =
-        !one.is_needed && one.path.back() == slit.path.front() && one.image.empty() == slit.image.empty() &&
+        !one.is_needed && !one.is_join && one.path.back() == slit.path.front() && one.image.empty() == slit.image.empty() &&
         (one.image.empty() || one.image.back() == slit.image.front()) && needed_share(mesh, slits, k) < 1.0;
     if (!is_continued) continue;
     one.path.insert(one.path.end(), slit.path.begin() + 1, slit.path.end());
+    one.is_join = slit.is_join;
     if (!slit.image.empty()) one.image.insert(one.image.end(), slit.image.begin() + 1, slit.image.end());
     return all;
   }

@@ -23,6 +23,9 @@ struct Slit {
   std::vector<std::int32_t> image;  ///< the same on the other side of the mirror plane, or empty
   /// Whether it has to stay whole: it is needed for a piece to be a disc.
   bool is_needed = false;
+  /// Whether it leads to another boundary loop, though the map may keep both. A part of it would be of no use, so it is
+  /// removed whole or not at all.
+  bool is_join = false;
 };
 
 /// What planning works on: the mesh, what is known of it, and the pieces into which given seams part it.

@@ -22,6 +22,7 @@
 #include "detail/rounded.hpp"
 #include "detail/run_on_threads.hpp"
 #include "detail/shortest_paths.hpp"
+#include "parameterization/flat_holes.hpp"
 #include "slits/slit_paths.hpp"
 #include "slits/slit_plan.hpp"
 #include "tuning/constants.hpp"
@@ -323,8 +324,8 @@ std::vector<Slit> handle_slits(const SlitProblem& problem, const std::vector<std
 /// Grows the tree in all pieces.
 class TreeGrowth {
  public:
-  TreeGrowth(const SlitProblem& problem, bool has_tips, const Task& task)
-      : problem_(problem), is_on_cut_(problem.mesh->vertex_count(), 0), has_tips_(has_tips), task_(task) {}
+  TreeGrowth(const SlitProblem& problem, const TreeGoal& goal, const Task& task)
+      : problem_(problem), is_on_cut_(problem.mesh->vertex_count(), 0), goal_(goal), task_(task) {}
 
   SlitTree grow() {
     for (std::int32_t p = 0; index(p) < problem_.by_piece.size(); ++p) {
@@ -362,7 +363,12 @@ class TreeGrowth {
     const std::vector<double> distances = body.graph.mean_distances(task_);
     std::int32_t root = -1;
     std::vector<std::vector<std::int32_t>> loops = body.loops;
-    if (has_tips_) {
+    if (goal_.keeps_holes) {
+      for (std::vector<std::int32_t>& hole : leave_flat_holes(body, loops)) {
+        state.add({std::move(hole), Terminal::Kind::kHole});
+      }
+    }
+    if (goal_.has_tips) {
       for (std::vector<std::int32_t>& hole : leave_exposed_holes(number, body, distances, loops)) {
         state.add({std::move(hole), Terminal::Kind::kHole});
       }
@@ -380,10 +386,21 @@ class TreeGrowth {
       join(state, loops.front());
     }
     cut_handles(state, root);
-    if (!has_tips_) return;
+    if (!goal_.has_tips) return;
     for (const std::int32_t tip : find_tips(problem_, body, distances)) {
       if (!state.is_in.contains(tip)) state.add({{tip}, Terminal::Kind::kTip});
     }
+  }
+
+  /// Takes out and returns the flat_holes() of all loops of a piece.
+  std::vector<std::vector<std::int32_t>> leave_flat_holes(const PieceBody& body,
+                                                          std::vector<std::vector<std::int32_t>>& loops) const {
+    const std::vector<std::uint8_t> is_flat =
+        flat_holes(body.island, problem_.mesh->points, body.island.boundaries(), task_);
+    std::vector<std::vector<std::int32_t>> holes, left;
+    for (std::size_t i = 0; i < loops.size(); ++i) (is_flat[i] != 0 ? holes : left).push_back(std::move(loops[i]));
+    loops = std::move(left);
+    return holes;
   }
 
   /// The length of a loop without the edges that it passes on both sides, as it does around an open seam.
@@ -522,6 +539,7 @@ class TreeGrowth {
       if (!has_start || is_on_cut_[slit.image.back()] != 0) slit.image.clear();
     }
     if (!slit.image.empty()) add_chain(slit.image);
+    slit.is_join = !slit.is_needed && problem_.is_rim[slit.path.back()] != 0;
     tree_.slits.push_back(std::move(slit));
   }
 
@@ -590,7 +608,7 @@ class TreeGrowth {
   void lengthen_short_cut(std::int32_t number) {
     const State& state = states_[number];
     const PieceBody& body = state.body;
-    if (has_tips_ ? state.cut_length >= tuning::kLeastCut * body.size : state.cut_length > 0.0) return;
+    if (goal_.has_tips ? state.cut_length >= tuning::kLeastCut * body.size : state.cut_length > 0.0) return;
     const SlitFinder finder = finder_in(index(number));
     const std::vector<double> away = edge_distances(*problem_.mesh, state.vertices, task_);
     std::int32_t farthest = -1;
@@ -650,14 +668,14 @@ class TreeGrowth {
   std::vector<State> states_;
   std::vector<std::uint8_t> is_on_cut_;  // of any piece
   SlitTree tree_;
-  bool has_tips_;
+  const TreeGoal& goal_;
   const Task& task_;
 };
 
 }  // namespace
 
-SlitTree grow_tree(const SlitProblem& problem, bool has_tips, const Task& task) {
-  return TreeGrowth(problem, has_tips, task).grow();
+SlitTree grow_tree(const SlitProblem& problem, const TreeGoal& goal, const Task& task) {
+  return TreeGrowth(problem, goal, task).grow();
 }
 
 }  // namespace seamwire::detail

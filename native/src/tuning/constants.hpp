@@ -217,6 +217,11 @@ inline constexpr double kLeastCut = 0.6;
 /// Area within the length of a loop from it, in the square of that length: about 4 around a hole in a plane, 1 at
 /// the end of a tube. With less than this, the loop is the end of a tube.
 inline constexpr double kLeastAround = 2.0;
+/// Curvature in radians of a filled hole from which on its loop is the end of a tube. A cone that has less can be laid
+/// out as a ring within a bound of 4.17.
+inline constexpr double kLeastTubeTurn = 1.5707963267948966;
+/// Height of a collar around a hole that does not matter, as a share of the hole's outline: 0.4 of its radius.
+inline constexpr double kCollar = 0.0625;
 
 /// Distance from the mirror image of a slit at which an edge costs twice its price, on a surface of area 1. It matters
 /// if a mesh is not mirrored edge by edge.
@@ -234,6 +239,8 @@ inline constexpr std::size_t kClosePeaks = 4;
 inline constexpr std::size_t kWidePeaks = 3;
 /// Candidates that are far from the cut and distorted.
 inline constexpr std::size_t kFarPeaks = 2;
+/// Candidates that join a hole with the next boundary loop.
+inline constexpr std::size_t kJoins = 3;
 /// Candidates that are farthest from the cut. Without them, a surface with a tiny boundary was stuck at an energy
 /// of 5.9.
 inline constexpr std::size_t kFarthest = 2;

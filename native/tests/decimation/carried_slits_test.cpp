@@ -57,7 +57,7 @@ bool is_disc(const SlitProblem& problem, const std::vector<Slit>& slits) {
 TEST(CarriedSlits, RunAlongWhatTheyComeFrom) {
   for (const shapes::Mesh& shape : {shapes::icosphere(4), shapes::dumbbell(32, 60), shapes::torus(60, 30)}) {
     const Simplified pair(shape.surface(), 400);
-    const SlitTree tree = grow_tree(pair.simple, true, {});
+    const SlitTree tree = grow_tree(pair.simple, {.has_tips = true, .keeps_holes = false}, {});
     const std::vector<Slit> carried = pair.carried(tree.slits);
     ASSERT_EQ(carried.size(), tree.slits.size());
     for (std::size_t k = 0; k < carried.size(); ++k) {
@@ -82,7 +82,7 @@ TEST(CarriedSlits, RunAlongWhatTheyComeFrom) {
 TEST(CarriedSlits, ComeInExactPairs) {
   const Simplified pair(shapes::dumbbell(32, 60).surface(), 500, {.mirror = 0, .front = Vector(0, 0, 1)});
   ASSERT_TRUE(pair.simple.reflection && pair.simple.reflection->is_exact);
-  const SlitTree tree = grow_tree(pair.simple, true, {});
+  const SlitTree tree = grow_tree(pair.simple, {.has_tips = true, .keeps_holes = false}, {});
   const std::vector<Slit> carried = pair.carried(tree.slits);
   std::size_t pairs = 0;
   for (const Slit& slit : carried) {
@@ -107,7 +107,7 @@ TEST(CarriedSlits, RingsStayClosed) {
 
 TEST(CarriedSlits, LookAtTheTaskForEachChain) {
   const Simplified pair(shapes::icosphere(4).surface(), 400);
-  const SlitTree tree = grow_tree(pair.simple, true, {});
+  const SlitTree tree = grow_tree(pair.simple, {.has_tips = true, .keeps_holes = false}, {});
   const auto carry = [&](const Task& task) {
     carried_slits(pair.simple, pair.mesh.vertices, pair.original, tree.slits, task);
   };

@@ -220,7 +220,7 @@ TEST(PartingCuts, ALongTubeIsCutLengthwise) {
 TEST(PartingCuts, TheEndOfATubeIsNoHoleInAnExposedPlace) {
   SlitProblem problem = problem_on(shapes::quad_cylinder(12, 40, 0.1, 2.0).surface());
   std::ranges::fill(problem.prices.is_exposed, 1);
-  const SlitTree tree = grow_tree(problem, true, {});
+  const SlitTree tree = grow_tree(problem, {.has_tips = true, .keeps_holes = false}, {});
   const auto island = open_piece(problem, cut_of(problem, tree.slits, tree.roots), 0, {});
   ASSERT_TRUE(island);
   EXPECT_EQ(island->boundaries().size(), 1U);

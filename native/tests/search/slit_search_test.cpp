@@ -19,7 +19,7 @@ namespace {
 TEST(SlitSearch, ExposedPlacesAreCutIfTheBoundIsOutOfReachOtherwise) {
   SlitProblem problem = problem_on(shapes::icosphere(2).surface());
   std::ranges::fill(problem.prices.is_exposed, 1);
-  SlitTree tree = grow_tree(problem, true, {});
+  SlitTree tree = grow_tree(problem, {.has_tips = true, .keeps_holes = false}, {});
   SlitPlan start = SlitSolver(problem, tree.roots).solve(std::move(tree.slits), {});
   const SlitGoal goal{.energy = 4.1};
   ASSERT_GT(start.energy, goal.energy);

@@ -67,7 +67,7 @@ TEST(SlitTree, MakesEverySurfaceADisc) {
       for (const int mirror : {-1, 0}) {
         SCOPED_TRACE(testing::Message() << "surface " << &surface - surfaces.data() << ", mirror " << mirror);
         const SlitProblem problem = problem_on(surface, {.mirror = mirror});
-        expect_discs(problem, grow_tree(problem, has_tips, {}));
+        expect_discs(problem, grow_tree(problem, {.has_tips = has_tips, .keeps_holes = false}, {}));
       }
     }
   }
@@ -80,25 +80,25 @@ TEST(SlitTree, MakesTheSmallestBallsDiscs) {
   for (const Surface& surface : {tetrahedron, octahedron, shapes::quad_cube(1).surface()}) {
     for (const bool has_tips : {true, false}) {
       const SlitProblem problem = problem_on(surface);
-      expect_discs(problem, grow_tree(problem, has_tips, {}));
+      expect_discs(problem, grow_tree(problem, {.has_tips = has_tips, .keeps_holes = false}, {}));
     }
   }
 }
 
 TEST(SlitTree, NeedsNothingInADisc) {
   const SlitProblem problem = problem_on(shapes::grid(6).surface());
-  EXPECT_TRUE(grow_tree(problem, false, {}).slits.empty());
+  EXPECT_TRUE(grow_tree(problem, {.has_tips = false, .keeps_holes = false}, {}).slits.empty());
 }
 
 TEST(SlitTree, CutsACylinderAlongItsHeight) {
   const SlitProblem problem = problem_on(shapes::quad_cylinder(16, 8).surface());
-  EXPECT_NEAR(length_of(problem, grow_tree(problem, false, {})), 1.0, 1e-9);
+  EXPECT_NEAR(length_of(problem, grow_tree(problem, {.has_tips = false, .keeps_holes = false}, {})), 1.0, 1e-9);
 }
 
 TEST(SlitTree, OpensATorusAlongItsShortestLoops) {
   const SlitProblem problem = problem_on(shapes::quad_torus(32, 16).surface());
   const double around_tube = 2 * std::numbers::pi * 0.15, around_hole = 2 * std::numbers::pi * 0.2;
-  EXPECT_LT(length_of(problem, grow_tree(problem, false, {})), 1.15 * (around_tube + around_hole));
+  EXPECT_LT(length_of(problem, grow_tree(problem, {.has_tips = false, .keeps_holes = false}, {})), 1.15 * (around_tube + around_hole));
 }
 
 TEST(SlitTree, KeepsGivenSeamsOutOfItsSlits) {
@@ -114,7 +114,7 @@ TEST(SlitTree, KeepsGivenSeamsOutOfItsSlits) {
   ASSERT_GT(seams.size(), 8U);
   for (const bool has_tips : {true, false}) {
     const SlitProblem problem = problem_on(surface, {.seams = seams});
-    expect_discs(problem, grow_tree(problem, has_tips, {}));
+    expect_discs(problem, grow_tree(problem, {.has_tips = has_tips, .keeps_holes = false}, {}));
   }
 }
 
@@ -130,7 +130,7 @@ TEST(SlitTree, CutsEachOfTwoTubesWithTheSameRims) {
   for (const int mirror : {-1, 1}) {
     const SlitProblem problem = problem_on(surface, {.mirror = mirror, .seams = seams});
     ASSERT_EQ(problem.pieces.count, 2);
-    for (const bool has_tips : {true, false}) expect_discs(problem, grow_tree(problem, has_tips, {}));
+    for (const bool has_tips : {true, false}) expect_discs(problem, grow_tree(problem, {.has_tips = has_tips, .keeps_holes = false}, {}));
   }
 }
 
@@ -140,7 +140,7 @@ TEST(SlitTree, CutsATubeWhoseRimsAreOneSeam) {
   for (std::int32_t i = 0; i < 24; ++i) seams.push_back({72 + i, 72 + (i + 1) % 24});
   const SlitProblem problem = problem_on(surface, {.seams = seams});
   ASSERT_EQ(problem.pieces.count, 1);
-  for (const bool has_tips : {true, false}) expect_discs(problem, grow_tree(problem, has_tips, {}));
+  for (const bool has_tips : {true, false}) expect_discs(problem, grow_tree(problem, {.has_tips = has_tips, .keeps_holes = false}, {}));
 }
 
 TEST(SlitTree, ReachesThousandsOfHolesInAboutOneSearch) {
@@ -169,7 +169,7 @@ TEST(SlitTree, ReachesThousandsOfHolesInAboutOneSearch) {
       problem.prices.is_exposed.push_back(point.x() > exposed_from * problem.mesh->scale ? 1 : 0);
     }
     find_pieces_of(problem, {});
-    const SlitTree tree = grow_tree(problem, true, {});
+    const SlitTree tree = grow_tree(problem, {.has_tips = true, .keeps_holes = false}, {});
     EXPECT_GT(tree.slits.size(), holes / 2);
     if (exposed_from > 1.0) {
       EXPECT_EQ(tree.slits.size(), holes);
@@ -193,7 +193,7 @@ TEST(SlitTree, AnOpenSeamInAnExposedPlaceStaysAHole) {
   for (std::size_t v = 0; v < problem.mesh->vertex_count(); ++v) {
     problem.prices.is_exposed[v] = problem.mesh->points[v].x() > -0.1 ? 1 : 0;
   }
-  const SlitTree tree = grow_tree(problem, true, {});
+  const SlitTree tree = grow_tree(problem, {.has_tips = true, .keeps_holes = false}, {});
   EXPECT_EQ(tree.roots.size(), 1U);
   EXPECT_FALSE(tree.slits.empty());
   for (const std::int32_t root : tree.roots) EXPECT_EQ(problem.prices.is_exposed[root], 0);
@@ -201,7 +201,7 @@ TEST(SlitTree, AnOpenSeamInAnExposedPlaceStaysAHole) {
 
 TEST(SlitTree, ReachesTips) {
   const SlitProblem problem = problem_on(shapes::dumbbell(12, 24).surface());
-  const SlitTree tree = grow_tree(problem, true, {});
+  const SlitTree tree = grow_tree(problem, {.has_tips = true, .keeps_holes = false}, {});
   const Cut cut = cut_of(problem, tree.slits, tree.roots);
   for (const double side : {-1.0, 1.0}) {
     double farthest = 0.0;
@@ -220,7 +220,7 @@ TEST(SlitTree, AvoidsKeepOutAreas) {
     if (surface.points()[v].x() > 0.6) weights[v] = kInfinity;
   }
   const SlitProblem problem = problem_on(surface, {.weights = weights});
-  const SlitTree tree = grow_tree(problem, true, {});
+  const SlitTree tree = grow_tree(problem, {.has_tips = true, .keeps_holes = false}, {});
   expect_discs(problem, tree);
   for (const Slit& slit : tree.slits) {
     for (const std::int32_t v : slit.path) EXPECT_LE(problem.mesh->points[v].x() / problem.mesh->scale, 0.6);
@@ -233,7 +233,7 @@ TEST(SlitTree, OpensABallOutsideOfKeepOutAreas) {
   for (const Vector& point : surface.points()) weights.push_back(point.z() > -0.2 ? kInfinity : 1.0);
   for (const int mirror : {-1, 0}) {
     const SlitProblem problem = problem_on(surface, {.mirror = mirror, .weights = weights});
-    for (const bool has_tips : {true, false}) expect_discs(problem, grow_tree(problem, has_tips, {}));
+    for (const bool has_tips : {true, false}) expect_discs(problem, grow_tree(problem, {.has_tips = has_tips, .keeps_holes = false}, {}));
   }
 }
 
@@ -278,7 +278,7 @@ TEST(IslandGraph, PeaksStandOut) {
 
 TEST(DistortionPeaks, AreAwayFromTheCut) {
   const SlitProblem problem = problem_on(shapes::icosphere(3).surface());
-  const SlitTree tree = grow_tree(problem, false, {});
+  const SlitTree tree = grow_tree(problem, {.has_tips = false, .keeps_holes = false}, {});
   const SlitSolver solver(problem, tree.roots);
   const SlitPlan plan = solver.solve(tree.slits, {});
   const Cut cut = solver.cut(plan.slits);
@@ -304,7 +304,7 @@ TEST(DistortionPeaks, AreAwayFromTheCut) {
 
 TEST(SlitSolver, ALongerSlitLowersTheEnergy) {
   const SlitProblem problem = problem_on(shapes::icosphere(3).surface());
-  const SlitTree tree = grow_tree(problem, false, {});
+  const SlitTree tree = grow_tree(problem, {.has_tips = false, .keeps_holes = false}, {});
   const SlitSolver solver(problem, tree.roots);
   const SlitPlan whole = solver.solve(tree.slits, {});
   ASSERT_TRUE(std::isfinite(whole.energy));
@@ -331,7 +331,7 @@ TEST(SlitSolver, RelaxesOnlyMapsThatHaveChanged) {
     balls.triangles.push_back({count + a, count + b, count + c});
   }
   const SlitProblem problem = problem_on(balls.surface());
-  const SlitTree tree = grow_tree(problem, false, {});
+  const SlitTree tree = grow_tree(problem, {.has_tips = false, .keeps_holes = false}, {});
   const SlitSolver solver(problem, tree.roots);
   SlitPlan plan = solver.solve(tree.slits, {});
   RelaxedMaps known;
@@ -348,7 +348,7 @@ TEST(SlitSolver, RelaxesOnlyMapsThatHaveChanged) {
 
 TEST(SlitSolver, StopsEarlyWhereTheEnergyIsTooHigh) {
   const SlitProblem problem = problem_on(shapes::icosphere(3).surface());
-  const SlitTree tree = grow_tree(problem, false, {});
+  const SlitTree tree = grow_tree(problem, {.has_tips = false, .keeps_holes = false}, {});
   const SlitSolver solver(problem, tree.roots);
   const SlitPlan whole = solver.solve(tree.slits, {});
   const std::vector<std::int32_t> pieces = {0};
