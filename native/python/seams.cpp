@@ -208,13 +208,21 @@ Cancelled
 PartsBy parts_by(const std::string& name) {
   if (name == "rims") return PartsBy::kRims;
   if (name == "limbs") return PartsBy::kLimbs;
+  if (name == "panels") return PartsBy::kPanels;
   if (name == "shape") return PartsBy::kShape;
-  throw InvalidInput("by: expected 'rims', 'limbs' or 'shape', got '" + name + "'");
+  throw InvalidInput("by: expected 'rims', 'limbs', 'panels' or 'shape', got '" + name + "'");
 }
 
-PartFinder make_part_finder(const SurfaceObject& surface, const std::string& by, const py::object& mirror,
-                            const py::object& marked, const py::object& seams, const py::object& progress) {
-  PartOptions options{.by = parts_by(by)};
+const char* name_of(PartsBy by) {
+  if (by == PartsBy::kLimbs) return "limbs";
+  return by == PartsBy::kPanels ? "panels" : "rims";
+}
+
+PartFinder make_part_finder(const SurfaceObject& surface, const std::string& by, bool scan, const py::object& front,
+                            const py::object& mirror, const py::object& marked, const py::object& seams,
+                            const py::object& progress) {
+  PartOptions options{.by = parts_by(by), .is_scan = scan};
+  if (!front.is_none()) options.front = vector_from(front, "front");
   if (!mirror.is_none()) options.mirror = number_from(mirror, "mirror");
   if (!marked.is_none()) {
     for (const py::object kind : sequence_from(marked, "marked", "arrays of edges")) {
@@ -255,9 +263,16 @@ void bind_parts(py::module_& module) {
 Parameters
 ----------
 surface : Surface
-by : {'rims', 'limbs', 'shape'}
+by : {'rims', 'limbs', 'panels', 'shape'}
     What separates parts. 'rims': sharp edges, as of props and machines. 'limbs': narrow and concave places, as between
-    head, arms and body of a figure. 'shape': limbs if at most 8 % of the area is flat, otherwise rims.
+    head, arms and body of a figure. 'panels': the sides, as between front and back of a shirt, and sharp edges.
+    'shape': as is best. Scans and sculpts have limbs if at most 8 % of the area is flat. A connected piece has panels
+    if at most 15 % of the edge length bends by more than 30 degrees, and at least three boundaries are open. Everything
+    else has rims.
+scan : bool
+    For 'shape': whether the edges come from a scan. From 20,000 triangles, a mesh counts as a sculpt anyway.
+front : (3,) array_like, optional
+    The direction to the viewer of the front panels. By default, each piece has its own, where it is thinnest.
 mirror : {0, 1, 2}, optional
     The axis along which a plane mirrors the surface, as for `SeamPlanner`. Rims are then symmetric wherever the
     triangles are mirrored. Limbs are symmetric if at least 95 % of the edges are mirrored.
@@ -276,7 +291,7 @@ ValueError
 Cancelled
 )")
       .def(py::init(&make_part_finder), py::arg("surface"), py::kw_only(), py::arg("by") = "rims",
-           py::arg("mirror") = py::none(), py::arg("marked") = py::none(), py::arg("seams") = py::none(),
+           py::arg("scan") = false, py::arg("front") = py::none(), py::arg("mirror") = py::none(), py::arg("marked") = py::none(), py::arg("seams") = py::none(),
            py::arg("progress") = py::none())
       .def("find", &find_parts, py::arg("amount") = 0.5, py::kw_only(), py::arg("kept") = py::none(),
            py::arg("dropped") = py::none(), py::arg("parted") = py::none(), py::arg("progress") = py::none(),
@@ -305,8 +320,8 @@ ValueError
 Cancelled
 )")
       .def_property_readonly(
-          "by", [](const PartFinder& finder) { return finder.by() == PartsBy::kLimbs ? "limbs" : "rims"; },
-          "{'rims', 'limbs'}: what separates parts.")
+          "by", [](const PartFinder& finder) { return name_of(finder.by()); },
+          "{'rims', 'limbs', 'panels'}: what separates parts.")
       .def("__repr__", [](const PartFinder&) { return std::string("<PartFinder>"); });
 }
 

@@ -23,6 +23,7 @@
 #include "detail/text.hpp"
 #include "parts/limbs.hpp"
 #include "parts/nets.hpp"
+#include "parts/panels.hpp"
 #include "parts/parting_cuts.hpp"
 #include "parts/parts_between.hpp"
 #include "prices/border_odds.hpp"
@@ -371,8 +372,10 @@ struct PartFinder::Impl {
   std::vector<double> odds;     // of each edge
   std::vector<Region> regions;  // of each polygon
   std::optional<Limbs> limbs;
+  bool has_panels = false;
 
   void prepare(const Task& task);
+  void divide_panels(std::span<const FaceFrame> frames, std::span<const double> ambient, const Task& task);
   std::vector<Region> regions_of(const Polygons& own, const Task& task) const;
   std::vector<std::uint8_t> marked(const std::vector<Edge>& edges, const char* name, const Task& task) const;
   std::vector<std::uint8_t> telling_marks(const Task& task) const;
@@ -415,8 +418,9 @@ void PartFinder::Impl::prepare(const Task& task) {
   if (problem.reflection) {
     take_apart(mesh, unmirrored_pairs(mesh, polygons, *problem.reflection, task), polygons, task);
   }
+  const bool is_dense = options.is_scan || mesh.face_count() >= tuning::kLeastSculpt;
   const bool is_figure =
-      options.by == PartsBy::kShape && flat_share(mesh, frames, sizes.pieces, task) <= tuning::kMostFlat;
+      options.by == PartsBy::kShape && is_dense && flat_share(mesh, frames, sizes.pieces, task) <= tuning::kMostFlat;
   if (options.by == PartsBy::kLimbs || is_figure) {
     limbs.emplace(mesh, frames, sizes.pieces, part_of(task, 0.8, 0.85));
   }
@@ -426,9 +430,31 @@ void PartFinder::Impl::prepare(const Task& task) {
                      tuning::kPartOnPlane, task);
   task.check(0.95);
   regions = regions_of(polygons, task);
+  if (options.by == PartsBy::kPanels || (options.by == PartsBy::kShape && !limbs)) {
+    divide_panels(frames, visibility.ambient, part_of(task, 0.95, 1.0));
+  }
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     poll.at(index(e));
     problem.prices.of_edge.push_back(mesh.is_real[e] == 0 ? kInfinity : price_of_cut(odds[e]) * mesh.lengths[e]);
+  }
+}
+
+/// Makes borders of the edges between front and back.
+void PartFinder::Impl::divide_panels(std::span<const FaceFrame> frames, std::span<const double> ambient,
+                                     const Task& task) {
+  const PlanMesh& mesh = *problem.mesh;
+  const std::vector<std::uint8_t> is_chosen = options.by == PartsBy::kPanels
+                                                  ? std::vector<std::uint8_t>(sizes.of_piece.size(), 1)
+                                                  : find_garments(mesh, polygons, sizes, bends, task);
+  std::vector<std::int32_t> images;
+  for (const Region& region : regions) images.push_back(region.image);
+  has_panels = options.by == PartsBy::kPanels || std::ranges::count(is_chosen, 1) > 0;
+  if (!has_panels) return;
+  const std::optional<int> mirror = problem.reflection ? std::optional(problem.reflection->axis) : std::nullopt;
+  const std::vector<std::uint8_t> is_between = find_panels(
+      {mesh, polygons, sizes, frames, ambient, odds, problem.is_seam, images, mirror, options.front, is_chosen}, task);
+  for (std::size_t e = 0; e < odds.size(); ++e) {
+    if (is_between[e] != 0) odds[e] = std::max(odds[e], 0.0) + tuning::kPanelOdds;
   }
 }
 
@@ -610,7 +636,10 @@ PartFinder::Impl::Borders PartFinder::Impl::borders(double amount, const PartEdi
   return found;
 }
 
-PartsBy PartFinder::by() const { return impl_->limbs ? PartsBy::kLimbs : PartsBy::kRims; }
+PartsBy PartFinder::by() const {
+  if (impl_->limbs) return PartsBy::kLimbs;
+  return impl_->has_panels ? PartsBy::kPanels : PartsBy::kRims;
+}
 
 PartFinder::PartFinder(std::shared_ptr<const Surface> surface, const PartOptions& options, const Task& task) {
   if (!surface) throw InvalidInput("surface is null");

@@ -346,6 +346,8 @@ inline constexpr double kSmallestLimb = 0.0015;
 /// Share of the area in flat triangles up to which a shape is a figure. Scans of figures have up to 0.04, machine parts
 /// 0.12 and more.
 inline constexpr double kMostFlat = 0.08;
+/// Triangles from which a mesh is a sculpt: artists' game models have fewer.
+inline constexpr std::size_t kLeastSculpt = 20000;
 /// Curvature below which a triangle is flat.
 inline constexpr double kFlatLimb = 0.3;
 /// Distance from a border up to which it may move, and that distance as a share of the depth of a part.
@@ -354,5 +356,26 @@ inline constexpr double kLimbBandShare = 0.5;
 /// Joins up to this cost are made at the amount 0.5. Near 0, the limit is kLimbRange times as high.
 inline constexpr double kLimbCost = 0.15;
 inline constexpr double kLimbRange = 7.477;
+
+// Panels: front and back of garments. Lengths are in diagonals of a piece, areas in its area.
+
+/// Degrees that count as sharp, and the share of such edges up to which a piece may be a garment.
+inline constexpr double kGarmentDegrees = 30.0;
+inline constexpr double kGarmentSharp = 0.15;
+/// Open boundaries of a garment, at least.
+inline constexpr std::int32_t kGarmentBoundaries = 3;
+/// Price of a whole piece on the wrong side. Prices from 100 to 400 gave the same agreement with artists.
+inline constexpr double kPanelFacing = 200.0;
+/// Openness, in means of the piece, of linings and of outer surfaces. Linings follow their neighbors.
+inline constexpr double kInner = 0.3;
+inline constexpr double kOuter = 0.6;
+/// Length of a line on the border that halves the price of its other edges. Without it, the border zigzags.
+inline constexpr double kPanelLine = 0.1;
+/// How often the border is found, with the prices that the last one leaves.
+inline constexpr int kPanelRounds = 4;
+/// Area below which a part of one side joins the other side.
+inline constexpr double kLeastPanel = 0.03;
+/// Least log odds of edges between panels.
+inline constexpr double kPanelOdds = 4.0;
 
 }  // namespace seamwire::detail::tuning

@@ -4,25 +4,36 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "seamwire/api.hpp"
 #include "seamwire/surface/surface.hpp"
+#include "seamwire/surface/vector.hpp"
 #include "seamwire/task.hpp"
 
 namespace seamwire {
 
 /// What separates parts.
 enum class PartsBy {
-  kRims,   ///< sharp edges, as around the walls, lids and plugs of props and machines
-  kLimbs,  ///< narrow and concave places, as between head, arms and body of a figure
-  kShape,  ///< limbs if at most 8 % of the area is flat, otherwise rims
+  kRims,    ///< sharp edges, as around the walls, lids and plugs of props and machines
+  kLimbs,   ///< narrow and concave places, as between head, arms and body of a figure
+  kPanels,  ///< the sides, as between front and back of a shirt, and sharp edges
+  /// As is best for the shape. Scans and sculpts have limbs if at most 8 % of the area is flat. A connected piece has
+  /// panels if at most 15 % of the edge length bends by more than 30 degrees, and at least three boundaries are open.
+  /// Everything else has rims.
+  kShape,
 };
 
 /// Options of a PartFinder.
 struct PartOptions {
   /// What separates parts. Limbs do not depend on `marked`.
   PartsBy by = PartsBy::kRims;
+  /// For kShape: whether the edges come from a scan. From 20,000 triangles, a mesh counts as a sculpt anyway.
+  bool is_scan = false;
+  /// The direction to the viewer of the front panels. nullopt: where each piece is thinnest. On a symmetric mesh the
+  /// direction is turned into the mirror plane, or across it if that is nearer.
+  std::optional<Vector> front = std::nullopt;
   /// The axis, 0 (x) to 2 (z), in whose direction the surface is mirrored, as in SeamPlannerOptions. Rims are then
   /// symmetric wherever the triangles are mirrored. Limbs are symmetric if at least 95 % of the edges are mirrored.
   /// PartEdits::parted has an exception. -1: parts need not be symmetric.
@@ -91,7 +102,7 @@ class SEAMWIRE_API PartFinder {
   /// \throws InvalidInput if the amount, a vertex or a triangle is out of range
   /// \throws Cancelled if the task is cancelled
   Parts find(double amount = 0.5, const PartEdits& edits = {}, const Task& task = {}) const;
-  /// Return what separates parts: rims or limbs.
+  /// Return what separates parts: rims, limbs or panels. Panels that kShape has on some pieces count.
   PartsBy by() const;
 
  private:
