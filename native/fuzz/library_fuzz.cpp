@@ -3,6 +3,7 @@
 // Any mesh and any parameters: the library refuses them with InvalidInput, or its answers agree with each other.
 // libFuzzer makes the bytes (scripts/fuzz); the test `fuzz_cases` runs those that once found something.
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>

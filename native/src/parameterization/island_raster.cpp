@@ -57,8 +57,17 @@ class Bitmap {
   std::vector<std::uint64_t> words_;
 };
 
-void sort_by_length(std::vector<CellRun>& runs) {
-  std::ranges::sort(runs, {}, [](const CellRun& run) { return std::tuple(run.begin - run.end, run.row, run.begin); });
+/// Sorts runs such that few of them rule most places out: the longest first, then those of rows far from the rows
+/// before.
+void sort_by_use(std::vector<CellRun>& runs) {
+  const auto spread = [](std::int32_t row) {  // the bits of a number in opposite order
+    std::uint32_t turned = 0;
+    for (int i = 0; i < 16; ++i) turned = 2 * turned + ((static_cast<std::uint32_t>(row) >> i) & 1U);
+    return turned;
+  };
+  std::ranges::sort(runs, {}, [&](const CellRun& run) { return std::tuple(spread(run.row), run.begin); });
+  const auto longest = std::ranges::max_element(runs, {}, [](const CellRun& run) { return run.end - run.begin; });
+  std::rotate(runs.begin(), longest, longest + 1);
 }
 
 }  // namespace
@@ -122,7 +131,7 @@ CellShape IslandRaster::shape(double factor, std::int32_t margin) const {
   }
   shape.around = around.runs();
   for (CellRun& run : shape.around) run = {run.row - margin, run.begin - margin, run.end - margin};
-  sort_by_length(shape.runs);
+  sort_by_use(shape.runs);
   return shape;
 }
 
@@ -133,7 +142,7 @@ CellShape turned_over(const CellShape& shape) {
       run = {shape.height - 1 - run.row, shape.width - run.end, shape.width - run.begin};
     }
   }
-  sort_by_length(turned.runs);
+  sort_by_use(turned.runs);
   return turned;
 }
 

@@ -46,6 +46,8 @@ constexpr double kLargest = 1e100, kSmallest = 1e-100;
 constexpr double kRectangle = 0.97;
 /// Directions within 90 degrees in which PackTurns::kAny tries islands.
 constexpr int kDirections = 4;
+/// Smaller islands, in parts of the area of all, are tried only along the axes.
+constexpr double kLeastArea = 1.0 / 40.0;
 /// A turn by quarters has to place an island lower by this part of the square.
 constexpr std::int32_t kTurnCost = 64;
 /// Shuffled attempts add up to this part of the square to where islands end, at random for each way to turn one.
@@ -55,7 +57,7 @@ constexpr double kWideStep = 1.01, kNarrowStep = 1.004;
 /// Attempts made at the same time, and batches of them that may fail before the search ends.
 constexpr std::size_t kBatch = 8, kMostFailed = 6;
 /// Steps of PackedSquare after which no more attempts are made. A step takes about a nanosecond.
-constexpr std::size_t kMostSteps = 100'000'000;
+constexpr std::size_t kMostSteps = 60'000'000;
 /// The scale that is lost at most if no island is turned.
 constexpr double kUprightLoss = 1.002;
 
@@ -92,6 +94,13 @@ struct Strategy {
   std::uint64_t seed = 0;
 };
 
+/// Those that find the scale roughly.
+std::vector<Strategy> first_strategies() {
+  std::vector<Strategy> all;
+  for (const Rule rule : {Rule::kLowest, Rule::kLowestTop}) all.push_back({Order::kBox, rule});
+  return all;
+}
+
 std::vector<Strategy> plain_strategies() {
   std::vector<Strategy> all;
   for (const Rule rule : kRules) {
@@ -125,7 +134,7 @@ struct TurnedIsland {
 };
 
 /// The directions in which an island may lie.
-std::vector<double> directions(std::span<const Corners> triangles, double area, PackTurns turns) {
+std::vector<double> directions(std::span<const Corners> triangles, double area, bool is_small, PackTurns turns) {
   if (turns != PackTurns::kAny) return {0.0};
   std::vector<Point2> points;
   for (const Corners& triangle : triangles) points.insert(points.end(), triangle.begin(), triangle.end());
@@ -139,7 +148,7 @@ std::vector<double> directions(std::span<const Corners> triangles, double area, 
   const Point2 along = longest_direction(hull);
   const double angle = along.isZero() ? 0.0 : -std::atan2(along.y(), along.x());
   std::vector<double> found{angle};
-  if (area >= kRectangle * sizes(angle).prod()) return found;
+  if (is_small || area >= kRectangle * sizes(angle).prod()) return found;
   for (int i = 1; i < kDirections; ++i) found.push_back(angle + i * std::numbers::pi / 2 / kDirections);
   // The direction with the smallest square around the island, which limits the scale of a large one.
   constexpr int kDegrees = 90;
@@ -151,6 +160,9 @@ std::vector<double> directions(std::span<const Corners> triangles, double area, 
   found.push_back(best);
   return found;
 }
+
+/// The turns that an attempt may give an island: none, those below 180 degrees, or all.
+enum class Allowed { kNone, kHalf, kAll };
 
 /// The shapes of islands at one scale. Equal shapes are stored once.
 struct Shapes {
@@ -168,35 +180,31 @@ using Spots = std::optional<std::vector<Spot>>;
 
 class Search {
  public:
-  Search(const std::vector<TurnedIsland>& islands, std::int32_t cells, std::int32_t margin, bool is_turn_free,
+  Search(const std::vector<TurnedIsland>& islands, std::int32_t cells, std::int32_t margin, PackTurns turns,
          const Task& task)
-      : islands_(islands),
-        margin_(margin),
-        turn_cost_(is_turn_free ? 0 : cells / kTurnCost),
-        squares_(kBatch, PackedSquare(cells)),
-        task_(task) {}
+      : islands_(islands), margin_(margin), turns_(turns), squares_(kBatch, PackedSquare(cells)), task_(task) {}
 
   /// Searches the largest scale. Scales are parts of the largest one at which each island fits into the square.
-  void run(bool may_turn) {
-    const std::vector<Strategy> plain = plain_strategies();
+  void run() {
+    const bool may_turn = turns_ != PackTurns::kNone;
+    const Allowed some = may_turn ? Allowed::kHalf : Allowed::kNone, all = may_turn ? Allowed::kAll : Allowed::kNone;
     const auto scale = [](int steps) { return std::pow(kWideStep, -steps); };
     int failed = -1, found = 0;
-    while (!is_found(scale(found), plain, may_turn)) {
+    while (!is_found(scale(found), first_strategies(), some)) {
       failed = found;
       found = 2 * found + 16;
     }
     while (found - failed > 1) {
       const int middle = (failed + found) / 2;
-      (is_found(scale(middle), plain, may_turn) ? found : failed) = middle;
+      (is_found(scale(middle), first_strategies(), some) ? found : failed) = middle;
     }
+    std::vector<Strategy> next = plain_strategies();
     std::uint64_t seed = 1;
     for (std::size_t fails = 0; scale_ < 1.0 && fails < kMostFailed && steps() < kMostSteps; seed += kBatch) {
-      fails = is_found(std::min(1.0, scale_ * kNarrowStep), shuffled_strategies(seed), may_turn) ? 0 : fails + 1;
+      fails = is_found(std::min(1.0, scale_ * kNarrowStep), next, all) ? 0 : fails + 1;
+      next = shuffled_strategies(seed);
     }
-    if (!may_turn) return;
-    for (const auto& strategies : {plain, shuffled_strategies(seed)}) {
-      if (is_found(scale_ / kUprightLoss, strategies, false)) return;
-    }
+    if (turns_ == PackTurns::kQuarters) is_found(scale_ / kUprightLoss, plain_strategies(), Allowed::kNone);
   }
 
   double scale() const { return scale_; }
@@ -238,16 +246,33 @@ class Search {
         const std::int32_t shape_number = number(std::move(shape));
         own.push_back(std::ranges::find(own, shape_number) == own.end() ? shape_number : -1);
       };
-      for (const IslandRaster& raster : island.rasters) add(raster.shape(scale / kFineCells, margin_));
-      if (island.rasters.size() < 2) continue;
-      for (const IslandRaster& raster : island.rasters) add(turned_over(raster.shape(scale / kFineCells, margin_)));
+      std::vector<CellShape> ways;
+      for (const IslandRaster& raster : island.rasters) ways.push_back(raster.shape(scale / kFineCells, margin_));
+      for (std::size_t i = 0, count = ways.size(); count > 1 && i < count; ++i) ways.push_back(turned_over(ways[i]));
+      for (CellShape& way : ways) add(std::move(way));
     }
     return found;
   }
 
+  /// Whether islands with half of the margin around them have less area than the square.
+  bool has_room(const Shapes& shapes) const {
+    const auto cells = [](const std::vector<CellRun>& runs) {
+      return std::accumulate(runs.begin(), runs.end(), 0.0,
+                             [](double sum, const CellRun& run) { return sum + run.end - run.begin; });
+    };
+    double sum = 0.0;
+    for (const std::vector<std::int32_t>& own : shapes.of_island) {
+      const CellShape& shape = shapes.distinct[index(own.front())];
+      sum += 0.5 * (cells(shape.runs) + cells(shape.around)) - margin_ * margin_;
+    }
+    const double side = squares_.front().size() + margin_;
+    return sum <= side * side;
+  }
+
   /// Whether one of the strategies places all islands at a scale. Keeps the places.
-  bool is_found(double scale, std::span<const Strategy> strategies, bool may_turn) {
+  bool is_found(double scale, std::span<const Strategy> strategies, Allowed allowed) {
     const Shapes shapes = this->shapes(scale);
+    if (!has_room(shapes)) return false;
     for (std::size_t begin = 0; begin < strategies.size(); begin += kBatch) {
       const std::size_t count = std::min(kBatch, strategies.size() - begin);
       std::vector<Spots> found(count);
@@ -255,7 +280,7 @@ class Search {
       run_on_threads(
           count, task_, [&](std::size_t) { return fraction; },
           [&](std::size_t i, const Task& task) {
-            found[i] = placed(shapes, strategies[begin + i], may_turn, squares_[i], task);
+            found[i] = placed(shapes, strategies[begin + i], allowed, squares_[i], task);
           });
       const auto first = std::ranges::find_if(found, [](const Spots& spots) { return spots.has_value(); });
       if (first == found.end()) continue;
@@ -296,10 +321,10 @@ class Search {
   }
 
   /// The places of all islands, placed one by one; nullopt if one has no place.
-  Spots placed(const Shapes& shapes, const Strategy& strategy, bool may_turn, PackedSquare& square,
+  Spots placed(const Shapes& shapes, const Strategy& strategy, Allowed allowed, PackedSquare& square,
                const Task& task) const {
     constexpr std::pair kNowhere(std::numeric_limits<std::int32_t>::max(), std::numeric_limits<std::int32_t>::max());
-    const std::int32_t size = square.size();
+    const std::int32_t size = square.size(), turn_cost = turns_ == PackTurns::kQuarters ? size / kTurnCost : 0;
     std::vector<Spot> spots(islands_.size());
     // Rows below these have no place for the shape: what has no room once has none later.
     std::vector<std::int32_t> lowest(shapes.distinct.size(), 0);
@@ -309,12 +334,15 @@ class Search {
     for (const std::size_t i : ordered(shapes, strategy)) {
       auto best = kNowhere;
       const std::vector<std::int32_t>& turns = shapes.of_island[i];
-      for (std::size_t turn = 0; turn < (may_turn ? turns.size() : 1); ++turn) {
+      const std::size_t last = allowed == Allowed::kAll    ? turns.size()
+                               : allowed == Allowed::kHalf ? (turns.size() + 1) / 2
+                                                           : 1;
+      for (std::size_t turn = 0; turn < last; ++turn) {
         if (turns[turn] < 0) continue;
         const CellShape& shape = shapes.distinct[index(turns[turn])];
         std::int32_t& first = lowest[index(turns[turn])];
-        const std::int32_t cost = (turn == 0 ? 0 : turn_cost_) +
-                                  static_cast<std::int32_t>(kTurnNoise * strategy.shuffle * dice.next() * size);
+        const std::int32_t cost =
+            (turn == 0 ? 0 : turn_cost) + static_cast<std::int32_t>(kTurnNoise * strategy.shuffle * dice.next() * size);
         bool is_first = true;
         for (std::int32_t y = first; shape.width <= size && y + shape.height <= size; ++y) {
           poll.next();
@@ -349,7 +377,8 @@ class Search {
   }
 
   const std::vector<TurnedIsland>& islands_;
-  std::int32_t margin_, turn_cost_;
+  std::int32_t margin_;
+  PackTurns turns_;
   std::vector<PackedSquare> squares_;
   const Task& task_;
   double scale_ = 0.0;
@@ -404,10 +433,10 @@ double area_of(std::span<const Corners> triangles) {
 }
 
 /// An island in its directions. Rasters are still missing.
-TurnedIsland turned(std::span<const Corners> triangles, double aspect, PackTurns turns) {
+TurnedIsland turned(std::span<const Corners> triangles, double aspect, bool is_small, PackTurns turns) {
   const double area = area_of(triangles);
   std::vector<Eigen::Matrix2d> matrices;
-  for (const double angle : directions(triangles, area, turns)) {
+  for (const double angle : directions(triangles, area, is_small, turns)) {
     matrices.push_back(Eigen::Rotation2Dd(angle).toRotationMatrix());
   }
   if (turns != PackTurns::kNone) {
@@ -449,11 +478,13 @@ Packing pack_islands(std::span<const Corners> uvs, std::span<const std::int32_t>
   std::vector<std::size_t> numbers;  // of the islands with triangles
   std::vector<TurnedIsland> all;
   double total = 0.0, longest = 0.0;
+  const double area = area_of(uvs);
   for (std::size_t i = 0; i < own.size(); ++i) {
     if (own[i].empty()) continue;
     task.check(0.0);
     numbers.push_back(i);
-    all.push_back(turned(own[i], options.aspects.empty() ? 1.0 : options.aspects[i], options.turns));
+    const bool is_small = area_of(own[i]) < kLeastArea * area;
+    all.push_back(turned(own[i], options.aspects.empty() ? 1.0 : options.aspects[i], is_small, options.turns));
     total += all.back().area;
     longest = std::max(longest, std::ranges::min(all.back().ways, {}, &Way::length).length);
   }
@@ -474,8 +505,8 @@ Packing pack_islands(std::span<const Corners> uvs, std::span<const std::int32_t>
       all[i].rasters.push_back(raster_of(own[numbers[i]], way.to_square, cell / (most * kFineCells), poll));
     }
   }
-  Search search(all, cells, margin_cells, options.turns == PackTurns::kAny, task);
-  search.run(options.turns != PackTurns::kNone);
+  Search search(all, cells, margin_cells, options.turns, task);
+  search.run();
 
   packing.scale = most * search.scale();
   packing.used = total * packing.scale * packing.scale;

@@ -9,8 +9,6 @@ namespace seamwire::detail {
 namespace {
 
 constexpr std::int32_t kWord = 64;
-/// Runs between two looks at whether all places are ruled out.
-constexpr std::size_t kRunsBetween = 4;
 
 /// Sets the bits from `begin` to before `end`.
 void set_bits(std::uint64_t* words, std::int32_t begin, std::int32_t end) {
@@ -27,13 +25,18 @@ void set_bits(std::uint64_t* words, std::int32_t begin, std::int32_t end) {
   words[last] |= high;
 }
 
-/// Adds words to others, shifted down by two numbers of bits. Reads one more word than it writes.
-void add_shifted(const std::uint64_t* from, std::int32_t one, std::int32_t two, std::size_t count, std::uint64_t* to) {
+/// Adds words to others, shifted down by two numbers of bits. Reads one more word than it writes. Returns the bits that
+/// are set in all words now.
+std::uint64_t add_shifted(const std::uint64_t* from, std::int32_t one, std::int32_t two, std::size_t count,
+                          std::uint64_t* to) {
   const std::uint64_t *const a = from + one / kWord, *const b = from + two / kWord;
   const int low_a = one % kWord, low_b = two % kWord, high_a = kWord - 1 - low_a, high_b = kWord - 1 - low_b;
+  std::uint64_t in_all = ~std::uint64_t{0};
   for (std::size_t i = 0; i < count; ++i) {
     to[i] |= (a[i] >> low_a) | ((a[i + 1] << 1) << high_a) | (b[i] >> low_b) | ((b[i + 1] << 1) << high_b);
+    in_all &= to[i];
   }
+  return in_all;
 }
 
 /// The longest run of bits that are not set below `size`.
@@ -74,23 +77,21 @@ void PackedSquare::clear() {
 
 std::optional<std::int32_t> PackedSquare::free_column(const CellShape& shape, std::int32_t y) {
   ++steps_;
-  const CellRun& longest = shape.runs.front();
-  if (longest_[static_cast<std::size_t>(y + longest.row)] < longest.end - longest.begin) return std::nullopt;
+  // Most rows are ruled out by a run that is longer than all gaps there.
+  for (const CellRun& run : shape.runs) {
+    if (longest_[static_cast<std::size_t>(y + run.row)] < run.end - run.begin) return std::nullopt;
+  }
   const std::int32_t last = size_ - shape.width;
   const std::size_t count = static_cast<std::size_t>(last / kWord + 1);
   std::fill_n(blocked_.begin(), count, 0);
   blocked_[count - 1] = ~std::uint64_t{0} << 1 << (last % kWord);
-  const auto are_all_blocked = [&] {
-    return std::all_of(blocked_.begin(), blocked_.begin() + static_cast<std::ptrdiff_t>(count),
-                       [](std::uint64_t word) { return word == ~std::uint64_t{0}; });
-  };
-  std::size_t looked = 0;
   for (const CellRun& run : shape.runs) {
     if (is_any_[static_cast<std::size_t>(y + run.row)] == 0) continue;
     const auto level = static_cast<std::size_t>(std::bit_width(static_cast<std::uint32_t>(run.end - run.begin)) - 1);
-    add_shifted(row(level, y + run.row), run.begin, run.end - (1 << level), count, blocked_.data());
     steps_ += count;
-    if (++looked % kRunsBetween == 0 && are_all_blocked()) return std::nullopt;
+    const std::uint64_t in_all =
+        add_shifted(row(level, y + run.row), run.begin, run.end - (1 << level), count, blocked_.data());
+    if (in_all == ~std::uint64_t{0}) return std::nullopt;
   }
   for (std::size_t i = 0; i < count; ++i) {
     if (~blocked_[i] != 0) return static_cast<std::int32_t>(i) * kWord + std::countr_one(blocked_[i]);

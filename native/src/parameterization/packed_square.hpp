@@ -17,7 +17,7 @@ struct CellRun {
 /// The cells that an island touches, with the lowest row and column 0.
 struct CellShape {
   std::int32_t width = 0, height = 0;
-  std::vector<CellRun> runs;    // disjoint, the longest first: a long run rules most places out
+  std::vector<CellRun> runs;    // disjoint, the most useful to rule places out first
   std::vector<CellRun> around;  // those cells and all that are nearer than the margin to them
   bool operator==(const CellShape&) const = default;
 };
