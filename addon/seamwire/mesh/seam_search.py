@@ -273,11 +273,6 @@ class Suggestion:
         self._laid_out = plan, None if found is None else np.asarray(found)
         return self._laid_out[1]
 
-    def lay_out(self, progress: Progress) -> None:
-        """Lay out the plan that is to be carried out, if that helps to unwrap it, and was not done before."""
-        if self.best is not None and self._is_same and self._laid_out[0] is not self.best:
-            self.layout_of(self.best, progress)
-
     def _straight_cost_of(self, plan: seamwire_core.SeamPlan) -> float:
         return min(STRAIGHT_COST, max(0.0, self._bound - float(plan.energy)))
 
@@ -300,15 +295,11 @@ class Suggestion:
 
     def map(self) -> NDArray[np.float64] | None:
         """Return the map of the plan, (m, 3, 2), in the object's units; None if it has none, or the mesh is another one with the wires."""
-        if self.best is None or not self._is_same:
+        is_same = not self.slits or self.along == "EDGES" or not FINISHES[self.finish].edits
+        if self.best is None or not is_same:
             return None
         plan, layout = self._laid_out
         return layout if plan is self.best and layout is not None else self.best.uvs
-
-    @property
-    def _is_same(self) -> bool:
-        """Whether the wires leave the mesh as it is."""
-        return not self.slits or self.along == "EDGES" or not FINISHES[self.finish].edits
 
     def length_of(self, plan: seamwire_core.SeamPlan) -> float:
         """Return the length of the borders and the wires of a plan, in the scene's units."""
@@ -423,11 +414,6 @@ class SeamSearch:
         energy = energy_of(0.01 * self._options.stretch)
         for suggestion, share in self._shares(progress):
             suggestion.plan(energy, self._options.islands, share, is_enough)
-
-    def lay_out(self, progress: Progress) -> None:
-        """Lay out the plans of all meshes, so that unwrapping takes less time."""
-        for suggestion, share in self._shares(progress):
-            suggestion.lay_out(share)
 
     def _shares(self, progress: Progress) -> Iterator[tuple[Suggestion, Progress]]:
         for number, suggestion in enumerate(self):

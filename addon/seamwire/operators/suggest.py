@@ -165,8 +165,6 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
             self.parts, self.distortion, self.islands = 100.0 * choice.amount, choice.stretch, choice.islands
             self.edits = edits_text(choice.edits)
             kept_choices[_identity(search)] = _seams_of(search), choice
-            if self.unwrap:
-                yield from _step(search, Step("Unwrapping", search.lay_out))
             yield from _step(search, Step("Marking seams"))
 
     def _first_choice(self, search: SeamSearch) -> PartChoice:

@@ -29,7 +29,7 @@ _OBJECTS = f"{__package__.rpartition('.')[0]}.view.edited_objects"
 
 
 def draw_header(context: bpy.types.Context, layout: bpy.types.UILayout) -> None:
-    """Show the buttons with which jobs begin and end, at most six controls, and the help. Blender shows the mirror of the mesh beside them."""
+    """Show the buttons of a job, at most six controls, and the help. Blender shows the mirror of the mesh beside them."""
     chosen, along = settings(context), along_of(context)
     jobs = layout.row(align=True)
     jobs.ui_units_x = 6

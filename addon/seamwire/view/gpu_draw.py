@@ -115,6 +115,12 @@ class Eye:
         # Towards the eye: what is seen stays in its place on the screen.
         return Matrix.Scale(1.0 - depth, 4) @ self._view @ self._model
 
+    @property
+    def facing(self) -> NDArray[np.float64]:
+        """The direction towards the viewer, (3,) of length 1, in the coordinates of what is drawn."""
+        found = np.array(self._view @ self._model, dtype=np.float64)[2, :3]
+        return found / max(float(np.linalg.norm(found)), 1e-300)
+
     def pixel_sizes(self, depths: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return how large a pixel is at depths (view coordinates, negative ahead)."""
         return np.full_like(depths, self._pixel) if self.is_orthographic else self._pixel * np.abs(depths)

@@ -47,14 +47,17 @@ def _checker_shader() -> gpu.types.GPUShader:
     info.push_constant("MAT4", "to_clip")
     info.push_constant("VEC4", "light")
     info.push_constant("VEC4", "dark")
+    info.push_constant("VEC4", "facing")
     info.vertex_in(0, "VEC3", "pos")
     info.vertex_in(1, "VEC2", "square")
     passed = gpu.types.GPUStageInterfaceInfo("seamwire_checker")
     passed.smooth("VEC2", "place")
+    passed.smooth("VEC3", "spot")
     info.vertex_out(passed)
     info.fragment_out(0, "VEC4", "color")
-    info.vertex_source("void main() { place = square; gl_Position = to_clip * vec4(pos, 1.0); }")
-    # Each coordinate is a wave with its zeros at the lines. Edges are as soft as a pixel; tiny squares fade out.
+    info.vertex_source("void main() { place = square; spot = pos; gl_Position = to_clip * vec4(pos, 1.0); }")
+    # Each coordinate is a wave with its zeros at the lines. Edges are as soft as a pixel; tiny squares fade out. Faces that are seen at an
+    # angle are darker, as much as `facing.w` says, because the islands' colors cover the mesh's own shading.
     info.fragment_source(
         """
         void main()
@@ -65,6 +68,10 @@ def _checker_shader() -> gpu.types.GPUShader:
           float shade = sides.x * sides.y * (1.0 - smoothstep(0.3, 0.7, max(pixel.x, pixel.y)));
           color = shade > 0.0 ? light : dark;
           color.a *= abs(shade);
+          vec3 normal = cross(dFdx(spot), dFdy(spot));
+          float slant = 1.0 - abs(dot(normal, facing.xyz)) / max(length(normal), 1e-30);
+          float shadow = facing.w * slant, alpha = color.a + shadow * (1.0 - color.a);
+          color = vec4(color.rgb * color.a / max(alpha, 1e-6), alpha);
         }
         """
     )
@@ -88,8 +95,11 @@ class CheckedFaces:
 
         self._within = Within(make)
 
-    def draw_over(self, eye: Eye, light: Color, dark: Color) -> None:
-        """Draw what is seen of them over the mesh, as `ColoredFaces.draw_over`, in the colors of the squares."""
+    def draw_over(self, eye: Eye, light: Color, dark: Color, shadow: float) -> None:
+        """Draw what is seen of them over the mesh, as `ColoredFaces.draw_over`, in the colors of the squares.
+
+        `shadow`, from 0 to 1, says how dark faces are that are seen from the side.
+        """
         batch = self._within.of(eye)
         if batch is None:
             return
@@ -99,6 +109,7 @@ class CheckedFaces:
             self._shader.uniform_float("to_clip", gpu.matrix.get_projection_matrix() @ eye.lifted(lift))
             self._shader.uniform_float("light", light)
             self._shader.uniform_float("dark", dark)
+            self._shader.uniform_float("facing", (*eye.facing, shadow))
             batch.draw(self._shader)
 
         draw_over(draw)
@@ -106,6 +117,13 @@ class CheckedFaces:
 
 _TINT = 0.35
 """The least opacity of the islands: they are what a preview is for."""
+_COVER = 0.9
+"""The opacity where edges are as short as `_SHORT`: Blender draws edges and vertices over the whole mesh there."""
+_SHORT, _LONG = 4.0, 12.0
+"""Pixels of an edge at which the mesh's own shading is covered, and from which it is left."""
+_SAMPLE = 256
+"""How many edges are measured on the screen."""
+_SHADOW = 0.7
 _LIGHT: Color = (1.0, 1.0, 1.0, 0.2)
 _DARK: Color = (0.0, 0.0, 0.0, 0.3)
 """The squares of the map. They leave the colors of the islands under them."""
@@ -240,11 +258,13 @@ class _ObjectPreview:
         if found is not None and found.key != self._tinted:
             self._faces.fill(found.pieces)
             self._tinted = found.key
-        self._faces.draw_over(eye, hue_colors(max(looks.tint, _TINT)))
+        cover = self._cover(eye)
+        tint = max(looks.tint, _TINT)
+        self._faces.draw_over(eye, hue_colors(tint + cover * max(0.0, _COVER - tint)))
         if self._squares is not None:
             if self._checks is None:
                 self._checks = CheckedFaces(self._pose.points[self._arrays.triangles], self._squares)
-            self._checks.draw_over(eye, _LIGHT, _DARK)
+            self._checks.draw_over(eye, _LIGHT, _DARK, _SHADOW * cover)
         if self._lines is None:
             self._lines = Sheet(self._pose)
             for style, curves in self._styled(looks):
@@ -254,6 +274,16 @@ class _ObjectPreview:
         for hidden in (True, False):
             with blended("GREATER" if hidden else "LESS_EQUAL"):
                 self._lines.draw_lines(eye, hidden)
+
+    def _cover(self, eye: Eye) -> float:
+        """Return how much of the mesh is hidden by its own edges in a view, from 0 to 1."""
+        edges = self._arrays.edges[:: len(self._arrays.edges) // _SAMPLE + 1]
+        ends = eye.on_screen(self._pose.points[edges].reshape(-1, 3)).reshape(-1, 2, 2)
+        lengths = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+        lengths = lengths[np.isfinite(lengths)]
+        if not len(lengths):
+            return 0.0
+        return float(np.interp(np.median(lengths) / eye.scale, (_SHORT, _LONG), (1.0, 0.0)))
 
     def _styled(self, looks: Looks) -> Iterator[tuple[Style, Sequence[NDArray[np.float64]]]]:
         """Yield the curves in the order in which they are drawn."""
