@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...terms.options import PLACED, SCANNED
-from ..base.geometry import triangle_normals, units
+from ..base.geometry import triangle_areas, triangle_normals, units
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -31,13 +31,19 @@ _FOLLOWS = 0.28
 """Placed edges follow the bends at least so well, see `EdgeSigns`."""
 _SPREAD = 0.33
 """The lengths of placed edges differ at least so much, unless the mesh is regular."""
+_UNEVEN = 0.6
+"""Edges whose lengths differ so much are placed, even if they do not follow the bends: those of scans differ by at most 0.5."""
+_FLAT_SHARE = 0.2
+"""The share of the area in flat faces from which on edges are placed, even if they do not follow the bends."""
 _REGULAR = 0.96
 """The least share of regular vertices in a regular mesh."""
 _MARK = 0.5
-"""Each mark divides the first two limits by 1, and by so much more."""
+"""Each mark divides `_FOLLOWS` and `_SPREAD` by 1, and by so much more."""
 _SKEW = 0.57
 """The largest cosine of a corner of a quad: corners have 55 to 125 degrees."""
 _FLAT = 1e-3
+"""Triangles that meet at a smaller angle, in radians, do not bend."""
+_IN_PLANE = float(np.radians(0.5))
 """Triangles that meet at a smaller angle, in radians, lie in a plane."""
 
 
@@ -66,7 +72,10 @@ def auto_for(
     signs = EdgeSigns(points, triangles, polygons)
     trust = 1.0 + _MARK * marks
     is_uniform = trust * signs.spread < _SPREAD and signs.regular < _REGULAR
-    return SCANNED if is_uniform or trust * signs.follows < _FOLLOWS else PLACED
+    if is_uniform:
+        return SCANNED
+    is_hard = signs.spread >= _UNEVEN or signs.flat >= _FLAT_SHARE
+    return SCANNED if trust * signs.follows < _FOLLOWS and not is_hard else PLACED
 
 
 def _sample(
@@ -85,7 +94,7 @@ def _sample(
 
 
 class EdgeSigns:
-    """Three numbers that tell whether an artist placed the edges of triangles. Without shared edges, they are those of a plane.
+    """Four numbers that tell whether an artist placed the edges of triangles. Without shared edges, they are those of a plane.
 
     They come from the pairs of triangles that share an edge. Parameters are those of `auto_for`.
     """
@@ -123,6 +132,15 @@ class EdgeSigns:
         best[self._sides] = skew
         best = best.reshape(-1, 3).min(axis=1)
         return self._is_inner | (skew <= _SKEW) & (skew <= best[self._sides // 3]).all(axis=0)
+
+    @cached_property
+    def flat(self) -> float:
+        """The share of the area in triangles that lie in a plane with each of their neighbors."""
+        most = np.zeros(len(self._triangles))
+        for side in self._sides // 3:
+            np.maximum.at(most, side, np.abs(self._bends()))
+        areas = triangle_areas(self._points, self._triangles)
+        return float(areas[most < _IN_PLANE].sum() / areas.sum()) if areas.any() else 1.0
 
     def _bends(self) -> NDArray[np.float64]:
         """Return the angle at each edge, (k,), positive on ridges and negative in valleys, in radians."""

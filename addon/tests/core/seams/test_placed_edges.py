@@ -183,6 +183,25 @@ def test_edges_that_follow_nothing_are_cut(make: Callable[[], Mesh]) -> None:
     assert auto(mesh) == SCANNED
 
 
+def fan(range_of_sizes: float, bumpy: float = 1.0) -> Mesh:
+    """Return rows of squares around a center, larger ones farther away. Only a part of them is bumpy."""
+
+    def place(down: NDArray, right: NDArray) -> tuple[NDArray, NDArray, NDArray]:
+        away, around = np.exp(range_of_sizes * (down - 1.0)), range_of_sizes * right
+        x, y = away * np.cos(around), away * np.sin(around)
+        return x, y, bumps(x, y) * (right < bumpy)
+
+    return sheet(60, 60, place)
+
+
+def test_edges_of_very_different_lengths_and_flat_faces_are_an_artists() -> None:
+    """Game models of machines have dense triangles around details, and large flat sides."""
+    for mesh in (fan(2.5), fan(1.5), fan(1.5, bumpy=0.6)):
+        assert signs(mesh).follows < placed_edges._FOLLOWS
+    assert auto(fan(1.5)) == SCANNED
+    assert auto(fan(2.5)) == auto(fan(1.5, bumpy=0.6)) == PLACED
+
+
 def test_edges_of_one_length_are_not_placed_even_if_they_follow_the_bends() -> None:
     assert signs(tilted_bar()).follows > placed_edges._FOLLOWS
     assert auto(tilted_bar()) == SCANNED
