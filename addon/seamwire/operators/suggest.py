@@ -11,7 +11,7 @@ import bpy
 from mathutils import Vector
 
 from ..mesh.registration import classes, together
-from ..terms.choices import ALONG, AUTO_ALONG, AUTO_FINISH, FINISHES, items
+from ..terms.choices import ALONG, AUTO_ALONG, AUTO_FINISH, FINISHES, PARTS_BY, items
 from .edit_mesh_operator import changing
 from .finish import cut_wires
 from .steps import Step, Stepwise, end_all
@@ -19,6 +19,7 @@ from .steps import Step, Stepwise, end_all
 if TYPE_CHECKING:
     from collections.abc import Generator
 
+    from ..core.seams.seam_plan import PartChoice
     from ..mesh.seam_search import SeamSearch
 
 _BLENDERS_FRONT = (0.0, -1.0, 0.0)
@@ -40,6 +41,9 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         min=0.0,
         max=100.0,
         precision=0,
+    )
+    parts_by: bpy.props.EnumProperty(
+        name="Parts by", description="What separates parts", items=items(PARTS_BY), default="AUTO"
     )
     distortion: bpy.props.FloatProperty(
         name="Stretch",
@@ -107,6 +111,7 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         layout = self.layout
         layout.use_property_split = True
         layout.prop(self, "parts", slider=True)
+        layout.prop(self, "parts_by")
         layout.prop(self, "distortion", slider=True)
         layout.prop(self, "islands")
         layout.prop(self, "front")
@@ -125,33 +130,33 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
 
     def steps(self, context: bpy.types.Context) -> Generator[Step, None, set[str]]:
         """Yield the steps of the search, then mark or cut."""
-        from ..core.seams.seam_plan import edits_of_text
+        from ..core.seams.seam_plan import PartChoice, edits_of_text
 
         search = self._read(context)
         search.notices.tell(self.report)
         if not search:
             raise ValueError(search.problem)
-        yield from _step(search, Step("Finding parts", search.measure))
+        edits = {} if self.is_beside else edits_of_text(self.edits)
+        choice = PartChoice(0.01 * self.parts, self.distortion, edits, self.parts_by)
+        yield from _step(search, Step("Finding parts", partial(search.choose, choice)))
         if self.is_beside:
-            yield from self._show_parts(context, search)
+            yield from self._show_parts(search, choice)
         else:
-            choose = partial(search.choose, 0.01 * self.parts, edits_of_text(self.edits))
-            yield from _step(search, Step("Finding parts", choose))
             yield from _step(search, Step("Planning seams", search.plan))
         search.refresh()
         return self._change(context, search)
 
-    def _show_parts(self, context: bpy.types.Context, search: SeamSearch) -> Generator[Step, None, None]:
+    def _show_parts(self, search: SeamSearch, choice: PartChoice) -> Generator[Step, None, None]:
         """Yield steps until the artist has confirmed the parts that the views show, and seams are planned in them."""
-        from ..core.seams.seam_plan import PartChoice, edits_text
+        from ..core.seams.seam_plan import edits_text
         from ..view.plan_preview import PlanPreview
         from .suggest_live import LiveParts
 
         with closing(PlanPreview()) as preview:
-            live = LiveParts(search, preview, PartChoice(0.01 * self.parts, self.distortion), lambda: self.enough)
+            live = LiveParts(search, preview, choice, lambda: self.enough)
             while not live.is_done:
                 yield from _step(search, live.step())
-            self.parts, self.distortion = 100.0 * live.amount, live.stretch
+            self.parts, self.parts_by, self.distortion = 100.0 * live.amount, live.by, live.stretch
             self.edits = edits_text(live.edits)
             yield from _step(search, Step("Marking seams"))
 

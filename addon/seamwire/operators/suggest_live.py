@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..core.base import native
-from ..core.seams.seam_plan import PartChoice, PartEdits, edges_of, mean_stretch, turned, turned_limit
+from ..core.seams.seam_plan import PartChoice, PartEdits, edges_of, mean_stretch, parted_by_next, turned, turned_limit
 from ..view.plan_preview import Curves, PlanPreview, Pointed
 from ..view.viewport import place_of
 from ..words.keys import Action
@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..mesh.seam_search import SeamSearch, Suggestion
+    from ..terms.choices import PartsBy
     from ..view.viewport import Place
     from .steps import Progress
 
@@ -104,6 +105,11 @@ class LiveParts:
         return self._choices[self._at].amount
 
     @property
+    def by(self) -> PartsBy:
+        """What separates parts."""
+        return self._choices[self._at].by
+
+    @property
     def stretch(self) -> float:
         """The limit of the stretch, in percent."""
         return self._choices[self._at].stretch
@@ -132,7 +138,7 @@ class LiveParts:
     @property
     def title(self) -> str:
         """The answer to the last key, the amount and the number of parts, and the limit of the stretch."""
-        text = parts_text(self.amount, self._search.part_count, self.stretch)
+        text = parts_text(self.by, self.amount, self._search.part_count, self.stretch)
         return f"{self._said}    {text}" if self._said else text
 
     @property
@@ -198,6 +204,8 @@ class LiveParts:
         """Return what an event asks for. Over other editors only Enter does, and Undo, which would change the mesh."""
         if action in {Action.UNDO, Action.REDO} and (place is not None or event.ctrl or event.oskey):
             return partial(self._step_to, -1 if action is Action.UNDO else 1)
+        if action is Action.NEXT and place is not None and not event.alt:
+            return self._part_by_next
         if event.alt or event.oskey or (event.shift and event.type not in {"PLUS", "EQUAL"}):
             return None
         if event.type in _NOTCHES and place is not None:
@@ -232,7 +240,7 @@ class LiveParts:
         choice = self._choices[at]
 
         def search(progress: Progress) -> PartChoice:
-            self._search.count(choice.amount, choice.edits, progress)
+            self._search.count(choice, progress)
             return choice
 
         self._begin(search, at)
@@ -263,16 +271,25 @@ class LiveParts:
                 found = turned(
                     amount, notches, lambda some: self._count(some, progress), lambda: time.monotonic() < until
                 )
-            self._search.count(found, self.edits, progress)  # so that its parts are kept
+            choice = replace(self._choices[self._at], amount=found)
+            self._search.count(choice, progress)  # so that its parts are kept
             if found != amount:
                 self._turns[amount, notches], self._turns[found, -notches] = found, amount
-            return replace(self._choices[self._at], amount=found)
+            return choice
+
+        self._begin(search)
+
+    def _part_by_next(self) -> None:
+        def search(progress: Progress) -> PartChoice:
+            choice = parted_by_next(self._choices[: self._at + 1])
+            self._search.count(choice, progress)
+            return choice
 
         self._begin(search)
 
     def _count(self, amount: float, progress: Progress) -> int:
         if amount not in self._counts:
-            self._counts[amount] = self._search.count(amount, self.edits, progress)
+            self._counts[amount] = self._search.count(replace(self._choices[self._at], amount=amount), progress)
         return self._counts[amount]
 
     def _click(self, place: Place) -> None:
@@ -284,9 +301,9 @@ class LiveParts:
 
         def search(progress: Progress) -> PartChoice:
             choice = self._choices[self._at]
-            count = self._search.count(choice.amount, edits, progress)
-            is_uncut = at.border is None and count == self._search.part_count
-            return choice if is_uncut else replace(choice, edits=edits)
+            edited = replace(choice, edits=edits)
+            is_uncut = self._search.count(edited, progress) == self._search.part_count and at.border is None
+            return choice if is_uncut else edited
 
         self._begin(search)
         self._preview.point(self._preview.at(place))
@@ -314,7 +331,7 @@ class LiveParts:
         before = self._choices[self._at]
         if choice == before:
             return
-        if choice.edits != before.edits:
+        if (choice.by, choice.edits) != (before.by, before.edits):
             self._counts.clear()
             self._turns.clear()
         if at is None:
@@ -340,7 +357,7 @@ class LiveParts:
         self._version += 1
         self._rests_at = time.monotonic() + _REST
         self._search.limit_stretch(self.stretch)
-        self._search.choose(self.amount, self.edits)
+        self._search.choose(self._choices[self._at])
         for suggestion in self._search:
             self._show(suggestion)
 
