@@ -110,6 +110,43 @@ def add_scan() -> bpy.types.Object:
     return obj
 
 
+def add_pillow(rows: Sequence[str], fine: int = 8) -> bpy.types.Object:
+    """Add two layers, in front (y < 0) and behind, over cells that are "#".
+
+    They meet in round sides, and are open beside cells that are "o". Each cell has fine x fine faces on each side.
+    """
+    cells = np.pad(np.array([list(row) for row in rows]).repeat(fine, 0).repeat(fine, 1), 1, constant_values=" ")
+
+    def is_beside(i: int, j: int, what: str) -> bool:
+        return bool((cells[j : j + 2, i : i + 2] == what).any())
+
+    height, width = cells.shape[0] - 1, cells.shape[1] - 1
+    corners = [(i, j) for j in range(height) for i in range(width) if is_beside(i, j, "#")]
+    sides = np.array([at for at in corners if is_beside(*at, " ")])
+    points, numbers = [], {}
+    for i, j in corners:
+        away = min(1.0, float(np.hypot(*(sides - (i, j)).T).min()) / fine)
+        for layer in (-1.0, 1.0):
+            if layer > 0.0 and away == 0.0:
+                numbers[i, j, layer] = numbers[i, j, -layer]
+                continue
+            numbers[i, j, layer] = len(points)
+            depth = 0.8 * layer * math.sqrt(1.0 - (1.0 - away) ** 2)
+            points.append((i / fine - 0.5 * (width - 1) / fine, depth, -j / fine))
+    faces = []
+    for j in range(height - 1):
+        for i in range(width - 1):
+            if cells[j + 1, i + 1] == "#":
+                ring = [(i, j), (i, j + 1), (i + 1, j + 1), (i + 1, j)]
+                faces.append([numbers[(*at, -1.0)] for at in ring])
+                faces.append([numbers[(*at, 1.0)] for at in reversed(ring)])
+    return add_object(points, faces, name="Pillow")
+
+
+SHIRT = ("    oo    ", "o########o", "o########o", "   ####   ", "   ####   ", "   ####   ", "   oooo   ")
+"""Rows of a shirt for `add_pillow`: open at the neck, at both sleeves and at the waist."""
+
+
 GATE_SIDE = 17
 GATE_SEEDS = (8 * GATE_SIDE + 4, 8 * GATE_SIDE + 12)
 """The feet of the gate's ridge."""

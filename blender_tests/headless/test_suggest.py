@@ -11,7 +11,19 @@ import numpy as np
 import pytest
 from maps import energy, flipped, in_square, overlapping_pairs, triangles
 from mathutils import Matrix
-from scene import add_grid, add_object, add_scan, add_suzanne, changing, edit, mark_wires, seams, snapshot
+from scene import (
+    SHIRT,
+    add_grid,
+    add_object,
+    add_pillow,
+    add_scan,
+    add_suzanne,
+    changing,
+    edit,
+    mark_wires,
+    seams,
+    snapshot,
+)
 from seamwire.core.base import native
 from seamwire.core.base.geometry import triangle_areas
 from seamwire.core.islands.islands import IslandMaker
@@ -608,6 +620,53 @@ def test_scans_of_figures_are_parted_into_limbs(finish: str) -> None:
     tips = [labels[(sign * centers[:, axis]).argmax()] for axis in range(3) for sign in (-1.0, 1.0)]
     assert len(set(tips)) == 6, "each limb is an island, beside the body"
     assert len(areas) >= 7
+
+
+def sides_of_islands(obj: bpy.types.Object) -> list[set[bool]]:
+    """Return on which sides of the plane y = 0 the triangles of each island lie."""
+    arrays = edit_mesh.read(obj)
+    labels, centers = seam_islands.labels_of(arrays), arrays.points[arrays.triangles].mean(axis=1)
+    return [set((centers[labels == label, 1] < 0.0).tolist()) for label in range(labels.max() + 1)]
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize("seen_from", [(0.0, -1.0, 0.0), (1.0, 0.0, 0.2)])
+def test_clothes_have_a_front_and_a_back_wherever_they_are_seen_from(seen_from: tuple[float, float, float]) -> None:
+    obj = add_pillow(SHIRT)
+    edit()
+    assert suggest(view_direction=seen_from) == {"FINISHED"}
+    assert sides_of_islands(obj) == [{True}, {False}]
+    marked = {frozenset(edge) for edge in seams(obj)}
+    points = edit_mesh.read(obj).points
+    images = {tuple(point): number for number, point in enumerate(np.round(points * (-1.0, 1.0, 1.0), 4).tolist())}
+    image = [images[tuple(point)] for point in np.round(points, 4).tolist()]
+    assert {frozenset(image[v] for v in edge) for edge in marked} == marked
+    assert is_good_map(obj)
+
+
+@pytest.mark.every_blender
+def test_parts_by_is_an_argument() -> None:
+    obj = add_pillow((" ##  ## ", "########", "########", " ###### ", "  ####  ", "   ##   "))
+    edit()
+    assert suggest(parts_by="PANELS", front="FRONT") == {"FINISHED"}
+    assert sides_of_islands(obj) == [{True}, {False}]
+    clear(obj)
+    suggest(unwrap=False)
+    assert sides_of_islands(obj) != [{True}, {False}], "a heart is no garment"
+    prism = add_prism()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.context.view_layer.objects.active = prism
+    edit()
+    counts = {}
+    for by in ("AUTO", "RIMS", "LIMBS", "PANELS"):
+        clear(prism)
+        suggest(parts_by=by, front="FRONT", distortion=1000.0, unwrap=False)
+        counts[by] = islands(prism)
+    assert counts["AUTO"] == counts["RIMS"] == 3
+    assert counts["PANELS"] > 3
+    clear(prism)
+    with pytest.raises(TypeError):
+        suggest(parts_by="SIDES")
 
 
 @pytest.mark.parametrize("finish", ["SNAP", "SLIDE", "CUT"])

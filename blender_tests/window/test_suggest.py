@@ -428,16 +428,57 @@ def test_a_click_drops_a_border_and_a_second_click_keeps_it(ui: driver.Ui, prism
     assert island_count(prism) == 1
 
 
+@pytest.mark.smoke
+@pytest.mark.oldest_and_newest
+def test_w_goes_through_what_separates_parts_and_each_keeps_its_amount_and_clicks(
+    ui: driver.Ui, prism: bpy.types.Object, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    invoke(ui)
+    shown = live()
+    ui.move(ui.on_screen(FRONT_SIDE))
+
+    def state() -> object:
+        return shown.by, shown.amount, count(), borders(), dict(shown.edits)
+
+    def press(key: str, **held: bool) -> object:
+        ui.key(key, **held)
+        ui.wait_until(lambda: not shown._searches)
+        return state()
+
+    assert state()[:3] == ("AUTO", 0.5, 3)
+    ui.wheel(True)
+    ui.click(ui.on_screen(FRONT_RIM))
+    first = state()
+    assert first[2] == 8 and first[4]
+    states = [first, *(press("W") for _ in range(3))]
+    assert [each[0] for each in states] == ["AUTO", "RIMS", "LIMBS", "PANELS"]
+    assert states[1][1:3] == (0.5, 3), "rims have their own amount"
+    panels = states[3]
+    assert panels[2] > 3 and "Parts by Front and Back" in shown.title
+    finders = []
+    monkeypatch.setattr(Suggestion, "measure", lambda *given: finders.append(given))
+    assert press("W") == first
+    for before in reversed(states):
+        assert press("Z", ctrl=True) == before
+    assert not finders, "what was found is kept"
+    for after in states[1:]:
+        assert press("Z", ctrl=True, shift=True) == after
+    monkeypatch.undo()
+    keep(ui)
+    assert island_count(prism) >= panels[2]
+    assert bpy.context.window_manager.operators[-1].parts_by == "PANELS"
+
+
 @pytest.fixture
 def slow_cuts(monkeypatch: pytest.MonkeyPatch) -> Iterator[threading.Event]:
     """Cuts of parts that take until the event is set."""
     find, may_end = Suggestion.count, threading.Event()
 
-    def count(self: Suggestion, amount: float, edits: PartEdits, progress: Callable[[float], bool]) -> int:
-        while edits.parted and not may_end.wait(0.02):
+    def count(self: Suggestion, choice: PartChoice, progress: Callable[[float], bool]) -> int:
+        while any(edits.parted for edits in choice.edits.values()) and not may_end.wait(0.02):
             if not progress(0.4):
                 raise native.load().Cancelled
-        return find(self, amount, edits, progress)
+        return find(self, choice, progress)
 
     monkeypatch.setattr(Suggestion, "count", count)
     yield may_end

@@ -89,7 +89,7 @@ def ours(model: Model, amount: float) -> Seams:
     surface = sw.Surface(model.points, triangulated(model).astype(np.int32), model.edges.astype(np.int32))
     borders = np.zeros((0, 2), dtype=np.int64)
     if hasattr(sw, "PartFinder"):
-        chains = sw.PartFinder(surface, mirror=mirror).find(amount).borders
+        chains = sw.PartFinder(surface, by="shape", mirror=mirror).find(amount).borders
         borders = np.concatenate([borders, *(pairs_of(np.asarray(chain)) for chain in chains)])
     first = time.perf_counter() - began
     planner = sw.SeamPlanner(

@@ -21,6 +21,7 @@ from ..core.islands.map_faults import NO_FAULTS
 from ..core.network.picks import undirected
 from ..core.seams.seam_plan import (
     CRUMB,
+    PartChoice,
     PartEdits,
     border_wires,
     curves_length,
@@ -44,24 +45,25 @@ from .seam_islands import labels_of, maps_of, missing_cuts
 from .unwrap import STRAIGHT_COST, UP, Layout, Unwrapped, unwrap_changed
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping, Sequence
+    from collections.abc import Iterable, Iterator, Sequence
 
     import bpy
     import seamwire_core
     from numpy.typing import NDArray
 
     from ..core.network.wires import Wire
-    from ..terms.choices import Along, Finish
+    from ..terms.choices import Along, Finish, PartsBy
 
 Progress = Callable[[float], bool]
 """Takes the finished fraction, and returns whether to continue."""
+_Asked = tuple["PartsBy", float, PartEdits]
 _NO_EDITS = PartEdits()
 _LEAST_ISLAND = 0.003
 """The fraction of the area of a figure below which no island is wanted."""
 _CUT_CRUMB = 0.25
 """Cuts that run side by side cross here and there. A piece smaller than this fraction of the smallest planned island is merged."""
-_SCULPT = 20_000
-"""The number of triangles from which a mesh of edges that an artist placed is a sculpt: artists' game models have fewer."""
+_KEPT = 32
+"""How many results of searches for parts are kept, so that an artist can go back to them at once."""
 _COARSE = 0.5
 """The amount of limbs for the amount 1: seams need fewer limbs than people see."""
 _MEASURING = 0.1
@@ -99,9 +101,9 @@ class Suggestion:
         self._symmetric = options.symmetric
         self._front = None if options.front is None else self._in_object(options.front)
         self._within, self.others = self._islands_with(faces)
-        self._finder: seamwire_core.PartFinder | None = None
-        self._last: tuple[float, PartEdits, seamwire_core.Parts] | None = None
-        self._chosen: tuple[float, PartEdits, seamwire_core.Parts] | None = None
+        self._finders: dict[PartsBy, seamwire_core.PartFinder] = {}
+        self._found: dict[_Asked, seamwire_core.Parts] = {}  # the last ones at the end
+        self._by: PartsBy = "AUTO"  # of the chosen parts
         self._planner: seamwire_core.SeamPlanner | None = None
         self._blenders_mirrors = mirror_axes(obj.data)
         self.had_seams = len(arrays.seams) > 0  # before `write`
@@ -135,28 +137,32 @@ class Suggestion:
             return None
         return tuple(found.normalized()) if found.length > 0.0 else None
 
-    def measure(self, progress: Progress) -> None:
-        """Measure the mesh for parts."""
+    def measure(self, by: PartsBy, progress: Progress) -> seamwire_core.PartFinder:
+        """Measure the mesh for parts, once for each `by`. Return what finds them."""
+        known = self._finders.get(by)
+        if known is not None:
+            return known
         arrays = self.mesh.arrays
-        self._axis = self._mirror()
-        is_scan = self.along == "SURFACE" or len(arrays.triangles) >= _SCULPT
-        self._finder = self._core.PartFinder(
+        self._finders[by] = self._core.PartFinder(
             arrays.surface,
-            by="shape" if is_scan else "rims",
+            by="shape" if by == "AUTO" else by.lower(),
+            scan=self.along == "SURFACE",
+            front=self._front if by == "PANELS" else None,
             mirror=self._axis,
             marked=arrays.marked,
             seams=arrays.seams,
             progress=progress,
         )
+        return self._finders[by]
 
-    def count(self, amount: float, edits: PartEdits, progress: Progress) -> int:
-        """Return the number of parts for an amount from 0 to 1."""
-        return self._counted(self._found(amount, edits, progress))
+    def count(self, choice: PartChoice, progress: Progress) -> int:
+        """Return the number of parts of a choice."""
+        return self._counted(self._parts_of(choice, progress))
 
-    def choose(self, amount: float, edits: PartEdits, progress: Progress) -> None:
-        """Find the parts for an amount from 0 to 1, and choose them. A plan for other parts is dropped."""
-        found = self._found(amount, edits, progress)
-        self._chosen = amount, edits, found
+    def choose(self, choice: PartChoice, progress: Progress) -> None:
+        """Find the parts of a choice, and take them. A plan for other parts is dropped."""
+        found = self._parts_of(choice, progress)
+        self._by = choice.by
         self.part_count = self._counted(found)
         self.borders = [np.asarray(chain) for chain in found.borders]
         if self._within is not None:  # islands that are not to be cut keep no borders
@@ -166,16 +172,18 @@ class Suggestion:
         self._planner = self.best = None
         self.slits = []
 
-    def _found(self, amount: float, edits: PartEdits, progress: Progress) -> seamwire_core.Parts:
-        """Find parts. The last ones are kept, because parts are counted before they are chosen."""
-        assert self._finder is not None
-        for known in (self._chosen, self._last):
-            if known is not None and known[:2] == (amount, edits):
-                return known[2]
-        arrays = self.mesh.arrays
-        own = _COARSE * amount if self._finder.by == "limbs" else amount
-        found = self._finder.find(own, **edits.on(arrays.edges, arrays.polygons), progress=progress)
-        self._last = amount, edits, found
+    def _parts_of(self, choice: PartChoice, progress: Progress) -> seamwire_core.Parts:
+        """Find the parts of a choice, or take them from those that are kept."""
+        edits = choice.edits.get(self.name, _NO_EDITS)
+        asked = choice.by, choice.amount, edits
+        found = self._found.pop(asked, None)
+        if found is None:
+            finder, arrays = self.measure(choice.by, progress), self.mesh.arrays
+            own = _COARSE * choice.amount if finder.by == "limbs" else choice.amount
+            found = finder.find(own, **edits.on(arrays.edges, arrays.polygons), progress=progress)
+        self._found[asked] = found
+        if len(self._found) > _KEPT:
+            del self._found[next(iter(self._found))]
         return found
 
     def _counted(self, parts: seamwire_core.Parts) -> int:
@@ -190,7 +198,8 @@ class Suggestion:
         chains = [np.stack([chain[:-1], chain[1:]], axis=1) for chain in self.borders]
         return np.concatenate([self.mesh.arrays.seams, *chains]).astype(np.int32)
 
-    def _mirror(self) -> int | None:
+    @cached_property
+    def _axis(self) -> int | None:
         """Return the axis over which wires come in pairs: one of those that Blender mirrors over, if there are any."""
         if not self._symmetric:
             return None
@@ -322,8 +331,8 @@ class Suggestion:
 
     def crumb(self) -> float:
         """Return the fraction of the mesh's area below which islands beside cuts are merged."""
-        assert self.best is not None and self._finder is not None
-        if self._finder.by == "limbs":
+        assert self.best is not None
+        if self._finders[self._by].by == "limbs":
             return _LEAST_ISLAND
         areas = np.bincount(self.best.islands, self._areas)
         areas = areas[areas > 0.0]
@@ -383,22 +392,14 @@ class SeamSearch:
         """Whether no mesh has changed since it was read."""
         return all(suggestion.mesh.alive() for suggestion in self)
 
-    def measure(self, progress: Progress) -> None:
-        """Measure all meshes for parts."""
-        for suggestion, share in self._shares(progress):
-            suggestion.measure(share)
+    def count(self, choice: PartChoice, progress: Progress) -> int:
+        """Return the number of parts of all meshes for a choice."""
+        return sum(suggestion.count(choice, share) for suggestion, share in self._shares(progress))
 
-    def count(self, amount: float, edits: Mapping[str, PartEdits], progress: Progress) -> int:
-        """Return the number of parts of all meshes for an amount from 0 to 1. The edits have the names of objects."""
-        shares = self._shares(progress)
-        return sum(
-            suggestion.count(amount, edits.get(suggestion.name, _NO_EDITS), share) for suggestion, share in shares
-        )
-
-    def choose(self, amount: float, edits: Mapping[str, PartEdits], progress: Progress = lambda _: True) -> None:
-        """Choose the parts for an amount from 0 to 1. Parts that were counted last are not searched again."""
+    def choose(self, choice: PartChoice, progress: Progress = lambda _: True) -> None:
+        """Take the parts of a choice. Parts that were counted lately are not searched again."""
         for suggestion, share in self._shares(progress):
-            suggestion.choose(amount, edits.get(suggestion.name, _NO_EDITS), share)
+            suggestion.choose(choice, share)
 
     def limit(self, stretch: float, islands: int) -> None:
         """Let the next plans have another mean stretch, in percent, and number of islands. `choose` drops the plans before."""

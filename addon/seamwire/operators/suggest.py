@@ -13,7 +13,7 @@ from bpy.app.handlers import persistent
 from mathutils import Vector
 
 from ..mesh.registration import classes, handler, together
-from ..terms.choices import ALONG, AUTO_ALONG, AUTO_FINISH, FINISHES, items
+from ..terms.choices import ALONG, AUTO_ALONG, AUTO_FINISH, FINISHES, PARTS_BY, items
 from .edit_mesh_operator import changing
 from .finish import cut_wires
 from .steps import Step, Stepwise, end_all
@@ -47,6 +47,13 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         min=0.0,
         max=100.0,
         precision=0,
+        options=_BY_MESH,
+    )
+    parts_by: bpy.props.EnumProperty(
+        name="Parts by",
+        description="What separates parts",
+        items=items(PARTS_BY),
+        default="AUTO",
         options=_BY_MESH,
     )
     distortion: bpy.props.FloatProperty(
@@ -117,6 +124,7 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
         layout = self.layout
         layout.use_property_split = True
         layout.prop(self, "parts", slider=True)
+        layout.prop(self, "parts_by")
         layout.prop(self, "distortion", slider=True)
         layout.prop(self, "islands")
         layout.prop(self, "front")
@@ -135,48 +143,48 @@ class MESH_OT_seamwire_suggest(Stepwise, bpy.types.Operator):
 
     def steps(self, context: bpy.types.Context) -> Generator[Step, None, set[str]]:
         """Yield the steps of the search, then mark or cut."""
-        from ..core.seams.seam_plan import edits_of_text
-
         search = self._read(context)
         search.notices.tell(self.report)
         if not search:
             raise ValueError(search.problem)
-        yield from _step(search, Step("Finding parts", search.measure))
+        choice = self._first_choice(search) if self.is_beside else self._choice()
+        yield from _step(search, Step("Finding parts", partial(search.choose, choice)))
         if self.is_beside:
-            yield from self._show_parts(context, search)
+            yield from self._show_parts(search, choice)
         else:
-            choose = partial(search.choose, 0.01 * self.parts, edits_of_text(self.edits))
-            yield from _step(search, Step("Finding parts", choose))
             yield from _step(search, Step("Planning seams", search.plan))
         search.refresh()
         return self._change(context, search)
 
-    def _show_parts(self, context: bpy.types.Context, search: SeamSearch) -> Generator[Step, None, None]:
+    def _show_parts(self, search: SeamSearch, choice: PartChoice) -> Generator[Step, None, None]:
         """Yield steps until the artist has confirmed the parts that the views show, and seams are planned in them."""
         from ..core.seams.seam_plan import edits_text
         from ..view.plan_preview import PlanPreview
         from .suggest_live import LiveParts
 
         with closing(PlanPreview()) as preview:
-            live = LiveParts(search, preview, self._first_choice(search), lambda: self.enough)
+            live = LiveParts(search, preview, choice, lambda: self.enough)
             while not live.is_done:
                 yield from _step(search, live.step())
             choice = live.choice
-            self.parts, self.distortion, self.islands = 100.0 * choice.amount, choice.stretch, choice.islands
-            self.edits = edits_text(choice.edits)
+            self.parts, self.parts_by, self.distortion = 100.0 * choice.amount, choice.by, choice.stretch
+            self.islands, self.edits = choice.islands, edits_text(choice.edits)
             kept_choices[_identity(search)] = _seams_of(search), choice
             yield from _step(search, Step("Marking seams"))
 
     def _first_choice(self, search: SeamSearch) -> PartChoice:
         """Return the choice that is shown first: the one that was kept for these meshes, or the options."""
-        from ..core.seams.seam_plan import PartChoice, edits_of_text
-
-        is_given = any(map(self.properties.is_property_set, ("parts", "distortion", "islands", "edits")))
+        is_given = any(map(self.properties.is_property_set, ("parts", "parts_by", "distortion", "islands", "edits")))
         if not is_given and _identity(search) in kept_choices:
             seams, choice = kept_choices[_identity(search)]
             # Clicks belong to the borders that were shown. Other seams make other borders.
             return choice if seams == _seams_of(search) else replace(choice, edits={})
-        return PartChoice(0.01 * self.parts, self.distortion, self.islands, edits_of_text(self.edits))
+        return self._choice()
+
+    def _choice(self) -> PartChoice:
+        from ..core.seams.seam_plan import PartChoice, edits_of_text
+
+        return PartChoice(0.01 * self.parts, self.distortion, self.islands, edits_of_text(self.edits), self.parts_by)
 
     def _front(self, context: bpy.types.Context) -> tuple[float, float, float] | None:
         """Return the direction to the viewer whom seams hide from, in world space, or None to hide from all sides."""

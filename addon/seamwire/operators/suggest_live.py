@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ..core.base import native
-from ..core.seams.seam_plan import PartChoice, PartEdits, edges_of, mean_stretch, turned, turned_limit
+from ..core.seams.seam_plan import PartChoice, PartEdits, edges_of, mean_stretch, parted_by_next, turned, turned_limit
 from ..view.plan_preview import Curves, PlanPreview, Pointed
 from ..view.viewport import place_of
 from ..words.corner import FoundMap, rows_of_parts
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..mesh.seam_search import SeamSearch, Suggestion
+    from ..terms.choices import PartsBy
     from ..view.viewport import Place
     from .steps import Progress
 
@@ -126,7 +127,7 @@ class LiveParts:
     @property
     def title(self) -> str:
         """The answer to the last key, the amount and the number of parts, and the limit of the stretch."""
-        text = parts_text(self.choice.amount, self._search.part_count, self.choice.stretch)
+        text = parts_text(self.choice.by, self.choice.amount, self._search.part_count, self.choice.stretch)
         return f"{self._said}    {text}" if self._said else text
 
     @property
@@ -200,6 +201,8 @@ class LiveParts:
         """Return what an event asks for. Over other editors only Enter does, and Undo, which would change the mesh."""
         if action in {Action.UNDO, Action.REDO} and (place is not None or event.ctrl or event.oskey):
             return partial(self._step_to, -1 if action is Action.UNDO else 1)
+        if action is Action.NEXT and place is not None and not event.alt:
+            return self._part_by_next
         if event.alt or event.oskey:
             return None
         if event.type in _NOTCHES and place is not None:
@@ -237,7 +240,7 @@ class LiveParts:
         choice = self._choices[at]
 
         def search(progress: Progress) -> PartChoice:
-            self._search.count(choice.amount, choice.edits, progress)
+            self._search.count(choice, progress)
             return choice
 
         self._begin(search, at)
@@ -269,6 +272,14 @@ class LiveParts:
 
         self._begin(search)
 
+    def _part_by_next(self) -> None:
+        def search(progress: Progress) -> PartChoice:
+            choice = parted_by_next(self._choices[: self._at + 1])
+            self._search.count(choice, progress)
+            return choice
+
+        self._begin(search)
+
     def _turned(self, what: str, notches: int, progress: Progress) -> PartChoice:
         choice = self.choice
         if what == "stretch":
@@ -281,14 +292,14 @@ class LiveParts:
             found = turned(
                 choice.amount, notches, lambda some: self._count(some, progress), lambda: time.monotonic() < until
             )
-        self._search.count(found, choice.edits, progress)  # so that its parts are kept
+        self._search.count(replace(choice, amount=found), progress)  # so that its parts are kept
         if found != choice.amount:
             self._turns[choice.amount, notches], self._turns[found, -notches] = found, choice.amount
         return replace(choice, amount=found)
 
     def _count(self, amount: float, progress: Progress) -> int:
         if amount not in self._counts:
-            self._counts[amount] = self._search.count(amount, self.choice.edits, progress)
+            self._counts[amount] = self._search.count(replace(self.choice, amount=amount), progress)
         return self._counts[amount]
 
     def _click(self, place: Place) -> None:
@@ -299,9 +310,9 @@ class LiveParts:
         edits = {**self.choice.edits, suggestion.name: self._edited(suggestion, at)}
 
         def search(progress: Progress) -> PartChoice:
-            count = self._search.count(self.choice.amount, edits, progress)
-            is_uncut = at.border is None and count == self._search.part_count
-            return self.choice if is_uncut else replace(self.choice, edits=edits)
+            edited = replace(self.choice, edits=edits)
+            is_uncut = self._search.count(edited, progress) == self._search.part_count and at.border is None
+            return self.choice if is_uncut else edited
 
         self._begin(search)
         self._preview.point(self._preview.at(place))
@@ -329,7 +340,7 @@ class LiveParts:
         before = self.choice
         if choice == before:
             return
-        if choice.edits != before.edits:
+        if (choice.by, choice.edits) != (before.by, before.edits):
             self._counts.clear()
             self._turns.clear()
         if at is not None or choice.edits != before.edits:
@@ -359,7 +370,7 @@ class LiveParts:
         self._rests_at = time.monotonic() + _REST
         self._found_map = None
         self._search.limit(self.choice.stretch, self.choice.islands)
-        self._search.choose(self.choice.amount, self.choice.edits)
+        self._search.choose(self.choice)
         for suggestion in self._search:
             self._show(suggestion)
         self._tell()

@@ -47,6 +47,16 @@ ALONG: Mapping[Along, Term] = {
 AUTO_ALONG = "Along the edges that an artist placed, across the surface of scans and sculpts"
 """The tooltip of Auto."""
 
+PartsBy = Literal["AUTO", "RIMS", "LIMBS", "PANELS"]
+"""What separates parts of a mesh."""
+PARTS_BY: Mapping[PartsBy, Term] = {
+    "AUTO": Term("Auto", "Front and back of clothes, limbs of scans and sculpts, rims of everything else"),
+    "RIMS": Term("Rims", "Sharp edges, as around the walls, lids and plugs of props"),
+    "LIMBS": Term("Limbs", "Narrow and concave places, as between the head, arms and body of a figure"),
+    "PANELS": Term("Front and Back", "The sides, as of clothes, as seen from Hide From"),
+}
+"""The key of the preview goes through the rows in this order."""
+
 Finish = str
 """A row of `FINISHES`: what becomes the seam of a wire across the surface."""
 FINISHES: Mapping[Finish, Finishing] = {

@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ..terms.choices import KINDS, LOOPS, METRICS, ignores_shape
+from ..terms.choices import KINDS, LOOPS, METRICS, PARTS_BY, ignores_shape
 from .reports import count, percent
 
 if TYPE_CHECKING:
@@ -89,6 +89,7 @@ def rows_of_parts(
     if found is not None:
         islands, stretch = f"{found.islands}, {islands}", f"{percent(found.stretch)}, {stretch}"
     rows = [
+        (f"Parts by: {PARTS_BY[choice.by].name}", "W"),
         (f"Parts: {parts}, amount {100.0 * choice.amount:.0f} %{beyond('amount')}", "Wheel"),
         (f"Islands: {islands}", "Shift Wheel"),
         (f"Stretch: {stretch}", "Ctrl Wheel"),

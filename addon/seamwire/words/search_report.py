@@ -8,10 +8,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ..core.islands.map_faults import NO_FAULTS, MapFaults
+from ..terms.choices import PARTS_BY
 from .reports import count, in_words, not_reached, percent, square_used
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+
+    from ..terms.choices import PartsBy
 
 
 LIVE_HINTS = (
@@ -21,14 +24,15 @@ LIVE_HINTS = (
     "Enter: Keep",
 )
 """The artist's choices while the parts are shown, without those that the corner of the view has."""
-OTHER_KEY = "Only the wheel, clicks, Ctrl Z, Enter, Esc and keys that move the view work here"
+OTHER_KEY = "Only the wheel, clicks, W, Ctrl Z, Enter, Esc and keys that move the view work here"
 NOTHING_TO_UNDO = "Nothing to undo: the parts are as they were first shown"
 NOTHING_TO_REDO = "Nothing to redo"
 
 
-def parts_text(amount: float, number: int, stretch: float) -> str:
+def parts_text(by: PartsBy, amount: float, number: int, stretch: float) -> str:
     """Return the text on an amount of parts, from 0 to 1, their number, and the limit of the stretch in percent."""
-    return f"Parts: {100.0 * amount:.0f} %, {count(number, 'part')}    Stretch: up to {stretch:.3g} %"
+    parts = "Parts" if by == "AUTO" else f"Parts by {PARTS_BY[by].name}"
+    return f"{parts}: {100.0 * amount:.0f} %, {count(number, 'part')}    Stretch: up to {stretch:.3g} %"
 
 
 @dataclass(frozen=True)

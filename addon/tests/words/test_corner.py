@@ -57,6 +57,7 @@ def test_candidates_have_names_of_what_is_seen() -> None:
 def test_while_parts_are_shown_each_value_has_its_keys() -> None:
     choice = PartChoice(0.55, 17.0, islands=3)
     assert rows_of_parts(choice, 12, {}, None, False) == [
+        ("Parts by: Auto", "W"),
         ("Parts: 12, amount 55 %", "Wheel"),
         ("Islands: at least 3", "Shift Wheel"),
         ("Stretch: at most 17 %", "Ctrl Wheel"),
@@ -64,6 +65,7 @@ def test_while_parts_are_shown_each_value_has_its_keys() -> None:
     found = FoundMap(stretch=9.5, islands=14, length="2.3 m")
     rows = rows_of_parts(choice, 12, {"amount": 2, "stretch": -1}, found, True)
     assert rows == [
+        ("Parts by: Auto", "W"),
         ("Parts: 12, amount 55 %, 2 notches past the end", "Wheel"),
         ("Islands: 14, at least 3", "Shift Wheel"),
         ("Stretch: 9.5 %, at most 17 %, 1 notch past the end", "Ctrl Wheel"),

@@ -92,6 +92,9 @@ def test_limbs_of_a_dumbbell() -> None:
     finder = sw.PartFinder(surface, by="limbs")
     assert finder.by == "limbs"
     assert sw.PartFinder(surface).by == "rims"
+    assert sw.PartFinder(surface, by="panels", front=(0, 0, 1)).by == "panels"
+    assert sw.PartFinder(surface, by="shape").by == "rims"
+    assert sw.PartFinder(surface, by="shape", scan=True).by in {"rims", "limbs"}
     parts = finder.find(0.5)
     upper = parts.of_face[points[surface.triangles].mean(axis=1)[:, 2] > 0.5]
     lower = parts.of_face[points[surface.triangles].mean(axis=1)[:, 2] < -0.5]

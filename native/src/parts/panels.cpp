@@ -14,10 +14,13 @@
 #include "detail/poll.hpp"
 #include "detail/rounded.hpp"
 #include "parts/minimum_cut.hpp"
+#include "seamwire/surface/ray_tree.hpp"
 #include "tuning/constants.hpp"
 
 namespace seamwire::detail {
 namespace {
+
+constexpr double kAbove = 1e-3;  // rays start this far above a triangle, to miss its neighbors
 
 /// The direction in which the area of each piece spreads least.
 std::vector<Vector> thin_directions(const PanelProblem& problem, const Task& task) {
@@ -142,26 +145,20 @@ class PanelCut {
     node_of_ = std::move(of);
     facing_.assign(index(count), 0.0);
     areas_.assign(index(count), 0.0);
-    std::vector<double> means(problem_.sizes.of_piece.size(), 0.0);
-    const auto openness = [&](const Triangle& t) {
-      return (problem_.ambient[t[0]] + problem_.ambient[t[1]] + problem_.ambient[t[2]]) / 3.0;
-    };
-    const auto share = [&](std::size_t f) {
-      const double area = problem_.sizes.of_piece[problem_.sizes.pieces.of_face[f]].area;
-      return area > 0.0 ? problem_.frames[f].area / area : 0.0;
-    };
-    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-      poll.at(f);
-      means[problem_.sizes.pieces.of_face[f]] += share(f) * openness(mesh.triangles[f]);
-    }
+    const RayTree rays(mesh.points, mesh.triangles);
+    rays.wait(task_);
     for (std::size_t f = 0; f < mesh.face_count(); ++f) {
       poll.at(f);
       const std::int32_t piece = problem_.sizes.pieces.of_face[f], node = node_of_[problem_.polygons.of_face[f]];
-      areas_[node] += rounded(share(f));
-      if (!(means[piece] > 0.0)) continue;
-      const double open = openness(mesh.triangles[f]) / means[piece];
-      const double seen = std::clamp((open - tuning::kInner) / (tuning::kOuter - tuning::kInner), 0.0, 1.0);
-      facing_[node] += rounded(seen * share(f)) * rounded_share(problem_.frames[f].normal.dot(directions.of_piece[piece]));
+      const auto& [diagonal, area] = problem_.sizes.of_piece[piece];
+      if (problem_.is_chosen[piece] == 0 || !(area > 0.0)) continue;
+      const double share = rounded(problem_.frames[f].area / area);
+      areas_[node] += share;
+      const Vector &normal = problem_.frames[f].normal, &front = directions.of_piece[piece];
+      const double facing = rounded_share(normal.dot(front));
+      const auto& [a, b, c] = mesh.triangles[f];
+      const Vector origin = (mesh.points[a] + mesh.points[b] + mesh.points[c]) / 3.0 + kAbove * diagonal * normal;
+      if (!rays.is_met(origin, facing > 0.0 ? front : -front)) facing_[node] += share * facing;
     }
   }
 
@@ -244,7 +241,7 @@ class PanelCut {
   const PanelProblem& problem_;
   const Task& task_;
   std::vector<std::int32_t> node_of_;  // of each polygon
-  std::vector<double> facing_;         // of each node: the area that faces the front, less what faces the back
+  std::vector<double> facing_;         // of each node: the area that the front sees, less what the back sees
   std::vector<double> areas_;          // of each node, in areas of its piece
   std::vector<PanelLink> links_;
   std::vector<std::vector<std::int32_t>> lines_;

@@ -24,7 +24,6 @@ struct PanelProblem {
   const Polygons& polygons;
   const PieceSizes& sizes;
   std::span<const FaceFrame> frames;              ///< of triangles
-  std::span<const double> ambient;                ///< of vertices, as in Visibility
   std::span<const double> odds;                   ///< of edges, as from border_odds()
   std::span<const std::uint8_t> is_seam;          ///< of edges
   std::span<const std::int32_t> images;           ///< of polygons: the mirror image or -1; empty without symmetry
@@ -35,7 +34,8 @@ struct PanelProblem {
 
 /// Marks the edges between the front and the back of pieces. What is mirrored is divided alike.
 ///
-/// Each polygon belongs to the side that it faces, the more so the larger it is. Edges cost more where a border is
+/// Each polygon belongs to the side that sees it, the more so the larger it is. Hidden ones, as in a lining, belong to
+/// the side of their neighbors. Edges cost more where a border is
 /// unlikely, and less along a line of which more belongs to the border. Throws Cancelled.
 ///
 /// \see Jegelka and Bilmes 2011, "Submodularity beyond submodular energies: coupling edges in graph cuts", for cuts that

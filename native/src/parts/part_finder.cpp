@@ -375,7 +375,7 @@ struct PartFinder::Impl {
   bool has_panels = false;
 
   void prepare(const Task& task);
-  void divide_panels(std::span<const FaceFrame> frames, std::span<const double> ambient, const Task& task);
+  void divide_panels(std::span<const FaceFrame> frames, const Task& task);
   std::vector<Region> regions_of(const Polygons& own, const Task& task) const;
   std::vector<std::uint8_t> marked(const std::vector<Edge>& edges, const char* name, const Task& task) const;
   std::vector<std::uint8_t> telling_marks(const Task& task) const;
@@ -431,7 +431,7 @@ void PartFinder::Impl::prepare(const Task& task) {
   task.check(0.95);
   regions = regions_of(polygons, task);
   if (options.by == PartsBy::kPanels || (options.by == PartsBy::kShape && !limbs)) {
-    divide_panels(frames, visibility.ambient, part_of(task, 0.95, 1.0));
+    divide_panels(frames, part_of(task, 0.95, 1.0));
   }
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     poll.at(index(e));
@@ -440,8 +440,7 @@ void PartFinder::Impl::prepare(const Task& task) {
 }
 
 /// Makes borders of the edges between front and back.
-void PartFinder::Impl::divide_panels(std::span<const FaceFrame> frames, std::span<const double> ambient,
-                                     const Task& task) {
+void PartFinder::Impl::divide_panels(std::span<const FaceFrame> frames, const Task& task) {
   const PlanMesh& mesh = *problem.mesh;
   const std::vector<std::uint8_t> is_chosen = options.by == PartsBy::kPanels
                                                   ? std::vector<std::uint8_t>(sizes.of_piece.size(), 1)
@@ -452,7 +451,7 @@ void PartFinder::Impl::divide_panels(std::span<const FaceFrame> frames, std::spa
   if (!has_panels) return;
   const std::optional<int> mirror = problem.reflection ? std::optional(problem.reflection->axis) : std::nullopt;
   const std::vector<std::uint8_t> is_between = find_panels(
-      {mesh, polygons, sizes, frames, ambient, odds, problem.is_seam, images, mirror, options.front, is_chosen}, task);
+      {mesh, polygons, sizes, frames, odds, problem.is_seam, images, mirror, options.front, is_chosen}, task);
   for (std::size_t e = 0; e < odds.size(); ++e) {
     if (is_between[e] != 0) odds[e] = std::max(odds[e], 0.0) + tuning::kPanelOdds;
   }

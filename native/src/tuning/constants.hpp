@@ -366,9 +366,6 @@ inline constexpr double kGarmentSharp = 0.15;
 inline constexpr std::int32_t kGarmentBoundaries = 3;
 /// Price of a whole piece on the wrong side. Prices from 100 to 400 gave the same agreement with artists.
 inline constexpr double kPanelFacing = 200.0;
-/// Openness, in means of the piece, of linings and of outer surfaces. Linings follow their neighbors.
-inline constexpr double kInner = 0.3;
-inline constexpr double kOuter = 0.6;
 /// Length of a line on the border that halves the price of its other edges. Without it, the border zigzags.
 inline constexpr double kPanelLine = 0.1;
 /// How often the border is found, with the prices that the last one leaves.

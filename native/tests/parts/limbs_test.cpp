@@ -155,8 +155,10 @@ TEST(Limbs, AreOneWhereTheSurfaceHasNone) {
 }
 
 TEST(Limbs, ShapeTellsFiguresFromMachineParts) {
-  const PartOptions by_shape{.by = PartsBy::kShape};
+  const PartOptions by_shape{.by = PartsBy::kShape, .is_scan = true};
   EXPECT_EQ(finder_of(star(4), by_shape).by(), PartsBy::kLimbs);
+  EXPECT_EQ(finder_of(star(4), {.by = PartsBy::kShape}).by(), PartsBy::kRims) << "5,000 edges of an artist";
+  EXPECT_EQ(finder_of(star(5), {.by = PartsBy::kShape}).by(), PartsBy::kLimbs) << "20,000 triangles";
   EXPECT_EQ(finder_of(shapes::grid(8), by_shape).by(), PartsBy::kRims);
   const PartFinder cube(std::make_shared<const Surface>(shapes::quad_cube(8).surface()), by_shape);
   EXPECT_EQ(cube.by(), PartsBy::kRims);

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...terms.choices import PARTS_BY
 from ..network.picks import undirected
 from ..network.wires import FOLLOWS, Wire
 
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
     import seamwire_core
     from numpy.typing import NDArray
 
-    from ...terms.choices import Along
+    from ...terms.choices import Along, PartsBy
     from ..network.picks import Edge
     from ..network.strokes import Stroke
 
@@ -214,6 +215,18 @@ class PartChoice:
     stretch: float  # the limit, in percent
     islands: int = 1  # the least number of each object
     edits: Mapping[str, PartEdits] = field(default_factory=dict)  # the changes by clicks, by the name of the object
+    by: PartsBy = "AUTO"  # what separates parts
+
+
+def parted_by_next(made: Sequence[PartChoice]) -> PartChoice:
+    """Return the choice that follows those that were made if the last one gives way to the next row of `PARTS_BY`.
+
+    Each row keeps the amount and the edits that it had last.
+    """
+    rows = list(PARTS_BY)
+    by = rows[(rows.index(made[-1].by) + 1) % len(rows)]
+    last = next((choice for choice in reversed(made) if choice.by == by), PartChoice(made[0].amount, 0.0, by=by))
+    return replace(last, stretch=made[-1].stretch, islands=made[-1].islands)
 
 
 def edits_text(edits: Mapping[str, PartEdits]) -> str:
