@@ -30,7 +30,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..mesh.seam_search import SeamSearch, Suggestion
-    from ..terms.choices import PartsBy
     from ..view.viewport import Place
     from .steps import Progress
 
