@@ -9,7 +9,7 @@ from scene import Edge, seams
 from seamwire.core.storage.serialization import Archive
 from seamwire.mesh import object_session
 from seamwire.mesh.object_session import ObjectSession
-from seamwire.mesh.seam_islands import missing_cuts
+from seamwire.mesh.seam_islands import count_islands
 
 
 def session_on(obj: bpy.types.Object) -> ObjectSession:
@@ -46,4 +46,4 @@ def forget(patch: pytest.MonkeyPatch) -> None:
 
 def island_count(obj: bpy.types.Object) -> int:
     """Return how many islands an object in Edit Mode has."""
-    return len(missing_cuts(obj))
+    return count_islands(obj)

@@ -50,9 +50,10 @@ ValueError
     If a vertex is out of range.
 )");
   module.def("missing_cuts", &missing_cuts_of, py::arg("surface"), py::arg("cut_edges"), py::arg("segments"),
-             R"(Count how many more cuts each segment needs to become a disc.
+             R"(Count how many more cuts each segment needs before it can lie flat with little stretch.
 
 Each cut leads from border to border. A segment without a border, such as a ball, needs another cut first to get one.
+A hole in a nearly flat place needs no cut.
 Edges with three or more triangles are borders. So are edges whose triangles cannot be oriented alike.
 
 Parameters

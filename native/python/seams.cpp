@@ -95,11 +95,12 @@ void bind_seam_plan(py::module_& module) {
       .def_property_readonly("islands", array_of<SeamPlan>(&SeamPlan::islands),
                              "(m,) int32: the island of each triangle, numbered as by `face_segments`.")
       .def_readonly("island_count", &SeamPlan::island_count, "int: how many islands there are.")
-      .def_readonly("not_discs", &SeamPlan::not_discs, "int: how many islands are not discs.")
+      .def_readonly("islands_to_cut", &SeamPlan::islands_to_cut,
+                    "int: how many islands need more cuts, see `missing_cuts`.")
       .def_readonly(
           "cost", &SeamPlan::cost,
           "float: the price of the slits that the search worked on, for a surface of area 1. Lower is better. Each "
-          "slit costs the prices of its edges, plus a fixed amount unless the island needs it to become a disc. Wires "
+          "slit costs the prices of its edges, plus a fixed amount unless the island needs it to lie flat. Wires "
           "across the surface may run beside their slits, and are not priced again.")
       .def_readonly("energy", &SeamPlan::energy,
                     "float: the symmetric Dirichlet energy of the planned map, as `MapReport.energy`; infinite if an "

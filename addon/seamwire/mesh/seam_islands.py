@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The islands that the seams of an edit mesh make: which are discs, how much its active UV map stretches each, and how they are stored.
+"""The islands that the seams of an edit mesh make: which need more cuts, how stretched each is in its UV map, and how they are stored.
 
 Functions raise ValueError or NativeError where no face is visible, a coordinate is no number, or the compiled part is missing.
 """
@@ -45,22 +45,20 @@ def labels_of(arrays: Arrays) -> NDArray[np.int32]:
     return np.asarray(native.load().face_segments(arrays.surface, arrays.seams))
 
 
-def _missing_cuts(arrays: Arrays) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Return the island of each triangle, (m,), and how many more cuts each island needs to become a disc, (count,)."""
-    labels = labels_of(arrays)
-    return labels, np.asarray(native.load().missing_cuts(arrays.surface, arrays.seams, labels))
-
-
-def missing_cuts(obj: bpy.types.Object) -> NDArray[np.int32]:
-    """Return how many more cuts each island of an edit mesh needs to become a disc, (count,)."""
+def count_islands(obj: bpy.types.Object) -> int:
+    """Return how many islands an edit mesh has."""
     arrays = edit_mesh.read(obj)
-    return _missing_cuts(arrays)[1] if len(arrays.triangles) else np.empty(0, dtype=np.int32)
+    return int(labels_of(arrays).max(initial=-1)) + 1 if len(arrays.triangles) else 0
 
 
 def faces_to_cut(obj: bpy.types.Object) -> tuple[NDArray[np.int32], NDArray[np.int32]]:
-    """Return the faces of the islands that are not discs, and how many cuts each of these islands needs."""
+    """Return the faces of the islands that need more cuts, and how many cuts each of these islands needs.
+
+    Closed islands, handles and tubes need cuts. Holes in nearly flat places may stay.
+    """
     arrays = read(obj)
-    labels, missing = _missing_cuts(arrays)
+    labels = labels_of(arrays)
+    missing = np.asarray(native.load().missing_cuts(arrays.surface, arrays.seams, labels))
     return np.unique(arrays.polygons[missing[labels] > 0]), missing[missing > 0]
 
 

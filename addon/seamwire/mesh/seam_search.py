@@ -41,7 +41,7 @@ from ..words.reports import ALL_HIDDEN
 from ..words.search_report import Outcome
 from . import edit_mesh, finishes, uv_map
 from .object_session import ObjectSession, mirror_axes
-from .seam_islands import labels_of, maps_of, missing_cuts
+from .seam_islands import count_islands, labels_of, maps_of
 from .unwrap import STRAIGHT_COST, UP, Layout, Unwrapped, unwrap_changed
 
 if TYPE_CHECKING:
@@ -466,15 +466,13 @@ class SeamSearch:
     def outcome(self) -> Outcome:
         """Measure the islands, and the UV maps that the meshes have. If nothing was to be unwrapped, the planned maps count."""
         options, done = self._options, self._unwrapped
-        missing = [missing_cuts(suggestion.mesh.obj) for suggestion in self]
-        is_few = any(
-            len(own) - suggestion.others < options.islands for own, suggestion in zip(missing, self, strict=True)
-        )
+        counts = [count_islands(suggestion.mesh.obj) for suggestion in self]
+        is_few = any(own - suggestion.others < options.islands for own, suggestion in zip(counts, self, strict=True))
         maps, used = self._maps()
         return Outcome(
             wires=sum(len(suggestion.wires) for suggestion in self),
             marked=sum(suggestion.marked for suggestion in self),
-            missing=[int(cuts) for own in missing for cuts in own],
+            islands=sum(counts),
             islands_wanted=options.islands if is_few else 0,
             stretch=100.0 * mean_stretch(*zip(*maps, strict=True)) if maps else None,
             stretches=[100.0 * stretch_of(energy) for energy, _ in maps],

@@ -35,7 +35,11 @@ class MESH_OT_seamwire_select_islands(EditMeshOperator, bpy.types.Operator):
         name="Which",
         description="Islands to select",
         items=(
-            ("TO_CUT", "Islands to Cut", "Islands that are not discs: closed ones, and those with holes or handles"),
+            (
+                "TO_CUT",
+                "Islands to Cut",
+                "Islands that cannot lie flat yet: closed ones, tubes, and those with handles",
+            ),
             ("WORST", "Worst Stretched Island", "The island that the UV map stretches most. The view turns to it"),
         ),
     )
@@ -78,7 +82,7 @@ class MESH_OT_seamwire_select_islands(EditMeshOperator, bpy.types.Operator):
         if missing:
             self.report({"INFO"}, f"{count(len(missing), 'island')} to cut: {count(sum(missing), 'more cut')} needed")
         else:
-            self.report({"INFO"}, "All islands are discs")
+            self.report({"INFO"}, "No island needs another cut")
         return {"FINISHED"}
 
     def _select_worst_island(self, context: bpy.types.Context) -> set[str]:

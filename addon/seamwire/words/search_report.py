@@ -41,7 +41,7 @@ class Outcome:
 
     wires: int
     marked: int  # edges
-    missing: Sequence[int]  # how many more cuts each island needs to become a disc; islands may have holes
+    islands: int
     islands_wanted: int = 0  # the number of islands that was asked for but not reached; 0 if it was reached
     stretch: float | None = None  # the mean of all maps; None if there are no maps
     stretches: Sequence[float] = ()  # of each object's map
@@ -63,9 +63,7 @@ class Outcome:
         parts = [count(self.wires, "wire")]
         if self.marked:
             parts.append(f"{count(self.marked, 'edge')} marked")
-        parts.append(count(len(self.missing), "island"))
-        if any(self.missing):  # a cut to an eye would be in full view
-            parts.append(f"{sum(cuts > 0 for cuts in self.missing)} with holes")
+        parts.append(count(self.islands, "island"))
         return ", ".join([*parts, *self._of_map(), *self._problems(), *self._of_square()])
 
     def _text_without_wires(self) -> str:

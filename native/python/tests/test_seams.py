@@ -32,7 +32,7 @@ def test_a_plan_describes_islands_wires_and_a_map(torus: sw.Surface, planner: sw
     plan = planner.plan(distortion=4.5, steps=200)
     np.testing.assert_array_equal(plan.islands, sw.face_segments(torus, edges_of(plan)))
     assert plan.island_count == plan.islands.max() + 1 == 1
-    assert plan.not_discs == 0
+    assert plan.islands_to_cut == 0
     assert plan.is_reached == (plan.energy <= 4.5)
     assert plan.cost > 0.0
     assert plan.steps > 0.0
@@ -65,23 +65,23 @@ def test_wires_across_the_surface_have_curves_of_their_own(torus: sw.Surface) ->
 def test_given_seams_stay_and_weights_keep_seams_away(torus: sw.Surface) -> None:
     ring = closed_ring(20, 6)
     with_ring = sw.SeamPlanner(torus, along="edges", seams=ring).plan(distortion=np.inf)
-    assert with_ring.not_discs == 0
+    assert with_ring.islands_to_cut == 0
     given = {tuple(sorted(edge)) for edge in ring}
     assert not given & {tuple(sorted(edge)) for edge in edges_of(with_ring).tolist()}
     part, around_tube = np.ones((2, len(torus.points)))
     part[[0, 1, 2, 20, 21, 22]] = np.inf
     around_tube[5::20] = np.inf
-    for weights, not_discs in ((part, 0), (around_tube, 1)):
+    for weights, islands_to_cut in ((part, 0), (around_tube, 1)):
         away = sw.SeamPlanner(torus, along="edges", weights=weights).plan(distortion=4.5, steps=100)
         assert np.isfinite(weights[edges_of(away)]).all()
-        assert away.not_discs == not_discs
+        assert away.islands_to_cut == islands_to_cut
         assert np.isfinite(away.energy)  # the tube that stays can be mapped, too
         assert away.is_reached
 
 
 def test_seams_are_mirrored(torus: sw.Surface) -> None:
     plan = sw.SeamPlanner(torus, along="edges", mirror=2, front=(0.0, -1.0, 0.0)).plan(distortion=4.5, steps=200)
-    assert plan.not_discs == 0
+    assert plan.islands_to_cut == 0
     assert np.isfinite(plan.energy)
 
 
@@ -164,7 +164,7 @@ def test_another_thread_sees_the_best_plan_so_far(torus: sw.Surface) -> None:
     assert failed, "the search is cancelled with the first plan that is found"
     best = planner.best_so_far
     assert best is not None
-    assert best.not_discs == 0
+    assert best.islands_to_cut == 0
     assert best.uvs is None
     finished = planner.plan(distortion=np.inf)
     np.testing.assert_array_equal(planner.best_so_far.islands, finished.islands)
@@ -185,7 +185,7 @@ def test_progress_and_cancel(planner: sw.SeamPlanner) -> None:
 def test_the_stub_names_what_there_is(planner: sw.SeamPlanner) -> None:
     plan = planner.plan(distortion=np.inf)
     assert {name for name in dir(plan) if not name.startswith("_")} == {
-        *("wires", "islands", "island_count", "not_discs", "cost", "energy", "is_reached", "steps", "uvs"),
+        *("wires", "islands", "island_count", "islands_to_cut", "cost", "energy", "is_reached", "steps", "uvs"),
     }
     assert {name for name in dir(plan.wires[0]) if not name.startswith("_")} == {
         "seeds",

@@ -2,6 +2,7 @@
 #include "parameterization/flat_holes.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -40,7 +41,8 @@ class HoleTest {
     }
     for (std::int32_t h = 0; index(h) < island.twins.size(); ++h) {
       poll_.next();
-      const Vector to = point(island.tip(h)) - point(island.tail(h)), back = point(island.apex(h)) - point(island.tail(h));
+      const Vector to = point(island.tip(h)) - point(island.tail(h)),
+                   back = point(island.apex(h)) - point(island.tail(h));
       angles_[island.tail(h)] += std::atan2(to.cross(back).norm(), to.dot(back));
     }
   }
@@ -55,15 +57,12 @@ class HoleTest {
   bool is_flat(const std::vector<std::int32_t>& loop) {
     double curvature = 2.0 * std::numbers::pi;
     for (const std::int32_t v : loop) curvature += std::numbers::pi - angles_[v];
-    return is_little(curvature) || is_little(curvature + curvature_around(loop, tuning::kCollar * length(loop)));
+    curvature += curvature_around(loop, tuning::kCollar * length(loop));
+    return rounded_share(std::abs(curvature)) < rounded_share(tuning::kLeastTubeTurn);
   }
 
  private:
   const Vector& point(std::int32_t v) const { return points_[island_.vertices[v]]; }
-
-  static bool is_little(double curvature) {
-    return rounded_share(std::abs(curvature)) < rounded_share(tuning::kLeastTubeTurn);
-  }
 
   /// The curvature of the inner vertices that are nearer to a loop than `reach`, and nearer than any other loop is.
   double curvature_around(const std::vector<std::int32_t>& loop, double reach) {
@@ -75,13 +74,13 @@ class HoleTest {
       if (least.emplace(v, 0.0).second) open.emplace(0.0, v);
     }
     double sum = 0.0;
-    while (!open.empty() && open.top().first < reach) {
+    while (!open.empty() && rounded(open.top().first) < rounded(reach)) {
       poll_.next();
       const auto [away, v] = open.top();
       open.pop();
       if (!is_done.insert(v).second) continue;
       if (loop_of_[v] < 0) sum += 2.0 * std::numbers::pi - angles_[v];
-      if (loop_of_[v] >= 0 && loop_of_[v] != loop_of_[loop.front()]) break;
+      if (loop_of_[v] >= 0 && away > 0.0) reach = std::min(reach, away);
       for (const std::int32_t next : neighbors_[v]) {
         const double further = away + (point(next) - point(v)).norm();
         const auto [known, is_new] = least.emplace(next, further);

@@ -15,8 +15,8 @@ namespace seamwire::detail {
 /// map with little stretch can keep these holes. The end of a tube is no such hole, and the longest loop is none.
 ///
 /// By the theorem of Gauss and Bonnet, the turns along a loop tell the curvature that its hole has if it is filled: 0
-/// in a plane, 2 pi at the end of a cylinder. With the curvature near the loop it is also known for a wider hole, so a
-/// short collar around a hole does not matter.
+/// in a plane, 2 pi at the end of a cylinder. With the curvature near the loop it is known for a wider hole, which
+/// decides. So neither a short collar around a hole matters, nor a narrow flange at the end of a tube.
 ///
 /// `points`: of mesh vertices. `boundaries`: Island::boundaries(). Throws Cancelled.
 std::vector<std::uint8_t> flat_holes(const Island& island, std::span<const Vector> points,

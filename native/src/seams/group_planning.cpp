@@ -119,7 +119,8 @@ void GroupPlanning::grow(bool has_tips, const Task& task) {
   // Without a bound on the energy, only discs are wanted.
   grown({.has_tips = has_tips, .keeps_holes = has_tips}, part_of(task, 0.0, 0.9));
   // Double precision may be unable to hold a map with holes.
-  if (has_tips && !std::isfinite(start_.energy)) grown({.has_tips = true, .keeps_holes = false}, part_of(task, 0.9, 1.0));
+  if (has_tips && !std::isfinite(start_.energy))
+    grown({.has_tips = true, .keeps_holes = false}, part_of(task, 0.9, 1.0));
   show(start_, task);
 }
 
@@ -245,7 +246,9 @@ std::vector<Slit> GroupPlanning::completed(std::vector<Slit> slits, const std::v
   if (group_->simplified_at(level_) == nullptr) return slits;
   if (missing_cuts_of(group_->original, slits, task) > missing_cuts_of(problem(), simple, task)) {
     const SlitProblem original = with_seams(group_->original, slits, task);
-    std::ranges::move(grow_tree(original, {.has_tips = false, .keeps_holes = tree_goal_.keeps_holes}, part_of(task, 0.0, 0.0)).slits, std::back_inserter(slits));
+    std::ranges::move(
+        grow_tree(original, {.has_tips = false, .keeps_holes = tree_goal_.keeps_holes}, part_of(task, 0.0, 0.0)).slits,
+        std::back_inserter(slits));
   }
   return slits;
 }

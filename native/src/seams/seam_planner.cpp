@@ -167,7 +167,7 @@ class WholePlan {
     plan.islands = face_segments(surface, cuts, task);
     for (const std::int32_t missing : missing_cuts(surface, cuts, plan.islands, task)) {
       ++plan.island_count;
-      plan.not_discs += missing > 0 ? 1 : 0;
+      plan.islands_to_cut += missing > 0 ? 1 : 0;
     }
     return plan;
   }

@@ -196,7 +196,10 @@ std::optional<Slit> shortened(const PlanMesh& mesh, const Slit& slit, double sha
   const auto first = [](const std::vector<std::int32_t>& chain, std::size_t count) {
     return std::vector<std::int32_t>(chain.begin(), chain.begin() + static_cast<std::ptrdiff_t>(count));
   };
-  Slit left{.path = first(slit.path, kept_count(mesh, slit.path, share)), .image = {}, .is_needed = slit.is_needed, .is_join = slit.is_join};
+  Slit left{.path = first(slit.path, kept_count(mesh, slit.path, share)),
+            .image = {},
+            .is_needed = slit.is_needed,
+            .is_join = slit.is_join};
   if (left.path.size() < 2) return std::nullopt;
   if (slit.image.empty()) return left;
   // Without its prefix on the mirror plane the path is as long as its image.
@@ -245,9 +248,10 @@ std::vector<Slit> with_slit(const PlanMesh& mesh, std::span<const Slit> slits, c
   std::vector<Slit> all(slits.begin(), slits.end());
   for (std::size_t k = 0; k < all.size(); ++k) {
     Slit& one = all[k];
-    const bool is_continued =
-        !one.is_needed && !one.is_join && one.path.back() == slit.path.front() && one.image.empty() == slit.image.empty() &&
-        (one.image.empty() || one.image.back() == slit.image.front()) && needed_share(mesh, slits, k) < 1.0;
+    const bool is_continued = !one.is_needed && !one.is_join && one.path.back() == slit.path.front() &&
+                              one.image.empty() == slit.image.empty() &&
+                              (one.image.empty() || one.image.back() == slit.image.front()) &&
+                              needed_share(mesh, slits, k) < 1.0;
     if (!is_continued) continue;
     one.path.insert(one.path.end(), slit.path.begin() + 1, slit.path.end());
     one.is_join = slit.is_join;

@@ -218,10 +218,10 @@ inline constexpr double kLeastCut = 0.6;
 /// the end of a tube. With less than this, the loop is the end of a tube.
 inline constexpr double kLeastAround = 2.0;
 /// Curvature in radians of a filled hole from which on its loop is the end of a tube. A cone that has less can be laid
-/// out as a ring within a bound of 4.17.
-inline constexpr double kLeastTubeTurn = 1.5707963267948966;
-/// Height of a collar around a hole that does not matter, as a share of the hole's outline: 0.4 of its radius.
-inline constexpr double kCollar = 0.0625;
+/// out as a ring with an energy below 4.07.
+inline constexpr double kLeastTubeTurn = 1.0471975511965976;
+/// Distance from a hole within which its surroundings decide, as a share of its outline: 1.6 of its radius.
+inline constexpr double kCollar = 0.25;
 
 /// Distance from the mirror image of a slit at which an edge costs twice its price, on a surface of area 1. It matters
 /// if a mesh is not mirrored edge by edge.

@@ -94,7 +94,7 @@ double length_of(const Surface& surface, const SeamPlan& plan) {
 
 /// The plan has a map without flips and overlaps.
 void expect_map(const Surface& surface, const SeamPlan& plan) {
-  EXPECT_EQ(plan.not_discs, 0U);
+  EXPECT_EQ(plan.islands_to_cut, 0U);
   ASSERT_EQ(plan.uvs.size(), surface.face_count());
   const MapReport report = measure_map(surface, plan.uvs, plan.islands);
   EXPECT_TRUE(report.flipped.empty());

@@ -121,7 +121,8 @@ void expect_sound(const Surface& surface, const SeamPlan& plan, const std::vecto
   EXPECT_EQ(plan.islands, face_segments(surface, cuts));
   const std::vector<std::int32_t> missing = missing_cuts(surface, cuts, plan.islands);
   EXPECT_EQ(plan.island_count, missing.size());
-  EXPECT_EQ(plan.not_discs, static_cast<std::size_t>(std::ranges::count_if(missing, [](auto m) { return m > 0; })));
+  EXPECT_EQ(plan.islands_to_cut,
+            static_cast<std::size_t>(std::ranges::count_if(missing, [](auto m) { return m > 0; })));
   EXPECT_GE(plan.cost, 0.0);
   for (const PlannedWire& wire : plan.wires) {
     ASSERT_GE(wire.vertices.size(), 2U);
@@ -134,10 +135,10 @@ void expect_sound(const Surface& surface, const SeamPlan& plan, const std::vecto
   }
 }
 
-/// Every island is a disc.
+/// No island needs another cut.
 void expect_discs(const Surface& surface, const SeamPlan& plan, const std::vector<Edge>& seams = {}) {
   expect_sound(surface, plan, seams);
-  EXPECT_EQ(plan.not_discs, 0U);
+  EXPECT_EQ(plan.islands_to_cut, 0U);
 }
 
 /// The planned map is as good as the plan says.
@@ -161,6 +162,100 @@ TEST(SeamPlanner, APlaneNeedsNoSeam) {
       expect_map(*surface, plan);
     }
   }
+}
+
+/// A square plate of `side` x `side` quads with holes of 2 x 2 quads, `count` in each row and column.
+shapes::QuadMesh plate_with_holes(int count) {
+  const int side = 4 * count;
+  shapes::QuadMesh plate = shapes::quad_grid(side);
+  int quad = 0;
+  std::erase_if(plate.quads, [&](const auto&) {
+    const int column = quad % side, row = quad++ / side;
+    return (column % 4 == 1 || column % 4 == 2) && (row % 4 == 1 || row % 4 == 2);
+  });
+  return plate;
+}
+
+TEST(SeamPlanner, APlateKeepsItsHoles) {
+  for (const int count : {1, 2, sized(22, 6)}) {
+    const auto surface = shared(plate_with_holes(count));
+    for (const int mirror : {-1, 0}) {
+      const SeamPlan plan = SeamPlanner(surface, along_edges(mirror)).plan({.distortion = 4.001});
+      EXPECT_TRUE(plan.wires.empty());
+      EXPECT_TRUE(plan.is_reached);
+      EXPECT_NEAR(plan.energy, 4.0, 1e-6);
+      EXPECT_EQ(plan.cost, 0.0);
+      expect_discs(*surface, plan);
+      expect_map(*surface, plan);
+    }
+    const SeamPlan discs = SeamPlanner(surface, along_edges()).plan({.distortion = kAnything});
+    EXPECT_FALSE(discs.wires.empty()) << "only discs are wanted";
+  }
+}
+
+TEST(SeamPlanner, ASheetNeedsNoSeamsBesideItsFins) {
+  // The edge below a fin has three faces, so it is a hole of the sheet.
+  constexpr int kSide = 8, kFins = 20;
+  shapes::QuadMesh mesh = shapes::quad_grid(kSide);
+  for (int i = 0; i < kFins; ++i) {
+    const std::int32_t a = (1 + i / (kSide - 1)) * (kSide + 1) + 1 + i % (kSide - 1);
+    const auto top = static_cast<std::int32_t>(mesh.points.size());
+    for (const std::int32_t v : {a, a + 1}) {
+      mesh.points.emplace_back(mesh.points[static_cast<std::size_t>(v)] + Vector(0.0, 0.0, 0.1));
+    }
+    mesh.quads.push_back({a, a + 1, top + 1, top});
+  }
+  const auto surface = shared(mesh);
+  const SeamPlan plan = SeamPlanner(surface, along_edges()).plan();
+  EXPECT_TRUE(plan.wires.empty());
+  EXPECT_EQ(plan.island_count, static_cast<std::size_t>(kFins + 1));
+  EXPECT_NEAR(plan.energy, 4.0, 1e-6);
+  expect_discs(*surface, plan);
+  expect_map(*surface, plan);
+}
+
+/// A mask: a part of a ball with an eye hole on each side of x = 0.
+shapes::QuadMesh mask() {
+  constexpr int kSide = 24;
+  shapes::QuadMesh mesh = shapes::quad_grid(kSide);
+  int quad = 0;
+  std::erase_if(mesh.quads, [&](const auto&) {
+    const int column = quad % kSide, row = quad++ / kSide;
+    return (std::abs(column - 6) < 2 || std::abs(column - 17) < 2) && std::abs(row - 14) < 2;
+  });
+  for (Vector& point : mesh.points) {
+    const double x = 2.0 * point.x() - 1.0, y = 2.0 * point.y() - 1.0;
+    point = Vector(x, y, 0.7 * std::sqrt(2.5 - x * x - y * y));
+  }
+  return mesh;
+}
+
+TEST(SeamPlanner, AMaskKeepsItsEyeHolesUnlessTheBoundIsLow) {
+  const auto surface = shared(mask());
+  const SeamPlanner planner(surface, along_edges(0));
+  const SeamPlan plan = planner.plan();
+  EXPECT_TRUE(plan.wires.empty());
+  EXPECT_TRUE(plan.is_reached);
+  expect_discs(*surface, plan);
+  expect_map(*surface, plan);
+}
+
+TEST(SeamPlanner, AConeIsSlitFromItsHoleToItsRimIfTheBoundIsLow) {
+  const auto surface = shared(shapes::parametric_quads(32, 6, true, false, [](double u, double v) {
+    const double radius = 0.2 + 0.8 * v, a = 2.0 * std::numbers::pi * u;
+    return Vector(radius * std::cos(a), radius * std::sin(a), -0.55 * radius);
+  }));
+  const SeamPlanner planner(surface, along_edges());
+  const SeamPlan ring = planner.plan();
+  EXPECT_TRUE(ring.wires.empty());
+  EXPECT_GT(ring.energy, 4.005);
+  EXPECT_TRUE(ring.is_reached);
+  const SeamPlan slit = planner.plan({.distortion = 4.005});
+  expect_map(*surface, slit);
+  EXPECT_TRUE(slit.is_reached);
+  EXPECT_NEAR(slit.energy, 4.0, 1e-3);
+  EXPECT_EQ(slit.wires.size(), 1U);
+  EXPECT_NEAR(length_of(*surface, slit), 0.8 * std::hypot(1.0, 0.55), 1e-6) << "straight, from loop to loop";
 }
 
 TEST(SeamPlanner, ACylinderIsCutFromRimToRim) {

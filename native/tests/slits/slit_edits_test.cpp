@@ -75,6 +75,10 @@ TEST(SlitEdits, ASlitThatGoesOnIsOneSlit) {
   // The first one ends where another one starts: a third one there is no continuation.
   const std::vector<Slit> two = {{.path = {0, 1, 2}, .image = {}}, {.path = {2, 13}, .image = {}}};
   EXPECT_EQ(with_slit(mesh, two, {.path = {2, 3}, .image = {}}).size(), 3U);
+  // A slit that has reached another boundary loop ends there. One that goes on to a loop goes whole or not at all.
+  const std::vector<Slit> join = {{.path = {0, 1, 2}, .image = {}, .is_join = true}};
+  EXPECT_EQ(with_slit(mesh, join, {.path = {2, 3}, .image = {}}).size(), 2U);
+  EXPECT_TRUE(with_slit(mesh, slits, {.path = {2, 3}, .image = {}, .is_join = true}).front().is_join);
 }
 
 }  // namespace

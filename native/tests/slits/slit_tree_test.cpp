@@ -22,10 +22,15 @@ using namespace detail;
 
 namespace {
 
-/// All pieces are discs, and chains are joined by real edges between the seams.
-void expect_discs(const SlitProblem& problem, const SlitTree& tree) {
+/// All pieces are discs, or discs with holes if `loops` allows for more boundary loops, and chains are joined by real
+/// edges between the seams.
+void expect_discs(const SlitProblem& problem, const SlitTree& tree, std::size_t loops = 1) {
   const Cut cut = cut_of(problem, tree.slits, tree.roots);
-  for (std::int32_t p = 0; p < problem.pieces.count; ++p) EXPECT_TRUE(open_piece(problem, cut, p, {})) << "piece " << p;
+  for (std::int32_t p = 0; p < problem.pieces.count; ++p) {
+    const std::optional<Island> island = open_piece(problem, cut, p, {});
+    ASSERT_TRUE(island) << "piece " << p;
+    EXPECT_EQ(island->boundaries().size(), loops) << "piece " << p;
+  }
   for (const Slit& slit : tree.slits) {
     for (const auto* chain : {&slit.path, &slit.image}) {
       for (std::size_t i = 1; i < chain->size(); ++i) {
@@ -98,7 +103,8 @@ TEST(SlitTree, CutsACylinderAlongItsHeight) {
 TEST(SlitTree, OpensATorusAlongItsShortestLoops) {
   const SlitProblem problem = problem_on(shapes::quad_torus(32, 16).surface());
   const double around_tube = 2 * std::numbers::pi * 0.15, around_hole = 2 * std::numbers::pi * 0.2;
-  EXPECT_LT(length_of(problem, grow_tree(problem, {.has_tips = false, .keeps_holes = false}, {})), 1.15 * (around_tube + around_hole));
+  EXPECT_LT(length_of(problem, grow_tree(problem, {.has_tips = false, .keeps_holes = false}, {})),
+            1.15 * (around_tube + around_hole));
 }
 
 TEST(SlitTree, KeepsGivenSeamsOutOfItsSlits) {
@@ -130,7 +136,8 @@ TEST(SlitTree, CutsEachOfTwoTubesWithTheSameRims) {
   for (const int mirror : {-1, 1}) {
     const SlitProblem problem = problem_on(surface, {.mirror = mirror, .seams = seams});
     ASSERT_EQ(problem.pieces.count, 2);
-    for (const bool has_tips : {true, false}) expect_discs(problem, grow_tree(problem, {.has_tips = has_tips, .keeps_holes = false}, {}));
+    for (const bool has_tips : {true, false})
+      expect_discs(problem, grow_tree(problem, {.has_tips = has_tips, .keeps_holes = false}, {}));
   }
 }
 
@@ -140,7 +147,8 @@ TEST(SlitTree, CutsATubeWhoseRimsAreOneSeam) {
   for (std::int32_t i = 0; i < 24; ++i) seams.push_back({72 + i, 72 + (i + 1) % 24});
   const SlitProblem problem = problem_on(surface, {.seams = seams});
   ASSERT_EQ(problem.pieces.count, 1);
-  for (const bool has_tips : {true, false}) expect_discs(problem, grow_tree(problem, {.has_tips = has_tips, .keeps_holes = false}, {}));
+  for (const bool has_tips : {true, false})
+    expect_discs(problem, grow_tree(problem, {.has_tips = has_tips, .keeps_holes = false}, {}));
 }
 
 TEST(SlitTree, ReachesThousandsOfHolesInAboutOneSearch) {
@@ -169,6 +177,9 @@ TEST(SlitTree, ReachesThousandsOfHolesInAboutOneSearch) {
       problem.prices.is_exposed.push_back(point.x() > exposed_from * problem.mesh->scale ? 1 : 0);
     }
     find_pieces_of(problem, {});
+    const SlitTree with_holes = grow_tree(problem, {}, {});
+    EXPECT_TRUE(with_holes.slits.empty()) << "flat holes stay";
+    expect_discs(problem, with_holes, holes + 1);
     const SlitTree tree = grow_tree(problem, {.has_tips = true, .keeps_holes = false}, {});
     EXPECT_GT(tree.slits.size(), holes / 2);
     if (exposed_from > 1.0) {
@@ -176,6 +187,15 @@ TEST(SlitTree, ReachesThousandsOfHolesInAboutOneSearch) {
       expect_discs(problem, tree);
       EXPECT_LE(length_of(problem, tree), 2.0 * static_cast<double>(holes) / kSide + 1e-9);
     }
+  }
+}
+
+TEST(SlitTree, CutsTubesAndHandlesEvenIfHolesMayStay) {
+  for (const shapes::Mesh& mesh : {shapes::cylinder(16, 8), shapes::cylinder(32, 2, 0.5, 0.1), shapes::torus(24, 12)}) {
+    const SlitProblem problem = problem_on(mesh.surface());
+    const SlitTree tree = grow_tree(problem, {}, {});
+    expect_discs(problem, tree);
+    EXPECT_TRUE(std::ranges::none_of(tree.slits, &Slit::is_join));
   }
 }
 
@@ -233,7 +253,8 @@ TEST(SlitTree, OpensABallOutsideOfKeepOutAreas) {
   for (const Vector& point : surface.points()) weights.push_back(point.z() > -0.2 ? kInfinity : 1.0);
   for (const int mirror : {-1, 0}) {
     const SlitProblem problem = problem_on(surface, {.mirror = mirror, .weights = weights});
-    for (const bool has_tips : {true, false}) expect_discs(problem, grow_tree(problem, {.has_tips = has_tips, .keeps_holes = false}, {}));
+    for (const bool has_tips : {true, false})
+      expect_discs(problem, grow_tree(problem, {.has_tips = has_tips, .keeps_holes = false}, {}));
   }
 }
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 Label = Callable[["NDArray[np.int32]"], "NDArray[np.int32]"]
 """Takes cut edges, (c, 2), and returns a label for every triangle: 0, 1, ..., largest island first."""
 Count = Callable[["NDArray[np.int32]", "NDArray[np.int32]"], "NDArray[np.int32]"]
-"""Takes cut edges, (c, 2), and the labels they make; returns how many more cuts each island needs to become a disc."""
+"""Takes cut edges, (c, 2), and the labels they make; returns how many more cuts each island needs before it can lie flat."""
 _Request = tuple[object, "NDArray[np.int32]", frozenset[int]]
 """The key, the cuts, and the vertices where cuts end on purpose."""
 
@@ -59,7 +59,7 @@ class Islands:
     hues
         (count,) a number below the number of hues for each; those of neighbors across a cut are far apart, see `PLACES`.
     missing
-        (count,) how many more cuts each needs to become a disc.
+        (count,) how many more cuts each needs before it can lie flat.
     cut
         Whether anything was cut.
     parted
@@ -96,7 +96,7 @@ class IslandMaker(Newest[_Request, Islands]):
     gaps
         Finds what keeps islands from separating; None: that is not asked for.
     count
-        Counts the cuts that islands need; called on the thread. None: every island counts as a disc.
+        Counts the cuts that islands need; called on the thread. None: no island needs any.
     """
 
     def __init__(

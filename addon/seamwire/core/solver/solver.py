@@ -231,7 +231,7 @@ class LiveMaker:
         return self._core.face_segments(self.wait(progress), cuts)
 
     def missing_cuts(self, cuts: NDArray[np.int32], islands: NDArray[np.int32]) -> NDArray[np.int32]:
-        """Return how many more cuts each island needs to become a disc; it waits for the surface."""
+        """Return how many more cuts each island needs before it can lie flat; it waits for the surface."""
         return self._core.missing_cuts(self.wait(), cuts, islands)
 
 

@@ -11,10 +11,11 @@
 
 namespace seamwire {
 
-/// Count how many more cuts each segment needs to become a disc.
+/// Count how many more cuts each segment needs before it can lie flat with little stretch.
 ///
 /// A disc needs 0, a tube or a closed ball needs 1, and a torus needs 3. Each cut leads from border to border. A
-/// segment without a border needs another cut first to get one.
+/// segment without a border needs another cut first to get one. A hole in a nearly flat place needs no cut: if
+/// it were filled, it would have less than 60 degrees of curvature.
 ///
 /// Triangles that share only a vertex are not joined. Non-manifold and unorientable edges are borders of their
 /// triangles, as in face_segments(). So a Moebius strip is a disc.

@@ -73,9 +73,9 @@ struct SeamPlan {
   std::vector<PlannedWire> wires;     ///< without the existing seams
   std::vector<std::int32_t> islands;  ///< the island of each of the caller's triangles, numbered as in face_segments()
   std::size_t island_count = 0;       ///< number of islands
-  std::size_t not_discs = 0;          ///< number of islands that are not discs, see missing_cuts()
+  std::size_t islands_to_cut = 0;     ///< number of islands that need more cuts, see missing_cuts()
   /// The price of the slits that the search worked on, for a surface of area 1. Lower is better. Each slit costs the
-  /// prices of its edges, plus a fixed amount unless the island needs it to become a disc. Wires across the surface may
+  /// prices of its edges, plus a fixed amount unless the island needs it to lie flat. Wires across the surface may
   /// run beside their slits, and are not priced again.
   double cost = 0.0;
   /// The symmetric Dirichlet energy E_d of the planned map, as in MapReport::energy; infinite if an island has no map.
@@ -94,8 +94,9 @@ struct SeamPlan {
 /// Plans seams like an artist's: few, short, and hidden.
 ///
 /// A seam is a crack that costs its length times its visibility, and pays by lowering the distortion of the map. The
-/// planner starts with a tree of slits to the tips of limbs. Then it adds slits where the map is distorted. It shortens
-/// and exchanges them while the distortion stays within a bound.
+/// planner starts with a tree of slits to the tips of limbs. Holes in nearly flat places stay, unless that distorts.
+/// Then it adds slits where the map is distorted. It shortens and exchanges them while the distortion stays within a
+/// bound.
 ///
 /// Slits follow sharp edges, creases and thin rims that are near. On a symmetric surface, most slits run along the
 /// mirror plane or come in mirrored pairs. A slit stays alone if its image would part an island. So does a slit

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "parameterization/flat_holes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "parameterization/cut_open.hpp"
+#include "shapes.hpp"
+#include "surface/corner_fans.hpp"
+
+namespace seamwire {
+
+using namespace detail;
+
+namespace {
+
+/// A ring of revolution about the z axis, with edges along a profile of points (radius, height).
+Surface ring(const std::vector<std::array<double, 2>>& profile) {
+  const int rows = static_cast<int>(profile.size()) - 1;
+  return shapes::parametric(48, rows, true, false,
+                            [&](double u, double v) {
+                              const auto [radius, height] = profile[static_cast<std::size_t>(std::lround(v * rows))];
+                              const double a = 2.0 * std::numbers::pi * u;
+                              return Vector(radius * std::cos(a), radius * std::sin(a), height);
+                            })
+      .surface();
+}
+
+/// Points on straight lines between the corners of a profile.
+std::vector<std::array<double, 2>> lines(const std::vector<std::array<double, 2>>& corners) {
+  constexpr int kParts = 6;
+  std::vector<std::array<double, 2>> profile = {corners.front()};
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    for (int k = 1; k <= kParts; ++k) {
+      const double t = static_cast<double>(k) / kParts;
+      profile.push_back(
+          {std::lerp(corners[i - 1][0], corners[i][0], t), std::lerp(corners[i - 1][1], corners[i][1], t)});
+    }
+  }
+  return profile;
+}
+
+struct Counts {
+  std::size_t loops = 0;
+  std::ptrdiff_t flat = 0;
+  bool operator==(const Counts&) const = default;
+};
+
+Counts counts(const Surface& surface) {
+  const std::vector<std::uint8_t> no_cuts(corner_fans(surface).twins.size(), 0);
+  Island island = cut_open(corner_fans(surface), no_cuts).front();
+  for (std::int32_t& v : island.vertices) v = corner_fans(surface).vertices[v];
+  const auto boundaries = island.boundaries();
+  const std::vector<std::uint8_t> is_flat = flat_holes(island, surface.points(), boundaries, {});
+  EXPECT_EQ(is_flat.size(), boundaries.size());
+  return {boundaries.size(), std::ranges::count(is_flat, 1)};
+}
+
+TEST(FlatHoles, LieInPlanesAndWideCones) {
+  EXPECT_EQ(counts(ring(lines({{0.5, 0.0}, {1.0, 0.0}}))), (Counts{2, 1}));
+  EXPECT_EQ(counts(ring(lines({{0.95, 0.0}, {1.0, 0.0}}))), (Counts{2, 1})) << "a thin washer";
+  EXPECT_EQ(counts(ring(lines({{0.2, 0.4}, {1.0, 0.0}}))), (Counts{2, 1}));
+  EXPECT_EQ(counts(ring(lines({{0.2, 0.8}, {1.0, 0.0}}))), (Counts{2, 0})) << "a steep cone";
+}
+
+TEST(FlatHoles, AreNotTheEndsOfTubes) {
+  EXPECT_EQ(counts(ring(lines({{1.0, 0.0}, {1.0, 2.0}}))), (Counts{2, 0}));
+  EXPECT_EQ(counts(ring(lines({{1.0, 0.0}, {1.0, 0.2}}))), (Counts{2, 0})) << "a belt";
+  EXPECT_EQ(counts(ring(lines({{1.0, 0.0}, {1.0, 2.0}, {0.9, 2.0}}))), (Counts{2, 0})) << "with a narrow flange";
+  EXPECT_EQ(counts(ring(lines({{0.2, 0.0}, {0.2, 1.0}, {2.0, 1.0}}))), (Counts{2, 0})) << "a pipe on a plate";
+}
+
+TEST(FlatHoles, MayHaveACollar) {
+  EXPECT_EQ(counts(ring(lines({{0.2, 0.1}, {0.2, 0.0}, {1.0, 0.0}}))), (Counts{2, 1}));
+  EXPECT_EQ(counts(ring(lines({{0.2, 0.2}, {0.2, 0.0}, {1.0, 0.0}}))), (Counts{2, 1}));
+}
+
+TEST(FlatHoles, NeedAnOuterLoop) {
+  EXPECT_EQ(counts(shapes::icosphere(1).surface()), (Counts{0, 0}));
+  EXPECT_EQ(counts(shapes::grid(4).surface()), (Counts{1, 0}));
+}
+
+TEST(FlatHoles, MayBeMany) {
+  constexpr int kSide = 64;
+  shapes::QuadMesh sieve = shapes::quad_grid(kSide);
+  int quad = 0;
+  std::erase_if(sieve.quads, [&](const auto&) {
+    const int column = quad % kSide, row = quad++ / kSide;
+    return column % 3 == 1 && row % 3 == 1;
+  });
+  EXPECT_EQ(counts(sieve.surface()), (Counts{442, 441}));
+}
+
+}  // namespace
+}  // namespace seamwire
