@@ -191,7 +191,7 @@ class PieceNet {
         }
       }
     }
-    return true;
+    return open.size() == panel.faces.size();
   }
 
   void lay_first(std::int32_t f) {
@@ -219,8 +219,8 @@ class PieceNet {
       const std::int32_t side = takes_first ? h : mesh_.twins[h];
       return {at(side, !takes_first), at(side, takes_first)};
     };
-    const std::int32_t longest = *std::ranges::max_element(
-        rim.half_edges, {}, [&](std::int32_t h) { return mesh_.lengths[mesh_.edge_of[h]]; });
+    const std::int32_t longest =
+        *std::ranges::max_element(rim.half_edges, {}, [&](std::int32_t h) { return mesh_.lengths[mesh_.edge_of[h]]; });
     const Motion motion = motion_between(sides(longest, true), sides(longest, false));
     for (const std::int32_t h : rim.half_edges) {
       const auto own = sides(h, true), other = sides(h, false);
@@ -255,8 +255,8 @@ class PieceNet {
     for (std::int32_t p = 0; index(p) < panels_.size(); ++p) {
       if (is_placed_[p] != 0) continue;
       const Panel& panel = panels_[p];
-      const Key key{eccentricity(p),    !panel.is_across(), -rounded(panel.area), -grid(panel.center.z()),
-                    grid(panel.center.y()), p};
+      const Key key{eccentricity(p),         !panel.is_across(),     -rounded(panel.area),
+                    -grid(panel.center.z()), grid(panel.center.y()), p};
       if (!best || key < *best) best = key;
     }
     return std::get<5>(*best);
@@ -323,7 +323,8 @@ class PieceNet {
   /// Whether a panel lies on top of a placed one of the same island.
   bool covers_others(std::int32_t panel, std::int32_t island) {
     for (std::int32_t p = 0; index(p) < panels_.size(); ++p) {
-      if (is_placed_[p] != 0 && islands_.find(p) == islands_.find(island) && cover_each_other(panels_[p], panels_[panel])) {
+      if (is_placed_[p] != 0 && islands_.find(p) == islands_.find(island) &&
+          cover_each_other(panels_[p], panels_[panel])) {
         return true;
       }
     }
@@ -394,7 +395,8 @@ std::vector<std::uint8_t> find_folds(const NetProblem& problem, const Task& task
   }
   for (std::size_t p = 0; p < faces.size(); ++p) {
     task.check(0.0);
-    if (problem.diagonals[p] > 0.0) PieceNet(problem, flat, is_laid, problem.diagonals[p], task).find(faces[p], is_fold);
+    if (problem.diagonals[p] > 0.0)
+      PieceNet(problem, flat, is_laid, problem.diagonals[p], task).find(faces[p], is_fold);
   }
   return is_fold;
 }

@@ -306,7 +306,8 @@ class HandleLoops {
                                                      std::span<const std::int32_t> crossed) {
     using Sides = std::uint64_t;  // a bit for each loop
     if (through.empty() || through.size() > 64) return {};
-    // A closed line parts the surface unless it crosses the path between both sides of some loop an odd number of times.
+    // A closed line parts the surface unless it crosses the path between both sides of some loop an odd number of
+    // times.
     std::vector<std::vector<std::int32_t>> around(island_.triangles.size());
     for (const std::int32_t h : crossed) {
       around[h / 3].push_back(h);

@@ -152,7 +152,8 @@ TEST(PartFinder, opens_no_net_around_a_round_wall) {
 }
 
 TEST(PartFinder, keeps_a_cap_whose_rim_is_short) {
-  const auto rod = shared(shapes::lathe(12, {{-0.5, 0.0}, {-0.5, 0.012}, {0.0, 0.012}, {0.5, 0.012}, {0.5, 0.0}}).surface());
+  const auto rod =
+      shared(shapes::lathe(12, {{-0.5, 0.0}, {-0.5, 0.012}, {0.0, 0.012}, {0.5, 0.012}, {0.5, 0.0}}).surface());
   EXPECT_EQ(PartFinder(rod).find().count, 3u);
 }
 
