@@ -214,6 +214,64 @@ def test_the_same_sphere_always_gets_the_same_seams() -> None:
     assert len(found) == 1
 
 
+def turns(obj: bpy.types.Object) -> int:
+    """Return the number of vertices of four edges at which a seam turns."""
+    verts = bmesh.from_edit_mesh(obj.data).verts
+    found = 0
+    for vert in verts:
+        ends = [edge for edge in vert.link_edges if edge.seam]
+        if len(vert.link_edges) == 4 and len(ends) == 2:
+            found += bool(set(ends[0].link_faces) & set(ends[1].link_faces))
+    return found
+
+
+def add_box() -> None:
+    bpy.ops.mesh.primitive_cube_add()
+    bpy.context.object.scale = (1.0, 0.6, 0.3)
+    bpy.ops.object.transform_apply(scale=True)
+
+
+def add_bevelled_cube() -> None:
+    bpy.ops.mesh.primitive_cube_add()
+    bpy.context.object.modifiers.new("Bevel", "BEVEL").width = 0.1
+    bpy.ops.object.modifier_apply(modifier="Bevel")
+
+
+def add_boxes() -> None:
+    bm = bmesh.new()
+    for i in range(100):
+        bmesh.ops.create_cube(bm, matrix=Matrix.Translation((2.0 * (i % 10), 2.0 * (i // 10), 0.0)))
+    bpy.context.view_layer.objects.active = add_bmesh(bm, "Boxes")
+
+
+FIRST_SHAPES = {
+    "cube": (bpy.ops.mesh.primitive_cube_add, 1, 7),
+    "box": (add_box, 1, 7),
+    "bevelled cube": (add_bevelled_cube, 1, 13),
+    "boxes": (add_boxes, 100, 700),
+    "cylinder": (bpy.ops.mesh.primitive_cylinder_add, 3, 65),
+    "prism": (lambda: bpy.ops.mesh.primitive_cylinder_add(vertices=6), 3, 13),
+    "cone": (bpy.ops.mesh.primitive_cone_add, 2, 33),
+    "torus": (bpy.ops.mesh.primitive_torus_add, 1, 60),
+    "sphere": (bpy.ops.mesh.primitive_uv_sphere_add, 1, None),
+}
+"""What adds each of the shapes that everybody tries first, its islands and its seam edges."""
+
+
+@pytest.mark.parametrize("shape", FIRST_SHAPES)
+def test_first_shapes_get_few_seams_without_jogs(shape: str) -> None:
+    add, count, edges = FIRST_SHAPES[shape]
+    add()
+    obj = bpy.context.view_layer.objects.active
+    edit()
+    clear(obj)
+    assert suggest() == {"FINISHED"}
+    assert islands(obj) == count
+    assert edges in (None, len(seams(obj)))
+    assert turns(obj) == 0
+    assert is_good_map(obj)
+
+
 def test_sharp_edges_that_are_everywhere_part_nothing() -> None:
     found = []
     for is_sharp in (False, True):

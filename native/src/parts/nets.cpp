@@ -74,16 +74,21 @@ struct PanelRim {
 /// The nets of one connected piece.
 class PieceNet {
  public:
-  PieceNet(const NetProblem& problem, std::vector<Corners>& flat, double diagonal, const Task& task)
-      : problem_(problem), mesh_(problem.mesh), flat_(flat), gap_(tuning::kNetGap * diagonal), task_(task) {}
+  /// `flat` and `is_laid` have an item for each triangle of the mesh.
+  PieceNet(const NetProblem& problem, std::vector<Corners>& flat, std::vector<std::uint8_t>& is_laid, double diagonal,
+           const Task& task)
+      : problem_(problem),
+        mesh_(problem.mesh),
+        flat_(flat),
+        is_laid_(is_laid),
+        gap_(tuning::kNetGap * diagonal),
+        task_(task) {}
 
   /// Marks the folds, if the piece opens as a net.
   void find(std::span<const std::int32_t> faces, std::vector<std::uint8_t>& is_fold) {
     if (!find_panels(faces)) return;
     find_rims();
-    for (std::size_t p = 0; p < panels_.size(); ++p) {
-      if (!unfold(panels_[p])) return;
-    }
+    if (!std::ranges::all_of(panels_, [&](const Panel& panel) { return unfold(panel); })) return;
     place({});
     if (placed_count_ < panels_.size()) return;
     if (!parting_.empty()) place(parting_);
@@ -171,30 +176,22 @@ class PieceNet {
   bool unfold(const Panel& panel) {
     const Poll poll(task_);
     std::vector<std::int32_t> open{panel.faces.front()};
-    std::map<std::int32_t, bool> is_placed;
     lay_first(open.front());
-    is_placed[open.front()] = true;
-    const auto is_inner = [&](std::int32_t h) {
-      const std::int32_t twin = mesh_.twins[h];
-      return twin >= 0 && problem_.region_of[twin / 3] == problem_.region_of[h / 3];
-    };
+    is_laid_[open.front()] = 1;
     for (std::size_t k = 0; k < open.size(); ++k) {
       poll.at(k);
       for (std::int32_t h = 3 * open[k]; h < 3 * open[k] + 3; ++h) {
-        if (!is_inner(h) || is_placed.contains(mesh_.twins[h] / 3)) continue;
-        lay_beside(h);
-        is_placed[mesh_.twins[h] / 3] = true;
-        open.push_back(mesh_.twins[h] / 3);
-      }
-    }
-    for (const std::int32_t f : panel.faces) {
-      for (std::int32_t h = 3 * f; h < 3 * f + 3; ++h) {
-        if (!is_inner(h)) continue;
         const std::int32_t twin = mesh_.twins[h];
-        if ((at(h, false) - at(twin, true)).norm() > gap_ || (at(h, true) - at(twin, false)).norm() > gap_) return false;
+        if (twin < 0 || problem_.region_of[twin / 3] != problem_.region_of[h / 3]) continue;
+        if (std::exchange(is_laid_[twin / 3], std::uint8_t{1}) == 0) {
+          lay_beside(h);
+          open.push_back(twin / 3);
+        } else if ((at(h, false) - at(twin, true)).norm() > gap_ || (at(h, true) - at(twin, false)).norm() > gap_) {
+          return false;
+        }
       }
     }
-    return true;
+    return open.size() == panel.faces.size();
   }
 
   void lay_first(std::int32_t f) {
@@ -222,8 +219,8 @@ class PieceNet {
       const std::int32_t side = takes_first ? h : mesh_.twins[h];
       return {at(side, !takes_first), at(side, takes_first)};
     };
-    const std::int32_t longest = *std::ranges::max_element(
-        rim.half_edges, {}, [&](std::int32_t h) { return mesh_.lengths[mesh_.edge_of[h]]; });
+    const std::int32_t longest =
+        *std::ranges::max_element(rim.half_edges, {}, [&](std::int32_t h) { return mesh_.lengths[mesh_.edge_of[h]]; });
     const Motion motion = motion_between(sides(longest, true), sides(longest, false));
     for (const std::int32_t h : rim.half_edges) {
       const auto own = sides(h, true), other = sides(h, false);
@@ -258,8 +255,8 @@ class PieceNet {
     for (std::int32_t p = 0; index(p) < panels_.size(); ++p) {
       if (is_placed_[p] != 0) continue;
       const Panel& panel = panels_[p];
-      const Key key{eccentricity(p),    !panel.is_across(), -rounded(panel.area), -grid(panel.center.z()),
-                    grid(panel.center.y()), p};
+      const Key key{eccentricity(p),         !panel.is_across(),     -rounded(panel.area),
+                    -grid(panel.center.z()), grid(panel.center.y()), p};
       if (!best || key < *best) best = key;
     }
     return std::get<5>(*best);
@@ -326,7 +323,8 @@ class PieceNet {
   /// Whether a panel lies on top of a placed one of the same island.
   bool covers_others(std::int32_t panel, std::int32_t island) {
     for (std::int32_t p = 0; index(p) < panels_.size(); ++p) {
-      if (is_placed_[p] != 0 && islands_.find(p) == islands_.find(island) && cover_each_other(panels_[p], panels_[panel])) {
+      if (is_placed_[p] != 0 && islands_.find(p) == islands_.find(island) &&
+          cover_each_other(panels_[p], panels_[panel])) {
         return true;
       }
     }
@@ -368,8 +366,9 @@ class PieceNet {
 
   const NetProblem& problem_;
   const PlanMesh& mesh_;
-  std::vector<Corners>& flat_;  // of each triangle of the mesh
-  double gap_;                  // that unfolded triangles may leave between them
+  std::vector<Corners>& flat_;
+  std::vector<std::uint8_t>& is_laid_;
+  double gap_;  // that unfolded triangles may leave between them
   const Task& task_;
   std::map<std::int32_t, std::int32_t> panel_of_;  // by region
   std::vector<Panel> panels_;
@@ -387,6 +386,7 @@ std::vector<std::uint8_t> find_folds(const NetProblem& problem, const Task& task
   const PlanMesh& mesh = problem.mesh;
   std::vector<std::uint8_t> is_fold(mesh.edge_count(), 0);
   std::vector<Corners> flat(mesh.face_count());
+  std::vector<std::uint8_t> is_laid(mesh.face_count(), 0);
   std::vector<std::vector<std::int32_t>> faces(index(problem.pieces.count));
   const Poll poll(task);
   for (std::int32_t f = 0; index(f) < mesh.face_count(); ++f) {
@@ -395,7 +395,8 @@ std::vector<std::uint8_t> find_folds(const NetProblem& problem, const Task& task
   }
   for (std::size_t p = 0; p < faces.size(); ++p) {
     task.check(0.0);
-    if (problem.diagonals[p] > 0.0) PieceNet(problem, flat, problem.diagonals[p], task).find(faces[p], is_fold);
+    if (problem.diagonals[p] > 0.0)
+      PieceNet(problem, flat, is_laid, problem.diagonals[p], task).find(faces[p], is_fold);
   }
   return is_fold;
 }

@@ -117,8 +117,14 @@ class Joining {
     return r;
   }
 
+  /// What joining two regions loses. It saves the price of a region.
+  double loss(std::int32_t a, std::int32_t b, const Link& link) const {
+    const bool is_enclosed = links_[a].size() == 1 || links_[b].size() == 1;
+    return link.gain - (is_enclosed ? tuning::kEnclosedPrice : tuning::kPartPrice);
+  }
+
   void offer(std::int32_t a, std::int32_t b, const Link& link) {
-    const double lost = link.gain - tuning::kPartPrice;
+    const double lost = loss(a, b, link);
     if (lost < 0.0) open_.emplace(lost, std::min(a, b), std::max(a, b));
   }
 
@@ -135,8 +141,12 @@ class Joining {
       open_.pop();
       if (parents_[a] != a || parents_[b] != b) continue;
       const auto found = links_[a].find(b);
-      if (found == links_[a].end() || found->second.gain - tuning::kPartPrice != lost) continue;
-      join_both(a, b);
+      if (found == links_[a].end()) continue;
+      if (loss(a, b, found->second) == lost) {
+        join_both(a, b);
+      } else if (found->second.gain - tuning::kPartPrice == lost) {
+        offer(a, b, found->second);  // one of them has become enclosed
+      }
     }
   }
 

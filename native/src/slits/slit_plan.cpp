@@ -6,6 +6,7 @@
 
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
+#include "detail/rounded.hpp"
 #include "parameterization/open_island.hpp"
 #include "parameterization/worst_area.hpp"
 
@@ -44,6 +45,11 @@ std::size_t kept_count(const PlanMesh& mesh, std::span<const std::int32_t> chain
 double SlitProblem::price(std::span<const std::int32_t> chain) const {
   double sum = 0.0;
   for_each_edge(*mesh, chain, [&](std::int32_t edge) { sum += prices.of_edge[edge]; });
+  for (std::size_t i = 2; i < chain.size(); ++i) {
+    const Vector &before = mesh->points[chain[i - 2]], &at = mesh->points[chain[i - 1]];
+    const Vector& next = mesh->points[chain[i]];
+    sum += prices.turning * rounded_share(1.0 - (at - before).normalized().dot((next - at).normalized()));
+  }
   return sum;
 }
 

@@ -52,7 +52,7 @@ struct SlitProblem {
   std::vector<double> areas;         ///< of the mesh's triangles
 
   const Reflection* mirror() const { return reflection ? &*reflection : nullptr; }
-  /// The price of a chain of edges.
+  /// The price of a chain of edges, and of its turns.
   double price(std::span<const std::int32_t> chain) const;
   double price(const Slit& slit) const;
 };

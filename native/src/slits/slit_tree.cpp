@@ -23,6 +23,7 @@
 #include "detail/run_on_threads.hpp"
 #include "detail/shortest_paths.hpp"
 #include "parameterization/flat_holes.hpp"
+#include "prices/border_odds.hpp"
 #include "slits/slit_paths.hpp"
 #include "slits/slit_plan.hpp"
 #include "tuning/constants.hpp"
@@ -218,12 +219,12 @@ class HandleLoops {
         poll_(task),
         price_(island_.vertices.size(), kInfinity),
         before_(price_.size(), -1) {
-    const auto own = std::ranges::find(island_.vertices, root) - island_.vertices.begin();
-    find_tree(static_cast<std::int32_t>(own));
+    root_ = static_cast<std::int32_t>(std::ranges::find(island_.vertices, root) - island_.vertices.begin());
+    find_tree(root_);
   }
 
   /// One chain of mesh vertices for each loop that no keep-out area is in the way of: from the root around a handle, to
-  /// the root or to a chain before.
+  /// the root or to a chain before. Closed lines of edges are taken in their place if they do not cost much more.
   std::vector<std::vector<std::int32_t>> find() {
     std::vector<std::pair<double, std::int32_t>> inner;  // half-edges with the lengths of their loops
     for (std::int32_t h = 0; index(h) < island_.twins.size(); ++h) {
@@ -232,14 +233,32 @@ class HandleLoops {
     }
     polled_sort(inner, Poll(task_));
     DisjointSets faces(island_.triangles.size());
-    std::vector<std::vector<std::int32_t>> loops;
+    std::vector<std::pair<double, std::int32_t>> through;  // the half-edges that loops lead through
+    std::vector<std::int32_t> crossed;                     // half-edges of a tree of triangles
     for (const auto& [price, h] : inner) {
       poll_.next();
-      const bool is_loop = !faces.join(h / 3, island_.twins[h] / 3);
-      if (is_loop && std::isfinite(price)) loops.push_back(loop_through(h));
+      if (faces.join(h / 3, island_.twins[h] / 3)) {
+        crossed.push_back(h);
+      } else if (std::isfinite(price)) {
+        through.emplace_back(-price, h);
+      }
     }
-    std::ranges::reverse(loops);
+    std::ranges::reverse(through);
+    std::vector<std::vector<std::int32_t>> loops = along_lines(through, crossed);
+    if (!loops.empty()) return loops;
+    for (const auto& [price, h] : through) loops.push_back(loop_through(h));
     return loops;
+  }
+
+  /// The vertex on the loops that is cheapest to reach from the root.
+  std::int32_t start() {
+    std::vector<std::pair<double, std::int32_t>> reached;
+    std::unordered_map<std::int32_t, double> price;
+    for (std::size_t own = 0; own < price_.size(); ++own) price.emplace(island_.vertices[own], price_[own]);
+    for (const std::vector<std::int32_t>& loop : find()) {
+      for (const std::int32_t v : loop) reached.emplace_back(price.at(v), v);
+    }
+    return reached.empty() ? island_.vertices[root_] : std::ranges::min(reached).second;
   }
 
   /// The cheapest chain of mesh vertices from the root to one of some own vertices.
@@ -282,6 +301,92 @@ class HandleLoops {
     });
   }
 
+  /// Closed lines of edges that cut all handles, the cheapest ones; none if there are no such lines, or they cost too
+  /// much more than the loops through some half-edges. `crossed`: half-edges of a tree of all triangles.
+  std::vector<std::vector<std::int32_t>> along_lines(std::span<const std::pair<double, std::int32_t>> through,
+                                                     std::span<const std::int32_t> crossed) {
+    using Sides = std::uint64_t;  // a bit for each loop
+    if (through.empty() || through.size() > 64) return {};
+    // A closed line parts the surface unless it crosses the path between both sides of some loop an odd number of
+    // times.
+    std::vector<std::vector<std::int32_t>> around(island_.triangles.size());
+    for (const std::int32_t h : crossed) {
+      around[h / 3].push_back(h);
+      around[island_.twins[h] / 3].push_back(island_.twins[h]);
+    }
+    std::vector<std::int32_t> entered(island_.triangles.size(), -1), order{0};
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      poll_.next();
+      for (const std::int32_t h : around[order[k]]) {
+        const std::int32_t next = island_.twins[h] / 3;
+        if (next == 0 || entered[next] >= 0) continue;
+        entered[next] = island_.twins[h];
+        order.push_back(next);
+      }
+    }
+    std::vector<Sides> crossings(problem_.mesh->edge_count(), 0);
+    for (std::size_t i = 0; i < through.size(); ++i) {
+      const std::int32_t h = through[i].second;
+      crossings[edge_at(h)] ^= Sides{1} << i;
+      for (std::int32_t f : {h / 3, island_.twins[h] / 3}) {
+        for (; entered[f] >= 0; f = island_.twins[entered[f]] / 3) crossings[edge_at(entered[f])] ^= Sides{1} << i;
+      }
+    }
+    std::vector<std::pair<double, std::vector<std::int32_t>>> lines = closed_lines();
+    std::ranges::sort(lines);
+    std::vector<Sides> known;  // of the chosen lines, each without the highest bits of those before
+    std::vector<std::vector<std::int32_t>> chosen;
+    double price = 0.0;
+    for (const auto& [own_price, chain] : lines) {
+      Sides sides = 0;
+      for (std::size_t i = 1; i < chain.size(); ++i) {
+        sides ^= crossings[problem_.mesh->edge_between(chain[i - 1], chain[i])];
+      }
+      for (const Sides other : known) sides = std::min(sides, sides ^ other);
+      if (sides == 0) continue;
+      known.push_back(sides);
+      std::ranges::sort(known, std::ranges::greater());
+      chosen.push_back(chain);
+      price += own_price;
+    }
+    double least = 0.0;
+    for (const auto& [own_price, h] : through) least += own_price;
+    if (chosen.size() < through.size() || price > tuning::kLineDetour * least) return {};
+    return chosen;
+  }
+
+  std::int32_t edge_at(std::int32_t h) const { return problem_.mesh->edge_of[3 * island_.faces[h / 3] + h % 3]; }
+
+  /// The lines of edges inside of the island that are closed, with their prices.
+  std::vector<std::pair<double, std::vector<std::int32_t>>> closed_lines() const {
+    const PlanMesh& mesh = *problem_.mesh;
+    std::vector<std::uint8_t> is_inner(mesh.edge_count(), 0);
+    for (std::int32_t h = 0; index(h) < island_.twins.size(); ++h) {
+      if (island_.twins[h] >= 0) is_inner[edge_at(h)] = 1;
+    }
+    const Polygons polygons = find_polygons(mesh, face_frames(mesh, task_), problem_.is_seam, task_);
+    std::vector<std::pair<double, std::vector<std::int32_t>>> found;
+    for (const std::vector<std::int32_t>& line : find_lines(mesh, polygons, task_)) {
+      if (line.size() < 3 || std::ranges::any_of(line, [&](std::int32_t e) { return is_inner[e] == 0; })) continue;
+      const auto ends = [&](std::int32_t e) {
+        return std::array{mesh.tail(mesh.half_edge_of[e]), mesh.tip(mesh.half_edge_of[e])};
+      };
+      const auto [a, b] = ends(line[0]);
+      const auto [c, d] = ends(line[1]);
+      std::vector<std::int32_t> chain{a == c || a == d ? b : a};
+      double price = 0.0;
+      for (const std::int32_t e : line) {
+        const auto [tail, tip] = ends(e);
+        if (tail != chain.back() && tip != chain.back()) break;
+        chain.push_back(tail == chain.back() ? tip : tail);
+        price += problem_.prices.of_edge[e];
+      }
+      const bool is_closed = chain.size() == line.size() + 1 && chain.front() == chain.back();
+      if (is_closed && std::isfinite(price)) found.emplace_back(price, std::move(chain));
+    }
+    return found;
+  }
+
   std::vector<std::int32_t> loop_through(std::int32_t h) const {
     std::vector<std::int32_t> there, back;
     for (std::int32_t v = island_.tail(h); v >= 0; v = before_[v]) there.push_back(v);
@@ -294,6 +399,7 @@ class HandleLoops {
 
   const SlitProblem& problem_;
   const Island& island_;
+  std::int32_t root_ = -1;  // an own vertex
   const Task& task_;
   Poll poll_;
   std::vector<double> price_;
@@ -375,6 +481,7 @@ class TreeGrowth {
     }
     if (loops.empty()) {
       root = find_root(problem_, body, distances);
+      if (body.genus() > 0) root = HandleLoops(problem_, body, root, task_).start();
       tree_.roots.push_back(root);
       join(state, std::vector<std::int32_t>{root});
     } else {

@@ -154,6 +154,8 @@ inline constexpr double kBiasToSharp = 2.2;
 inline constexpr double kPartOnPlane = 2.0;
 /// Price of a part, in diagonals of its piece. A lower price gives more parts.
 inline constexpr double kPartPrice = 0.2;
+/// The same for a part that a single other one surrounds. Caps and buttons have short rims, and artists part them.
+inline constexpr double kEnclosedPrice = 0.05;
 /// Share of the area of its piece below which a part joins a neighbor. Without it, characters get crumbs at ears
 /// and fingers.
 inline constexpr double kLeastPart = 0.003;
@@ -214,6 +216,9 @@ inline constexpr double kTipToPlane = 0.07;
 /// Length of tree and boundary below which a piece gets one more slit. A ball, which has no limbs, would have
 /// hardly any cut.
 inline constexpr double kLeastCut = 0.6;
+/// Times that closed lines of edges cost more than the cheapest cut through all handles, at most. Along a line, a seam
+/// goes straight on at every vertex.
+inline constexpr double kLineDetour = 1.5;
 /// Area within the length of a loop from it, in the square of that length: about 4 around a hole in a plane, 1 at
 /// the end of a tube. With less than this, the loop is the end of a tube.
 inline constexpr double kLeastAround = 2.0;

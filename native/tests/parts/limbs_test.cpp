@@ -162,7 +162,7 @@ TEST(Limbs, ShapeTellsFiguresFromMachineParts) {
   EXPECT_EQ(finder_of(shapes::grid(8), by_shape).by(), PartsBy::kRims);
   const PartFinder cube(std::make_shared<const Surface>(shapes::quad_cube(8).surface()), by_shape);
   EXPECT_EQ(cube.by(), PartsBy::kRims);
-  EXPECT_EQ(cube.find().count, 6u);
+  EXPECT_EQ(cube.find(1.0).count, 6u);
 }
 
 TEST(Limbs, AreMirrored) {

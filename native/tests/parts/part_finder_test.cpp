@@ -74,10 +74,87 @@ std::vector<double> shares(const Surface& surface, const Parts& parts) {
 
 TEST(PartFinder, parts_a_cube_into_its_sides) {
   const PartFinder finder(shared(shapes::quad_cube(4).surface()));
-  const Parts parts = finder.find();
+  const Parts parts = finder.find(1.0);
   EXPECT_EQ(parts.count, 6u);
   EXPECT_EQ(parts.borders.size(), 12u);  // from corner to corner
   for (const std::vector<std::int32_t>& chain : parts.borders) EXPECT_EQ(chain.size(), 5u);
+}
+
+/// A box with corners at 0 and at `size`.
+shapes::QuadMesh box(int n, const Vector& size) {
+  shapes::QuadMesh mesh = shapes::quad_cube(n);
+  for (Vector& point : mesh.points) point = point.cwiseProduct(size);
+  return mesh;
+}
+
+TEST(PartFinder, opens_a_box_as_a_cross) {
+  for (const Vector& size : {Vector(1, 1, 1), Vector(2, 1.2, 0.6), Vector(0.4, 0.4, 3)}) {
+    for (const int n : {1, 3}) {
+      for (const int mirror : {-1, 0, 1}) {
+        const Parts parts = PartFinder(shared(box(n, size).surface()), {.mirror = mirror}).find();
+        EXPECT_EQ(parts.count, 1u);
+        EXPECT_EQ(edges_of(parts).size(), static_cast<std::size_t>(7 * n)) << "5 of 12 rims fold";
+      }
+    }
+  }
+}
+
+TEST(PartFinder, opens_each_of_many_boxes_alike) {
+  shapes::QuadMesh boxes;
+  const shapes::QuadMesh one = box(1, Vector(1, 1, 1));
+  for (int i = 0; i < 9; ++i) {
+    const auto first = static_cast<std::int32_t>(boxes.points.size());
+    for (const Vector& point : one.points) boxes.points.push_back(point + 2.0 * Vector(i % 3, i / 3, 0));
+    for (const auto& [a, b, c, d] : one.quads) boxes.quads.push_back({first + a, first + b, first + c, first + d});
+  }
+  for (const int mirror : {-1, 0}) {
+    const Parts parts = PartFinder(shared(boxes.surface()), {.mirror = mirror}).find();
+    EXPECT_EQ(parts.count, 9u);
+    std::array<std::set<Edge>, 9> own;
+    for (const Edge& edge : edges_of(parts)) own[edge[0] / 8].insert(ascending(edge[0] % 8, edge[1] % 8));
+    for (const std::set<Edge>& edges : own) EXPECT_EQ(edges, own[0]);
+  }
+}
+
+TEST(PartFinder, opens_a_symmetric_box_alike_on_both_sides) {
+  const auto surface = shared(box(2, Vector(1.5, 1, 2)).surface());
+  for (const int mirror : {0, 1}) {
+    std::set<std::pair<double, double>> places;  // of the middles of edges: away from the plane, and along z
+    std::map<std::array<double, 3>, int> sides;
+    for (const Edge& edge : edges_of(PartFinder(surface, {.mirror = mirror}).find())) {
+      Vector middle = 0.5 * (surface->points()[edge[0]] + surface->points()[edge[1]]);
+      const double away = middle[mirror] - (mirror == 0 ? 0.75 : 0.5);
+      middle[mirror] = std::round(1e6 * std::abs(away));
+      sides[{middle.x(), middle.y(), middle.z()}] += away > 1e-9 ? 1 : away < -1e-9 ? -1 : 0;
+    }
+    for (const auto& [place, sum] : sides) EXPECT_EQ(sum, 0);
+  }
+}
+
+TEST(PartFinder, parts_a_net_at_kept_edges) {
+  const auto surface = shared(box(1, Vector(1, 1, 1)).surface());
+  const std::vector<Edge> cross = edges_of(PartFinder(surface).find());
+  std::size_t folds = 0;
+  for (const Edge& edge : surface->edges()) {
+    const auto is_same = [&](const Edge& other) { return ascending(other[0], other[1]) == edge; };
+    if (std::ranges::any_of(cross, is_same)) continue;
+    ++folds;
+    EXPECT_EQ(PartFinder(surface).find(0.5, {.kept = {edge}}).count, 2u);
+  }
+  EXPECT_EQ(folds, 5u);
+}
+
+TEST(PartFinder, opens_no_net_around_a_round_wall) {
+  EXPECT_EQ(PartFinder(drum(24)).find().count, 3u);
+  // The sides of a prism that lie on the mirror plane do not part its wall.
+  std::vector<std::array<double, 2>> profile{{-0.5, 0.0}, {-0.5, 0.5}, {0.5, 0.5}, {0.5, 0.0}};
+  EXPECT_EQ(PartFinder(shared(shapes::lathe(8, profile).surface()), {.mirror = 2}).find().count, 3u);
+}
+
+TEST(PartFinder, keeps_a_cap_whose_rim_is_short) {
+  const auto rod =
+      shared(shapes::lathe(12, {{-0.5, 0.0}, {-0.5, 0.012}, {0.0, 0.012}, {0.5, 0.012}, {0.5, 0.0}}).surface());
+  EXPECT_EQ(PartFinder(rod).find().count, 3u);
 }
 
 TEST(PartFinder, parts_a_drum_into_a_wall_and_two_lids) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -105,6 +106,32 @@ TEST(SlitTree, OpensATorusAlongItsShortestLoops) {
   const double around_tube = 2 * std::numbers::pi * 0.15, around_hole = 2 * std::numbers::pi * 0.2;
   EXPECT_LT(length_of(problem, grow_tree(problem, {.has_tips = false, .keeps_holes = false}, {})),
             1.15 * (around_tube + around_hole));
+}
+
+TEST(SlitTree, OpensATorusAlongWholeLinesOfEdges) {
+  const SlitProblem problem = problem_on(shapes::quad_torus(32, 16).surface());
+  const SlitTree tree = grow_tree(problem, true, {});
+  std::map<std::int32_t, std::vector<Vector>> directions;  // of the slits' edges at each vertex
+  std::size_t edges = 0;
+  for (const Slit& slit : tree.slits) {
+    for (std::size_t i = 1; i < slit.path.size(); ++i) {
+      const Vector along = problem.mesh->points[slit.path[i]] - problem.mesh->points[slit.path[i - 1]];
+      directions[slit.path[i - 1]].push_back(along.normalized());
+      directions[slit.path[i]].push_back(-along.normalized());
+      ++edges;
+    }
+  }
+  EXPECT_EQ(edges, 48U);
+  std::size_t crossings = 0;
+  for (const auto& [v, own] : directions) {
+    crossings += own.size() == 4 ? 1 : 0;
+    if (own.size() == 2) {
+      EXPECT_LT(own[0].dot(own[1]), -0.8) << "a turn at vertex " << v;
+    } else {
+      EXPECT_EQ(own.size(), 4U);
+    }
+  }
+  EXPECT_EQ(crossings, 1U);
 }
 
 TEST(SlitTree, KeepsGivenSeamsOutOfItsSlits) {
