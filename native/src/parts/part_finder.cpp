@@ -54,13 +54,15 @@ namespace {
 
 /// What lies between two regions, in the same units.
 struct Link {
-  double gain = 0.0;  ///< the log odds of the border times its length: what keeping it gains, and joining loses
+  double gain = 0.0;   ///< the log odds of the border times its length: what keeping it gains, and joining loses
+  double sharp = 0.0;  ///< the same by the shape of the border alone, also where front and back meet
   double length = 0.0;
   double bend = 0.0;     ///< how many degrees the surface bends there, times the length
   bool is_kept = false;  ///< whether small regions must not join across it
 
   void add(const Link& other) {
     gain += other.gain;
+    sharp += other.sharp;
     length += other.length;
     bend += other.bend;
     is_kept = is_kept || other.is_kept;
@@ -196,7 +198,7 @@ class Joining {
     Link rim;
     for (const auto& [c, link] : links_[r]) rim.add(link);
     if (!(rim.length > 0.0)) return false;
-    if (regions_[r].area < regions_[r].least_area && rim.gain < tuning::kSharpRim * rim.length) return true;
+    if (regions_[r].area < regions_[r].least_area && rim.sharp < tuning::kSharpRim * rim.length) return true;
     const bool is_step = rim.bend > tuning::kLeastStep * rim.length && rim.bend < tuning::kMostStep * rim.length;
     return is_step && 2.0 * regions_[r].area < tuning::kLeastPartWidth * rim.length;
   }
@@ -382,9 +384,10 @@ struct PartFinder::Impl {
   std::vector<double> odds;     // of each edge
   std::vector<Region> regions;  // of each polygon
   std::optional<Limbs> limbs;
-  bool has_panels = false;
+  std::vector<std::uint8_t> is_panelled, is_between;  // pieces with panels; edges between front and back; or empty
 
   void prepare(const Task& task);
+  double odds_of(std::int32_t edge) const;  // with those of front and back
   void divide_panels(std::span<const FaceFrame> frames, const Task& task);
   std::vector<Region> regions_of(const Polygons& own, const Task& task) const;
   std::vector<std::uint8_t> marked(const std::vector<Edge>& edges, const char* name, const Task& task) const;
@@ -445,7 +448,7 @@ void PartFinder::Impl::prepare(const Task& task) {
   }
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
     poll.at(index(e));
-    problem.prices.of_edge.push_back(mesh.is_real[e] == 0 ? kInfinity : price_of_cut(odds[e]) * mesh.lengths[e]);
+    problem.prices.of_edge.push_back(mesh.is_real[e] == 0 ? kInfinity : price_of_cut(odds_of(e)) * mesh.lengths[e]);
   }
 }
 
@@ -457,14 +460,17 @@ void PartFinder::Impl::divide_panels(std::span<const FaceFrame> frames, const Ta
                                                   : find_garments(mesh, polygons, sizes, bends, task);
   std::vector<std::int32_t> images;
   for (const Region& region : regions) images.push_back(region.image);
-  has_panels = options.by == PartsBy::kPanels || std::ranges::count(is_chosen, 1) > 0;
-  if (!has_panels) return;
+  if (options.by == PartsBy::kShape && std::ranges::count(is_chosen, 1) == 0) return;
   const std::optional<int> mirror = problem.reflection ? std::optional(problem.reflection->axis) : std::nullopt;
-  const std::vector<std::uint8_t> is_between = find_panels(
+  is_between = find_panels(
       {mesh, polygons, sizes, frames, odds, problem.is_seam, images, mirror, options.front, is_chosen}, task);
-  for (std::size_t e = 0; e < odds.size(); ++e) {
-    if (is_between[e] != 0) odds[e] = std::max(odds[e], 0.0) + tuning::kPanelOdds;
-  }
+  is_panelled = is_chosen;
+  regions = regions_of(polygons, task);
+}
+
+double PartFinder::Impl::odds_of(std::int32_t edge) const {
+  const bool is_panel = !is_between.empty() && is_between[edge] != 0;
+  return is_panel ? std::max(odds[edge], 0.0) + tuning::kPanelOdds : odds[edge];
 }
 
 /// A region for each polygon.
@@ -479,7 +485,8 @@ std::vector<Region> PartFinder::Impl::regions_of(const Polygons& own, const Task
     if (!(diagonal > 0.0)) continue;
     Region& region = found[own.of_face[f]];
     region.area += rounded(frames[f].area) / (diagonal * diagonal);
-    region.least_area = tuning::kLeastPart * area / (diagonal * diagonal);
+    const bool has_panels = !is_panelled.empty() && is_panelled[sizes.pieces.of_face[f]] != 0;
+    region.least_area = (has_panels ? tuning::kLeastOfPanels : tuning::kLeastPart) * area / (diagonal * diagonal);
   }
   if (!problem.reflection) return found;
   const std::vector<std::int32_t> images = images_of(mesh, own, *problem.reflection, task);
@@ -551,14 +558,15 @@ std::vector<std::int32_t> PartFinder::Impl::joined(double amount, std::span<cons
     const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
     poll.at(index(e));
     if (twin < 0 || problem.is_seam[e] != 0 || own_polygons.is_diagonal[e] != 0) continue;
-    double own = std::clamp(odds[e] + bias, -tuning::kMostOdds, tuning::kMostOdds);
-    if (is_dropped[e] != 0) own = -kEditOdds;
-    if (is_kept[e] != 0) own = kEditOdds;
+    double own = std::clamp(odds_of(e) + bias, -tuning::kMostOdds, tuning::kMostOdds);
+    double sharp = std::clamp(odds[e] + bias, -tuning::kMostOdds, tuning::kMostOdds);
+    if (is_dropped[e] != 0) own = sharp = -kEditOdds;
+    if (is_kept[e] != 0) own = sharp = kEditOdds;
     const double diagonal = sizes.of_piece[sizes.piece_of(mesh, e)].diagonal;
     const double length = diagonal > 0.0 ? mesh.lengths[e] / diagonal : 0.0;
     found.push_back({own_polygons.of_face[h / 3],
                      own_polygons.of_face[twin / 3],
-                     {own * length, length, std::abs(bends.own[e]) * length, is_kept[e] != 0}});
+                     {own * length, sharp * length, length, std::abs(bends.own[e]) * length, is_kept[e] != 0}});
   }
   const std::vector<std::int32_t> of_polygon =
       joined_regions(is_apart ? regions_of(own_polygons, task) : regions, found, task);
@@ -647,7 +655,7 @@ PartFinder::Impl::Borders PartFinder::Impl::borders(double amount, const PartEdi
 
 PartsBy PartFinder::by() const {
   if (impl_->limbs) return PartsBy::kLimbs;
-  return impl_->has_panels ? PartsBy::kPanels : PartsBy::kRims;
+  return !impl_->is_panelled.empty() ? PartsBy::kPanels : PartsBy::kRims;
 }
 
 PartFinder::PartFinder(std::shared_ptr<const Surface> surface, const PartOptions& options, const Task& task) {

@@ -377,6 +377,8 @@ inline constexpr double kPanelLine = 0.1;
 inline constexpr int kPanelRounds = 4;
 /// Area below which a part of one side joins the other side.
 inline constexpr double kLeastPanel = 0.03;
+/// The same as kLeastPart for pieces with panels. Folds beside the border would become scraps.
+inline constexpr double kLeastOfPanels = 0.01;
 /// Least log odds of edges between panels.
 inline constexpr double kPanelOdds = 4.0;
 
