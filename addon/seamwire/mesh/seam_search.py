@@ -170,6 +170,7 @@ class Suggestion:
             inside = {undirected(side) for a, b, c in corners for side in ((a, b), (b, c), (c, a))}
             self.borders = [chain for chain in self.borders if edges_of(chain) <= inside]
         self._planner = self.best = None
+        self._laid_out = None, None
         self.slits = []
 
     def _parts_of(self, choice: PartChoice, progress: Progress) -> seamwire_core.Parts:
