@@ -6,9 +6,9 @@
 FOLDER/NAME.npz has the corners of triangles in the plane, ``uvs`` (m, 3, 2), and the island of each triangle, ``islands`` (m,). The program
 prints a row of a Markdown table for each packer:
 
-- pack_islands of the library, with each kind of turns
-- the packer of each Blender given, with its ways to turn islands; from 3.6 on with concave shapes
-- xatlas with brute force, at the largest scale that fits, if its Python package can be imported
+- The library: pack_islands with each kind of turns.
+- Blender: the packer of each given version, with each way to turn islands. Shapes are concave from 3.6 on.
+- xatlas: brute force at the largest scale that fits, if the Python package can be imported.
 
 All get the same margin between islands, except Blender before 3.6, whose margin depends on the sizes of the islands. It gets the value .01
 there. *Gap* is the least distance between two islands that was found in the maps, in parts of the square.

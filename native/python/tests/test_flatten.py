@@ -252,3 +252,14 @@ def test_wrong_input_of_pack_islands(change: dict, message: str) -> None:
     points, triangles = meshes.grid(2)
     with pytest.raises(ValueError, match=message):
         sw.pack_islands(**{"uvs": points[triangles][:, :, :2], "islands": [0] * 8, **change})
+
+
+def test_few_packed_islands_are_turned() -> None:
+    dice = np.random.default_rng(4)
+    bars = np.array([[(0, 0), (1, 0), (1, 0.2)], [(0, 0), (1, 0.2), (0, 0.2)]])
+    walls = np.array([[(0, 0.2), (0.2, 0.2), (0.2, 1)], [(0, 0.2), (0.2, 1), (0, 1)]])
+    uvs = np.concatenate([np.concatenate([bars, walls]) * dice.uniform(0.1, 1.0, 2) for _ in range(24)])
+    packing = sw.pack_islands(uvs, np.repeat(np.arange(24), 4))
+    assert packing.used > 0.4
+    turned = (packing.placements[:, 0, 0] <= 0.0).sum()
+    assert 0 < turned <= 8, "only where that makes all islands larger"

@@ -58,6 +58,8 @@ constexpr double kWideStep = 1.01, kNarrowStep = 1.004;
 constexpr std::size_t kBatch = 8, kMostFailed = 6;
 /// Steps of PackedSquare after which no more attempts are made. A step takes about a nanosecond.
 constexpr std::size_t kMostSteps = 60'000'000;
+/// The turned islands that may be turned back.
+constexpr std::size_t kMostTurnedBack = 64;
 /// The scale that is lost at most if no island is turned.
 constexpr double kUprightLoss = 1.002;
 
@@ -94,13 +96,14 @@ struct Strategy {
   std::uint64_t seed = 0;
 };
 
-/// Those that find the scale roughly.
+/// Strategies that find the scale roughly.
 std::vector<Strategy> first_strategies() {
   std::vector<Strategy> all;
   for (const Rule rule : {Rule::kLowest, Rule::kLowestTop}) all.push_back({Order::kBox, rule});
   return all;
 }
 
+/// All orders and rules.
 std::vector<Strategy> plain_strategies() {
   std::vector<Strategy> all;
   for (const Rule rule : kRules) {
@@ -109,6 +112,7 @@ std::vector<Strategy> plain_strategies() {
   return all;
 }
 
+/// A batch of strategies that random numbers change.
 std::vector<Strategy> shuffled_strategies(std::uint64_t first_seed) {
   std::vector<Strategy> all;
   for (std::uint64_t seed = first_seed; seed < first_seed + kBatch; ++seed) {
@@ -204,14 +208,14 @@ class Search {
       fails = is_found(std::min(1.0, scale_ * kNarrowStep), next, all) ? 0 : fails + 1;
       next = shuffled_strategies(seed);
     }
-    if (turns_ == PackTurns::kQuarters) is_found(scale_ / kUprightLoss, plain_strategies(), Allowed::kNone);
+    if (turns_ != PackTurns::kQuarters) return;
+    if (!is_found(scale_ / kUprightLoss, plain_strategies(), Allowed::kNone)) turn_back();
   }
 
   double scale() const { return scale_; }
   const std::vector<Spot>& spots() const { return *spots_; }
-  const CellShape& shape(std::size_t island) const {
-    return shapes_.distinct[index(shapes_.of_island[island][index((*spots_)[island].turn)])];
-  }
+  /// The shape of an island as it lies there.
+  const CellShape& shape(std::size_t island) const { return shape(island, (*spots_)[island].turn); }
 
  private:
   std::size_t steps() const {
@@ -290,6 +294,37 @@ class Search {
       return true;
     }
     return false;
+  }
+
+  const CellShape& shape(std::size_t island, std::int32_t turn) const {
+    return shapes_.distinct[index(shapes_.of_island[island][index(turn)])];
+  }
+
+  /// Turns islands back, the largest first, where they fit without a turn while all others stay.
+  void turn_back() {
+    std::vector<std::size_t> turned;
+    for (std::size_t i = 0; i < islands_.size(); ++i) {
+      if ((*spots_)[i].turn != 0) turned.push_back(i);
+    }
+    std::ranges::stable_sort(turned, std::ranges::greater(), [&](std::size_t i) { return islands_[i].area; });
+    if (turned.size() > kMostTurnedBack) turned.resize(kMostTurnedBack);
+    PackedSquare& square = squares_.front();
+    for (const std::size_t i : turned) {
+      task_.check(progress());
+      const CellShape& upright = shape(i, 0);
+      if (upright.width > square.size()) continue;
+      square.clear();
+      for (std::size_t other = 0; other < islands_.size(); ++other) {
+        const Spot& spot = (*spots_)[other];
+        if (other != i) square.take(shape(other, spot.turn), spot.cell);
+      }
+      for (std::int32_t y = 0; y + upright.height <= square.size(); ++y) {
+        const std::optional<std::int32_t> x = square.free_column(upright, y);
+        if (!x) continue;
+        (*spots_)[i] = {0, {*x, y}};
+        break;
+      }
+    }
   }
 
   std::vector<std::size_t> ordered(const Shapes& shapes, const Strategy& strategy) const {

@@ -14,9 +14,13 @@ namespace seamwire {
 
 /// How pack_islands() may turn islands.
 enum class PackTurns {
-  kNone,      ///< not at all
-  kQuarters,  ///< by multiples of 90 degrees, where that saves space
-  kAny  ///< such that the smallest rectangle around each island lies along the axes, then by multiples of 90 degrees
+  kNone,  ///< not at all
+  /// By multiples of 90 degrees. An island is turned only if it has no place without a turn in the packing that was
+  /// found. Of more than 64 turned islands, this holds for the largest 64.
+  kQuarters,
+  /// In several directions, for islands with at least 1/40 of the area. Other islands, and islands that nearly fill the
+  /// smallest rectangle around them, lie along the axes.
+  kAny
 };
 
 /// How pack_islands() fills the unit square.
@@ -25,8 +29,8 @@ struct PackOptions {
   /// it. It is at most 0.15 over the square root of the number of islands.
   double margin = 1.0 / 256.0;
   PackTurns turns = PackTurns::kQuarters;
-  /// Per island, the width over the height of the image on which it lies: finite, above 0. Empty: all images are
-  /// square.
+  /// Per island, the width over the height of the image on which it lies: 0.001 to 1000. Empty: all images
+  /// are square.
   std::vector<double> aspects = {};
 };
 
@@ -44,10 +48,10 @@ struct Packing {
 /// Pack islands into the unit square, at one scale that is as large as possible.
 ///
 /// Islands do not overlap, and they may lie in notches and holes of others. The scale is found by search: each attempt
-/// places the islands one by one, large ones first, at the lowest free place of a raster. The time is bounded, so the
+/// places the islands one by one, large ones first, in a raster of about 510 x 510 cells. The work is bounded, so the
 /// scale is not the largest possible one. The result does not depend on the number of threads.
 ///
-/// \param uvs the corners of triangles in the plane, finite, in one unit of length for all islands
+/// \param uvs the corners of triangles in the plane, in one unit of length for all islands, at most 1e100
 /// \param islands the island of each triangle, from 0, below the number of triangles
 /// \param options margin and turns
 /// \param task progress and cancellation
