@@ -1700,9 +1700,10 @@ def face_segments(surface: Surface, cut_edges: ArrayLike) -> NDArray[np.int32]:
     """
 
 def missing_cuts(surface: Surface, cut_edges: ArrayLike, segments: ArrayLike) -> NDArray[np.int32]:
-    """Count how many more cuts each segment needs to become a disc.
+    """Count how many more cuts each segment needs before it can lie flat with little stretch.
 
     Each cut leads from border to border. A segment without a border, such as a ball, needs another cut first to get one.
+    A hole in a nearly flat place needs no cut.
     Edges with three or more triangles are borders. So are edges whose triangles cannot be oriented alike.
 
     Parameters
@@ -2108,10 +2109,10 @@ class SeamPlan:
     """(m,) int32: the island of each triangle, numbered as by `face_segments`."""
     island_count: int
     """int: how many islands there are."""
-    not_discs: int
-    """int: how many islands are not discs."""
+    islands_to_cut: int
+    """int: how many islands need more cuts, see `missing_cuts`."""
     cost: float
-    """float: the price of the slits that the search worked on, for a surface of area 1. Lower is better. Each slit costs the prices of its edges, plus a fixed amount unless the island needs it to become a disc. Wires across the surface may run beside their slits, and are not priced again."""
+    """float: the price of the slits that the search worked on, for a surface of area 1. Lower is better. Each slit costs the prices of its edges, plus a fixed amount unless the island needs it to lie flat. Wires across the surface may run beside their slits, and are not priced again."""
     energy: float
     """float: the symmetric Dirichlet energy of the planned map, as `MapReport.energy`; infinite if an island has no map. Pieces in which no seam may run do not count. 4 for an isometry, and if no piece counts."""
     is_reached: bool

@@ -111,8 +111,17 @@ std::vector<std::uint8_t> flat_holes(const Island& island, std::span<const Vecto
   for (std::size_t loop = 1; loop < boundaries.size(); ++loop) {
     if (test.length(boundaries[loop]) > test.length(boundaries[longest])) longest = loop;
   }
+  // Two loops with a common mesh vertex are the sides of a seam around a tube or a handle.
+  std::unordered_map<std::int32_t, std::size_t> loop_at;  // by mesh vertex
+  std::vector<std::uint8_t> is_side(boundaries.size(), 0);
   for (std::size_t loop = 0; loop < boundaries.size(); ++loop) {
-    if (loop != longest && test.is_flat(boundaries[loop])) flags[loop] = 1;
+    for (const std::int32_t v : boundaries[loop]) {
+      const std::size_t other = loop_at.emplace(island.vertices[v], loop).first->second;
+      if (other != loop) is_side[loop] = is_side[other] = 1;
+    }
+  }
+  for (std::size_t loop = 0; loop < boundaries.size(); ++loop) {
+    if (loop != longest && is_side[loop] == 0 && test.is_flat(boundaries[loop])) flags[loop] = 1;
   }
   return flags;
 }

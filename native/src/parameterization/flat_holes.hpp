@@ -12,7 +12,8 @@
 namespace seamwire::detail {
 
 /// Which boundary loops of an island are holes in a surface that is nearly flat around them: 1 for each such loop. A
-/// map with little stretch can keep these holes. The end of a tube is no such hole, and the longest loop is none.
+/// map with little stretch can keep these holes. The end of a tube is no such hole. Nor are the longest loop and the
+/// two sides of a closed seam.
 ///
 /// By the theorem of Gauss and Bonnet, the turns along a loop tell the curvature that its hole has if it is filled: 0
 /// in a plane, 2 pi at the end of a cylinder. With the curvature near the loop it is known for a wider hole, which

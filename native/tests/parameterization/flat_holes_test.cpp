@@ -12,6 +12,7 @@
 #include "parameterization/cut_open.hpp"
 #include "shapes.hpp"
 #include "surface/corner_fans.hpp"
+#include "surface/cuts.hpp"
 
 namespace seamwire {
 
@@ -51,9 +52,9 @@ struct Counts {
   bool operator==(const Counts&) const = default;
 };
 
-Counts counts(const Surface& surface) {
-  const std::vector<std::uint8_t> no_cuts(corner_fans(surface).twins.size(), 0);
-  Island island = cut_open(corner_fans(surface), no_cuts).front();
+Counts counts(const Surface& surface, const std::vector<Edge>& seams = {}) {
+  const Cuts cuts(surface, seams, "seams", {});
+  Island island = cut_open(corner_fans(surface), cut_half_edges(surface, cuts)).front();
   for (std::int32_t& v : island.vertices) v = corner_fans(surface).vertices[v];
   const auto boundaries = island.boundaries();
   const std::vector<std::uint8_t> is_flat = flat_holes(island, surface.points(), boundaries, {});
@@ -73,6 +74,13 @@ TEST(FlatHoles, AreNotTheEndsOfTubes) {
   EXPECT_EQ(counts(ring(lines({{1.0, 0.0}, {1.0, 0.2}}))), (Counts{2, 0})) << "a belt";
   EXPECT_EQ(counts(ring(lines({{1.0, 0.0}, {1.0, 2.0}, {0.9, 2.0}}))), (Counts{2, 0})) << "with a narrow flange";
   EXPECT_EQ(counts(ring(lines({{0.2, 0.0}, {0.2, 1.0}, {2.0, 1.0}}))), (Counts{2, 0})) << "a pipe on a plate";
+}
+
+TEST(FlatHoles, AreNotTheSidesOfASeamAroundAHandle) {
+  // Around the top of the torus, where it is horizontal.
+  std::vector<Edge> seam;
+  for (std::int32_t i = 0; i < 24; ++i) seam.push_back({72 + i, 72 + (i + 1) % 24});
+  EXPECT_EQ(counts(shapes::torus(24, 12).surface(), seam), (Counts{2, 0}));
 }
 
 TEST(FlatHoles, MayHaveACollar) {
