@@ -23,13 +23,13 @@ struct PanelProblem {
   const PlanMesh& mesh;
   const Polygons& polygons;
   const PieceSizes& sizes;
-  std::span<const FaceFrame> frames;              ///< of triangles
-  std::span<const double> odds;                   ///< of edges, as from border_odds()
-  std::span<const std::uint8_t> is_seam;          ///< of edges
-  std::span<const std::int32_t> images;           ///< of polygons: the mirror image or -1; empty without symmetry
-  std::optional<int> mirror;                      ///< the axis of the mirror plane's normal
-  std::optional<Vector> front;                    ///< nullopt: across each piece where it is thinnest
-  std::span<const std::uint8_t> is_chosen;        ///< of pieces: 1 if they are divided
+  std::span<const FaceFrame> frames;        ///< of triangles
+  std::span<const double> odds;             ///< of edges, as from border_odds()
+  std::span<const std::uint8_t> is_seam;    ///< of edges
+  std::span<const std::int32_t> images;     ///< of polygons: the mirror image or -1; empty without symmetry
+  std::optional<int> mirror;                ///< the axis of the mirror plane's normal
+  std::optional<Vector> front;              ///< nullopt: across each piece where it is thinnest
+  std::span<const std::uint8_t> is_chosen;  ///< of pieces: 1 if they are divided
 };
 
 /// Marks the edges between the front and the back of pieces. What is mirrored is divided alike.
@@ -38,7 +38,8 @@ struct PanelProblem {
 /// the side of their neighbors. Edges cost more where a border is
 /// unlikely, and less along a line of which more belongs to the border. Throws Cancelled.
 ///
-/// \see Jegelka and Bilmes 2011, "Submodularity beyond submodular energies: coupling edges in graph cuts", for cuts that
+/// \see Jegelka and Bilmes 2011, "Submodularity beyond submodular energies: coupling edges in graph cuts", for cuts
+/// that
 ///   pay less for edges of one group
 std::vector<std::uint8_t> find_panels(const PanelProblem& problem, const Task& task);
 

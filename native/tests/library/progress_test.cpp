@@ -65,6 +65,7 @@ std::vector<Work> all_work() {
       {"EdgeWires", [=](const Task& task) { edge_wires(make_edge_graph(*surface, *metric), {0}, 3.0, false, task); }},
       {"flatten", [=](const Task& task) { flatten(*surface, {}, {}, task); }},
       {"limbs", [=](const Task& task) { PartFinder(surface, {.by = PartsBy::kLimbs}, task); }},
+      {"panels", [=](const Task& task) { PartFinder(surface, {.by = PartsBy::kPanels}, task); }},
       {"PartFinder", [=](const Task& task) { PartFinder(surface, {}, task); }},
       {"SeamPlanner", [=](const Task& task) { SeamPlanner(context, {}, task); }},
       {"its plan", [=](const Task& task) { SeamPlanner(context).plan({.distortion = 6.0, .steps = 5}, {}, task); }},
