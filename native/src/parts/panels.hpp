@@ -38,8 +38,8 @@ struct PanelProblem {
 /// the side of their neighbors. Edges cost more where a border is unlikely, and less along a line of which more belongs
 /// to the border. Throws Cancelled.
 ///
-/// \see Jegelka and Bilmes 2011, "Submodularity beyond submodular energies: coupling edges in graph cuts", for groups of
-///   edges that cost less together
+/// \see Jegelka and Bilmes 2011, "Submodularity beyond submodular energies: coupling edges in graph cuts", for
+///   groups of edges that cost less together
 std::vector<std::uint8_t> find_panels(const PanelProblem& problem, const Task& task);
 
 }  // namespace seamwire::detail
