@@ -20,7 +20,7 @@ import ui as driver
 from desk import choose, leave, second_window, send, undo_steps
 from scene import add_suzanne, animate, changing, edit, head, mark_wires, seams, snapshot
 from seamwire.core.base import native
-from seamwire.core.seams.seam_plan import PartChoice, PartEdits
+from seamwire.core.seams.seam_plan import PartChoice
 from seamwire.mesh.seam_search import Suggestion
 from seamwire.mesh.settings import preferences
 from seamwire.operators import keymaps as operators_keymaps

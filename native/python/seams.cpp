@@ -292,8 +292,8 @@ ValueError
 Cancelled
 )")
       .def(py::init(&make_part_finder), py::arg("surface"), py::kw_only(), py::arg("by") = "rims",
-           py::arg("scan") = false, py::arg("front") = py::none(), py::arg("mirror") = py::none(), py::arg("marked") = py::none(), py::arg("seams") = py::none(),
-           py::arg("progress") = py::none())
+           py::arg("scan") = false, py::arg("front") = py::none(), py::arg("mirror") = py::none(),
+           py::arg("marked") = py::none(), py::arg("seams") = py::none(), py::arg("progress") = py::none())
       .def("find", &find_parts, py::arg("amount") = 0.5, py::kw_only(), py::arg("kept") = py::none(),
            py::arg("dropped") = py::none(), py::arg("parted") = py::none(), py::arg("progress") = py::none(),
            R"(Find the parts.

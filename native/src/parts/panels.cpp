@@ -8,7 +8,6 @@
 #include <numbers>
 #include <utility>
 
-#include "detail/csr.hpp"
 #include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
 #include "detail/poll.hpp"
@@ -67,7 +66,7 @@ Directions find_directions(const PanelProblem& problem, const Task& task) {
   const PieceSizes& sizes = problem.sizes;
   Directions found;
   if (problem.front) {
-    found.of_piece.assign(sizes.of_piece.size(), problem.front->normalized());
+    found.of_piece.assign(sizes.of_piece.size(), problem.front->stableNormalized());
   } else {
     found.of_piece = thin_directions(problem, task);
   }
@@ -205,35 +204,31 @@ class PanelCut {
     }
   }
 
-  /// Gives small pieces of a side to the other side, the smallest one first.
+  /// Gives small connected parts of a side to the other side, each before its larger neighbors.
   void join_small() {
-    const Csr<std::int32_t> neighbors(side_.size(), [&](const auto& visit) {
-      for (const PanelLink& link : links_) {
-        visit(link.one, link.other);
-        visit(link.other, link.one);
-      }
-    });
-    for (;;) {
-      DisjointSets sets(facing_.size());
+    const std::size_t count = side_.size();
+    for (bool is_done = false; !is_done;) {
+      task_.check(0.0);
+      is_done = true;
+      DisjointSets sets(count);
       for (const PanelLink& link : links_) {
         if (side_[link.one] == side_[link.other]) sets.join(link.one, link.other);
       }
-      std::vector<double> areas(facing_.size(), 0.0);
-      std::vector<std::uint8_t> has_border(facing_.size(), 0);
-      for (std::size_t n = 0; n < facing_.size(); ++n) areas[sets.find(static_cast<std::int32_t>(n))] += areas_[n];
+      std::vector<double> areas(count, 0.0);
+      for (std::int32_t n = 0; index(n) < count; ++n) areas[sets.find(n)] += areas_[n];
+      std::vector<std::uint8_t> is_joined(count, 0), has_smaller(count, 0);
       for (const PanelLink& link : links_) {
         if (side_[link.one] == side_[link.other]) continue;
-        has_border[sets.find(link.one)] = has_border[sets.find(link.other)] = 1;
+        const std::int32_t one = sets.find(link.one), other = sets.find(link.other);
+        const bool is_smaller = std::pair(areas[one], one) < std::pair(areas[other], other);
+        has_smaller[is_smaller ? other : one] = 1;
+        is_joined[is_smaller ? one : other] = 1;
       }
-      std::int32_t least = -1;
-      for (std::int32_t n = 0; index(n) < areas.size(); ++n) {
-        if (has_border[n] == 0 || areas[n] >= tuning::kLeastPanel) continue;
-        if (least < 0 || areas[n] < areas[least]) least = n;
-      }
-      if (least < 0) return;
-      task_.check(0.0);
-      for (std::int32_t n = 0; index(n) < areas.size(); ++n) {
-        if (sets.find(n) == least) side_[n] = side_[n] != 0 ? 0 : 1;
+      for (std::int32_t n = 0; index(n) < count; ++n) {
+        const std::int32_t part = sets.find(n);
+        if (is_joined[part] == 0 || has_smaller[part] != 0 || areas[part] >= tuning::kLeastPanel) continue;
+        side_[n] = side_[n] != 0 ? 0 : 1;
+        is_done = false;
       }
     }
   }

@@ -410,6 +410,9 @@ void PartFinder::Impl::prepare(const Task& task) {
   if (options.mirror < -1 || options.mirror > 2) {
     throw InvalidInput("mirror is " + std::to_string(options.mirror) + ", not an axis from 0 to 2, or -1");
   }
+  if (options.front && !(options.front->allFinite() && !options.front->isZero(0.0))) {
+    throw InvalidInput("front is not a direction: it has no length, or is not finite");
+  }
   problem.mesh = std::make_shared<const PlanMesh>(plan_mesh(*surface, task));
   const PlanMesh& mesh = *problem.mesh;
   problem.is_seam = marked(options.seams, "seams", task);

@@ -71,6 +71,7 @@ std::vector<Work> all_work() {
          pack_islands(flat.uvs, flat.islands, {}, task);
        }},
       {"limbs", [=](const Task& task) { PartFinder(surface, {.by = PartsBy::kLimbs}, task); }},
+      {"panels", [=](const Task& task) { PartFinder(surface, {.by = PartsBy::kPanels}, task); }},
       {"PartFinder", [=](const Task& task) { PartFinder(surface, {}, task); }},
       {"SeamPlanner", [=](const Task& task) { SeamPlanner(context, {}, task); }},
       {"its plan", [=](const Task& task) { SeamPlanner(context).plan({.distortion = 6.0, .steps = 5}, {}, task); }},

@@ -66,8 +66,8 @@ shapes::QuadMesh pillow(const std::vector<std::string>& rows) {
   return mesh;
 }
 
-const std::vector<std::string> kShirt{"    oo    ", "o########o", "o########o", "   ####   ", "   ####   ", "   ####   ",
-                                      "   oooo   "};
+const std::vector<std::string> kShirt{"    oo    ", "o########o", "o########o", "   ####   ",
+                                      "   ####   ", "   ####   ", "   oooo   "};
 const std::vector<std::string> kTrousers{"ooooo", "#####", "#####", "## ##", "## ##", "## ##", "## ##", "oo oo"};
 const std::vector<std::string> kHeart{" ##  ## ", "########", "########", " ###### ", "  ####  ", "   ##   "};
 

@@ -650,6 +650,9 @@ TEST(PartFinder, refuses_bad_arguments) {
   EXPECT_THROW(PartFinder(surface, {.mirror = 3}), InvalidInput);
   EXPECT_THROW(PartFinder(surface, {.marked = {{{0, 100000}}}}), InvalidInput);
   EXPECT_THROW(PartFinder(surface, {.seams = {{-1, 0}}}), InvalidInput);
+  for (const double size : {0.0, std::nan("")}) {
+    EXPECT_THROW(PartFinder(surface, {.by = PartsBy::kPanels, .front = Vector(0.0, size, 0.0)}), InvalidInput);
+  }
   const PartFinder finder(surface);
   EXPECT_THROW(finder.find(1.5), InvalidInput);
   EXPECT_THROW(finder.find(std::nan("")), InvalidInput);

@@ -89,7 +89,8 @@ class SEAMWIRE_API PartFinder {
   /// \param surface the surface, not null
   /// \param options what is known about parts
   /// \param task progress and cancellation
-  /// \throws InvalidInput if the surface is null, or an axis or a vertex is out of range
+  /// \throws InvalidInput if the surface is null, an axis or a vertex is out of range, or the front is no
+  ///   direction
   /// \throws Cancelled if the task is cancelled
   explicit PartFinder(std::shared_ptr<const Surface> surface, const PartOptions& options = {}, const Task& task = {});
 
