@@ -272,7 +272,6 @@ class Suggestion:
                 arrays.triangles,
                 self.edges_of(plan),
                 start=plan.uvs,
-                keep_apart=False,
                 straighten=self._straight_cost_of(plan),
                 up=UP,
                 edges=arrays.edges,
