@@ -198,7 +198,7 @@ class Search {
       failed = found;
       found = 2 * found + 16;
     }
-    while (found - failed > 1) {
+    while (found - failed > 1 && steps() < kMostSteps) {
       const int middle = (failed + found) / 2;
       (is_found(scale(middle), first_strategies(), some) ? found : failed) = middle;
     }
@@ -275,7 +275,7 @@ class Search {
 
   /// Whether one of the strategies places all islands at a scale. Keeps the places.
   bool is_found(double scale, std::span<const Strategy> strategies, Allowed allowed) {
-    const Shapes shapes = this->shapes(scale);
+    Shapes shapes = this->shapes(scale);
     if (!has_room(shapes)) return false;
     for (std::size_t begin = 0; begin < strategies.size(); begin += kBatch) {
       const std::size_t count = std::min(kBatch, strategies.size() - begin);
@@ -289,7 +289,7 @@ class Search {
       const auto first = std::ranges::find_if(found, [](const Spots& spots) { return spots.has_value(); });
       if (first == found.end()) continue;
       spots_ = std::move(*first);
-      shapes_ = shapes;
+      shapes_ = std::move(shapes);
       scale_ = scale;
       return true;
     }
