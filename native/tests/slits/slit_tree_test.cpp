@@ -110,7 +110,7 @@ TEST(SlitTree, OpensATorusAlongItsShortestLoops) {
 
 TEST(SlitTree, OpensATorusAlongWholeLinesOfEdges) {
   const SlitProblem problem = problem_on(shapes::quad_torus(32, 16).surface());
-  const SlitTree tree = grow_tree(problem, true, {});
+  const SlitTree tree = grow_tree(problem, {}, {});
   std::map<std::int32_t, std::vector<Vector>> directions;  // of the slits' edges at each vertex
   std::size_t edges = 0;
   for (const Slit& slit : tree.slits) {
