@@ -60,10 +60,6 @@ _LEAST_ISLAND = 0.003
 """The fraction of the area of a figure below which no island is wanted."""
 _CUT_CRUMB = 0.25
 """Cuts that run side by side cross here and there. A piece smaller than this fraction of the smallest planned island is merged."""
-_SCULPT = 20_000
-"""The number of triangles from which a mesh of edges that an artist placed is a sculpt: artists' game models have fewer."""
-_COARSE = 0.5
-"""The amount of limbs for the amount 1: seams need fewer limbs than people see."""
 _MEASURING = 0.1
 """The fraction of planning until the costs of wires are known."""
 
@@ -138,10 +134,11 @@ class Suggestion:
         """Measure the mesh for parts."""
         arrays = self.mesh.arrays
         self._axis = self._mirror()
-        is_scan = self.along == "SURFACE" or len(arrays.triangles) >= _SCULPT
         self._finder = self._core.PartFinder(
             arrays.surface,
-            by="shape" if is_scan else "rims",
+            by="shape",
+            scan=self.along == "SURFACE",
+            front=self._front,
             mirror=self._axis,
             marked=arrays.marked,
             seams=arrays.seams,
@@ -172,8 +169,7 @@ class Suggestion:
             if known is not None and known[:2] == (amount, edits):
                 return known[2]
         arrays = self.mesh.arrays
-        own = _COARSE * amount if self._finder.by == "limbs" else amount
-        found = self._finder.find(own, **edits.on(arrays.edges, arrays.polygons), progress=progress)
+        found = self._finder.find(amount, **edits.on(arrays.edges, arrays.polygons), progress=progress)
         self._last = amount, edits, found
         return found
 

@@ -238,33 +238,6 @@ void smooth_borders(const PlanMesh& mesh, std::span<const double> distances, std
 
 }  // namespace
 
-double flat_share(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Pieces& pieces, const Task& task) {
-  const Poll poll(task);
-  std::vector<double> area_of(index(pieces.count), 0.0);
-  for (std::size_t f = 0; f < frames.size(); ++f) area_of[pieces.of_face[f]] += frames[f].area;
-  std::vector<Vector> centers(frames.size(), Vector::Zero());
-  for (std::size_t f = 0; f < frames.size(); ++f) {
-    for (const std::int32_t v : mesh.triangles[f]) centers[f] += mesh.points[v] / 3.0;
-  }
-  std::vector<std::uint8_t> is_bent(frames.size(), 0);
-  for (std::size_t e = 0; e < mesh.edge_count(); ++e) {
-    poll.at(e);
-    const std::int32_t h = mesh.half_edge_of[e], one = h / 3, other = mesh.twins[h] / 3;
-    if (mesh.twins[h] < 0) continue;
-    const Vector middle = 0.5 * (mesh.points[mesh.tail(h)] + mesh.points[mesh.tip(h)]);
-    const double distance = (centers[one] - middle).norm() + (centers[other] - middle).norm();
-    const Vector &a = frames[one].normal, &b = frames[other].normal;
-    const double bend = std::atan2(a.cross(b).norm(), a.dot(b)) * std::sqrt(area_of[pieces.of_face[one]]);
-    if (bend >= tuning::kFlatLimb * distance) is_bent[one] = is_bent[other] = 1;
-  }
-  double flat = 0.0, all = 0.0;
-  for (std::size_t f = 0; f < frames.size(); ++f) {
-    all += frames[f].area;
-    if (is_bent[f] == 0) flat += frames[f].area;
-  }
-  return all > 0.0 ? flat / all : 1.0;
-}
-
 Limbs::Limbs(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Pieces& pieces, const Task& task)
     : mesh_(mesh),
       areas_(mesh.face_count(), 0.0),
@@ -323,8 +296,7 @@ Limbs::Limbs(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Piec
   }
 }
 
-std::vector<std::int32_t> Limbs::find(double amount, const Task& task) const {
-  const double most = amount > 0.0 ? tuning::kLimbCost * std::pow(tuning::kLimbRange, 1.0 - 2.0 * amount) : kInfinity;
+std::vector<std::int32_t> Limbs::find(double most, const Task& task) const {
   DisjointSets sets(mesh_.face_count());
   for (const std::vector<LimbJoin>& joins : joins_) {
     for (const auto& [cost, one, other] : joins) {
@@ -336,6 +308,32 @@ std::vector<std::int32_t> Limbs::find(double amount, const Task& task) const {
   std::vector<std::int32_t> of_face = sets.numbering().of;
   smooth_borders(mesh_, distances_, weights_, of_face, task);
   return of_face;
+}
+
+void join_exposed(const PlanMesh& mesh, std::span<const double> open, std::vector<std::int32_t>& of_face,
+                  const Task& task) {
+  struct View {
+    double exposed = 0.0, length = 0.0;
+  };
+  while (true) {
+    std::map<Edge, View> borders;
+    const Poll poll(task);
+    for (std::size_t e = 0; e < mesh.edge_count(); ++e) {
+      poll.at(e);
+      const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
+      if (twin < 0 || of_face[h / 3] == of_face[twin / 3]) continue;
+      View& border = borders[ascending(of_face[h / 3], of_face[twin / 3])];
+      border.length += mesh.lengths[e];
+      if (0.5 * (open[mesh.tail(h)] + open[mesh.tip(h)]) >= tuning::kExposed) border.exposed += mesh.lengths[e];
+    }
+    const auto share = [](const auto& pair) {
+      const View& border = pair.second;
+      return border.length > 0.0 ? border.exposed / border.length : 1.0;
+    };
+    const auto most = std::ranges::max_element(borders, {}, share);
+    if (most == borders.end() || share(*most) <= tuning::kMostExposed) return;
+    std::ranges::replace(of_face, most->first[1], most->first[0]);
+  }
 }
 
 }  // namespace seamwire::detail
