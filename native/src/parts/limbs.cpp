@@ -29,6 +29,9 @@
 namespace seamwire::detail {
 namespace {
 
+/// Share of the highest cost of a join from which on limbs of the size of others stay, and by how much their areas may
+/// differ.
+constexpr double kAlikeCost = 0.5, kAlikeLimbs = 0.25;
 constexpr double kDiagonal = 1e6;  // price of an edge along which no border may run
 
 /// A border between two regions.
@@ -296,14 +299,37 @@ Limbs::Limbs(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Piec
   }
 }
 
+/// Makes the joins of a piece that cost up to `most`. A limb that would be joined for little less stays if a limb of
+/// about its size stays, so that both ears are parts, or none is.
+void Limbs::join_up_to(double most, std::span<const LimbJoin> joins, DisjointSets& sets) const {
+  const auto end_of = [&](double limit) {
+    return std::ranges::find_if(joins, [&](const LimbJoin& join) { return join.cost > limit; });
+  };
+  std::vector<double> sizes = areas_;  // of the sets, by what represents them
+  const auto join = [&](DisjointSets& own, std::int32_t one, std::int32_t other) {
+    const double size = sizes[own.find(one)] + sizes[own.find(other)];
+    if (own.join(one, other)) sizes[own.find(one)] = size;
+  };
+  const auto last = end_of(most), doubtful = end_of(kAlikeCost * most);
+  for (const auto& each : std::span(joins.begin(), std::min(doubtful, last))) join(sets, each.one, each.other);
+  std::vector<double> kept;  // sizes of the limbs that stay anyway: of the smaller sides of later joins
+  DisjointSets later = sets;
+  const std::vector<double> before = sizes;
+  for (auto each = doubtful; each != joins.end(); ++each) {
+    if (each >= last) kept.push_back(std::min(sizes[later.find(each->one)], sizes[later.find(each->other)]));
+    join(later, each->one, each->other);
+  }
+  sizes = before;
+  for (auto each = doubtful; each < last; ++each) {
+    const double size = std::min(sizes[sets.find(each->one)], sizes[sets.find(each->other)]);
+    const auto is_alike = [&](double other) { return std::abs(size - other) <= kAlikeLimbs * other; };
+    if (std::ranges::none_of(kept, is_alike)) join(sets, each->one, each->other);
+  }
+}
+
 std::vector<std::int32_t> Limbs::find(double most, const Task& task) const {
   DisjointSets sets(mesh_.face_count());
-  for (const std::vector<LimbJoin>& joins : joins_) {
-    for (const auto& [cost, one, other] : joins) {
-      if (cost > most) break;
-      sets.join(one, other);
-    }
-  }
+  for (const std::vector<LimbJoin>& joins : joins_) join_up_to(most, joins, sets);
   join_small(mesh_, areas_, weights_, sets, task);
   std::vector<std::int32_t> of_face = sets.numbering().of;
   smooth_borders(mesh_, distances_, weights_, of_face, task);

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "detail/disjoint_sets.hpp"
 #include "prices/plan_mesh.hpp"
 #include "seamwire/task.hpp"
 
@@ -27,6 +28,8 @@ class Limbs {
   std::vector<std::int32_t> find(double most, const Task& task) const;
 
  private:
+  void join_up_to(double most, std::span<const LimbJoin> joins, DisjointSets& sets) const;
+
   const PlanMesh& mesh_;
   std::vector<double> areas_;                 // of each triangle, in areas of its piece
   std::vector<double> weights_;               // of each edge
