@@ -169,13 +169,13 @@ TEST(Limbs, ShapeTellsFiguresFromMachineParts) {
 
 TEST(Limbs, ShapeOfASoftBodyHasNoRims) {
   // A ball, and an eye with a sharp rim at its pole.
-  constexpr double kEye = 0.3;
+  constexpr double kEye = 0.3, kHigh = 1.03;
   std::vector<std::array<double, 2>> profile;
   for (int i = 0; i <= 32; ++i) {
     const double angle = std::numbers::pi * i / 32;
-    const double radius = angle < kEye ? 1.1 : 1.0;
+    const double radius = angle < kEye ? kHigh : 1.0;
     if (i > 0 && angle >= kEye && angle - std::numbers::pi / 32 < kEye) {
-      for (const double rim : {1.1, 1.0}) profile.push_back({rim * std::cos(kEye), rim * std::sin(kEye)});
+      for (const double rim : {kHigh, 1.0}) profile.push_back({rim * std::cos(kEye), rim * std::sin(kEye)});
     }
     profile.push_back({radius * std::cos(angle), i == 0 || i == 32 ? 0.0 : radius * std::sin(angle)});
   }
