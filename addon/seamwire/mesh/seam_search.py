@@ -64,8 +64,6 @@ _CUT_CRUMB = 0.25
 """Cuts that run side by side cross here and there. A piece smaller than this fraction of the smallest planned island is merged."""
 _KEPT = 32
 """How many results of searches for parts are kept, so that an artist can go back to them at once."""
-_COARSE = 0.5
-"""The amount of limbs for the amount 1: seams need fewer limbs than people see."""
 _MEASURING = 0.1
 """The fraction of planning until the costs of wires are known."""
 
@@ -147,7 +145,7 @@ class Suggestion:
             arrays.surface,
             by="shape" if by == "AUTO" else by.lower(),
             scan=self.along == "SURFACE",
-            front=self._front if by == "PANELS" else None,
+            front=self._front,
             mirror=self._axis,
             marked=arrays.marked,
             seams=arrays.seams,
@@ -180,8 +178,7 @@ class Suggestion:
         found = self._found.pop(asked, None)
         if found is None:
             finder, arrays = self.measure(choice.by, progress), self.mesh.arrays
-            own = _COARSE * choice.amount if finder.by == "limbs" else choice.amount
-            found = finder.find(own, **edits.on(arrays.edges, arrays.polygons), progress=progress)
+            found = finder.find(choice.amount, **edits.on(arrays.edges, arrays.polygons), progress=progress)
         self._found[asked] = found
         if len(self._found) > _KEPT:
             del self._found[next(iter(self._found))]

@@ -29,6 +29,9 @@
 namespace seamwire::detail {
 namespace {
 
+/// Share of the highest cost of a join from which on limbs of the size of others stay, and by how much their areas may
+/// differ.
+constexpr double kAlikeCost = 0.5, kAlikeLimbs = 0.25;
 constexpr double kDiagonal = 1e6;  // price of an edge along which no border may run
 
 /// A border between two regions.
@@ -238,33 +241,6 @@ void smooth_borders(const PlanMesh& mesh, std::span<const double> distances, std
 
 }  // namespace
 
-double flat_share(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Pieces& pieces, const Task& task) {
-  const Poll poll(task);
-  std::vector<double> area_of(index(pieces.count), 0.0);
-  for (std::size_t f = 0; f < frames.size(); ++f) area_of[pieces.of_face[f]] += frames[f].area;
-  std::vector<Vector> centers(frames.size(), Vector::Zero());
-  for (std::size_t f = 0; f < frames.size(); ++f) {
-    for (const std::int32_t v : mesh.triangles[f]) centers[f] += mesh.points[v] / 3.0;
-  }
-  std::vector<std::uint8_t> is_bent(frames.size(), 0);
-  for (std::size_t e = 0; e < mesh.edge_count(); ++e) {
-    poll.at(e);
-    const std::int32_t h = mesh.half_edge_of[e], one = h / 3, other = mesh.twins[h] / 3;
-    if (mesh.twins[h] < 0) continue;
-    const Vector middle = 0.5 * (mesh.points[mesh.tail(h)] + mesh.points[mesh.tip(h)]);
-    const double distance = (centers[one] - middle).norm() + (centers[other] - middle).norm();
-    const Vector &a = frames[one].normal, &b = frames[other].normal;
-    const double bend = std::atan2(a.cross(b).norm(), a.dot(b)) * std::sqrt(area_of[pieces.of_face[one]]);
-    if (bend >= tuning::kFlatLimb * distance) is_bent[one] = is_bent[other] = 1;
-  }
-  double flat = 0.0, all = 0.0;
-  for (std::size_t f = 0; f < frames.size(); ++f) {
-    all += frames[f].area;
-    if (is_bent[f] == 0) flat += frames[f].area;
-  }
-  return all > 0.0 ? flat / all : 1.0;
-}
-
 Limbs::Limbs(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Pieces& pieces, const Task& task)
     : mesh_(mesh),
       areas_(mesh.face_count(), 0.0),
@@ -323,19 +299,67 @@ Limbs::Limbs(const PlanMesh& mesh, std::span<const FaceFrame> frames, const Piec
   }
 }
 
-std::vector<std::int32_t> Limbs::find(double amount, const Task& task) const {
-  const double most = amount > 0.0 ? tuning::kLimbCost * std::pow(tuning::kLimbRange, 1.0 - 2.0 * amount) : kInfinity;
-  DisjointSets sets(mesh_.face_count());
-  for (const std::vector<LimbJoin>& joins : joins_) {
-    for (const auto& [cost, one, other] : joins) {
-      if (cost > most) break;
-      sets.join(one, other);
-    }
+/// Makes the joins of a piece that cost up to `most`. A limb that would be joined for little less stays if a limb of
+/// about its size stays, so that both ears are parts, or none is.
+void Limbs::join_up_to(double most, std::span<const LimbJoin> joins, DisjointSets& sets) const {
+  const auto end_of = [&](double limit) {
+    return std::ranges::find_if(joins, [&](const LimbJoin& join) { return join.cost > limit; });
+  };
+  std::vector<double> sizes = areas_;  // of the sets, by what represents them
+  const auto join = [&](DisjointSets& own, std::int32_t one, std::int32_t other) {
+    const double size = sizes[own.find(one)] + sizes[own.find(other)];
+    if (own.join(one, other)) sizes[own.find(one)] = size;
+  };
+  const auto last = end_of(most), doubtful = end_of(kAlikeCost * most);
+  for (const auto& each : std::span(joins.begin(), std::min(doubtful, last))) join(sets, each.one, each.other);
+  std::vector<double> kept;  // sizes of the limbs that stay anyway: of the smaller sides of later joins
+  DisjointSets later = sets;
+  const std::vector<double> before = sizes;
+  for (auto each = doubtful; each != joins.end(); ++each) {
+    if (each >= last) kept.push_back(std::min(sizes[later.find(each->one)], sizes[later.find(each->other)]));
+    join(later, each->one, each->other);
   }
+  sizes = before;
+  for (auto each = doubtful; each < last; ++each) {
+    const double size = std::min(sizes[sets.find(each->one)], sizes[sets.find(each->other)]);
+    const auto is_alike = [&](double other) { return std::abs(size - other) <= kAlikeLimbs * other; };
+    if (std::ranges::none_of(kept, is_alike)) join(sets, each->one, each->other);
+  }
+}
+
+std::vector<std::int32_t> Limbs::find(double most, const Task& task) const {
+  DisjointSets sets(mesh_.face_count());
+  for (const std::vector<LimbJoin>& joins : joins_) join_up_to(most, joins, sets);
   join_small(mesh_, areas_, weights_, sets, task);
   std::vector<std::int32_t> of_face = sets.numbering().of;
   smooth_borders(mesh_, distances_, weights_, of_face, task);
   return of_face;
+}
+
+void join_exposed(const PlanMesh& mesh, std::span<const double> open, std::vector<std::int32_t>& of_face,
+                  const Task& task) {
+  struct View {
+    double exposed = 0.0, length = 0.0;
+  };
+  while (true) {
+    std::map<Edge, View> borders;
+    const Poll poll(task);
+    for (std::size_t e = 0; e < mesh.edge_count(); ++e) {
+      poll.at(e);
+      const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];
+      if (twin < 0 || of_face[h / 3] == of_face[twin / 3]) continue;
+      View& border = borders[ascending(of_face[h / 3], of_face[twin / 3])];
+      border.length += mesh.lengths[e];
+      if (0.5 * (open[mesh.tail(h)] + open[mesh.tip(h)]) >= tuning::kExposed) border.exposed += mesh.lengths[e];
+    }
+    const auto share = [](const auto& pair) {
+      const View& border = pair.second;
+      return border.length > 0.0 ? border.exposed / border.length : 1.0;
+    };
+    const auto most = std::ranges::max_element(borders, {}, share);
+    if (most == borders.end() || share(*most) <= tuning::kMostExposed) return;
+    std::ranges::replace(of_face, most->first[1], most->first[0]);
+  }
 }
 
 }  // namespace seamwire::detail

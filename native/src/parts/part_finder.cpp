@@ -18,9 +18,11 @@
 
 #include "detail/disjoint_sets.hpp"
 #include "detail/index.hpp"
+#include "detail/infinity.hpp"
 #include "detail/poll.hpp"
 #include "detail/rounded.hpp"
 #include "detail/text.hpp"
+#include "parts/figure.hpp"
 #include "parts/limbs.hpp"
 #include "parts/nets.hpp"
 #include "parts/panels.hpp"
@@ -259,6 +261,7 @@ std::vector<std::int32_t> joined_regions(std::span<const Region> regions, std::s
   return Joining(regions, borders, task).run();
 }
 
+constexpr double kDefaultAmount = 0.5;
 constexpr double kEditOdds = 1e6;               // of an edge that somebody has kept or dropped
 constexpr double kJoined = 0.3, kParted = 0.9;  // of the work of find()
 
@@ -266,6 +269,13 @@ constexpr double kJoined = 0.3, kParted = 0.9;  // of the work of find()
 double bias_of(double amount) {
   if (amount >= 0.5) return 2.0 * (amount - 0.5) * tuning::kBiasToSharp;
   return tuning::kBiasToOne * std::log(amount / (1.0 - amount));
+}
+
+/// The most that joining two limbs costs for an amount of limbs. `is_figure`: whether the shape has chosen limbs.
+double most_cost(double amount, bool is_figure) {
+  if (!(amount > 0.0)) return kInfinity;
+  return is_figure ? tuning::kLimbCost * std::pow(tuning::kFigureRange, 1.0 - amount)
+                   : tuning::kLimbCost * std::pow(tuning::kLimbRange, 1.0 - 2.0 * amount);
 }
 
 /// The mirror image of each polygon, by the images of its vertices; -1 without an image.
@@ -385,9 +395,11 @@ struct PartFinder::Impl {
   std::vector<Region> regions;  // of each polygon
   std::optional<Limbs> limbs;
   std::vector<std::uint8_t> is_panelled, is_between;  // pieces with panels; edges between front and back; or empty
+  std::vector<double> open;  // of each vertex, how visible it is; only for a shape that has limbs
 
   void prepare(const Task& task);
   double odds_of(std::int32_t edge) const;  // with those of front and back
+  bool has_figure(std::span<const FaceFrame> frames, const Task& task) const;
   void divide_panels(std::span<const FaceFrame> frames, const Task& task);
   std::vector<Region> regions_of(const Polygons& own, const Task& task) const;
   std::vector<std::uint8_t> marked(const std::vector<Edge>& edges, const char* name, const Task& task) const;
@@ -434,18 +446,19 @@ void PartFinder::Impl::prepare(const Task& task) {
   if (problem.reflection) {
     take_apart(mesh, unmirrored_pairs(mesh, polygons, *problem.reflection, task), polygons, task);
   }
-  const bool is_dense = options.is_scan || mesh.face_count() >= tuning::kLeastSculpt;
-  const bool is_figure =
-      options.by == PartsBy::kShape && is_dense && flat_share(mesh, frames, sizes.pieces, task) <= tuning::kMostFlat;
-  if (options.by == PartsBy::kLimbs || is_figure) {
-    limbs.emplace(mesh, frames, sizes.pieces, part_of(task, 0.8, 0.85));
-  }
-  task.check(0.85);
   bends = bends_over_edges(mesh, frames, polygons, sizes, task);
   odds = border_odds(mesh, polygons, sizes, bends, visibility.ambient, is_marked, problem.mirror(),
                      tuning::kPartOnPlane, task);
-  task.check(0.95);
   regions = regions_of(polygons, task);
+  if (options.by == PartsBy::kLimbs || (options.by == PartsBy::kShape && has_figure(frames, task))) {
+    limbs.emplace(mesh, frames, sizes.pieces, part_of(task, 0.85, 0.95));
+    if (options.by == PartsBy::kShape) {
+      const Visibility seen =
+          options.front ? find_visibility(mesh, options.front, task, size_at, tuning::kMostLooks) : visibility;
+      open = openness(mesh, seen, problem.reflection, frames);
+    }
+  }
+  task.check(0.95);
   if (options.by == PartsBy::kPanels || (options.by == PartsBy::kShape && !limbs)) {
     divide_panels(frames, part_of(task, 0.95, 1.0));
   }
@@ -453,6 +466,16 @@ void PartFinder::Impl::prepare(const Task& task) {
     poll.at(index(e));
     problem.prices.of_edge.push_back(mesh.is_real[e] == 0 ? kInfinity : price_of_cut(odds_of(e)) * mesh.lengths[e]);
   }
+}
+
+/// Whether the shape asks for limbs.
+bool PartFinder::Impl::has_figure(std::span<const FaceFrame> frames, const Task& task) const {
+  const PlanMesh& mesh = *problem.mesh;
+  if (!is_round(mesh, frames, sizes, task)) return false;
+  if (options.is_scan || mesh.face_count() >= tuning::kLeastSculpt) return true;
+  if (std::ranges::count(find_garments(mesh, polygons, sizes, bends, task), 1) > 0) return false;
+  const std::vector<std::uint8_t> none(mesh.edge_count(), 0);
+  return is_soft(mesh, frames, sizes, bends, joined(kDefaultAmount, none, {}, task), task);
 }
 
 /// Makes borders of the edges between front and back.
@@ -465,8 +488,10 @@ void PartFinder::Impl::divide_panels(std::span<const FaceFrame> frames, const Ta
   for (const Region& region : regions) images.push_back(region.image);
   if (options.by == PartsBy::kShape && std::ranges::count(is_chosen, 1) == 0) return;
   const std::optional<int> mirror = problem.reflection ? std::optional(problem.reflection->axis) : std::nullopt;
-  is_between = find_panels(
-      {mesh, polygons, sizes, frames, odds, problem.is_seam, images, mirror, options.front, is_chosen}, task);
+  // A viewer is anywhere, but the front of clothes is where they are thin.
+  const std::optional<Vector> front = options.by == PartsBy::kPanels ? options.front : std::nullopt;
+  is_between =
+      find_panels({mesh, polygons, sizes, frames, odds, problem.is_seam, images, mirror, front, is_chosen}, task);
   is_panelled = is_chosen;
   regions = regions_of(polygons, task);
 }
@@ -604,8 +629,9 @@ std::vector<std::int32_t> PartFinder::Impl::joined_limbs(double amount, const Pa
                                                          const Task& task) const {
   const PlanMesh& mesh = *problem.mesh;
   const std::vector<std::uint8_t> is_dropped = edited(edits.dropped, "dropped", task);
-  std::vector<std::int32_t> of_face = limbs->find(amount, task);
+  std::vector<std::int32_t> of_face = limbs->find(most_cost(amount, !open.empty()), task);
   if (problem.reflection && problem.reflection->is_exact) mirror_labels(mesh, *problem.reflection, of_face, task);
+  if (!open.empty()) join_exposed(mesh, open, of_face, task);
   DisjointSets sets(2 * of_face.size());
   for (std::size_t e = 0; e < is_dropped.size(); ++e) {
     const std::int32_t h = mesh.half_edge_of[e], twin = mesh.twins[h];

@@ -131,7 +131,8 @@ std::vector<double> normalized(std::vector<double> values, std::span<const doubl
   return values;
 }
 
-/// How visible each vertex is, the same on both sides of a symmetric mesh.
+}  // namespace
+
 std::vector<double> openness(const PlanMesh& mesh, const Visibility& visibility,
                              const std::optional<Reflection>& reflection, std::span<const FaceFrame> frames) {
   const std::vector<double> areas = vertex_areas(mesh, frames);
@@ -150,6 +151,8 @@ std::vector<double> openness(const PlanMesh& mesh, const Visibility& visibility,
   }
   return both;
 }
+
+namespace {
 
 /// The price of a place, by its visibility.
 double price_at(double open) {
@@ -211,9 +214,9 @@ EdgePrices find_prices(const PlanMesh& mesh, const Visibility& visibility, const
                                                reflection ? &*reflection : nullptr, tuning::kSlitOnPlane, task);
   const std::vector<double> shapes = shape_prices(mesh, bends, odds, task);
   // On machine parts sharp edges hide seams on every side, and no place is exposed.
-  const double hard = hardness(mesh, bends.own);
+  const double hard = prices.hardness = hardness(mesh, bends.own);
   for (const double open : prices.visibility) {
-    prices.is_exposed.push_back(open >= tuning::kExposed + tuning::kExposedWidth && hard < 0.5 ? 1 : 0);
+    prices.is_exposed.push_back(open >= tuning::kExposed + tuning::kExposedWidth && !prices.is_machine_part() ? 1 : 0);
   }
   double sum = 0.0, length = 0.0;
   const Poll poll(task);

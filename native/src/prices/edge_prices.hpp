@@ -32,6 +32,10 @@ Visibility find_visibility(const PlanMesh& mesh, const std::optional<Vector>& fr
 /// Cancelled.
 std::vector<std::int32_t> nearest_of(const PlanMesh& mesh, std::span<const std::int32_t> vertices, const Task& task);
 
+/// How visible each vertex is; 1 on average. It is the same on both sides of a symmetric mesh.
+std::vector<double> openness(const PlanMesh& mesh, const Visibility& visibility,
+                             const std::optional<Reflection>& reflection, std::span<const FaceFrame> frames);
+
 /// The price of a seam along each edge of a mesh.
 ///
 /// The price is the edge's length times how visible it is. Sharp edges, ridges of thin parts and hollows are cheaper.
@@ -46,6 +50,9 @@ struct EdgePrices {
   /// A slit that gains more energy than this for its price is worth it even below the bound on the energy. That is so
   /// on machine parts, where sharp edges are nearly free.
   double bargain = kInfinity;
+  double hardness = 0.0;  ///< from 0 for an organic surface to 1 for a machine part
+
+  bool is_machine_part() const { return hardness >= 0.5; }
 };
 
 /// `weights`: factors at vertices of the mesh; empty: 1 everywhere. Infinity keeps seams away. Throws Cancelled.

@@ -139,6 +139,8 @@ void GroupPlanning::search(const SlitGoal& goal, const std::function<void()>& fo
   // it is also parted into halves.
   for (int round = 0; round <= tuning::kHalvings && !result_.is_within(goal.energy); ++round) {
     if (round > 0 && std::isfinite(result_.energy)) return;
+    // Only machine parts have rims. On others, these would enclose scales and wrinkles.
+    if (round == 0 && !problem().prices.is_machine_part()) continue;
     std::vector<Slit> cuts = round == 0 ? rim_cuts(problem(), missed_, task)
                                         : halving_cuts(problem(), 2 * index(problem().pieces.count), task);
     if (cuts.empty()) continue;

@@ -345,7 +345,8 @@ void PreparedSurface::find_meshes(const Task& task) {
     group.is_large = all > tuning::kMostTriangles && count * tuning::kSimplified > share * tuning::kMostTriangles;
     if (group.is_large) add_simplified(group, share, part_of(own, 0.0, 0.7));
     const std::size_t half = group.searched().mesh->face_count() / 2;
-    if (half >= tuning::kLeastSimplified) add_simplified(group, half, part_of(own, 0.7, 1.0));
+    // On a large surface the maps of the original mesh would take most of the time of a second search.
+    if (!group.is_large && half >= tuning::kLeastSimplified) add_simplified(group, half, part_of(own, 0.7, 1.0));
   }
 }
 

@@ -299,7 +299,7 @@ class Planning {
   SeamPlan run() {
     part_limbs(part_of(task_, 0.0, kLimbsEnd));
     const bool is_bounded = std::isfinite(goal_.distortion);
-    const double budget = goal_.steps > 0 ? static_cast<double>(goal_.steps) : tuning::kBudget;
+    const double budget = goal_.steps > 0 ? static_cast<double>(goal_.steps) : default_budget();
     const double search_end = kTreesEnd + (1.0 - kTreesEnd) * share_of_search(budget);
     for_each_group(part_of(task_, kLimbsEnd, kTreesEnd),
                    [&](std::size_t g, const Task& own) { plans_[g].grow(is_bounded, own); });
@@ -320,6 +320,13 @@ class Planning {
     return plans_.size() > 1 && groups()[group].searched().mesh->face_count() < tuning::kSmallGroup;
   }
   const std::vector<GroupProblem>& groups() const { return prepared_.groups; }
+
+  /// How many Newton steps the search may take if the goal leaves that open.
+  double default_budget() const {
+    const std::size_t faces = prepared_.mesh->face_count();
+    if (faces <= tuning::kMostTriangles) return tuning::kBudget;
+    return std::min(tuning::kBudget, tuning::kBudgetOfTriangle * static_cast<double>(faces));
+  }
 
   /// The share of the search in the work of the search and of what follows.
   double share_of_search(double budget) const {

@@ -291,13 +291,16 @@ inline constexpr std::array<double, 3> kShorterShares{0.0, 0.6, 0.85};
 
 /// Newton steps on the whole surface that a search takes at most.
 inline constexpr double kBudget = 4000.0;
+/// Newton steps for each triangle of a surface that is planned on simplified meshes. A step there takes as long for any
+/// surface, so larger ones may have more.
+inline constexpr double kBudgetOfTriangle = 0.04;
 /// Bound on the energy below which exposed places may be cut. At 4.1, one head needed a slit from the throat to the
 /// lip.
 inline constexpr double kLowStretch = 4.15;
 /// Triangles above which a surface is planned on simplified meshes. A Newton step on 28,000 triangles takes 40 ms.
 inline constexpr std::size_t kMostTriangles = 9000;
 /// Triangles that all simplified meshes have together, about.
-inline constexpr std::size_t kSimplified = 7000;
+inline constexpr std::size_t kSimplified = 5000;
 /// Triangles of each group, at least, and of the coarser mesh on which seams are also searched. A group that is
 /// smaller itself stays as it is.
 inline constexpr std::size_t kLeastSimplified = 600;
@@ -353,6 +356,12 @@ inline constexpr double kSmallestLimb = 0.0015;
 inline constexpr double kMostFlat = 0.08;
 /// Triangles from which a mesh is a sculpt: artists' game models have fewer.
 inline constexpr std::size_t kLeastSculpt = 20000;
+/// Share of the bending in sharp edges up to which a mesh of an artist is a figure, and share of the area that its rims
+/// leave in one part. Heads have up to 0.49 and at least 0.90; a prop whose bending is as soft has 0.87.
+inline constexpr double kMostSharp = 0.5;
+inline constexpr double kLeastBody = 0.88;
+/// Share of the border of a limb that may be in exposed places. Half of a ring around an arm is.
+inline constexpr double kMostExposed = 0.6;
 /// Curvature below which a triangle is flat.
 inline constexpr double kFlatLimb = 0.3;
 /// Distance from a border up to which it may move, and that distance as a share of the depth of a part.
@@ -361,6 +370,8 @@ inline constexpr double kLimbBandShare = 0.5;
 /// Joins up to this cost are made at the amount 0.5. Near 0, the limit is kLimbRange times as high.
 inline constexpr double kLimbCost = 0.15;
 inline constexpr double kLimbRange = 7.477;
+/// The same range where the shape has chosen limbs: seams need fewer of them than people see.
+inline constexpr double kFigureRange = 100.0;
 
 // Panels: front and back of garments. Lengths are in diagonals of a piece, areas in its area.
 

@@ -12,11 +12,15 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <numbers>
 #include <random>
 #include <set>
 #include <utility>
 #include <vector>
 
+#include "detail/infinity.hpp"
+#include "parts/limbs.hpp"
+#include "prices/plan_mesh.hpp"
 #include "seamwire/errors.hpp"
 #include "shapes.hpp"
 #include "surface/real_edges.hpp"
@@ -163,6 +167,52 @@ TEST(Limbs, ShapeTellsFiguresFromMachineParts) {
   const PartFinder cube(std::make_shared<const Surface>(shapes::quad_cube(8).surface()), by_shape);
   EXPECT_EQ(cube.by(), PartsBy::kRims);
   EXPECT_EQ(cube.find(1.0).count, 6u);
+}
+
+TEST(Limbs, ShapeOfASoftBodyHasNoRims) {
+  // A ball, and an eye with a sharp rim at its pole.
+  constexpr double kEye = 0.3, kHigh = 1.03;
+  std::vector<std::array<double, 2>> profile;
+  for (int i = 0; i <= 32; ++i) {
+    const double angle = std::numbers::pi * i / 32;
+    const double radius = angle < kEye ? kHigh : 1.0;
+    if (i > 0 && angle >= kEye && angle - std::numbers::pi / 32 < kEye) {
+      for (const double rim : {kHigh, 1.0}) profile.push_back({rim * std::cos(kEye), rim * std::sin(kEye)});
+    }
+    profile.push_back({radius * std::cos(angle), i == 0 || i == 32 ? 0.0 : radius * std::sin(angle)});
+  }
+  const shapes::Mesh mesh = shapes::lathe(32, profile);
+  EXPECT_GE(finder_of(mesh, {.by = PartsBy::kRims}).find().count, 2u);
+  const PartFinder by_shape = finder_of(mesh, {.by = PartsBy::kShape});
+  EXPECT_EQ(by_shape.by(), PartsBy::kLimbs);
+  EXPECT_EQ(by_shape.find().count, 1u);
+}
+
+TEST(Limbs, AreJoinedOverExposedBorders) {
+  const shapes::Mesh grid = shapes::grid(8);
+  const detail::PlanMesh mesh = detail::plan_mesh(Surface(grid.points, grid.triangles), {});
+  double left = detail::kInfinity, right = -detail::kInfinity, low = left, high = right;
+  for (const Vector& p : mesh.points) {
+    left = std::min(left, p.x());
+    right = std::max(right, p.x());
+    low = std::min(low, p.y());
+    high = std::max(high, p.y());
+  }
+  std::vector<std::int32_t> halves;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const double x = (mesh.points[a].x() + mesh.points[b].x() + mesh.points[c].x()) / 3.0;
+    halves.push_back(x < 0.5 * (left + right) ? 3 : 5);
+  }
+  const auto count = [&](const auto& open_at) {
+    std::vector<double> open;
+    for (const Vector& p : mesh.points) open.push_back(open_at(p));
+    std::vector<std::int32_t> of_face = halves;
+    detail::join_exposed(mesh, open, of_face, {});
+    return std::set<std::int32_t>(of_face.begin(), of_face.end()).size();
+  };
+  EXPECT_EQ(count([](const Vector&) { return 2.0; }), 1u) << "a face";
+  EXPECT_EQ(count([](const Vector&) { return 0.5; }), 2u) << "a place that nobody sees";
+  EXPECT_EQ(count([&](const Vector& p) { return p.y() > 0.5 * (low + high) ? 2.0 : 0.0; }), 2u) << "a ring";
 }
 
 TEST(Limbs, AreMirrored) {

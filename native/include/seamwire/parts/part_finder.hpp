@@ -19,9 +19,9 @@ enum class PartsBy {
   kRims,    ///< sharp edges, as around the walls, lids and plugs of props and machines
   kLimbs,   ///< narrow and concave places, as between head, arms and body of a figure
   kPanels,  ///< the sides, as between front and back of a shirt, and sharp edges
-  /// As is best for the shape. Scans and sculpts have limbs if at most 8 % of the area is flat. A connected piece has
-  /// panels if at most 15 % of the edge length bends by more than 30 degrees, and at least three boundaries are open.
-  /// Everything else has rims.
+  /// As is best for the shape. Figures have few limbs: at most 8 % of their area is flat, and they are scans, sculpts,
+  /// or soft shapes whose rims take off details only. A connected piece has panels if at most 15 % of the edge length
+  /// bends by more than 30 degrees, and at least three boundaries are open. Everything else has rims.
   kShape,
 };
 
@@ -31,8 +31,9 @@ struct PartOptions {
   PartsBy by = PartsBy::kRims;
   /// For kShape: whether the edges come from a scan. From 20,000 triangles, a mesh counts as a sculpt anyway.
   bool is_scan = false;
-  /// The direction to the viewer of the front panels. nullopt: where each piece is thinnest. On a symmetric mesh the
-  /// direction is turned into the mirror plane, or across it if that is nearer.
+  /// The direction to the viewer. Limbs that kShape finds have no borders around a face there. For kPanels it is the
+  /// direction to the front; nullopt: where each piece is thinnest, as for kShape. On a symmetric mesh the direction to
+  /// the front is turned into the mirror plane, or across it if that is nearer.
   std::optional<Vector> front = std::nullopt;
   /// The axis, 0 (x) to 2 (z), in whose direction the surface is mirrored, as in SeamPlannerOptions. Rims are then
   /// symmetric wherever the triangles are mirrored. Limbs are symmetric if at least 95 % of the edges are mirrored.
