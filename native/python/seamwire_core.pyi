@@ -2068,8 +2068,10 @@ def pack_islands(
         The least distance between islands, in parts of the square's side: 0 to 0.25. The sides of the square keep half of
         it. It is at most 0.15 over the square root of the number of islands.
     turns : {'none', 'quarters', 'any'}, optional
-        How islands may be turned. 'quarters': by multiples of 90 degrees, where that saves space. 'any': in some directions
-        more. An island that nearly fills the smallest rectangle around it then lies along the axes.
+        How islands may be turned. 'quarters': by multiples of 90 degrees. An island is turned only if it has no place without
+        a turn in the packing that was found. Of more than 64 turned islands, this holds for the largest 64. 'any': islands
+        with at least 1/40 of the area may lie in several directions. Other islands, and islands that nearly fill the smallest
+        rectangle around them, lie along the axes.
     aspects : (k,) array_like of float, optional
         For each island, the width over the height of the image on which it lies, 0.001 to 1000. None: all images are square.
     progress : callable, optional
