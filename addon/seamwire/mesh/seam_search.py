@@ -66,6 +66,8 @@ _KEPT = 32
 """How many results of searches for parts are kept, so that an artist can go back to them at once."""
 _COARSE = 0.5
 """The amount of limbs for the amount 1: seams need fewer limbs than people see."""
+_FIRST = 0.8
+"""The fraction of finding parts until the mesh is measured for them."""
 _MEASURING = 0.1
 """The fraction of planning until the costs of wires are known."""
 
@@ -177,9 +179,11 @@ class Suggestion:
         asked = choice.by, choice.amount, edits
         found = self._found.pop(asked, None)
         if found is None:
-            finder, arrays = self.measure(choice.by, progress), self.mesh.arrays
+            begin = 0.0 if choice.by in self._finders else _FIRST
+            finder, arrays = self.measure(choice.by, lambda done: progress(begin * done)), self.mesh.arrays
             own = _COARSE * choice.amount if finder.by == "limbs" else choice.amount
-            found = finder.find(own, **edits.on(arrays.edges, arrays.polygons), progress=progress)
+            changes = edits.on(arrays.edges, arrays.polygons)
+            found = finder.find(own, **changes, progress=lambda done: progress(begin + (1.0 - begin) * done))
         self._found[asked] = found
         if len(self._found) > _KEPT:
             del self._found[next(iter(self._found))]
