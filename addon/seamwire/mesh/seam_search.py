@@ -64,6 +64,8 @@ _CUT_CRUMB = 0.25
 """Cuts that run side by side cross here and there. A piece smaller than this fraction of the smallest planned island is merged."""
 _KEPT = 32
 """How many results of searches for parts are kept, so that an artist can go back to them at once."""
+_FIRST = 0.8
+"""The fraction of finding parts until the mesh is measured for them."""
 _MEASURING = 0.1
 """The fraction of planning until the costs of wires are known."""
 
@@ -177,8 +179,10 @@ class Suggestion:
         asked = choice.by, choice.amount, edits
         found = self._found.pop(asked, None)
         if found is None:
-            finder, arrays = self.measure(choice.by, progress), self.mesh.arrays
-            found = finder.find(choice.amount, **edits.on(arrays.edges, arrays.polygons), progress=progress)
+            begin = 0.0 if choice.by in self._finders else _FIRST
+            finder, arrays = self.measure(choice.by, lambda done: progress(begin * done)), self.mesh.arrays
+            changes = edits.on(arrays.edges, arrays.polygons)
+            found = finder.find(choice.amount, **changes, progress=lambda done: progress(begin + (1.0 - begin) * done))
         self._found[asked] = found
         if len(self._found) > _KEPT:
             del self._found[next(iter(self._found))]
