@@ -12,7 +12,7 @@ from maps import flipped, folded, in_square, overlapping_pairs, signed_areas, tr
 from scene import add_grid, add_object, changing, edit, snapshot
 from seamwire.mesh import unwrap as unwrapping
 from seamwire.mesh.versions import IS_OLD
-from seamwire.operators.unwrap_islands import unwrap_after_chain
+from seamwire.operators.after_chain import unwrap_after_chain
 
 
 def add_torus() -> None:
