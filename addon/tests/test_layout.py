@@ -32,14 +32,7 @@ FLOORS = (
 )
 CORES = ("core.", "networks.core.")
 """The modules that do not know Blender, and hold no sentence for artists."""
-KNOWN_CYCLES = {
-    ("operators.chain_state", "operators.chain"): {
-        "operators.chain",
-        "operators.chain_state",
-        "operators.steps",
-        "operators.unwrap_islands",
-    }
-}
+KNOWN_CYCLES = {("operators.chain_state", "operators.chain"): {"operators.chain", "operators.chain_state"}}
 """Imports of types that lead back to the module itself, and all modules on the way."""
 
 
