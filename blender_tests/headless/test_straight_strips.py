@@ -7,7 +7,7 @@ import bmesh
 import bpy
 import numpy as np
 import pytest
-from maps import energy, flipped, in_square, overlapping_pairs
+from maps import energy, flipped, in_square, overlapping_pairs, signed_areas, triangles
 from scene import add_object, changing, edit
 
 SIDES = 12
@@ -118,12 +118,21 @@ def test_islands_without_an_up_stand_on_their_shorter_side() -> None:
     assert height > 1.5 * width, "around it is 6.2 long, along it 3"
 
 
-def test_blender_turns_islands_if_upright_is_not_wanted() -> None:
-    obj = add_barrel()
+def test_slanted_directions_make_a_long_island_larger_if_upright_is_not_wanted() -> None:
+    kite = add_object([(0.0, 0.0, -1.0), (0.05, 0.0, 0.0), (0.0, 0.0, 1.0), (-0.05, 0.0, 0.0)], [(0, 1, 2, 3)])
+    edit()
+    areas = []
     for upright in (True, False):
         assert bpy.ops.mesh.seamwire_unwrap(upright=upright, changed_only=False) == {"FINISHED"}
-        assert sorted(lines_of(obj)) == [5, SIDES + 1], "straight stays straight"
-        assert (up_of(obj)[1] > 0.999) == upright
+        assert in_square(kite)
+        areas.append(np.abs(signed_areas(triangles(kite)[0])).sum())
+    assert areas[1] > 1.7 * areas[0], "the diagonal is 1.41 times as long as a side"
+
+
+def test_straight_islands_lie_along_the_axes_even_if_upright_is_not_wanted() -> None:
+    obj = add_barrel()
+    assert bpy.ops.mesh.seamwire_unwrap(upright=False) == {"FINISHED"}
+    assert sorted(lines_of(obj)) == [5, SIDES + 1]
 
 
 def test_a_straight_island_stays_along_the_axes_beside_islands_that_stay() -> None:

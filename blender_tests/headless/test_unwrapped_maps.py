@@ -9,9 +9,11 @@ import bpy
 import numpy as np
 import pytest
 from maps import flipped, folded, in_square, overlapping_pairs, signed_areas, triangles
-from scene import add_grid, add_object, changing, edit, snapshot
+from mathutils.kdtree import KDTree
+from scene import add_grid, add_object, add_suzanne, changing, edit, snapshot
+from seamwire.mesh import edit_mesh
 from seamwire.mesh import unwrap as unwrapping
-from seamwire.mesh.versions import IS_OLD
+from seamwire.mesh.seam_islands import labels_of
 from seamwire.operators.unwrap_islands import unwrap_after_chain
 
 
@@ -90,7 +92,7 @@ def test_vertices_in_the_middle_of_sides_leave_the_map_valid_as_blender_cuts_the
     assert (folded(obj), overlapping_pairs(obj, deep=1e-6)) == (0, 0)
 
 
-def add_capped_columns(caps: int = 12, width: float = 4e-4, height: float = 6e-8) -> bpy.types.Object:
+def add_capped_columns(caps: int = 12, width: float = 4e-5, height: float = 6e-8) -> bpy.types.Object:
     """Add narrow quads side by side with triangles at both ends, without area or thinner than the UV square can hold."""
     ends = (-0.5, 0.5)
     points = [(width * i, y, 0.0) for y in ends for i in range(caps + 1)]
@@ -116,8 +118,6 @@ def test_faces_that_rounding_turns_over_are_turned_back(
         without.setattr(unwrapping, "turn_back", lambda *_: (np.empty(0, dtype=np.int64), np.empty((0, 2))))
         assert unwrap(straight=False, upright=False) == {"FINISHED"}
     left = turned_over(obj)
-    if not IS_OLD and not left:
-        pytest.skip("this Blender packs them to where rounding turns nothing over")
     assert left > 0
     told = capfd.readouterr().out
     assert re.search(
@@ -132,8 +132,12 @@ def test_faces_that_rounding_turns_over_are_turned_back(
 @pytest.fixture
 def piled_up(monkeypatch: pytest.MonkeyPatch) -> None:
     """All islands are laid out at one place, and not packed."""
-    monkeypatch.setattr(unwrapping, "in_rows", lambda uvs, _: uvs / (4.0 * np.ptp(uvs)) + 0.5)
-    monkeypatch.setattr(unwrapping, "_pack", lambda *_: None)
+
+    def packed(solved: dict[object, tuple[np.ndarray, ...]], *_: object) -> np.ndarray:
+        flat = np.concatenate([uvs for _, uvs, _ in solved.values()])
+        return flat / (4.0 * np.ptp(flat)) + 0.5
+
+    monkeypatch.setattr(unwrapping, "_packed", packed)
 
 
 @pytest.mark.usefixtures("piled_up")
@@ -224,3 +228,62 @@ def test_many_corners_are_written_where_they_belong() -> None:
     places = np.array([tuple(loop.vert.co.xy) for face in bm.faces for loop in face.loops])
     lengths = [np.linalg.norm(column[:, None] - column, axis=2) for column in (uvs, places)]
     assert lengths[0] / lengths[0].max() == pytest.approx(lengths[1] / lengths[1].max(), abs=1e-4)
+
+
+def outline(uvs: np.ndarray) -> np.ndarray:
+    """Return points on the sides of triangles, (t, 3, 2), that no two of them share."""
+    sides = np.stack([uvs, np.roll(uvs, -1, axis=1)], axis=2).reshape(-1, 2, 2)
+    keys = np.sort(np.round(sides * 1e5) @ (1.0, 1e6), axis=1)
+    _, inverse, counts = np.unique(keys, axis=0, return_inverse=True, return_counts=True)
+    begin, end = sides[counts[inverse.reshape(-1)] == 1].swapaxes(0, 1)
+    steps = np.linspace(0.0, 1.0, 9)[:, None, None]
+    return ((1.0 - steps) * begin + steps * end).reshape(-1, 2)
+
+
+def least_gap(maps: list[np.ndarray]) -> float:
+    """Return the least distance between the outlines of islands."""
+    least = np.inf
+    points = [outline(uvs) for uvs in maps]
+    for number, one in enumerate(points):
+        tree = KDTree(len(one))
+        for index, (u, v) in enumerate(one):
+            tree.insert((u, v, 0.0), index)
+        tree.balance()
+        least = min([least, *(tree.find((u, v, 0.0))[2] for two in points[:number] for u, v in two)])
+    return least
+
+
+@pytest.mark.every_blender
+@pytest.mark.parametrize("upright", [True, False])
+def test_packed_islands_of_several_objects_fill_the_square_with_a_margin(upright: bool) -> None:
+    image = bpy.data.images.new("Wide", 200, 100)
+    material = bpy.data.materials.new("Wide")
+    material.use_nodes = True
+    node = material.node_tree.nodes.new("ShaderNodeTexImage")
+    node.image = image
+    material.node_tree.nodes.active = node
+    objects = [add_suzanne(1), add_suzanne()]
+    objects[0].data.materials.append(material)
+    for obj in objects:
+        obj.select_set(True)
+        obj.data.uv_layers.remove(obj.data.uv_layers[0])
+    edit()
+    for obj in objects:
+        with changing(obj) as bm:
+            for edge in bm.edges:
+                sides = [face.calc_center_median() for face in edge.link_faces]
+                edge.seam = len(sides) == 2 and any(sides[0][axis] * sides[1][axis] < 0.0 for axis in range(3))
+    assert unwrap(upright=upright) == {"FINISHED"}
+    maps = []
+    for obj in objects:
+        assert in_square(obj)
+        arrays = edit_mesh.read(obj)
+        of_face = dict(zip(arrays.polygons.tolist(), labels_of(arrays).tolist(), strict=True))
+        bm = bmesh.from_edit_mesh(obj.data)
+        labels = np.array([of_face[each[0].face.index] for each in bm.calc_loop_triangles()])
+        uvs = triangles(obj)[0]
+        maps += [uvs[labels == label] for label in range(labels.max() + 1)]
+    assert not overlapping_pairs(*objects)
+    assert len(maps) > 16
+    assert 0.99 / 256.0 < least_gap(maps) < 4.0 / 256.0
+    assert np.abs(signed_areas(np.concatenate(maps))).sum() > 0.55

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The snippets of docs/library/maps.md.
+#include <Eigen/Geometry>
 #include <cstdio>
 #include <memory>
 #include <vector>
 
 #include "mesh.hpp"
 #include "seamwire/parameterization/flatten.hpp"
+#include "seamwire/parameterization/pack.hpp"
 #include "seamwire/parts/part_finder.hpp"
 #include "seamwire/seams/seam_planner.hpp"
 
@@ -20,6 +22,12 @@ int main() {
   const Flattening flat = flatten(surface, cuts);
   std::printf("energy %g, %zu islands\n", flat.energy, flat.by_island.size());
   //! [flatten]
+
+  //! [pack]
+  const Packing packing = pack_islands(flat.uvs, flat.islands);
+  const Eigen::Vector2d corner = packing.placements[0] * flat.uvs[0][0].homogeneous();
+  std::printf("%g of the square used, a corner at %g %g\n", packing.used, corner.x(), corner.y());
+  //! [pack]
 
   //! [measure]
   const MapReport report = measure_map(surface, flat.uvs, flat.islands);

@@ -3,6 +3,7 @@
 // Any mesh and any parameters: the library refuses them with InvalidInput, or its answers agree with each other.
 // libFuzzer makes the bytes (scripts/fuzz); the test `fuzz_cases` runs those that once found something.
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,6 +34,7 @@
 #include "seamwire/metric/scribble.hpp"
 #include "seamwire/parameterization/flatten.hpp"
 #include "seamwire/parameterization/measure_map.hpp"
+#include "seamwire/parameterization/pack.hpp"
 #include "seamwire/seams/seam_planner.hpp"
 #include "seamwire/surface/ray_tree.hpp"
 #include "seamwire/surface/segments.hpp"
@@ -515,6 +517,15 @@ void check_map(Bytes& from, const Patience& patience, const Surface& surface) {
   options.start = flat.uvs;
   flat = flatten(surface, cuts, options, patience.task());
   check_sound();
+  const PackOptions packed{.turns = from.coin() ? PackTurns::kQuarters : PackTurns::kAny};
+  const Packing packing = pack_islands(flat.uvs, flat.islands, packed, patience.task());
+  for (std::size_t f = 0; f < flat.uvs.size(); ++f) {
+    const auto& placement = packing.placements[static_cast<std::size_t>(flat.islands[f])];
+    for (const Eigen::Vector2d& uv : flat.uvs[f]) {
+      const Eigen::Vector2d place = placement * uv.homogeneous();
+      require(place.minCoeff() > -1e-6 && place.maxCoeff() < 1.0 + 1e-6, "islands lie in the square");
+    }
+  }
 }
 
 void check_rays(Bytes& from, const Mesh& mesh) {

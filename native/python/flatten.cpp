@@ -2,6 +2,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -12,9 +13,11 @@
 #include "arrays.hpp"
 #include "detail/poll.hpp"
 #include "held.hpp"
+#include "names.hpp"
 #include "rooms.hpp"
 #include "seamwire/parameterization/flatten.hpp"
 #include "seamwire/parameterization/measure_map.hpp"
+#include "seamwire/parameterization/pack.hpp"
 #include "seamwire/surface/surface.hpp"
 #include "watch.hpp"
 
@@ -271,6 +274,79 @@ Cancelled
 )");
 }
 
+PackTurns turns_from(const std::string& name) {
+  if (name == "none") return PackTurns::kNone;
+  if (name == "quarters") return PackTurns::kQuarters;
+  if (name == "any") return PackTurns::kAny;
+  throw InvalidInput("turns: expected 'none', 'quarters' or 'any', got '" + name + "'");
+}
+
+void bind_pack_islands(py::module_& module) {
+  py::class_<Packing, Held<Packing>>(module, "Packing", "Places of islands in the unit square.")
+      .def_property_readonly(
+          "placements",
+          [](const py::object& self) {
+            const std::vector<Eigen::Matrix<double, 2, 3>>& all = self.cast<const Packing&>().placements;
+            constexpr py::ssize_t kSize = sizeof(double);  // Eigen stores columns
+            return view(all.empty() ? nullptr : all.front().data(), {static_cast<py::ssize_t>(all.size()), 2, 3},
+                        {6 * kSize, kSize, 2 * kSize}, self);
+          },
+          "(k, 2, 3) float64: the map of each island to the square. A point (x, y) of the island lies at "
+          "placement @ (x, y, 1). Zero for an island without triangles.")
+      .def_readonly("scale", &Packing::scale,
+                    "float: the factor from the islands' lengths to heights in the square, the same for all islands.")
+      .def_readonly("used", &Packing::used, "float: the share of the square that triangles cover.")
+      .def("__repr__", [](const Packing& packing) {
+        return "<Packing: " + std::to_string(packing.placements.size()) + " islands, used " + number(packing.used) +
+               ">";
+      });
+  module.def(
+      "pack_islands",
+      [](const py::object& uvs, const py::object& islands, double margin, const std::string& turns,
+         const py::object& aspects, const py::object& progress) {
+        const CornerUvs own_uvs = corner_uvs_from(uvs, "uvs");
+        const auto numbers = numbers_from(islands, "islands");
+        PackOptions options{.margin = margin, .turns = turns_from(turns)};
+        if (!aspects.is_none()) options.aspects = values_from(aspects, "aspects");
+        return Watch(progress).run(
+            [&](const Task& task) { return make_held<Packing>(pack_islands(own_uvs, numbers, options, task)); });
+      },
+      py::arg("uvs"), py::arg("islands"), py::kw_only(), py::arg("margin") = PackOptions().margin,
+      py::arg("turns") = "quarters", py::arg("aspects") = py::none(), py::arg("progress") = py::none(),
+      R"(Pack islands into the unit square, at one scale that is as large as possible.
+
+Islands do not overlap. They may lie in notches and holes of other islands. The scale is found by search in a bounded
+time. The result does not depend on the number of threads.
+
+Parameters
+----------
+uvs : (m, 3, 2) array_like of float
+    The corners of triangles, in one unit of length for all islands, at most 1e100.
+islands : (m,) array_like of int
+    The island of each triangle, numbered from 0.
+margin : float
+    The least distance between islands, in parts of the square's side: 0 to 0.25. The sides of the square keep half of
+    it. It is at most 0.15 over the square root of the number of islands.
+turns : {'none', 'quarters', 'any'}, optional
+    How islands may be turned. 'quarters': by multiples of 90 degrees, where that saves space. 'any': in some directions
+    more. An island that nearly fills the smallest rectangle around it then lies along the axes.
+aspects : (k,) array_like of float, optional
+    For each island, the width over the height of the image on which it lies, 0.001 to 1000. None: all images are square.
+progress : callable, optional
+    Called repeatedly with the fraction done. Returning False cancels.
+
+Returns
+-------
+Packing
+
+Raises
+------
+ValueError
+    If an array has the wrong shape or type, or a value is out of range or not finite.
+Cancelled
+)");
+}
+
 }  // namespace
 
 void bind_flatten(py::module_& module) {
@@ -279,6 +355,7 @@ void bind_flatten(py::module_& module) {
   bind_flatten_function(module);
   bind_measure_map(module);
   bind_map_energy(module);
+  bind_pack_islands(module);
 }
 
 }  // namespace seamwire::python

@@ -2033,6 +2033,58 @@ def map_energy(
     Cancelled
     """
 
+class Packing:
+    """Places of islands in the unit square."""
+
+    placements: NDArray[np.float64]
+    """(k, 2, 3) float64: the map of each island to the square. A point (x, y) of the island lies at placement @ (x, y, 1). Zero for an island without triangles."""
+    scale: float
+    """float: the factor from the islands' lengths to heights in the square, the same for all islands."""
+    used: float
+    """float: the share of the square that triangles cover."""
+
+def pack_islands(
+    uvs: ArrayLike,
+    islands: ArrayLike,
+    *,
+    margin: float = 0.00390625,
+    turns: Literal["none", "quarters", "any"] = "quarters",
+    aspects: ArrayLike | None = None,
+    progress: Callable[[float], bool | None] | None = None,
+) -> Packing:
+    """Pack islands into the unit square, at one scale that is as large as possible.
+
+    Islands do not overlap. They may lie in notches and holes of other islands. The scale is found by search in a bounded
+    time. The result does not depend on the number of threads.
+
+    Parameters
+    ----------
+    uvs : (m, 3, 2) array_like of float
+        The corners of triangles, in one unit of length for all islands, at most 1e100.
+    islands : (m,) array_like of int
+        The island of each triangle, numbered from 0.
+    margin : float
+        The least distance between islands, in parts of the square's side: 0 to 0.25. The sides of the square keep half of
+        it. It is at most 0.15 over the square root of the number of islands.
+    turns : {'none', 'quarters', 'any'}, optional
+        How islands may be turned. 'quarters': by multiples of 90 degrees, where that saves space. 'any': in some directions
+        more. An island that nearly fills the smallest rectangle around it then lies along the axes.
+    aspects : (k,) array_like of float, optional
+        For each island, the width over the height of the image on which it lies, 0.001 to 1000. None: all images are square.
+    progress : callable, optional
+        Called repeatedly with the fraction done. Returning False cancels.
+
+    Returns
+    -------
+    Packing
+
+    Raises
+    ------
+    ValueError
+        If an array has the wrong shape or type, or a value is out of range or not finite.
+    Cancelled
+    """
+
 class PlannedWire:
     """One wire of a `SeamPlan`."""
 

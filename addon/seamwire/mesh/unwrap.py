@@ -15,7 +15,7 @@ import zlib
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 import bmesh
 import bpy
@@ -40,7 +40,6 @@ from ..core.islands.uv_islands import (
 from ..words.reports import ALL_HIDDEN
 from . import edit_mesh, uv_map
 from .seam_islands import labels_of
-from .versions import IS_OLD
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -59,8 +58,8 @@ _FOLDED = 0.25
 """The part of an island's faces that must be turned over for the island to count as folded."""
 _ON_LINE = 1e-6
 """How far a UV may lie beside a line that it should lie on: UVs are rounded."""
-_MARGIN = 0.01
-"""Between packed islands, as a share of the UV square; Blender counts it in parts of the islands' size."""
+_MARGIN = 1.0 / 256.0
+"""Between packed islands, as a share of the UV square's side."""
 
 
 @dataclass(frozen=True)
@@ -79,9 +78,13 @@ class Layout:
     """How the islands of the method ``SEAMWIRE`` are laid out."""
 
     straight: bool = True  # strips and rectangles of quads lie along the axes, if that hardly stretches them
-    upright: bool = True  # islands stand upright where Blender packs them; otherwise Blender turns them to save room
+    upright: bool = True  # islands that are packed stand upright or are turned by quarters, otherwise in any direction
     stack: bool = False  # islands of the same shape, mirrored or not, lie on each other
     straight_cost: float = STRAIGHT_COST
+
+
+Solved: TypeAlias = "tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64]]"
+"""The corners of flattened islands, ascending, their UVs in lengths on the model, and the island of each."""
 
 
 class _Map:
@@ -204,9 +207,7 @@ class _Map:
         """Return the faces of some islands."""
         return np.flatnonzero(np.isin(self._of_face, islands))
 
-    def flattened(
-        self, start: NDArray[np.float64] | None, layout: Layout
-    ) -> tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64]]:
+    def flattened(self, start: NDArray[np.float64] | None, layout: Layout) -> Solved:
         """Flatten `flat`: without flips, and without overlaps where possible. Raises ValueError if a coordinate is not a number.
 
         `start`, (m, 3, 2), is a map to start from, in lengths on the model, where it is continuous; None: the present one. Returns the
@@ -251,6 +252,11 @@ class _Map:
         labels[self._straight.corners] = labels[self._straight.onto]
         mapped = np.flatnonzero(labels >= 0)
         return mapped, uvs[mapped], labels[mapped]
+
+    def rows_of(self, corners: NDArray[np.int64]) -> NDArray[np.int64]:
+        """Return the triangles of flattened islands that lie on no others, (t, 3), as rows of the flattened corners, ascending."""
+        once = np.setdiff1d(self.flat, self.stacked)
+        return np.searchsorted(corners, self._triangles[np.isin(self._labels, once)])
 
     def _present(self) -> NDArray[np.float64] | None:
         """Return the present map in lengths on the model, (c, 2), each island as large as its surface. None: the mesh has no UV map."""
@@ -396,8 +402,8 @@ def unwrap_changed(
 ) -> Unwrapped:
     """Unwrap the islands whose seams have changed, of all objects in edit mode; selections stay.
 
-    Where nothing stays, all islands are packed by Blender. Else each new island gets the texel density it had, and a place
-    near its old one, see `core.uv_islands.place`; islands with pinned corners stay where Blender's unwrap puts them.
+    Where nothing stays, all flattened islands are packed. Else each new island gets the texel density it had, and a place near its old
+    one, see `core.uv_islands.place`; islands with pinned corners stay where Blender's unwrap puts them.
 
     Parameters
     ----------
@@ -434,9 +440,8 @@ def unwrap_changed(
         with _with_uv_maps(context, maps):
             try:
                 _unwrap_by_blender(context, maps, "ANGLE_BASED" if method == "SEAMWIRE" else method)
-                _lay_out(solved)
                 copies = _find_copies(maps) if layout.stack else []
-                _place(context, maps, layout)
+                _place(maps, solved, layout)
                 _pile_up(maps, copies)
                 faults = _faults(maps)
                 if faults.flipped and any([found.turn_back() for found in maps]):
@@ -477,18 +482,38 @@ def _unwrap_by_blender(context: bpy.types.Context, maps: Sequence[_Map], method:
             raise ValueError(f"Blender could not unwrap: {str(error).strip()}") from error
 
 
-def _lay_out(solved: Mapping[_Map, tuple[NDArray[np.int64], NDArray[np.float64], NDArray[np.int64]]]) -> None:
-    """Give flattened islands a place each in the UV square, all at one scale."""
+def _lay_out(solved: Mapping[_Map, Solved], layout: Layout | None) -> None:
+    """Give flattened islands a place each in the UV square, all at one scale: packed as a layout says, or in rows without one."""
     if not solved:
         return
     offsets = np.cumsum([0, *(int(labels.max()) + 1 for _, _, labels in solved.values())])
-    uvs = np.concatenate([flat / (found.aspect, 1.0) for found, (_, flat, _) in solved.items()])
     labels = np.concatenate([own + offset for (_, _, own), offset in zip(solved.values(), offsets[:-1], strict=True)])
-    placed = in_rows(uvs, labels)
+    if layout is None:
+        placed = in_rows(np.concatenate([flat / (found.aspect, 1.0) for found, (_, flat, _) in solved.items()]), labels)
+    else:
+        placed = _packed(solved, labels, layout)
     ends = np.cumsum([len(corners) for corners, _, _ in solved.values()])
     for (found, (corners, _, _)), own in zip(solved.items(), np.split(placed, ends[:-1]), strict=True):
         found.write(corners, own)
         bmesh.update_edit_mesh(found.obj.data, loop_triangles=False, destructive=False)
+
+
+def _packed(solved: Mapping[_Map, Solved], labels: NDArray[np.int64], layout: Layout) -> NDArray[np.float64]:
+    """Pack the islands of flattened corners, of which `labels`, (c,), are the islands, into the UV square. Copies count once."""
+    rows = [found.rows_of(corners) for found, (corners, _, _) in solved.items()]
+    offsets = np.cumsum([0, *(len(corners) for corners, _, _ in solved.values())])
+    triangles = np.concatenate([own + offset for own, offset in zip(rows, offsets[:-1], strict=True)])
+    flat = np.concatenate([uvs for _, uvs, _ in solved.values()])
+    aspects = np.ones(int(labels.max()) + 1)
+    aspects[labels] = np.repeat([found.aspect for found in solved], np.diff(offsets))
+    numbers, islands = np.unique(labels[triangles[:, 0]], return_inverse=True)
+    turns = "quarters" if layout.upright else "any"
+    packing = native.load().pack_islands(
+        flat[triangles], islands.reshape(-1), margin=_MARGIN, turns=turns, aspects=aspects[numbers]
+    )
+    placements = np.zeros((len(aspects), 2, 3))
+    placements[numbers] = packing.placements
+    return np.einsum("cij,cj->ci", placements[labels, :, :2], flat) + placements[labels, :, 2]
 
 
 def _find_copies(maps: Sequence[_Map]) -> list[uv_map.Copy]:
@@ -512,40 +537,17 @@ def _pile_up(maps: Sequence[_Map], copies: Sequence[uv_map.Copy]) -> None:
             found.write(np.concatenate([copy.corners for copy in own]), uvs)
 
 
-def _place(context: bpy.types.Context, maps: Sequence[_Map], layout: Layout) -> None:
-    """Move new islands to where there is room among those that stay, or have Blender pack the flattened ones where nothing stays."""
+def _place(maps: Sequence[_Map], solved: Mapping[_Map, Solved], layout: Layout) -> None:
+    """Move new islands to where there is room among those that stay, or pack the flattened ones where nothing stays."""
     taken = np.concatenate([boxes for found in maps for boxes in (found.staying(), found.pinned_down())])
-    in_map, on_model = sum(np.delete(found.areas(), found.changed, axis=1).sum(axis=1) for found in maps)
-    density = float(np.sqrt(in_map / on_model)) if on_model > 0.0 else 0.0
-    if density == 0.0:
-        once = {found: np.setdiff1d(found.flat, found.stacked) for found in maps}
-        _pack(context, {found: found.faces(islands) for found, islands in once.items() if len(islands)}, layout)
+    _lay_out(solved, None if len(taken) else layout)
     if not len(taken):
         return
+    in_map, on_model = sum(np.delete(found.areas(), found.changed, axis=1).sum(axis=1) for found in maps)
+    density = float(np.sqrt(in_map / on_model)) if on_model > 0.0 else 0.0
     new = [(found, *island) for found in maps if len(found.changed) for island in found.new_islands(density)]
     for (found, corners, _), uvs in zip(new, place([island for _, _, island in new], taken), strict=True):
         found.write(corners, uvs)
-
-
-def _pack(context: bpy.types.Context, faces: Mapping[_Map, NDArray[np.integer]], layout: Layout) -> None:
-    """Have Blender pack the islands of some faces into the UV square; raises ValueError if it cannot."""
-    if not faces:
-        return
-    settings = context.tool_settings
-    sync = settings.use_uv_select_sync
-    options: dict[str, object] = {"rotate": not layout.upright, "margin": _MARGIN}
-    # Newer versions of Blender can turn a rectangle to any angle. Blender 3.4 turns its sides along the axes.
-    if layout.straight and not IS_OLD:
-        options["rotate_method"] = "AXIS_ALIGNED"
-    with _only_selected(context, faces):
-        # Then the UVs of the selected faces count as selected.
-        settings.use_uv_select_sync = True
-        try:
-            bpy.ops.uv.pack_islands(**options)
-        except RuntimeError as error:
-            raise ValueError(f"Blender could not pack the islands: {str(error).strip()}") from error
-        finally:
-            settings.use_uv_select_sync = sync
 
 
 @contextmanager

@@ -36,7 +36,8 @@ class MESH_OT_seamwire_unwrap(AfterChain, bpy.types.Operator):
     )
     upright: bpy.props.BoolProperty(
         name="Upright",
-        description="Turn new islands so that the object's Z axis points up. Otherwise Blender turns them to save space",
+        description="Turn new islands so that the object's Z axis points up. A quarter turn is made where it saves "
+        "space. Otherwise islands lie in any direction that saves space",
         default=True,
     )
     stack: bpy.props.BoolProperty(

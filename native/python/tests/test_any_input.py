@@ -63,6 +63,8 @@ def test_maps(points: object, triangles: object, cuts: object, uvs: object, isla
     taken_or_refused(lambda: sw.flatten(POINTS, TRIANGLES, cuts, start=uvs))
     taken_or_refused(lambda: sw.measure_map(POINTS, TRIANGLES, uvs, islands))
     taken_or_refused(lambda: sw.measure_map(POINTS, TRIANGLES, POINTS[TRIANGLES][:, :, :2], islands))
+    taken_or_refused(lambda: sw.pack_islands(uvs, islands))
+    taken_or_refused(lambda: sw.pack_islands(POINTS[TRIANGLES][:, :, :2], islands, aspects=uvs))
 
 
 @given(pick=anything, stops=anything, number=numbers)

@@ -199,3 +199,56 @@ def test_measuring_can_be_cancelled() -> None:
     points, triangles = meshes.grid(30)
     with pytest.raises(sw.Cancelled):
         sw.measure_map(points, triangles, points[triangles][:, :, :2], progress=lambda _: False)
+
+
+def placed(packing: sw.Packing, uvs: np.ndarray, islands: np.ndarray) -> np.ndarray:
+    """Return the corners of triangles in the square, (m, 3, 2)."""
+    placements = packing.placements[islands]
+    return np.einsum("mij,mkj->mki", placements[:, :, :2], uvs) + placements[:, None, :, 2]
+
+
+@pytest.mark.parametrize("turns", ["none", "quarters", "any"])
+def test_packed_islands_lie_in_the_square_at_one_scale(turns: str) -> None:
+    points, triangles, edges = cube()
+    cuts = [(0, 1), (0, 2), (2, 3), (1, 3), (4, 5), (4, 6), (6, 7), (5, 7)]  # lids, and the walls around
+    points[:, 2] *= 0.4
+    flat = sw.flatten(points, triangles, [*cuts, (0, 4)], edges=edges)
+    packing = sw.pack_islands(flat.uvs, flat.islands, margin=0.02, turns=turns)
+    uvs = placed(packing, flat.uvs, flat.islands)
+    report = sw.measure_map(points, triangles, uvs, flat.islands, edges=edges)
+    assert (report.flipped.tolist(), report.overlapping.tolist(), report.colliding.tolist()) == ([], [], [])
+    assert uvs.min() >= 0.01 - 1e-9
+    assert uvs.max() <= 0.99 + 1e-9
+    one, two = uvs[:, 1] - uvs[:, 0], uvs[:, 2] - uvs[:, 0]
+    area = 0.5 * np.abs(one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]).sum()
+    assert packing.used == pytest.approx(area)
+    assert area == pytest.approx(packing.scale**2 * flat.island_areas.sum(), rel=1e-6)
+    assert packing.placements.shape == (3, 2, 3)
+
+
+def test_packed_islands_are_turned_as_they_are_seen_on_a_wide_image() -> None:
+    points, triangles = meshes.grid(1)
+    uvs = points[triangles][:, :, :2] * (1.0, 3.0)
+    packing = sw.pack_islands(uvs, [0, 0], aspects=[4.0])
+    size = np.ptp(placed(packing, uvs, np.zeros(2, dtype=int)).reshape(-1, 2), axis=0) * (4.0, 1.0)
+    assert sorted(size / packing.scale) == pytest.approx(sorted(np.ptp(uvs.reshape(-1, 2), axis=0)))
+    assert size[0] > 2.0 * size[1], "it lies along the image"
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"uvs": np.zeros((8, 3))}, "uvs: expected real numbers of shape"),
+        ({"uvs": np.full((8, 3, 2), np.nan)}, "triangle 0 has a UV that is not finite"),
+        ({"islands": [0]}, "islands has 1 items"),
+        ({"islands": [8] * 8}, "islands: number 8 is out of range"),
+        ({"margin": 0.3}, "margin is not between 0 and 0.25"),
+        ({"turns": "some"}, "turns: expected 'none', 'quarters' or 'any', got 'some'"),
+        ({"aspects": [1.0, 1.0]}, "aspects has 2 items: there are 1 islands"),
+        ({"aspects": [0.0]}, "an aspect is not between"),
+    ],
+)
+def test_wrong_input_of_pack_islands(change: dict, message: str) -> None:
+    points, triangles = meshes.grid(2)
+    with pytest.raises(ValueError, match=message):
+        sw.pack_islands(**{"uvs": points[triangles][:, :, :2], "islands": [0] * 8, **change})

@@ -121,6 +121,7 @@ def test_other_threads_run_meanwhile(
 LONG = (
     "Surface", "principal_curvatures", "smoothed_curvatures", "feature_metric", "campen_metric", "pottmann_kovacs_metric",
     "concave_metric", "euclidean_metric", "apply_scribbles", "embed", "distance_field", "edge_wires", "shortest_cycle", "flatten",
+    "pack_islands",
 )  # fmt: skip
 
 
@@ -147,6 +148,9 @@ def work(
         "distance_field": lambda progress: sw.distance_field(embedding_of_large, 0, progress=progress),
         "edge_wires": lambda progress: sw.edge_wires(large, large_metric, 0, progress=progress),
         "flatten": lambda progress: sw.flatten(*meshes.torus(60, 40), progress=progress),
+        "pack_islands": lambda progress: sw.pack_islands(
+            large.points[large.triangles][:, :, :2], np.zeros(len(large.triangles), dtype=np.int32), progress=progress
+        ),
         "shortest_cycle": lambda progress: sw.shortest_cycle(large, large_metric, large.edges[0], progress=progress),
     }[request.param]
 

@@ -37,7 +37,24 @@ Point2 mean_direction(const Island& island, std::span<const Vector> points, cons
 
 double cross(const Point2& one, const Point2& other) { return one.x() * other.y() - one.y() * other.x(); }
 
-/// The corners of the convex hull, counter-clockwise (Andrew 1979).
+/// Turns a map such that a direction points to +v.
+void turn(std::vector<Point2>& map, const Point2& up) {
+  for (Point2& uv : map) uv = Point2(up.y() * uv.x() - up.x() * uv.y(), up.x() * uv.x() + up.y() * uv.y());
+}
+
+/// Whether all triangles are counter-clockwise.
+bool is_sound(const Island& island, const std::vector<Point2>& map) {
+  return std::ranges::all_of(
+      island.triangles, [&](const Triangle& t) { return cross(map[t[1]] - map[t[0]], map[t[2]] - map[t[0]]) > 0.0; });
+}
+
+Point2 along_axis(const Point2& direction) {
+  if (std::abs(direction.x()) > std::abs(direction.y())) return {std::copysign(1.0, direction.x()), 0.0};
+  return {0.0, std::copysign(1.0, direction.y())};
+}
+
+}  // namespace
+
 std::vector<Point2> convex_hull(std::vector<Point2> points) {
   std::ranges::sort(
       points, [](const Point2& a, const Point2& b) { return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y()); });
@@ -56,10 +73,8 @@ std::vector<Point2> convex_hull(std::vector<Point2> points) {
   return hull;
 }
 
-/// The direction of the longer side of the smallest rectangle around points. The rectangle has a side along an edge of
-/// the convex hull. Zero if the points have no area.
-Point2 longest_direction(const std::vector<Point2>& map) {
-  const std::vector<Point2> hull = convex_hull(map);
+Point2 longest_direction(const std::vector<Point2>& points) {
+  const std::vector<Point2> hull = convex_hull(points);
   Point2 best = Point2::Zero();
   double least = kInfinity;
   // Three points go around the hull with each edge: the farthest along it, across it, and back along it.
@@ -87,24 +102,6 @@ Point2 longest_direction(const std::vector<Point2>& map) {
   }
   return best;
 }
-
-/// Turns a map such that a direction points to +v.
-void turn(std::vector<Point2>& map, const Point2& up) {
-  for (Point2& uv : map) uv = Point2(up.y() * uv.x() - up.x() * uv.y(), up.x() * uv.x() + up.y() * uv.y());
-}
-
-/// Whether all triangles are counter-clockwise.
-bool is_sound(const Island& island, const std::vector<Point2>& map) {
-  return std::ranges::all_of(
-      island.triangles, [&](const Triangle& t) { return cross(map[t[1]] - map[t[0]], map[t[2]] - map[t[0]]) > 0.0; });
-}
-
-Point2 along_axis(const Point2& direction) {
-  if (std::abs(direction.x()) > std::abs(direction.y())) return {std::copysign(1.0, direction.x()), 0.0};
-  return {0.0, std::copysign(1.0, direction.y())};
-}
-
-}  // namespace
 
 void turn_upright(const Island& island, std::span<const Vector> points, const Vector& up, bool is_straight,
                   std::vector<Point2>& map) {

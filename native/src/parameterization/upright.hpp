@@ -10,6 +10,13 @@
 
 namespace seamwire::detail {
 
+/// The corners of the convex hull, counter-clockwise (Andrew 1979).
+std::vector<Point2> convex_hull(std::vector<Point2> points);
+
+/// The direction of the longer side of the smallest rectangle around points. The rectangle has a side along an edge of
+/// the convex hull. Zero if the points have no area.
+Point2 longest_direction(const std::vector<Point2>& points);
+
 /// Turns the map of an island such that the direction `up` of the model points to +v: the mean of its projection to
 /// the surface. If the island has no such direction, the smallest rectangle around the map is turned instead: its sides
 /// run along the axes, and the longer side along v.

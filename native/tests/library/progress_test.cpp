@@ -22,6 +22,7 @@
 #include "seamwire/edges/edge_graph.hpp"
 #include "seamwire/edges/edge_wires.hpp"
 #include "seamwire/parameterization/flatten.hpp"
+#include "seamwire/parameterization/pack.hpp"
 #include "seamwire/parts/part_finder.hpp"
 #include "seamwire/seams/seam_planner.hpp"
 #include "shapes.hpp"
@@ -64,6 +65,11 @@ std::vector<Work> all_work() {
        [=](const Task& task) { embedded_complex.field(300).closed_wires(3, task); }},
       {"EdgeWires", [=](const Task& task) { edge_wires(make_edge_graph(*surface, *metric), {0}, 3.0, false, task); }},
       {"flatten", [=](const Task& task) { flatten(*surface, {}, {}, task); }},
+      {"pack_islands",
+       [=](const Task& task) {
+         const Flattening flat = flatten(*surface, {});
+         pack_islands(flat.uvs, flat.islands, {}, task);
+       }},
       {"limbs", [=](const Task& task) { PartFinder(surface, {.by = PartsBy::kLimbs}, task); }},
       {"PartFinder", [=](const Task& task) { PartFinder(surface, {}, task); }},
       {"SeamPlanner", [=](const Task& task) { SeamPlanner(context, {}, task); }},
