@@ -41,7 +41,7 @@ from ..words.search_report import Outcome
 from . import edit_mesh, finishes, uv_map
 from .object_session import ObjectSession, mirror_axes
 from .seam_islands import labels_of, maps_of, missing_cuts
-from .unwrap import STRAIGHT_COST, UP, Layout, Unwrapped, unwrap_changed
+from .unwrap import MARGIN, STRAIGHT_COST, UP, Layout, Unwrapped, unwrap_changed
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -113,7 +113,7 @@ class Suggestion:
         self.slits: list[Wire] = []  # the wires of this plan
         self._bound = 0.0  # on the energy of plans
         # The plan that was laid out last, and the result.
-        self._laid_out: tuple[seamwire_core.SeamPlan | None, NDArray[np.float64] | None] = (None, None)
+        self.laid_out: tuple[seamwire_core.SeamPlan | None, NDArray[np.float64] | None] = (None, None)
         self.marked = 0  # how many edges `write` made seams
 
     def _islands_with(self, faces: NDArray[np.integer] | None) -> tuple[NDArray[np.bool_] | None, int]:
@@ -164,6 +164,7 @@ class Suggestion:
             inside = {undirected(side) for a, b, c in corners for side in ((a, b), (b, c), (c, a))}
             self.borders = [chain for chain in self.borders if edges_of(chain) <= inside]
         self._planner = self.best = None
+        self.laid_out = None, None
         self.slits = []
 
     def _found(self, amount: float, edits: PartEdits, progress: Progress) -> seamwire_core.Parts:
@@ -270,8 +271,8 @@ class Suggestion:
             ).uvs
         except ValueError:
             found = plan.uvs
-        self._laid_out = plan, None if found is None else np.asarray(found)
-        return self._laid_out[1]
+        self.laid_out = plan, None if found is None else np.asarray(found)
+        return self.laid_out[1]
 
     def _straight_cost_of(self, plan: seamwire_core.SeamPlan) -> float:
         return min(STRAIGHT_COST, max(0.0, self._bound - float(plan.energy)))
@@ -298,7 +299,7 @@ class Suggestion:
         is_same = not self.slits or self.along == "EDGES" or not FINISHES[self.finish].edits
         if self.best is None or not is_same:
             return None
-        plan, layout = self._laid_out
+        plan, layout = self.laid_out
         return layout if plan is self.best and layout is not None else self.best.uvs
 
     def length_of(self, plan: seamwire_core.SeamPlan) -> float:
@@ -403,6 +404,20 @@ class SeamSearch:
     def limit(self, stretch: float, islands: int) -> None:
         """Let the next plans have another mean stretch, in percent, and number of islands. `choose` drops the plans before."""
         self._options = replace(self._options, stretch=stretch, islands=islands)
+
+    def used(self) -> float | None:
+        """Return how much of the UV square the maps that `layout_of` found last cover together, packed as unwrapping packs them.
+
+        It is None if a map is missing, or if unwrapping leaves islands in place. Any thread may call it.
+        """
+        laid_out = [suggestion.laid_out for suggestion in self]
+        is_first = not any(suggestion.had_seams or suggestion.others for suggestion in self)
+        if not is_first or any(uvs is None for _, uvs in laid_out):
+            return None
+        counts = [plan.island_count for plan, _ in laid_out]
+        islands = [plan.islands + first for (plan, _), first in zip(laid_out, np.cumsum([0, *counts]), strict=False)]
+        uvs = np.concatenate([uvs for _, uvs in laid_out])
+        return float(native.load().pack_islands(uvs, np.concatenate(islands).astype(np.int32), margin=MARGIN).used)
 
     @property
     def part_count(self) -> int:
