@@ -387,7 +387,7 @@ class LiveParts:
             per_unit = _scale_of(suggestion.mesh.obj) / self._square
 
             def unfold() -> NDArray[np.float64] | None:
-                found = suggestion.layout_of(plan, lambda _: self._version == version and not self.is_kept)
+                found = suggestion.layout_of(plan, lambda _: self._version == version and self._preview.is_open)
                 used = self._search.used()
                 self._used = None if used is None else (version, used)
                 return None if found is None else found * per_unit

@@ -309,6 +309,11 @@ class PlanPreview:
         self._handles: list[object] = []
         self._rows: Sequence[tuple[str, str]] = ()
 
+    @property
+    def is_open(self) -> bool:
+        """Whether it is drawn. Any thread may ask."""
+        return bool(self._handles)
+
     def show(
         self,
         obj: bpy.types.Object,
