@@ -112,8 +112,9 @@ class Suggestion:
         self.straight_cost = STRAIGHT_COST  # for `Layout`: less, if the plan would exceed its limit otherwise
         self.slits: list[Wire] = []  # the wires of this plan
         self._bound = 0.0  # on the energy of plans
-        # The plan that was laid out last, and the result.
-        self.laid_out: tuple[seamwire_core.SeamPlan | None, NDArray[np.float64] | None] = (None, None)
+        # The plan that was laid out last, its map, and the island of each triangle there.
+        self.laid_out: tuple[seamwire_core.SeamPlan | None, NDArray[np.float64] | None, NDArray[np.int32] | None]
+        self.laid_out = None, None, None
         self.marked = 0  # how many edges `write` made seams
 
     def _islands_with(self, faces: NDArray[np.integer] | None) -> tuple[NDArray[np.bool_] | None, int]:
@@ -164,7 +165,7 @@ class Suggestion:
             inside = {undirected(side) for a, b, c in corners for side in ((a, b), (b, c), (c, a))}
             self.borders = [chain for chain in self.borders if edges_of(chain) <= inside]
         self._planner = self.best = None
-        self.laid_out = None, None
+        self.laid_out = None, None, None
         self.slits = []
 
     def _found(self, amount: float, edits: PartEdits, progress: Progress) -> seamwire_core.Parts:
@@ -263,16 +264,16 @@ class Suggestion:
                 arrays.triangles,
                 self.edges_of(plan),
                 start=plan.uvs,
-                keep_apart=False,
                 straighten=self._straight_cost_of(plan),
                 up=UP,
                 edges=arrays.edges,
                 progress=progress,
-            ).uvs
+            )
+            uvs, islands = np.asarray(found.uvs), np.asarray(found.islands)
         except ValueError:
-            found = plan.uvs
-        self.laid_out = plan, None if found is None else np.asarray(found)
-        return self.laid_out[1]
+            uvs, islands = plan.uvs, plan.islands
+        self.laid_out = plan, uvs, islands
+        return uvs
 
     def _straight_cost_of(self, plan: seamwire_core.SeamPlan) -> float:
         return min(STRAIGHT_COST, max(0.0, self._bound - float(plan.energy)))
@@ -299,7 +300,7 @@ class Suggestion:
         is_same = not self.slits or self.along == "EDGES" or not FINISHES[self.finish].edits
         if self.best is None or not is_same:
             return None
-        plan, layout = self.laid_out
+        plan, layout, _ = self.laid_out
         return layout if plan is self.best and layout is not None else self.best.uvs
 
     def length_of(self, plan: seamwire_core.SeamPlan) -> float:
@@ -410,14 +411,17 @@ class SeamSearch:
 
         It is None if a map is missing, or if unwrapping leaves islands in place. Any thread may call it.
         """
-        laid_out = [suggestion.laid_out for suggestion in self]
+        laid_out = [suggestion.laid_out[1:] for suggestion in self]
         is_first = not any(suggestion.had_seams or suggestion.others for suggestion in self)
-        if not is_first or any(uvs is None for _, uvs in laid_out):
+        if not is_first or any(uvs is None for uvs, _ in laid_out):
             return None
-        counts = [plan.island_count for plan, _ in laid_out]
-        islands = [plan.islands + first for (plan, _), first in zip(laid_out, np.cumsum([0, *counts]), strict=False)]
-        uvs = np.concatenate([uvs for _, uvs in laid_out])
-        return float(native.load().pack_islands(uvs, np.concatenate(islands).astype(np.int32), margin=MARGIN).used)
+        all_uvs, all_islands, count = [], [], 0
+        for uvs, islands in laid_out:
+            all_uvs.append(uvs)
+            all_islands.append(islands + count)
+            count += int(islands.max(initial=-1)) + 1
+        packed = native.load().pack_islands(np.concatenate(all_uvs), np.concatenate(all_islands), margin=MARGIN)
+        return float(packed.used)
 
     @property
     def part_count(self) -> int:

@@ -34,7 +34,7 @@ _HIDDEN_WIDTH = 0.55
 _MOST_DASHED = 20_000
 """Segments that are dashed there: of more, each move of the view would take long."""
 _MOST_DASHES = 200_000
-_OVER = 1.5
+OVER = 1.5
 """Pixels by which what is drawn over faces is nearer than they are."""
 
 
@@ -328,19 +328,19 @@ class ColoredFaces:
                 self._shader.uniform_float("color", colors[number])
                 batch.draw(self._shader)
 
-    def draw_over(self, eye: Eye, colors: Sequence[Color]) -> None:
-        """Draw what is seen of them over the mesh, with opacity, in the view that Blender is drawing now."""
-        draw_over(lambda lift: self.draw(eye, colors, lift))
+    def draw_over(self, eye: Eye, colors: Sequence[Color], lift: float = OVER) -> None:
+        """Draw what is seen of them over the mesh, with opacity, in the view that Blender is drawing now. See `draw_over`."""
+        draw_over(lambda lift: self.draw(eye, colors, lift), lift)
 
 
-def draw_over(draw: Callable[[float], None]) -> None:
-    """Draw over the mesh, with opacity. `draw` takes the pixels by which it is to lift faces."""
+def draw_over(draw: Callable[[float], None], lift: float = OVER) -> None:
+    """Draw over the mesh, with opacity, by a number of pixels nearer to the viewer. `draw` takes the pixels to lift faces by."""
     if sees_through(bpy.context.space_data):
         # Else all layers of the mesh would be tinted, one over the other, and no wire would be seen to be hidden.
         with unseen():
             draw(0.0)
     with blended("LESS_EQUAL"):
-        draw(_OVER)
+        draw(lift)
 
 
 # On the screen: pixels of the region from its bottom left

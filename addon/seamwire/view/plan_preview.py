@@ -24,7 +24,7 @@ from ..mesh import settings as chosen
 from ..mesh.pose import Pose
 from .edited_objects import edited
 from .failures import failures
-from .gpu_draw import ColoredFaces, Eye, Within, blended, draw_over, sees_through
+from .gpu_draw import OVER, ColoredFaces, Eye, Within, blended, draw_over, sees_through
 from .overlay import Sheet, draw_corner, free_room
 from .theme import Looks, hue_colors, looks_of
 
@@ -95,8 +95,8 @@ class CheckedFaces:
 
         self._within = Within(make)
 
-    def draw_over(self, eye: Eye, light: Color, dark: Color, shadow: float) -> None:
-        """Draw what is seen of them over the mesh, as `ColoredFaces.draw_over`, in the colors of the squares.
+    def draw_over(self, eye: Eye, lift: float, shadow: float) -> None:
+        """Draw what is seen of them over the mesh, as `ColoredFaces.draw_over`.
 
         `shadow`, from 0 to 1, says how dark faces are that are seen from the side.
         """
@@ -107,12 +107,12 @@ class CheckedFaces:
         def draw(lift: float) -> None:
             self._shader.bind()
             self._shader.uniform_float("to_clip", gpu.matrix.get_projection_matrix() @ eye.lifted(lift))
-            self._shader.uniform_float("light", light)
-            self._shader.uniform_float("dark", dark)
+            self._shader.uniform_float("light", _LIGHT)
+            self._shader.uniform_float("dark", _DARK)
             self._shader.uniform_float("facing", (*eye.facing, shadow))
             batch.draw(self._shader)
 
-        draw_over(draw)
+        draw_over(draw, lift)
 
 
 _TINT = 0.35
@@ -124,6 +124,8 @@ _SHORT, _LONG = 4.0, 12.0
 _SAMPLE = 256
 """How many edges are measured on the screen."""
 _SHADOW = 0.7
+_OVER_VERTICES = 12.0
+"""Pixels by which faces are drawn nearer than the mesh, so that they cover its vertices, which Blender draws nearer too."""
 _LIGHT: Color = (1.0, 1.0, 1.0, 0.2)
 _DARK: Color = (0.0, 0.0, 0.0, 0.3)
 """The squares of the map. They leave the colors of the islands under them."""
@@ -260,11 +262,12 @@ class _ObjectPreview:
             self._tinted = found.key
         cover = self._cover(eye)
         tint = max(looks.tint, _TINT)
-        self._faces.draw_over(eye, hue_colors(tint + cover * max(0.0, _COVER - tint)))
+        lift = OVER + cover * (_OVER_VERTICES - OVER)
+        self._faces.draw_over(eye, hue_colors(tint + cover * max(0.0, _COVER - tint)), lift)
         if self._squares is not None:
             if self._checks is None:
                 self._checks = CheckedFaces(self._pose.points[self._arrays.triangles], self._squares)
-            self._checks.draw_over(eye, _LIGHT, _DARK, _SHADOW * cover)
+            self._checks.draw_over(eye, lift, _SHADOW * cover)
         if self._lines is None:
             self._lines = Sheet(self._pose)
             for style, curves in self._styled(looks):
