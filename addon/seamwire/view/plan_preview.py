@@ -264,9 +264,13 @@ class _ObjectPreview:
         tint = max(looks.tint, _TINT)
         lift = OVER + cover * (_OVER_VERTICES - OVER)
         self._faces.draw_over(eye, hue_colors(tint + cover * max(0.0, _COVER - tint)), lift)
-        if self._squares is not None:
+        if self._squares is not None or cover > 0.0:
             if self._checks is None:
-                self._checks = CheckedFaces(self._pose.points[self._arrays.triangles], self._squares)
+                corners = self._pose.points[self._arrays.triangles]
+                # Without a map all of the surface is within one square, so that only its shape is seen.
+                self._checks = CheckedFaces(
+                    corners, np.zeros((len(corners), 3, 2)) if self._squares is None else self._squares
+                )
             self._checks.draw_over(eye, lift, _SHADOW * cover)
         if self._lines is None:
             self._lines = Sheet(self._pose)
