@@ -14,7 +14,7 @@ from scene import add_grid, add_object, add_suzanne, changing, edit, snapshot
 from seamwire.mesh import edit_mesh
 from seamwire.mesh import unwrap as unwrapping
 from seamwire.mesh.seam_islands import labels_of
-from seamwire.operators.unwrap_islands import unwrap_after_chain
+from seamwire.operators.after_chain import unwrap_after_chain
 
 
 def add_torus() -> None:

@@ -22,8 +22,8 @@ from ..words.keys import DoubleClicks
 from ..words.notices import Notices
 from ..words.reports import count, summary
 from . import keymaps, undo_steps
+from .after_chain import unwrap_after_chain
 from .chain_state import TRANSITIONS, Cue, Stage, running, status_makers
-from .unwrap_islands import unwrap_after_chain
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import bpy
 
-from ..mesh.settings import settings
 from ..words.reports import count, in_words, square_used
 from .steps import AfterChain
 
@@ -79,22 +78,6 @@ class MESH_OT_seamwire_unwrap(AfterChain, bpy.types.Operator):
         parts.append(square_used(sum(each.used for each in maps_of(context.objects_in_mode_unique_data).values())))
         self.report({"WARNING"} if done.faults or done.unmapped else {"INFO"}, ", ".join(parts))
         return {"FINISHED"}
-
-
-def unwrap_after_chain(context: bpy.types.Context) -> str:
-    """Unwrap after a change of seams, as the tool or Blender is set. Return what went wrong, or an empty text."""
-    if not settings(context).unwrap:
-        from ..mesh import edit_mesh
-
-        edit_mesh.live_unwrap(context)
-        return ""
-    from ..core.base.native import NativeError
-    from ..mesh.unwrap import unwrap_changed
-
-    try:
-        return ", ".join(in_words(unwrap_changed(context).faults))
-    except (ValueError, NativeError) as error:
-        return str(error)
 
 
 register, unregister = bpy.utils.register_classes_factory((MESH_OT_seamwire_unwrap,))
