@@ -18,7 +18,7 @@ import pytest
 import stored
 import ui as driver
 from desk import choose, leave, second_window, send, undo_steps
-from scene import add_grid, add_suzanne, animate, changing, edit, head, mark_wires, seams, snapshot
+from scene import add_suzanne, animate, changing, edit, head, mark_wires, seams, snapshot
 from seamwire.core.base import native
 from seamwire.core.seams.seam_plan import PartChoice, PartEdits
 from seamwire.mesh.seam_search import Suggestion
@@ -1095,27 +1095,6 @@ def test_the_map_is_shown_as_squares_of_one_size_while_the_hand_rests(ui: driver
     keep(ui)
     assert not edited.covered
     assert contrast(ui, side) < plain + 0.03
-
-
-@pytest.mark.oldest_and_newest
-def test_on_a_dense_mesh_the_colors_cover_its_vertices(ui: driver.Ui) -> None:
-    with ui.override():
-        add_grid(150)
-        edit()
-        bpy.ops.mesh.select_all(action="DESELECT")
-    ui.look_from_top(distance=8.0)
-
-    def least_color() -> float:
-        x, y = (round(value) for value in ui.on_screen((0.2, 0.2, 0.0)))
-        return float(np.ptp(ui.screen()[y - 10 : y + 10, x - 10 : x + 10], axis=2).min())
-
-    try:
-        assert least_color() < 0.03
-        invoke(ui)
-        ui.wait_until(lambda: least_color() > 0.15)
-        escape(ui)
-    finally:
-        leave(ui)
 
 
 # Blender meanwhile
