@@ -791,7 +791,9 @@ def test_what_was_kept_belongs_to_the_mesh(ui: driver.Ui, prism: bpy.types.Objec
     escape(ui)
 
 
-def test_the_corner_of_the_view_says_what_is_shown(ui: driver.Ui, prism: bpy.types.Object) -> None:
+def test_the_corner_of_the_view_says_what_is_shown(
+    ui: driver.Ui, prism: bpy.types.Object, capfd: pytest.CaptureFixture[str]
+) -> None:
     bare = ui.screen()
     invoke(ui)
     preview = live()._preview
@@ -800,6 +802,8 @@ def test_the_corner_of_the_view_says_what_is_shown(ui: driver.Ui, prism: bpy.typ
     assert preview._rows[0][0].startswith("Parts: 9")
     ui.wait_until(lambda: live().is_planned and preview._rows[-1][0] == "Search ended")
     assert any(text.startswith("Stretch: ") and ", at most 17 %" in text for text, _ in preview._rows)
+    ui.wait_until(lambda: any("of the UV square used" in text for text, _ in preview._rows))
+    told = next(text for text, _ in preview._rows if "of the UV square used" in text)
     ui.key("G")
     assert preview._rows[0] == (OTHER_KEY, "")
     size = 130
@@ -808,7 +812,9 @@ def test_the_corner_of_the_view_says_what_is_shown(ui: driver.Ui, prism: bpy.typ
     preferences().text = "NONE"
     blank = np.abs(ui.screen() - bare).max(axis=2)[8:size, 8:250] > 0.3
     assert blank.mean() < 0.002
-    escape(ui)
+    capfd.readouterr()
+    keep(ui)
+    assert told in "".join(capfd.readouterr()), "the report has the same share"
 
 
 class Corner:

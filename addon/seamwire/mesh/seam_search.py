@@ -42,7 +42,7 @@ from ..words.search_report import Outcome
 from . import edit_mesh, finishes, uv_map
 from .object_session import ObjectSession, mirror_axes
 from .seam_islands import count_islands, labels_of, maps_of
-from .unwrap import STRAIGHT_COST, UP, Layout, Unwrapped, unwrap_changed
+from .unwrap import MARGIN, STRAIGHT_COST, UP, Layout, Unwrapped, unwrap_changed
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence
@@ -114,8 +114,9 @@ class Suggestion:
         self.straight_cost = STRAIGHT_COST  # for `Layout`: less, if the plan would exceed its limit otherwise
         self.slits: list[Wire] = []  # the wires of this plan
         self._bound = 0.0  # on the energy of plans
-        # The plan that was laid out last, and the result.
-        self._laid_out: tuple[seamwire_core.SeamPlan | None, NDArray[np.float64] | None] = (None, None)
+        # The plan that was laid out last, its map, and the island of each triangle there.
+        self.laid_out: tuple[seamwire_core.SeamPlan | None, NDArray[np.float64] | None, NDArray[np.int32] | None]
+        self.laid_out = None, None, None
         self.marked = 0  # how many edges `write` made seams
 
     def _islands_with(self, faces: NDArray[np.integer] | None) -> tuple[NDArray[np.bool_] | None, int]:
@@ -170,7 +171,7 @@ class Suggestion:
             inside = {undirected(side) for a, b, c in corners for side in ((a, b), (b, c), (c, a))}
             self.borders = [chain for chain in self.borders if edges_of(chain) <= inside]
         self._planner = self.best = None
-        self._laid_out = None, None
+        self.laid_out = None, None, None
         self.slits = []
 
     def _parts_of(self, choice: PartChoice, progress: Progress) -> seamwire_core.Parts:
@@ -277,11 +278,12 @@ class Suggestion:
                 up=UP,
                 edges=arrays.edges,
                 progress=progress,
-            ).uvs
+            )
+            uvs, islands = np.asarray(found.uvs), np.asarray(found.islands)
         except ValueError:
-            found = plan.uvs
-        self._laid_out = plan, None if found is None else np.asarray(found)
-        return self._laid_out[1]
+            uvs, islands = plan.uvs, plan.islands
+        self.laid_out = plan, uvs, islands
+        return uvs
 
     def _straight_cost_of(self, plan: seamwire_core.SeamPlan) -> float:
         return min(STRAIGHT_COST, max(0.0, self._bound - float(plan.energy)))
@@ -308,7 +310,7 @@ class Suggestion:
         is_same = not self.slits or self.along == "EDGES" or not FINISHES[self.finish].edits
         if self.best is None or not is_same:
             return None
-        plan, layout = self._laid_out
+        plan, layout, _ = self.laid_out
         return layout if plan is self.best and layout is not None else self.best.uvs
 
     def length_of(self, plan: seamwire_core.SeamPlan) -> float:
@@ -405,6 +407,23 @@ class SeamSearch:
     def limit(self, stretch: float, islands: int) -> None:
         """Let the next plans have another mean stretch, in percent, and number of islands. `choose` drops the plans before."""
         self._options = replace(self._options, stretch=stretch, islands=islands)
+
+    def used(self) -> float | None:
+        """Return how much of the UV square the maps that `layout_of` found last cover together, packed as unwrapping packs them.
+
+        It is None if a map is missing, or if unwrapping leaves islands in place. Any thread may call it.
+        """
+        laid_out = [suggestion.laid_out[1:] for suggestion in self]
+        is_first = not any(suggestion.had_seams or suggestion.others for suggestion in self)
+        if not is_first or any(uvs is None for uvs, _ in laid_out):
+            return None
+        all_uvs, all_islands, count = [], [], 0
+        for uvs, islands in laid_out:
+            all_uvs.append(uvs)
+            all_islands.append(islands + count)
+            count += int(islands.max(initial=-1)) + 1
+        packed = native.load().pack_islands(np.concatenate(all_uvs), np.concatenate(all_islands), margin=MARGIN)
+        return float(packed.used)
 
     @property
     def part_count(self) -> int:

@@ -58,7 +58,7 @@ _FOLDED = 0.25
 """The part of an island's faces that must be turned over for the island to count as folded."""
 _ON_LINE = 1e-6
 """How far a UV may lie beside a line that it should lie on: UVs are rounded."""
-_MARGIN = 1.0 / 256.0
+MARGIN = 1.0 / 256.0
 """Between packed islands, as a share of the UV square's side."""
 
 
@@ -509,7 +509,7 @@ def _packed(solved: Mapping[_Map, Solved], labels: NDArray[np.int64], layout: La
     numbers, islands = np.unique(labels[triangles[:, 0]], return_inverse=True)
     turns = "quarters" if layout.upright else "any"
     packing = native.load().pack_islands(
-        flat[triangles], islands.reshape(-1), margin=_MARGIN, turns=turns, aspects=aspects[numbers]
+        flat[triangles], islands.reshape(-1), margin=MARGIN, turns=turns, aspects=aspects[numbers]
     )
     placements = np.zeros((len(aspects), 2, 3))
     placements[numbers] = packing.placements

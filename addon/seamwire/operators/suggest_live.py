@@ -85,6 +85,7 @@ class LiveParts:
         self._rests_at = 0.0
         self._seen: dict[Suggestion, object] = {}
         self._found_map: FoundMap | None = None
+        self._used: tuple[int, float] | None = None  # of the UV square, and the version of the parts
         self._square = _square_size(search)
         self._cancelled = native.load().Cancelled
         self._change()
@@ -164,6 +165,8 @@ class LiveParts:
             length = _in_units(sum(each.length_of(plan) for each, plan in plans.items()))
             islands = sum(plan.island_count for plan in plans.values())
             self._found_map = FoundMap(100.0 * energy, islands, length)
+        if self._found_map is not None and self._used is not None and self._used[0] == self._version:
+            self._found_map = replace(self._found_map, used=self._used[1])
         self._tell()
         found = self._found_map
         return "" if found is None else f"stretch {found.stretch:.0f} %, seams {found.length}"
@@ -395,6 +398,8 @@ class LiveParts:
 
             def unfold() -> NDArray[np.float64] | None:
                 found = suggestion.layout_of(plan, lambda _: self._version == version and self._preview.is_open)
+                used = self._search.used()
+                self._used = None if used is None else (version, used)
                 return None if found is None else found * per_unit
 
         self._preview.show(suggestion.mesh.obj, suggestion.mesh.arrays, curves, cuts, unfold)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ..terms.choices import KINDS, LOOPS, METRICS, PARTS_BY, ignores_shape
-from .reports import count, percent
+from .reports import count, percent, square_used
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -71,6 +71,7 @@ class FoundMap:
     stretch: float  # the mean, in percent
     islands: int
     length: str  # of all seams, in the scene's units
+    used: float | None = None  # the part of the UV square that its islands cover, packed; None: not packed yet
 
 
 def rows_of_parts(
@@ -95,6 +96,8 @@ def rows_of_parts(
         (f"Stretch: {stretch}", "Ctrl Wheel"),
     ]
     if found is not None:
+        if found.used is not None:
+            rows.append((square_used(found.used), ""))
         rows.append((f"Seams: {found.length}", ""))
         rows.append(("Search ended" if is_final else "Searching: this is the best map so far", "Enter: Keep"))
     return rows

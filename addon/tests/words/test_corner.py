@@ -62,13 +62,14 @@ def test_while_parts_are_shown_each_value_has_its_keys() -> None:
         ("Islands: at least 3", "Shift Wheel"),
         ("Stretch: at most 17 %", "Ctrl Wheel"),
     ]
-    found = FoundMap(stretch=9.5, islands=14, length="2.3 m")
+    found = FoundMap(stretch=9.5, islands=14, length="2.3 m", used=0.58)
     rows = rows_of_parts(choice, 12, {"amount": 2, "stretch": -1}, found, True)
     assert rows == [
         ("Parts by: Auto", "W"),
         ("Parts: 12, amount 55 %, 2 notches past the end", "Wheel"),
         ("Islands: 14, at least 3", "Shift Wheel"),
         ("Stretch: 9.5 %, at most 17 %, 1 notch past the end", "Ctrl Wheel"),
+        ("58 % of the UV square used", ""),
         ("Seams: 2.3 m", ""),
         ("Search ended", "Enter: Keep"),
     ]
