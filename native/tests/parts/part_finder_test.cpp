@@ -144,6 +144,21 @@ TEST(PartFinder, parts_a_net_at_kept_edges) {
   EXPECT_EQ(folds, 5u);
 }
 
+TEST(PartFinder, does_not_fold_marked_edges) {
+  const auto surface = shared(box(1, Vector(1, 1, 1)).surface());
+  std::vector<Edge> around;  // of the side at z = 1
+  for (const Edge& edge : surface->edges()) {
+    if (surface->points()[edge[0]].z() > 0.5 && surface->points()[edge[1]].z() > 0.5) around.push_back(edge);
+  }
+  ASSERT_EQ(around.size(), 4u);
+  const Parts parts = PartFinder(surface, {.marked = {around}}).find();
+  EXPECT_EQ(parts.count, 2u);
+  const std::vector<Edge> borders = edges_of(parts);
+  for (const Edge& edge : around) {
+    EXPECT_TRUE(std::ranges::any_of(borders, [&](const Edge& own) { return ascending(own[0], own[1]) == edge; }));
+  }
+}
+
 TEST(PartFinder, opens_no_net_around_a_round_wall) {
   EXPECT_EQ(PartFinder(drum(24)).find().count, 3u);
   // The sides of a prism that lie on the mirror plane do not part its wall.
