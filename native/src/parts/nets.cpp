@@ -53,7 +53,6 @@ struct Panel {
   std::vector<std::int32_t> faces;
   std::vector<std::size_t> rims;
   double area = 0.0;
-  Vector center = Vector::Zero();
   int lowest = 1, highest = -1;  ///< on which sides of the mirror plane it has vertices
 
   bool is_across() const { return lowest < 0 && highest > 0; }
@@ -110,17 +109,12 @@ class PieceNet {
       if (is_new) panels_.emplace_back();
       Panel& panel = panels_[at->second];
       panel.faces.push_back(f);
-      const double area = face_frame(mesh_, mesh_.triangles[f]).area;
-      panel.area += area;
+      panel.area += face_frame(mesh_, mesh_.triangles[f]).area;
       for (const std::int32_t v : mesh_.triangles[f]) {
-        panel.center += area / 3.0 * mesh_.points[v];
         if (problem_.reflection == nullptr) continue;
         panel.lowest = std::min<int>(panel.lowest, problem_.reflection->sides[v]);
         panel.highest = std::max<int>(panel.highest, problem_.reflection->sides[v]);
       }
-    }
-    for (Panel& panel : panels_) {
-      if (panel.area > 0.0) panel.center /= panel.area;
     }
     return panels_.size() > 1;
   }
@@ -247,21 +241,18 @@ class PieceNet {
     return *std::ranges::max_element(away);
   }
 
-  /// The central panel of those that are not placed: near to all others, on the mirror plane, and large. Of equal ones,
-  /// the highest one.
+  /// The central panel of those that are not placed: near to all others, on the mirror plane, and large. Equal ones are
+  /// told apart by their numbers, so that the net does not depend on how the mesh is turned.
   std::int32_t root() const {
-    using Key = std::tuple<std::size_t, bool, double, double, double, std::int32_t>;
+    using Key = std::tuple<std::size_t, bool, double, std::int32_t>;
     std::optional<Key> best;
     for (std::int32_t p = 0; index(p) < panels_.size(); ++p) {
       if (is_placed_[p] != 0) continue;
-      const Panel& panel = panels_[p];
-      const Key key{eccentricity(p),         !panel.is_across(),     -rounded(panel.area),
-                    -grid(panel.center.z()), grid(panel.center.y()), p};
+      const Key key{eccentricity(p), !panels_[p].is_across(), -rounded(panels_[p].area), p};
       if (!best || key < *best) best = key;
     }
-    return std::get<5>(*best);
+    return std::get<3>(*best);
   }
-  double grid(double place) const { return std::round(place / (4.0 * gap_)); }
 
   /// Attaches panels to each other. `parting`: pairs of panels that must lie in separate islands.
   void place(std::span<const std::array<std::int32_t, 2>> parting) {
@@ -275,8 +266,8 @@ class PieceNet {
   }
 
   void place_island(std::span<const std::array<std::int32_t, 2>> parting) {
-    // By depth, symmetry and length. Of equal rims, the one that lies farthest back and highest.
-    using Key = std::tuple<std::size_t, bool, double, double, double, double, std::size_t, std::int32_t>;
+    // By depth, symmetry and length.
+    using Key = std::tuple<std::size_t, bool, double, std::size_t, std::int32_t>;
     std::priority_queue<Key, std::vector<Key>, std::greater<>> open;
     const auto reach = [&](std::int32_t p, std::size_t depth) {
       is_placed_[p] = 1;
@@ -285,17 +276,13 @@ class PieceNet {
         const PanelRim& rim = rims_[r];
         const std::int32_t next = rim.other(p);
         if (!rim.may_fold || is_placed_[next] != 0) continue;
-        const double aside = problem_.reflection == nullptr
-                                 ? rim.center.x()
-                                 : std::abs(rim.center[problem_.reflection->axis] - problem_.reflection->offset);
-        open.emplace(depth + 1, panels_[next].is_across() && !rim.is_across, -rounded(rim.length),
-                     -grid(rim.center.y()), -grid(rim.center.z()), grid(aside), r, next);
+        open.emplace(depth + 1, panels_[next].is_across() && !rim.is_across, -rounded(rim.length), r, next);
       }
     };
     reach(root(), 0);
     while (!open.empty()) {
       task_.check(0.0);
-      const auto [depth, is_aside, length, y, z, aside, r, next] = open.top();
+      const auto [depth, is_aside, length, r, next] = open.top();
       open.pop();
       const std::int32_t placed = rims_[r].other(next);
       if (is_placed_[next] != 0 || must_part(placed, next, parting)) continue;

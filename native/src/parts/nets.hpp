@@ -16,8 +16,8 @@ struct NetProblem {
   const Pieces& pieces;
   std::span<const double> diagonals;         ///< of each piece
   std::span<const std::int32_t> region_of;   ///< of each triangle, named after any number below that of triangles
-  std::span<const std::uint8_t> may_fold;    ///< of each edge: 0 if the regions on its sides must not share an island
-  std::span<const std::uint8_t> is_parting;  ///< of each edge: 1 if the two regions must lie in separate islands
+  std::span<const std::uint8_t> may_fold;    ///< of each edge: 0 if the rim there cannot fold
+  std::span<const std::uint8_t> is_parting;  ///< of each edge: 1 if the regions there must lie in separate islands
   const Reflection* reflection = nullptr;    ///< null if the mesh is not symmetric
 };
 

@@ -391,8 +391,9 @@ struct PartFinder::Impl {
   Polygons polygons;
   EdgeBends bends;
   PieceSizes sizes;
-  std::vector<double> odds;     // of each edge
-  std::vector<Region> regions;  // of each polygon
+  std::vector<double> odds;             // of each edge
+  std::vector<std::uint8_t> is_marked;  // the same: 1 where an artist expects a border
+  std::vector<Region> regions;          // of each polygon
   std::optional<Limbs> limbs;
   std::vector<std::uint8_t> is_panelled, is_between;  // pieces with panels; edges between front and back; or empty
   std::vector<double> open;  // of each vertex, how visible it is; only for a shape that has limbs
@@ -431,7 +432,7 @@ void PartFinder::Impl::prepare(const Task& task) {
   if (options.mirror >= 0) problem.reflection = find_reflection(mesh, options.mirror, part_of(task, 0.0, 0.2));
   const std::vector<FaceFrame> frames = face_frames(mesh, task);
   sizes = measure_pieces(mesh, frames, task);
-  const std::vector<std::uint8_t> is_marked = telling_marks(task);
+  is_marked = telling_marks(task);
   std::vector<double> size_at(mesh.vertex_count(), 0.0);  // the root of the area of each vertex's piece
   const Poll poll(task);
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
@@ -608,9 +609,11 @@ std::vector<std::uint8_t> PartFinder::Impl::folds(std::span<const std::int32_t> 
                                                   std::span<const std::uint8_t> is_kept, const Task& task) const {
   const PlanMesh& mesh = *problem.mesh;
   const double bias = amount > 0.0 ? bias_of(amount) : -kInfinity;
-  std::vector<std::uint8_t> may_fold;
+  std::vector<std::uint8_t> may_fold, is_parting;
   for (std::size_t e = 0; e < mesh.edge_count(); ++e) {
-    may_fold.push_back(problem.is_seam[e] == 0 && is_kept[e] == 0 && odds[e] + bias < tuning::kMostFolded ? 1 : 0);
+    const double own = odds[e] + bias - (is_marked[e] != 0 ? tuning::kMarked : 0.0);
+    may_fold.push_back(problem.is_seam[e] == 0 && own < tuning::kMostFolded ? 1 : 0);
+    is_parting.push_back(is_kept[e] != 0 || is_marked[e] != 0 ? 1 : 0);
   }
   std::vector<double> diagonals;
   for (const PieceSize& size : sizes.of_piece) diagonals.push_back(size.diagonal);
@@ -619,7 +622,7 @@ std::vector<std::uint8_t> PartFinder::Impl::folds(std::span<const std::int32_t> 
                      .diagonals = diagonals,
                      .region_of = region_of,
                      .may_fold = may_fold,
-                     .is_parting = is_kept,
+                     .is_parting = is_parting,
                      .reflection = problem.mirror()},
                     task);
 }

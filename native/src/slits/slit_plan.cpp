@@ -9,6 +9,7 @@
 #include "detail/rounded.hpp"
 #include "parameterization/open_island.hpp"
 #include "parameterization/worst_area.hpp"
+#include "tuning/constants.hpp"
 
 namespace seamwire::detail {
 namespace {
@@ -48,7 +49,8 @@ double SlitProblem::price(std::span<const std::int32_t> chain) const {
   for (std::size_t i = 2; i < chain.size(); ++i) {
     const Vector &before = mesh->points[chain[i - 2]], &at = mesh->points[chain[i - 1]];
     const Vector& next = mesh->points[chain[i]];
-    sum += prices.turning * rounded_share(1.0 - (at - before).normalized().dot((next - at).normalized()));
+    sum += tuning::kTurnInPlan * prices.turning *
+           rounded_share(1.0 - (at - before).normalized().dot((next - at).normalized()));
   }
   return sum;
 }

@@ -74,6 +74,9 @@ inline constexpr double kBargain = 0.15;
 /// Price of a turn by 90 degrees, in median edges at the mean price. Artists' seams go straight on at nearly all
 /// regular vertices.
 inline constexpr double kTurnPrice = 1.5;
+/// Share of this price that a turn adds to the price of a plan. Without it, the slits of a ball had eight jogs. With 1,
+/// a trunk was cut elsewhere than by its artist.
+inline constexpr double kTurnInPlan = 0.5;
 
 // Machine parts: surfaces whose bending is mostly in sharp edges, and whose other edges hardly bend.
 

@@ -102,15 +102,15 @@ TEST(PartFinder, opens_a_box_as_a_cross) {
 TEST(PartFinder, opens_each_of_many_boxes_alike) {
   shapes::QuadMesh boxes;
   const shapes::QuadMesh one = box(1, Vector(1, 1, 1));
-  for (int i = 0; i < 9; ++i) {
+  for (int i = 0; i < 8; ++i) {
     const auto first = static_cast<std::int32_t>(boxes.points.size());
-    for (const Vector& point : one.points) boxes.points.push_back(point + 2.0 * Vector(i % 3, i / 3, 0));
+    for (const Vector& point : one.points) boxes.points.push_back(point + 2.0 * Vector(i % 4, i / 4, 0));
     for (const auto& [a, b, c, d] : one.quads) boxes.quads.push_back({first + a, first + b, first + c, first + d});
   }
   for (const int mirror : {-1, 0}) {
     const Parts parts = PartFinder(shared(boxes.surface()), {.mirror = mirror}).find();
-    EXPECT_EQ(parts.count, 9u);
-    std::array<std::set<Edge>, 9> own;
+    EXPECT_EQ(parts.count, 8u);
+    std::array<std::set<Edge>, 8> own;
     for (const Edge& edge : edges_of(parts)) own[edge[0] / 8].insert(ascending(edge[0] % 8, edge[1] % 8));
     for (const std::set<Edge>& edges : own) EXPECT_EQ(edges, own[0]);
   }
@@ -142,6 +142,21 @@ TEST(PartFinder, parts_a_net_at_kept_edges) {
     EXPECT_EQ(PartFinder(surface).find(0.5, {.kept = {edge}}).count, 2u);
   }
   EXPECT_EQ(folds, 5u);
+}
+
+TEST(PartFinder, does_not_fold_marked_edges) {
+  const auto surface = shared(box(1, Vector(1, 1, 1)).surface());
+  std::vector<Edge> around;  // of the side at z = 1
+  for (const Edge& edge : surface->edges()) {
+    if (surface->points()[edge[0]].z() > 0.5 && surface->points()[edge[1]].z() > 0.5) around.push_back(edge);
+  }
+  ASSERT_EQ(around.size(), 4u);
+  const Parts parts = PartFinder(surface, {.marked = {around}}).find();
+  EXPECT_EQ(parts.count, 2u);
+  const std::vector<Edge> borders = edges_of(parts);
+  for (const Edge& edge : around) {
+    EXPECT_TRUE(std::ranges::any_of(borders, [&](const Edge& own) { return ascending(own[0], own[1]) == edge; }));
+  }
 }
 
 TEST(PartFinder, opens_no_net_around_a_round_wall) {
