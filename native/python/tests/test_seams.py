@@ -210,7 +210,7 @@ def closed_ring(columns: int, row: int) -> list[tuple[int, int]]:
         (meshes.grid(4), [], [0]),
         (meshes.torus(6, 5), [], [3]),
         (meshes.torus(6, 5), closed_ring(6, 2), [1]),
-        (meshes.torus(6, 5), [*closed_ring(6, 1), *closed_ring(6, 3)], [1, 1]),
+        (meshes.torus(24, 20), [*closed_ring(24, 5), *closed_ring(24, 15)], [1, 1]),
         (meshes.torus(6, 5), closed_ring(6, 2)[:1], [2]),
         (meshes.moebius(9), [], [0]),
         (meshes.moebius(9), [(8, 9)], [0, 0]),

@@ -55,10 +55,12 @@ class HoleTest {
   }
 
   bool is_flat(const std::vector<std::int32_t>& loop) {
-    double curvature = 2.0 * std::numbers::pi;
-    for (const std::int32_t v : loop) curvature += std::numbers::pi - angles_[v];
-    curvature += curvature_around(loop, tuning::kCollar * length(loop));
-    return rounded_share(std::abs(curvature)) < rounded_share(tuning::kLeastTubeTurn);
+    const double most = rounded_share(tuning::kLeastTubeTurn);
+    double turn = 0.0;
+    for (const std::int32_t v : loop) turn += std::numbers::pi - angles_[v];
+    if (rounded_share(turn) > most) return false;  // it turns like an outline, as at the flaring end of a neck
+    const double around = curvature_around(loop, tuning::kCollar * length(loop));
+    return rounded_share(std::abs(2.0 * std::numbers::pi + turn + around)) < most;
   }
 
  private:

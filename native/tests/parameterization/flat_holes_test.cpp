@@ -76,6 +76,15 @@ TEST(FlatHoles, AreNotTheEndsOfTubes) {
   EXPECT_EQ(counts(ring(lines({{0.2, 0.0}, {0.2, 1.0}, {2.0, 1.0}}))), (Counts{2, 0})) << "a pipe on a plate";
 }
 
+TEST(FlatHoles, AreNotTheFlaringEndsOfANeck) {
+  std::vector<std::array<double, 2>> neck;
+  for (int i = 0; i <= 12; ++i) {
+    const double a = std::numbers::pi * i / 12.0;
+    neck.push_back({0.35 - 0.15 * std::sin(a), 0.15 * std::cos(a)});
+  }
+  EXPECT_EQ(counts(ring(neck)), (Counts{2, 0}));
+}
+
 TEST(FlatHoles, AreNotTheSidesOfASeamAroundAHandle) {
   // Around the top of the torus, where it is horizontal.
   std::vector<Edge> seam;

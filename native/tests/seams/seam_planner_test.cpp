@@ -230,7 +230,7 @@ shapes::QuadMesh mask() {
   return mesh;
 }
 
-TEST(SeamPlanner, AMaskKeepsItsEyeHolesUnlessTheBoundIsLow) {
+TEST(SeamPlanner, AMaskKeepsItsEyeHoles) {
   const auto surface = shared(mask());
   const SeamPlanner planner(surface, along_edges(0));
   const SeamPlan plan = planner.plan();
