@@ -125,7 +125,7 @@ void GroupPlanning::grow(bool has_tips, const Task& task) {
 }
 
 void GroupPlanning::show(const SlitPlan& plan, const Task& task) {
-  result_ = {.slits = on_original(plan.slits, task),
+  result_ = {.slits = completed(on_original(plan.slits, task), plan.slits, task),
              .energy = plan.energy,
              .price = plan.price,
              .overlaps = plan.overlaps,

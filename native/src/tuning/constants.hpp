@@ -303,7 +303,7 @@ inline constexpr double kLowStretch = 4.15;
 /// Triangles above which a surface is planned on simplified meshes. A Newton step on 28,000 triangles takes 40 ms.
 inline constexpr std::size_t kMostTriangles = 9000;
 /// Triangles that all simplified meshes have together, about.
-inline constexpr std::size_t kSimplified = 5000;
+inline constexpr std::size_t kSimplified = 7000;
 /// Triangles of each group, at least, and of the coarser mesh on which seams are also searched. A group that is
 /// smaller itself stays as it is.
 inline constexpr std::size_t kLeastSimplified = 600;
@@ -360,9 +360,9 @@ inline constexpr double kMostFlat = 0.08;
 /// Triangles from which a mesh is a sculpt: artists' game models have fewer.
 inline constexpr std::size_t kLeastSculpt = 20000;
 /// Share of the bending in sharp edges up to which a mesh of an artist is a figure, and share of the area that its rims
-/// leave in one part. Heads have up to 0.49 and at least 0.90; a prop whose bending is as soft has 0.87.
+/// leave in one part. Heads have up to 0.47 and at least 0.95; a prop whose bending is as soft has 0.87.
 inline constexpr double kMostSharp = 0.5;
-inline constexpr double kLeastBody = 0.88;
+inline constexpr double kLeastBody = 0.95;
 /// Share of the border of a limb that may be in exposed places. Half of a ring around an arm is.
 inline constexpr double kMostExposed = 0.6;
 /// Curvature below which a triangle is flat.
