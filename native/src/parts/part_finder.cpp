@@ -613,7 +613,8 @@ std::vector<std::uint8_t> PartFinder::Impl::folds(std::span<const std::int32_t> 
   for (std::size_t e = 0; e < mesh.edge_count(); ++e) {
     const double own = odds[e] + bias - (is_marked[e] != 0 ? tuning::kMarked : 0.0);
     may_fold.push_back(problem.is_seam[e] == 0 && own < tuning::kMostFolded ? 1 : 0);
-    is_parting.push_back(is_kept[e] != 0 || is_marked[e] != 0 ? 1 : 0);
+    const bool is_panel = !is_between.empty() && is_between[e] != 0;
+    is_parting.push_back(is_kept[e] != 0 || is_marked[e] != 0 || is_panel ? 1 : 0);
   }
   std::vector<double> diagonals;
   for (const PieceSize& size : sizes.of_piece) diagonals.push_back(size.diagonal);

@@ -152,15 +152,27 @@ std::vector<std::int32_t> find_tips(const SlitProblem& problem, const PieceBody&
                                     std::span<const double> distances) {
   std::vector<std::int32_t> vertices = body.island.vertices;
   std::ranges::sort(vertices);
-  std::vector<std::int32_t> tips;
+  std::vector<std::int32_t> tips, images;
   for (const std::int32_t own : body.graph.peaks(distances, tuning::kTipProminence * body.size)) {
     std::int32_t tip = body.island.vertices[own];
     if (problem.reflection) {
       tip = onto_plane(problem, body, tip);
       const std::int32_t image = problem.reflection->images[tip];
-      if (problem.reflection->sides[tip] < 0 && std::ranges::binary_search(vertices, image)) tip = image;
+      if (problem.reflection->sides[tip] < 0 && std::ranges::binary_search(vertices, image)) {
+        images.push_back(image);
+        continue;
+      }
     }
     if (std::ranges::find(tips, tip) == tips.end()) tips.push_back(tip);
+  }
+  // Where several vertices are equally far, the two peaks of a pair need not be images of each other.
+  const std::size_t count = tips.size();
+  for (const std::int32_t image : images) {
+    const bool is_known =
+        std::ranges::any_of(tips.begin(), tips.begin() + static_cast<std::ptrdiff_t>(count), [&](std::int32_t tip) {
+          return (problem.mesh->points[tip] - problem.mesh->points[image]).norm() < tuning::kTipProminence * body.size;
+        });
+    if (!is_known && std::ranges::find(tips, image) == tips.end()) tips.push_back(image);
   }
   return tips;
 }
