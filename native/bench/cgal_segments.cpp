@@ -2,8 +2,8 @@
 //
 // CGAL's segmentation by shape diameters (GPL; Shapira, Shamir and Cohen-Or, 2008), for limbs.py:
 //   cgal_segments MESH.off CLUSTERS...
-// Prints a line for each number of clusters: seconds of processor time for the shape diameters, which are computed once,
-// and for the clusters, then the segment of each face.
+// Prints a line for each number of clusters: seconds of processor time for the shape diameters, which are computed
+// once, and for the clusters, then the segment of each face.
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/mesh_segmentation.h>

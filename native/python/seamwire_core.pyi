@@ -2230,13 +2230,14 @@ class PartFinder:
     by : {'rims', 'limbs', 'panels', 'shape'}
         What separates parts. 'rims': sharp edges, as of props and machines. 'limbs': narrow and concave places, as between
         head, arms and body of a figure. 'panels': the sides, as between front and back of a shirt, and sharp edges.
-        'shape': as is best. Scans and sculpts have limbs if at most 8 % of the area is flat. A connected piece has panels
-        if at most 15 % of the edge length bends by more than 30 degrees, and at least three boundaries are open. Everything
-        else has rims.
+        'shape': as is best. Figures have few limbs: at most 8 % of their area is flat, and they are scans, sculpts, or
+        soft shapes whose rims take off details only. A connected piece has panels if at most 15 % of the edge length bends
+        by more than 30 degrees, and at least three boundaries are open. Everything else has rims.
     scan : bool
         For 'shape': whether the edges come from a scan. From 20,000 triangles, a mesh counts as a sculpt anyway.
     front : (3,) array_like, optional
-        The direction to the viewer of the front panels. By default, each piece has its own, where it is thinnest.
+        The direction to the viewer. For 'panels', it is the direction to the front. Without it, and for 'shape', the front
+        is where a piece is thinnest. For 'shape', no border of limbs runs around a face that the viewer sees.
     mirror : {0, 1, 2}, optional
         The axis along which a plane mirrors the surface, as for `SeamPlanner`. Rims are then symmetric wherever the
         triangles are mirrored. Limbs are symmetric if at least 95 % of the edges are mirrored.
