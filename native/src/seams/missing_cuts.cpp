@@ -7,7 +7,7 @@
 
 #include "detail/index.hpp"
 #include "parameterization/cut_open.hpp"
-#include "parameterization/flat_holes.hpp"
+#include "slits/flat_holes.hpp"
 #include "surface/corner_fans.hpp"
 #include "surface/cuts.hpp"
 

@@ -8,18 +8,18 @@ from seamwire.terms.choices import PARTS_BY
 from seamwire.words.search_report import parts_text
 
 
-def test_each_row_keeps_its_amount_and_edits_and_the_stretch_is_common() -> None:
+def test_each_row_keeps_its_amount_and_edits_and_limits_are_common() -> None:
     edits = {"Shirt": PartEdits().part(3)}
-    made = [PartChoice(0.5, 17.0), PartChoice(0.7, 22.0, edits)]
+    made = [PartChoice(0.5, 17.0), PartChoice(0.7, 22.0, islands=2, edits=edits)]
     for _ in PARTS_BY:
         made.append(parted_by_next(made))
     assert [choice.by for choice in made[1:]] == ["AUTO", "RIMS", "LIMBS", "PANELS", "AUTO"]
     assert all((choice.amount, choice.edits) == (0.5, {}) for choice in made[2:5])
-    assert {choice.stretch for choice in made[1:]} == {22.0}
+    assert {(choice.stretch, choice.islands) for choice in made[1:]} == {(22.0, 2)}
     assert made[-1] == made[1]
     made.append(replace(made[-1], by="LIMBS", amount=0.2))
     made += [parted_by_next(made)]
-    assert made[-1] == PartChoice(0.5, 22.0, by="PANELS")
+    assert made[-1] == PartChoice(0.5, 22.0, islands=2, by="PANELS")
 
 
 def test_the_text_names_what_was_chosen_by_hand() -> None:

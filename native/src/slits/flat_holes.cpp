@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "parameterization/flat_holes.hpp"
+#include "slits/flat_holes.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
