@@ -818,7 +818,7 @@ def test_the_corner_of_the_view_says_what_is_shown(
 
 
 class Corner:
-    """What a region of a window draws of the preview."""
+    """The lines of the preview that a region of a window draws."""
 
     def __init__(self, other: dict[str, object]) -> None:
         self.counts: list[int] = []

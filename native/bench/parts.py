@@ -22,7 +22,9 @@ The seams of each method are kept in the folder of --work, so another run only m
 again. UVgami and xatlas leave models with more than --most-faces faces out.
 
 --json keeps all numbers, and --page renews the tables of Markdown pages, between comments "begin NAME" and "end NAME". --pictures draws
-the models of `PICTURED`, from two sides. --blind draws a sheet of each model with the methods in random order and without names;
+the models of `PICTURED` from two sides.
+
+--blind draws a sheet of each model with the methods in random order and without names;
 key.json in the same folder has the names. With --votes, a file {"NAME": "LETTER"} of what a judge keeps, the program counts votes
 instead of drawing sheets.
 The program needs numpy, scipy, and seamwire_core on the path. Pictures need matplotlib.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Any mesh and any parameters: the library refuses them with InvalidInput, or its answers agree with each other.
+// Takes any mesh and any parameters. The library refuses them with InvalidInput, or its answers agree with each other.
 // libFuzzer makes the bytes (scripts/fuzz); the test `fuzz_cases` runs those that once found something.
 
 #include <Eigen/Geometry>

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from ..mesh.seam_search import SeamSearch
 
 kept_choices: dict[tuple[tuple[str, int, int], ...], tuple[list[bytes], PartChoice]] = {}
-"""What was kept for meshes last in the file that is open: the seams that they had before, and the choice."""
+"""The last choice that was kept for meshes of the open file, and the seams that these meshes had before it."""
 _BLENDERS_FRONT = (0.0, -1.0, 0.0)
 """The direction to the viewer in Blender's front view."""
 _BY_MESH = {"SKIP_SAVE"}

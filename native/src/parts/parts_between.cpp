@@ -24,7 +24,7 @@ Edge edge_of_surface(const PlanMesh& mesh, std::int32_t half_edge) {
   return ascending(mesh.sources[mesh.tail(half_edge)], mesh.sources[mesh.tip(half_edge)]);
 }
 
-/// Leaves out edges that are no rims and do not lie between two parts. `of_face`: the part of each of the surface's
+/// Keeps rims, and edges between two parts. `of_face`: the part of each of the surface's
 /// triangles.
 void leave_out_inner(const PlanMesh& mesh, std::span<const std::uint8_t> is_rim, std::span<const std::int32_t> of_face,
                      std::vector<Edge>& edges, const Task& task) {

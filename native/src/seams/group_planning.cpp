@@ -63,6 +63,14 @@ std::int64_t missing_cuts_of(const SlitProblem& problem, std::span<const Slit> s
   return missing;
 }
 
+bool has_barred_edges(const SlitProblem& problem) {
+  const std::vector<double>& prices = problem.prices.of_edge;
+  for (std::size_t e = 0; e < prices.size(); ++e) {
+    if (prices[e] == kInfinity && problem.mesh->is_real[e] != 0) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 double GroupProblem::work_on(std::size_t level, double budget) const {
@@ -139,8 +147,9 @@ void GroupPlanning::search(const SlitGoal& goal, const std::function<void()>& fo
   // it is also parted into halves.
   for (int round = 0; round <= tuning::kHalvings && !result_.is_within(goal.energy); ++round) {
     if (round > 0 && std::isfinite(result_.energy)) return;
-    // Only machine parts have rims. On others, these would enclose scales and wrinkles.
-    if (round == 0 && !problem().prices.is_machine_part()) continue;
+    // Only machine parts have rims. On others, these would enclose scales and wrinkles. But slits alone may be too few
+    // where the weights keep seams away.
+    if (round == 0 && !problem().prices.is_machine_part() && !has_barred_edges(problem())) continue;
     std::vector<Slit> cuts = round == 0 ? rim_cuts(problem(), missed_, task)
                                         : halving_cuts(problem(), 2 * index(problem().pieces.count), task);
     if (cuts.empty()) continue;
