@@ -272,6 +272,16 @@ def test_first_shapes_get_few_seams_without_jogs(shape: str) -> None:
     assert is_good_map(obj)
 
 
+@pytest.mark.parametrize("levels", [0, 1, 2])
+def test_suzanne_has_few_islands_at_each_level_of_subdivision(levels: int) -> None:
+    obj = add_suzanne(levels)
+    edit()
+    clear(obj)
+    assert suggest() == {"FINISHED"}
+    assert 4 <= islands(obj) <= 7, "ears, eyes, and a head"
+    assert is_good_map(obj)
+
+
 def test_sharp_edges_that_are_everywhere_part_nothing() -> None:
     found = []
     for is_sharp in (False, True):

@@ -2230,8 +2230,8 @@ class PartFinder:
     by : {'rims', 'limbs', 'panels', 'shape'}
         What separates parts. 'rims': sharp edges, as of props and machines. 'limbs': narrow and concave places, as between
         head, arms and body of a figure. 'panels': the sides, as between front and back of a shirt, and sharp edges.
-        'shape': as is best. Figures have few limbs: at most 8 % of their area is flat, and they are scans, sculpts, or
-        soft shapes whose rims take off details only. A connected piece has panels if at most 15 % of the edge length bends
+        'shape' chooses one of the others. Figures have few limbs: at most 8 % of their area is flat, and they are scans, sculpts, or
+        soft shapes whose rims take off details only. Up to 1,000 quads are smoothed first. A connected piece has panels if at most 15 % of the edge length bends
         by more than 30 degrees, and at least three boundaries are open. Everything else has rims.
     scan : bool
         For 'shape': whether the edges come from a scan. From 20,000 triangles, a mesh counts as a sculpt anyway.

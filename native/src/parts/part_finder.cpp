@@ -28,6 +28,7 @@
 #include "parts/panels.hpp"
 #include "parts/parting_cuts.hpp"
 #include "parts/parts_between.hpp"
+#include "parts/smoothed.hpp"
 #include "prices/border_odds.hpp"
 #include "prices/edge_prices.hpp"
 #include "prices/plan_mesh.hpp"
@@ -395,12 +396,16 @@ struct PartFinder::Impl {
   std::vector<std::uint8_t> is_marked;  // the same: 1 where an artist expects a border
   std::vector<Region> regions;          // of each polygon
   std::optional<Limbs> limbs;
+  std::unique_ptr<const Impl> smooth;                 // finds the limbs of a coarse mesh on its smoothed shape
+  std::vector<std::int32_t> smooth_polygons;          // the polygon of each triangle there
   std::vector<std::uint8_t> is_panelled, is_between;  // pieces with panels; edges between front and back; or empty
   std::vector<double> open;  // of each vertex, how visible it is; only for a shape that has limbs
 
   void prepare(const Task& task);
   double odds_of(std::int32_t edge) const;  // with those of front and back
+  bool has_limbs() const { return limbs || smooth; }
   bool has_figure(std::span<const FaceFrame> frames, const Task& task) const;
+  void smooth_figure(std::span<const FaceFrame> frames, const Task& task);
   void divide_panels(std::span<const FaceFrame> frames, const Task& task);
   std::vector<Region> regions_of(const Polygons& own, const Task& task) const;
   std::vector<std::uint8_t> marked(const std::vector<Edge>& edges, const char* name, const Task& task) const;
@@ -410,6 +415,7 @@ struct PartFinder::Impl {
                                    const Task& task) const;
   std::vector<std::uint8_t> folds(std::span<const std::int32_t> region_of, double amount,
                                   std::span<const std::uint8_t> is_kept, const Task& task) const;
+  std::vector<std::int32_t> smooth_limbs(double amount, const Task& task) const;
   std::vector<std::int32_t> joined_limbs(double amount, const PartEdits& edits, const Task& task) const;
   /// Edges of the mesh: 1 for each.
   struct Borders {
@@ -451,7 +457,8 @@ void PartFinder::Impl::prepare(const Task& task) {
   odds = border_odds(mesh, polygons, sizes, bends, visibility.ambient, is_marked, problem.mirror(),
                      tuning::kPartOnPlane, task);
   regions = regions_of(polygons, task);
-  if (options.by == PartsBy::kLimbs || (options.by == PartsBy::kShape && has_figure(frames, task))) {
+  if (options.by == PartsBy::kShape) smooth_figure(frames, part_of(task, 0.8, 0.85));
+  if (options.by == PartsBy::kLimbs || (options.by == PartsBy::kShape && !smooth && has_figure(frames, task))) {
     limbs.emplace(mesh, frames, sizes.pieces, part_of(task, 0.85, 0.95));
     if (options.by == PartsBy::kShape) {
       const Visibility seen =
@@ -460,7 +467,7 @@ void PartFinder::Impl::prepare(const Task& task) {
     }
   }
   task.check(0.95);
-  if (options.by == PartsBy::kPanels || (options.by == PartsBy::kShape && !limbs)) {
+  if (options.by == PartsBy::kPanels || (options.by == PartsBy::kShape && !has_limbs())) {
     divide_panels(frames, part_of(task, 0.95, 1.0));
   }
   for (std::int32_t e = 0; index(e) < mesh.edge_count(); ++e) {
@@ -477,6 +484,27 @@ bool PartFinder::Impl::has_figure(std::span<const FaceFrame> frames, const Task&
   if (std::ranges::count(find_garments(mesh, polygons, sizes, bends, task), 1) > 0) return false;
   const std::vector<std::uint8_t> none(mesh.edge_count(), 0);
   return is_soft(mesh, frames, sizes, bends, joined(kDefaultAmount, none, {}, task), task);
+}
+
+/// Finds limbs on the smoothed shape of a coarse mesh of quads if that shape is a figure. All edges of a coarse mesh
+/// are sharp, so they do not tell which features matter. A mesh of triangles is what its author sees.
+void PartFinder::Impl::smooth_figure(std::span<const FaceFrame> frames, const Task& task) {
+  const PlanMesh& mesh = *problem.mesh;
+  if (options.is_scan || polygons.count > tuning::kMostCoarse || !is_round(mesh, frames, sizes, task)) return;
+  std::vector<std::uint8_t> is_triangle(polygons.count, 1);
+  for (std::size_t e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.is_real[e] == 0) is_triangle[polygons.of_face[mesh.half_edge_of[e] / 3]] = 0;
+  }
+  const auto triangles = static_cast<double>(std::ranges::count(is_triangle, 1));
+  if (triangles > tuning::kMostTriangular * static_cast<double>(polygons.count)) return;
+  Smoothed shape = smoothed(mesh, polygons, part_of(task, 0.0, 0.1));
+  auto found = std::make_unique<Impl>();
+  found->surface = std::move(shape.surface);
+  found->options = {.by = PartsBy::kShape, .front = options.front, .mirror = options.mirror};
+  found->prepare(part_of(task, 0.1, 1.0));
+  if (!found->limbs) return;
+  smooth = std::move(found);
+  smooth_polygons = std::move(shape.polygons);
 }
 
 /// Makes borders of the edges between front and back.
@@ -629,11 +657,30 @@ std::vector<std::uint8_t> PartFinder::Impl::folds(std::span<const std::int32_t> 
 }
 
 /// The limb of each triangle, by any numbers.
+/// The limb of each triangle by the smoothed shape: that of the largest share of its polygon.
+std::vector<std::int32_t> PartFinder::Impl::smooth_limbs(double amount, const Task& task) const {
+  const PlanMesh& shape = *smooth->problem.mesh;
+  const std::vector<std::int32_t> limb_of = smooth->joined_limbs(amount, {}, task);
+  std::vector<std::map<std::int32_t, double>> areas(polygons.count);  // by limb
+  for (std::size_t f = 0; f < shape.face_count(); ++f) {
+    areas[smooth_polygons[shape.faces[f]]][limb_of[f]] += face_frame(shape, shape.triangles[f]).area;
+  }
+  std::map<std::int32_t, std::int32_t> first_of;  // a triangle of each limb, which names it
+  std::vector<std::int32_t> found;
+  for (std::int32_t f = 0; index(f) < polygons.of_face.size(); ++f) {
+    const auto& own = areas[polygons.of_face[f]];
+    const auto most = std::ranges::max_element(own, {}, [](const auto& item) { return item.second; });
+    found.push_back(first_of.try_emplace(most == own.end() ? -1 : most->first, f).first->second);
+  }
+  return found;
+}
+
 std::vector<std::int32_t> PartFinder::Impl::joined_limbs(double amount, const PartEdits& edits,
                                                          const Task& task) const {
   const PlanMesh& mesh = *problem.mesh;
   const std::vector<std::uint8_t> is_dropped = edited(edits.dropped, "dropped", task);
-  std::vector<std::int32_t> of_face = limbs->find(most_cost(amount, !open.empty()), task);
+  std::vector<std::int32_t> of_face =
+      limbs ? limbs->find(most_cost(amount, !open.empty()), task) : smooth_limbs(amount, task);
   if (problem.reflection && problem.reflection->is_exact) mirror_labels(mesh, *problem.reflection, of_face, task);
   if (!open.empty()) join_exposed(mesh, open, of_face, task);
   DisjointSets sets(2 * of_face.size());
@@ -650,9 +697,9 @@ PartFinder::Impl::Borders PartFinder::Impl::borders(double amount, const PartEdi
   const Task joining = part_of(task, 0.0, kJoined);
   const std::vector<std::uint8_t> is_kept = edited(edits.kept, "kept", task);
   const std::vector<std::int32_t> region_of =
-      limbs ? joined_limbs(amount, edits, joining) : joined(amount, is_kept, edits, joining);
+      has_limbs() ? joined_limbs(amount, edits, joining) : joined(amount, is_kept, edits, joining);
   std::vector<std::uint8_t> is_fold(mesh.edge_count(), 0);
-  if (!limbs) is_fold = folds(region_of, amount, is_kept, part_of(task, 0.0, kJoined));
+  if (!has_limbs()) is_fold = folds(region_of, amount, is_kept, part_of(task, 0.0, kJoined));
   Borders found{problem.is_seam, std::vector<std::uint8_t>(mesh.edge_count(), 0)};
   std::vector<std::uint8_t>& is_border = found.is_border;
   const Poll poll(task);
@@ -687,7 +734,7 @@ PartFinder::Impl::Borders PartFinder::Impl::borders(double amount, const PartEdi
 }
 
 PartsBy PartFinder::by() const {
-  if (impl_->limbs) return PartsBy::kLimbs;
+  if (impl_->has_limbs()) return PartsBy::kLimbs;
   return !impl_->is_panelled.empty() ? PartsBy::kPanels : PartsBy::kRims;
 }
 

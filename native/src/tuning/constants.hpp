@@ -363,6 +363,9 @@ inline constexpr std::size_t kLeastSculpt = 20000;
 /// leave in one part. Heads have up to 0.47 and at least 0.95; a prop whose bending is as soft has 0.87.
 inline constexpr double kMostSharp = 0.5;
 inline constexpr double kLeastBody = 0.95;
+/// Number of polygons up to which a mesh is coarse, and share of triangles up to which it is made of quads.
+inline constexpr std::size_t kMostCoarse = 1000;
+inline constexpr double kMostTriangular = 0.2;
 /// Share of the border of a limb that may be in exposed places. Half of a ring around an arm is.
 inline constexpr double kMostExposed = 0.6;
 /// Curvature below which a triangle is flat.

@@ -20,8 +20,9 @@ enum class PartsBy {
   kLimbs,   ///< narrow and concave places, as between head, arms and body of a figure
   kPanels,  ///< the sides, as between front and back of a shirt, and sharp edges
   /// As is best for the shape. Figures have few limbs: at most 8 % of their area is flat, and they are scans, sculpts,
-  /// or soft shapes whose rims take off details only. A connected piece has panels if at most 15 % of the edge length
-  /// bends by more than 30 degrees, and at least three boundaries are open. Everything else has rims.
+  /// or soft shapes whose rims take off details only. Up to 1,000 quads are smoothed first. A connected piece has
+  /// panels if at most 15 % of the edge length bends by more than 30 degrees, and at least three boundaries are open.
+  /// Everything else has rims.
   kShape,
 };
 
