@@ -69,8 +69,7 @@ DEFAULT_AMOUNT = 0.5
 SHARP = (30, 45, 60)
 PICTURED = {
     "parts-scans": ("beast", "dragon", "decimated-max", "teddy", "Input_wheel"),
-    "parts-props": ("rl_bridge", "rl_castle", "rl_turret", "lo_cyborg", "lo_nanosuit"),
-    "parts-others": (
+    "parts-clothes": (
         "mk_male_worksuit01",
         "mk_female_casualsuit02",
         "mk_male_casualsuit05",
@@ -78,7 +77,7 @@ PICTURED = {
         "mk_female1605",
     ),
 }
-"""Models of the pictures, by the picture's name. They were chosen before their results were seen."""
+"""Models of the pictures, by the picture's name. They were chosen before their results were seen, and their licenses allow pictures."""
 ON_PICTURES = (OURS, ARTIST, UVGAMI, SHARP_45)
 _PIXELS = 240
 

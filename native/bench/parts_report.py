@@ -69,7 +69,8 @@ def with_best(results: Sequence[Result]) -> list[Result]:
 
 def common(results: Sequence[Result], methods: Sequence[str]) -> list[Result]:
     """Return the results of the models that all of these methods have."""
-    models = set.intersection(*({r.model for r in results if r.method == method} for method in methods))
+    every = {r.model for r in results}
+    models = every.intersection(*({r.model for r in results if r.method == method} for method in methods))
     return [result for result in results if result.model in models]
 
 
