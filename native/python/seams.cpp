@@ -98,6 +98,10 @@ void bind_seam_plan(py::module_& module) {
       .def_readonly("islands_to_cut", &SeamPlan::islands_to_cut,
                     "int: how many islands need more cuts, see `missing_cuts`.")
       .def_readonly(
+          "exposed_wires", &SeamPlan::exposed_wires,
+          "int: how many wires run through exposed places, such as the eyes, nose and lips of a head. There "
+          "are some only if an island needs them to lie flat within the bound, or if the bound is below 4.15.")
+      .def_readonly(
           "cost", &SeamPlan::cost,
           "float: the price of the slits that the search worked on, for a surface of area 1. Lower is better. Each "
           "slit costs the prices of its edges, plus a fixed amount unless the island needs it to lie flat. Wires "

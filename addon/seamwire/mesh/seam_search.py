@@ -493,6 +493,7 @@ class SeamSearch:
             wires=sum(len(suggestion.wires) for suggestion in self),
             marked=sum(suggestion.marked for suggestion in self),
             islands=sum(counts),
+            exposed=sum(suggestion.best.exposed_wires for suggestion in self if suggestion.best is not None),
             islands_wanted=options.islands if is_few else 0,
             stretch=100.0 * mean_stretch(*zip(*maps, strict=True)) if maps else None,
             stretches=[100.0 * stretch_of(energy) for energy, _ in maps],

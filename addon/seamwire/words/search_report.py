@@ -42,6 +42,7 @@ class Outcome:
     wires: int
     marked: int  # edges
     islands: int
+    exposed: int = 0  # the wires in full view, which islands need to lie flat
     islands_wanted: int = 0  # the number of islands that was asked for but not reached; 0 if it was reached
     stretch: float | None = None  # the mean of all maps; None if there are no maps
     stretches: Sequence[float] = ()  # of each object's map
@@ -61,6 +62,8 @@ class Outcome:
         if not self.wires:
             return self._text_without_wires()
         parts = [count(self.wires, "wire")]
+        if self.exposed:
+            parts.append(f"{self.exposed} in full view")
         if self.marked:
             parts.append(f"{count(self.marked, 'edge')} marked")
         parts.append(count(self.islands, "island"))

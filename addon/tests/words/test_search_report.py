@@ -13,6 +13,8 @@ def test_a_good_result_is_told_in_numbers() -> None:
     outcome = Outcome(12, 340, 6, stretch=14.2, stretches=[14.2], stretch_wanted=17.0, unwrapped=6)
     assert outcome.is_good
     assert outcome.text == "12 wires, 340 edges marked, 6 islands, stretch 14 %, no overlap"
+    in_view = "12 wires, 2 in full view, 340 edges marked, 6 islands, stretch 14 %, no overlap"
+    assert replace(outcome, exposed=2).text == in_view
     assert replace(outcome, used=0.164).text == outcome.text + ", 16 % of the UV square used"
 
 

@@ -436,6 +436,12 @@ TEST(SeamPlanner, SeamsHideFromTheFront) {
   }
 }
 
+TEST(SeamPlanner, ALowBoundNeedsWiresInFullView) {
+  const SeamPlanner planner(shared(shapes::icosphere(3)), {.along = SeamsAlong::kEdges, .front = Vector(0, 0, 1)});
+  EXPECT_EQ(planner.plan({.distortion = 4.2}).exposed_wires, 0u);
+  EXPECT_GT(planner.plan({.distortion = 4.02}).exposed_wires, 0u);
+}
+
 TEST(SeamPlanner, WiresAcrossTheSurfaceStayNearTheSlits) {
   const auto surface = shared(shapes::bumpy(shapes::dumbbell(16, 24), 0.01));
   const SeamPlan across = SeamPlanner(surface).plan({.distortion = kAnything});

@@ -74,6 +74,9 @@ struct SeamPlan {
   std::vector<std::int32_t> islands;  ///< the island of each of the caller's triangles, numbered as in face_segments()
   std::size_t island_count = 0;       ///< number of islands
   std::size_t islands_to_cut = 0;     ///< number of islands that need more cuts, see missing_cuts()
+  /// Number of wires through exposed places, such as the eyes, nose and lips of a head. There are some only if an
+  /// island needs them to lie flat within the bound, or if the bound is below 4.15.
+  std::size_t exposed_wires = 0;
   /// The price of the slits that the search worked on, for a surface of area 1. Lower is better. Each slit costs the
   /// prices of its edges, plus a fixed amount unless the island needs it to lie flat. Wires across the surface may
   /// run beside their slits, and are not priced again.
