@@ -2114,7 +2114,7 @@ class SeamPlan:
     islands_to_cut: int
     """int: how many islands need more cuts, see `missing_cuts`."""
     exposed_wires: int
-    """int: how many wires run through exposed places, such as the eyes, nose and lips of a head. There are some only if the bound cannot be kept without them, or is below 4.15."""
+    """int: how many wires run through exposed places, such as the eyes, nose and lips of a head. There are some only if an island needs them to lie flat within the bound, or if the bound is below 4.15."""
     cost: float
     """float: the price of the slits that the search worked on, for a surface of area 1. Lower is better. Each slit costs the prices of its edges, plus a fixed amount unless the island needs it to lie flat. Wires across the surface may run beside their slits, and are not priced again."""
     energy: float

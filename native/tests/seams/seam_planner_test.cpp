@@ -437,7 +437,7 @@ TEST(SeamPlanner, SeamsHideFromTheFront) {
 }
 
 TEST(SeamPlanner, ALowBoundNeedsWiresInFullView) {
-  const SeamPlanner planner(shared(shapes::icosphere(3)), {.along = SeamsAlong::kEdges, .front = Vector(0, 0, 1)});
+  const SeamPlanner planner(shared(shapes::icosphere(3)), {.along = Along::kEdges, .front = Vector(0, 0, 1)});
   EXPECT_EQ(planner.plan({.distortion = 4.2}).exposed_wires, 0u);
   EXPECT_GT(planner.plan({.distortion = 4.02}).exposed_wires, 0u);
 }
