@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import bpy
 
+from ..mesh.registration import classes, together
 from ..words.reports import count, in_words, square_used
 from .steps import AfterChain
 
@@ -81,4 +82,4 @@ class MESH_OT_seamwire_unwrap(AfterChain, bpy.types.Operator):
         return {"FINISHED"}
 
 
-register, unregister = bpy.utils.register_classes_factory((MESH_OT_seamwire_unwrap,))
+register, unregister = together(*classes(MESH_OT_seamwire_unwrap))
