@@ -29,6 +29,7 @@ from seamwire.operators.chain_state import running as chains
 from seamwire.operators.other_windows import listening
 from seamwire.operators.steps import Stepwise
 from seamwire.operators.steps import running as searches
+from seamwire.view import overlay
 from seamwire.view.edited_objects import edited
 from seamwire.words.search_report import NOTHING_TO_UNDO, OTHER_KEY
 from stored import island_count
@@ -826,6 +827,19 @@ def test_the_corner_of_the_view_says_what_is_shown(
     capfd.readouterr()
     keep(ui)
     assert told in "".join(capfd.readouterr()), "the report has the same share"
+
+
+@pytest.mark.oldest_and_newest
+def test_the_corner_of_the_view_is_legible_on_a_white_background(
+    ui: driver.Ui, prism: bpy.types.Object, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(ui.space.shading, "background_type", "VIEWPORT")
+    monkeypatch.setattr(ui.space.shading, "background_color", (1.0, 1.0, 1.0))
+    invoke(ui)
+    left = overlay.free_room(ui.area, ui.region)[0]
+    text = ui.screen()[10:60, left + 12 : left + 90].mean(axis=2)
+    assert np.median(text) < 0.65, "the text lies on a dark plate"
+    assert (text > 0.9).mean() > 0.01
 
 
 class Corner:
