@@ -95,10 +95,11 @@ TEST(FlatHoles, AreNotTheSidesOfASeamAroundAHandle) {
 TEST(FlatHoles, AreOpenSeamsWithoutCurvatureOnThem) {
   constexpr int kSide = 32;
   const auto hill = [](auto height) {
-    return shapes::parametric(kSide, kSide, false, false, [&](double u, double v) {
-             const double x = 2.0 * u - 1.0, y = 2.0 * v - 1.0;
-             return Vector(x, y, height(std::hypot(x, y)));
-           })
+    return shapes::parametric(kSide, kSide, false, false,
+                              [&](double u, double v) {
+                                const double x = 2.0 * u - 1.0, y = 2.0 * v - 1.0;
+                                return Vector(x, y, height(std::hypot(x, y)));
+                              })
         .surface();
   };
   std::vector<Edge> seam;
