@@ -246,9 +246,9 @@ def votes_table(votes: dict[str, str], key: dict[str, dict[str, str]], kinds: di
     """Return the table of how often a blind judge keeps each method, by class.
 
     votes: the letter that the judge keeps on the sheet of each model. key: the methods of the letters. kinds: the class
-    of each model.
+    of each model with an artist's seams.
     """
-    kept = [(key[model][letter], kinds[model]) for model, letter in votes.items()]
+    kept = [(key[model][letter], kinds.get(model, "")) for model, letter in votes.items()]
     methods = sorted({method for letters in key.values() for method in letters.values()})
     rows = [
         [method, str(sum(m == method for m, _ in kept)), *(str(kept.count((method, kind))) for kind in CLASSES)]
