@@ -15,7 +15,6 @@ from scene import add_grid, chain, edit, seams
 from seamwire.core.drawing.seed_drag import SeedDrag
 from seamwire.core.drawing.session import Session
 from seamwire.core.drawing.wire import WireGesture
-from seamwire.mesh.settings import settings
 from seamwire.operators.chain_state import Stage
 from seamwire.operators.draw import MESH_OT_seamwire_draw
 from seamwire.view.edited_objects import edited
@@ -402,18 +401,3 @@ def test_escape_and_undo_let_a_released_seed_go_back(desk: Desk, slow: Slow, key
     end(desk)
     assert 44 in session.seeds()
     assert seams(desk.obj) == LONG_ROW
-
-
-def test_a_line_that_the_cut_mesh_does_not_take_is_told_of(desk: Desk, reports: list[Notice]) -> None:
-    settings().along, settings().finish = "SURFACE", "CUT"
-    session, ui = desk.start(), desk.ui
-    ui.click(desk.at(0))
-    ui.click(desk.at(23))
-    ui.wait_until(lambda: len(session.wires) == 1 and not session.cursor.computing)
-    ui.event("LEFTMOUSE", "PRESS", desk.at(54))
-    for vertex in (55, 56, 57):
-        ui.move(desk.at(vertex))
-    ui.event("LEFTMOUSE", "RELEASE", desk.at(57))
-    ui.wait_until(lambda: not desk.running)
-    assert seams(desk.obj) != [], "the first chain is kept"
-    assert [notice.level for notice in reports if "draw the line once more" in notice.text] == ["WARNING"]

@@ -18,11 +18,12 @@ from ..core.base import native
 from ..core.base.geometry import area_normals
 from ..core.islands.islands import HUES, PLACES, choose_hues, neighbours
 from ..core.islands.map_faults import MappedSurface
+from ..core.islands.square_use import MapInScene
 from ..core.islands.stretch import Stretch
 from . import edit_mesh, uv_map
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
     from numpy.typing import NDArray
 
@@ -163,6 +164,16 @@ def mapped(obj: bpy.types.Object) -> MappedSurface | None:
 def maps_of(objects: Iterable[bpy.types.Object]) -> dict[bpy.types.Object, MappedSurface]:
     """Read those of the edit meshes that have a map."""
     return {obj: found for obj in objects if (found := mapped(obj)) is not None}
+
+
+def to_scene(obj: bpy.types.Object) -> NDArray[np.float64]:
+    """Return the matrix, (3, 3), from object coordinates to the axes of the scene."""
+    return np.array(obj.matrix_world.to_3x3(), dtype=np.float64)
+
+
+def in_scene(maps: Mapping[bpy.types.Object, MappedSurface]) -> list[MapInScene]:
+    """Return the maps of objects with the names and directions of these."""
+    return [MapInScene(obj.name_full, found, to_scene(obj)) for obj, found in maps.items()]
 
 
 def stretch_of(obj: bpy.types.Object, arrays: Arrays) -> Stretch | None:

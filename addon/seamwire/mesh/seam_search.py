@@ -17,7 +17,8 @@ from mathutils import Vector
 
 from ..core.base import native
 from ..core.base.geometry import triangle_areas
-from ..core.islands.map_faults import NO_FAULTS
+from ..core.islands.map_faults import NO_FAULTS, MappedSurface
+from ..core.islands.square_use import MapInScene, square_use
 from ..core.network.picks import undirected
 from ..core.seams.seam_plan import (
     CRUMB,
@@ -41,7 +42,7 @@ from ..words.reports import ALL_HIDDEN
 from ..words.search_report import Outcome
 from . import edit_mesh, finishes, uv_map
 from .object_session import ObjectSession, mirror_axes
-from .seam_islands import count_islands, labels_of, maps_of
+from .seam_islands import count_islands, in_scene, labels_of, maps_of, to_scene
 from .unwrap import MARGIN, STRAIGHT_COST, UP, Layout, Unwrapped, unwrap_changed
 
 if TYPE_CHECKING:
@@ -51,6 +52,7 @@ if TYPE_CHECKING:
     import seamwire_core
     from numpy.typing import NDArray
 
+    from ..core.islands.square_use import SquareUse
     from ..core.network.wires import Wire
     from ..terms.choices import Along, Finish, PartsBy
 
@@ -95,6 +97,7 @@ class Suggestion:
         self._core = native.load()
         self.name = obj.name_full  # also after a rename, because edits use it; threads must not ask Blender
         self.mesh = ObjectSession(obj)
+        self.to_scene = to_scene(obj)
         arrays = self.mesh.arrays
         self.along: Along = options.along or self.mesh.find_auto().along
         self.finish: Finish = options.finish or self.mesh.find_auto().finish
@@ -324,7 +327,7 @@ class Suggestion:
         """Return the length of the borders and the wires of a plan, in the scene's units."""
         points = self.mesh.arrays.in_object
         curves = [*(points[chain] for chain in self.borders), *(wire.points for wire in plan.wires)]
-        return curves_length(curves, np.array(self.mesh.obj.matrix_world.to_3x3(), dtype=np.float64))
+        return curves_length(curves, to_scene(self.mesh.obj))
 
     def edges_of(self, plan: seamwire_core.SeamPlan) -> NDArray[np.int32]:
         """Return the edges, (k, 2), that cut the mesh into the islands of a plan."""
@@ -415,8 +418,8 @@ class SeamSearch:
         """Let the next plans have another mean stretch, in percent, and number of islands. `choose` drops the plans before."""
         self._options = replace(self._options, stretch=stretch, islands=islands)
 
-    def used(self) -> float | None:
-        """Return how much of the UV square the maps that `layout_of` found last cover together, packed as unwrapping packs them.
+    def used(self) -> SquareUse | None:
+        """Return how the maps that `layout_of` found last use the UV square together, packed as unwrapping packs them.
 
         It is None if a map is missing, or if unwrapping leaves islands in place. Any thread may call it.
         """
@@ -424,13 +427,18 @@ class SeamSearch:
         is_first = not any(suggestion.had_seams or suggestion.others for suggestion in self)
         if not is_first or any(uvs is None for uvs, _ in laid_out):
             return None
-        all_uvs, all_islands, count = [], [], 0
-        for uvs, islands in laid_out:
-            all_uvs.append(uvs)
-            all_islands.append(islands + count)
-            count += int(islands.max(initial=-1)) + 1
-        packed = native.load().pack_islands(np.concatenate(all_uvs), np.concatenate(all_islands), margin=MARGIN)
-        return float(packed.used)
+        starts = np.cumsum([0, *(int(islands.max(initial=-1)) + 1 for _, islands in laid_out)])
+        labels = [islands + start for (_, islands), start in zip(laid_out, starts, strict=False)]
+        all_uvs, all_labels = np.concatenate([uvs for uvs, _ in laid_out]), np.concatenate(labels)
+        placements = np.asarray(native.load().pack_islands(all_uvs, all_labels, margin=MARGIN).placements)[all_labels]
+        packed = np.einsum("tij,tcj->tci", placements[..., :2], all_uvs) + placements[:, None, :, 2]
+        ends = np.cumsum([len(own) for own in labels])[:-1]
+        maps = []
+        for suggestion, (_, islands), own in zip(self, laid_out, np.split(packed, ends), strict=True):
+            arrays = suggestion.mesh.arrays
+            surface = MappedSurface(arrays.in_object, arrays.triangles, arrays.polygons, islands, own, arrays.edges)
+            maps.append(MapInScene(suggestion.name, surface, suggestion.to_scene))
+        return square_use(maps)
 
     @property
     def part_count(self) -> int:
@@ -510,12 +518,12 @@ class SeamSearch:
             faults=NO_FAULTS if done is None else done.faults,
         )
 
-    def _maps(self) -> tuple[list[tuple[float, float]], float | None]:
-        """Return the energy of each map, with the area of its surface, and how much of the UV square the maps in the meshes use."""
+    def _maps(self) -> tuple[list[tuple[float, float]], SquareUse | None]:
+        """Return the energy of each map, with the area of its surface, and how the maps in the meshes use the UV square."""
         if not self._options.unwraps:
             return [(float(suggestion.best.energy), suggestion.area) for suggestion in self], None
         if self._unwrapped is None:  # the maps on the meshes are those from before
             return [], None
         maps = maps_of(each.mesh.obj for each in self)
         energies = [(found.energy(uv_map.aspect(obj)), found.area) for obj, found in maps.items()]
-        return energies, sum(found.used for found in maps.values()) if maps else None
+        return energies, square_use(in_scene(maps)) if maps else None

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
+from ..mesh.registration import classes, together
 from ..terms.choices import FINISHES, items
 from ..words.reports import count, not_cut
 from .edit_mesh_operator import EditMeshOperator, changing, description_of_item
@@ -102,4 +103,4 @@ def cut_wires(
     return {"FINISHED"}
 
 
-register, unregister = bpy.utils.register_classes_factory((MESH_OT_seamwire_finish,))
+register, unregister = together(*classes(MESH_OT_seamwire_finish))

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import bpy
 from mathutils import Vector
 
+from ..mesh.registration import classes, together
 from ..mesh.settings import settings
 from ..terms.choices import STRETCHES, items
 from ..words.reports import count
@@ -144,4 +145,4 @@ class MESH_OT_seamwire_store(EditMeshOperator, bpy.types.Operator):
         return {"FINISHED"}
 
 
-register, unregister = bpy.utils.register_classes_factory((MESH_OT_seamwire_select_islands, MESH_OT_seamwire_store))
+register, unregister = together(*classes(MESH_OT_seamwire_select_islands, MESH_OT_seamwire_store))

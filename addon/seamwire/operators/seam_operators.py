@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
+from ..mesh.registration import classes, together
 from ..words.reports import count
 from .edit_mesh_operator import EditMeshOperator
 
@@ -132,4 +133,4 @@ class MESH_OT_seamwire_close_gaps(EditMeshOperator, bpy.types.Operator):
         return closed
 
 
-register, unregister = bpy.utils.register_classes_factory((MESH_OT_seamwire_take_over, MESH_OT_seamwire_close_gaps))
+register, unregister = together(*classes(MESH_OT_seamwire_take_over, MESH_OT_seamwire_close_gaps))

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from ..core.islands.square_use import SquareUse
     from ..mesh.seam_search import SeamSearch, Suggestion
     from ..view.viewport import Place
     from .steps import Progress
@@ -85,7 +86,7 @@ class LiveParts:
         self._rests_at = 0.0
         self._seen: dict[Suggestion, object] = {}
         self._found_map: FoundMap | None = None
-        self._used: tuple[int, float] | None = None  # of the UV square, and the version of the parts
+        self._used: tuple[int, SquareUse] | None = None  # with the version of the parts
         self._square = _square_size(search)
         self._cancelled = native.load().Cancelled
         self._change()

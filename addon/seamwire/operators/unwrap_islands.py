@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import bpy
 
+from ..mesh.registration import classes, together
 from ..words.reports import count, in_words, square_used
 from .steps import AfterChain
 
@@ -61,7 +62,8 @@ class MESH_OT_seamwire_unwrap(AfterChain, bpy.types.Operator):
 
     def run(self, context: bpy.types.Context) -> set[str]:
         """Unwrap, and report the number of islands."""
-        from ..mesh.seam_islands import maps_of
+        from ..core.islands.square_use import square_use
+        from ..mesh.seam_islands import in_scene, maps_of
         from ..mesh.unwrap import Layout, unwrap_changed
 
         layout = Layout(self.straight, self.upright, self.stack)
@@ -75,9 +77,9 @@ class MESH_OT_seamwire_unwrap(AfterChain, bpy.types.Operator):
         if done.unmapped:
             has = "hidden face has no place", "hidden faces have no place"
             parts.append(f"{count(done.unmapped, *has)} in the map")
-        parts.append(square_used(sum(each.used for each in maps_of(context.objects_in_mode_unique_data).values())))
+        parts.append(square_used(square_use(in_scene(maps_of(context.objects_in_mode_unique_data)))))
         self.report({"WARNING"} if done.faults or done.unmapped else {"INFO"}, ", ".join(parts))
         return {"FINISHED"}
 
 
-register, unregister = bpy.utils.register_classes_factory((MESH_OT_seamwire_unwrap,))
+register, unregister = together(*classes(MESH_OT_seamwire_unwrap))

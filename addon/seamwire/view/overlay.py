@@ -16,7 +16,18 @@ from ..core.network.picks import place_of, undirected
 from ..terms.choices import FINISHES
 from ..words import corner
 from .failures import failures
-from .gpu_draw import ColoredFaces, Eye, Lines, blended, draw_dots, draw_text, set_text, text_size, text_width
+from .gpu_draw import (
+    ColoredFaces,
+    Eye,
+    Lines,
+    blended,
+    draw_dots,
+    draw_rectangle,
+    draw_text,
+    set_text,
+    text_size,
+    text_width,
+)
 from .layers import Legend, draw_legends
 from .theme import Looks, Style, hue_colors, looks_of
 
@@ -34,7 +45,9 @@ if TYPE_CHECKING:
     from .layers import Layer
 
 _NO_ROOM = (0.0, 0.0, 0.0, 0.0)
-_KEY_OPACITY = 0.6
+_KEY_OPACITY = 0.8
+_PLATE_OPACITY = 0.7
+"""Of the plate under the corner's text. White text stays legible on a white background."""
 
 
 class Sheet:
@@ -284,6 +297,13 @@ def draw_corner(rows: Sequence[tuple[str, str]], at: tuple[float, float], scale:
     x, y = at[0] + 1.2 * size, at[1] + 1.1 * size
     space = bpy.context.preferences.themes[0].view_3d.space
     beside = x + max((text_width(text) for text, keys in rows if keys), default=0.0) + 1.5 * size
+    if not rows:
+        return y - 1.1 * size
+    right = max((beside + text_width(keys) if keys else x + text_width(text)) for text, keys in rows)
+    shade = 0.0 if sum(space.text_hi) > 1.2 else 1.0
+    high = y + 1.5 * size * (len(rows) - 1) + 1.3 * size
+    plate = shade, shade, shade, _PLATE_OPACITY
+    draw_rectangle((x - 0.7 * size, y - 0.8 * size), (right + 0.7 * size, high), plate, 4.0 * scale)
     for text, keys in reversed(rows):
         draw_text(text, (x, y), (*space.text_hi, 1.0))
         if keys:

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from ..core.drawing.picture import Picture
+    from ..core.islands.square_use import SquareUse
     from ..core.seams.seam_plan import PartChoice
 
 
@@ -71,7 +72,7 @@ class FoundMap:
     stretch: float  # the mean, in percent
     islands: int
     length: str  # of all seams, in the scene's units
-    used: float | None = None  # the part of the UV square that its islands cover, packed; None: not packed yet
+    used: SquareUse | None = None  # of its islands, packed; None: not packed yet
 
 
 def rows_of_parts(

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
 
     from ..core.drawing.change import Change
     from ..core.islands.map_faults import MapFaults
+    from ..core.islands.square_use import CostlyIsland, SquareUse
     from ..core.network.picks import Pick
 
 
@@ -77,9 +78,31 @@ def in_words(faults: MapFaults) -> list[str]:
     return parts
 
 
-def square_used(share: float) -> str:
-    """Return how much of the UV square a map uses."""
-    return f"{100.0 * share:.0f} % of the UV square used"
+_LITTLE = 0.45
+"""If a map uses less of the UV square, reports tell why."""
+_SIDES = {"-x": "left", "+x": "right", "-y": "front", "+y": "back", "-z": "bottom", "+z": "top"}
+"""The sides of objects, as Blender calls its views."""
+
+
+def square_used(use: SquareUse) -> str:
+    """Return how much of the UV square a map uses, and which island costs most of it if that is little."""
+    text = f"{100.0 * use.share:.0f} % of the UV square used"
+    island = use.costly
+    if island is None or use.share >= _LITTLE:
+        return text
+    name = _island_name(island)
+    if island.empty is not None:
+        return f"{text}: the box around {name} is {100.0 * island.empty:.0f} % empty"
+    are_long = f"and {count(island.others, 'other')} are long" if island.others else "is long"
+    return f"{text}: {name} {are_long}"
+
+
+def _island_name(island: CostlyIsland) -> str:
+    of = f" of {island.name}" if island.name else ""
+    if island.is_only:
+        return f"the only island{of}"
+    side = f" ({_SIDES[island.side]})" if island.side else ""
+    return f"island {island.number + 1}{of}{side}"
 
 
 def percent(stretch: float) -> str:

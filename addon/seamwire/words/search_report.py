@@ -14,6 +14,7 @@ from .reports import count, in_words, not_reached, percent, square_used
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from ..core.islands.square_use import SquareUse
     from ..terms.choices import PartsBy
 
 
@@ -49,7 +50,7 @@ class Outcome:
     stretch_wanted: float = 0.0
     unwrapped: int | None = None  # the number of islands; None if nothing was to be unwrapped, or could be
     faults: MapFaults = NO_FAULTS  # of these islands
-    used: float | None = None  # the part of the UV square; None if there are no maps in the meshes
+    used: SquareUse | None = None  # by the maps in the meshes; None if there are no maps
 
     @property
     def is_good(self) -> bool:

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from seamwire.core.islands.islands import Islands
+from seamwire.core.islands.square_use import SquareUse
 from seamwire.core.seams.gaps import Gap
 from seamwire.core.seams.seam_plan import PartChoice
 from seamwire.terms.choices import KINDS
@@ -62,7 +63,7 @@ def test_while_parts_are_shown_each_value_has_its_keys() -> None:
         ("Islands: at least 3", "Shift Wheel"),
         ("Stretch: at most 17 %", "Ctrl Wheel"),
     ]
-    found = FoundMap(stretch=9.5, islands=14, length="2.3 m", used=0.58)
+    found = FoundMap(stretch=9.5, islands=14, length="2.3 m", used=SquareUse(0.58))
     rows = rows_of_parts(choice, 12, {"amount": 2, "stretch": -1}, found, True)
     assert rows == [
         ("Parts by: Auto", "W"),

@@ -7,10 +7,11 @@ from dataclasses import replace
 
 import pytest
 from seamwire.core.drawing.change import Change
+from seamwire.core.islands.square_use import CostlyIsland, SquareUse
 from seamwire.core.network.network import Network
 from seamwire.core.network.strokes import Stroke, through_vertices
 from seamwire.core.network.wires import split
-from seamwire.words.reports import summary
+from seamwire.words.reports import square_used, summary
 from seamwire.words.scripted import draw_chain
 from table import SIZE, Table, grid_points
 
@@ -65,3 +66,18 @@ def test_strokes_are_told_without_edges() -> None:
     after = replace(before, strokes=(stroke,))
     assert summary(Change(before, after), 0, 0) == "1 stroke"
     assert summary(Change(after, before), 0, 0) == "1 stroke removed"
+
+
+@pytest.mark.parametrize(
+    ("costly", "cause"),
+    [
+        (None, ""),
+        (CostlyIsland(2), ": island 3 is long"),
+        (CostlyIsland(2, side="+z"), ": island 3 (top) is long"),
+        (CostlyIsland(0, others=1, name="Shirt", side="-x"), ": island 1 of Shirt (left) and 1 other are long"),
+        (CostlyIsland(0, empty=0.784, is_only=True), ": the box around the only island is 78 % empty"),
+    ],
+)
+def test_if_little_of_the_square_is_used_the_cause_is_told(costly: CostlyIsland | None, cause: str) -> None:
+    assert square_used(SquareUse(0.313, costly)) == "31 % of the UV square used" + cause
+    assert square_used(SquareUse(0.45, costly)) == "45 % of the UV square used"

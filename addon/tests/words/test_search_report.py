@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import pytest
 from seamwire.core.islands.map_faults import MapFaults
+from seamwire.core.islands.square_use import SquareUse
 from seamwire.words.reports import in_words, is_beyond, not_reached, percent
 from seamwire.words.search_report import Outcome
 
@@ -15,7 +16,7 @@ def test_a_good_result_is_told_in_numbers() -> None:
     assert outcome.text == "12 wires, 340 edges marked, 6 islands, stretch 14 %, no overlap"
     in_view = "12 wires, 2 in full view, 340 edges marked, 6 islands, stretch 14 %, no overlap"
     assert replace(outcome, exposed=2).text == in_view
-    assert replace(outcome, used=0.164).text == outcome.text + ", 16 % of the UV square used"
+    assert replace(outcome, used=SquareUse(0.164)).text == outcome.text + ", 16 % of the UV square used"
 
 
 def test_what_was_not_reached_is_told_and_no_good_result() -> None:

@@ -249,14 +249,15 @@ class Minimizer {
     for (const Outline::Pair& pair : pairs) {
       const Outline::Slope slope = problem_.outline().slope(pair, map_);
       const std::array<std::int32_t, 3> vertices{pair.vertex, pair.a, pair.b};
-      const auto& g = slope.of_distance;
+      const auto &g = slope.of_distance, &t = slope.turning;
       for (std::size_t k = 0; k < 3; ++k) {
         for (std::size_t c = 0; c < 2; ++c) gradient[2 * index(vertices[k]) + c] += slope.first * g[2 * k + c];
         for (std::size_t l = 0; l <= k; ++l) {
           const BlockEntry at = problem_.solver().block(vertices[k], vertices[l]);
           for (std::size_t r = 0; r < 2; ++r) {
             for (std::size_t c = 0; c < 2; ++c) {
-              values[at.offset + r * at.row + c * at.column] += slope.second * g[2 * k + r] * g[2 * l + c];
+              values[at.offset + r * at.row + c * at.column] +=
+                  slope.second * g[2 * k + r] * g[2 * l + c] + t[2 * k + r] * t[2 * l + c];
             }
           }
         }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "detail/index.hpp"
@@ -100,10 +101,28 @@ Outline::Slope Outline::slope(const Pair& pair, std::span<const double> map) con
   const Nearest near = nearest_on_edge(at(map, pair.vertex), at(map, pair.a), at(map, pair.b));
   const double x = near.x / near.distance, y = near.y / near.distance, back = 1.0 - near.along;
   const double ratio = reach_ / near.distance;
-  Slope slope{{x, y, -back * x, -back * y, -near.along * x, -near.along * y}, 0.0, 0.0};
+  Slope slope{{x, y, -back * x, -back * y, -near.along * x, -near.along * y}, 0.0, 0.0, {}};
   if (ratio <= 1.0) return slope;
   slope.first = -2.0 * kBarrierWeight * (ratio - 1.0) * ratio / near.distance;
   slope.second = kBarrierWeight * (6.0 * ratio - 4.0) * ratio / (near.distance * near.distance);
+  if (!(near.along > 0.0 && near.along < 1.0)) return slope;
+  // If the vertex slides by s along the edge, and the edge turns by u towards the vertex's other side, the distance d
+  // changes by -s u - d u^2 / 2 in second order. In the unit vectors of s and u, the energy's Hessian is [0 b; b c].
+  const double dx = at(map, pair.b)[0] - at(map, pair.a)[0], dy = at(map, pair.b)[1] - at(map, pair.a)[1];
+  const double length = std::sqrt(dx * dx + dy * dy), way = std::sqrt(1.0 + back * back + near.along * near.along);
+  const double b = -slope.first * way * std::numbers::sqrt2 / length;
+  const double c = -slope.first * 2.0 * near.distance / (length * length);
+  const double eigenvalue = 0.5 * (c + std::sqrt(c * c + 4.0 * b * b));
+  const double scale = std::sqrt(eigenvalue / (b * b + eigenvalue * eigenvalue));
+  const double slide = scale * b / way, turn = scale * eigenvalue / std::numbers::sqrt2;
+  // The direction of the edge for which the normal (x, y) is to its left.
+  const double tx = y, ty = -x, sign = tx * dx + ty * dy > 0.0 ? 1.0 : -1.0;
+  slope.turning = {slide * tx,
+                   slide * ty,
+                   -back * slide * tx - sign * turn * x,
+                   -back * slide * ty - sign * turn * y,
+                   -near.along * slide * tx + sign * turn * x,
+                   -near.along * slide * ty + sign * turn * y};
   return slope;
 }
 

@@ -32,11 +32,13 @@ class Outline {
 
   /// The barrier: the sum of (reach / distance - 1)^2 over all close pairs, times .001; infinite if a pair touches.
   double energy(std::span<const double> map) const;
-  /// The barrier's gradient for the three vertices of a pair, and the factor c of its Hessian, approximated by
-  /// c g g^T with the gradient g of the distance.
+  /// The barrier's gradient for the three vertices of a pair, and its Hessian, approximated by c g g^T + t t^T with the
+  /// gradient g of the distance. The second term is the positive part of what the distance's own Hessian adds: it slows
+  /// a vertex that slides along an edge while the edge turns towards it.
   struct Slope {
-    std::array<double, 6> of_distance;  // of the vertex, a, b
+    std::array<double, 6> of_distance;  // g, of the vertex, a, b
     double first, second;               // derivatives of the energy with respect to the distance; second >= 0
+    std::array<double, 6> turning;      // t, the same
   };
   Slope slope(const Pair& pair, std::span<const double> map) const;
 

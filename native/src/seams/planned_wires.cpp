@@ -2,13 +2,10 @@
 #include "seams/planned_wires.hpp"
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <iterator>
 #include <map>
-#include <optional>
 #include <set>
 #include <span>
 #include <tuple>
@@ -16,17 +13,12 @@
 #include <utility>
 #include <vector>
 
-#include "context/interactive_embedding.hpp"
 #include "detail/index.hpp"
 #include "detail/infinity.hpp"
 #include "detail/poll.hpp"
-#include "detail/run_on_threads.hpp"
-#include "seamwire/context/embedded_surface.hpp"
+#include "seams/candidate_wires.hpp"
 #include "seamwire/context/surface_context.hpp"
-#include "seamwire/geodesics/corridor_paths.hpp"
 #include "seamwire/task.hpp"
-#include "seamwire/wires/snap.hpp"
-#include "seamwire/wires/wire.hpp"
 #include "surface/point_segment.hpp"
 #include "surface/real_edges.hpp"
 #include "tuning/constants.hpp"
@@ -110,75 +102,6 @@ std::vector<WireTouch> find_touches(std::span<const MarkedChain> wires, const Ri
   }
   return touches;
 }
-
-/// Finds the wires across the surface that LiveWire shows, many at once.
-class CandidateWires {
- public:
-  /// Prepares both metrics, on two threads. Throws as SeamPlanner does.
-  CandidateWires(const SurfaceContext& context, const Strength& strength, const Task& task) : context_(context) {
-    constexpr double kEmbeddingBegins = 0.2;
-    context_.curvature(part_of(task, 0.0, kEmbeddingBegins));  // both metrics need it
-    std::array<std::atomic<double>, 2> fractions = {};
-    run_on_threads(
-        metrics_.size(), part_of(task, kEmbeddingBegins, 1.0),
-        [&](std::size_t) { return 0.5 * (fractions[0] + fractions[1]); },
-        [&](std::size_t i, const Task& own) {
-          const Task whole{.stop = own.stop, .progress = [&, i](double done) {
-                             fractions[i] = done;
-                             return true;
-                           }};
-          const MetricSpec spec = MetricSpec::feature(i == 0 ? Follow::kMin : Follow::kMax, strength);
-          metrics_[i].emplace(context_, spec, interactive_options(*context_.surface(own)), part_of(whole, 0.0, 0.6));
-          metrics_[i]->geodesics(part_of(whole, 0.6, 0.9));
-          context_.snap_graph(part_of(whole, 0.9, 1.0));
-        });
-  }
-
-  /// Two seeds: vertices of the surface.
-  struct Ends {
-    std::int32_t from, to;
-  };
-
-  /// The wire between each two seeds, the shorter one of the two metrics. It has no vertices if no wire exists. Nearly
-  /// always it is the shortest one, see CorridorPaths. On several threads.
-  std::vector<PlannedWire> find(std::span<const Ends> ends, const Task& task) const {
-    std::vector<std::array<Found, 2>> found(ends.size());
-    const auto all = static_cast<double>(std::max<std::size_t>(2 * ends.size(), 1));
-    run_on_threads(
-        2 * ends.size(), task, [&](std::size_t done) { return static_cast<double>(done) / all; },
-        [&](std::size_t i, const Task& own) { found[i / 2][i % 2] = find_in(i % 2, ends[i / 2], own); });
-    std::vector<PlannedWire> wires;
-    wires.reserve(found.size());
-    for (auto& [one, other] : found) wires.push_back(std::move(other.length < one.length ? other.wire : one.wire));
-    return wires;
-  }
-
- private:
-  /// A wire in one metric, with its length there.
-  struct Found {
-    PlannedWire wire;
-    double length;
-  };
-
-  Found find_in(std::size_t metric, const Ends& ends, const Task& task) const {
-    const EmbeddedSurface& on = *metrics_[metric];
-    CorridorPaths paths(on.geodesics(), ends.from);
-    Wire wire = map_wire(on.surface(), on.embedding(), paths.path(ends.to, task));
-    wire.from = ends.from;
-    wire.to = ends.to;
-    std::vector<std::int32_t> vertices = snap_to_edges(on.surface(), *context_.snap_graph(task), wire, task);
-    return {{.from = ends.from,
-             .to = ends.to,
-             .follow = metric == 0 ? Follow::kMin : Follow::kMax,
-             .vertices = std::move(vertices),
-             .points = std::move(wire.points),
-             .faces = std::move(wire.faces)},
-            wire.length};
-  }
-
-  SurfaceContext context_;
-  std::array<std::optional<EmbeddedSurface>, 2> metrics_;  // M_min, M_max
-};
 
 namespace {
 

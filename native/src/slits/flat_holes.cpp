@@ -3,8 +3,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numbers>
 #include <queue>
 #include <unordered_map>
@@ -54,12 +56,24 @@ class HoleTest {
     return rounded(sum);
   }
 
+  /// Of a loop, without the edges that it passes on both sides. An open seam has no outline.
+  double outline(const std::vector<std::int32_t>& loop) const {
+    std::map<std::array<std::int32_t, 2>, int> times;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const std::int32_t a = island_.vertices[loop[i]], b = island_.vertices[loop[(i + 1) % loop.size()]];
+      ++times[{std::min(a, b), std::max(a, b)}];
+    }
+    double sum = 0.0;
+    for (const auto& [edge, count] : times) sum += count == 1 ? (points_[edge[0]] - points_[edge[1]]).norm() : 0.0;
+    return rounded(sum);
+  }
+
   bool is_flat(const std::vector<std::int32_t>& loop) {
     const double most = rounded_share(tuning::kLeastTubeTurn);
     double turn = 0.0;
     for (const std::int32_t v : loop) turn += std::numbers::pi - angles_[v];
     if (rounded_share(turn) > most) return false;  // it turns like an outline, as at the flaring end of a neck
-    const double around = curvature_around(loop, tuning::kCollar * length(loop));
+    const double around = curvature_around(loop, tuning::kCollar * outline(loop));
     return rounded_share(std::abs(2.0 * std::numbers::pi + turn + around)) < most;
   }
 

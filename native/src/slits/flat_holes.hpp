@@ -16,8 +16,9 @@ namespace seamwire::detail {
 /// two sides of a closed seam.
 ///
 /// By the theorem of Gauss and Bonnet, the turns along a loop tell the curvature of what would fill its hole. It is
-/// 0 in a plane, and 2 pi at the end of a cylinder. With the curvature near the loop it is known for a wider hole, which
-/// decides. So neither a short collar around a hole matters, nor a narrow flange at the end of a tube.
+/// 0 in a plane, and 2 pi at the end of a cylinder. With the curvature near the loop it is known for a wider hole,
+/// which decides. So neither a short collar around a hole matters, nor a narrow flange at the end of a tube. Only the
+/// curvature on an open seam itself decides, because nothing fills a seam.
 ///
 /// `points`: of mesh vertices. `boundaries`: Island::boundaries(). Throws Cancelled.
 std::vector<std::uint8_t> flat_holes(const Island& island, std::span<const Vector> points,

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <random>
 #include <set>
 #include <stop_token>
+#include <tuple>
+#include <vector>
 
 #include "parameterization/cut_open.hpp"
 #include "parameterization/island_map.hpp"
@@ -387,6 +391,60 @@ TEST(Outline, FirstContactIsWhereAVertexMeetsAnEdge) {
   direction[2 * moved + 1] = -2.0;
   EXPECT_NEAR(outline.first_contact(map, direction, 1.0), 0.5, 1e-9) << "at (0.75, 0)";
   EXPECT_EQ(outline.first_contact(map, direction, 0.4), 0.4);
+}
+
+/// Second differences of the barrier for the six numbers of a pair.
+Eigen::MatrixXd barrier_hessian(const Outline& outline, const Outline::Pair& pair, std::vector<double> map) {
+  constexpr double kStep = 1e-6;
+  const std::array<std::int32_t, 3> vertices{pair.vertex, pair.a, pair.b};
+  const auto number = [&](int i) -> double& { return map[static_cast<std::size_t>(2 * vertices[i / 2] + i % 2)]; };
+  Eigen::MatrixXd hessian(6, 6);
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) {
+      const auto moved = [&](double di, double dj) {
+        const std::vector<double> before = map;
+        number(i) += di;
+        number(j) += dj;
+        const double energy = outline.energy(map);
+        map = before;
+        return energy;
+      };
+      hessian(i, j) = (moved(kStep, kStep) - moved(kStep, -kStep) - moved(-kStep, kStep) + moved(-kStep, -kStep)) /
+                      (4.0 * kStep * kStep);
+    }
+  }
+  return hessian;
+}
+
+TEST(Outline, TheBarriersHessianHasThePositivePartOfEachTerm) {
+  // Corner 3 of a pentagon is next to the edge from 0 to 1.
+  const Outline outline({{0, 1, 2, 3, 4}}, 0.1);
+  for (const double side : {1.0, -1.0}) {
+    for (const auto& [away, along, is_beside] : {std::tuple(0.02, 0.3, true), {0.06, 0.8, true}, {0.03, 1.02, false}}) {
+      std::vector<double> map;
+      for (const Point2& p : {Point2(0, 0), Point2(1, 0), Point2(2, 1), Point2(along, away), Point2(-1, 1)}) {
+        const Point2 turned = Eigen::Rotation2Dd(0.7) * Point2(p.x(), side * p.y());
+        map.insert(map.end(), {turned.x(), turned.y()});
+      }
+      const std::vector<Outline::Pair> pairs = outline.close_pairs(map, 1.0);
+      const auto pair = std::ranges::find_if(pairs, [](const auto& p) { return p.vertex == 3 && p.b == 1; });
+      ASSERT_NE(pair, pairs.end());
+      const Outline::Slope slope = outline.slope(*pair, map);
+      const Eigen::Map<const Eigen::VectorXd> g(slope.of_distance.data(), 6), t(slope.turning.data(), 6);
+      if (!is_beside) {
+        EXPECT_EQ(t.norm(), 0.0) << "near a corner the distance's own Hessian is positive, and the slope negative";
+        continue;
+      }
+      ASSERT_EQ(pairs.size(), 1U);
+      const Eigen::MatrixXd rest = barrier_hessian(outline, *pair, map) - slope.second * g * g.transpose();
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solved(rest);
+      const Eigen::MatrixXd positive =
+          solved.eigenvectors() * solved.eigenvalues().cwiseMax(0.0).asDiagonal() * solved.eigenvectors().transpose();
+      EXPECT_GT(t.squaredNorm(), 0.01 * slope.second) << "nothing to test";
+      constexpr double kExact = 1e-5;  // of second differences
+      EXPECT_LT((positive - t * t.transpose()).norm(), kExact * slope.second) << side << " " << away;
+    }
+  }
 }
 
 TEST(OpenIsland, HandlesAndBallsBecomeDiscs) {

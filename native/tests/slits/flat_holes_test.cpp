@@ -92,6 +92,22 @@ TEST(FlatHoles, AreNotTheSidesOfASeamAroundAHandle) {
   EXPECT_EQ(counts(shapes::torus(24, 12).surface(), seam), (Counts{2, 0}));
 }
 
+TEST(FlatHoles, AreOpenSeamsWithoutCurvatureOnThem) {
+  constexpr int kSide = 32;
+  const auto hill = [](auto height) {
+    return shapes::parametric(kSide, kSide, false, false,
+                              [&](double u, double v) {
+                                const double x = 2.0 * u - 1.0, y = 2.0 * v - 1.0;
+                                return Vector(x, y, height(std::hypot(x, y)));
+                              })
+        .surface();
+  };
+  std::vector<Edge> seam;
+  for (std::int32_t i = 10; i < 22; ++i) seam.push_back({16 * (kSide + 1) + i, 16 * (kSide + 1) + i + 1});
+  EXPECT_EQ(counts(hill([](double r) { return -r * r; }), seam), (Counts{2, 1})) << "the dome around it is curved";
+  EXPECT_EQ(counts(hill([](double r) { return -1.5 * r; }), seam), (Counts{2, 0})) << "over the tip of a cone";
+}
+
 TEST(FlatHoles, MayHaveACollar) {
   EXPECT_EQ(counts(ring(lines({{0.2, 0.1}, {0.2, 0.0}, {1.0, 0.0}}))), (Counts{2, 1}));
   EXPECT_EQ(counts(ring(lines({{0.2, 0.2}, {0.2, 0.0}, {1.0, 0.0}}))), (Counts{2, 1}));

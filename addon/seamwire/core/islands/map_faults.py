@@ -69,12 +69,6 @@ class MappedSurface:
         """The area on the model."""
         return float(triangle_areas(self.points, self.triangles).sum())
 
-    @property
-    def used(self) -> float:
-        """The area in the UV square, as a part of it. Faces that overlap count twice."""
-        sides = self.uvs[:, 1:] - self.uvs[:, :1]
-        return 0.5 * float(np.nansum(np.abs(sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0])))
-
     def energy(self, aspect: float = 1.0) -> float:
         """Return the mean symmetric Dirichlet energy E_d: 4 if nothing is stretched, infinite if there is nothing to measure.
 

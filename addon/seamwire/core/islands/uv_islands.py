@@ -30,10 +30,6 @@ _REACHES = ((8, 1), (32, 1), (128, 2), (_CELLS, 3), (_CELLS, 1))
 """How far from its wanted place room for an island is looked for, in cells, and the cells from one try to the next."""
 
 
-_SIDE_TO_SIDE = 0.95
-"""The length of an island that reaches from side to side of the square."""
-
-
 @dataclass(frozen=True)
 class Corners:
     """The corners of a mesh's faces, face by face, hidden ones included. Each has the edge to the next corner of its face."""
@@ -134,45 +130,6 @@ def in_rows(uvs: NDArray[np.float64], labels: NDArray[np.int64]) -> NDArray[np.f
         x, tall = x + sizes[island, 0] + gap, max(tall, sizes[island, 1])
     placed = uvs - low[labels] + spots[labels]
     return placed / max(float(placed.max(initial=0.0)), 1e-300)
-
-
-@dataclass(frozen=True)
-class CostlyIsland:
-    """The island that costs most of a packed map's space: its number, and what it costs the space by.
-
-    Attributes
-    ----------
-    is_long
-        Whether it reaches from side to side of the square and so limits the size of all islands. Otherwise it leaves much of the box
-        around it empty.
-    area, box
-        The covered share of the square, and the share of the box around the island.
-    """
-
-    island: int
-    is_long: bool
-    area: float
-    box: float
-
-
-def costly_island(corners: NDArray[np.float64], islands: NDArray[np.int64]) -> CostlyIsland | None:
-    """Return the island that costs most of the space of a packed map. None: there are no islands.
-
-    `corners`, (t, 3, 2), are those of triangles, and `islands`, (t,), their islands. Among islands that reach from side to side, the one
-    with the least area counts: it would have to change the least for all others to grow.
-    """
-    if not len(islands):
-        return None
-    numbers, rows = np.unique(islands, return_inverse=True)
-    areas = np.bincount(rows.reshape(-1), uv_areas(corners))
-    low, high = np.full((len(numbers), 2), np.inf), np.full((len(numbers), 2), -np.inf)
-    np.minimum.at(low, rows.reshape(-1), corners.min(axis=1))
-    np.maximum.at(high, rows.reshape(-1), corners.max(axis=1))
-    sizes = high - low
-    boxes = sizes.prod(axis=1)
-    long = np.flatnonzero(sizes.max(axis=1) >= _SIDE_TO_SIDE)
-    worst = int(long[areas[long].argmin()] if len(long) else (boxes - areas).argmax())
-    return CostlyIsland(int(numbers[worst]), len(long) > 0, float(areas[worst]), float(boxes[worst]))
 
 
 def signed_uv_areas(corners: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -8,10 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from seamwire.core.islands.uv_islands import (
-    CostlyIsland,
     NewIsland,
     boxes_of,
-    costly_island,
     in_rows,
     place,
     split_edges,
@@ -135,30 +133,6 @@ def test_islands_lie_in_rows_without_touching_at_one_scale() -> None:
     apart = ((low[:, None] > high[None]) | (high[:, None] < low[None])).any(axis=2)
     assert (apart | np.eye(40, dtype=bool)).all()
     assert in_rows(np.empty((0, 2)), np.empty(0, dtype=np.int64)).shape == (0, 2)
-
-
-def costly(*islands: tuple[int, np.ndarray]) -> CostlyIsland | None:
-    """Return the costly island among triangles."""
-    corners = np.concatenate([triangles for _, triangles in islands])
-    return costly_island(corners, np.concatenate([np.full(len(triangles), number) for number, triangles in islands]))
-
-
-def test_the_costly_island_leaves_most_of_its_box_empty() -> None:
-    frame = np.concatenate([TILES * (0.6, 0.05), TILES * (0.05, 0.55) + (0.0, 0.05)])
-    found = costly((2, TILES * (0.3, 0.3) + (0.2, 0.2)), (5, frame), (7, TILES[:1] * (0.2, 0.2) + (0.7, 0.7)))
-    assert found is not None
-    assert (found.island, found.is_long) == (5, False)
-    assert found.box == pytest.approx(0.36)
-    assert found.area == pytest.approx(0.03 + 0.0275)
-
-
-def test_an_island_from_side_to_side_costs_most_and_the_smallest_of_them_counts() -> None:
-    strip, wall = TILES * (0.02, 0.99), TILES * (0.4, 0.98) + (0.1, 0.0)
-    found = costly((0, wall), (3, strip), (4, TILES[:1] * (0.4, 0.4) + (0.55, 0.0)))
-    assert found is not None
-    assert (found.island, found.is_long) == (3, True)
-    assert found.area == pytest.approx(0.0198)
-    assert costly_island(np.empty((0, 3, 2)), np.empty(0, dtype=np.int64)) is None
 
 
 @pytest.mark.parametrize("is_new", [False, True])
