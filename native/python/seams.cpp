@@ -224,10 +224,10 @@ const char* name_of(PartsBy by) {
   return by == PartsBy::kPanels ? "panels" : "rims";
 }
 
-PartFinder make_part_finder(const SurfaceObject& surface, const std::string& by, bool scan, const py::object& front,
-                            const py::object& mirror, const py::object& marked, const py::object& seams,
-                            const py::object& progress) {
-  PartOptions options{.by = parts_by(by), .is_scan = scan};
+PartFinder make_part_finder(const SurfaceObject& surface, const std::string& by, bool scan, bool nets,
+                            const py::object& front, const py::object& mirror, const py::object& marked,
+                            const py::object& seams, const py::object& progress) {
+  PartOptions options{.by = parts_by(by), .is_scan = scan, .has_nets = nets};
   if (!front.is_none()) options.front = vector_from(front, "front");
   if (!mirror.is_none()) options.mirror = number_from(mirror, "mirror");
   if (!marked.is_none()) {
@@ -272,11 +272,14 @@ surface : Surface
 by : {'rims', 'limbs', 'panels', 'shape'}
     What separates parts. 'rims': sharp edges, as of props and machines. 'limbs': narrow and concave places, as between
     head, arms and body of a figure. 'panels': the sides, as between front and back of a shirt, and sharp edges.
-    'shape' chooses one of the others. Figures have few limbs: at most 8 % of their area is flat, and they are scans, sculpts, or
-    soft shapes whose rims take off details only. Up to 1,000 quads are smoothed first. A connected piece has panels if at most 15 % of the edge length bends
-    by more than 30 degrees, and at least three boundaries are open. Everything else has rims.
+    'shape' chooses one of the others. Figures have few limbs: at most 8 % of their area is flat, and they are scans,
+    sculpts, or soft shapes whose rims take off details only. Up to 1,000 quads are smoothed first. A connected piece
+    has panels if at most 15 % of the edge length bends by more than 30 degrees, and at least three boundaries are open.
+    Everything else has rims.
 scan : bool
     For 'shape': whether the edges come from a scan. From 20,000 triangles, a mesh counts as a sculpt anyway.
+nets : bool
+    For rims: whether flat faces that unfold into the plane together are one part, as those of a box.
 front : (3,) array_like, optional
     The direction to the viewer. For 'panels', it is the direction to the front. Without it, and for 'shape', the front
     is where a piece is thinnest. For 'shape', no border of limbs runs around a face that the viewer sees.
@@ -298,8 +301,9 @@ ValueError
 Cancelled
 )")
       .def(py::init(&make_part_finder), py::arg("surface"), py::kw_only(), py::arg("by") = "rims",
-           py::arg("scan") = false, py::arg("front") = py::none(), py::arg("mirror") = py::none(),
-           py::arg("marked") = py::none(), py::arg("seams") = py::none(), py::arg("progress") = py::none())
+           py::arg("scan") = false, py::arg("nets") = true, py::arg("front") = py::none(),
+           py::arg("mirror") = py::none(), py::arg("marked") = py::none(), py::arg("seams") = py::none(),
+           py::arg("progress") = py::none())
       .def("find", &find_parts, py::arg("amount") = 0.5, py::kw_only(), py::arg("kept") = py::none(),
            py::arg("dropped") = py::none(), py::arg("parted") = py::none(), py::arg("progress") = py::none(),
            R"(Find the parts.

@@ -699,7 +699,7 @@ PartFinder::Impl::Borders PartFinder::Impl::borders(double amount, const PartEdi
   const std::vector<std::int32_t> region_of =
       has_limbs() ? joined_limbs(amount, edits, joining) : joined(amount, is_kept, edits, joining);
   std::vector<std::uint8_t> is_fold(mesh.edge_count(), 0);
-  if (!has_limbs() && amount < 1.0) is_fold = folds(region_of, amount, is_kept, part_of(task, 0.0, kJoined));
+  if (!has_limbs() && options.has_nets) is_fold = folds(region_of, amount, is_kept, part_of(task, 0.0, kJoined));
   Borders found{problem.is_seam, std::vector<std::uint8_t>(mesh.edge_count(), 0)};
   std::vector<std::uint8_t>& is_border = found.is_border;
   const Poll poll(task);

@@ -215,13 +215,13 @@ class LiveMaker:
     def part_finder(
         self, mirror: int | None, seams: NDArray[np.int32], progress: Callable[[float], bool]
     ) -> seamwire_core.PartFinder:
-        """Return what finds the parts of the mesh; it waits for the surface.
+        """Return what finds the parts of the mesh by rims, each face of a box by itself; it waits for the surface.
 
         Parts come in pairs over the axis `mirror`, if there is one. The seams, (k, 2), part the mesh already. `seamwire_core.Cancelled` is
         raised where `progress` returns False.
         """
         return self._core.PartFinder(
-            self.wait(progress), mirror=mirror, marked=self._mesh.marked, seams=seams, progress=progress
+            self.wait(progress), nets=False, mirror=mirror, marked=self._mesh.marked, seams=seams, progress=progress
         )
 
     def face_segments(

@@ -32,6 +32,8 @@ struct PartOptions {
   PartsBy by = PartsBy::kRims;
   /// For kShape: whether the edges come from a scan. From 20,000 triangles, a mesh counts as a sculpt anyway.
   bool is_scan = false;
+  /// For rims: whether flat faces that unfold into the plane together are one part, as those of a box.
+  bool has_nets = true;
   /// The direction to the viewer. Limbs that kShape finds have no borders around a face there. For kPanels it is the
   /// direction to the front; nullopt: where each piece is thinnest, as for kShape. On a symmetric mesh the direction to
   /// the front is turned into the mirror plane, or across it if that is nearer.
