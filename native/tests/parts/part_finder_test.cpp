@@ -100,7 +100,7 @@ TEST(PartFinder, opens_a_box_as_a_cross) {
 }
 
 TEST(PartFinder, parts_a_box_into_its_sides_if_there_are_no_nets) {
-  EXPECT_EQ(PartFinder(shared(shapes::quad_cube(4)), {.has_nets = false}).find().count, 6U);
+  EXPECT_EQ(PartFinder(shared(shapes::quad_cube(4).surface()), {.has_nets = false}).find().count, 6U);
 }
 
 TEST(PartFinder, opens_each_of_many_boxes_alike) {
