@@ -2232,11 +2232,14 @@ class PartFinder:
     by : {'rims', 'limbs', 'panels', 'shape'}
         What separates parts. 'rims': sharp edges, as of props and machines. 'limbs': narrow and concave places, as between
         head, arms and body of a figure. 'panels': the sides, as between front and back of a shirt, and sharp edges.
-        'shape' chooses one of the others. Figures have few limbs: at most 8 % of their area is flat, and they are scans, sculpts, or
-        soft shapes whose rims take off details only. Up to 1,000 quads are smoothed first. A connected piece has panels if at most 15 % of the edge length bends
-        by more than 30 degrees, and at least three boundaries are open. Everything else has rims.
+        'shape' chooses one of the others. Figures have few limbs: at most 8 % of their area is flat, and they are scans,
+        sculpts, or soft shapes whose rims take off details only. Up to 1,000 quads are smoothed first. A connected piece
+        has panels if at most 15 % of the edge length bends by more than 30 degrees, and at least three boundaries are open.
+        Everything else has rims.
     scan : bool
         For 'shape': whether the edges come from a scan. From 20,000 triangles, a mesh counts as a sculpt anyway.
+    nets : bool
+        For rims: whether flat faces that unfold into the plane together are one part, as those of a box.
     front : (3,) array_like, optional
         The direction to the viewer. For 'panels', it is the direction to the front. Without it, and for 'shape', the front
         is where a piece is thinnest. For 'shape', no border of limbs runs around a face that the viewer sees.
@@ -2264,6 +2267,7 @@ class PartFinder:
         *,
         by: Literal["rims", "limbs", "panels", "shape"] = "rims",
         scan: bool = False,
+        nets: bool = True,
         front: ArrayLike | None = None,
         mirror: Literal[0, 1, 2] | None = None,
         marked: list[ArrayLike] | None = None,
