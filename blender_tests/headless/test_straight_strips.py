@@ -9,11 +9,13 @@ import numpy as np
 import pytest
 from maps import energy, flipped, in_square, overlapping_pairs, signed_areas, triangles
 from scene import add_object, changing, edit
+from seamwire.core.seams.seam_plan import PartChoice
+from seamwire.mesh.seam_search import SeamSearch, SearchOptions
 
 SIDES = 12
 
 
-def add_barrel(rows: int = 4, turned: float = 0.0) -> bpy.types.Object:
+def add_barrel(rows: int = 4, turned: float = 0.0, bulge: float = 0.08) -> bpy.types.Object:
     """Add a barrel that is thicker in the middle, with seams around both lids and one along the wall, in edit mode.
 
     `turned`: how far it lies on its side, around the Y axis.
@@ -21,7 +23,7 @@ def add_barrel(rows: int = 4, turned: float = 0.0) -> bpy.types.Object:
     points = []
     for row in range(rows + 1):
         height = 2.0 * row / rows - 1.0
-        radius = 1.0 - 0.08 * height**2
+        radius = 1.0 - bulge * height**2
         for side in range(SIDES):
             angle = 2.0 * math.pi * side / SIDES
             x, y, z = radius * math.cos(angle), radius * math.sin(angle), 1.5 * height
@@ -86,6 +88,25 @@ def test_the_wall_of_a_triangulated_barrel_is_laid_out_straight(quads: str) -> N
         bmesh.ops.triangulate(bm, faces=[face for face in bm.faces if len(face.verts) == 4], quad_method=quads)
     assert bpy.ops.mesh.seamwire_unwrap() == {"FINISHED"}
     assert lines_of(obj) == [SIDES + 1, 5]
+
+
+def test_a_plan_that_is_laid_out_has_the_stretch_of_its_straight_strips() -> None:
+    obj = add_barrel(bulge=0.2)
+    with changing(obj) as bm:
+        for edge in bm.edges:
+            edge.seam = False
+    search = SeamSearch([obj], SearchOptions(None, None, True, None, 17.0, 1, True), False)
+    search.choose(PartChoice(0.5, 17.0))
+    search.plan(lambda _: True)
+    (suggestion,) = search
+    planned = suggestion.energy_of(suggestion.best)
+    assert suggestion.layout_of(suggestion.best, lambda _: True) is not None
+    laid_out = suggestion.energy_of(suggestion.best)
+    search.write(before_cuts=False)
+    search.unwrap(bpy.context)
+    assert lines_of(obj) == [SIDES + 1, 5]
+    assert laid_out == pytest.approx(energy(obj), abs=2e-4)
+    assert laid_out > planned + 1e-3, "straight strips stretch more"
 
 
 def up_of(obj: bpy.types.Object) -> np.ndarray:

@@ -120,6 +120,7 @@ class Suggestion:
         # The plan that was laid out last, its map, and the island of each triangle there.
         self.laid_out: tuple[seamwire_core.SeamPlan | None, NDArray[np.float64] | None, NDArray[np.int32] | None]
         self.laid_out = None, None, None
+        self._laid_out_energy: tuple[seamwire_core.SeamPlan | None, float] = None, 0.0
         self.marked = 0  # how many edges `write` made seams
 
     def _islands_with(self, faces: NDArray[np.integer] | None) -> tuple[NDArray[np.bool_] | None, int]:
@@ -283,10 +284,16 @@ class Suggestion:
                 progress=progress,
             )
             uvs, islands = np.asarray(found.uvs), np.asarray(found.islands)
+            self._laid_out_energy = plan, float(found.energy)
         except ValueError:
             uvs, islands = plan.uvs, plan.islands
         self.laid_out = plan, uvs, islands
         return uvs
+
+    def energy_of(self, plan: seamwire_core.SeamPlan) -> float:
+        """Return the energy of the map of a plan: as `layout_of` laid it out, or as it was planned if it is not laid out yet."""
+        laid_out, energy = self._laid_out_energy
+        return energy if laid_out is plan else float(plan.energy)
 
     def _straight_cost_of(self, plan: seamwire_core.SeamPlan) -> float:
         return min(STRAIGHT_COST, max(0.0, self._bound - float(plan.energy)))

@@ -162,10 +162,13 @@ class LiveParts:
             self._seen[suggestion] = plans[suggestion]
             self._show(suggestion)
         if new and len(plans) == len(self._search):
-            energy = mean_stretch([float(plan.energy) for plan in plans.values()], [each.area for each in plans])
             length = _in_units(sum(each.length_of(plan) for each, plan in plans.items()))
             islands = sum(plan.island_count for plan in plans.values())
-            self._found_map = FoundMap(100.0 * energy, islands, length)
+            self._found_map = FoundMap(0.0, islands, length)
+        if self._found_map is not None:
+            energies = [each.energy_of(plan) for each, plan in plans.items()]
+            stretch = mean_stretch(energies, [each.area for each in plans])
+            self._found_map = replace(self._found_map, stretch=100.0 * stretch)
         if self._found_map is not None and self._used is not None and self._used[0] == self._version:
             self._found_map = replace(self._found_map, used=self._used[1])
         self._tell()

@@ -33,9 +33,6 @@ namespace {
 
 /// How often an island is opened further because numbers cannot hold its map.
 constexpr int kMostOpenings = 32;
-/// A map with this mean energy shrinks triangles by more than a million. Programs store UVs in single precision, which
-/// leaves no area of them. Maps that people can use have less than 1e7.
-constexpr double kLostEnergy = 1e12;
 
 /// An island of the corner fans, its map, and which of the caller's corners its own corners are.
 struct MappedIsland {

@@ -28,6 +28,10 @@ struct MapOptions {
   double worse_than = kInfinity;
 };
 
+/// A map with this mean energy shrinks triangles by more than a million. Programs store UVs in single precision, which
+/// leaves no area of them. Maps that people can use have less than 1e7.
+inline constexpr double kLostEnergy = 1e12;
+
 /// A map of an island to the plane in which no triangle is flipped.
 struct IslandMap {
   std::vector<Point2> uvs;  ///< one for each own vertex; empty if double precision cannot hold Tutte's embedding

@@ -145,12 +145,15 @@ CutMaps solve_cut(const PlanMesh& mesh, std::span<const std::uint8_t> is_cut, co
     sizes.push_back(all);
   }
   const auto fraction = [&](std::size_t done) { return done > 0 ? sizes[done - 1] / all : 0.0; };
-  MapOptions options = kPlanMap;
-  options.max_steps = tuning::kFinishedSteps;
+  MapOptions options = kPlanMap, loose = kPlanMap;
+  options.max_steps = loose.max_steps = tuning::kFinishedSteps;
+  loose.keep_apart = false;
   run_on_threads(islands.size(), task, fraction, [&](std::size_t k, const Task& own) {
     const std::size_t i = order[k];
     if (!is_planar(islands[i])) return;
     IslandMap map = map_island(islands[i], mesh.points, options, own);
+    // An energy that is lost tells nothing of the cut. That the map overlaps itself does.
+    if (!(map.energy < kLostEnergy)) map = map_island(islands[i], mesh.points, loose, own);
     if (map.uvs.empty()) return;
     found.maps[i] = piece_map(mesh.points, std::move(islands[i]), std::move(map));
   });
