@@ -160,6 +160,12 @@ class Suggestion:
         )
         return self._finders[by]
 
+    @property
+    def automatic(self) -> PartsBy | None:
+        """What *Auto* has found to separate the parts; None if it was not asked."""
+        found = self._finders.get("AUTO")
+        return None if found is None else found.by.upper()
+
     def count(self, choice: PartChoice, progress: Progress) -> int:
         """Return the number of parts of a choice."""
         return self._counted(self._parts_of(choice, progress))
@@ -444,6 +450,11 @@ class SeamSearch:
     def part_count(self) -> int:
         """The number of chosen parts."""
         return sum(suggestion.part_count for suggestion in self)
+
+    @property
+    def automatic(self) -> set[PartsBy]:
+        """What *Auto* has found to separate the parts of the meshes."""
+        return set(filter(None, (suggestion.automatic for suggestion in self)))
 
     def plan(self, progress: Progress, is_enough: Callable[[], bool] = lambda: False) -> None:
         """Plan wires in the chosen parts of all meshes, until it `is_enough`, but wait for the first plan of each mesh."""

@@ -177,7 +177,10 @@ class LiveParts:
 
     def _tell(self) -> None:
         """Show the choice, and the map that it makes, in the corner of the views."""
-        rows = rows_of_parts(self.choice, self._search.part_count, self._past, self._found_map, self.is_planned)
+        search = self._search
+        rows = rows_of_parts(
+            self.choice, search.part_count, self._past, self._found_map, self.is_planned, search.automatic
+        )
         self._preview.tell([(self._said, ""), *rows] if self._said else rows)
 
     # The artist's hand

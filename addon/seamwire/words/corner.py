@@ -10,11 +10,12 @@ from ..terms.choices import KINDS, LOOPS, METRICS, PARTS_BY, ignores_shape
 from .reports import count, percent, square_used
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Collection, Mapping
 
     from ..core.drawing.picture import Picture
     from ..core.islands.square_use import SquareUse
     from ..core.seams.seam_plan import PartChoice
+    from ..terms.choices import PartsBy
 
 
 STEPS = (
@@ -76,22 +77,29 @@ class FoundMap:
 
 
 def rows_of_parts(
-    choice: PartChoice, parts: int, past: Mapping[str, int], found: FoundMap | None, is_final: bool
+    choice: PartChoice,
+    parts: int,
+    past: Mapping[str, int],
+    found: FoundMap | None,
+    is_final: bool,
+    automatic: Collection[PartsBy] = (),
 ) -> list[tuple[str, str]]:
     """Return what is to be read while Suggest shows parts, top line first: each text, and the keys that change it.
 
-    `past` counts the notches of the wheel that were turned past an end, by what they turn.
+    `past` counts the notches of the wheel that were turned past an end, by what they turn. `automatic` has what *Auto* has taken.
     """
 
     def beyond(what: str) -> str:
         return f", {count(abs(past[what]), 'notch', 'notches')} past the end" if past.get(what) else ""
 
+    names = " and ".join(PARTS_BY[by].name for by in sorted(automatic))
+    taken = f" ({names})" if choice.by == "AUTO" and names else ""
     islands = f"at least {choice.islands}{beyond('islands')}"
     stretch = f"at most {percent(choice.stretch)}{beyond('stretch')}"
     if found is not None:
         islands, stretch = f"{found.islands}, {islands}", f"{percent(found.stretch)}, {stretch}"
     rows = [
-        (f"Parts by: {PARTS_BY[choice.by].name}", "W"),
+        (f"Parts by: {PARTS_BY[choice.by].name}{taken}", "W"),
         (f"Parts: {parts}, amount {100.0 * choice.amount:.0f} %{beyond('amount')}", "Wheel"),
         (f"Islands: {islands}", "Shift Wheel"),
         (f"Stretch: {stretch}", "Ctrl Wheel"),

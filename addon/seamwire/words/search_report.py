@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 LIVE_HINTS = (
     "Click Border: Drop or Keep",
-    "Click Island: Cut",
+    "Click Part: Cut",
     "Ctrl Z: Undo",
     "Enter: Keep",
 )
