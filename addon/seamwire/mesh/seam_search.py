@@ -297,7 +297,7 @@ class Suggestion:
         return uvs
 
     def energy_of(self, plan: seamwire_core.SeamPlan) -> float:
-        """Return the energy of the map of a plan: as `layout_of` laid it out, or as it was planned if it is not laid out yet."""
+        """Return the energy of the map of a plan: the one that `layout_of` has made, or else the planned one."""
         laid_out, energy = self._laid_out_energy
         return energy if laid_out is plan else float(plan.energy)
 
