@@ -526,9 +526,12 @@ Packing pack_islands(std::span<const Corners> uvs, std::span<const std::int32_t>
   if (numbers.empty()) return packing;
   if (!(longest >= kSmallest)) longest = 1.0;
 
-  const double margin = std::min(options.margin, kMarginOfMany / std::sqrt(static_cast<double>(numbers.size())));
+  const double of_many = kMarginOfMany / std::sqrt(static_cast<double>(numbers.size()));
+  const double least =
+      std::min(1.0 / kCells, of_many);  // smaller cells take much memory, and larger ones too few islands
+  const double margin = options.margin > 0.0 ? std::min(std::max(options.margin, least), of_many) : 0.0;
   const auto margin_cells = static_cast<std::int32_t>(std::ceil(kCells * margin));
-  const double cell = margin > 0.0 ? margin / margin_cells : 1.0 / kCells;
+  const double cell = margin > 0.0 ? margin / margin_cells : least;
   const auto cells = static_cast<std::int32_t>((1.0 - margin) / cell + 1e-9);
   const double most = std::min(1.0 / std::sqrt(total), cell * cells / longest);
 

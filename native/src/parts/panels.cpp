@@ -206,7 +206,7 @@ class PanelCut {
 
   /// Gives small connected parts of a side to the other side, each before its larger neighbors.
   void join_small() {
-    const std::size_t count = side_.size();
+    const std::size_t count = areas_.size();
     for (bool is_done = false; !is_done;) {
       task_.check(0.0);
       is_done = true;

@@ -396,6 +396,7 @@ struct PartFinder::Impl {
   std::vector<std::uint8_t> is_marked;  // the same: 1 where an artist expects a border
   std::vector<Region> regions;          // of each polygon
   std::optional<Limbs> limbs;
+  bool may_smooth = true;
   std::unique_ptr<const Impl> smooth;                 // finds the limbs of a coarse mesh on its smoothed shape
   std::vector<std::int32_t> smooth_polygons;          // the polygon of each triangle there
   std::vector<std::uint8_t> is_panelled, is_between;  // pieces with panels; edges between front and back; or empty
@@ -458,11 +459,13 @@ void PartFinder::Impl::prepare(const Task& task) {
                      tuning::kPartOnPlane, task);
   regions = regions_of(polygons, task);
   if (options.by == PartsBy::kShape) smooth_figure(frames, part_of(task, 0.8, 0.85));
-  if (options.by == PartsBy::kLimbs || (options.by == PartsBy::kShape && !smooth && has_figure(frames, task))) {
+  if (options.by == PartsBy::kLimbs ||
+      (options.by == PartsBy::kShape && !smooth && has_figure(frames, part_of(task, 0.85, 0.85)))) {
     limbs.emplace(mesh, frames, sizes.pieces, part_of(task, 0.85, 0.95));
     if (options.by == PartsBy::kShape) {
       const Visibility seen =
-          options.front ? find_visibility(mesh, options.front, task, size_at, tuning::kMostLooks) : visibility;
+          options.front ? find_visibility(mesh, options.front, part_of(task, 0.95, 0.95), size_at, tuning::kMostLooks)
+                        : visibility;
       open = openness(mesh, seen, problem.reflection, frames);
     }
   }
@@ -490,7 +493,8 @@ bool PartFinder::Impl::has_figure(std::span<const FaceFrame> frames, const Task&
 /// are sharp, so they do not tell which features matter. A mesh of triangles is what its author sees.
 void PartFinder::Impl::smooth_figure(std::span<const FaceFrame> frames, const Task& task) {
   const PlanMesh& mesh = *problem.mesh;
-  if (options.is_scan || polygons.count > tuning::kMostCoarse || !is_round(mesh, frames, sizes, task)) return;
+  if (!may_smooth || options.is_scan || polygons.count > tuning::kMostCoarse || !is_round(mesh, frames, sizes, task))
+    return;
   std::vector<std::uint8_t> is_triangle(polygons.count, 1);
   for (std::size_t e = 0; e < mesh.edge_count(); ++e) {
     if (mesh.is_real[e] == 0) is_triangle[polygons.of_face[mesh.half_edge_of[e] / 3]] = 0;
@@ -500,6 +504,7 @@ void PartFinder::Impl::smooth_figure(std::span<const FaceFrame> frames, const Ta
   Smoothed shape = smoothed(mesh, polygons, part_of(task, 0.0, 0.1));
   auto found = std::make_unique<Impl>();
   found->surface = std::move(shape.surface);
+  found->may_smooth = false;
   found->options = {.by = PartsBy::kShape, .front = options.front, .mirror = options.mirror};
   found->prepare(part_of(task, 0.1, 1.0));
   if (!found->limbs) return;

@@ -15,9 +15,9 @@ struct Mean {
   Vector sum = Vector::Zero();
   double count = 0.0;
 
-  void add(const Vector& point, double weight = 1.0) {
-    sum += weight * point;
-    count += weight;
+  void add(const Vector& point) {
+    sum += point;
+    count += 1.0;
   }
   Vector value() const { return count > 0.0 ? Vector(sum / count) : sum; }
 };

@@ -154,9 +154,10 @@ class WholePlan {
     for (std::size_t g = 0; g < plans_.size(); ++g) {
       const GroupPlanning::Result& own = plans_[g].result();
       const double share = groups()[g].counted_area();
-      const auto exposed =
-          std::ranges::count_if(own.slits, [&](const Slit& slit) { return is_exposed(groups()[g].original, slit); });
-      plan.exposed_wires += groups()[g].places.size() * static_cast<std::size_t>(exposed);
+      for (const Slit& slit : own.slits) {
+        if (!is_exposed(groups()[g].original, slit)) continue;
+        plan.exposed_wires += groups()[g].places.size() * (slit.image.empty() ? 1 : 2);
+      }
       plan.cost += static_cast<double>(groups()[g].places.size()) * groups()[g].size * own.price;
       plan.steps += groups()[g].size * groups()[g].size * plans_[g].steps();
       overlaps = overlaps || own.overlaps;

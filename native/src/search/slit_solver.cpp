@@ -152,8 +152,8 @@ CutMaps solve_cut(const PlanMesh& mesh, std::span<const std::uint8_t> is_cut, co
     const std::size_t i = order[k];
     if (!is_planar(islands[i])) return;
     IslandMap map = map_island(islands[i], mesh.points, options, own);
-    // An energy that is lost tells nothing of the cut. That the map overlaps itself does.
-    if (!(map.energy < kLostEnergy)) map = map_island(islands[i], mesh.points, loose, own);
+    // With the barrier, the energy can be too large to compare cuts. A map without it says that it overlaps itself.
+    if (!map.uvs.empty() && !(map.energy < kLostEnergy)) map = map_island(islands[i], mesh.points, loose, own);
     if (map.uvs.empty()) return;
     found.maps[i] = piece_map(mesh.points, std::move(islands[i]), std::move(map));
   });

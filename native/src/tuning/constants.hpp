@@ -303,7 +303,7 @@ inline constexpr double kLowStretch = 4.15;
 /// Triangles above which a surface is planned on simplified meshes. A Newton step on 28,000 triangles takes 40 ms.
 inline constexpr std::size_t kMostTriangles = 9000;
 /// Triangles that all simplified meshes have together, about.
-inline constexpr std::size_t kSimplified = 7000;
+inline constexpr std::size_t kSimplified = 11000;
 /// Triangles of each group, at least, and of the coarser mesh on which seams are also searched. A group that is
 /// smaller itself stays as it is.
 inline constexpr std::size_t kLeastSimplified = 600;
