@@ -28,7 +28,7 @@ from seamwire.core.base import native
 from seamwire.core.base.geometry import triangle_areas
 from seamwire.core.islands.islands import IslandMaker
 from seamwire.core.seams.gaps import Gap, GapFinder
-from seamwire.core.seams.seam_plan import PartEdits, edits_text, energy_of, stretch_of
+from seamwire.core.seams.seam_plan import PartChoice, PartEdits, edits_text, energy_of, stretch_of
 from seamwire.mesh import edit_mesh, seam_islands, seam_search, uv_map
 from seamwire.mesh.object_session import ObjectSession
 from seamwire.view.object_view import ShownIslands
@@ -798,6 +798,21 @@ def test_what_is_flat_needs_no_seam_and_gets_uvs(capfd: pytest.CaptureFixture[st
     assert energy(obj) == pytest.approx(4.0, abs=1e-4)
     assert suggest() == {"CANCELLED"}, "nothing has changed since"
     assert "Nothing to add" in capfd.readouterr().out
+
+
+def test_a_plan_without_seams_is_a_result_once_the_search_has_ended() -> None:
+    objects = [add_grid(5), add_cube()]
+    for obj in objects:
+        obj.select_set(True)
+    edit()
+    options = seam_search.SearchOptions(None, None, True, None, 17.0, 1, True)
+    search = seam_search.SeamSearch(bpy.context.objects_in_mode_unique_data, options, selected=False)
+    search.choose(PartChoice(0.0, 17.0))
+    assert [suggestion.best_so_far for suggestion in search] == [None, None]
+    search.plan(lambda _: True)
+    found = {suggestion.mesh.obj: suggestion.best_so_far for suggestion in search}
+    assert all(plan is not None for plan in found.values())
+    assert [len(found[obj].wires) > 0 for obj in objects] == [False, True]
 
 
 def test_an_objects_scale_changes_nothing() -> None:

@@ -482,6 +482,21 @@ def test_with_nothing_visible_the_error_says_so_and_nothing_changes() -> None:
         unwrap()
 
 
+def test_an_object_that_cannot_be_read_is_named_and_the_others_are_unwrapped(capfd: pytest.CaptureFixture[str]) -> None:
+    broken, whole = add_hill(), add_hill()
+    broken.name = "Broken"
+    broken.data.uv_layers.new()
+    broken.data.vertices[0].co.x = math.nan
+    broken.select_set(True)
+    edit()
+    capfd.readouterr()
+    assert unwrap() == {"FINISHED"}
+    told = capfd.readouterr().out
+    assert "Warning: Broken: " in told
+    assert "1 island unwrapped" in told
+    assert in_square(whole)
+
+
 def selected(obj: bpy.types.Object) -> list[int]:
     return [face.index for face in bmesh.from_edit_mesh(obj.data).faces if face.select]
 

@@ -457,6 +457,10 @@ def test_w_goes_through_what_separates_parts_and_each_keeps_its_amount_and_click
 
     assert state()[:3] == ("AUTO", 0.5, 3)
     assert turn_to_the_end(ui, partial(ui.wheel, True))[-1] == 9
+    assert shown._past["amount"] == 1
+    press("W")
+    assert shown._past["amount"] == 0, "these notches are not past the end of other parts"
+    press("Z", ctrl=True)
     ui.click(ui.on_screen(FRONT_RIM))
     first = state()
     assert first[2] == 8 and first[4]
@@ -721,6 +725,23 @@ def test_undo_takes_back_a_cut_that_is_still_searched(
     assert not live().choice.edits
 
 
+def test_a_search_that_is_taken_back_leaves_the_plan(
+    ui: driver.Ui, prism: bpy.types.Object, slow_cuts: threading.Event, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    invoke(ui)
+    shown, plans = live(), []
+    ui.wait_until(lambda: shown.is_planned)
+    monkeypatch.setattr(Suggestion, "plan", lambda *given: plans.append(given))
+    ui.click(ui.on_screen(FRONT_SIDE))
+    ui.wait_until(lambda: searches[0]._step.text == "Finding parts")
+    ui.key("Z", ctrl=True)
+    ui.wait_until(lambda: searches[0]._step.text == "Planning seams")
+    ui.wait(5)
+    assert shown.is_planned
+    assert not plans
+    assert not slow_cuts.is_set()
+
+
 @pytest.mark.every_blender
 @pytest.mark.parametrize("start", [50.0, 52.0])
 def test_the_wheel_leads_back_to_the_same_parts(ui: driver.Ui, suzanne: bpy.types.Object, start: float) -> None:
@@ -808,7 +829,7 @@ def test_the_corner_of_the_view_says_what_is_shown(
     bare = ui.screen()
     invoke(ui)
     preview = live()._preview
-    assert preview._rows[:2] == [("Parts by: Auto", "W"), ("Parts: 3, amount 50 %", "Wheel")]
+    assert preview._rows[:2] == [("Parts by: Auto (Rims)", "W"), ("Parts: 3, amount 50 %", "Wheel")]
     ui.wheel(True, ui.on_screen(TOP))
     assert count() > 3
     assert preview._rows[1][0].startswith(f"Parts: {count()}, amount")

@@ -273,9 +273,9 @@ class Suggestion:
         self.best, self.slits = found, planned_wires(found, self.along, STRENGTHS[self.along], from_object)
 
     def layout_of(self, plan: seamwire_core.SeamPlan, progress: Progress) -> NDArray[np.float64] | None:
-        """Return how the islands of a plan will lie in the UV map, (m, 3, 2) in the object's units; None if unwrapping opens them further.
+        """Return how the islands of a plan will lie in the UV map, (m, 3, 2) in the object's units.
 
-        Any thread may call it.
+        If unwrapping opens them further, it is the planned map, or None if the search has not ended. Any thread may call it.
         """
         arrays = self.mesh.arrays
         try:
@@ -311,10 +311,10 @@ class Suggestion:
         return None if planner is None else self._useful(planner.best_so_far)
 
     def _useful(self, plan: seamwire_core.SeamPlan | None) -> seamwire_core.SeamPlan | None:
-        """Return a plan if it has seams and a map of every part of the mesh, otherwise None."""
+        """Return a plan if it has a map of every part of the mesh, and seams unless the search has ended with it, otherwise None."""
         if plan is None or not np.isfinite(plan.energy):
             return None
-        return plan if plan.wires or self.borders else None
+        return plan if plan.wires or self.borders or plan is self.best else None
 
     @property
     def wires(self) -> list[Wire]:

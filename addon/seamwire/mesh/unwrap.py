@@ -71,6 +71,7 @@ class Unwrapped:
     faults: MapFaults = NO_FAULTS
     unmapped: int = 0  # the hidden faces that have no area in these maps
     problems: Sequence[str] = ()  # why objects were left out
+    objects: Sequence[bpy.types.Object] = ()  # the others
 
 
 @dataclass(frozen=True)
@@ -455,7 +456,7 @@ def unwrap_changed(
         if len(found.changed):
             found.remember()
     unmapped = sum(found.unmapped() for found in maps) if unwrapped else 0
-    return Unwrapped(unwrapped, kept, faults, unmapped, problems)
+    return Unwrapped(unwrapped, kept, faults, unmapped, problems, [found.obj for found in maps])
 
 
 def _faults(maps: Sequence[_Map]) -> MapFaults:

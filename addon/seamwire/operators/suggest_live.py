@@ -137,8 +137,10 @@ class LiveParts:
         return () if self.is_kept else LIVE_HINTS
 
     def _plan(self, progress: Progress) -> None:
-        """Wait until the hand rests, then plan. Give up as soon as the parts have changed."""
+        """Wait until the hand rests, then plan, unless it is done. Give up as soon as the parts have changed."""
         version = self._version
+        if self.is_planned:
+            return
 
         def goes_on(fraction: float) -> bool:
             return progress(fraction) and self._version == version and not self._searches
@@ -161,11 +163,12 @@ class LiveParts:
         for suggestion in new:
             self._seen[suggestion] = plans[suggestion]
             self._show(suggestion)
-        if new and len(plans) == len(self._search):
+        is_whole = len(plans) == len(self._search)
+        if new and is_whole:
             length = _in_units(sum(each.length_of(plan) for each, plan in plans.items()))
             islands = sum(plan.island_count for plan in plans.values())
             self._found_map = FoundMap(0.0, islands, length)
-        if self._found_map is not None:
+        if self._found_map is not None and is_whole:
             energies = [each.energy_of(plan) for each, plan in plans.items()]
             stretch = mean_stretch(energies, [each.area for each in plans])
             self._found_map = replace(self._found_map, stretch=100.0 * stretch)
@@ -256,7 +259,7 @@ class LiveParts:
 
     def _drop_search(self) -> None:
         self._searches.pop()
-        self._version += 1  # another step is needed
+        self._worked_on = -1  # another step is needed
 
     def _keep(self) -> None:
         """Keep the parts. The map is no longer shown."""
@@ -352,6 +355,7 @@ class LiveParts:
         if (choice.by, choice.edits) != (before.by, before.edits):
             self._counts.clear()
             self._turns.clear()
+            del self._past["amount"]  # other parts have other ends
         if at is not None or choice.edits != before.edits:
             self._past.clear()
         if at is None:

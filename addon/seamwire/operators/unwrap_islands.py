@@ -65,6 +65,7 @@ class MESH_OT_seamwire_unwrap(AfterChain, bpy.types.Operator):
         from ..core.islands.square_use import square_use
         from ..mesh.seam_islands import in_scene, maps_of
         from ..mesh.unwrap import Layout, unwrap_changed
+        from .edit_mesh_operator import changing
 
         layout = Layout(self.straight, self.upright, self.stack)
         done = unwrap_changed(context, method=self.method, layout=layout, every=not self.changed_only)
@@ -77,7 +78,8 @@ class MESH_OT_seamwire_unwrap(AfterChain, bpy.types.Operator):
         if done.unmapped:
             has = "hidden face has no place", "hidden faces have no place"
             parts.append(f"{count(done.unmapped, *has)} in the map")
-        parts.append(square_used(square_use(in_scene(maps_of(context.objects_in_mode_unique_data)))))
+        with changing():
+            parts.append(square_used(square_use(in_scene(maps_of(done.objects)))))
         self.report({"WARNING"} if done.faults or done.unmapped else {"INFO"}, ", ".join(parts))
         return {"FINISHED"}
 

@@ -50,7 +50,7 @@ AUTO_ALONG = "Along the edges that an artist placed, across the surface of scans
 PartsBy = Literal["AUTO", "RIMS", "LIMBS", "PANELS"]
 """What separates parts of a mesh."""
 PARTS_BY: Mapping[PartsBy, Term] = {
-    "AUTO": Term("Auto", "Front and back of clothes, limbs of scans and sculpts, rims of everything else"),
+    "AUTO": Term("Auto", "Limbs of bodies, heads, animals, scans and sculpts, front and back of clothes, or rims"),
     "RIMS": Term("Rims", "Sharp edges, as around the walls, lids and plugs of props"),
     "LIMBS": Term("Limbs", "Narrow and concave places, as between the head, arms and body of a figure"),
     "PANELS": Term("Front and Back", "The sides, as of clothes, as seen from Hide From"),

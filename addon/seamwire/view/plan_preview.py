@@ -267,7 +267,7 @@ class _ObjectPreview:
         if self._squares is not None or cover > 0.0:
             if self._checks is None:
                 corners = self._pose.points[self._arrays.triangles]
-                # Without a map all of the surface is within one square, so that only its shape is seen.
+                # Without a map all corners lie at one point of a square, so that only the shading is seen.
                 self._checks = CheckedFaces(
                     corners, np.zeros((len(corners), 3, 2)) if self._squares is None else self._squares
                 )
@@ -371,7 +371,8 @@ class PlanPreview:
         for address, shown in self._shown.items():
             failures.attempt(("preview", "follow", address), shown.repose)
             failures.attempt(("preview", "islands", address), shown.check)
-        if any(shown.is_new for shown in self._shown.values()):
+        changed = [shown.is_new for shown in self._shown.values()]  # each takes its map
+        if any(changed):
             edited.redraw()
 
     def close(self) -> None:

@@ -92,7 +92,7 @@ def rows_of_parts(
     def beyond(what: str) -> str:
         return f", {count(abs(past[what]), 'notch', 'notches')} past the end" if past.get(what) else ""
 
-    names = " and ".join(PARTS_BY[by].name for by in sorted(automatic))
+    names = ", ".join(PARTS_BY[by].name for by in sorted(automatic))
     taken = f" ({names})" if choice.by == "AUTO" and names else ""
     islands = f"at least {choice.islands}{beyond('islands')}"
     stretch = f"at most {percent(choice.stretch)}{beyond('stretch')}"

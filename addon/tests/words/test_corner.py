@@ -64,7 +64,7 @@ def test_while_parts_are_shown_each_value_has_its_keys() -> None:
         ("Stretch: at most 17 %", "Ctrl Wheel"),
     ]
     found = FoundMap(stretch=9.5, islands=14, length="2.3 m", used=SquareUse(0.58))
-    assert rows_of_parts(choice, 12, {}, None, False, {"RIMS", "LIMBS"})[0] == ("Parts by: Auto (Limbs and Rims)", "W")
+    assert rows_of_parts(choice, 12, {}, None, False, {"RIMS", "LIMBS"})[0] == ("Parts by: Auto (Limbs, Rims)", "W")
     rows = rows_of_parts(choice, 12, {"amount": 2, "stretch": -1}, found, True)
     assert rows == [
         ("Parts by: Auto", "W"),

@@ -215,7 +215,7 @@ class LiveMaker:
     def part_finder(
         self, mirror: int | None, seams: NDArray[np.int32], progress: Callable[[float], bool]
     ) -> seamwire_core.PartFinder:
-        """Return what finds the parts of the mesh by rims, each face of a box by itself; it waits for the surface.
+        """Return a finder of parts by rims. Each face of a box is a part. It waits for the surface.
 
         Parts come in pairs over the axis `mirror`, if there is one. The seams, (k, 2), part the mesh already. `seamwire_core.Cancelled` is
         raised where `progress` returns False.
