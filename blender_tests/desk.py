@@ -16,7 +16,7 @@ from bl_ui.space_statusbar import STATUSBAR_HT_header
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 from numpy.typing import NDArray
 from scene import add_grid, add_layers, edit, snapshot
-from seamwire.core.drawing.session import Session
+from seamwire.core.sketch.sketch import Sketch
 from seamwire.mesh.settings import TOOL, settings
 from seamwire.operators import steps
 from seamwire.operators.chain import Chain
@@ -47,14 +47,14 @@ class Desk:
         """The object; Blender's undo makes another one of it."""
         return bpy.data.objects[self.name]
 
-    def start(self, **options: str) -> Session:
+    def start(self, **options: str) -> Sketch:
         """Begin a chain that waits for its first click."""
         with self.ui.override():
             assert bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT", **options) == {"RUNNING_MODAL"}
         self.ui.wait()
         return self.session
 
-    def choose(self) -> Session:
+    def choose(self) -> Sketch:
         """Choose the tool in the toolbar, and point at the middle of the mesh."""
         choose(self.ui)
         self.ui.move(self.ui.on_screen((0.03, 0.04, 0.0)))
@@ -67,7 +67,7 @@ class Desk:
         return running[0]
 
     @property
-    def session(self) -> Session:
+    def session(self) -> Sketch:
         """The session of the object that was pointed at last. A timer may have to read its mesh first."""
         if running:
             return running[0].session
@@ -133,7 +133,7 @@ def reset_settings() -> None:
             chosen.property_unset(name)
 
 
-def draw(desk: Desk, *vertices: int, at_vertices: bool = True) -> Session:
+def draw(desk: Desk, *vertices: int, at_vertices: bool = True) -> Sketch:
     """With the tool chosen, draw a chain with clicks, and end it."""
     ui = desk.ui
     ui.click(desk.at(vertices[0]), ctrl=not at_vertices)

@@ -75,7 +75,7 @@ class SharedFiles:
         self._folder = folder
         self._own: dict[Path, bool] = {}
 
-    def pytest_collection_finish(self, session: pytest.Session) -> None:
+    def pytest_collection_finish(self, session: pytest.Sketch) -> None:
         """List the files that have selected tests."""
         names = sorted({item.path.name for item in session.items})
         (self._folder / "selected").write_text("".join(f"{name}\n" for name in names))

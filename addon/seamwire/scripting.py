@@ -144,7 +144,7 @@ def mark(
         problems = [notice.text for notice in mesh.notices.take()]
         for where, vertices, attracts in guides:
             if not mesh.session.draw_stroke(vertices=vertices, attracts=attracts, acts_on="both"):
-                problems.append(f"{where}: {mesh.session.drawing.message}")
+                problems.append(f"{where}: {mesh.session.reason}")
         for row, seeds in enumerate(through):
             problems += [f"chains[{row}]: {problem}" for problem in draw_chain(mesh.session, seeds)]
         for row, pick in enumerate(around):

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from seamwire.core.drawing.session import Session
-from seamwire.core.network.network import Network
+from seamwire.core.sketch.sketch import Sketch
+from seamwire.core.network.network import Drawn
 from seamwire.core.network.picks import Edge
 from seamwire.core.network.strokes import on_mesh
 from seamwire.core.storage import wire_labels
@@ -101,7 +101,7 @@ class PaperMesh:
         seams = np.array(sorted(self.seams - self.hidden), dtype=np.int32).reshape(-1, 2)
         return set(undirected(wire_labels.seams_beside(seams, self.marks(), self.archive, self.found.known).tolist()))
 
-    def open(self, session: Session, archive: Archive | None = None) -> Found:
+    def open(self, session: Sketch, archive: Archive | None = None) -> Found:
         """Let a session go on with what the mesh has now; without an archive, in a Blender that was just started."""
         self.archive = Archive() if archive is None else archive
         self.found = found = self.read(self.archive)
@@ -109,9 +109,9 @@ class PaperMesh:
         session.adopt(replace(found.network, strokes=strokes), sorted(self.plain_seams()))
         return found
 
-    def write(self, session: Session | Network, adopt: bool = False) -> Plan:
+    def write(self, session: Sketch | Drawn, adopt: bool = False) -> Plan:
         """Let the mesh be what a session's network asks for, and the session end its drawing with that."""
-        network = session.network if isinstance(session, Session) else session
+        network = session.drawn if isinstance(session, Sketch) else session
         plan = wire_labels.plan(
             network, self.marks(), self.found, self.archive, self.where, self.seams.__contains__, self.visible
         )
@@ -126,8 +126,8 @@ class PaperMesh:
         self.labels = {edge: label for edge, label in self.labels.items() if label}
         self.text = self.archive.text(self.labels.values())
         self.found = Found(plan.network, plan.known)
-        if adopt and isinstance(session, Session):
-            session.adopt(replace(plan.network, seed=None), sorted(self.plain_seams()))
+        if adopt and isinstance(session, Sketch):
+            session.adopt(plan.network, sorted(self.plain_seams()))
         return plan
 
     # What Blender does to it

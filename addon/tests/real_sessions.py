@@ -6,8 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from seamwire.core.drawing.drawing import Drawing
-from seamwire.core.drawing.session import Session
+from seamwire.core.sketch.sketch import Sketch
 from seamwire.terms.choices import Along
 from seamwire.terms.options import CLAMP_PERCENTILE, STRENGTHS
 
@@ -24,7 +23,7 @@ def session_on(
     edges: NDArray[np.int32] | None = None,
     ready: bool = True,
     **options: object,
-) -> Session:
+) -> Sketch:
     surface = core.Surface(points, triangles, edges)
 
     def make(way: Along) -> object:
@@ -35,7 +34,7 @@ def session_on(
         return core.PartFinder(surface, mirror=mirror, seams=seams, progress=progress)
 
     own = surface.edges if edges is None else edges
-    return Session(Drawing(make, points, edges=own, triangles=triangles, make_parts=parts, **options))
+    return Sketch(make, points, edges=own, triangles=triangles, make_parts=parts, **options)
 
 
 def quads_between_rings(rings: int = RINGS, around: int = AROUND) -> NDArray[np.int32]:
@@ -72,13 +71,13 @@ def circles(heights: NDArray[np.float64], radii: NDArray[np.float64], around: in
     return np.stack([x.ravel(), y.ravel(), z], axis=1)
 
 
-def tube(**options: object) -> Session:
+def tube(**options: object) -> Sketch:
     points = circles(np.linspace(-2.0, 2.0, RINGS), np.ones(RINGS))
     quads = quads_between_rings()
     return session_on(points, halves(quads), sides(quads), **options)
 
 
-def ball(**options: object) -> Session:
+def ball(**options: object) -> Sketch:
     """Return a session on a sphere of RINGS rings and two poles."""
     angles = np.linspace(0.0, np.pi, RINGS + 2)[1:-1]
     points = np.vstack([circles(-np.cos(angles), np.sin(angles)), [0.0, 0.0, -1.0], [0.0, 0.0, 1.0]])

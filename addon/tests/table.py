@@ -9,8 +9,7 @@ import numpy as np
 from fake_live import FakeLive, grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
 from paper_mesh import PaperMesh
-from seamwire.core.drawing.drawing import Drawing
-from seamwire.core.drawing.session import Session
+from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.network.symmetry import Symmetry
 from seamwire.core.network.wires import Wire
 from seamwire.terms.choices import Along
@@ -38,8 +37,7 @@ class Table:
             return self.lives[way]
 
         self.points = centred_points() if centred else grid_points(SIZE)
-        self.session = Session(
-            Drawing(
+        self.session = Sketch(
                 make,
                 self.points,
                 Options(along=along),
@@ -48,7 +46,6 @@ class Table:
                 triangles=grid_triangles(SIZE),
                 make_stroke=lambda one: one,
             )
-        )
 
     def compute(self) -> None:
         """Let all live wires be ready, and take it in."""
@@ -78,7 +75,7 @@ def corner(**options: object) -> Table:
     return table
 
 
-def courses(session: Session) -> list[tuple[int, ...]]:
+def courses(session: Sketch) -> list[tuple[int, ...]]:
     return [wire.vertices for wire in session.wires]
 
 

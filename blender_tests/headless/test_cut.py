@@ -30,8 +30,8 @@ from scene import (
     seams,
     snapshot,
 )
-from seamwire.core.drawing.change import Change
-from seamwire.core.network.network import Network
+from seamwire.core.sketch.change import Change
+from seamwire.core.network.network import Drawn
 from seamwire.core.network.wires import Wire
 from seamwire.mesh import cut as mesh_cut
 from seamwire.mesh import finishes
@@ -709,9 +709,9 @@ def drag(obj: bpy.types.Object, seed: int, to: int) -> None:
     mesh = session_on(obj)
     session, before = mesh.session, mesh.session.network
     assert session.drag(seed)
-    session.cursor.drag_to(to)
+    session.drag_to(to)
     session.wait()
-    session.cursor.drag_to(to)
+    session.drag_to(to)
     assert session.drag_end()
     _finish(mesh, before)
 
@@ -726,7 +726,7 @@ def remove(obj: bpy.types.Object, *seeds: int) -> None:
     _finish(mesh, network)
 
 
-def _finish(mesh: ObjectSession, before: Network) -> None:
+def _finish(mesh: ObjectSession, before: Drawn) -> None:
     change = Change(before, mesh.session.network)
     write(mesh)
     finishes.apply(mesh, change)

@@ -9,8 +9,7 @@ import pytest
 import traces
 from bl_ui.space_toolsystem_toolbar import VIEW3D_PT_tools_active
 from scene import add_grid, edit
-from seamwire.core.drawing.drawing import Drawing
-from seamwire.core.drawing.session import Session
+from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.solver.solver import LiveMaker
 from seamwire.mesh import edit_mesh
 from seamwire.mesh.settings import TOOL
@@ -65,16 +64,16 @@ def test_without_it_the_toolbar_is_as_blender_made_it() -> None:
 
 
 @pytest.fixture
-def session() -> Session:
+def session() -> Sketch:
     obj = add_grid(9)
     edit()
     arrays = edit_mesh.read(obj)
-    session = Session(Drawing(LiveMaker(arrays), arrays.points, edges=arrays.edges, triangles=arrays.triangles))
+    session = Sketch(LiveMaker(arrays), arrays.points, edges=arrays.edges, triangles=arrays.triangles)
     session.wait()
     return session
 
 
-def test_every_icon_is_one_of_blenders(session: Session) -> None:
+def test_every_icon_is_one_of_blenders(session: Sketch) -> None:
     icons = bpy.types.UILayout.bl_rna.functions["label"].parameters["icon"].enum_items
     session.click(0)
     session.click(4)

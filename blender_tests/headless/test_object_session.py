@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from mathutils import Matrix
 from scene import add_grid, add_layers, chain, changing, edit, fail, mark_wires, seams, set_seams, snapshot
-from seamwire.core.network.network import Snap
+from seamwire.core.sketch.network import Snap
 from seamwire.core.solver.solver import LiveMaker
 from seamwire.mesh import edit_mesh
 from seamwire.mesh.object_session import ObjectSession
@@ -39,7 +39,7 @@ def grid() -> bpy.types.Object:
 
 def draw(mesh: ObjectSession, *picks: int) -> None:
     for pick in picks:
-        assert mesh.session.click(pick), str(mesh.session.drawing.message)
+        assert mesh.session.click(pick), str(mesh.session.reason)
         mesh.session.wait()
     write(mesh)
 
@@ -182,7 +182,7 @@ def test_symmetry_is_looked_for_again_after_an_error(grid: bpy.types.Object, mon
 
     mesh = session_on(grid)
     with monkeypatch.context() as patch:
-        patch.setattr(type(mesh.session.drawing.symmetry), "symmetric_axes", property(fail))
+        patch.setattr(type(mesh.session.symmetry), "symmetric_axes", property(fail))
         with pytest.raises(ValueError, match="as the test wants it"):
             found(mesh)
     assert 0 in found(mesh)
@@ -263,7 +263,7 @@ def test_after_a_scripts_undo_moved_split_and_removed_wires_stay_so(grid: bpy.ty
     moved, split, removed = before.wires
     for grip, place in ((40, 49), (67, 58)):
         assert session.drag(Snap(grip, "WIRE", split) if grip == 67 else grip)
-        session.cursor.drag_to(place)
+        session.drag_to(place)
         session.wait()
         session.drag_end()
         session.wait()
@@ -373,7 +373,7 @@ def test_wires_drawn_moved_and_removed_change_seams_and_nothing_else(grid: bpy.t
     assert seams(grid) == chain(*ROW)
     assert snapshot(grid, with_seams=False) == rest, "drawn"
     assert mesh.session.drag(40)
-    mesh.session.cursor.drag_to(49)
+    mesh.session.drag_to(49)
     mesh.session.wait()
     mesh.session.drag_end()
     mesh.session.wait()

@@ -555,7 +555,7 @@ def test_wires_come_in_pairs_where_the_mesh_is_symmetric(symmetric: bool) -> Non
     edit()
     # Without the mirror, seams hide on the side that is turned away.
     suggest(symmetric=symmetric, view_direction=(1.0, -1.0, 0.0), unwrap=False)
-    images = session_on(obj).session.drawing.symmetry.partners((0,))
+    images = session_on(obj).session.symmetry.partners((0,))
     marked = {frozenset(edge) for edge in seams(obj)}
     unpaired = [edge for edge in marked if frozenset(images[list(edge)].tolist()) not in marked]
     assert (len(unpaired) <= 0.05 * len(marked)) == symmetric

@@ -39,7 +39,7 @@ def test_a_wire_that_is_dropped_or_moved_takes_its_seam_with_it(seamed: bpy.type
     mesh = session_on(seamed)
     assert mesh.session.drag(44)
     mesh.session.wait()
-    mesh.session.cursor.drag_to(53)
+    mesh.session.drag_to(53)
     mesh.session.wait()
     mesh.session.drag_end()
     mesh.session.wait()

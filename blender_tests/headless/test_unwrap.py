@@ -10,7 +10,7 @@ import pytest
 from maps import areas, energy, flipped, in_square, overlapping_pairs, signed_areas, triangles
 from scene import add_grid, add_layers, add_object, add_suzanne, changing, edit, mark_wires, set_seams, snapshot
 from seamwire.core.base import native
-from seamwire.core.drawing.change import Change
+from seamwire.core.sketch.change import Change
 from seamwire.mesh import finishes
 from seamwire.mesh.seam_islands import worst_island
 from seamwire.mesh.unwrap import UNWRAPPED

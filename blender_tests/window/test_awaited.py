@@ -13,7 +13,7 @@ import ui as driver
 from desk import Desk, choose, draw, leave, reset_settings
 from scene import add_grid, chain, edit, seams
 from seamwire.core.drawing.seed_drag import SeedDrag
-from seamwire.core.drawing.session import Session
+from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.drawing.wire import WireGesture
 from seamwire.operators.chain_state import Stage
 from seamwire.operators.draw import MESH_OT_seamwire_draw
@@ -41,13 +41,13 @@ class Slow:
             drag.final &= not self.is_slow
             return message
 
-        def waited(session: Session, **how: bool) -> None:
+        def waited(session: Sketch, **how: bool) -> None:
             self.is_slow = False
             wait(session, **how)
 
         monkeypatch.setattr(WireGesture, "waits", property(lambda wire: self.is_slow or waits(wire)))
         monkeypatch.setattr(SeedDrag, "aim", slow_aim)
-        monkeypatch.setattr(Session, "wait", waited)
+        monkeypatch.setattr(Sketch, "wait", waited)
         monkeypatch.setattr(bpy.context.preferences.inputs, "mouse_double_click_time", 1)
 
 
@@ -56,16 +56,16 @@ def slow(monkeypatch: pytest.MonkeyPatch) -> Slow:
     return Slow(monkeypatch)
 
 
-def click_ahead(desk: Desk, slow: Slow) -> Session:
+def click_ahead(desk: Desk, slow: Slow) -> Sketch:
     """Keep a wire, and click once more before the next wire is computed."""
     session, ui = desk.start(), desk.ui
     ui.click(desk.at(36))
     ui.click(desk.at(40))
-    ui.wait_until(lambda: len(session.wires) == 1 and not session.cursor.computing)
+    ui.wait_until(lambda: len(session.wires) == 1 and not session.computing)
     ui.move(desk.at(44))
     slow.is_slow = True
     ui.click(desk.at(44))
-    assert session.cursor.waiting == 1
+    assert session.waiting == 1
     return session
 
 
@@ -76,7 +76,7 @@ def pull(desk: Desk, begin: int, goal: int) -> None:
         desk.ui.move((start[0] + part * (end[0] - start[0]), start[1] + part * (end[1] - start[1])))
 
 
-def release_ahead(desk: Desk, slow: Slow) -> Session:
+def release_ahead(desk: Desk, slow: Slow) -> Sketch:
     """Move a seed from 44 to 53, and release it before its wire is computed."""
     desk.choose()
     session, ui = draw(desk, 36, 44), desk.ui
@@ -85,7 +85,7 @@ def release_ahead(desk: Desk, slow: Slow) -> Session:
     ui.event("LEFTMOUSE", "PRESS", desk.at(44))
     pull(desk, 44, 53)
     ui.event("LEFTMOUSE", "RELEASE", desk.at(53))
-    assert session.cursor.waiting == 1
+    assert session.waiting == 1
     return session
 
 
@@ -105,7 +105,7 @@ def test_a_press_outside_after_a_lost_release_ends_the_chain_and_keeps_its_wires
     session, ui = desk.start(), desk.ui
     ui.click(desk.at(36))
     ui.click(desk.at(40))
-    ui.wait_until(lambda: len(session.wires) == 1 and not session.cursor.computing)
+    ui.wait_until(lambda: len(session.wires) == 1 and not session.computing)
     ui.event("LEFTMOUSE", "PRESS", desk.at(58))
     ui.move(outside(ui))
     ui.event("LEFTMOUSE", "PRESS", outside(ui))  # another window has received the release
@@ -120,7 +120,7 @@ def test_presses_that_change_no_mesh_leave_the_chain_as_it_is(desk: Desk, slow: 
     ui.move(outside(ui))
     ui.event(press, "PRESS", outside(ui))
     assert desk.chain.stage is Stage.DRAWING
-    assert session.cursor.waiting == 1
+    assert session.waiting == 1
     slow.is_slow = False
     end(desk)
     assert seams(desk.obj) == LONG_ROW
@@ -204,7 +204,7 @@ def test_a_seed_that_a_chain_ends_with_is_grabbed_there(desk: Desk, slow: Slow) 
     ui.event("LEFTMOUSE", "PRESS", desk.at(44))
     pull(desk, 44, 53)
     ui.event("LEFTMOUSE", "RELEASE", desk.at(53))
-    ui.wait_until(lambda: not session.cursor.computing)
+    ui.wait_until(lambda: not session.computing)
     end(desk)
     assert 53 in session.seeds()
     assert 44 not in session.seeds()
@@ -213,12 +213,12 @@ def test_a_seed_that_a_chain_ends_with_is_grabbed_there(desk: Desk, slow: Slow) 
 def test_blender_stops_a_chain_at_once(desk: Desk, slow: Slow, monkeypatch: pytest.MonkeyPatch) -> None:
     session = click_ahead(desk, slow)
     waits = []
-    monkeypatch.setattr(Session, "wait", lambda _own, **_how: waits.append(1))
+    monkeypatch.setattr(Sketch, "wait", lambda _own, **_how: waits.append(1))
     MESH_OT_seamwire_draw.cancel(SimpleNamespace(_chain=desk.chain), bpy.context)
     desk.ui.wait(4)
     assert desk.left_clean()
     assert waits == []
-    assert session.cursor.waiting == 0
+    assert session.waiting == 0
     assert seams(desk.obj) == ROW
 
 
@@ -258,12 +258,12 @@ def test_undo_by_a_script_takes_back_the_chain_before_and_keeps_what_was_drawn_s
 def test_x_removes_a_stroke_that_waits(desk: Desk, slow: Slow) -> None:
     session = click_ahead(desk, slow)
     stroke(desk)
-    assert session.cursor.waiting == 2
+    assert session.waiting == 2
     assert session.network.strokes == ()
     desk.ui.move(desk.at(12))
     desk.ui.key("X")
     assert desk.running
-    assert session.cursor.waiting == 0
+    assert session.waiting == 0
     assert session.network.strokes == ()
     assert session.picture.strokes == ()
     end(desk)
@@ -297,11 +297,11 @@ def test_a_click_on_another_object_awaits_the_wire_on_the_first(halves: driver.U
     ui = halves
     ui.click(place(ui, "Left", 10))
     session = edited.front.session
-    ui.wait_until(lambda: not session.cursor.computing)
+    ui.wait_until(lambda: not session.computing)
     ui.move(place(ui, "Left", 14))
     slow.is_slow = True
     ui.click(place(ui, "Left", 14))
-    assert session.cursor.waiting == 1
+    assert session.waiting == 1
     ui.click(place(ui, "Right", 10))
     assert edited.front.name == "Right"
     assert seams(bpy.data.objects["Left"]) == chain(*range(10, 15))
@@ -387,7 +387,7 @@ def test_a_second_seed_is_grabbed_while_the_first_one_waits(desk: Desk, slow: Sl
     assert session.cursor.drag
     ui.event("LEFTMOUSE", "RELEASE", desk.at(goal))
     slow.is_slow = False
-    ui.wait_until(lambda: not session.cursor.waiting)
+    ui.wait_until(lambda: not session.waiting)
     end(desk)
     assert len(session.wires) == 1
     assert set(session.seeds()) == {36, 44, 53} - {44, begin} | {goal}

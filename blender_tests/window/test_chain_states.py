@@ -65,7 +65,7 @@ class Walk:
         self.desk.start()
         self.ui.click(self.desk.at(36))
         self.ui.click(self.desk.at(40))
-        self.ui.wait_until(lambda: len(self.desk.session.wires) == 1 and not self.desk.session.cursor.computing)
+        self.ui.wait_until(lambda: len(self.desk.session.wires) == 1 and not self.desk.session.computing)
 
     def peek(self) -> None:
         self.desk.choose()

@@ -76,7 +76,7 @@ def test_the_chain_ends_and_its_wires_are_kept(
     pixels = ui.pixels()
     assert shows(pixels, desk.at(37, 38), RED)
     assert shows(pixels, desk.at(19, 20), RED)
-    assert len(desk.session.drawing.points) == len(bmesh.from_edit_mesh(desk.obj.data).verts)
+    assert len(desk.session.points) == len(bmesh.from_edit_mesh(desk.obj.data).verts)
 
 
 @pytest.mark.parametrize("change", [delete_apart, delete_edge_of_wire])

@@ -85,12 +85,12 @@ def test_seeds_snap_to_ridges_beside_the_cursor(desk: Desk) -> None:
     session = desk.start()
     place = beside(desk, 0.32, 7.0)
     ui.move(place)
-    assert session.cursor.target.to == "MESH"
+    assert session.target.to == "MESH"
     ui.key("TAB", shift=True)
     ui.wait_until(shown_ridge)
     ui.move((place[0], place[1] + 1.0))
-    assert session.cursor.target.to == "FEATURE"
-    assert session.cursor.target.pick in edited.front.crest_view.crests.edges
+    assert session.target.to == "FEATURE"
+    assert session.target.pick in edited.front.crest_view.crests.edges
 
 
 def test_seeds_that_lie_anywhere_snap_onto_the_line_itself(desk: Desk) -> None:
@@ -103,8 +103,8 @@ def test_seeds_that_lie_anywhere_snap_onto_the_line_itself(desk: Desk) -> None:
     ui.move((place[0], place[1] + 2.0))
     ui.wait_until(shown_ridge)
     ui.move(place)
-    ui.wait_until(lambda: session.cursor.target is not None and session.cursor.target.to == "FEATURE")
-    pick = session.cursor.target.pick
+    ui.wait_until(lambda: session.target is not None and session.target.to == "FEATURE")
+    pick = session.target.pick
     assert isinstance(pick, FacePoint)
     bm_points = np.array([desk.obj.data.vertices[v].co for v in pick.corners])
     x, y, _ = np.array(pick.weights) @ bm_points

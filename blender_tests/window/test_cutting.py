@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from desk import Desk, drag, draw, shows, undo_steps
 from scene import chain, changing, seams, snapshot
-from seamwire.core.drawing.picture import Role
+from seamwire.core.sketch.picture import Role
 from seamwire.core.network.picks import FacePoint
 from seamwire.mesh import cut
 from seamwire.mesh.object_session import ObjectSession
@@ -93,7 +93,7 @@ def test_drawing_goes_on_after_a_cut_on_the_mesh_as_it_is(cutting: Desk) -> None
     ui.click(cutting.at(72), ctrl=True)  # another chain: the first one is cut
     assert length(cutting) > 0
     ui.click(cutting.at(80))
-    ui.wait_until(lambda: not cutting.session.cursor.waiting and len(cutting.session.wires) == 2)
+    ui.wait_until(lambda: not cutting.session.waiting and len(cutting.session.wires) == 2)
     ui.key("RET")
     assert cutting.left_clean()
     assert agree(cutting.obj)
@@ -196,7 +196,7 @@ def test_a_click_is_where_one_clicks(cutting: Desk) -> None:
         assert wire.points[-1] == pytest.approx(corner, abs=0.01), "a pixel or so"
     near = ui.on_screen(corners[0])
     ui.move((near[0] + 4.0, near[1]))
-    ui.wait_until(lambda: session.cursor.target is not None and session.cursor.target.to == "SEED")
+    ui.wait_until(lambda: session.target is not None and session.target.to == "SEED")
     ui.click((near[0] + 4.0, near[1]))  # closes the chain, which ends it
     ui.wait_until(lambda: seams(cutting.obj) != [])
     assert cutting.left_clean()
@@ -284,7 +284,7 @@ def drawn_cut(cutting: Desk, start: int, end: int) -> None:
     """Draw a wire with the tool and let it be cut."""
     cutting.choose()
     session = draw(cutting, start, end)
-    assert not cutting.running, str(session.drawing.message)
+    assert not cutting.running, str(session.reason)
     assert agree(cutting.obj)
 
 

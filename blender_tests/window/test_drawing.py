@@ -54,7 +54,7 @@ def test_a_double_click_on_an_edge_takes_its_loop(cone: Desk, monkeypatch: pytes
     # A redraw between the clicks may take longer than Blender's longest time for a double click.
     monkeypatch.setattr(chain_events, "time", SimpleNamespace(monotonic=lambda: 0.0))
     edge = cone.at(40, 49)
-    ui.wait_until(lambda: not session.cursor.computing)
+    ui.wait_until(lambda: not session.computing)
     ui.move(edge)
     for _ in range(2):
         ui.event("LEFTMOUSE", "PRESS", ticks=1)

@@ -75,8 +75,8 @@ def test_what_a_click_takes_is_lit_again_after_an_error(
     broken.is_broken = False
     change(desk)
     desk.ui.move(desk.at(40))
-    desk.ui.wait_until(lambda: edited.front is not None and edited.front.session.cursor.target is not None)
-    assert desk.session.cursor.target.pick == 40
+    desk.ui.wait_until(lambda: edited.front is not None and edited.front.session.target is not None)
+    assert desk.session.target.pick == 40
     (notice,) = chosen.notices.take()
     assert "tried again" in notice.text
 

@@ -46,7 +46,7 @@ def point_at(ui: driver.Ui, place: tuple[float, float, float]) -> None:
 def test_scans_start_across_the_surface_until_the_artist_chooses(scan: driver.Ui) -> None:
     point_at(scan, (0.1, 0.1, 0.0))
     assert edited.front.session.options.along == "SURFACE"
-    assert not isinstance(edited.front.session.cursor.target.pick, tuple)
+    assert not isinstance(edited.front.session.target.pick, tuple)
     scan.click(scan.on_screen((0.1, 0.1, 0.0)))
     scan.key("E")
     assert settings().along == "EDGES"

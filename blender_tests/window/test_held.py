@@ -42,14 +42,14 @@ class Hand:
             self.session = desk.start()
             self.ui.click(desk.at(0))
             self.ui.click(desk.at(4))
-        self.ui.wait_until(lambda: len(self.session.wires) == 1 and not self.session.cursor.computing)
+        self.ui.wait_until(lambda: len(self.session.wires) == 1 and not self.session.computing)
 
     def press(self, then_released: bool = True) -> None:
         """Press the button and move. The modifiers of a stroke may be released then."""
         start = {"line that goes on": 4, "seed": 0, "wire": 2}.get(self.what, 36)
         desk, ui = self.desk, self.ui
         shift, ctrl = self.what.endswith("stroke"), self.what == "avoid stroke"
-        ui.wait_until(lambda: not self.session.cursor.computing)
+        ui.wait_until(lambda: not self.session.computing)
         ui.event("LEFTMOUSE", "PRESS", desk.at(start), shift=shift, ctrl=ctrl)
         for step in (1, 2, 3):
             ui.move((desk.at(start)[0] + 12.0 * step, desk.at(start)[1] + 12.0 * step), shift=shift, ctrl=ctrl)
@@ -62,7 +62,7 @@ class Hand:
         """Whether something is dragged."""
         shown = (
             edited.front.stroke is not None
-            or isinstance(self.session.cursor.held, LineGesture)
+            or isinstance(self.session.is_held, LineGesture)
             or self.session.cursor.drag is not None
         )
         assert shown == (self.desk.running and self.desk.chain.hold is not None)
@@ -71,12 +71,12 @@ class Hand:
     def chain(self) -> tuple[object, ...]:
         """Return what no key may change."""
         names = ("along", "clear", "snap", "strength_edges", "finish")
-        kept = self.session.drawing.network
+        kept = self.session.network
         return (
             [wire.vertices for wire in kept.wires],
             kept.strokes,
             self.session.seed,
-            self.session.cursor.waiting,
+            self.session.waiting,
             self.session.options.mirror,
             *(getattr(settings(), name) for name in names),
             seams(self.desk.obj),

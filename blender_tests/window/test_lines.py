@@ -7,7 +7,7 @@ import bpy
 import pytest
 from desk import ORANGE, RED, WHITE, Desk, drag, shows, undo_steps
 from scene import chain, seams
-from seamwire.core.drawing.picture import Role
+from seamwire.core.sketch.picture import Role
 
 
 def press_and_draw(desk: Desk, *places: tuple[float, float]) -> None:
@@ -28,7 +28,7 @@ def beside(place: tuple[float, float], x: float = 0.0, y: float = 0.0) -> tuple[
 @pytest.mark.every_blender
 def test_a_drag_over_the_mesh_draws_along_its_edges_in_one_step(desk: Desk, capfd: pytest.CaptureFixture[str]) -> None:
     session, ui = desk.choose(), desk.ui
-    ui.wait_until(lambda: session.drawing.progress == 1.0)
+    ui.wait_until(lambda: session.progress == 1.0)
     # Along a row and up a column, some pixels beside the edges, as a hand draws.
     press_and_draw(desk, beside(desk.at(36), 3, 4), beside(desk.at(40), -4, -5), beside(desk.at(67), 5, 3))
     wanted = (*range(36, 41), 49, 58, 67)
@@ -74,9 +74,9 @@ def test_a_line_from_the_live_seed_goes_on_with_the_chain(desk: Desk, monkeypatc
     # The line begins at the place of the last click.
     monkeypatch.setattr(bpy.context.preferences.inputs, "mouse_double_click_time", 1)
     drag(desk, desk.at(4), desk.at(40))
-    ui.wait_until(lambda: session.drawing.seed_place == 40)
+    ui.wait_until(lambda: session.seed_place == 40)
     ui.click(desk.at(44))
-    ui.wait_until(lambda: session.drawing.seed_place == 44)
+    ui.wait_until(lambda: session.seed_place == 44)
     ui.key("RET")
     assert seams(desk.obj) == sorted(chain(0, 1, 2, 3, 4) + chain(4, 13, 22, 31, 40) + chain(*range(40, 45)))
 

@@ -5,7 +5,7 @@ import bpy
 import pytest
 from desk import GREEN, Desk, said, shows, undo_steps
 from scene import chain, changing, seams, set_seams
-from seamwire.core.drawing.picture import Role
+from seamwire.core.sketch.picture import Role
 
 
 def offer(desk: Desk, *edge: int) -> tuple[float, float]:
@@ -13,11 +13,11 @@ def offer(desk: Desk, *edge: int) -> tuple[float, float]:
     place = desk.at(*edge)
     desk.choose()
     session = desk.session
-    desk.ui.wait_until(lambda: not session.cursor.computing)
+    desk.ui.wait_until(lambda: not session.computing)
     desk.ui.move(place)
     desk.ui.event("LEFT_ALT", "PRESS", place, alt=True)
     # The first offers are there at once. The others come when the wires are computed.
-    desk.ui.wait_until(lambda: session.picture.one(Role.OFFER) is not None and not session.cursor.computing)
+    desk.ui.wait_until(lambda: session.picture.one(Role.OFFER) is not None and not session.computing)
     return place
 
 
@@ -68,9 +68,9 @@ def test_alt_over_a_vertex_takes_the_nearest_edge(desk: Desk) -> None:
     ui, session = desk.ui, desk.session
     x, y = desk.at(40)
     ui.move((x + 3.0, y))
-    assert session.cursor.target.pick == 40
+    assert session.target.pick == 40
     ui.event("LEFT_ALT", "PRESS", (x + 3.0, y), alt=True)
-    assert session.cursor.target.pick == (40, 41)
+    assert session.target.pick == (40, 41)
     ui.event("LEFT_ALT", "RELEASE", (x + 3.0, y))
 
 

@@ -9,7 +9,7 @@ import pytest
 import ui as driver
 from desk import Desk, choose, drag, draw, said, second_window, undo_steps
 from scene import chain, seams, snapshot
-from seamwire.core.drawing.picture import Role
+from seamwire.core.sketch.picture import Role
 from seamwire.mesh.settings import preferences, settings
 from seamwire.operators import keymaps, steps
 from seamwire.ui import status_bar
@@ -172,14 +172,14 @@ def test_shift_and_the_wheel_change_the_strength_and_say_it(cone: Desk) -> None:
     session, ui = cone.start(), cone.ui
     ui.move(cone.at(40))
     ui.wheel(up=True, shift=True)
-    assert session.drawing.strength == 12.5
+    assert session.picture.strength == 12.5
     assert settings().strength_edges == 12.5
     assert "Strength 12.5" in said()
     ui.wheel(up=False, shift=True)
-    assert session.drawing.strength == 10.0
+    assert session.picture.strength == 10.0
     settings().strength_edges = 40.0
     ui.move(cone.at(41))
-    assert session.drawing.strength == 40.0, "the header's setting reaches the chain"
+    assert session.picture.strength == 40.0, "the header's setting reaches the chain"
 
 
 @pytest.mark.smoke
@@ -273,7 +273,7 @@ def test_clicks_begin_at_seeds_and_end_on_wires(desk: Desk) -> None:
     ui.click(desk.at(76))
     ui.move(desk.at(40))
     ui.wait_until(lambda: session.picture.active is not None)
-    assert session.cursor.target.to == "WIRE"
+    assert session.target.to == "WIRE"
     ui.click(desk.at(40))
     ui.wait_until(lambda: not desk.running)
     assert 40 in session.seeds(), "joined"
@@ -426,11 +426,11 @@ def test_w_and_x_act_on_the_wire_that_w_moved_although_another_lies_below(cone: 
         ui.move((place[0] + 1.0, place[1]))  # a hand that rests
 
     for _ in range(3):
-        before = session.network.find(upper).vertices
+        before = session.drawn.find(upper).vertices
         press("W")
-        ui.wait_until(lambda before=before: session.network.find(upper).vertices != before)
+        ui.wait_until(lambda before=before: session.drawn.find(upper).vertices != before)
         assert session.picture.one(Role.HOVERED).id == upper.id, "it is highlighted"
-        assert session.network.find(lower).vertices == lower.vertices
+        assert session.drawn.find(lower).vertices == lower.vertices
     press("X")
     assert [wire.id for wire in session.wires] == [lower.id]
     assert session.picture.one(Role.HOVERED).id == lower.id, "the next X removes it"

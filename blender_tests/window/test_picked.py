@@ -27,9 +27,9 @@ def layers(ui: driver.Ui) -> Iterator[Desk]:
 def test_v_lets_wires_be_drawn_on_the_far_side(layers: Desk) -> None:
     session, ui = layers.start(), layers.ui
     ui.move(layers.at(81))
-    assert max(vertices_of(session.cursor.target.pick)) < 81
+    assert max(vertices_of(session.target.pick)) < 81
     ui.key("V")
-    assert session.cursor.target.pick == 81, "without a motion of the mouse"
+    assert session.target.pick == 81, "without a motion of the mouse"
     ui.click(layers.at(81))
     ui.move(layers.at(84))
     ui.wait_until(lambda: session.picture.active is not None)
@@ -55,14 +55,14 @@ def roof(ui: driver.Ui) -> Iterator[Desk]:
 @pytest.mark.smoke
 def test_snapping_takes_the_feature_near_the_cursor(roof: Desk) -> None:
     session, ui = roof.start(), roof.ui
-    ui.wait_until(lambda: session.drawing.feature_strength() is not None)
+    ui.wait_until(lambda: session.feature_strength() is not None)
     x, y = roof.at(40)
     beside, above = (x + 7.0, y + 1.0), (roof.at(67)[0] + 7.0, roof.at(67)[1] + 1.0)
     ui.move(beside)
-    assert session.cursor.target.pick != 40
+    assert session.target.pick != 40
     ui.key("TAB", shift=True)
     ui.move((beside[0] + 1.0, beside[1]))
-    assert (session.cursor.target.pick, session.cursor.target.to) == (40, "FEATURE")
+    assert (session.target.pick, session.target.to) == (40, "FEATURE")
     ui.click(beside)
     ui.click(above)
     ui.wait_until(lambda: len(session.wires) == 1)
@@ -79,12 +79,12 @@ def test_with_the_mirror_on_its_plane_is_hit_from_the_side(cone: Desk) -> None:
     x, y = beside = cone.at(41)
     assert 2.0 < cone.at(40)[1] - y < 9.0
     ui.move(beside)
-    assert session.cursor.target.pick == 41
+    assert session.target.pick == 41
     mesh.use_mirror_x = True
     ui.wait_until(lambda: edited.front.mesh.symmetric is not None)
     for there in ((x + 1.0, y), beside):
         ui.move(there)
-    assert session.cursor.target.pick == 40
+    assert session.target.pick == 40
     ui.click(beside)
     assert session.seed == 40
     ui.click(cone.at(59))

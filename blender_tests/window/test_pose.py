@@ -101,7 +101,7 @@ def test_what_is_under_the_mouse_is_picked(posed: Posed) -> None:
     ui.wait_until(lambda: edited.front is not None)
     for vertex in (40, 20, 60):
         ui.move(posed.seen_at(vertex))
-        assert edited.front.session.cursor.target.pick == vertex
+        assert edited.front.session.target.pick == vertex
     ui.click(posed.seen_at(36))
     session = posed.session
     ui.click(posed.seen_at(44))
@@ -109,7 +109,7 @@ def test_what_is_under_the_mouse_is_picked(posed: Posed) -> None:
     ui.key("RET")
     assert seams(posed.obj) == chain(*range(36, 45))
     ui.move(posed.seen_at(38))
-    assert session.cursor.target.to == "WIRE"
+    assert session.target.to == "WIRE"
     np.testing.assert_allclose(session.wires[0].points[0], (-1.0, 0.0, 0.0), atol=1e-6)
 
 
@@ -181,7 +181,7 @@ def test_another_object_of_the_same_name_is_drawn_on_in_its_pose(posed: Posed) -
     ui.wait_until(lambda: edited.front is not None and not edited.front.stale and edited.front.exists)
     assert edited.front is view, "what was prepared for the mesh still holds"
     ui.move(posed.seen_at(40))
-    assert edited.front.session.cursor.target.pick == 40
+    assert edited.front.session.target.pick == 40
 
 
 @pytest.mark.every_blender

@@ -33,10 +33,10 @@ def test_a_double_click_takes_a_loop_and_single_clicks_draw(
     with ui.override():
         bpy.ops.mesh.seamwire_draw("INVOKE_DEFAULT")
     session = running[0].session
-    ui.wait_until(lambda: not session.cursor.computing)
+    ui.wait_until(lambda: not session.computing)
     middle = ui.on_screen((0.13, -0.96, 0.0))
     ui.move(middle)
-    assert isinstance(session.cursor.target.pick, tuple)
+    assert isinstance(session.target.pick, tuple)
     ui.double_click(middle)
     ui.wait_until(lambda: len(session.wires) == 1)
     loop = session.wires[0]

@@ -9,7 +9,7 @@ import bpy
 import pytest
 from desk import Desk, draw
 from seamwire.core.drawing.cursor import Cursor
-from seamwire.core.drawing.session import Session
+from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.islands import islands
 from seamwire.core.islands.islands import IslandMaker
 from seamwire.core.islands.stretch import Stretch
@@ -86,11 +86,11 @@ def test_the_first_picture_after_a_chain_shows_all_of_its_end(desk: Desk, calls:
 def test_progress_is_told_without_a_picture(desk: Desk, calls: Counter[str], monkeypatch: pytest.MonkeyPatch) -> None:
     session, ui = desk.choose(), desk.ui
     ui.click(desk.at(36))
-    ui.wait_until(lambda: not session.cursor.computing and settled())
+    ui.wait_until(lambda: not session.computing and settled())
     ui.wait(2)
     told: list[float] = []
     monkeypatch.setattr(
-        "seamwire.operators.chain.status_makers", [lambda chain: told.append(chain.session.drawing.progress)]
+        "seamwire.operators.chain.status_makers", [lambda chain: told.append(chain.session.progress)]
     )
     redraws = calls["redraw"]
     for percent in (10, 20, 30):
@@ -155,7 +155,7 @@ def test_a_picture_reads_no_mesh_and_computes_nothing(
         (StretchHeat, "read"),
         (Stretch, "islands"),
         (CrestView, "poll"),
-        *((Session, name) for name in ("follow", "hover", "poll", "adopt")),
+        *((Sketch, name) for name in ("follow", "hover", "poll", "adopt")),
         (Cursor, "use_crests"),
     ):
         function = getattr(owner, name)

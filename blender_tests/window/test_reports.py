@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from desk import Desk, draw
 from scene import chain, changing, mark_wires, seams
-from seamwire.core.drawing.picture import Role
+from seamwire.core.sketch.picture import Role
 from seamwire.mesh import uv_map
 
 ROW = chain(*range(36, 45))

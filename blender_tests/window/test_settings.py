@@ -7,7 +7,7 @@ import pytest
 import ui as driver
 from desk import Desk, leave
 from scene import GATE_RIDGE, GATE_SEEDS, GATE_STRAIGHT, add_gate, chain, seams
-from seamwire.core.drawing.picture import Role
+from seamwire.core.sketch.picture import Role
 from seamwire.mesh.settings import settings
 
 
@@ -47,6 +47,6 @@ def test_metric_clamp_and_strength_change_the_live_wire(gate: Desk) -> None:
     assert runs(ridge), "the other way's strength is the other way's"
     ui.click(gate.at(GATE_SEEDS[1]))
     chosen.metric = "euclidean"
-    ui.wait_until(lambda: not session.cursor.computing)
+    ui.wait_until(lambda: not session.computing)
     ui.key("RET")
     assert seams(gate.obj) == ridge, "a kept wire stays"

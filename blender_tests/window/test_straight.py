@@ -56,7 +56,7 @@ def aim(desk: Desk) -> None:
     """Place a seed, and point at another vertex."""
     desk.ui.click(desk.at(START))
     desk.ui.move(desk.at(END))
-    desk.ui.wait_until(lambda: not desk.session.cursor.computing and desk.session.picture.active is not None)
+    desk.ui.wait_until(lambda: not desk.session.computing and desk.session.picture.active is not None)
 
 
 @pytest.mark.smoke

@@ -9,7 +9,7 @@ import pytest
 import ui as driver
 from desk import Desk, choose, leave, undo_steps
 from scene import add_grid, chain, changing, seams
-from seamwire.core.drawing.picture import Role
+from seamwire.core.sketch.picture import Role
 from seamwire.mesh.settings import settings
 from seamwire.view.edited_objects import edited
 
@@ -50,7 +50,7 @@ def draw(desk: Desk, corners: list[tuple[float, float]], **more: bool) -> None:
 
 
 def computed(desk: Desk) -> None:
-    desk.ui.wait_until(lambda: not desk.session.cursor.computing)
+    desk.ui.wait_until(lambda: not desk.session.computing)
     desk.ui.wait(2)
 
 

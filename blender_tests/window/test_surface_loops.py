@@ -11,7 +11,7 @@ import ui as driver
 from desk import Desk, leave, said
 from scene import add_object, seams
 from seamwire.core.base.geometry import nearest_on_segments
-from seamwire.core.drawing.picture import Role
+from seamwire.core.sketch.picture import Role
 from seamwire.mesh.settings import settings
 
 AROUND, ROWS = 24, 41
@@ -55,7 +55,7 @@ def offer(desk: Desk, vertex: int) -> tuple[float, float]:
     place = desk.at(vertex)
     desk.ui.move(place)
     desk.ui.event("LEFT_ALT", "PRESS", place, alt=True)
-    desk.ui.wait_until(lambda: not desk.session.cursor.computing)
+    desk.ui.wait_until(lambda: not desk.session.computing)
     return place
 
 
@@ -72,7 +72,7 @@ def test_shift_alt_shows_the_cut_bent_to_the_cursor_and_a_click_keeps_it_in_its_
     ui.event("LEFT_SHIFT", "PRESS", away, alt=True, shift=True)
     ui.event("MOUSEMOVE", "NOTHING", away, alt=True, shift=True)
     session = desk.session
-    ui.wait_until(lambda: session.picture.one(Role.OFFER) is not None and not session.cursor.computing)
+    ui.wait_until(lambda: session.picture.one(Role.OFFER) is not None and not session.computing)
     assert session.picture.offered.bends
     assert "Bend Closed Cut" in said()
     assert len(session.wires) == 3, "until the click"
@@ -100,7 +100,7 @@ def bend(desk: Desk, vertex: int) -> np.ndarray:
     ui.event("LEFT_ALT", "PRESS", away, alt=True)
     ui.event("LEFT_SHIFT", "PRESS", away, alt=True, shift=True)
     ui.event("MOUSEMOVE", "NOTHING", away, alt=True, shift=True)
-    ui.wait_until(lambda: desk.session.picture.one(Role.OFFER) is not None and not desk.session.cursor.computing)
+    ui.wait_until(lambda: desk.session.picture.one(Role.OFFER) is not None and not desk.session.computing)
     assert desk.session.picture.offered.bends
     shown = desk.session.picture.one(Role.OFFER).points
     ui.click(away, alt=True, shift=True)

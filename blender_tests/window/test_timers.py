@@ -61,7 +61,7 @@ def test_a_chain_needs_no_timer_and_its_end_leaves_at_most_one(desk: Desk, take_
         ui.move(desk.at(vertex))
     settings().xray = True  # a setting is followed at once
     settings().xray = False
-    ui.wait_until(lambda: not session.cursor.computing)
+    ui.wait_until(lambda: not session.computing)
     ui.wait_until(lambda: not edited.timer.is_running, seconds=5.0)
     assert take_timers() == 0
     ui.click(desk.at(44))

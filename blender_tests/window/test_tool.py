@@ -179,7 +179,7 @@ def test_an_object_outside_the_local_view_is_not_pointed_at(two: Two) -> None:
         with ui.override():
             bpy.ops.view3d.localview(frame_selected=False)
     ui.move(two.at(two.right, 13))
-    ui.wait_until(lambda: edited.front.name == "Right" and edited.front.session.cursor.target is not None)
+    ui.wait_until(lambda: edited.front.name == "Right" and edited.front.session.target is not None)
 
 
 def test_one_of_several_objects_may_leave_edit_mode(two: Two) -> None:
@@ -199,10 +199,10 @@ def test_one_of_several_objects_may_leave_edit_mode(two: Two) -> None:
 def test_over_toolbars_the_tool_lets_go_of_the_mouse(desk: Desk) -> None:
     session, ui = desk.start(), desk.ui
     ui.move(desk.at(40))
-    assert session.cursor.target is not None
+    assert session.target is not None
     bar = next(region for region in ui.area.regions if region.type == "TOOLS")
     ui.move((bar.x + bar.width * 0.5 - ui.region.x, bar.y + bar.height * 0.5 - ui.region.y))
-    assert session.cursor.target is None
+    assert session.target is None
     assert desk.running
     ui.move(desk.at(40))
     ui.key("ESC")

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from desk import Desk, drag, draw
 from scene import chain, mark_wires, seams
-from seamwire.core.drawing.picture import Role
-from seamwire.core.drawing.session import Session
+from seamwire.core.sketch.picture import Role
+from seamwire.core.sketch.sketch import Sketch
 from seamwire.mesh.settings import settings
 from seamwire.mesh.versions import IS_OLD
 from stored import agree
@@ -34,7 +34,7 @@ def view_selected(desk: Desk) -> None:
             vertex.index = 0
 
 
-def choose(desk: Desk) -> Session:
+def choose(desk: Desk) -> Sketch:
     desk.choose()
     view_selected(desk)
     return desk.session
@@ -44,10 +44,10 @@ def choose(desk: Desk) -> Session:
 def test_edges_and_vertices_are_hovered_and_drawn_along(desk: Desk) -> None:
     session = choose(desk)
     desk.ui.move(desk.at(40))
-    assert session.cursor.target.pick == 40
+    assert session.target.pick == 40
     view_selected(desk)
     desk.ui.move(desk.at(40, 41))
-    assert set(session.cursor.target.pick) == {40, 41}
+    assert set(session.target.pick) == {40, 41}
     view_selected(desk)
     draw(desk, 36, 44)
     assert seams(desk.obj) == ROW

@@ -63,9 +63,9 @@ def test_what_the_clipping_border_hides_is_neither_picked_nor_drawn(desk: Desk) 
     assert ui.view.use_clip_planes
     try:
         ui.move(right)
-        assert session.cursor.target is not None
+        assert session.target is not None
         ui.move(left)
-        assert session.cursor.target is None
+        assert session.target is None
         ui.move((right[0], right[1] + 40.0))
         pixels = ui.pixels()
         assert not shows(pixels, desk.at(36), WHITE)
@@ -117,7 +117,7 @@ def test_drawing_is_on_the_shape_that_is_seen(ui: driver.Ui) -> None:
         assert abs(bm.verts[8].co.x - 0.5) < 1e-6
         session = desk.choose()
         ui.move(desk.at(44))
-        assert session.cursor.target.pick == 44
+        assert session.target.pick == 44
         draw(desk, 36, 44)
         assert seams(desk.obj) == ROW
         bpy.ops.object.mode_set(mode="OBJECT")
@@ -136,7 +136,7 @@ def test_what_a_click_takes_is_lit_where_gizmos_are_hidden_too(desk: Desk, name:
         desk.ui.wait(redraw=True)
         for vertex in (20, 40, 60):
             desk.ui.move(desk.at(vertex))
-            assert session.cursor.target.pick == vertex
+            assert session.target.pick == vertex
         assert not running
     finally:
         setattr(desk.ui.space, name, True)
@@ -180,7 +180,7 @@ def draw_in_each(ui: driver.Ui) -> None:
             continue
         session.hover(None)
         ui.move((region.x + at.x - ui.region.x, region.y + at.y - ui.region.y))
-        assert session.cursor.target.pick == 40
+        assert session.target.pick == 40
         found += 1
     assert found == 3, "from above twice, for the view that the drawing began in was turned there, and the user's"
     ui.key("ESC")

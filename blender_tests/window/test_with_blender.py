@@ -17,8 +17,8 @@ import ui as driver
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 from desk import Desk, choose, dismiss, draw, second_window, send, undo_steps
 from scene import chain, changing, edit, fail, mark_wires, seams, set_seams
-from seamwire.core.drawing.picture import Role, SeedRole, ShownSeed
-from seamwire.core.drawing.session import Session
+from seamwire.core.sketch.picture import Role, SeedRole, ShownSeed
+from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.drawing.wire import WireGesture
 from seamwire.core.storage.serialization import Archive
 from seamwire.mesh import edit_mesh, finishes
@@ -37,7 +37,7 @@ from seamwire.words.notices import Notice
 ROW = chain(*range(36, 45))
 
 
-def live(desk: Desk) -> Session:
+def live(desk: Desk) -> Sketch:
     """Choose the tool, keep a wire along the middle row, and leave the next one live."""
     desk.choose()
     ui = desk.ui
@@ -63,7 +63,7 @@ def test_between_chains_no_operator_of_ours_runs_and_what_a_click_takes_is_lit(d
     session = desk.choose()
     assert modal_operators(desk.ui) == []
     desk.ui.move(desk.at(40))
-    assert session.cursor.target.pick == 40
+    assert session.target.pick == 40
     draw(desk, 36, 44)
     desk.ui.move(desk.at(40))
     assert session.picture.one(Role.HOVERED) is not None
@@ -129,7 +129,7 @@ def test_alt_h_shows_again_what_is_hidden_altogether(desk: Desk) -> None:
     ui.event("LEFT_ALT", "RELEASE", place)
     assert not any(hidden(desk.obj))
     ui.move(desk.at(41))
-    assert desk.session.cursor.target.pick == 41
+    assert desk.session.target.pick == 41
 
 
 def test_where_nothing_is_visible_keys_of_the_tool_are_blenders_and_a_click_opens_no_popup(desk: Desk) -> None:
@@ -192,12 +192,12 @@ def test_what_was_hidden_just_now_is_not_picked_and_alt_h_shows_it(desk: Desk) -
     ui, place = desk.ui, desk.at(40)
     ui.move(place)
     ui.wait(20)
-    assert desk.session.cursor.target.pick == 40
+    assert desk.session.target.pick == 40
     ui.event("H", "PRESS", shift=True, ticks=0)
     ui.event("H", "RELEASE", shift=True, ticks=0)
     ui.event("LEFT_ALT", "PRESS", alt=True)
     assert sum(hidden(desk.obj)) == 63
-    assert desk.session.cursor.target is None, "nothing is seen there"
+    assert desk.session.target is None, "nothing is seen there"
     assert len(edited.front.mesh.arrays.edges) == 4
     ui.key("H", alt=True)
     ui.event("LEFT_ALT", "RELEASE")
@@ -244,7 +244,7 @@ def test_a_line_is_kept_though_edit_mode_is_left_before_its_wires_are_computed(d
 
 def test_escape_while_a_chain_waits_for_its_end_waits_for_nothing(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
     waited = []
-    monkeypatch.setattr(Session, "wait", lambda _: waited.append(1))
+    monkeypatch.setattr(Sketch, "wait", lambda _: waited.append(1))
     desk.choose()
     ui = desk.ui
     ui.move(desk.at(37))
@@ -283,7 +283,7 @@ def test_along_edges_a_click_with_shift_and_alt_is_blenders(desk: Desk) -> None:
 def test_what_is_prepared_is_kept_from_one_chain_to_the_next(desk: Desk) -> None:
     session = desk.choose()
     draw(desk, 36, 44)
-    engine = session.drawing.engines.get(session.options.along)
+    engine = session.engines.get(session.options.along)
     choose(desk.ui, "builtin.select_box")
     choose(desk.ui)
     bpy.ops.object.mode_set(mode="OBJECT")
@@ -291,7 +291,7 @@ def test_what_is_prepared_is_kept_from_one_chain_to_the_next(desk: Desk) -> None
         edit()
     draw(desk, 0, 8)
     assert desk.session is session
-    assert session.drawing.engines.get(session.options.along) is engine
+    assert session.engines.get(session.options.along) is engine
 
 
 def test_a_mesh_is_read_once_until_it_changes(desk: Desk, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -449,7 +449,7 @@ def test_renamed_within_a_chain_an_object_keeps_its_wires(desk: Desk) -> None:
     session = live(desk)
     desk.obj.name = desk.name = "Renamed"
     desk.ui.move(desk.at(53))
-    assert session.cursor.target.pick == 53, "the live wire follows"
+    assert session.target.pick == 53, "the live wire follows"
     desk.ui.click(desk.at(53))
     desk.ui.wait_until(lambda: len(session.wires) == 2)
     bpy.data.objects.new("Grid", None)  # its former name is another object's
@@ -520,11 +520,11 @@ def break_while_held(desk: Desk, broken: pytest.MonkeyPatch) -> None:
 
 
 BREAKS: dict[str, Callable[[Desk, pytest.MonkeyPatch], None]] = {
-    "hover": lambda desk, broken: broken.setattr(Session, "hover", fail),
+    "hover": lambda desk, broken: broken.setattr(Sketch, "hover", fail),
     "hints": lambda desk, broken: broken.setattr(chain_module, "status_makers", [fail]),
     "poll": lambda desk, broken: broken.setattr(keymaps, "takes", fail),
     "event": lambda desk, broken: broken.setattr(chain_events, "read", fail),
-    "ending": lambda desk, broken: broken.setattr(Session, "end_chain", fail),
+    "ending": lambda desk, broken: broken.setattr(Sketch, "end_chain", fail),
     "overlay": break_overlay,
     "engine": break_engine,
     "timer": break_timer,

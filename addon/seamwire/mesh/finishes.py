@@ -30,8 +30,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from seamwire_core import CutCurve, CutPlan
 
-    from ..core.drawing.change import Change
-    from ..core.network.network import Network
+    from ..core.sketch.change import Change
+    from ..core.network.network import Drawn
     from ..core.network.picks import Edge, Pick
     from ..core.network.wires import Wire
     from ..core.offers.surface_loops import TakenCut
@@ -122,7 +122,7 @@ def slide(mesh: ObjectSession, wires: Collection[Wire]) -> tuple[ObjectSession, 
         for wire in network.wires
     ]
     after.session.adopt(replace(network, wires=tuple(kept)), after.plain_seams)
-    _go_on_with(after, mesh.session.cursor.loops.cuts.taken(mesh.session.drawing.network))
+    _go_on_with(after, mesh.session.offering.cuts.taken(mesh.session.network))
     after.write(after.plan())
     return after, len(moves)
 
@@ -161,7 +161,7 @@ def cut(
     plan: CutPlan,
     wires: Collection[Wire],
     kept: bool = False,
-    before: Network | None = None,
+    before: Drawn | None = None,
     taken: Collection[TakenCut] | None = None,
     crumb: float = 0.0,
 ) -> tuple[ObjectSession, Cut]:
@@ -186,7 +186,7 @@ def cut(
     CutError
         If no wire can be cut once former cuts were taken back. These cuts are gone then, and the wires are snapped to edges.
     """
-    taken = mesh.session.cursor.loops.cuts.taken(mesh.session.drawing.network) if taken is None else taken
+    taken = mesh.session.offering.cuts.taken(mesh.session.network) if taken is None else taken
     skipped = [number for number, _ in plan.left_out if number < len(wires)]
     wires = [wire for number, wire in enumerate(wires) if number not in skipped]
     images = [replace(image, mirror=()) for wire in wires for image in mesh.session.mirrored(wire, curves=True)]
@@ -225,10 +225,10 @@ def cut(
 def _go_on_with(mesh: ObjectSession, taken: Iterable[TakenCut]) -> None:
     """Let closed cuts that were taken before the mesh was changed be bent on it."""
     own = (each.of(mesh.session.network) for each in taken)
-    mesh.session.cursor.loops.cuts.recall(each for each in own if each is not None)
+    mesh.session.offering.cuts.recall(each for each in own if each is not None)
 
 
-def _left_cuts(mesh: ObjectSession, before: Network) -> list[Edge]:
+def _left_cuts(mesh: ObjectSession, before: Drawn) -> list[Edge]:
     """Return the edges that wires of a network ran along where a cut can be taken back. Other wires may have been cut there."""
     return mesh_cut.left_behind(mesh.cage, sorted({edge for wire in before.wires for edge in wire.claims()}))
 

@@ -13,9 +13,8 @@ import bpy
 import numpy as np
 
 from ..core.base import native
-from ..core.drawing.change import Change
-from ..core.drawing.drawing import Drawing
-from ..core.drawing.session import Session
+from ..core.sketch.change import Change
+from ..core.sketch.sketch import Sketch
 from ..core.network.network import edges_after
 from ..core.network.picks import FacePoint
 from ..core.network.strokes import on_mesh
@@ -37,7 +36,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ..core.base.mesh_arrays import Arrays
-    from ..core.network.network import Network
+    from ..core.network.network import Drawn
     from ..core.network.strokes import Stroke
     from ..core.network.wires import Wire
     from ..terms.options import Auto
@@ -117,8 +116,7 @@ class ObjectSession:
         self.cage = edit_mesh.Cage(obj) if obj.mode == "EDIT" else edit_mesh.StoredMesh(obj.data)
         self.arrays = edit_mesh.read(obj)
         self.make_live = LiveMaker(self.arrays)
-        self.session = Session(
-            Drawing(
+        self.session = Sketch(
                 self.make_live,
                 self.arrays.points,
                 options or Options(mirror=mirror_axes(obj.data)),
@@ -128,7 +126,6 @@ class ObjectSession:
                 topology=obj.data.use_mirror_topology,
                 make_parts=self.make_live.part_finder,
             )
-        )
         self.notices = Notices()  # problems with the wires that are stored with the mesh
         self.plain_seams: NDArray[np.int32] = self.arrays.seams
         self.symmetric: tuple[int, ...] | None = None  # the axes of its symmetry; None while they are not known
@@ -155,7 +152,7 @@ class ObjectSession:
 
     def _look_for_symmetry(self) -> None:
         try:
-            self.symmetric = self.session.drawing.symmetry.symmetric_axes
+            self.symmetric = self.session.symmetry.symmetric_axes
         except Exception as error:
             traceback.print_exc()
             self._symmetry_error = error
@@ -176,7 +173,7 @@ class ObjectSession:
     def busy(self) -> bool:
         """Whether something is being computed."""
         looking = self._looking is not None and self._looking.is_alive()
-        return self.session.cursor.computing or self.session.cursor.waiting > 0 or looking or self._unstored
+        return self.session.computing or self.session.waiting > 0 or looking or self._unstored
 
     # Settings
 
@@ -230,7 +227,7 @@ class ObjectSession:
         session.follow(replace(session.options, mirror=mirror_axes(self.cage.data)))
         return True
 
-    def follow_change(self, obj: bpy.types.Object, before: Network) -> Network | None:
+    def follow_change(self, obj: bpy.types.Object, before: Drawn) -> Drawn | None:
         """Read the object's mesh again while wires are drawn, and keep what was done since.
 
         `before` is the network that the mesh has; what differs from it was drawn or changed since. Returns `before`, or the other network
@@ -286,7 +283,7 @@ class ObjectSession:
         self.session.adopt(replace(network, strokes=strokes), self.plain_seams)
         if not self._damaged:
             self._store()
-        self.session.cursor.loops.cuts.recall(_taken_cuts.recall(self.session.network, self.places))
+        self.session.offering.cuts.recall(_taken_cuts.recall(self.session.network, self.places))
 
     def _set_seams(self, seams: NDArray[np.int32], labels: EdgeLabels) -> None:
         self.arrays = replace(self.arrays, seams=seams)
@@ -339,7 +336,7 @@ class ObjectSession:
         if self._renumbered:
             raise ValueError("The mesh has other vertices now")
         return wire_labels.plan(
-            self.session.drawing.network,
+            self.session.network,
             self._labels,
             self._found,
             self._archive,
@@ -370,7 +367,7 @@ class ObjectSession:
         """Let the session go on with the network that was written."""
         self.session.adopt(replace(plan.network, seed=None), self.plain_seams)
         _taken_cuts.keep(
-            self.session.cursor.loops.cuts.taken(self.session.drawing.network), self.session.network, self.places
+            self.session.offering.cuts.taken(self.session.network), self.session.network, self.places
         )
 
     def add(self, wires: Iterable[Wire], strokes: Iterable[Stroke] = ()) -> None:
@@ -425,6 +422,6 @@ class ObjectSession:
         rows, _, _ = native.load().NearestPoints(self.arrays.points, self.arrays.triangles).find(points)
         return np.asarray(rows, dtype=np.int32)
 
-    def drop_changes(self, network: Network) -> None:
+    def drop_changes(self, network: Drawn) -> None:
         """Go back to a network that the session had, whatever was drawn since."""
         self.session.adopt(replace(network, seed=None), self.plain_seams)

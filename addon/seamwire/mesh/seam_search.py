@@ -216,13 +216,13 @@ class Suggestion:
         """Return the axis over which wires come in pairs: one of those that Blender mirrors over, if there are any."""
         if not self._symmetric:
             return None
-        symmetric = self.mesh.session.drawing.symmetry.symmetric_axes
+        symmetric = self.mesh.session.symmetry.symmetric_axes
         preferred = [axis for axis in self._blenders_mirrors if axis in symmetric]
         axis = next(iter((*preferred, *symmetric)), None)
         if axis is None or self._within is None:
             return axis
         # Planned islands that are not symmetric themselves have no pairs.
-        images = self.mesh.session.drawing.symmetry.partners((axis,))
+        images = self.mesh.session.symmetry.partners((axis,))
         planned = np.zeros(len(images), dtype=bool)
         planned[self.mesh.arrays.triangles[self._within]] = True
         has_image = images[planned] >= 0

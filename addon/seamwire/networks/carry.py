@@ -78,7 +78,7 @@ def shape_of(mesh: ObjectSession) -> Shape:
 def seam_wires(mesh: ObjectSession, progress: Progress = lambda _: True) -> list[Wire]:
     """Find wires along the seams of an object that have none. The object is not changed. Any thread may do this."""
     found, done = [], 0
-    for wire in mesh.session.drawing.wires_along(mesh.plain_seams):
+    for wire in mesh.session.wires_along(mesh.plain_seams):
         tell(progress, done / len(mesh.plain_seams))
         found.append(wire)
         done += len(wire.edges())
@@ -87,7 +87,7 @@ def seam_wires(mesh: ObjectSession, progress: Progress = lambda _: True) -> list
 
 def network_of(mesh: ObjectSession, settings: SeamwireSettings, more: Iterable[Wire] = ()) -> NetworkFile:
     """Return the network of an object, and more wires, as they are saved to a file."""
-    network = replace(mesh.session.drawing.network, wires=(*mesh.session.wires, *more))
+    network = replace(mesh.session.network, wires=(*mesh.session.wires, *more))
     name = mesh.cage.data.name
     return NetworkFile.of(network, shape_of(mesh), name=name, metric=settings.metric, clamp=settings.clamp)
 

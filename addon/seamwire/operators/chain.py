@@ -11,8 +11,9 @@ import bpy
 import numpy as np
 
 from ..core.base.messages import NOTHING
-from ..core.drawing.change import Change
-from ..core.network.network import Network, Snap, edges_after
+from ..core.sketch.change import Change
+from ..core.network.network import Drawn, edges_after
+from ..core.sketch.network import Snap
 from ..core.network.picks import FacePoint
 from ..mesh import finishes
 from ..mesh import settings as chosen
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from contextlib import AbstractContextManager
 
-    from ..core.drawing.session import Session
+    from ..core.sketch.sketch import Sketch
     from ..view.object_view import ObjectView
     from .drag_handlers import Hold
 
@@ -68,7 +69,7 @@ class Chain:
         self.drawn_on: ObjectView | None = None
         self.has_kept = False
         self.failure: Exception | None = None
-        self._before = Network()  # what the object that is drawn on had at the last step
+        self._before = Drawn()  # what the object that is drawn on had at the last step
         self._seams = np.empty((0, 2), dtype=np.int32)  # its seams then
         self._titles: set[str] = set()
         self._is_saved = False
@@ -90,7 +91,7 @@ class Chain:
         self._cleanup.callback(running.remove, self)
 
     @property
-    def session(self) -> Session:
+    def session(self) -> Sketch:
         """The session of the object that was pointed at last."""
         assert edited.front is not None
         return edited.front.session
@@ -149,12 +150,12 @@ class Chain:
         """Cancel what a button holds, and released drags that still wait. Return whether there was something."""
         is_held = self.stage is Stage.HOLDING
         self.let_go()
-        return any([view.session.cursor.let_go() for view in edited.views()]) or is_held
+        return any([view.session.cancel() for view in edited.views()]) or is_held
 
     @property
     def waits(self) -> bool:
         """Whether a click waits for its wire."""
-        return any(view.session.cursor.waiting for view in edited.views())
+        return any(view.session.waiting for view in edited.views())
 
     def cancel(self) -> None:
         """Cancel what is dragged. If nothing is, forget the clicks that wait, and end."""
@@ -188,7 +189,7 @@ class Chain:
             self.end()
         elif self.stage is Stage.DRAWING:
             sessions = [view.session for view in edited.views()]
-            if not any(one.seed is not None or one.cursor.waiting or one.cursor.drag for one in sessions):
+            if not any(one.seed is not None or one.waiting or one.cursor.drag for one in sessions):
                 self.go(Cue.SETTLE)
 
     # The objects
@@ -328,7 +329,7 @@ class Chain:
                     self.notices.add("WARNING", str(told))
             drawing.failure = drawing.warning = NOTHING
         view = self.drawn_on
-        change = None if view is None else Change(self._before, view.session.drawing.network)
+        change = None if view is None else Change(self._before, view.session.network)
         title = undo_steps.EDIT if self._titles == {undo_steps.EDIT} else undo_steps.DRAW
         self._titles.clear()
         if view is None or change is None or not (self._is_saved or change):
@@ -388,7 +389,7 @@ class Chain:
 
     def _must_cut(self, view: ObjectView) -> bool:
         """Return whether a wire lies within a face and can be cut. Until it is cut, no edge can store it."""
-        network = view.session.drawing.network
+        network = view.session.network
         cuts = [wire for wire in network.wires if wire.cuts and Change(self._before, network).finishes(wire)]
         # A wire that ends within a face is cut once the chain has led out of the face.
         is_inside = network.seed is not None and isinstance(network.seed.pick, FacePoint)
@@ -466,12 +467,12 @@ class Chain:
         session = self.session
         picture = (
             id(edited.front),
-            tuple((view.session.drawing.revision, view.islands.pointed_island) for view in edited.views()),
+            tuple((view.session.revision, view.islands.pointed_island) for view in edited.views()),
         )
         words = (
-            round(100.0 * session.drawing.progress),
-            session.cursor.computing,
-            session.cursor.waiting,
+            round(100.0 * session.progress),
+            session.computing,
+            session.waiting,
             edited.front.mesh.symmetric,
             self.notices.hint,
         )

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from ..core.drawing.picture import Role
-from ..core.network.network import Snap
+from ..core.sketch.picture import Role
+from ..core.sketch.network import Snap
 from ..mesh.settings import settings
 from ..terms.options import strength_name
 from ..view.edited_objects import edited
@@ -22,7 +22,7 @@ from .keymaps import HELP_PANEL
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ..core.drawing.session import Session
+    from ..core.sketch.sketch import Sketch
     from ..core.network.strokes import Stroke
     from ..core.network.wires import Wire
     from ..view.object_view import ObjectView
@@ -46,7 +46,7 @@ def hover(chain: Chain, given: Given) -> None:
     if view is not None and view is not edited.front:
         chain.session.hover(None)
         # A live wire stays with its object until there is a click on another.
-        if chain.session.seed is None and not chain.session.cursor.waiting:
+        if chain.session.seed is None and not chain.session.waiting:
             edited.front = view
         else:
             snap = None
@@ -61,7 +61,7 @@ def rehover(chain: Chain, place: Place) -> None:
 
 def leave(chain: Chain, _given: Given) -> None:
     """Show nothing under a mouse that has left the view."""
-    if chain.session.cursor.target is not None and chain.hold is None:
+    if chain.session.target is not None and chain.hold is None:
         chain.session.hover(None)
 
 
@@ -159,7 +159,7 @@ def click(chain: Chain, given: Given) -> None:
         chain.note(undo_steps.DRAW)
 
 
-def _is_loop(chain: Chain, session: Session, snap: Snap, event: bpy.types.Event) -> bool:
+def _is_loop(chain: Chain, session: Sketch, snap: Snap, event: bpy.types.Event) -> bool:
     """Return whether a click takes what runs around. Across the surface, a double click ends a wire instead."""
     if session.options.along == "SURFACE":
         return chain.keys.previews(Action.LOOP, event)
@@ -173,7 +173,7 @@ def begin_stroke(chain: Chain, given: Given) -> None:
     if chain.stage is Stage.ENDING:
         chain.begin_anew()
     found, _ = edited.find(given.place)
-    is_live = chain.session.seed is not None or chain.session.cursor.waiting
+    is_live = chain.session.seed is not None or chain.session.waiting
     view = edited.front if is_live or found is None else found
     chain.draw_on(view)
     hold = StrokeHold(given.event, view, given.place)
@@ -248,7 +248,7 @@ def swap(chain: Chain, given: Given) -> None:
         session.retrace(hovered)
         edited.front.turned = None if given.place is None else (hovered, given.place)
     else:
-        session.cursor.next_candidate()
+        session.next_candidate()
 
 
 def change_strength(chain: Chain, given: Given) -> None:
@@ -269,7 +269,7 @@ def close(chain: Chain, given: Given) -> None:
     """Close the chain."""
     assert given.place is not None
     chain.draw_on(edited.front)
-    first = chain.session.drawing.network.closing_point
+    first = chain.session.network.closing_point
     chain.session.close(None if first is None else edited.front.seen_along(given.place.view, first))
 
 

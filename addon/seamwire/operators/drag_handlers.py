@@ -16,7 +16,7 @@ from . import undo_steps
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ..core.network.network import Snap
+    from ..core.sketch.network import Snap
     from ..core.picking.camera import Camera
     from ..view.object_view import ObjectView
     from ..view.viewport import Place
@@ -92,7 +92,7 @@ class SeedHold(Hold):
 
     def drag(self, place: Place) -> bool:
         """Let the seed follow."""
-        self._session.cursor.drag_to(self._view.snap(place.view, place.cursor))
+        self._session.drag_to(self._view.snap(place.view, place.cursor))
         return True
 
     def end(self) -> str:
@@ -102,7 +102,7 @@ class SeedHold(Hold):
 
     def cancel(self) -> None:
         """Let the seed go back."""
-        self._session.cursor.let_go(SeedDrag)
+        self._session.cancel(SeedDrag)
 
 
 class Trail:
@@ -167,16 +167,16 @@ class LineHold(Hold):
         trail = self._trail
         assert trail is not None
         trail.to(place)
-        if self._session.cursor.held is None:
+        if self._session.is_held is None:
             return False  # a key has ended the line in the meantime
         points, triangles = np.array(trail.points).reshape(-1, 3), np.array(trail.triangles, dtype=np.int32)
-        return self._session.cursor.line_to(points, triangles, self._view.snap(place.view, place.cursor))
+        return self._session.line_to(points, triangles, self._view.snap(place.view, place.cursor))
 
     def starts_chain(self) -> bool:
         """Take the line out of the session. Return whether the live wires are a separate chain, which is kept before the line."""
         session = self._session
         self._line = session.cursor.line_release()
-        live = session.seed is not None and not session.cursor.waiting
+        live = session.seed is not None and not session.waiting
         return self._line is not None and live and not session.goes_on_from(self.snap)
 
     def draw_again(self, view: ObjectView) -> bool:
@@ -188,7 +188,7 @@ class LineHold(Hold):
             return False
         points = np.array(trail.points).reshape(-1, 3)
         end = view.snap(trail.last.view, trail.last.cursor)
-        self._session.cursor.line_to(points, view.mesh.triangles_at(points), end)
+        self._session.line_to(points, view.mesh.triangles_at(points), end)
         self._line = self._session.cursor.line_release()
         return self._line is not None
 
@@ -201,7 +201,7 @@ class LineHold(Hold):
 
     def cancel(self) -> None:
         """Forget the line. A seed that was released before stays."""
-        self._session.cursor.let_go(LineGesture)
+        self._session.cancel(LineGesture)
 
 
 class StrokeHold(Hold):

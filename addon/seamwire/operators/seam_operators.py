@@ -64,7 +64,7 @@ class MESH_OT_seamwire_take_over(EditMeshOperator, bpy.types.Operator):
         progress.progress_begin(0, len(seams))
         wires, done = [], 0
         try:
-            for wire in mesh.session.drawing.wires_along(seams):
+            for wire in mesh.session.wires_along(seams):
                 wires.append(wire)
                 done += len(wire.edges())
                 progress.progress_update(done)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import bpy
 
-from ..core.network.network import Snap
+from ..core.sketch.network import Snap
 from ..mesh import settings as chosen
 from ..mesh.registration import Timer
 from ..mesh.settings import redraw_views
@@ -371,7 +371,7 @@ class EditedObjects:
     def show(self) -> None:
         """Show the sessions as they are now, where that is something new."""
         has_islands = any([view.show(front=view is self.front) for view in self.views()])
-        state = [(id(view), view.session.drawing.revision, view.islands.pointed_island) for view in self.views()]
+        state = [(id(view), view.session.revision, view.islands.pointed_island) for view in self.views()]
         state.append((id(self.front),))
         if has_islands or state != self._shown:
             self._shown = state

@@ -35,10 +35,10 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-    from ..core.drawing.picture import Picture
-    from ..core.drawing.session import Session
+    from ..core.sketch.picture import Picture
+    from ..core.sketch.sketch import Sketch
     from ..core.islands.islands import Islands
-    from ..core.network.network import Snap
+    from ..core.sketch.network import Snap
     from ..core.network.picks import Pick
     from ..core.network.strokes import Stroke
     from ..core.network.wires import Wire
@@ -52,7 +52,7 @@ if TYPE_CHECKING:
 class ShownIslands:
     """The islands that the wires of a session and seams, (s, 2), cut the mesh into."""
 
-    def __init__(self, maker: IslandMaker, session: Session, seams: ArrayLike) -> None:
+    def __init__(self, maker: IslandMaker, session: Sketch, seams: ArrayLike) -> None:
         self._maker = maker
         self._session = session
         self._seams = np.asarray(seams, dtype=np.int32).reshape(-1, 2)
@@ -80,7 +80,7 @@ class ShownIslands:
 
     @property
     def _stale(self) -> bool:
-        return self._asked != (self._session.drawing.network_revision, self._seams_read)
+        return self._asked != (self._session.network_revision, self._seams_read)
 
     @property
     def pointed_island(self) -> int | None:
@@ -114,7 +114,7 @@ class ShownIslands:
 
     def _want(self) -> None:
         session = self._session
-        self._asked = (session.drawing.network_revision, self._seams_read)
+        self._asked = (session.network_revision, self._seams_read)
         wanted = edges_after(self._seams, session.edges_to_mark(), session.edges_to_clear())
         planned = (wire for wire in session.wires if wire.planned)
         meant = frozenset(vertex for wire in planned for edge in wire.claims() for vertex in edge)
@@ -197,7 +197,7 @@ class ObjectView:
         return self.mesh.obj
 
     @property
-    def session(self) -> Session:
+    def session(self) -> Sketch:
         """The object's session."""
         return self.mesh.session
 
@@ -219,7 +219,7 @@ class ObjectView:
 
     def close(self) -> None:
         """Let go of what works on threads."""
-        self.session.cursor.loops.edges.stop_search()
+        self.session.offering.edges.stop_search()
         self._islands.close()
         for layer in self._layers:
             layer.close()
@@ -292,15 +292,15 @@ class ObjectView:
 
     def _follow_layers(self) -> None:
         session, options = self.session, self.options
-        self.crest_view.is_wanted = options.snap or session.cursor.loops.offers.wanted
-        source, strokes = self._source(), session.drawing.engines.strokes
+        self.crest_view.is_wanted = options.snap or session.offering.offers.wanted
+        source, strokes = self._source(), session.engines.strokes
         for key, layer in self._working_layers():
             failures.attempt(key, partial(layer.follow, options, source, strokes))
-        session.cursor.use_crests(self.crest_view.crests, options.show_crests)
+        session.use_crests(self.crest_view.crests, options.show_crests)
 
     def _source(self) -> End | None:
         """Return where distances are shown from: the seed of the chain, else the active vertex, else the last seed."""
-        pick = self.session.drawing.seed_place
+        pick = self.session.seed_place
         if pick is None and self.mesh.alive():
             pick = self.mesh.cage.active_vertex()
         if pick is None:
@@ -316,11 +316,11 @@ class ObjectView:
         """Take in what was computed; return whether there is something new to be seen."""
         self.mesh.poll()
         told = any([failures.attempt(key, layer.poll) for key, layer in self._working_layers()])
-        self.session.cursor.use_crests(self.crest_view.crests, self.options.show_crests)
+        self.session.use_crests(self.crest_view.crests, self.options.show_crests)
         # Progress is told by the status bar: the picture stays.
-        seen = self.session.drawing.revision
+        seen = self.session.revision
         self.session.poll()
-        return any((self.session.drawing.revision != seen, self.islands.poll(), told))
+        return any((self.session.revision != seen, self.islands.poll(), told))
 
     def _working_layers(self) -> Iterator[tuple[tuple[Hashable, ...], Layer]]:
         """Iterate over the layers that have not failed, each after what `failures` calls it."""
@@ -357,7 +357,7 @@ class ObjectView:
         across = options.along == "SURFACE"
         mirrored = not plain and options.mirror and self.mesh.symmetric is not None
         if options.snap and self._strength is None:
-            self._strength = self.session.drawing.feature_strength()
+            self._strength = self.session.feature_strength()
         has_crests = options.show_crests and across if plain else options.snap
         snap = self._follow_picker().snap(
             view,
@@ -368,7 +368,7 @@ class ObjectView:
             anywhere=across and options.into_faces,
             session=None if plain else self.session,
             xray=options.xray,
-            preferred=self.session.drawing.symmetry.on_plane(self.session.options.mirror) if mirrored else frozenset(),
+            preferred=self.session.symmetry.on_plane(self.session.options.mirror) if mirrored else frozenset(),
             strength=self._strength if options.snap and not plain else None,
             # A loop leads through what is seen: a ridge that is shown is as good as under the cursor.
             crests=None if self.pose.is_bent or not has_crests else self.crest_view.crests,
@@ -406,7 +406,7 @@ class ObjectView:
         """Return the wire that was given another path here, as it runs now, or None. Forget it if the mouse is elsewhere."""
         if self.turned is not None and (place is None or not place.is_as(self.turned[1])):
             self.turned = None
-        return None if self.turned is None else self.session.network.find(self.turned[0])
+        return None if self.turned is None else self.session.drawn.find(self.turned[0])
 
     def show(self, front: bool) -> bool:
         """Let the overlay follow, and ask for the islands. Return whether islands are new."""

@@ -11,7 +11,7 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from ..core.drawing.picture import LIVE, Role, SeedRole
+from ..core.sketch.picture import LIVE, Role, SeedRole
 from ..core.network.picks import place_of, undirected
 from ..terms.choices import FINISHES
 from ..words import corner
@@ -36,9 +36,9 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from ..core.drawing.picture import Picture, ShownWire
+    from ..core.sketch.picture import Picture, ShownWire
     from ..core.islands.islands import Islands
-    from ..core.network.network import Snap
+    from ..core.sketch.network import Snap
     from ..core.network.picks import Edge, Pick
     from ..core.network.wires import Wire
     from ..mesh.pose import Pose

@@ -13,7 +13,7 @@ from .reports import count
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from ..core.drawing.picture import Picture
+    from ..core.sketch.picture import Picture
     from ..terms.choices import LoopKind
 
 Hint = tuple[str, str]
@@ -115,7 +115,7 @@ def _offer(kind: LoopKind) -> str:
 def _wires(picture: Picture) -> Iterator[Deed]:
     """Yield what other keys do to wires."""
     # Imported late, because it needs NumPy, and Blender's start should not wait for that.
-    from ..core.drawing.picture import Role
+    from ..core.sketch.picture import Role
 
     is_along_edges = picture.options.along == "EDGES"
     if picture.seed is not None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from ..core.drawing.change import Change
+    from ..core.sketch.change import Change
     from ..core.islands.map_faults import MapFaults
     from ..core.islands.square_use import CostlyIsland, SquareUse
     from ..core.network.picks import Pick

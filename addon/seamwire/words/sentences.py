@@ -88,6 +88,7 @@ SENTENCES = {
     "same-edges": "All wires run along the same edges here",
     "seed-lost": "seed {seed}: {degree} ({confidence:.2f})",
     "seed-placed": "seed {seed} at vertex {vertex}: {degree} ({confidence:.2f})",
+    "still-computing": "This wire is still being computed: try again in a moment",
     "stored-by-newer": "A newer version of Seamwire drew the wires of this mesh: they were not read or changed",
     "stored-unreadable": "The wires of this mesh cannot be read: its seams were not changed",
     "stroke-damaged": "The stroke is damaged: each point needs a place and a face",

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points
-from seamwire.core.network.network import Network
+from seamwire.core.network.network import Drawn
 from seamwire.core.network.picks import FacePoint
 from seamwire.core.network.strokes import Stroke
 from seamwire.core.network.wires import FOLLOWS, Wire
@@ -43,11 +43,11 @@ def wire(*vertices: int, **options: object) -> Wire:
 
 
 @pytest.fixture
-def network() -> Network:
+def network() -> Drawn:
     """All kinds of wires and seeds."""
     loop = (7, 8, 14, 13)
     curve = np.array([[0.0, 5.0, 0.0], [0.7, 4.2, 0.0], [2.0, 4.0, 0.0]])
-    return Network(
+    return Drawn(
         (
             wire(0, 1, 2, end=(1, 2), strength=10.0, follow=1, mirror=(0,)),
             wire(2, 3, 4, start=(1, 2), heading=(1, 2), planned=True),
@@ -67,11 +67,11 @@ def network() -> Network:
     )
 
 
-def written(network: Network) -> NetworkFile:
+def written(network: Drawn) -> NetworkFile:
     return NetworkFile.of(network, SHAPE, name="Hémd", metric="concave", clamp=95.0)
 
 
-def test_what_is_read_is_what_was_written(network: Network) -> None:
+def test_what_is_read_is_what_was_written(network: Drawn) -> None:
     file = NetworkFile.parse(written(network).text())
     assert (file.origin.name, file.origin.vertices, file.metric, file.clamp) == ("Hémd", 36, "concave", 95.0)
     wires = file.wires(SHAPE)
@@ -88,7 +88,7 @@ def test_what_is_read_is_what_was_written(network: Network) -> None:
     assert not file.problem_with(SHAPE)
 
 
-def test_one_more_wire_is_lines_more_and_no_line_changed(network: Network) -> None:
+def test_one_more_wire_is_lines_more_and_no_line_changed(network: Drawn) -> None:
     before = written(replace(network, wires=network.wires[:3])).text().splitlines()
     after = written(network).text().splitlines()
     strip = {line.rstrip(",") for line in before}, {line.rstrip(",") for line in after}
@@ -96,11 +96,11 @@ def test_one_more_wire_is_lines_more_and_no_line_changed(network: Network) -> No
     assert len(strip[1] - strip[0]) == 1, "a wire"
 
 
-def test_it_is_written_the_same_in_whatever_order_a_mesh_has_its_wires(network: Network) -> None:
+def test_it_is_written_the_same_in_whatever_order_a_mesh_has_its_wires(network: Drawn) -> None:
     assert written(replace(network, wires=network.wires[::-1])).text() == written(network).text()
 
 
-def test_the_schema_holds(network: Network) -> None:
+def test_the_schema_holds(network: Drawn) -> None:
     jsonschema = pytest.importorskip("jsonschema")
     validator = jsonschema.Draft202012Validator(SCHEMA)
     validator.check_schema(SCHEMA)
@@ -134,7 +134,7 @@ def test_the_schema_has_the_values_of_the_tables() -> None:
         (lambda d: d["strokes"][0].update(corners=[[0, 0, 99], [6, 6, 6]]), "damaged: stroke 1"),
     ],
 )
-def test_what_is_damaged_is_refused_with_where(network: Network, change: object, message: str) -> None:
+def test_what_is_damaged_is_refused_with_where(network: Drawn, change: object, message: str) -> None:
     data = json.loads(written(network).text())
     change(data)
     with pytest.raises(NetworkFileError, match=message):
@@ -147,14 +147,14 @@ def test_what_is_no_json_is_refused(text: str) -> None:
         NetworkFile.parse(text)
 
 
-def test_every_cut_of_a_file_is_refused_and_nothing_else_is_raised(network: Network) -> None:
+def test_every_cut_of_a_file_is_refused_and_nothing_else_is_raised(network: Drawn) -> None:
     text = written(network).text()
     for end in range(0, len(text) - 2, 97):
         with pytest.raises(NetworkFileError):
             NetworkFile.parse(text[:end])
 
 
-def test_another_mesh_is_told_by_its_vertices_and_edges(network: Network) -> None:
+def test_another_mesh_is_told_by_its_vertices_and_edges(network: Drawn) -> None:
     file = written(network)
     assert (
         str(file.problem_with(replace(SHAPE, points=POINTS[:35])))

@@ -10,7 +10,7 @@ import pytest
 from numpy.typing import NDArray
 from seamwire.core.base import native
 from seamwire.core.base.geometry import nearest_on_segments
-from seamwire.core.network.network import Network
+from seamwire.core.network.network import Drawn
 from seamwire.core.network.strokes import Stroke
 from seamwire.core.network.wires import Wire
 from seamwire.networks.core.network_file import NetworkFile, NetworkFileError
@@ -64,11 +64,11 @@ RING = [30 * 16 + place for place in range(16)]
 COURSES = (ALONG, ACROSS, [*RING, RING[0]])
 
 
-def network() -> Network:
+def network() -> Drawn:
     """A wire along the tube; one from its middle half around; a loop that it crosses."""
     edge = (RING[4], RING[5])
     loop = wire(SOURCE, RING, closed=True, start=edge, end=edge, kind="CLOSED", through=edge)
-    return Network((wire(SOURCE, ALONG), wire(SOURCE, ACROSS), loop))
+    return Drawn((wire(SOURCE, ALONG), wire(SOURCE, ACROSS), loop))
 
 
 @pytest.fixture
@@ -117,7 +117,7 @@ def test_a_wire_that_the_surface_does_not_lead_gets_seeds(file: NetworkFile) -> 
         *[12 * 16 + place for place in range(5, -1, -1)],
         13 * 16,
     ]
-    drawn = NetworkFile.of(Network((wire(SOURCE, zigzag),)), SOURCE)
+    drawn = NetworkFile.of(Drawn((wire(SOURCE, zigzag),)), SOURCE)
     target = tube(23, 81)
     found = by_surface(drawn, target)
     assert found.added >= 1
@@ -139,7 +139,7 @@ def lopsided(points: NDArray[np.float64]) -> NDArray[np.float64]:
 def test_it_is_aligned_where_it_does_not_lie_on_the_mesh(scale: float) -> None:
     source = replace(SOURCE, points=lopsided(SOURCE.points))
     wires = tuple(replace(one, points=lopsided(one.points)) for one in network().wires)
-    file = NetworkFile.of(Network(wires), source)
+    file = NetworkFile.of(Drawn(wires), source)
     flat = tube(23, 60)
     turn = np.array([[0.8, -0.6, 0.0], [0.6, 0.8, 0.0], [0.0, 0.0, 1.0]])
     target = replace(flat, points=scale * lopsided(flat.points) @ turn.T + (5.0, -2.0, 1.0))
@@ -178,7 +178,7 @@ def test_it_is_mirrored(file: NetworkFile) -> None:
 
 def test_mirror_images_of_wires_come_too() -> None:
     one = wire(SOURCE, ACROSS, mirror=(2,))
-    file = NetworkFile.of(Network((one,)), SOURCE)
+    file = NetworkFile.of(Drawn((one,)), SOURCE)
     target = tube(23, 60)
     found = by_surface(file, target)
     middles = target.places[found.seams].mean(axis=1)
@@ -213,7 +213,7 @@ def test_what_has_no_place_is_told_and_left_out(file: NetworkFile) -> None:
 
 
 def test_parts_that_do_not_hang_together_are_told() -> None:
-    file = NetworkFile.of(Network((wire(SOURCE, ALONG),)), SOURCE)
+    file = NetworkFile.of(Drawn((wire(SOURCE, ALONG),)), SOURCE)
     target = tube(23, 61)
     middle = (np.abs(target.points[:, 0]) < 0.1)[target.triangles].any(axis=1)
     kept = target.triangles[~middle]
@@ -228,7 +228,7 @@ def test_parts_that_do_not_hang_together_are_told() -> None:
 def test_what_hangs_together_stays_on_one_part() -> None:
     """Of two tubes, one in the other, the outer one was thicker: some of it is nearer to the inner one now."""
     ends_there = [ring * 16 for ring in range(5, 30)]
-    drawn = NetworkFile.of(Network((wire(SOURCE, ends_there),)), SOURCE)
+    drawn = NetworkFile.of(Drawn((wire(SOURCE, ends_there),)), SOURCE)
     inner, outer = tube(16, 41), tube(16, 41)
     closer = np.where(np.abs(outer.points[:, :1] - 0.9) < 0.2, 1.2, 1.03)
     inside = np.where(np.abs(outer.points[:, :1] - 0.9) < 0.2, 1.02, 0.9)
@@ -389,7 +389,7 @@ def test_strokes_come_too() -> None:
     stroke = Stroke(
         SOURCE.points[rows], np.repeat(rows[:, None], 3, 1).astype(np.int32), np.full(4, -1), attracts=False
     )
-    drawn = NetworkFile.of(Network((wire(SOURCE, ACROSS),), strokes=(stroke,)), SOURCE)
+    drawn = NetworkFile.of(Drawn((wire(SOURCE, ACROSS),), strokes=(stroke,)), SOURCE)
     found = by_surface(drawn, tube(23, 60))
     (there,) = found.strokes
     assert not there.attracts

@@ -5,10 +5,9 @@ from dataclasses import replace
 
 import pytest
 from polygon_meshes import arrays_of, grid_places, grid_polygons
-from seamwire.core.drawing.drawing import Drawing
-from seamwire.core.drawing.picture import Offered
-from seamwire.core.drawing.session import Session
-from seamwire.core.network.network import Snap
+from seamwire.core.sketch.picture import Offered
+from seamwire.core.sketch.sketch import Sketch
+from seamwire.core.sketch.network import Snap
 from seamwire.core.solver.solver import LiveMaker
 from seamwire.words.hints import MOST, Status, hints, idle_hints
 from seamwire.words.keys import Action, Bindings, Key
@@ -18,23 +17,23 @@ pytest.importorskip("seamwire_core")
 
 
 @pytest.fixture
-def session() -> Session:
+def session() -> Sketch:
     """A session on a grid; vertex y * 9 + x is column x of row y."""
     arrays = arrays_of(grid_places(9), grid_polygons(9))
-    session = Session(Drawing(LiveMaker(arrays), arrays.points, edges=arrays.edges, triangles=arrays.triangles))
+    session = Sketch(LiveMaker(arrays), arrays.points, edges=arrays.edges, triangles=arrays.triangles)
     session.wait()
     return session
 
 
-def first(session: Session, number: int | None = None, **more: str) -> list[str]:
+def first(session: Sketch, number: int | None = None, **more: str) -> list[str]:
     return [text for _, text in hints(Status(session.picture, Bindings(), **more))][:number]
 
 
-def said(session: Session, **more: str) -> str:
+def said(session: Sketch, **more: str) -> str:
     return "; ".join(first(session, **more))
 
 
-def test_the_hints_follow_what_is_going_on(session: Session) -> None:
+def test_the_hints_follow_what_is_going_on(session: Sketch) -> None:
     assert "Add Seed" not in said(session), "nothing is under the cursor"
     session.hover(36)
     assert "Add Seed" in said(session)
@@ -71,18 +70,18 @@ def test_the_hints_follow_what_is_going_on(session: Session) -> None:
     assert "Loop" not in said(session)
 
 
-def test_what_could_not_be_done_is_said(session: Session) -> None:
+def test_what_could_not_be_done_is_said(session: Sketch) -> None:
     assert not session.close()
     assert "draw a wire first" in said(session)
 
 
-def test_the_mirror_is_offered_and_told(session: Session) -> None:
+def test_the_mirror_is_offered_and_told(session: Sketch) -> None:
     assert "Mirror? Symmetric on XY" in said(session, mirror_offer="XY")
     use(session, mirror=(0,))
     assert said(session, mirror_offer="XY").endswith("Mirror X")
 
 
-def test_there_are_at_most_eight_hints_and_the_mirror_is_offered_among_them(session: Session) -> None:
+def test_there_are_at_most_eight_hints_and_the_mirror_is_offered_among_them(session: Sketch) -> None:
     session.click(36)
     session.wait()
     session.click(44)
@@ -107,14 +106,14 @@ def test_before_the_first_click_the_hints_teach_the_gestures() -> None:
     ]
 
 
-def test_the_hints_name_the_keys_as_they_are_bound(session: Session) -> None:
+def test_the_hints_name_the_keys_as_they_are_bound(session: Sketch) -> None:
     keys = Bindings([(Action.CLEAR, Key("J", shift=1))])
     shown = hints(Status(session.picture, keys))
     assert ("EVENT_J", "Shift: Switch to Clear") in shown
     assert not any("Keys" in text for _, text in shown), "what has no key is not offered"
 
 
-def test_what_a_click_does_comes_first_then_the_way_out_and_the_keys(session: Session) -> None:
+def test_what_a_click_does_comes_first_then_the_way_out_and_the_keys(session: Sketch) -> None:
     session.hover((36, 37))
     assert first(session, 3) == ["Add Seed, Drag: Draw Line", "End Chain", "Keys"]
     session.click(36)
@@ -133,7 +132,7 @@ def test_what_a_click_does_comes_first_then_the_way_out_and_the_keys(session: Se
     assert said_first[2:] == ["End Chain", "Keys"]
 
 
-def test_what_does_not_apply_is_not_hinted_at(session: Session) -> None:
+def test_what_does_not_apply_is_not_hinted_at(session: Sketch) -> None:
     shown = said(session)
     for text in ("Stroke", "Undo", "Loop", "Mirror", "Candidate", "Close", "Remove", "Seed", "Extend"):
         assert text not in shown, text
@@ -146,6 +145,6 @@ def test_what_does_not_apply_is_not_hinted_at(session: Session) -> None:
 
 
 @pytest.mark.parametrize(("kind", "text"), [("HANDLE", "Add Cut of a Handle"), ("PAST", "Add Strip Past Poles")])
-def test_offers_are_in_title_case_as_blender_has_it(session: Session, kind: str, text: str) -> None:
+def test_offers_are_in_title_case_as_blender_has_it(session: Sketch, kind: str, text: str) -> None:
     picture = replace(session.picture, offered=Offered((kind,)))
     assert text in "; ".join(said for _, said in hints(Status(picture, Bindings())))

@@ -6,9 +6,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from seamwire.core.drawing.change import Change
+from seamwire.core.sketch.change import Change
 from seamwire.core.islands.square_use import CostlyIsland, SquareUse
-from seamwire.core.network.network import Network
+from seamwire.core.network.network import Drawn
 from seamwire.core.network.strokes import Stroke, through_vertices
 from seamwire.core.network.wires import split
 from seamwire.words.reports import square_used, summary
@@ -16,7 +16,7 @@ from seamwire.words.scripted import draw_chain
 from table import SIZE, Table, grid_points
 
 
-def drawn() -> Network:
+def drawn() -> Drawn:
     """Return a network of two wires."""
     session = Table().session
     assert draw_chain(session, [0, 2, 14]) == []
@@ -25,11 +25,11 @@ def drawn() -> Network:
 
 def test_drawn_wires_are_counted_with_their_edges() -> None:
     network = drawn()
-    change = Change(Network(), network)
+    change = Change(Drawn(), network)
     assert summary(change, 4, 0) == "2 wires, 4 edges marked"
     assert summary(change, 0, 0) == "2 wires, 0 edges marked", "all of them were seams already"
     assert summary(change, 0, 3) == "2 wires, 3 edges cleared"
-    clearing = Change(Network(), replace(network, wires=tuple(replace(wire, marks=False) for wire in network.wires)))
+    clearing = Change(Drawn(), replace(network, wires=tuple(replace(wire, marks=False) for wire in network.wires)))
     assert summary(clearing, 0, 0) == "2 wires, 0 edges cleared"
 
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-    from .network import Network
+    from .network import Drawn
     from .picks import Edge
     from .symmetry import Symmetry
     from .wires import Wire
@@ -37,14 +37,14 @@ class Stops:
         """Go on with other seams, (k, 2)."""
         self._seams = ranked(_keys(np.asarray(seams, dtype=np.int64).reshape(-1, 2)))
         self._seam_vertices = ranked(np.concatenate([self._seams >> _BITS, self._seams & _LOW]))
-        self._last: tuple[Network, NDArray[np.int64], frozenset[Edge]] | None = None
+        self._last: tuple[Drawn, NDArray[np.int64], frozenset[Edge]] | None = None
 
     @property
     def seams(self) -> NDArray[np.int32]:
         """The edges, (k, 2), that are seams already."""
         return np.stack([self._seams >> _BITS, self._seams & _LOW], axis=1).astype(np.int32)
 
-    def of(self, network: Network, live: Wire | None, begin: Iterable[int]) -> NDArray[np.int64]:
+    def of(self, network: Drawn, live: Wire | None, begin: Iterable[int]) -> NDArray[np.int64]:
         """Return the stops of a wire, in rising order, in a network that may not have it yet: that is the `live` wire.
 
         Where all vertices that the wire has before it runs on, `begin`, lie on the mirror's plane, it runs along that.
@@ -61,18 +61,18 @@ class Stops:
         _, plane, vertices = self._plane
         return stops if plane.issuperset(begin) else ranked(np.concatenate([stops, vertices]))
 
-    def kept(self, network: Network) -> NDArray[np.int64]:
+    def kept(self, network: Drawn) -> NDArray[np.int64]:
         """Return the vertices of seams, of kept wires and of their images, in rising order."""
         return self._kept(network)[0]
 
-    def taken(self, network: Network, edge: Edge) -> bool:
+    def taken(self, network: Drawn, edge: Edge) -> bool:
         """Whether an edge belongs already to a seam, to a kept wire or to an image of one."""
         if undirected(edge) in self._kept(network)[1]:
             return True
         key = _keys(np.array([edge], dtype=np.int64))
         return bool(among(key, self._seams)[0])
 
-    def _kept(self, network: Network) -> tuple[NDArray[np.int64], frozenset[Edge]]:
+    def _kept(self, network: Drawn) -> tuple[NDArray[np.int64], frozenset[Edge]]:
         """Return the vertices of seams, kept wires and their images, in rising order, and the edges of those wires."""
         if self._last is None or self._last[0] is not network:
             edges = frozenset(edge for wire in network.wires for edge in wire.claims())

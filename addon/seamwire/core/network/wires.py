@@ -31,6 +31,11 @@ LOOP_KINDS: frozenset[LoopKind] = frozenset(LOOPS) - {"CROSSING"}
 _ids = itertools.count()
 
 
+def new_id() -> int:
+    """Return a number that no wire and no request has yet."""
+    return next(_ids)
+
+
 @dataclass(frozen=True, eq=False)
 class Wire:
     """A wire from one pick to another, or a closed loop.
@@ -104,7 +109,7 @@ class Wire:
     offers: tuple[Wire, ...] = ()
     beside: tuple[Wire, ...] = ()
     stored: int = 0
-    id: int = field(default_factory=_ids.__next__)
+    id: int = field(default_factory=new_id)
 
     def edges(self) -> list[Edge]:
         """Return the edges it marks or clears, in order along the wire."""
@@ -172,7 +177,7 @@ class Wire:
 
     def anew(self, **changes: object) -> Wire:
         """Return it as another wire, with changes."""
-        return self.changed(**changes, images=None, id=next(_ids))
+        return self.changed(**changes, images=None, id=new_id())
 
     def changed(self, **changes: object) -> Wire:
         """Return it with changes that the mesh does not know yet."""
@@ -220,7 +225,7 @@ def split(wire: Wire, pick: Pick, points: NDArray[np.float64]) -> tuple[Wire, Wi
     heading = (vertices[after - 1], vertices[after])
     first = wire.drawn(vertices=vertices[: after + 1], points=wire.points[: after + 1], end=seed)
     second = wire.drawn(
-        vertices=vertices[after:], points=wire.points[after:], start=seed, heading=heading, id=next(_ids)
+        vertices=vertices[after:], points=wire.points[after:], start=seed, heading=heading, id=new_id()
     )
     return first, second
 
@@ -247,7 +252,7 @@ def _split_loop(wire: Wire, pick: Pick, points: NDArray[np.float64]) -> tuple[Wi
         return wire.drawn(vertices=chain, points=points[list(chain)], start=start, end=end, closed=False, **others)
 
     first = part(around[: middle + 1], seed, around[middle], heading=around[-2:])
-    return first, part(around[middle:], around[middle], seed, heading=around[middle - 1 : middle + 1], id=next(_ids))
+    return first, part(around[middle:], around[middle], seed, heading=around[middle - 1 : middle + 1], id=new_id())
 
 
 def _split_curve(wire: Wire, pick: Pick, points: NDArray[np.float64]) -> tuple[Wire, Wire] | None:
@@ -260,4 +265,4 @@ def _split_curve(wire: Wire, pick: Pick, points: NDArray[np.float64]) -> tuple[W
     nearest = int(np.argmin(gaps))
     before, after = np.vstack([wire.points[: nearest + 1], place]), np.vstack([place, wire.points[nearest + 1 :]])
     first = wire.drawn(vertices=wire.vertices[: at + 1], points=before, end=pick)
-    return first, wire.drawn(vertices=wire.vertices[at:], points=after, start=pick, heading=None, id=next(_ids))
+    return first, wire.drawn(vertices=wire.vertices[at:], points=after, start=pick, heading=None, id=new_id())

@@ -21,7 +21,8 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from ...terms.choices import LoopKind
-    from ..network.network import Network, Snap
+    from ..network.network import Drawn
+    from ..sketch.network import Snap
     from ..network.picks import Edge, Pick
     from ..network.stops import Stops
     from ..solver.solver import Engines, LiveWire
@@ -149,7 +150,7 @@ class LoopOffers(Offers):
         """Remember which wire a click on an edge took, even if it crosses the edge."""
         self._taken = undirected(edge), wire
 
-    def taken_through(self, network: Network, edge: Edge) -> Wire | None:
+    def taken_through(self, network: Drawn, edge: Edge) -> Wire | None:
         """Return the newest wire of a network that a click on an edge took."""
         pick, wire = self._taken
         last = network.find(wire) if pick == undirected(edge) else None
@@ -172,7 +173,7 @@ class LoopOffers(Offers):
         """Return the edges of the likeliest border of a part beside an edge, or nothing."""
         return set(_sides(next(self._parts.borders(edge), ())))
 
-    def find(self, pick: Pick, network: Network, kept: Wire | None = None) -> tuple[Wire, ...]:
+    def find(self, pick: Pick, network: Drawn, kept: Wire | None = None) -> tuple[Wire, ...]:
         """Return what a click on an edge may take; nothing, too, while it is computed, see `final`.
 
         A vertex has no offers. The wire of the network that such a click took, `kept` or else the newest one, comes first. Raises
@@ -194,7 +195,7 @@ class LoopOffers(Offers):
             return (replace(own, offers=()), *others(own, offers))
         return self._with_part(pick, self._with_crossing(pick, self._with_face(pick, offers, network), network))
 
-    def _through(self, edge: Edge, network: Network) -> tuple[Wire, ...]:
+    def _through(self, edge: Edge, network: Drawn) -> tuple[Wire, ...]:
         """Return what leads through an edge, the likeliest first; nothing, too, while it is computed, see `final`.
 
         The library computes one loop at a time. The loops found are remembered as long as nothing else changes.
@@ -214,7 +215,7 @@ class LoopOffers(Offers):
             self._known[edge] = found
         return self._known[edge][0]
 
-    def _compute(self, edge: Edge, network: Network) -> tuple[tuple[Wire, ...], frozenset[Edge]] | None:
+    def _compute(self, edge: Edge, network: Drawn) -> tuple[tuple[Wire, ...], frozenset[Edge]] | None:
         """Find what leads through an edge, the likeliest first, and the edges of the offer that slits the tube around it from rim to rim.
 
         The result is None while it is computed. Raises ValueError if the edge is not part of the surface.
@@ -264,7 +265,7 @@ class LoopOffers(Offers):
         # Of ways of the same length, the edge's own counts.
         return min((own, *beside), key=lambda wire: round(length_of(wire.points) / length_of(own.points), 6))
 
-    def _likeliest_first(self, offers: Sequence[Wire], network: Network, slit: frozenset[Edge]) -> tuple[Wire, ...]:
+    def _likeliest_first(self, offers: Sequence[Wire], network: Drawn, slit: frozenset[Edge]) -> tuple[Wire, ...]:
         """Return offers in the order in which they are shown: the slit of a tube comes first, and hairpins come last."""
 
         def order(wire: Wire) -> tuple[bool, bool, float]:
@@ -284,7 +285,7 @@ class LoopOffers(Offers):
             return False
         return self._parts.half_edges.is_hairpin(wire.vertices)
 
-    def _unlikeliness(self, wire: Wire, network: Network) -> float:
+    def _unlikeliness(self, wire: Wire, network: Drawn) -> float:
         """Return how unlikely an offer is to be what the artist wants, in corners of a loop.
 
         What leads across seams and kept wires is less likely. The next loop is likely of the same kind as the last one.
@@ -310,7 +311,7 @@ class LoopOffers(Offers):
             closed=closed, strength=strength, kind=kind, through=undirected(edge),
         )  # fmt: skip
 
-    def _with_face(self, edge: Edge, offers: tuple[Wire, ...], network: Network) -> tuple[Wire, ...]:
+    def _with_face(self, edge: Edge, offers: tuple[Wire, ...], network: Drawn) -> tuple[Wire, ...]:
         """Return offers with the border of the flat face under the cursor, even if the edge lies inside that face."""
         triangle = self._triangle_at(edge)
         if triangle is None or not offers:
@@ -368,7 +369,7 @@ class LoopOffers(Offers):
         through = edge if undirected(edge) in sides else sides[int(np.nanargmin(self._gaps(sides, edge)))]
         return self._wire("FLAT", chain, True, through)
 
-    def _with_crossing(self, edge: Edge, offers: tuple[Wire, ...], network: Network) -> tuple[Wire, ...]:
+    def _with_crossing(self, edge: Edge, offers: tuple[Wire, ...], network: Drawn) -> tuple[Wire, ...]:
         """Return offers with the loop that crosses the edge at the cursor: second, or first where edges are short."""
         snap = self._snap
         if snap is None or snap.crossing is None or not offers or undirected(snap.pick) != undirected(edge):
@@ -390,7 +391,7 @@ class LoopOffers(Offers):
             both.reverse()
         return (*both, *rest)
 
-    def _direction(self, wire: Wire, edge: Edge, network: Network) -> Direction:
+    def _direction(self, wire: Wire, edge: Edge, network: Drawn) -> Direction:
         return Direction(wire, self._unlikeliness(wire, network), self._points[[*edge]])
 
 

@@ -11,7 +11,7 @@ from ..network.wires import Wire
 
 if TYPE_CHECKING:
     from ...terms.choices import LoopKind
-    from ..network.network import Network
+    from ..network.network import Drawn
     from ..network.picks import Pick
 
 
@@ -59,7 +59,7 @@ class Offers:
         """Whether there may be offers for a pick."""
         raise NotImplementedError
 
-    def find(self, pick: Pick, network: Network, kept: Wire | None = None) -> tuple[Wire, ...]:
+    def find(self, pick: Pick, network: Drawn, kept: Wire | None = None) -> tuple[Wire, ...]:
         """Return what a click on a pick may take; nothing, too, while it is computed, see `final`."""
         raise NotImplementedError
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...terms.choices import LoopKind
-    from ..network.network import Network
+    from ..network.network import Drawn
     from ..network.picks import Pick
     from ..solver.solver import ClosedCut, Engines, LiveWire
     from ..storage.serialization import Places
@@ -61,12 +61,12 @@ class TakenCut:
     id: tuple[int, int] | None = None
     metric: tuple[object, ...] = ()
 
-    def is_in(self, network: Network) -> bool:
+    def is_in(self, network: Drawn) -> bool:
         """Return whether a network still has its wires unchanged."""
         own = [(wire, network.find(wire)) for wire in self.wires]
         return all(now is not None and now.like(wire) for wire, now in own)
 
-    def of(self, network: Network) -> TakenCut | None:
+    def of(self, network: Drawn) -> TakenCut | None:
         """Return it as another mesh has it, of those wires of a network that run as its wires ran; None where they do not lead around.
 
         Where it was cut, they are others: a seed may have gone that lay in the way of a straight cut.
@@ -121,7 +121,7 @@ class CutMemory:
         self._cuts.clear()
         self._size = 0
 
-    def keep(self, cuts: Iterable[TakenCut], network: Network, places: Places) -> None:
+    def keep(self, cuts: Iterable[TakenCut], network: Drawn, places: Places) -> None:
         """Remember cuts that a mesh holds now, and the numbers that it knows their wires by, which `network` has."""
         number_of = {wire.id: wire.stored for wire in network.wires}
         for cut in cuts:
@@ -139,7 +139,7 @@ class CutMemory:
             del self._cuts[oldest]
             self._size -= oldest.course.nbytes
 
-    def recall(self, network: Network, places: Places) -> Iterator[TakenCut]:
+    def recall(self, network: Drawn, places: Places) -> Iterator[TakenCut]:
         """Yield the cuts whose wires a network has, as they are on its mesh, the one taken last at the end."""
         wire_of = {wire.stored: wire for wire in network.wires}
         for cut in self._cuts:
@@ -176,7 +176,7 @@ class SurfaceLoops(Offers):
         """Whether it is a point of the surface."""
         return not isinstance(pick, tuple)
 
-    def find(self, pick: Pick, network: Network, kept: Wire | None = None) -> tuple[Wire, ...]:
+    def find(self, pick: Pick, network: Drawn, kept: Wire | None = None) -> tuple[Wire, ...]:
         """Return the closed cuts through a pick, each as one wire to be shown; nothing, too, while they are computed.
 
         Raises ValueError where the pick is not part of the surface, or there is no cut that can be bent to it.
@@ -226,13 +226,13 @@ class SurfaceLoops(Offers):
         self.clear()
         return vanish
 
-    def bendable(self, network: Network) -> TakenCut | None:
+    def bendable(self, network: Drawn) -> TakenCut | None:
         """Return the last cut that the network still has unchanged, and that would be found again."""
         metric = self._metric
         known = (cut for cut in reversed(self._cuts) if cut.id is None or cut.metric == metric)
         return next((cut for cut in known if cut.is_in(network)), None)
 
-    def taken(self, network: Network) -> tuple[TakenCut, ...]:
+    def taken(self, network: Drawn) -> tuple[TakenCut, ...]:
         """Return the cuts that a network still has unchanged, in the order in which they were added or recalled."""
         return tuple(cut for cut in self._cuts if cut.is_in(network))
 
@@ -277,6 +277,13 @@ class SurfaceLoops(Offers):
         through, course = (pick, offer.points) if before is None else (before.through, before.course)
         self._cuts.append(TakenCut(through, course, wires, self._found[offer.id][1], self._metric))
         self.was_taken(pick)
+
+    def take_from(
+        self, other: SurfaceLoops, pick: Pick, offer: Wire, wires: tuple[Wire, ...], before: TakenCut | None
+    ) -> None:
+        """Remember the same of an offer that others found."""
+        through, course = (pick, offer.points) if before is None else (before.through, before.course)
+        self._cuts.append(TakenCut(through, course, wires, other._found[offer.id][1], other._metric))
 
     def was_taken(self, pick: Pick) -> None:
         """Offer nothing until another pick: something was taken at this one."""

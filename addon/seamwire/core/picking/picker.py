@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.geometry import nearest_on_segments, triangle_normals
-from ..network.network import Snap
 from ..network.picks import FacePoint, place_of
+from ..sketch.network import Snap
 from .camera import Projected, Segments, Sight
 from .plain import PlainPicker
 from .surface import VisibleSurface
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
     from ..base.mesh_arrays import Arrays
-    from ..drawing.session import Session
+    from ..sketch.sketch import Sketch
     from ..fields.crests import Crests
     from ..network.picks import Pick
     from ..network.strokes import Stroke
@@ -168,7 +168,7 @@ class DrawnPicker:
         ends = surface.in_object(surface.points[self._seam_edges.reshape(-1)]).reshape(-1, 2, 3)
         return Segments(list(ends))
 
-    def at(self, sight: Sight, session: Session) -> Snap | None:
+    def at(self, sight: Sight, session: Sketch) -> Snap | None:
         """Return the seed, otherwise the wire, otherwise the seam under the cursor."""
         surface, drawn = self._surface, self._drawn_now(session)
         cursor, reach = sight.cursor, SEED_REACH * sight.scale
@@ -192,22 +192,18 @@ class DrawnPicker:
         away = np.linalg.norm(self._surface.in_object(self._surface.points[vertices]) - place, axis=1)
         return int(vertices[np.argmin(away)])
 
-    def _drawn_now(self, session: Session) -> _Drawn:
+    def _drawn_now(self, session: Sketch) -> _Drawn:
         """Return what can be found of a session's network. A held seed and its wires cannot, because they follow the mouse."""
-        network, along, moving = session.network, session.options.along, session.cursor.moved
-        of = network, along, moving
+        of = session.drawn, session.options.along, session.seed_place, session.moved
         if self._drawn is not None and self._drawn_of == of:
             return self._drawn
-        moved = {wire.id for wire in moving}
-        picks = tuple(session.seeds())
+        moved, followed = session.moved
         wires = tuple(wire for wire in session.wires if wire.id not in moved)
+        picks = tuple(pick for pick in session.seeds() if pick not in followed)
         key = picks, wires
         if self._drawn is not None and self._drawn.key == key:
             self._drawn_of = of
             return self._drawn
-        followed = {end for wire in session.wires if wire.id in moved for end in (wire.start, wire.end)}
-        followed |= {end[::-1] for end in followed if isinstance(end, tuple)}
-        picks = tuple(pick for pick in picks if pick not in followed)
         surface = self._surface
         places = [place_of(pick, surface.points) for pick in picks]
         self._drawn = _Drawn(
@@ -251,7 +247,7 @@ class Picker:
         vertices_only: bool,
         edges_only: bool = False,
         anywhere: bool = False,
-        session: Session | None = None,
+        session: Sketch | None = None,
         xray: bool = False,
         preferred: frozenset[int] = frozenset(),
         strength: NDArray[np.float64] | None = None,

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Literal, TypeVar
 
 from ...terms.choices import KINDS, METRICS, Kind, MetricName
 from ...terms.options import CLAMP_PERCENTILE, STRENGTHS
@@ -118,6 +118,23 @@ class Engines:
             if self._strokes:
                 self._lives[along].set_scribbles(self._library_strokes(self.metric))
         return self._lives[along]
+
+    def hand_over(self, along: Along) -> LiveWire:
+        """Return the live wires of one way for somebody who goes on with them as they are. `get` returns others from here on."""
+        live = self.get(along)
+        self._lives[along] = live.fork()
+        return live
+
+    def fork(self, which: Along | Literal["CUTS"]) -> Engines:
+        """Return engines that have other live wires of one kind, and keep their metric and strokes."""
+        own = Engines(self._make, self._make_stroke)
+        own.metric, own.strengths, own.clamp = self.metric, dict(self.strengths), self.clamp
+        own._strokes, own._made = self._strokes, dict(self._made)
+        if which == "CUTS":
+            own._cuts = self.cuts().fork()
+        else:
+            own._lives[which] = self.get(which).fork()
+        return own
 
     def cuts(self) -> LiveWire:
         """Return the live wires that find closed cuts across the surface: in the metric of concave creases, whatever wires are."""

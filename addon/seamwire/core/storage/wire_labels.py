@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.components import groups
-from ..network.network import Network
+from ..network.network import Drawn
 from ..network.picks import undirected
 from ..network.wires import LOOP_KINDS
 from . import serialization
@@ -68,7 +68,7 @@ class Found:
     Claims and not numbers alone: of two copies of a wire one may be hidden, or broken, while the other is sound.
     """
 
-    network: Network = field(default_factory=Network)
+    network: Drawn = field(default_factory=Drawn)
     known: frozenset[Claim] = frozenset()
     broken: frozenset[Claim] = frozenset()
 
@@ -80,7 +80,7 @@ class Plan:
     In its network, wires that clear seams have done so, and are no wires, nor are those that they cleared. `known` is as in `Found`.
     """
 
-    network: Network
+    network: Drawn
     labels: dict[Edge, int]
     mark: list[Edge]
     clear: list[Edge]
@@ -88,7 +88,7 @@ class Plan:
 
 
 def plan(
-    network: Network,
+    network: Drawn,
     marks: EdgeLabels,
     found: Found,
     archive: Archive,
@@ -149,7 +149,7 @@ def plan(
 
 
 def _asked_for(
-    network: Network, archive: Archive, places: Places, edges: NDArray[np.int32]
+    network: Drawn, archive: Archive, places: Places, edges: NDArray[np.int32]
 ) -> tuple[tuple[Wire, ...], dict[Edge, set[int]], set[Edge], set[Edge]]:
     """Return the wires that stay, the members of labels that edges get, the edges to clear, and those left of wires cleared in part."""
     effect = {edge: wire.marks for wire in network.wires for edge in wire.claims()}
@@ -238,7 +238,7 @@ def read(marks: EdgeLabels, archive: Archive, places: Places) -> Found:
         if stroke is not None:
             strokes.append(stroke)
     wires = _Wires(pieces, set(edges), places).all()
-    return Found(Network(wires, strokes=tuple(strokes)), frozenset(known), frozenset(broken))
+    return Found(Drawn(wires, strokes=tuple(strokes)), frozenset(known), frozenset(broken))
 
 
 def _order(record: Record) -> int:

@@ -28,7 +28,7 @@ from .placing import Shape
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from ...core.network.network import Network
+    from ...core.network.network import Drawn
     from ...core.network.strokes import Stroke
     from ...core.network.wires import Wire
 
@@ -87,7 +87,7 @@ class NetworkFile:
     @classmethod
     def of(
         cls,
-        network: Network,
+        network: Drawn,
         shape: Shape,
         *,
         name: str = "",

@@ -12,7 +12,7 @@ import numpy as np
 from ...core.base import native
 from ...core.base.geometry import Moments
 from ...core.base.messages import NOTHING, Refused
-from ...core.network.network import Network
+from ...core.network.network import Drawn
 from ...core.network.symmetry import MirrorImages, Symmetry
 from ...core.solver.solver import LiveMaker
 from .network_file import Course, NetworkFile, NetworkFileError
@@ -111,7 +111,7 @@ def _by_numbers(file: NetworkFile, target: Shape, topology: bool) -> Transfer:
     """Return a network on a mesh of the same topology, vertex by vertex."""
     _check(file, target)
     symmetry = Symmetry(target.points, target.edges, target.where.to_object, topology, target.triangles)
-    network = MirrorImages(symmetry).complete(Network(tuple(file.wires(target))))
+    network = MirrorImages(symmetry).complete(Drawn(tuple(file.wires(target))))
     wires = list(network.wires)
     ends = dict.fromkeys(
         vertex for wire in wires if not wire.closed for vertex in (wire.vertices[0], wire.vertices[-1])

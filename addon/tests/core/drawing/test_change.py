@@ -5,23 +5,23 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from seamwire.core.drawing.change import Change
-from seamwire.core.network.network import Network
+from seamwire.core.sketch.change import Change
+from seamwire.core.network.network import Drawn
 from seamwire.words.scripted import draw_chain
 from table import Table
 
 COURSES = ((2, 8, 14), (2, 3, 9, 8, 14), (2, 1, 7, 8, 14))
 
 
-def drawn() -> Network:
+def drawn() -> Drawn:
     """Return a network of two wires, the second on the first of the courses."""
     session = Table().session
     assert draw_chain(session, [0, 2, 14]) == []
-    first, second = session.network.wires
+    first, second = session.drawn.wires
     return replace(session.network, wires=(first, replace(second, vertices=COURSES[0])))
 
 
-def with_course(network: Network, number: int) -> Network:
+def with_course(network: Drawn, number: int) -> Drawn:
     first, second = network.wires
     return replace(network, wires=(first, replace(second, vertices=COURSES[number])))
 

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from real_sessions import session_on
-from seamwire.core.drawing.loop import LoopGesture
-from seamwire.core.drawing.picture import Role
+from seamwire.core.sketch.offering import Offering
+from seamwire.core.sketch.picture import Role
 from seamwire.core.fields.crests import Crests
 from seamwire.core.network.picks import FacePoint, Pick
 from seamwire.core.offers.surface_loops import SurfaceLoops
@@ -77,7 +77,7 @@ def sheet(request: pytest.FixtureRequest) -> Sheet:
 def test_one_click_takes_a_ridge_as_far_as_it_is_one(sheet: Sheet, finish: str) -> None:
     session, pick = sheet.session, sheet.pick()
     use(session, finish=finish)
-    session.cursor.use_crests(sheet.crests, True)
+    session.use_crests(sheet.crests, True)
     session.hover(pick, loop=True)
     assert session.picture.offered.kinds[0] == "RIDGE"
     np.testing.assert_array_equal(session.picture.one(Role.OFFER).points, sheet.crests.line(sheet.ridge)[0])
@@ -111,7 +111,7 @@ def test_one_click_takes_a_ridge_as_far_as_it_is_one(sheet: Sheet, finish: str) 
 
 def test_where_ridges_are_not_seen_they_come_last(sheet: Sheet) -> None:
     session = sheet.session
-    session.cursor.use_crests(sheet.crests, False)
+    session.use_crests(sheet.crests, False)
     session.hover(sheet.pick(), loop=True)
     session.wait()
     assert session.picture.offered.kinds[-1] == "RIDGE"
@@ -131,9 +131,9 @@ def test_a_loop_that_is_kept_does_not_become_a_ridge() -> None:
     session, edge = sheet.session, sheet.pick()
     assert session.loop(edge)
     session.wait()
-    session.cursor.use_crests(sheet.crests, False)
+    session.use_crests(sheet.crests, False)
     # Stored, it has lost what else was offered: that is found anew.
-    session.adopt(replace(session.drawing.network, wires=tuple(replace(wire, offers=()) for wire in session.wires)), [])
+    session.adopt(replace(session.network, wires=tuple(replace(wire, offers=()) for wire in session.wires)), [])
     for _ in range(4):
         session.retrace(session.wires[0])
         session.wait()
@@ -149,14 +149,14 @@ def test_toggling_goes_through_what_is_offered_beside_a_ridge(steps: int, kept: 
     if kept:
         assert session.loop(sheet.pick())
         session.wait()
-    session.cursor.use_crests(sheet.crests, True)
+    session.use_crests(sheet.crests, True)
     session.hover(sheet.pick(), loop=True)
     session.wait()
     kinds = session.picture.offered.kinds
     assert len(kinds) > 2
     assert kinds[0] == "RIDGE"
     for _ in range(steps):
-        session.cursor.next_candidate()
+        session.next_candidate()
     shown = session.picture.one(Role.OFFER)
     assert session.picture.offered.kind == kinds[steps]
     assert session.click(sheet.pick())
@@ -167,11 +167,11 @@ def test_toggling_goes_through_what_is_offered_beside_a_ridge(steps: int, kept: 
 def test_a_ridge_that_is_seen_does_not_wait_for_what_else_is_offered() -> None:
     sheet = Sheet("SURFACE")
     session, pick = sheet.session, sheet.pick()
-    session.cursor.use_crests(sheet.crests, True)
+    session.use_crests(sheet.crests, True)
     session.hover(pick, loop=True)
     assert session.picture.offered.kind == "RIDGE"
     assert session.click(pick)
-    assert not any(isinstance(waiting.gesture, LoopGesture) for waiting in session.cursor.queue)
+    assert not any(isinstance(waiting.gesture, Offering) for waiting in session.cursor.queue)
     session.wait()
     assert session.wires
     assert {wire.closed for wire in session.wires} == {False}
@@ -181,36 +181,36 @@ def test_where_neither_a_ridge_nor_a_cut_is_offered_it_is_said_however_late_ridg
     sheet = Sheet("SURFACE")
     session = sheet.session
     session.hover(20 * (N + 1) + 26, loop=True)
-    while session.cursor.computing:
-        for live in session.cursor.lives():
+    while session.computing:
+        for live in session._lives():
             live.wait()
         # Its result is final before the session has looked.
-        session.cursor.use_crests(sheet.crests, False)
+        session.use_crests(sheet.crests, False)
         session.poll()
     assert session.picture.one(Role.OFFER) is None
-    assert session.drawing.message == SurfaceLoops.NONE
+    assert session.reason == SurfaceLoops.NONE
 
 
 def test_ridges_that_are_known_later_are_offered_then(sheet: Sheet) -> None:
     session = sheet.session
-    assert not session.cursor.loops.offers.wanted
+    assert not session.offering.offers.wanted
     session.hover(sheet.pick(), loop=True)
     session.wait()
-    assert session.cursor.loops.offers.wanted
+    assert session.offering.offers.wanted
     assert "RIDGE" not in session.picture.offered.kinds
-    before = session.drawing.revision
-    session.cursor.use_crests(sheet.crests, True)
+    before = session.revision
+    session.use_crests(sheet.crests, True)
     assert session.picture.offered.kinds[0] == "RIDGE"
-    assert session.drawing.revision > before
-    session.cursor.use_crests(None, True)
+    assert session.revision > before
+    session.use_crests(None, True)
     assert "RIDGE" not in session.picture.offered.kinds
     session.hover(sheet.pick())
-    assert not session.cursor.loops.offers.wanted
+    assert not session.offering.offers.wanted
 
 
 def test_what_was_taken_is_not_offered_again_until_the_cursor_was_elsewhere(sheet: Sheet) -> None:
     session, pick = sheet.session, sheet.pick()
-    session.cursor.use_crests(sheet.crests, True)
+    session.use_crests(sheet.crests, True)
     session.hover(pick, loop=True)
     session.click(pick)
     session.wait()
@@ -225,7 +225,7 @@ def test_what_was_taken_is_not_offered_again_until_the_cursor_was_elsewhere(shee
 def test_the_second_press_of_a_double_click_on_a_ridge_takes_nothing_more(computed: bool) -> None:
     sheet = Sheet("EDGES")
     session, edge = sheet.session, sheet.pick()
-    session.cursor.use_crests(sheet.crests, True)
+    session.use_crests(sheet.crests, True)
     session.hover(edge, loop=True)
     session.click(edge)
     if computed:
@@ -245,7 +245,7 @@ def test_the_second_press_of_a_double_click_on_a_ridge_takes_nothing_more(comput
 
 def test_a_ridge_leaves_the_chain_that_is_drawn_as_it_is(sheet: Sheet) -> None:
     session, pick = sheet.session, sheet.pick()
-    session.cursor.use_crests(sheet.crests, True)
+    session.use_crests(sheet.crests, True)
     session.click(2 * (N + 1) + 3)
     session.hover(pick, loop=True)
     session.click(pick)

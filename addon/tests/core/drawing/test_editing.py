@@ -6,8 +6,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from seamwire.core.drawing.picture import Intent, Role, SeedRole, ShownSeed
-from seamwire.core.network.network import Network, Snap
+from seamwire.core.sketch.picture import Intent, Role, SeedRole, ShownSeed
+from seamwire.core.sketch.network import Network, Snap
 from setting import insert, use
 from table import Table, chain, corner, courses, paper
 
@@ -66,14 +66,14 @@ def test_a_chain_goes_on_from_its_last_seed_in_its_direction() -> None:
 
 def test_a_click_on_the_first_seed_closes_the_loop() -> None:
     session = corner().session
-    assert session.drawing.network.closing_point == 0
+    assert session.network.closing_point == 0
     session.hover(Snap(0, "SEED"))
     assert session.picture.intent is Intent.CLOSE
     session.click(Snap(0, "SEED"))
     assert session.wires[-1].start == 21
     assert session.wires[-1].end == 0
     assert session.seed is None
-    assert session.drawing.network.closing_point is None
+    assert session.network.closing_point is None
 
 
 def test_a_chain_of_one_wire_is_not_closed_by_going_back_along_it() -> None:
@@ -81,11 +81,11 @@ def test_a_chain_of_one_wire_is_not_closed_by_going_back_along_it() -> None:
     session.click(0)
     session.click(3)
     assert not session.close()
-    assert "back" in str(session.drawing.message)
+    assert "back" in str(session.reason)
     assert len(session.wires) == 1
     session.undo()
     session.click(9)
-    assert session.cursor.next_candidate() is False
+    assert session.next_candidate() is False
     assert session.close(), "where it comes back another way it is"
     assert courses(session) == [(0, 1, 2, 3, 9), (9, 8, 7, 6, 0)]
 
@@ -95,7 +95,7 @@ def test_without_a_chain_there_is_nothing_to_close() -> None:
     assert not session.close()
     session.click(0)
     assert not session.close()
-    assert "draw a wire first" in str(session.drawing.message)
+    assert "draw a wire first" in str(session.reason)
 
 
 def test_a_chain_that_began_on_an_edge_is_closed_over_its_other_end() -> None:
@@ -113,10 +113,10 @@ def test_a_chain_that_began_on_an_edge_is_closed_over_its_other_end() -> None:
 
 def test_a_dropped_wire_is_gone_and_undo_brings_it_back() -> None:
     session = corner().session
-    before = session.drawing.network_revision
+    before = session.network_revision
     assert session.drop(session.wires[0])
     assert courses(session) == [(3, 9, 15, 21)]
-    assert session.drawing.network_revision > before
+    assert session.network_revision > before
     assert session.undo()
     assert courses(session) == [(0, 1, 2, 3), (3, 9, 15, 21)]
     assert not session.drop(corner().session.wires[0]), "the wire of another drawing"
@@ -203,7 +203,7 @@ def test_of_three_the_ways_of_half_a_wire_are_computed_and_come_in_the_same_orde
 def test_a_straight_wire_has_no_other_way() -> None:
     session = corner().session
     assert not session.retrace(session.wires[0])
-    assert "same edges" in str(session.drawing.message)
+    assert "same edges" in str(session.reason)
 
 
 def test_the_other_way_of_half_a_wire_is_computed() -> None:
@@ -214,7 +214,7 @@ def test_the_other_way_of_half_a_wire_is_computed() -> None:
     assert courses(session) == [(0, 1, 2, 8, 14, 20)]
     insert(session, session.wires[0], 8)
     assert session.retrace(session.wires[0])
-    assert session.cursor.computing
+    assert session.computing
     assert courses(session) == [(0, 1, 2, 8), (8, 14, 20)]
     table.compute()
     assert courses(session) == [(0, 6, 7, 8), (8, 14, 20)]
@@ -230,11 +230,11 @@ def test_dropping_waits_for_nothing_that_was_asked_of_the_wire() -> None:
     session.click(21)
     insert(session, session.wires[0], 9)
     session.retrace(session.wires[0])
-    assert session.cursor.waiting == 1
+    assert session.waiting == 1
     session.drop(session.wires[0])
     table.compute()
     assert courses(session) == [(9, 15, 21)]
-    assert str(session.drawing.message) == ""
+    assert str(session.reason) == ""
 
 
 def test_undo_takes_back_what_waits_for_a_wires_other_way() -> None:
@@ -245,7 +245,7 @@ def test_undo_takes_back_what_waits_for_a_wires_other_way() -> None:
     insert(session, session.wires[0], 9)
     session.retrace(session.wires[0])
     assert session.undo()
-    assert session.cursor.waiting == 0
+    assert session.waiting == 0
     table.compute()
     assert len(session.wires) == 2
     assert session.wires[0].vertices == (0, 1, 2, 3, 9)
@@ -260,7 +260,7 @@ def test_a_stored_loop_that_no_click_took_has_no_other_way() -> None:
     session = Table().session
     mesh.open(session)
     assert not session.retrace(session.wires[0])
-    assert "loop" in str(session.drawing.message)
+    assert "loop" in str(session.reason)
 
 
 # Running to the end
@@ -314,21 +314,21 @@ def test_without_a_cursor_it_goes_on_from_the_last_edge() -> None:
 def test_without_a_direction_it_says_what_it_needs() -> None:
     session = Table().session
     assert not session.run_to_end()
-    assert "seed first" in str(session.drawing.message)
+    assert "seed first" in str(session.reason)
     session.click(0)
     session.hover(None)
     assert not session.run_to_end()
-    assert "Point" in str(session.drawing.message)
+    assert "Point" in str(session.reason)
     use(session, along="SURFACE")
     assert not session.run_to_end(preview=True)
-    assert "along edges" in str(session.drawing.message)
+    assert "along edges" in str(session.reason)
 
 
 def test_the_preview_of_the_end_can_be_let_go() -> None:
     session = corner().session
     session.hover(22)
     session.run_to_end(preview=True)
-    assert session.cursor.stop_preview()
+    assert session.stop_preview()
     assert session.picture.one(Role.EXTENSION) is None
     assert session.click(22)
     assert courses(session)[-1] == (21, 22)

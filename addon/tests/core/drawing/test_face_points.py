@@ -6,9 +6,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
-from seamwire.core.drawing.drawing import Drawing
-from seamwire.core.drawing.session import Session
-from seamwire.core.network.network import Snap
+from seamwire.core.sketch.sketch import Sketch
+from seamwire.core.sketch.network import Snap
 from seamwire.core.network.picks import FacePoint, place_of
 from seamwire.core.storage.serialization import Places, wire_record
 from seamwire.terms.options import Options
@@ -21,14 +20,14 @@ POINTS = grid_points(SIZE)
 TRIANGLES = grid_triangles(SIZE)
 
 
-def session(finish: str = "CUT") -> Session:
+def session(finish: str = "CUT") -> Sketch:
     """Return a session across the surface, by the shortest path."""
     surface = core.Surface(POINTS, TRIANGLES, grid_edges(SIZE))
 
     def make(way: str) -> object:
         return core.LiveWire(surface, along=way.lower(), metric="euclidean")
 
-    made = Session(Drawing(make, POINTS, Options(along="SURFACE"), edges=grid_edges(SIZE), triangles=TRIANGLES))
+    made = Sketch(make, POINTS, Options(along="SURFACE"), edges=grid_edges(SIZE), triangles=TRIANGLES)
     use(made, finish=finish)
     return made
 
@@ -40,13 +39,13 @@ def at(x: float, y: float) -> FacePoint:
     return FacePoint.at(np.array([x, y, 0.0]), 2 * square + (not lower), TRIANGLES, POINTS)
 
 
-def click(on: Session, *picks: object) -> None:
+def click(on: Sketch, *picks: object) -> None:
     for pick in picks:
-        assert on.click(pick), str(on.drawing.message)
+        assert on.click(pick), str(on.told)
         on.wait()
 
 
-def ends(on: Session) -> list[tuple[list[float], list[float]]]:
+def ends(on: Sketch) -> list[tuple[list[float], list[float]]]:
     return [(wire.points[0][:2].round(9).tolist(), wire.points[-1][:2].round(9).tolist()) for wire in on.wires]
 
 
@@ -81,7 +80,7 @@ def test_within_one_face_a_wire_marks_nothing_and_is_there() -> None:
     assert on.edges_to_mark() == []
     assert on.wires[0].vertices == (0,)
     click(on, at(1.6, 1.8))
-    assert on.network.find(on.wires[0]) is not None
+    assert on.drawn.find(on.wires[0]) is not None
     assert on.drop(on.wires[0])
 
 
@@ -92,18 +91,18 @@ def test_where_it_is_not_to_be_cut_a_wire_that_meets_no_edge_is_not_kept() -> No
     on.hover(0)
     on.wait()
     assert not on.click(0)
-    assert "Too short to become a seam" in str(on.drawing.message)
+    assert "Too short to become a seam" in str(on.told)
     assert on.wires == () and on.seed == one
     click(on, 2)
     on.end_chain()
     assert on.drag(2)
-    on.cursor.drag_to(0)
+    on.drag_to(0)
     on.wait()
     assert on.drag_end()
     assert on.wires == (), "the mesh would not know of it"
-    assert "A wire was removed" in str(on.drawing.told)
+    assert "A wire was removed" in str(on.told)
     assert on.undo()
-    assert str(on.drawing.told) == ""
+    assert str(on.told) == ""
     assert [wire.vertices for wire in on.wires] == [(0, 1, 2)]
 
 
@@ -128,15 +127,13 @@ def test_along_edges_a_point_is_its_nearest_vertex() -> None:
 def test_over_a_mirror_a_wire_without_edges_has_its_image() -> None:
     centred = POINTS - (1.0, 1.0, 0.0)
     surface = core.Surface(centred, TRIANGLES, grid_edges(SIZE))
-    on = Session(
-        Drawing(
+    on = Sketch(
             lambda way: core.LiveWire(surface, along=way.lower(), metric="euclidean"),
             centred,
             Options(along="SURFACE"),
             edges=grid_edges(SIZE),
             triangles=TRIANGLES,
         )
-    )
     use(on, finish="CUT")
     use(on, mirror=[0])
     click(on, *(FacePoint.at(np.array([x, y, 0.0]), 0, TRIANGLES, centred) for x, y in ((-0.7, -0.9), (-0.6, -0.7))))

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from polygon_meshes import arrays_of
 from real_sessions import AROUND, ball, session_on
 from seamwire.core.base.mesh_arrays import Arrays
-from seamwire.core.drawing.picture import Role
-from seamwire.core.drawing.session import Session
-from seamwire.core.network.network import Snap
+from seamwire.core.sketch.picture import Role
+from seamwire.core.sketch.sketch import Sketch
+from seamwire.core.sketch.network import Snap
 from seamwire.core.network.picks import Edge, undirected
 
 pytest.importorskip("seamwire_core")
@@ -105,12 +105,12 @@ def wavy_ball() -> tuple[NDArray[np.float64], Polygons]:
     return np.concatenate([points, [[0.0, 0.0, -1.0], [0.0, 0.0, 1.0]]]), polygons
 
 
-def session_of(points: NDArray[np.float64], polygons: Polygons) -> tuple[Session, Arrays]:
+def session_of(points: NDArray[np.float64], polygons: Polygons) -> tuple[Sketch, Arrays]:
     arrays = arrays_of(points, polygons)
     return session_on(arrays.points, arrays.triangles, arrays.edges), arrays
 
 
-def offers(session: Session, target: Snap) -> list[tuple[str, frozenset[Edge]]]:
+def offers(session: Sketch, target: Snap) -> list[tuple[str, frozenset[Edge]]]:
     """Return the kinds and the edges of what is offered, in order."""
     session.hover(target, loop=True)
     session.wait()
@@ -119,7 +119,7 @@ def offers(session: Session, target: Snap) -> list[tuple[str, frozenset[Edge]]]:
         loops = [shown.wire for shown in session.picture.wires if shown.role is Role.OFFER]
         found.append((session.picture.offered.kind, frozenset(edge for loop in loops for edge in loop.edges())))
         assert session.picture.offered.kind != "FLAT" or all(loop.closed for loop in loops)
-        session.cursor.next_candidate()
+        session.next_candidate()
     session.hover(None)
     return found
 
@@ -308,8 +308,8 @@ def test_all_borders_of_a_wall_are_shown_and_taken_at_once() -> None:
     target = Snap((18, 19), crossing=(18, 2), triangle=face_of(arrays, 2, 3, 19), inside=True)
     session.hover(target, loop=True)
     session.wait()
-    assert session.cursor.next_candidate()
-    assert session.cursor.next_candidate()
+    assert session.next_candidate()
+    assert session.next_candidate()
     session.hover(target, loop=True)
     session.wait()
     assert session.picture.offered.number == 2, "the choice stays"

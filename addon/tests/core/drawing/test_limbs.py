@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 from polygon_meshes import arrays_of, grid_places, grid_polygons
 from seamwire.core.base.mesh_arrays import Arrays
-from seamwire.core.drawing.drawing import Drawing
-from seamwire.core.drawing.session import Session
-from seamwire.core.network.network import Snap
+from seamwire.core.sketch.sketch import Sketch
+from seamwire.core.sketch.network import Snap
 from seamwire.core.picking.camera import Camera
 from seamwire.core.picking.picker import Picker
 from seamwire.core.solver.solver import LiveMaker
@@ -51,10 +50,9 @@ class Alt:
     def __init__(self, arrays: Arrays, pixels_a_unit: float) -> None:
         self.arrays = arrays
         make = LiveMaker(arrays)
-        drawing = Drawing(
+        self.session = Sketch(
             make, arrays.points, edges=arrays.edges, triangles=arrays.triangles, make_parts=make.part_finder
         )
-        self.session = Session(drawing)
         half = 200.0 / pixels_a_unit
         self.view = Camera(400.0, 400.0, np.diag([1.0 / half, 1.0 / half, -0.1, 1.0]))
         self.picker = Picker(arrays)
@@ -72,7 +70,7 @@ class Alt:
         """Point at a place and return the vertices of the first two offers."""
         self.session.hover(self.snap(x, y), loop=True)
         self.session.wait()
-        return [set(offer.vertices) for offer in self.session.cursor.loops.offers.offers[:2]]
+        return [set(offer.vertices) for offer in self.session.offering.offers.offers[:2]]
 
 
 def ring(number: int) -> set[int]:
@@ -117,7 +115,7 @@ def test_zoomed_out_the_ring_around_a_limb_comes_first_wherever_the_cursor_is() 
 def test_a_chosen_direction_stays_while_the_cursor_moves_over_short_edges() -> None:
     alt = Alt(limb(), 40.0)
     alt.over(0.0, 0.0)
-    assert alt.session.cursor.next_candidate()
+    assert alt.session.next_candidate()
     for x, y in spots():
         first, second = alt.over(x, y)
         assert second == ring(min(second) // AROUND)
@@ -132,7 +130,7 @@ def test_on_a_plain_where_no_direction_is_likelier_the_last_one_stays() -> None:
     alt.over(0.013, 0.0)
 
     def is_row() -> bool:
-        rows = {vertex // 81 for vertex in alt.session.cursor.loops.offers.wire.vertices}
+        rows = {vertex // 81 for vertex in alt.session.offering.offers.wire.vertices}
         return len(rows) == 1
 
     began = is_row()
@@ -144,7 +142,7 @@ def test_on_a_plain_where_no_direction_is_likelier_the_last_one_stays() -> None:
 def test_a_click_on_a_large_mesh_waits_for_the_faces() -> None:
     alt = Alt(arrays_of(grid_places(81), grid_polygons(81)), 150.0)
     alt.session.loop(alt.snap(0.013, 0.0))
-    assert alt.session.cursor.waiting == 1
+    assert alt.session.waiting == 1
     alt.session.wait()
     assert len(alt.session.wires) == 1
 
@@ -155,7 +153,7 @@ def test_a_crossing_loop_is_kept_as_a_loop_through_its_own_edge_and_a_second_pre
     snap = next(one for one in (alt.snap(x, y) for x, y in spots()) if abs(one.pick[0] - one.pick[1]) == AROUND)
     session.hover(snap, loop=True)
     session.wait()
-    assert session.cursor.next_candidate()
+    assert session.next_candidate()
     assert session.picture.offered.kind == "CROSSING"
     assert session.loop(snap)
     (wire,) = session.wires
@@ -179,7 +177,7 @@ def test_of_a_click_that_nothing_was_shown_for_the_first_offer_is_kept() -> None
     assert set(wire.vertices) == ring(min(wire.vertices) // AROUND)
 
 
-def closing(alt: Alt, first: int, second: int, along: Along = "EDGES") -> Session:
+def closing(alt: Alt, first: int, second: int, along: Along = "EDGES") -> Sketch:
     """Draw a wire between two vertices, and point at the first one to close the chain there."""
     session = alt.session
     use(session, along=along)
@@ -193,7 +191,7 @@ def closing(alt: Alt, first: int, second: int, along: Along = "EDGES") -> Sessio
     return session
 
 
-def turns_around(session: Session) -> bool:
+def turns_around(session: Sketch) -> bool:
     """Whether the wires lead once around the limb's axis, y."""
     points = np.concatenate([wire.points[:-1] for wire in session.wires])
     angles = np.arctan2(points[:, 0], points[:, 2])
@@ -206,7 +204,7 @@ def turns_around(session: Session) -> bool:
 def test_two_seeds_on_one_side_of_a_limb_close_around_it_first_and_in_front_after_w(along: Along, second: int) -> None:
     first = AROUND * 20
     session = closing(Alt(limb(), 200.0), first, second, along)
-    others = [{*wire.vertices} for wire in session.cursor.live.others]
+    others = [{*wire.vertices} for wire in session.wiring.others]
     assert session.close()
     session.wait()
     assert turns_around(session)
@@ -216,7 +214,7 @@ def test_two_seeds_on_one_side_of_a_limb_close_around_it_first_and_in_front_afte
     session.hover(Snap(first, "SEED"))
     session.wait()
     assert others
-    assert session.cursor.next_candidate()
+    assert session.next_candidate()
     assert {*session.picture.active.vertices} == others[0]
 
 
@@ -226,10 +224,10 @@ def test_a_click_while_the_way_around_a_limb_is_searched_waits_for_it(along: Alo
     alt = Alt(limb(), 200.0)
     session = closing(alt, first, second, along)
     session.hover(None)
-    session.cursor.live.ring.forget()
+    session.wiring.ring.forget()
     session.hover(Snap(first, "SEED"))
-    assert session.cursor.computing
-    assert not session.cursor.live.decided
+    assert session.computing
+    assert not session.wiring.decided
     session.click(Snap(first, "SEED"))
     session.wait()
     assert turns_around(session)
@@ -239,7 +237,7 @@ def test_a_click_while_the_way_around_a_limb_is_searched_waits_for_it(along: Alo
 def test_a_stroke_while_the_way_around_a_limb_is_active_is_for_all_wires(along: Along) -> None:
     first = AROUND * 20
     session = closing(Alt(limb(), 200.0), first, AROUND * 24 + 4, along)
-    assert session.cursor.live.ring_active
+    assert session.wiring.ring_active
     assert session.draw_stroke(vertices=[first + 2, first + 3])
     assert session.network.strokes[-1].acts_on == "both"
 
@@ -251,17 +249,17 @@ def test_offers_and_the_way_around_a_limb_are_found_at_once(monkeypatch: pytest.
     first, second = AROUND * 80, AROUND * 96 + 24
     session = closing(Alt(limb(), 200.0), first, second, "SURFACE")
     session.hover(None)
-    session.cursor.live.ring.forget()
+    session.wiring.ring.forget()
     session.hover(Snap(first, "SEED"), loop=True)
     for _ in range(100):
-        for live in session.cursor.lives():
+        for live in session._lives():
             live.wait()
         session.poll()
-        if not session.cursor.computing:
+        if not session.computing:
             break
-    assert not session.cursor.computing
-    assert session.cursor.live.ring.wire is not None
-    assert session.cursor.loops.offers.offers
+    assert not session.computing
+    assert session.wiring.ring.wire is not None
+    assert session.offering.offers.offers
 
 
 def test_the_wire_around_a_limb_stays_around_it_when_a_seed_is_moved() -> None:
@@ -269,7 +267,7 @@ def test_the_wire_around_a_limb_stays_around_it_when_a_seed_is_moved() -> None:
     assert session.picture.choice.around
     assert session.close()
     session.drag(Snap(AROUND * 24 + 4, "SEED"))
-    session.cursor.drag_to(AROUND * 25 + 4)
+    session.drag_to(AROUND * 25 + 4)
     session.drag_end()
     session.wait()
     assert turns_around(session)

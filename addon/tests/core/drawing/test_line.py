@@ -10,9 +10,9 @@ import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
 from real_sessions import session_on
-from seamwire.core.drawing.picture import Intent, Role
-from seamwire.core.drawing.session import Session
-from seamwire.core.network.network import Snap
+from seamwire.core.sketch.picture import Intent, Role
+from seamwire.core.sketch.sketch import Sketch
+from seamwire.core.sketch.network import Snap
 from seamwire.core.network.picks import FacePoint, undirected
 from seamwire.terms.choices import Along
 from seamwire.terms.options import Options
@@ -34,7 +34,7 @@ def hills() -> NDArray[np.float64]:
     return points
 
 
-def session(along: Along = "EDGES", seams: object = (), **options: object) -> Session:
+def session(along: Along = "EDGES", seams: object = (), **options: object) -> Sketch:
     made = session_on(
         hills(), grid_triangles(SIZE), grid_edges(SIZE), options=Options(along=along), seams=seams, **options
     )
@@ -71,14 +71,14 @@ def _weights(place: NDArray[np.float64], corners: NDArray[np.float64]) -> NDArra
 
 
 def draw(
-    drawing: Session, begin: Snap | int, drawn: tuple[NDArray, NDArray], end: Snap | int | None = None, moves: int = 5
+    drawing: Sketch, begin: Snap | int, drawn: tuple[NDArray, NDArray], end: Snap | int | None = None, moves: int = 5
 ) -> None:
     """Press, move the mouse so often, release, and wait."""
     drawing.line_begin(begin)
     points, faces = drawn
     for move in range(1, moves + 1):
         count = max(2, len(points) * move // moves)
-        drawing.cursor.line_to(points[:count], faces[:count], end if move == moves else None)
+        drawing.line_to(points[:count], faces[:count], end if move == moves else None)
     end_line(drawing)
     drawing.wait()
 
@@ -87,7 +87,7 @@ ROW = tuple(at(x, 5) for x in range(2, 10))
 HOOK = (*ROW, *(at(9, y) for y in range(6, 11)))
 
 
-def chain_of(drawing: Session) -> list[int]:
+def chain_of(drawing: Sketch) -> list[int]:
     """Return the vertices of all wires, which go on from each other."""
     chain: list[int] = [drawing.wires[0].vertices[0]]
     for wire in drawing.wires:
@@ -102,19 +102,19 @@ def test_a_line_is_kept_as_wires_along_its_edges_in_one_step() -> None:
     assert drawing.picture.intent is Intent.DRAW
     points, faces = line((2, 5), (9, 5), (9, 10), wobble=0.2)
     half = len(points) // 2
-    drawing.cursor.line_to(points[:half], faces[:half], None)
+    drawing.line_to(points[:half], faces[:half], None)
     shown = [wire.vertices for wire in drawing.picture.all(Role.FOLLOWING)]
     assert shown == [HOOK[: len(shown[0])]]
     assert 4 <= len(shown[0]) <= 8
     assert drawing.wires == ()
     np.testing.assert_array_equal(drawing.picture.line, points[:half])
-    drawing.cursor.line_to(points, faces, None)
+    drawing.line_to(points, faces, None)
     assert [wire.vertices for wire in drawing.picture.all(Role.FOLLOWING)] == [HOOK]
     assert end_line(drawing)
     drawing.wait()
     assert chain_of(drawing) == list(HOOK)
     assert drawing.seed is None, "a line is a chain of its own"
-    assert not drawing.cursor.held
+    assert not drawing.is_held
     assert drawing.picture.all(Role.FOLLOWING) == ()
     assert drawing.undo()
     assert drawing.wires == ()
@@ -131,12 +131,12 @@ def test_its_wires_run_as_those_between_their_seeds_do() -> None:
     for wire in drawing.wires:
         # A seed that is moved away and back brings the same wires.
         assert drawing.drag(Snap(wire.end, "SEED"))
-        drawing.cursor.drag_to(Snap(at(12, 12)))
+        drawing.drag_to(Snap(at(12, 12)))
         drawing.wait()
-        drawing.cursor.drag_to(Snap(wire.end))
+        drawing.drag_to(Snap(wire.end))
         drawing.wait()
         assert {own.id: own.vertices for own in drawing.wires} == before
-        drawing.cursor.let_go()
+        drawing.cancel()
 
 
 def test_a_line_that_is_cancelled_leaves_all_as_it_was() -> None:
@@ -146,14 +146,14 @@ def test_a_line_that_is_cancelled_leaves_all_as_it_was() -> None:
     drawing.wait()
     network = drawing.network
     drawing.line_begin(at(3, 7))
-    drawing.cursor.line_to(*line((3, 7), (9, 7)), None)
+    drawing.line_to(*line((3, 7), (9, 7)), None)
     assert drawing.picture.all(Role.FOLLOWING)
-    assert drawing.cursor.let_go()
+    assert drawing.cancel()
     assert drawing.network == network
     assert drawing.picture.all(Role.FOLLOWING) == ()
-    assert not drawing.cursor.let_go()
+    assert not drawing.cancel()
     assert not end_line(drawing)
-    assert not drawing.cursor.line_to(*line((3, 7), (9, 7)), None)
+    assert not drawing.line_to(*line((3, 7), (9, 7)), None)
     assert drawing.network == network
 
 
@@ -167,7 +167,7 @@ def test_a_line_begun_elsewhere_ends_the_chain_and_one_begun_at_its_seed_goes_on
     draw(drawing, Snap(at(4, 1), "SEED"), line((4, 1), (9, 1)))
     assert chain_of(drawing) == [at(x, 1) for x in range(1, 10)]
     assert drawing.seed is not None
-    assert drawing.drawing.seed_place == at(9, 1)
+    assert drawing.seed_place == at(9, 1)
     assert drawing.wires[1].heading == (at(3, 1), at(4, 1)), "its first wire goes on from the one before"
     drawing.click(at(9, 4))
     drawing.wait()
@@ -222,7 +222,7 @@ def test_marking_mirror_and_strength_are_those_of_other_wires() -> None:
     stronger(drawing, 2)
     draw(drawing, ROW[0], line((2, 5), (9, 5)))
     assert not drawing.wires[0].marks
-    assert drawing.wires[0].strength == drawing.drawing.strength
+    assert drawing.wires[0].strength == drawing.picture.strength
     assert drawing.edges_to_clear() == sorted(undirected(pair) for pair in itertools.pairwise(ROW))
 
 
@@ -230,7 +230,7 @@ def test_a_line_too_short_says_so_and_is_no_step() -> None:
     drawing = session()
     draw(drawing, ROW[0], line((2, 5), (2.2, 5)))
     assert drawing.wires == ()
-    assert "farther" in str(drawing.drawing.message)
+    assert "farther" in str(drawing.reason)
     assert not drawing.picture.can_undo
 
 
@@ -244,8 +244,8 @@ def test_a_long_line_stays_as_it_was_but_for_its_end() -> None:
     drawing.line_begin(at(0, 0))
     points, faces = drawn
     for count in range(2, len(points) + 1, 40):
-        drawing.cursor.line_to(points[:count], faces[:count], None)
-    drawing.cursor.line_to(points, faces, None)
+        drawing.line_to(points[:count], faces[:count], None)
+    drawing.line_to(points, faces, None)
     vertices = drawing.picture.all(Role.FOLLOWING)[0].vertices
     assert len(vertices) > 205
     assert vertices[:16] == tuple(range(16))
@@ -259,10 +259,10 @@ def test_a_line_drawn_before_the_mesh_is_known_is_fitted_when_it_is() -> None:
     drawing = table.session
     drawing.line_begin(0)
     points = np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0]])
-    drawing.cursor.line_to(points, np.zeros(3, dtype=np.int32), None)
+    drawing.line_to(points, np.zeros(3, dtype=np.int32), None)
     assert drawing.picture.all(Role.FOLLOWING) == ()
     end_line(drawing)
-    assert drawing.cursor.waiting == 1
+    assert drawing.waiting == 1
     assert drawing.wires == ()
     drawing.wait()
     assert [wire.vertices for wire in drawing.wires] == [(0, 1, 2)]
@@ -273,14 +273,14 @@ def test_clicks_and_lines_wait_for_a_line_that_is_not_computed_yet() -> None:
     drawing = table.session
     three = np.array([0, 2, 4], dtype=np.int32)
     drawing.line_begin(0)
-    drawing.cursor.line_to(np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0]]), three, None)
+    drawing.line_to(np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0]]), three, None)
     end_line(drawing)
     table.lives["EDGES"].fork_ready = (True, True)  # the second is computed, and comes second all the same
     drawing.line_begin(12)
-    drawing.cursor.line_to(np.array([[0.0, 2, 0], [1, 2, 0], [2, 2, 0]]), three + 20, None)
+    drawing.line_to(np.array([[0.0, 2, 0], [1, 2, 0], [2, 2, 0]]), three + 20, None)
     end_line(drawing)
     drawing.click(20)
-    assert drawing.cursor.waiting == 3
+    assert drawing.waiting == 3
     assert [wire.vertices for wire in drawing.picture.all(Role.FOLLOWING)] == [(0, 1, 2), (12, 13, 14)]
     drawing.wait()
     assert [wire.vertices for wire in drawing.wires] == [(0, 1, 2), (12, 13, 14)]
@@ -306,7 +306,7 @@ def test_across_the_surface_wires_keep_near_to_the_line(finish: str) -> None:
     begin = at(2, 5)
     drawing.line_begin(begin)
     for count in range(8, len(points) + 8, 8):
-        drawing.cursor.line_to(points[:count], faces[:count], None)
+        drawing.line_to(points[:count], faces[:count], None)
         drawing.poll()
     end_line(drawing)
     drawing.wait()
@@ -345,7 +345,7 @@ def test_across_the_surface_lines_end_where_they_are_led_to() -> None:
     draw(drawing, at(2, 2), line((2, 2), (8.8, 2.4)), Snap(at(9, 3), "SEAM"))
     assert drawing.wires[-1].end == at(9, 3)
     assert drawing.line_begin(Snap((at(2, 2), at(3, 2)))) is False
-    assert "not edge" in str(drawing.drawing.message)
+    assert "not edge" in str(drawing.reason)
 
 
 def test_across_the_surface_a_line_goes_on_from_the_live_wire() -> None:

@@ -7,10 +7,9 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from real_sessions import halves, session_on
-from seamwire.core.drawing.drawing import Drawing
-from seamwire.core.drawing.picture import Intent, Role
-from seamwire.core.drawing.session import Session
-from seamwire.core.network.network import Snap
+from seamwire.core.sketch.picture import Intent, Role
+from seamwire.core.sketch.sketch import Sketch
+from seamwire.core.sketch.network import Snap
 from setting import insert, use
 from table import SIZE, Table, paper
 
@@ -20,7 +19,7 @@ AROUND = (14, 15, 16, 17, 11, 5, 4, 3, 2, 1, 0, 6, 12, 13)
 """The closed loop of edge 14-15, around the two rows below."""
 
 
-def grid(shift: float = 0.0, **options: object) -> Session:
+def grid(shift: float = 0.0, **options: object) -> Sketch:
     """Return a session with the library's own live wires, on squares; `shift` is added to x."""
     points = grid_points(SIZE) + np.array([shift, 0.0, 0.0])
     numbers = np.arange(SIZE**2, dtype=np.int32).reshape(SIZE, SIZE)
@@ -29,16 +28,16 @@ def grid(shift: float = 0.0, **options: object) -> Session:
     return session_on(points, halves(squares), grid_edges(SIZE), **options)
 
 
-def show(session: Session, edge: tuple[int, int], kind: str | None = None) -> tuple[int, ...]:
+def show(session: Sketch, edge: tuple[int, int], kind: str | None = None) -> tuple[int, ...]:
     """Show what a click on an edge offers, of a kind or the first; return its vertices."""
     session.hover(edge, loop=True)
     session.wait()
     while kind is not None and session.picture.offered.kind != kind:
-        assert session.cursor.next_candidate()
+        assert session.next_candidate()
     return shown(session)
 
 
-def take(session: Session, edge: tuple[int, int], kind: str | None = None) -> bool:
+def take(session: Sketch, edge: tuple[int, int], kind: str | None = None) -> bool:
     """Keep what a click on an edge offers, of a kind or the first; return whether that was done."""
     if kind is not None:
         show(session, edge, kind)
@@ -48,7 +47,7 @@ def take(session: Session, edge: tuple[int, int], kind: str | None = None) -> bo
     return is_done
 
 
-def shown(session: Session) -> tuple[int, ...]:
+def shown(session: Sketch) -> tuple[int, ...]:
     return session.picture.one(Role.OFFER).vertices
 
 
@@ -92,7 +91,7 @@ def test_a_strip_ends_at_images_of_kept_wires() -> None:
     session.click(25)
     session.end_chain()
     assert show(session, (14, 15), "STRIP") == (13, 14, 15, 16)
-    assert [16, 22] in session.drawing.seams.tolist(), "parts end there too"
+    assert [16, 22] in session.seams.tolist(), "parts end there too"
 
 
 def test_a_strip_ends_on_the_mirrors_plane_unless_it_runs_along_it() -> None:
@@ -116,13 +115,13 @@ def test_toggling_goes_around_and_stays_while_the_edge_is_the_same() -> None:
     kinds = []
     for _ in range(4):
         kinds.append(session.picture.offered.kind)
-        before = session.drawing.revision
-        assert session.cursor.next_candidate()
-        assert session.drawing.revision > before
+        before = session.revision
+        assert session.next_candidate()
+        assert session.revision > before
         show(session, (15, 14))
     assert kinds == ["CLOSED", "STRIP", "CLOSED", "STRIP"]
     assert session.picture.offered.kind == "CLOSED"
-    session.cursor.next_candidate()
+    session.next_candidate()
     show(session, (15, 16))
     assert session.picture.offered.kind == "CLOSED", "another edge begins with its default"
 
@@ -178,7 +177,7 @@ def test_a_strips_ends_are_seeds_that_can_be_moved_and_gone_on_from() -> None:
     session = grid()
     take(session, (14, 20), "STRIP")
     session.drag(32)
-    session.cursor.drag_to(33)
+    session.drag_to(33)
     session.wait()
     assert session.drag_end()
     (wire,) = session.wires
@@ -219,8 +218,8 @@ def test_a_single_offer_has_no_next() -> None:
     session = Table().session
     session.hover((14, 20), loop=True)
     assert session.picture.offered.kinds == ("STRIP",)
-    assert not session.cursor.next_candidate()
-    assert session.drawing.message.code == "nothing-else-through-edge"
+    assert not session.next_candidate()
+    assert session.reason.code == "nothing-else-through-edge"
     session.hover(None)
     assert session.picture.offered.kinds == ()
     assert session.picture.offered.kind is None
@@ -236,9 +235,9 @@ def test_an_edge_that_is_none_is_refused_in_words() -> None:
 
     table = Table()
     live = table.lives["EDGES"]
-    session = Session(Drawing(lambda _: NoEdge(), table.points, edges=grid_edges(SIZE), triangles=grid_triangles(SIZE)))
+    session = Sketch(lambda _: NoEdge(), table.points, edges=grid_edges(SIZE), triangles=grid_triangles(SIZE))
     assert not session.loop((0, 20))
-    assert "no edge" in str(session.drawing.message)
+    assert "no edge" in str(session.reason)
     session.hover((0, 20), loop=True)
     assert session.picture.one(Role.OFFER) is None
 
@@ -252,9 +251,9 @@ def test_while_the_loop_is_computed_nothing_is_offered_yet() -> None:
     session = table.session
     session.hover((14, 15), loop=True)
     assert session.picture.one(Role.OFFER) is None
-    assert session.cursor.computing
-    assert not session.cursor.next_candidate()
-    assert session.drawing.message.code == "no-loop-yet"
+    assert session.computing
+    assert not session.next_candidate()
+    assert session.reason.code == "no-loop-yet"
     table.compute()
     assert shown(session) == COMPUTED
 
@@ -266,10 +265,10 @@ def test_a_loop_that_waits_does_not_keep_a_click_before_it_waiting() -> None:
     session.click(21)
     session.loop((14, 15))
     session.click(3)
-    assert session.cursor.waiting == 3
+    assert session.waiting == 3
     table.compute()
-    assert session.cursor.waiting == 0
-    assert not session.cursor.computing
+    assert session.waiting == 0
+    assert not session.computing
     assert [wire.vertices for wire in session.wires] == [COMPUTED, (0, 1, 2, 3)], "no wire reaches 21"
 
 
@@ -317,8 +316,8 @@ def test_loops_that_were_asked_for_on_an_edge_are_given_up_once_a_vertex_is_unde
     session.click(0)
     session.hover((14, 15), loop=True)
     session.click(7)
-    session.cursor.use_crests(None, True)
+    session.use_crests(None, True)
     session.poll()
-    assert not session.cursor.computing, "waiting would never end"
+    assert not session.computing, "waiting would never end"
     session.hover((14, 15), loop=True)
     assert session.picture.offered.kinds

@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from seamwire.core.network.network import Snap
+from seamwire.core.sketch.dragging import Dragging
+from seamwire.core.sketch.network import Snap
 from setting import use
 from table import Table, corner, courses
 
@@ -11,7 +12,7 @@ from table import Table, corner, courses
 def test_a_mirror_that_is_set_while_a_seed_is_dragged_stays() -> None:
     session = corner().session
     session.drag(3)
-    session.cursor.drag_to(4)
+    session.drag_to(4)
     assert use(session, mirror=(0,))
     assert session.drag_end()
     assert session.network.mirror == session.options.mirror == (0,)
@@ -23,10 +24,10 @@ def test_wires_arrive_and_leave_as_their_neighbours_do() -> None:
     session.click(23)
     session.drag(21)
     assert [fork.seeded for fork in table.lives["EDGES"].forks] == [((2, 3), True), (23, False)]
-    session.cursor.let_go()
+    session.cancel()
     session.drag(3)
     assert [fork.seeded for fork in table.lives["EDGES"].forks[2:]] == [(0, False), ((22, 21), True)]
-    session.cursor.drag_to(9)
+    session.drag_to(9)
     assert courses(session) == [(0, 1, 2, 3, 9), (9, 15, 21), (21, 22, 23)]
 
 
@@ -34,7 +35,7 @@ def test_the_seed_of_the_live_wire_moves_with_its_wire() -> None:
     table = corner()
     session = table.session
     session.drag(21)
-    session.cursor.drag_to(22)
+    session.drag_to(22)
     session.drag_end()
     assert courses(session)[-1] == (3, 4, 10, 16, 22)
     assert session.seed == (16, 22)
@@ -47,7 +48,7 @@ def test_a_seed_without_wires_can_be_moved() -> None:
     session = Table().session
     session.click(0)
     session.drag(0)
-    session.cursor.drag_to(7)
+    session.drag_to(7)
     session.drag_end()
     assert session.seed == 7
     assert session.seeds() == [7]
@@ -58,9 +59,9 @@ def test_a_seed_without_wires_can_be_moved() -> None:
 def test_the_first_seed_of_a_chain_can_be_moved_and_still_closes_it() -> None:
     session = corner().session
     session.drag(0)
-    session.cursor.drag_to(1)
+    session.drag_to(1)
     session.drag_end()
-    assert session.drawing.network.closing_point == 1
+    assert session.network.closing_point == 1
     session.close()
     assert session.wires[-1].end == 1
 
@@ -71,19 +72,19 @@ def test_a_seed_dragged_onto_another_one_becomes_one_with_it() -> None:
     session.click(33)
     session.end_chain()
     session.drag(33)
-    session.cursor.drag_to(Snap(21, "SEED"))
+    session.drag_to(Snap(21, "SEED"))
     session.drag_end()
     assert session.seeds() == [0, 3, 21, 30]
     assert session.wires[-1].vertices[-1] == 21
     session.drag(21)
-    session.cursor.drag_to(22)
-    assert len(session.cursor.moved) == 2, "from then on they move together"
+    session.drag_to(22)
+    assert len(session.holds(Dragging).moved) == 2, "from then on they move together"
 
 
 def test_a_seed_dragged_onto_its_neighbour_takes_the_wire_between_away() -> None:
     session = corner().session
     session.drag(3)
-    session.cursor.drag_to(Snap(0, "SEED"))
+    session.drag_to(Snap(0, "SEED"))
     session.drag_end()
     assert courses(session) == [(0, 6, 12, 18, 19, 20, 21)]
     assert session.seeds() == [0, 21]
@@ -95,20 +96,20 @@ def test_an_only_wire_is_not_dragged_to_nothing() -> None:
     session.click(3)
     session.end_chain()
     session.drag(3)
-    assert not session.cursor.drag_to(Snap(0, "SEED"))
-    assert "remove it instead" in str(session.drawing.message)
+    assert not session.drag_to(Snap(0, "SEED"))
+    assert "remove it instead" in str(session.reason)
     assert courses(session) == [(0, 1, 2, 3)]
     assert not session.drag_end()
     assert courses(session) == [(0, 1, 2, 3)]
-    assert not session.cursor.drag
+    assert not session.holds(Dragging)
 
 
 def test_a_seed_dragged_to_where_no_wire_leads_stays() -> None:
     session = corner(islands=(35,)).session
     session.drag(3)
-    session.cursor.drag_to(4)
-    assert not session.cursor.drag_to(35)
-    assert str(session.drawing.message) == "No wire from vertex 0 reaches vertex 35"
+    session.drag_to(4)
+    assert not session.drag_to(35)
+    assert str(session.reason) == "No wire from vertex 0 reaches vertex 35"
     session.drag_end()
     assert courses(session) == [(0, 1, 2, 3), (3, 9, 15, 21)]
 
@@ -116,10 +117,10 @@ def test_a_seed_dragged_to_where_no_wire_leads_stays() -> None:
 def test_undo_during_a_drag_takes_back_the_drag_alone() -> None:
     session = corner().session
     session.drag(3)
-    session.cursor.drag_to(4)
+    session.drag_to(4)
     assert session.picture.can_undo
     assert session.undo()
-    assert not session.cursor.drag
+    assert not session.holds(Dragging)
     assert courses(session) == [(0, 1, 2, 3), (3, 9, 15, 21)]
     assert not session.picture.can_redo
 
@@ -128,22 +129,22 @@ def test_a_drag_that_is_not_computed_is_done_when_it_is() -> None:
     table = corner(fork_ready=(False, False))
     session = table.session
     session.drag(3)
-    assert not session.cursor.drag_to(4)
-    assert session.cursor.computing
+    assert not session.drag_to(4)
+    assert session.computing
     assert courses(session) == [(0, 1, 2, 3), (3, 9, 15, 21)]
     assert session.drag_end()
-    assert session.cursor.drag, "it waits"
+    assert session.holds(Dragging), "it waits"
     table.compute()
-    assert not session.cursor.drag
+    assert not session.holds(Dragging)
     assert courses(session) == [(0, 1, 2, 3, 4), (4, 10, 16, 22, 21)]
 
 
 def test_there_must_be_a_seed_to_drag() -> None:
     session = corner().session
     assert not session.drag(20)
-    assert not session.cursor.drag_to(21)
+    assert not session.drag_to(21)
     assert not session.drag_end()
-    assert not session.cursor.let_go()
+    assert not session.cancel()
 
 
 def test_while_a_seed_is_dragged_a_toggled_wire_stays_with_its_metric() -> None:
@@ -152,6 +153,6 @@ def test_while_a_seed_is_dragged_a_toggled_wire_stays_with_its_metric() -> None:
     session.click(7)
     session.retrace(session.wires[0])
     session.drag(7)
-    session.cursor.drag_to(8)
+    session.drag_to(8)
     assert courses(session) == [(0, 6, 7, 8)]
     assert session.wires[0].alternatives[0].vertices == (0, 1, 2, 8)

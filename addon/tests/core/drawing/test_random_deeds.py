@@ -11,10 +11,10 @@ import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
 from paper_mesh import PaperMesh
-from seamwire.core.drawing.drawing import Drawing
-from seamwire.core.drawing.picture import Intent
-from seamwire.core.drawing.session import Session
-from seamwire.core.network.network import Network, Snap
+from seamwire.core.sketch.dragging import Dragging
+from seamwire.core.sketch.picture import Intent
+from seamwire.core.sketch.sketch import Sketch
+from seamwire.core.sketch.network import Network, Snap
 from seamwire.core.network.picks import Edge, Pick
 from seamwire.core.storage.wire_labels import Plan
 from seamwire.terms.options import CLAMP_PERCENTILE, STRENGTHS
@@ -47,15 +47,13 @@ class Monkey:
                 *mesh, along=along.lower(), max_anisotropy=STRENGTHS[along], clamp_percentile=CLAMP_PERCENTILE
             )
 
-        self.session = Session(
-            Drawing(
+        self.session = Sketch(
                 live,
                 self.points,
                 edges=EDGES,
                 seams=[(40, 41), (41, 53)],
                 triangles=grid_triangles(SIZE),
             )
-        )
         self.mesh = PaperMesh(self.points, EDGES, triangles=grid_triangles(SIZE), seams={(40, 41), (41, 53)})
         self.plain: set[Edge] = set(self.mesh.seams)
         """The edges that are seams with or without wires."""
@@ -68,17 +66,17 @@ class Monkey:
             *[lambda: session.hover(self.snap(), loop=self.dice.random() < 0.3)] * 6,
             *[lambda: session.loop(self.snap())] * 3,
             *[self.stroke] * 3,
-            *[session.cursor.next_candidate, session.poll, session.undo] * 3,
+            *[session.next_candidate, session.poll, session.undo] * 3,
             *[session.redo, session.wait] * 2,
             lambda: session.start(self.snap()),
             lambda: session.drag(self.snap()),
-            lambda: session.cursor.drag_to(self.snap()),
+            lambda: session.drag_to(self.snap()),
             session.drag_end,
-            session.cursor.let_go,
+            session.cancel,
             lambda: session.line_begin(self.snap()),
             *[self.line_on] * 3,
             *[lambda: end_line(session)] * 2,
-            session.cursor.let_go,
+            session.cancel,
             session.end_chain,
             session.close,
             lambda: session.run_to_end(preview=self.dice.random() < 0.5),
@@ -123,7 +121,7 @@ class Monkey:
         start, step = self.dice.randrange(2 * (SIZE - 1) ** 2), self.dice.choice([1, 2, 2 * (SIZE - 1)])
         faces = np.arange(start, 2 * (SIZE - 1) ** 2, step, dtype=np.int32)[: self.dice.randrange(1, 20)]
         middles = self.points[grid_triangles(SIZE)[faces]].mean(axis=1)
-        self.session.cursor.line_to(middles, faces, self.snap() if self.dice.random() < 0.5 else None)
+        self.session.line_to(middles, faces, self.snap() if self.dice.random() < 0.5 else None)
 
     def erase(self) -> None:
         if self.session.network.strokes:
@@ -131,7 +129,7 @@ class Monkey:
 
     def store(self) -> None:
         session, mesh = self.session, self.mesh
-        if session.cursor.drag:
+        if session.holds(Dragging):
             return
         cleared = set(session.edges_to_clear())
         self.plain -= cleared
@@ -187,9 +185,9 @@ class Monkey:
                 around = [*wire.vertices, *wire.vertices[:1]] if wire.closed else list(wire.vertices)
                 assert np.array_equal(wire.points, self.points[around])
         assert (session.picture.offered.kind is None) == (session.picture.offered.kinds == ())
-        offers = session.cursor.loops.offers.offers
+        offers = session.offering.offers.offers
         assert len({frozenset(offer.edges()) for offer in offers}) == len(offers)
-        assert (session.picture.intent is Intent.MOVE) == (session.cursor.drag is not None)
+        assert (session.picture.intent is Intent.MOVE) == (session.holds(Dragging) is not None)
 
 
 def looks(network: Network) -> set[tuple[object, ...]]:
@@ -207,7 +205,7 @@ def test_whatever_is_done_the_network_is_sound_and_undo_leads_back(seed: int) ->
     for _ in range(400):
         monkey.dice.choice(monkey.deeds)()
         monkey.check()
-    session.cursor.let_go()
+    session.cancel()
     session.end_chain()
     session.wait()
     left = 1000

@@ -9,8 +9,9 @@ from fake_live import grid_edges, grid_triangles
 from numpy.typing import NDArray
 from paper_mesh import PaperMesh
 from real_sessions import session_on
-from seamwire.core.drawing.session import Session
-from seamwire.core.network.network import Snap
+from seamwire.core.sketch.dragging import Dragging
+from seamwire.core.sketch.sketch import Sketch
+from seamwire.core.sketch.network import Snap
 from seamwire.terms.choices import Along
 from seamwire.terms.options import Options
 from setting import stronger, use
@@ -29,7 +30,7 @@ def at(x: int, y: int) -> int:
     return (y + SIZE // 2) * SIZE + x + SIZE // 2
 
 
-def draw(along: Along = "EDGES") -> Session:
+def draw(along: Along = "EDGES") -> Sketch:
     """Return a session on the ridge."""
     return session_on(ridge(), grid_triangles(SIZE), grid_edges(SIZE), options=Options(along=along))
 
@@ -38,7 +39,7 @@ def straight(x: int, y0: int, y1: int) -> tuple[int, ...]:
     return tuple(at(x, y) for y in range(y0, y1 + 1))
 
 
-def click(session: Session, *picks: object) -> None:
+def click(session: Sketch, *picks: object) -> None:
     for pick in picks:
         session.click(pick)
         session.wait()
@@ -48,14 +49,14 @@ def click(session: Session, *picks: object) -> None:
 def test_another_strength_keeps_the_surface_and_its_curvatures(along: Along) -> None:
     session = draw(along)
     click(session, at(0, -8))
-    surface = session.drawing.engines.get(along).surface
-    strength = session.drawing.feature_strength()
+    surface = session.engines.get(along).surface
+    strength = session.feature_strength()
     for steps in (1, -2):
         assert stronger(session, steps)
-        assert np.shares_memory(session.drawing.feature_strength(), strength)
+        assert np.shares_memory(session.feature_strength(), strength)
         session.wait()
-        assert np.shares_memory(session.drawing.feature_strength(), strength)
-        assert np.shares_memory(session.drawing.engines.get(along).surface.points, surface.points)
+        assert np.shares_memory(session.feature_strength(), strength)
+        assert np.shares_memory(session.engines.get(along).surface.points, surface.points)
 
 
 def test_a_dragged_seed_leads_its_wires() -> None:
@@ -63,10 +64,10 @@ def test_a_dragged_seed_leads_its_wires() -> None:
     click(session, at(-6, -6), at(0, 0), at(6, 6))
     before = session.edges_to_mark()
     assert session.drag(at(0, 0))
-    session.cursor.drag_to(at(0, 2))
+    session.drag_to(at(0, 2))
     session.wait()
-    assert all(at(0, 2) in wire.vertices for wire in session.cursor.moved)
-    assert session.cursor.moved[0].vertices[-1] == session.cursor.moved[1].vertices[0] == at(0, 2)
+    assert all(at(0, 2) in wire.vertices for wire in session.holds(Dragging).moved)
+    assert session.holds(Dragging).moved[0].vertices[-1] == session.holds(Dragging).moved[1].vertices[0] == at(0, 2)
     assert session.drag_end()
     session.wait()
     assert session.seeds() == [at(-6, -6), at(0, 2), at(6, 6)]
@@ -83,7 +84,7 @@ def test_a_wire_dragged_back_is_what_it_was() -> None:
     before = [wire.vertices for wire in session.wires]
     session.drag(at(0, 0))
     for place in (at(1, 1), at(2, 0), at(0, 0)):
-        session.cursor.drag_to(place)
+        session.drag_to(place)
         session.wait()
     session.drag_end()
     assert [wire.vertices for wire in session.wires] == before
@@ -95,7 +96,7 @@ def test_an_edge_seed_is_passed_in_one_direction_wherever_it_is_dragged() -> Non
     session.drag((at(0, 0), at(1, 0)))
     for y in range(-4, 5):
         for edge in ((at(0, y), at(1, y)), (at(1, y), at(0, y)), (at(0, y), at(0, y + 1))):
-            session.cursor.drag_to(edge)
+            session.drag_to(edge)
             session.wait()
             one, two = session.wires
             assert one.vertices[-1] == two.vertices[0]
@@ -107,7 +108,7 @@ def test_a_seed_put_into_a_wire_and_moved_bends_it() -> None:
     session = draw()
     click(session, at(0, -8), at(0, 8))
     session.drag(Snap(at(0, 0), "WIRE", session.wires[0]))
-    session.cursor.drag_to(at(5, 0))
+    session.drag_to(at(5, 0))
     session.wait()
     session.drag_end()
     assert session.seeds() == [at(0, -8), at(5, 0), at(0, 8)]
@@ -119,7 +120,7 @@ def test_across_the_surface_curves_follow_the_dragged_seed() -> None:
     session = draw("SURFACE")
     click(session, at(-6, -6), at(0, 0), at(6, 6))
     session.drag(at(0, 0))
-    session.cursor.drag_to(at(2, -2))
+    session.drag_to(at(2, -2))
     session.wait()
     session.drag_end()
     first, second = session.wires
@@ -135,7 +136,7 @@ def test_another_strength_is_computed_in_the_background() -> None:
     session.wait()
     weak = session.picture.active
     stronger(session, -20)
-    assert session.drawing.strength == 1.0
+    assert session.picture.strength == 1.0
     session.wait()
     assert session.picture.active.vertices == straight(-4, -8, 8), "without a pull the straight way is the shortest"
     assert weak.vertices
@@ -165,7 +166,7 @@ def test_wires_of_the_library_come_back_from_the_mesh_and_can_be_dragged() -> No
     mesh.open(again)
     assert sorted(wire.vertices for wire in again.wires) == sorted(wire.vertices for wire in session.wires)
     assert again.drag(at(0, 8))
-    again.cursor.drag_to(at(2, 8))
+    again.drag_to(at(2, 8))
     again.wait()
     assert again.drag_end()
     assert at(2, 8) in again.seeds()

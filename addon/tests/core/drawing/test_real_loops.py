@@ -10,9 +10,9 @@ import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from numpy.typing import NDArray
 from real_sessions import AROUND, RINGS, ball, caps, halves, meridian, quads_between_rings, session_on, sides, tube
-from seamwire.core.drawing.picture import Role
-from seamwire.core.drawing.session import Session
-from seamwire.core.network.network import Snap
+from seamwire.core.sketch.picture import Role
+from seamwire.core.sketch.sketch import Sketch
+from seamwire.core.sketch.network import Snap
 from seamwire.core.offers.edge_loops import corners
 from seamwire.terms.choices import Along
 from setting import use
@@ -20,13 +20,13 @@ from setting import use
 core = pytest.importorskip("seamwire_core")
 
 
-def hovered(session: Session, edge: tuple[int, int] | Snap) -> list[tuple[str, list[int]]]:
+def hovered(session: Sketch, edge: tuple[int, int] | Snap) -> list[tuple[str, list[int]]]:
     session.hover(edge, loop=True)
     session.wait()
     found = []
     for _ in session.picture.offered.kinds:
         found.append((session.picture.offered.kind, sorted(session.picture.one(Role.OFFER).vertices)))
-        session.cursor.next_candidate()
+        session.next_candidate()
     return found
 
 
@@ -49,7 +49,7 @@ def test_along_a_limb_the_strip_comes_first_and_a_loop_with_corners_last() -> No
 
 def test_corners_are_where_straight_ways_leave_a_loop() -> None:
     session = tube()
-    live, points = session.drawing.engines.get("EDGES"), session.drawing.points
+    live, points = session.engines.get("EDGES"), session.points
     live.wait()
     ring = list(range(4 * AROUND, 5 * AROUND))
     assert corners(live, ring, points) == 0
@@ -70,7 +70,7 @@ def test_where_three_edges_meet_a_loop_has_no_corner() -> None:
     points = np.concatenate([square, square + np.array([0.0, 0.0, 1.0])])
     points += np.random.default_rng(1).normal(0.0, 0.1, points.shape)
     session = session_on(points, halves(quads), sides(quads))
-    live = session.drawing.engines.get("EDGES")
+    live = session.engines.get("EDGES")
     live.wait()
     assert [corners(live, quad[::turn].tolist(), points) for quad in quads for turn in (1, -1)] == [0] * 12
 
@@ -114,7 +114,7 @@ def test_a_way_past_poles_that_meets_no_seam_closes_around_the_ball() -> None:
     shown = []
     for _ in session.picture.offered.kinds:
         shown.append((session.picture.one(Role.OFFER).closed, set(session.picture.one(Role.OFFER).vertices)))
-        session.cursor.next_candidate()
+        session.next_candidate()
     assert (True, great_circle) in shown
 
 
@@ -155,7 +155,7 @@ SIZE = 31
 """Side of the flat grid that strokes are drawn on, in vertices."""
 
 
-def grid(**options: object) -> Session:
+def grid(**options: object) -> Sketch:
     return session_on(grid_points(SIZE), grid_triangles(SIZE), grid_edges(SIZE), **options)
 
 
@@ -182,7 +182,7 @@ GATE = {(x, y) for x in (5, 25) for y in range(15, 24)} | {(x, 23) for x in rang
 LEFT, RIGHT = 15 * SIZE + 5, 15 * SIZE + 25
 
 
-def wire_between(session: Session, along: Along) -> NDArray[np.float64]:
+def wire_between(session: Sketch, along: Along) -> NDArray[np.float64]:
     use(session, along=along)
     session.start(LEFT)
     session.hover(RIGHT)
@@ -245,7 +245,7 @@ def test_strokes_reach_wires_whose_seeds_are_moved() -> None:
     session.draw_stroke(gate(), faces_under(gate()))
     assert session.wires[0].points[:, 1].max() == 15.0, "a kept wire stays"
     session.drag(RIGHT - 4)
-    session.cursor.drag_to(RIGHT)
+    session.drag_to(RIGHT)
     session.wait()
     session.drag_end()
     session.wait()
@@ -274,7 +274,7 @@ def test_any_stroke_on_the_mesh_leaves_wires_that_can_be_drawn(points: NDArray[n
     assert session.draw_stroke(points, faces_under(points))
     for along in ("EDGES", "SURFACE"):
         assert len(wire_between(session, along)) > 2
-    assert str(session.drawing.message) == ""
+    assert str(session.reason) == ""
 
 
 @pytest.mark.parametrize("ready", [False, True])
@@ -289,18 +289,18 @@ def test_what_the_library_refuses_is_said_and_undone_without_a_loss(ready: bool)
     session.hover(LEFT + 3 * SIZE)
     session.draw_stroke(gate(), faces_under(gate()))
     session.wait()
-    assert "off the mesh" in str(session.drawing.message)
-    assert not session.cursor.computing
+    assert "off the mesh" in str(session.reason)
+    assert not session.computing
     assert not session.click(LEFT + 3 * SIZE)
     assert len(session.wires) == 1
     assert session.undo()
     session.wait()
-    assert str(session.drawing.message) == ""
+    assert str(session.reason) == ""
     assert session.picture.active is not None
     assert session.click(LEFT + 3 * SIZE)
 
 
-def plate_with_bung() -> Session:
+def plate_with_bung() -> Sketch:
     """Return a session on a box with a low bung of eight sides in the middle of its upper face.
 
     Vertices 0 to 7 are the rim of the bung, 8 to 15 the foot of its wall, and 40 is in its middle.
@@ -319,7 +319,7 @@ def plate_with_bung() -> Session:
 @pytest.mark.parametrize("inside", [False, True])
 def test_on_a_bung_its_rim_comes_first(inside: bool) -> None:
     session = plate_with_bung()
-    triangles = session.drawing.triangles.tolist()
+    triangles = session.triangles.tolist()
     spoke, triangle = (0, 40), next(row for row, corners in enumerate(triangles) if {0, 40} <= set(corners))
     kind, vertices = hovered(session, Snap(spoke, triangle=triangle, inside=inside))[0]
     assert (kind, vertices) == ("FLAT", list(range(8)))
@@ -327,7 +327,7 @@ def test_on_a_bung_its_rim_comes_first(inside: bool) -> None:
 
 def test_on_a_large_lid_the_loop_through_the_edge_comes_first() -> None:
     session = plate_with_bung()
-    triangles = session.drawing.triangles.tolist()
+    triangles = session.triangles.tolist()
     spoke, triangle = (32, 41), next(row for row, corners in enumerate(triangles) if {32, 41} <= set(corners))
     kind, vertices = hovered(session, Snap(spoke, triangle=triangle))[0]
     assert 41 in vertices

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 from real_sessions import caps, circles, halves, quads_between_rings, session_on
-from seamwire.core.drawing.picture import Role
-from seamwire.core.drawing.session import Session
-from seamwire.core.network.network import Snap
+from seamwire.core.sketch.picture import Role
+from seamwire.core.sketch.sketch import Sketch
+from seamwire.core.sketch.network import Snap
 from seamwire.core.network.picks import Edge, FacePoint
 from seamwire.core.offers.surface_loops import SurfaceLoops
 from seamwire.terms.options import Options
@@ -30,7 +30,7 @@ def triangles() -> NDArray[np.int32]:
 
 
 @pytest.fixture
-def session(triangles: NDArray[np.int32]) -> Session:
+def session(triangles: NDArray[np.int32]) -> Sketch:
     along = np.linspace(-1.0, 1.0, ROWS)
     radius = 0.3 - 0.1 * np.exp(-((along / 0.25) ** 2))
     points = np.concatenate([circles(along, radius, AROUND), [[0.0, 0.0, -1.15], [0.0, 0.0, 1.15]]])
@@ -41,13 +41,13 @@ def is_closed(edges: list[Edge]) -> bool:
     return bool(edges) and set(Counter(vertex for edge in edges for vertex in edge).values()) == {2}
 
 
-def islands(session: Session, triangles: NDArray[np.int32]) -> int:
+def islands(session: Sketch, triangles: NDArray[np.int32]) -> int:
     cuts = np.array(session.edges_to_mark(), dtype=np.int32)
-    surface = core.Surface(session.drawing.points, triangles)
+    surface = core.Surface(session.points, triangles)
     return len(np.unique(core.face_segments(surface, cuts)))
 
 
-def test_one_click_cuts_the_limb_in_two(session: Session, triangles: NDArray[np.int32]) -> None:
+def test_one_click_cuts_the_limb_in_two(session: Sketch, triangles: NDArray[np.int32]) -> None:
     session.hover(WAIST, loop=True)
     session.wait()
     assert session.picture.offered.kinds[0] == "ACROSS"
@@ -64,14 +64,14 @@ def test_one_click_cuts_the_limb_in_two(session: Session, triangles: NDArray[np.
 
 @pytest.mark.parametrize("vertex", range(4 * AROUND, 36 * AROUND, 3 * AROUND + 7))
 def test_wherever_the_limb_is_clicked_it_falls_in_two(
-    session: Session, triangles: NDArray[np.int32], vertex: int
+    session: Sketch, triangles: NDArray[np.int32], vertex: int
 ) -> None:
     assert session.loop(vertex)
     session.wait()
     assert islands(session, triangles) == 2
 
 
-def test_a_click_within_a_face_does_so_too(session: Session, triangles: NDArray[np.int32]) -> None:
+def test_a_click_within_a_face_does_so_too(session: Sketch, triangles: NDArray[np.int32]) -> None:
     triangle = 2 * AROUND * 10 + 3
     place = FacePoint(triangle, tuple(triangles[triangle].tolist()), (0.2, 0.3, 0.5))
     assert session.loop(place)
@@ -80,30 +80,30 @@ def test_a_click_within_a_face_does_so_too(session: Session, triangles: NDArray[
     assert islands(session, triangles) == 2
 
 
-def shows(session: Session, vertex: int, **how: bool) -> bool:
+def shows(session: Sketch, vertex: int, **how: bool) -> bool:
     """Return whether a cut is shown at a vertex once it is computed."""
     session.hover(vertex, **how)
     session.wait()
     return session.picture.one(Role.OFFER) is not None
 
 
-def test_from_a_tip_nothing_is_suggested_and_it_says_so_until_it_is_not_asked_for_any_more(session: Session) -> None:
+def test_from_a_tip_nothing_is_suggested_and_it_says_so_until_it_is_not_asked_for_any_more(session: Sketch) -> None:
     tip = AROUND * ROWS
     assert not shows(session, tip, loop=True)
-    assert session.drawing.message == SurfaceLoops.NONE
-    revision = session.drawing.revision
+    assert session.reason == SurfaceLoops.NONE
+    revision = session.revision
     assert not shows(session, tip, loop=True)
-    assert session.drawing.revision == revision, "nothing new to be seen"
+    assert session.revision == revision, "nothing new to be seen"
     assert shows(session, WAIST, loop=True)
-    assert str(session.drawing.message) == ""
+    assert str(session.reason) == ""
     shows(session, tip, loop=True)
     session.hover(tip)
-    assert str(session.drawing.message) == ""
+    assert str(session.reason) == ""
     assert not session.loop(tip)
-    assert session.drawing.message == SurfaceLoops.NONE
+    assert session.reason == SurfaceLoops.NONE
 
 
-def test_after_it_was_taken_it_is_not_offered_again_until_another_point(session: Session) -> None:
+def test_after_it_was_taken_it_is_not_offered_again_until_another_point(session: Sketch) -> None:
     assert shows(session, WAIST, loop=True)
     session.click(WAIST)
     assert not shows(session, WAIST, loop=True)
@@ -111,27 +111,27 @@ def test_after_it_was_taken_it_is_not_offered_again_until_another_point(session:
     assert shows(session, WAIST, loop=True)
 
 
-def test_a_cut_clears_seams_where_wires_do(session: Session) -> None:
+def test_a_cut_clears_seams_where_wires_do(session: Sketch) -> None:
     session.loop(WAIST)
     session.wait()
     ring = session.edges_to_mark()
     session.undo()
-    session.adopt(session.drawing.network, ring)
+    session.adopt(session.drawn, ring)
     use(session, clear=True)
     session.loop(WAIST)
     session.wait()
     assert session.edges_to_clear() == ring
 
 
-def test_edges_have_none_across_the_surface_and_points_none_along_edges(session: Session) -> None:
+def test_edges_have_none_across_the_surface_and_points_none_along_edges(session: Sketch) -> None:
     assert not session.loop((WAIST, WAIST + 1))
-    assert f"not edge {WAIST}-{WAIST + 1}" in str(session.drawing.message)
+    assert f"not edge {WAIST}-{WAIST + 1}" in str(session.reason)
     use(session, along="EDGES")
     assert not session.loop(WAIST)
-    assert f"not vertex {WAIST}" in str(session.drawing.message)
+    assert f"not vertex {WAIST}" in str(session.reason)
 
 
-def test_bent_to_a_second_point_it_parts_the_limb_all_the_same(session: Session, triangles: NDArray[np.int32]) -> None:
+def test_bent_to_a_second_point_it_parts_the_limb_all_the_same(session: Sketch, triangles: NDArray[np.int32]) -> None:
     session.loop(WAIST)
     session.wait()
     cut = session.edges_to_mark()
@@ -157,7 +157,7 @@ def test_bent_to_a_second_point_it_parts_the_limb_all_the_same(session: Session,
 
 
 @pytest.mark.parametrize("drawn", ["marking", "clearing", "cutting", "mirroring"])
-def test_a_bent_cut_does_to_the_mesh_what_the_cut_did(session: Session, drawn: str) -> None:
+def test_a_bent_cut_does_to_the_mesh_what_the_cut_did(session: Sketch, drawn: str) -> None:
     changes = {"clearing": {"clear": True}, "cutting": {"finish": "CUT"}, "mirroring": {"mirror": (0,)}}
     before = session.options
     use(session, **changes.get(drawn, {}))
@@ -172,36 +172,36 @@ def test_a_bent_cut_does_to_the_mesh_what_the_cut_did(session: Session, drawn: s
     assert {(wire.marks, wire.finish, wire.mirror) for wire in session.wires} == {(cut.marks, cut.finish, cut.mirror)}
 
 
-def test_what_is_not_there_as_it_was_taken_is_not_bent(session: Session) -> None:
+def test_what_is_not_there_as_it_was_taken_is_not_bent(session: Sketch) -> None:
     second = WAIST + 5 * AROUND + 12
     assert not session.bend(second)
     session.wait()
-    assert session.drawing.message.code == "nothing-to-bend"
+    assert session.reason.code == "nothing-to-bend"
     session.loop(WAIST)
     session.wait()
     assert session.picture.can_bend
     session.drop(session.wires[1])
     assert not session.picture.can_bend
     assert not shows(session, second, bend=True)
-    assert session.drawing.message.code == "nothing-to-bend"
+    assert session.reason.code == "nothing-to-bend"
     session.undo()
     assert session.picture.can_bend, "it is there again"
     use(session, strength_surface=40.0)
     assert not session.picture.can_bend, "other cuts would be found by now"
 
 
-def test_what_is_said_of_bending_goes_with_it_where_a_wire_is_live(session: Session) -> None:
+def test_what_is_said_of_bending_goes_with_it_where_a_wire_is_live(session: Sketch) -> None:
     second = WAIST + 5 * AROUND + 12
     session.click(WAIST)
     assert not shows(session, second, bend=True)
-    assert session.drawing.message.code == "nothing-to-bend"
-    revision = session.drawing.revision
+    assert session.reason.code == "nothing-to-bend"
+    revision = session.revision
     session.hover(second)
-    assert str(session.drawing.message) == ""
-    assert session.drawing.revision > revision
+    assert str(session.reason) == ""
+    assert session.revision > revision
 
 
-def test_edges_are_not_bent_to_and_along_edges_nothing_is(session: Session) -> None:
+def test_edges_are_not_bent_to_and_along_edges_nothing_is(session: Sketch) -> None:
     second = WAIST + 5 * AROUND + 12
     session.loop(WAIST)
     session.wait()
@@ -213,14 +213,14 @@ def test_edges_are_not_bent_to_and_along_edges_nothing_is(session: Session) -> N
     assert session.edges_to_mark() == cut
 
 
-def test_a_bent_cut_is_dragged_by_its_second_point(session: Session, triangles: NDArray[np.int32]) -> None:
+def test_a_bent_cut_is_dragged_by_its_second_point(session: Sketch, triangles: NDArray[np.int32]) -> None:
     second, to = WAIST + 3 * AROUND + 12, WAIST + 5 * AROUND + 12
     session.loop(WAIST)
     session.wait()
     session.bend(second)
     session.wait()
     assert session.drag(Snap(second, "SEED"))
-    session.cursor.drag_to(to)
+    session.drag_to(to)
     session.drag_end()
     session.wait()
     assert to in session.seeds()
@@ -228,7 +228,7 @@ def test_a_bent_cut_is_dragged_by_its_second_point(session: Session, triangles: 
 
 
 def test_w_on_a_piece_of_a_cut_takes_its_other_paths_between_the_same_seeds(
-    session: Session, triangles: NDArray[np.int32]
+    session: Sketch, triangles: NDArray[np.int32]
 ) -> None:
     session.loop(WAIST)
     session.wait()

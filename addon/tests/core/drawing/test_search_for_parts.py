@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_points, grid_triangles
 from real_sessions import session_on
-from seamwire.core.drawing.session import Session
+from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.offers.part_borders import AMOUNTS
 
 SIZE = 9
@@ -15,12 +15,12 @@ COLUMN = np.array([[SIZE * row + 4, SIZE * (row + 1) + 4] for row in range(SIZE 
 """The edges that divide the plate into a left and a right half."""
 
 
-def plate(**options: object) -> Session:
+def plate(**options: object) -> Sketch:
     return session_on(grid_points(SIZE), grid_triangles(SIZE), grid_edges(SIZE), **options)
 
 
 def test_a_stopped_search_yields_nothing_more_and_is_not_measured_again(monkeypatch: pytest.MonkeyPatch) -> None:
-    drawing = plate(seams=COLUMN).drawing
+    drawing = plate(seams=COLUMN)
     assert list(drawing.find_parts(drawing.seams, lambda: False)) == []
     made, make = [], drawing._make_parts
 

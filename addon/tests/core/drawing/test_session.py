@@ -11,7 +11,7 @@ import pytest
 from blender_refusal import BlenderRefusal
 from fake_live import FakeLive, FakeWires
 from seamwire import core
-from seamwire.core.network.network import Snap
+from seamwire.core.sketch.network import Snap
 from seamwire.terms.choices import Along
 from setting import use
 from table import Table
@@ -36,7 +36,7 @@ def test_a_click_does_not_wait_for_wires_that_do_not_lead() -> None:
     session = table.session
     session.click(0)
     session.click(14)
-    assert session.cursor.waiting == 0
+    assert session.waiting == 0
     assert session.wires[0].follow == 2
     assert session.wires[0].alternatives == (), "they are found when they are asked for"
 
@@ -45,13 +45,13 @@ def test_toggling_makes_the_other_active_until_a_wire_is_kept() -> None:
     session = Table().session
     session.click(0)
     session.hover(7)
-    assert session.cursor.next_candidate()
+    assert session.next_candidate()
     assert session.picture.active.vertices == (0, 6, 7)
     session.hover(8)
     assert session.picture.active.vertices == (0, 6, 7, 8), "the choice holds while the cursor moves"
-    assert session.cursor.next_candidate()
+    assert session.next_candidate()
     assert session.picture.active.vertices == (0, 1, 2, 8)
-    session.cursor.next_candidate()
+    session.next_candidate()
     session.click(8)
     assert session.wires[0].vertices == (0, 6, 7, 8)
     session.hover(15)
@@ -79,7 +79,7 @@ def test_clicking_the_seed_again_keeps_nothing() -> None:
     session.click(3)
     assert not session.click(3)
     assert len(session.wires) == 1
-    assert "somewhere else" in str(session.drawing.message)
+    assert "somewhere else" in str(session.reason)
 
 
 def test_clicking_the_seeds_own_edge_again_keeps_nothing() -> None:
@@ -142,7 +142,7 @@ def test_across_the_surface_picks_are_vertices() -> None:
     table = Table("SURFACE")
     session = table.session
     assert not session.click((0, 1))
-    assert "vertices" in str(session.drawing.message)
+    assert "vertices" in str(session.reason)
     session.click(0)
     session.click(8)
     assert table.lives["SURFACE"].seeded == (8, False)
@@ -166,14 +166,14 @@ def test_a_wire_that_is_not_computed_is_not_shown_and_then_is() -> None:
     session.click(0)
     session.hover(7)
     assert session.picture.active is None
-    assert session.cursor.computing
+    assert session.computing
     table.lives["EDGES"].ready = (False, True)
     assert session.poll()
     assert session.picture.active.vertices == (0, 6, 7), "the one there is, though it may be the longer"
     table.lives["EDGES"].ready = (True, True)
     session.poll()
     assert session.picture.active.vertices == (0, 1, 7)
-    assert not session.cursor.computing
+    assert not session.computing
     assert not session.poll(), "nothing is new"
 
 
@@ -182,18 +182,18 @@ def test_waiting_shows_nothing_new_until_there_is_a_wire() -> None:
     session = table.session
     session.click(0)
     session.hover(7)
-    before = session.drawing.revision
+    before = session.revision
     for _ in range(5):
         session.poll()
-    assert session.drawing.revision == before
+    assert session.revision == before
     session.click(7)
-    before = session.drawing.revision
+    before = session.revision
     for _ in range(5):
         session.poll()
-    assert session.drawing.revision == before
+    assert session.revision == before
     table.lives["EDGES"].ready = (True, True)
     session.poll()
-    assert session.drawing.revision > before
+    assert session.revision > before
 
 
 def test_a_click_before_anything_is_seen_waits_until_it_is_known_which_wire_is_shorter() -> None:
@@ -223,13 +223,13 @@ def test_what_no_wire_reaches_is_said() -> None:
     session.click(0)
     assert not session.click(35)
     why = "No wire reaches vertex 35: it is not connected to the seed"
-    assert str(session.drawing.message) == why
+    assert str(session.reason) == why
     assert session.seed == 0
     session.hover(35)
-    assert not session.cursor.next_candidate()
-    assert str(session.drawing.message) == why, "there is no other to wait for"
+    assert not session.next_candidate()
+    assert str(session.reason) == why, "there is no other to wait for"
     session.hover(3)
-    assert str(session.drawing.message) == ""
+    assert str(session.reason) == ""
 
 
 def test_a_refused_seed_leaves_the_one_before() -> None:
@@ -237,7 +237,7 @@ def test_a_refused_seed_leaves_the_one_before() -> None:
     session = table.session
     session.click(0)
     assert not session.start(99)
-    assert "99" in str(session.drawing.message)
+    assert "99" in str(session.reason)
     assert table.lives["EDGES"].seeded == (0, False)
     session.click(2)
     assert session.wires[0].vertices == (0, 1, 2)
@@ -248,7 +248,7 @@ def test_every_change_of_what_is_seen_counts_the_revision_up() -> None:
     actions = [
         lambda: session.click(0),
         lambda: session.hover(7),
-        session.cursor.next_candidate,
+        session.next_candidate,
         lambda: session.click(7),
         lambda: session.loop((14, 15)),
         lambda: session.hover((14, 15), loop=True),
@@ -258,13 +258,13 @@ def test_every_change_of_what_is_seen_counts_the_revision_up() -> None:
         session.end_chain,
     ]
     for action in actions:
-        before = session.drawing.revision
+        before = session.revision
         action()
-        assert session.drawing.revision > before
-    before = session.drawing.revision
+        assert session.revision > before
+    before = session.revision
     session.hover(None)
     session.hover(None)
-    assert session.drawing.revision <= before + 1
+    assert session.revision <= before + 1
 
 
 @pytest.mark.parametrize("along", ["EDGES", "SURFACE"])

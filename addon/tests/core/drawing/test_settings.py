@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import pytest
-from seamwire.core.drawing.picture import Intent
+from seamwire.core.sketch.picture import Intent
 from seamwire.terms.choices import METRICS
 from seamwire.terms.options import SETTINGS
 from setting import stronger, use
@@ -28,15 +28,15 @@ def test_a_clearing_wire_takes_edges_from_those_before_it() -> None:
 def test_strength_goes_in_steps_between_its_limits() -> None:
     table = Table()
     session = table.session
-    assert session.drawing.strength == 10.0
+    assert session.picture.strength == 10.0
     stronger(session, 2)
-    assert session.drawing.strength == pytest.approx(15.625)
+    assert session.picture.strength == pytest.approx(15.625)
     assert table.lives["EDGES"].metrics == [("feature", 15.625, 99.0)]
     stronger(session, 50)
-    assert session.drawing.strength == 100.0
+    assert session.picture.strength == 100.0
     assert not stronger(session, 1)
     stronger(session, -100)
-    assert session.drawing.strength == 1.0
+    assert session.picture.strength == 1.0
 
 
 def test_each_way_of_running_has_its_own_strength_and_both_the_metric() -> None:
@@ -45,10 +45,10 @@ def test_each_way_of_running_has_its_own_strength_and_both_the_metric() -> None:
     stronger(session, 1)
     use(session, metric="concave")
     use(session, along="SURFACE")
-    assert session.drawing.strength == 20.0
+    assert session.picture.strength == 20.0
     assert table.lives["SURFACE"].metrics == [("concave", 20.0, 99.0)]
     use(session, along="EDGES")
-    assert session.drawing.strength == 12.5
+    assert session.picture.strength == 12.5
 
 
 def test_another_clamp_is_another_metric_for_both_ways() -> None:
@@ -71,7 +71,7 @@ def test_while_another_strength_is_computed_the_wires_stay_to_be_seen() -> None:
     session.click(0)
     session.hover(7)
     stronger(session, 1)
-    assert session.cursor.computing
+    assert session.computing
     assert session.picture.active.vertices == (0, 1, 7)
     assert session.picture.intent is Intent.WAIT
     session.click(7)
@@ -79,7 +79,7 @@ def test_while_another_strength_is_computed_the_wires_stay_to_be_seen() -> None:
     table.compute()
     assert courses(session) == [(0, 1, 7)]
     assert session.wires[0].strength == 12.5
-    assert not session.cursor.computing
+    assert not session.computing
 
 
 def test_a_kept_wire_remembers_the_strength_it_was_drawn_with() -> None:
@@ -92,9 +92,9 @@ def test_the_metric_stays_while_a_seed_moves() -> None:
     session = corner().session
     session.drag(3)
     stronger(session, 1)
-    assert session.drawing.strength == 10.0
-    session.cursor.let_go()
-    assert session.drawing.strength == 12.5, "it is taken over when the seed is let go"
+    assert session.picture.strength == 10.0
+    session.cancel()
+    assert session.picture.strength == 12.5, "it is taken over when the seed is let go"
 
 
 def test_the_percentile_matters_where_the_library_clamps() -> None:

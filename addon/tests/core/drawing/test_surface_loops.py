@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from fake_live import FakeCuts, FakeLive
-from seamwire.core.drawing.picture import Intent, Role
+from seamwire.core.sketch.picture import Intent, Role
 from setting import use
 from table import Table, chain
 
@@ -34,9 +34,9 @@ def test_the_best_cut_is_shown_and_toggling_goes_through_the_others() -> None:
     assert preview.closed
     np.testing.assert_array_equal(preview.points[0], preview.points[-1])
     assert session.picture.intent is Intent.LOOP
-    assert session.cursor.next_candidate()
+    assert session.next_candidate()
     assert (session.picture.one(Role.OFFER).vertices, session.picture.offered.kind) == (LEFT, "HANDLE")
-    assert session.cursor.next_candidate()
+    assert session.next_candidate()
     assert session.picture.one(Role.OFFER).vertices == RIGHT
     session.hover(8)
     assert session.picture.one(Role.OFFER) is None
@@ -59,7 +59,7 @@ def test_cuts_that_run_apart_along_the_same_edges_are_two_where_they_are_to_be_c
     use(session, finish=finish)
     session.hover(8, loop=True)
     assert len(session.picture.offered.kinds) == count
-    session.cursor.next_candidate()
+    session.next_candidate()
     shown = session.picture.one(Role.OFFER)
     session.click(8)
     np.testing.assert_array_equal(session.wires[0].points[0], shown.points[0])
@@ -70,13 +70,13 @@ def test_what_is_there_early_is_shown_and_refined_while_the_cursor_rests() -> No
     session = it.session
     session.hover(8, loop=True)
     assert session.picture.one(Role.OFFER).vertices == LEFT
-    assert session.cursor.computing
-    revision = session.drawing.revision
+    assert session.computing
+    revision = session.revision
     session.poll()
-    assert session.drawing.revision == revision, "the same is not drawn anew"
+    assert session.revision == revision, "the same is not drawn anew"
     it.compute()
     assert session.picture.one(Role.OFFER).vertices == RIGHT
-    assert not session.cursor.computing
+    assert not session.computing
 
 
 @pytest.mark.parametrize("clicks_early", [False, True])
@@ -93,7 +93,7 @@ def test_the_cut_that_was_chosen_stays_the_one_though_another_comes_before_it(
     it = table(metric_ready=(False, False))
     session = it.session
     session.hover(8, loop=True)
-    session.cursor.next_candidate()
+    session.next_candidate()
     assert session.picture.one(Role.OFFER).vertices == LEFT
     if clicks_early:
         session.click(8)
@@ -117,7 +117,7 @@ def test_a_cut_that_meets_no_edge_is_kept_only_where_it_is_to_be_cut(monkeypatch
     monkeypatch.setattr(FakeLive, "closed_wires", within_faces)
     session = table().session
     assert not session.loop(8)
-    assert str(session.drawing.message) == "No edge is left for the seam of this cut"
+    assert str(session.reason) == "No edge is left for the seam of this cut"
     assert session.wires == ()
     assert not session.picture.can_undo
     assert not session.picture.can_bend
@@ -147,7 +147,7 @@ def test_the_one_of_several_cuts_that_was_taken_is_the_one_that_is_bent() -> Non
     it = table()
     session = it.session
     session.hover(8, loop=True)
-    session.cursor.next_candidate()
+    session.next_candidate()
     session.click(8)
     session.bend(22)
     assert it.lives["SURFACE"].bent[-1] == (8, 22, (1, 1)), "by what the library calls it"
@@ -156,14 +156,14 @@ def test_the_one_of_several_cuts_that_was_taken_is_the_one_that_is_bent() -> Non
 def test_where_none_leads_it_says_so_and_the_cut_stays() -> None:
     session = taken_at_8().session
     session.hover(11, bend=True)
-    assert str(session.drawing.message) == "No closed cut leads through both points"
-    revision = session.drawing.revision
+    assert str(session.reason) == "No closed cut leads through both points"
+    revision = session.revision
     session.poll()
-    assert session.drawing.revision == revision, "nothing new to be seen"
+    assert session.revision == revision, "nothing new to be seen"
     assert not session.bend(11)
     assert session.edges_to_mark() == edges(*RIGHT)
     session.hover(16)
-    assert str(session.drawing.message) == ""
+    assert str(session.reason) == ""
 
 
 def test_bending_waits_until_it_is_computed() -> None:
@@ -173,8 +173,8 @@ def test_bending_waits_until_it_is_computed() -> None:
     session.hover(28, bend=True)
     assert session.picture.one(Role.OFFER) is None
     assert session.bend(28)
-    assert session.cursor.waiting == 1
+    assert session.waiting == 1
     assert session.edges_to_mark() == edges(*RIGHT)
     it.compute()
-    assert session.cursor.waiting == 0
+    assert session.waiting == 0
     assert session.seeds() == [8, 28]

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from fake_live import FakeLive, grid_points, grid_triangles
 from seamwire.core.base.messages import Refused
-from seamwire.core.drawing import wire
-from seamwire.core.drawing.session import Session
+from seamwire.core.sketch import wiring
+from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.fields.crests import Crests
-from seamwire.core.network.network import Snap
+from seamwire.core.sketch.network import Snap
 from seamwire.core.network.wires import Wire
 from seamwire.core.seams.seam_wires import waiting, wires_along
 from seamwire.core.solver.solver import final
@@ -42,7 +42,7 @@ def ridge() -> Crests:
 
 def with_ridge(*args: object, **options: object) -> Table:
     table = Table(*args, **options)
-    table.session.cursor.use_crests(ridge(), True)
+    table.session.use_crests(ridge(), True)
     return table
 
 
@@ -59,7 +59,7 @@ def test_a_run_that_waits_does_not_take_the_wire_that_merely_finishes_first() ->
     session.hover(14)
     session.run_to_end()
     make_ready(table, False, True)
-    assert session.cursor.waiting == 1
+    assert session.waiting == 1
     assert session.wires == ()
     make_ready(table, True, True)
     assert courses(session) == [(0, 1, 2, 8, 14, 20, 26, 32)]
@@ -69,7 +69,7 @@ def test_after_a_ridge_the_triangles_are_told_of_that_its_wires_lead_around() ->
     session = with_ridge("SURFACE", holes=(2, 1)).session
     session.hover(7, loop=True)
     session.click(7)
-    assert session.drawing.warning.code == "invalid-triangles"
+    assert session.told.code == "invalid-triangles"
     session.hover(None)
     session.hover(7)
     assert session.picture.message.code == "invalid-triangles", "a click makes the cursor point at something else"
@@ -81,10 +81,10 @@ def test_a_waiting_click_that_begins_a_chain_does_not_use_up_the_warning() -> No
     session.loop(0)
     session.click(35)
     session.wait()
-    assert session.drawing.told.code != "invalid-triangles"
+    assert session.told.code != "invalid-triangles"
     session.click(7)
     session.wait()
-    assert session.drawing.warning.code == "invalid-triangles"
+    assert session.told.code == "invalid-triangles"
 
 
 def test_a_loop_that_was_given_up_leaves_nothing_to_compute() -> None:
@@ -94,7 +94,7 @@ def test_a_loop_that_was_given_up_leaves_nothing_to_compute() -> None:
     session.click(0)
     session.hover(21)
     session.poll()
-    assert not session.cursor.computing
+    assert not session.computing
     assert session.picture.work.progress == 1.0
 
 
@@ -102,7 +102,7 @@ def test_a_refused_loop_computes_no_closed_cuts_later() -> None:
     session = Table().session
     assert not session.loop(9)
     use(session, along="SURFACE")
-    assert session.drawing.engines._cuts is None
+    assert session.engines._cuts is None
 
 
 def test_a_refused_loop_leaves_the_bent_cut_that_is_shown() -> None:
@@ -118,11 +118,11 @@ def test_no_run_goes_ahead_of_a_line_that_waits() -> None:
     session.click(17)
     session.click((23, 22))
     session.line_begin(35)
-    session.cursor.line_to(POINTS[[35, 34]], np.array([49, 49]), None)
-    session.line_keep(session.cursor.line_release())
-    assert session.cursor.waiting == 1
+    session.line_to(POINTS[[35, 34]], np.array([49, 49]), None)
+    session.line_end()
+    assert session.waiting == 1
     assert not session.run_to_end()
-    assert session.drawing.message.code == "no-way-on"
+    assert session.reason.code == "no-way-on"
     assert len(session.wires) == 1
 
 
@@ -130,14 +130,14 @@ def test_a_stroke_is_drawn_while_a_moved_seed_waits(monkeypatch: pytest.MonkeyPa
     def straight(_live: object, begin: int, end: int, _seen: object, _follow: int) -> Wire:
         return Wire("SURFACE", (begin, end), POINTS[[begin, end]], begin, end)
 
-    monkeypatch.setattr(wire, "straight_wire", straight)
+    monkeypatch.setattr(wiring, "straight_wire", straight)
     session = Table("SURFACE", ready=(True,) * 3, fork_ready=(False,) * 3).session
     use(session, straight=True)
     for pick in (0, 14):
         session.click(Snap(pick, seen_along=(0.0, 0.0, 1.0)))
     session.hover(Snap(28, seen_along=(0.0, 0.0, 1.0)))
     session.drag(Snap(14, "SEED"))
-    session.cursor.drag_to(Snap(21, seen_along=(0.0, 0.0, 1.0)))
+    session.drag_to(Snap(21, seen_along=(0.0, 0.0, 1.0)))
     session.drag_end()
     assert session.draw_stroke(vertices=[27, 28])
     assert session.network.strokes[0].acts_on == "both"
@@ -152,8 +152,8 @@ def test_waiting_ends_if_the_library_never_comes_to_a_result(along: Along, monke
     session.click(20)
     monkeypatch.setattr(FakeLive, "wait", lambda _self, _seconds=None: True)
     session.wait()
-    assert session.cursor.waiting == 0
-    assert session.drawing.message.code == "no-result"
+    assert session.waiting == 0
+    assert session.reason.code == "no-result"
     assert session.wires == ()
     assert session.seed == 0
     session.click(8)
@@ -167,7 +167,7 @@ def test_waiting_ends_without_a_word_if_nothing_waits(monkeypatch: pytest.Monkey
     session.hover(8)
     monkeypatch.setattr(FakeLive, "wait", lambda _self, _seconds=None: True)
     session.wait()
-    assert not session.drawing.message
+    assert not session.reason
     assert session.seed == 0
 
 
@@ -186,11 +186,11 @@ def test_undo_takes_back_a_held_line_before_a_click_that_waits() -> None:
     session = table.session
     session.click(0)
     session.click(8)
-    assert session.cursor.waiting == 1
+    assert session.waiting == 1
     session.line_begin(30)
     assert session.undo()
-    assert not session.cursor.held
-    assert session.cursor.waiting == 1
+    assert not session.is_held
+    assert session.waiting == 1
     table.compute()
     assert len(session.wires) == 1
 
@@ -202,7 +202,7 @@ def with_a_waiting_click() -> Table:
     table.session.click(3)
     table.lives["EDGES"].ready = (False, False)
     table.session.click(21)
-    assert table.session.cursor.waiting == 1
+    assert table.session.waiting == 1
     assert len(table.session.wires) == 1
     return table
 
@@ -241,10 +241,10 @@ FIRST, SECOND = (0, 1, 2, 3), (3, 9, 15, 21)
         "cancel",
     ],
 )
-def test_only_a_cancelled_chain_forgets_a_click_that_waits(go_on: Callable[[Session], object], kept: list) -> None:
+def test_only_a_cancelled_chain_forgets_a_click_that_waits(go_on: Callable[[Sketch], object], kept: list) -> None:
     session = with_a_waiting_click().session
     go_on(session)
-    assert session.cursor.waiting == 0
+    assert session.waiting == 0
     assert courses(session) == kept
 
 
@@ -264,7 +264,7 @@ def test_settings_of_later_wires_do_not_reach_a_click_that_waits() -> None:
 def test_settings_that_draw_no_wires_do_not_wait(change: dict[str, object]) -> None:
     session = with_a_waiting_click().session
     use(session, **change)
-    assert session.cursor.waiting == 1
+    assert session.waiting == 1
 
 
 def test_a_stroke_waits_behind_a_click() -> None:
@@ -272,7 +272,7 @@ def test_a_stroke_waits_behind_a_click() -> None:
     session = table.session
     assert session.draw_stroke(vertices=[34, 35])
     assert session.network.strokes == ()
-    assert session.cursor.waiting == 2
+    assert session.waiting == 2
     assert [stroke.vertices.tolist() for stroke in session.picture.strokes] == [[34, 35]], "it is shown while it waits"
     table.compute()
     assert len(session.picture.strokes) == 1
@@ -289,11 +289,11 @@ def test_a_loop_waits_behind_a_click() -> None:
     live.ready = (False, False)
     session.click(3)
     assert session.loop(20)
-    assert session.cursor.waiting == 2
+    assert session.waiting == 2
     assert session.wires == (), "though the closed cut is computed already"
     live.ready = (True, True)
     session.poll()
-    assert session.cursor.waiting == 0
+    assert session.waiting == 0
     assert courses(session)[0] == FIRST
     assert len(session.wires) > 1
 
@@ -354,12 +354,12 @@ def never(monkeypatch: pytest.MonkeyPatch) -> None:
     ids=["new chain", "remove", "end", "setting"],
 )
 def test_a_click_without_a_result_is_told_of_whatever_comes_next(
-    go_on: Callable[[Session], object], monkeypatch: pytest.MonkeyPatch
+    go_on: Callable[[Sketch], object], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     session = with_a_waiting_click().session
     never(monkeypatch)
     go_on(session)
-    assert session.drawing.failure.code == "no-result"
+    assert session.told.code == "no-result"
 
 
 def test_a_failure_is_forgotten_when_something_else_is_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -367,11 +367,11 @@ def test_a_failure_is_forgotten_when_something_else_is_drawn(monkeypatch: pytest
     session = table.session
     never(monkeypatch)
     session.start(30)
-    assert session.drawing.told.code == "no-result"
+    assert session.told.code == "no-result"
     table.compute()
     session.hover(32)
     session.click(32)
-    assert not session.drawing.failure
+    assert not session.told
 
 
 def test_a_waiting_click_that_is_refused_is_told_of_when_the_chain_ends() -> None:
@@ -380,9 +380,9 @@ def test_a_waiting_click_that_is_refused_is_told_of_when_the_chain_ends() -> Non
     session.click(0)
     session.click(35)
     table.compute()
-    assert session.cursor.waiting == 0
+    assert session.waiting == 0
     session.end_chain()
-    assert session.drawing.failure.code == "no-wire-reaches"
+    assert session.told.code == "no-wire-reaches"
 
 
 def test_a_cancelled_chain_forgets_a_wire_that_waits_for_its_other_path() -> None:
@@ -392,9 +392,9 @@ def test_a_cancelled_chain_forgets_a_wire_that_waits_for_its_other_path() -> Non
     insert(session, session.wires[0], 14)
     before = courses(session)
     assert session.retrace(session.wires[0])
-    assert session.cursor.waiting == 1
+    assert session.waiting == 1
     session.end_chain(wait=False)
-    assert session.cursor.waiting == 0
+    assert session.waiting == 0
     assert courses(session) == before
 
 
@@ -412,17 +412,17 @@ def test_a_cancelled_chain_forgets_a_wire_that_waits_for_its_other_path() -> Non
     ],
     ids=["click", "new chain", "loop", "stroke", "line", "seed", "redo", "end"],
 )
-def test_a_released_seed_stays_where_it_is_whatever_comes_next(go_on: Callable[[Session], object]) -> None:
+def test_a_released_seed_stays_where_it_is_whatever_comes_next(go_on: Callable[[Sketch], object]) -> None:
     session = Table(fork_ready=(False, False)).session
     session.click(0)
     session.click(3)
     session.end_chain()
     session.drag(Snap(3, "SEED"))
-    session.cursor.drag_to(Snap(4))
+    session.drag_to(Snap(4))
     session.drag_end()
-    assert session.cursor.waiting == 1
+    assert session.waiting == 1
     go_on(session)
-    assert session.drawing.network.wires[0].vertices == (0, 1, 2, 3, 4)
+    assert session.drawn.wires[0].vertices == (0, 1, 2, 3, 4)
 
 
 def test_a_held_seed_goes_back_when_something_else_begins() -> None:
@@ -431,6 +431,6 @@ def test_a_held_seed_goes_back_when_something_else_begins() -> None:
     session.click(3)
     session.end_chain()
     session.drag(Snap(3, "SEED"))
-    session.cursor.drag_to(Snap(4))
+    session.drag_to(Snap(4))
     session.click(35)
     assert courses(session) == [FIRST]

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Where wires that run on have to stop."""
 
-from seamwire.core.network.network import Network
+from seamwire.core.network.network import Drawn
 from seamwire.core.network.stops import Stops
 from table import symmetry, wire
 
 
 def test_stops_are_the_vertices_of_seams_of_kept_wires_and_of_the_live_one() -> None:
-    stops, network = Stops([(1, 0), (9, 15)], symmetry()), Network((wire(2, 3, 9),))
+    stops, network = Stops([(1, 0), (9, 15)], symmetry()), Drawn((wire(2, 3, 9),))
     assert stops.kept(network).tolist() == [0, 1, 2, 3, 9, 15]
     assert stops.of(network, wire(20, 21), (6, 7)).tolist() == [0, 1, 2, 3, 9, 15, 20, 21]
     assert [stops.taken(network, edge) for edge in ((0, 1), (9, 3), (0, 6))] == [True, True, False]

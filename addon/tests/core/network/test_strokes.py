@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from fake_live import grid_points, grid_triangles
 from numpy.typing import NDArray
-from seamwire.core.drawing.picture import Role
+from seamwire.core.sketch.picture import Role
 from seamwire.core.network.strokes import OffMeshError, drawn, into_triangles, on_mesh, through_vertices
 from seamwire.core.storage.serialization import Archive
 from table import SIZE, Table, paper
@@ -99,12 +99,12 @@ def test_what_is_no_stroke_is_refused_in_words(points: list, faces: list, why: s
     with pytest.raises(OffMeshError, match=why):
         drawn(points, faces, MESH, TRIANGLES)
     session = Table().session
-    revision = session.drawing.revision
+    revision = session.revision
     assert not session.draw_stroke(points, faces)
-    assert why in str(session.drawing.message)
+    assert why in str(session.reason)
     assert session.network.strokes == ()
     assert not session.picture.can_undo
-    assert session.drawing.revision > revision
+    assert session.revision > revision
 
 
 def test_triangles_without_an_area_take_a_point_to_their_corner() -> None:
@@ -125,7 +125,7 @@ def test_an_erased_stroke_is_gone_until_undo() -> None:
     assert session.network.strokes == (two,)
     assert table.lives["EDGES"].strokes[-1] == (two,)
     assert not session.erase(one)
-    assert "no longer exists" in str(session.drawing.message)
+    assert "no longer exists" in str(session.reason)
     assert session.undo()
     assert session.network.strokes == (one, two)
 
@@ -135,7 +135,7 @@ def test_a_stroke_is_for_the_active_wire_while_one_is_live() -> None:
     session.click(0)
     session.hover(7)
     stroke(session, (0.5, 0.2), (4.5, 0.2))
-    session.cursor.next_candidate()
+    session.next_candidate()
     stroke(session, (0.5, 0.2), (4.5, 0.2))
     assert [one.acts_on for one in session.network.strokes] == ["min", "max"]
     assert session.picture.active.vertices == (0, 6, 7), "the wire that it is for stays the active one"
@@ -148,13 +148,13 @@ def test_a_stroke_that_comes_back_brings_its_wire_forward() -> None:
     session = Table().session
     session.click(0)
     session.hover(7)
-    session.cursor.next_candidate()
+    session.next_candidate()
     stroke(session, (0.5, 0.2), (4.5, 0.2))
     session.undo()
     session.redo()
     assert session.picture.active.vertices == (0, 6, 7), "as when it was drawn"
     session.erase(session.network.strokes[0])
-    session.cursor.next_candidate()
+    session.next_candidate()
     assert session.picture.active.vertices == (0, 1, 7)
     session.undo()
     assert session.picture.active.vertices == (0, 6, 7)
@@ -168,7 +168,7 @@ def test_the_live_wire_follows_and_kept_ones_stay() -> None:
     session.hover(9)
     kept = session.wires
     stroke(session, (0.5, 0.2), (4.5, 0.2))
-    assert session.cursor.computing
+    assert session.computing
     assert session.picture.active is not None, "the former wire is seen until there is another"
     assert session.picture.one(Role.COMPUTING) is not None
     table.compute()
@@ -287,7 +287,7 @@ def test_strokes_are_drawn_without_a_hand() -> None:
     assert session.draw_stroke(vertices=[0, 3], attracts=True, acts_on="both")
     assert not session.draw_stroke(vertices=[4, 4], attracts=False, acts_on="both")
     assert not session.draw_stroke(vertices=[0, 99], attracts=True, acts_on="both")
-    assert "no vertex 99" in str(session.drawing.message)
+    assert "no vertex 99" in str(session.reason)
     assert [one.vertices.tolist() for one in session.network.strokes] == [[0, 3]]
 
 

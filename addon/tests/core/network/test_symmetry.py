@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_triangles
 from seamwire.core.base.nearest_vertices import NearestVertices
-from seamwire.core.drawing.picture import Role
+from seamwire.core.sketch.picture import Role
 from seamwire.core.network.symmetry import TOLERANCE, Symmetry
 from seamwire.core.network.wires import Wire
 from setting import insert, use
@@ -402,7 +402,7 @@ def test_mirroring_is_for_wires_kept_from_then_on_and_no_step() -> None:
 def test_after_the_mirror_was_set_undo_does_not_stop_at_steps_that_changed_nothing() -> None:
     session = Table(centred=True).session
     session.click(0)
-    session.adopt(session.network, [])
+    session.adopt(session.drawn, [])
     session.start(0)
     assert not session.picture.can_undo
     use(session, mirror=(0,))
@@ -427,7 +427,7 @@ def test_a_wires_images_are_those_of_when_it_was_kept_and_follow_its_course() ->
     assert [one.mirror for one in session.wires] == [(0,), (0,)]
     assert [image.vertices for image in session.mirrored(session.wires[0])] == [(5, 11)]
     session.drag(8)
-    session.cursor.drag_to(7)
+    session.drag_to(7)
     assert [image.vertices for image in session.mirrored(session.wires[1])] == [(11, 10)], "and are shown meanwhile"
 
 

@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from fake_live import FakeCuts, FakeLive
-from seamwire.core.drawing.session import Session
-from seamwire.core.network.network import Network
+from seamwire.core.sketch.sketch import Sketch
+from seamwire.core.network.network import Drawn
 from seamwire.core.network.wires import Wire
 from seamwire.core.offers import surface_loops
 from seamwire.core.offers.surface_loops import CutMemory, is_same
@@ -19,16 +19,16 @@ from table import Table
 SCALE = np.diag([2.0, 1.0, 1.0])
 
 
-def taken(left: bool = False) -> Session:
+def taken(left: bool = False) -> Sketch:
     session = Table("SURFACE").session
     session.hover(8, loop=True)
     if left:
-        session.cursor.next_candidate()
+        session.next_candidate()
     session.click(8)
     return session
 
 
-def as_cut(session: Session) -> list[Wire]:
+def as_cut(session: Sketch) -> list[Wire]:
     """The wires as they are along edges, of which one seed has gone, with the numbers under which a mesh knows them."""
     first, second, third = session.wires
     middle = (*first.vertices, *second.vertices[1:])
@@ -39,15 +39,15 @@ def as_cut(session: Session) -> list[Wire]:
     ]
 
 
-def after_cutting(session: Session, wires: list[Wire]) -> Table:
+def after_cutting(session: Sketch, wires: list[Wire]) -> Table:
     """A new session on a mesh that was cut, and that has these wires then."""
     it = Table("SURFACE")
     places = Places(it.points, SCALE)
     memory = CutMemory()
-    cuts = [cut.of(Network(tuple(wires))) for cut in session.cursor.loops.cuts.taken(session.drawing.network)]
-    memory.keep([cut for cut in cuts if cut is not None], Network(tuple(wires)), places)
-    it.session.adopt(Network(tuple(replace(wire.anew(), stored=wire.stored) for wire in wires)), [])
-    it.session.cursor.loops.cuts.recall(memory.recall(it.session.network, places))
+    cuts = [cut.of(Drawn(tuple(wires))) for cut in session.offering.cuts.taken(session.network)]
+    memory.keep([cut for cut in cuts if cut is not None], Drawn(tuple(wires)), places)
+    it.session.adopt(Drawn(tuple(replace(wire.anew(), stored=wire.stored) for wire in wires)), [])
+    it.session.offering.cuts.recall(memory.recall(it.session.network, places))
     return it
 
 
@@ -104,10 +104,10 @@ def test_cuts_through_a_point_around_other_limbs_are_others_and_one_that_strays_
 def test_where_none_runs_there_it_says_so() -> None:
     session = taken()
     it = after_cutting(session, as_cut(session))
-    it.lives["SURFACE"] = it.session.drawing.engines.cuts()
+    it.lives["SURFACE"] = it.session.engines.cuts()
     it.lives["SURFACE"].islands = (8,)
     assert not it.session.bend(28)
-    assert it.session.drawing.message.code == "cut-is-gone"
+    assert it.session.reason.code == "cut-is-gone"
     assert len(it.session.wires) == 2
 
 
@@ -116,14 +116,14 @@ def test_what_is_not_all_there_is_forgotten() -> None:
     for wires in (as_cut(session)[:1], [replace(wire, stored=0) for wire in as_cut(session)]):
         it = after_cutting(session, wires)
         assert not it.session.bend(28)
-        assert it.session.drawing.message.code == "nothing-to-bend"
+        assert it.session.reason.code == "nothing-to-bend"
 
 
 def test_what_was_changed_since_it_was_taken_is_not_handed_on() -> None:
     session = taken()
-    assert len(session.cursor.loops.cuts.taken(session.drawing.network)) == 1
+    assert len(session.offering.cuts.taken(session.network)) == 1
     session.drop(session.wires[1])
-    assert session.cursor.loops.cuts.taken(session.drawing.network) == ()
+    assert session.offering.cuts.taken(session.network) == ()
 
 
 def test_the_memory_of_cuts_is_bounded_and_forgets_the_oldest(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -132,14 +132,14 @@ def test_the_memory_of_cuts_is_bounded_and_forgets_the_oldest(monkeypatch: pytes
     places = Places(Table("SURFACE").points, SCALE)
     (cut,) = (
         cut
-        for cut in (cut.of(Network(tuple(wires))) for cut in session.cursor.loops.cuts.taken(session.drawing.network))
+        for cut in (cut.of(Drawn(tuple(wires))) for cut in session.offering.cuts.taken(session.network))
         if cut is not None
     )
     monkeypatch.setattr(surface_loops, "_MOST_BYTES", 2 * cut.course.nbytes)
     memory, networks = CutMemory(), []
     for number in (100, 200, 300):
         own = tuple(replace(wire, stored=number + place) for place, wire in enumerate(cut.wires))
-        networks.append(Network(own))
+        networks.append(Drawn(own))
         memory.keep([cut], networks[-1], places)
     assert [len(list(memory.recall(network, places))) for network in networks] == [0, 1, 1]
     memory.clear()

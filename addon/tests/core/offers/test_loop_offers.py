@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_triangles
 from numpy.typing import NDArray
-from seamwire.core.network.network import Network, Snap
+from seamwire.core.sketch.network import Network, Snap
 from seamwire.core.network.stops import Stops
 from seamwire.core.offers import part_borders
 from seamwire.core.offers.edge_loops import LoopOffers
@@ -19,7 +19,7 @@ from table import POINTS, SIZE, Table, symmetry
 
 
 def loops(borders: PartBorders) -> LoopOffers:
-    return LoopOffers(Table().session.drawing.engines, Stops([], symmetry()), POINTS, borders)
+    return LoopOffers(Table().session.engines, Stops([], symmetry()), POINTS, borders)
 
 
 def halves(go_on: threading.Event | None = None) -> PartBorders:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from polygon_meshes import arrays_of, grid_places, grid_polygons
 from seamwire.core.base.mesh_arrays import Arrays
-from seamwire.core.network.network import Snap
+from seamwire.core.sketch.network import Snap
 from seamwire.core.network.picks import FacePoint, Pick
 from seamwire.core.network.wires import Wire
 from seamwire.core.picking.camera import Camera, Sight, nearest_edge

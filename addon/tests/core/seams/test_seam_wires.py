@@ -8,7 +8,7 @@ import itertools
 import numpy as np
 import pytest
 from real_sessions import AROUND, RINGS, ball, meridian, tube
-from seamwire.core.drawing.session import Session
+from seamwire.core.sketch.sketch import Sketch
 from seamwire.core.network.picks import undirected
 from seamwire.core.network.wires import Wire
 from seamwire.core.seams.seam_wires import seam_chains, wires_between
@@ -43,7 +43,7 @@ def test_wires_between_seeds_that_are_given_end_there_and_circles_are_halved() -
     assert len({edge for wire in wires for edge in wire.edges()}) == 9
 
 
-def redrawn(session: Session, wires: list[Wire]) -> list[list[int]]:
+def redrawn(session: Sketch, wires: list[Wire]) -> list[list[int]]:
     """Draw a chain again from the seeds of wires; return what each wire runs along."""
     for wire in wires:
         if wire.heading is None:
@@ -52,7 +52,7 @@ def redrawn(session: Session, wires: list[Wire]) -> list[list[int]]:
         session.hover(wire.end)
         session.wait()
         if session.picture.active.vertices != wire.vertices:
-            session.cursor.next_candidate()
+            session.next_candidate()
         session.click(wire.end)
         session.wait()
     session.end_chain()
@@ -70,7 +70,7 @@ def test_what_was_drawn_is_found_again_with_as_few_seeds() -> None:
         session.click(end)
         session.wait()
     seams = np.array([edge for wire in session.wires for edge in wire.edges()])
-    wires = list(tube().drawing.wires_along(seams))
+    wires = list(tube().wires_along(seams))
     assert len(wires) <= 2
     assert sorted(edge for wire in wires for edge in wire.edges()) == sorted(map(tuple, seams.tolist()))
 
@@ -83,7 +83,7 @@ def test_wires_run_as_the_seams_do_and_can_be_drawn_again_from_their_seeds(name:
         "there and back": [*meridian(3)[1:6], *meridian(4)[5:0:-1]],
     }[name]
     seams = np.array([undirected(pair) for pair in itertools.pairwise(chain)])
-    wires = list(ball().drawing.wires_along(seams))
+    wires = list(ball().wires_along(seams))
     assert sorted(edge for wire in wires for edge in wire.edges()) == sorted(map(tuple, seams.tolist()))
     assert all(one.end == two.start for one, two in itertools.pairwise(wires))
     assert redrawn(ball(), wires) == [list(wire.vertices) for wire in wires]
@@ -92,9 +92,9 @@ def test_wires_run_as_the_seams_do_and_can_be_drawn_again_from_their_seeds(name:
 
 def test_straight_seams_take_the_fewest_seeds_there_can_be() -> None:
     seams = np.array([undirected(pair) for pair in zip(meridian(3), meridian(3)[1:], strict=False)])
-    assert [(wire.start, wire.end) for wire in tube().drawing.wires_along(seams)] == [(meridian(3)[0], meridian(3)[-1])]
+    assert [(wire.start, wire.end) for wire in tube().wires_along(seams)] == [(meridian(3)[0], meridian(3)[-1])]
 
 
 def test_a_seam_that_is_no_edge_of_the_surface_is_refused() -> None:
     with pytest.raises(ValueError, match=str(AROUND * RINGS + 50)):
-        list(tube().drawing.wires_along(np.array([(0, AROUND * RINGS + 50)])))
+        list(tube().wires_along(np.array([(0, AROUND * RINGS + 50)])))

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from fake_live import grid_edges
 from paper_mesh import PaperMesh
-from seamwire.core.network.network import Network
+from seamwire.core.network.network import Drawn
 from seamwire.core.storage.serialization import FORMAT, VERSION, WAS_SEAM, Archive, NewerError, UnreadableError, packed
 from setting import use
 from table import SIZE, Table, chain, paper
@@ -210,7 +210,7 @@ def test_which_of_the_wires_one_is_and_what_a_stroke_is_for_are_kept(follow: int
     session.click(0)
     session.hover(14)
     while session.picture.active.follow != follow:
-        session.cursor.next_candidate()
+        session.next_candidate()
     session.draw_stroke(vertices=[1, 2, 3])
     session.click(14)
     mesh = paper()
@@ -264,7 +264,7 @@ def test_a_stored_text_is_read() -> None:
     session = Table(centred=True).session
     mesh.open(session)
     assert set(session.edges_to_mark()) == mesh.seams - {(17, 23)}, "which was a seam before"
-    mesh.write(Network(), adopt=False)
+    mesh.write(Drawn(), adopt=False)
     assert mesh.seams == {(17, 23), (2, 8)}, "and so was an edge under a wire"
     assert mesh.labels == {}
 

@@ -8,15 +8,15 @@ from collections.abc import Callable, Iterable
 import numpy as np
 import pytest
 from paper_mesh import PaperMesh
-from seamwire.core.drawing.session import Session
-from seamwire.core.network.network import Network, Snap
+from seamwire.core.sketch.sketch import Sketch
+from seamwire.core.sketch.network import Network, Snap
 from seamwire.core.network.picks import Edge
 from seamwire.core.storage.serialization import WAS_SEAM
 from setting import use
 from table import SIZE, Table, chain, courses, paper, wire
 
 
-def drawn(*chains: Iterable[object], mesh: PaperMesh | None = None, **options: object) -> tuple[PaperMesh, Session]:
+def drawn(*chains: Iterable[object], mesh: PaperMesh | None = None, **options: object) -> tuple[PaperMesh, Sketch]:
     """Return a mesh with chains through picks, and the session that drew them."""
     mesh = paper() if mesh is None else mesh
     table = Table(**options)
@@ -30,7 +30,7 @@ def drawn(*chains: Iterable[object], mesh: PaperMesh | None = None, **options: o
     return mesh, session
 
 
-def opened(mesh: PaperMesh, **options: object) -> Session:
+def opened(mesh: PaperMesh, **options: object) -> Sketch:
     """Return a session on the table, in a Blender that was just started."""
     session = Table(**options).session
     mesh.open(session)
@@ -154,7 +154,7 @@ def test_copies_of_a_mirrored_wire_have_their_own_images() -> None:
     first, second = sorted(session.wires, key=lambda wire: min(wire.vertices))
     assert sorted(first.images) == chain(5, 4, 3, 9)
     assert sorted(second.images) == chain(41, 40, 39, 45)
-    mesh.write(session.network.without(first))
+    mesh.write(session.drawn.without(first))
     assert mesh.seams == lines((36, 37, 38, 44), (41, 40, 39, 45))
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from ...terms.choices import FINISHES
 
 if TYPE_CHECKING:
-    from ..network.network import Network
+    from ..network.network import Drawn
     from ..network.wires import Wire
 
 
@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 class Change:
     """A network that has become another one. The mesh marks and clears the edges of wires, and slides, cuts or takes back cuts."""
 
-    before: Network
-    after: Network
+    before: Drawn
+    after: Drawn
 
     def __bool__(self) -> bool:
         return self.after.wires != self.before.wires or self.after.strokes != self.before.strokes
@@ -38,7 +38,7 @@ class Change:
         same = {id(wire) for wire in self.before.wires}
         return frozenset(wire.id for wire in self.after.wires if id(wire) not in same)
 
-    def on(self, found: Network) -> Network:
+    def on(self, found: Drawn) -> Drawn:
         """Return another network with the same change. A wire along the same vertices, or a stroke in the same triangles, is the same."""
         left = {id(stroke) for stroke in self.after.strokes}
         known = {id(one) for one in (*self.before.wires, *self.before.strokes)}

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 from ...terms.choices import DEFAULT_FINISH
 from ...terms.options import Options
 from ..base.messages import NOTHING, Message
-from ..network.network import Snap
 from ..network.picks import undirected
 
 if TYPE_CHECKING:
@@ -24,6 +23,7 @@ if TYPE_CHECKING:
     from ..network.picks import Edge, Pick
     from ..network.strokes import Stroke
     from ..network.wires import Wire
+    from .network import Snap
 
 
 class Role(Enum):
@@ -84,8 +84,6 @@ class Intent(Enum):
     """Keep the loop that is shown."""
     RUN = auto()
     """Keep the wire that runs to the end."""
-    WAIT = auto()
-    """Keep a wire as soon as it is computed."""
     MOVE = auto()
     """Leave the dragged seed here."""
     DRAW = auto()
@@ -112,12 +110,11 @@ class ShownSeed:
 
 @dataclass(frozen=True)
 class Choice:
-    """One of several candidates: its place among them from 0, how many there are, whether it is straight, or around a limb."""
+    """One of several candidates: its place among them from 0, how many there are, and whether it is straight in the view."""
 
     number: int = 0
     count: int = 1
     straight: bool = False
-    around: bool = False
 
 
 @dataclass(frozen=True)
@@ -153,6 +150,8 @@ class Picture:
         Grow with every change of what is seen, and of the kept wires.
     wires, seeds
         From bottom to top.
+    missing
+        The ends of wires that have no course, or not yet.
     line
         The line that is being drawn, (k, 3).
     target
@@ -175,6 +174,7 @@ class Picture:
     revision: int = 0
     network_revision: int = 0
     wires: tuple[ShownWire, ...] = ()
+    missing: tuple[tuple[Pick, Pick], ...] = ()
     seeds: tuple[ShownSeed, ...] = ()
     strokes: tuple[Stroke, ...] = ()
     line: NDArray[np.float64] | None = None

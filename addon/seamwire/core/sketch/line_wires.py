@@ -14,7 +14,7 @@ from ..network.picks import FacePoint
 from ..network.wires import Wire
 from ..seams.seam_wires import wires_along
 from ..solver.solver import by_number, for_live
-from .wire import across
+from .ways import across
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -133,6 +133,14 @@ class EdgeLine:
     def _wire(self, chain: list[int]) -> Wire:
         return Wire("EDGES", tuple(chain), self._mesh[chain], chain[0], chain[-1], heading=self._before)
 
+    @property
+    def ends(self) -> tuple[Pick, Pick]:
+        """Where it begins and ends, as far as it is known."""
+        if self.wires:
+            return self.wires[0].start, self.wires[-1].end
+        begin = -1 if self._begin is None else self._begin
+        return begin, begin
+
     def finish(self) -> None:
         """Let `poll` look for the fewest wires that reproduce the chain."""
         self._finished = True
@@ -243,6 +251,12 @@ class SurfaceLine:
             self._good = None
         if self._bad is not None and self._bad[0] == last:
             self._bad = None
+
+    @property
+    def ends(self) -> tuple[Pick, Pick]:
+        """Where it begins and ends. Until it is done, the end is where the line leads."""
+        is_done = self._anchor == len(self._picks) - 1
+        return self._picks[0][0], self.wires[-1].end if is_done and self.wires else self._picks[-1][0]
 
     def finish(self) -> None:
         """Lead the wires to the line's end."""

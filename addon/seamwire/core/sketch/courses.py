@@ -1,0 +1,132 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Where the requests of a network run: found in the background, in the order of the network, and remembered for undo."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+from weakref import WeakKeyDictionary
+
+from ..base.messages import NOTHING, Refused, message_of
+from ..solver.solver import MOST_WAITS
+from .network import Given, Request
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from ..base.messages import Message
+    from ..network.wires import Wire
+    from ..solver.solver import LiveWire
+    from .network import Key, Network
+
+
+@dataclass(frozen=True, eq=False)
+class Course:
+    """Where one request runs.
+
+    Parameters
+    ----------
+    wires
+        Its wires as far as they are known, those of a line one after another.
+    final
+        Whether they stay as they are.
+    choices
+        The ways that *W* goes through, beginning with that without `turns`. Empty if they are not known.
+    reason
+        Why it has no wire, or not the wire that was asked for.
+    """
+
+    wires: tuple[Wire, ...] = ()
+    final: bool = False
+    choices: tuple[Wire, ...] = ()
+    reason: Message = NOTHING
+
+
+UNKNOWN = Course()
+
+
+class Search(Iterator["Course"]):
+    """Finds the course of one request, a little with each `next`. The last course is final.
+
+    Raises ValueError if there is no course. `lives` are the live wires that compute for it now.
+    """
+
+    def lives(self) -> Sequence[LiveWire]:
+        return ()
+
+
+class Courses:
+    """The course of each request. Each is found once, as soon as all requests before it have their courses, and is never changed.
+
+    So a course depends on its request, on the final courses of earlier requests, and on the settings and strokes at the time of the edit,
+    which the search has. Requests that undo took back are searched on only when redo brings them back.
+    """
+
+    def __init__(self) -> None:
+        self._known: WeakKeyDictionary[Key, Course] = WeakKeyDictionary()
+        self._searches: WeakKeyDictionary[Key, Search] = WeakKeyDictionary()
+
+    def of(self, request: Request) -> Course:
+        found = self._known.get(request.key)
+        if found is None and isinstance(request, Given):
+            found = self._known[request.key] = Course((request.wire,), final=True)
+        return found or UNKNOWN
+
+    def begin(self, request: Request, course: Course, search: Search | None = None) -> None:
+        """Begin with the course that is shown now, and search on unless that is final."""
+        self._known[request.key] = course
+        if search is not None and not course.final:
+            self._searches[request.key] = search
+
+    def knows(self, request: Request) -> bool:
+        return request.key in self._known or isinstance(request, Given)
+
+    def unfinished(self, network: Network) -> list[Request]:
+        return [own for own in network.requests if not self.of(own).final]
+
+    def lives(self, network: Network) -> list[LiveWire]:
+        """Return the live wires that compute for the request that comes next."""
+        return [live for own in self.unfinished(network)[:1] for live in self._searches[own.key].lives()]
+
+    def poll(self, network: Network) -> tuple[list[Request], bool]:
+        """Search on for the first request without a final course. Return the requests that got one, and whether another course is new."""
+        done = []
+        for own in self.unfinished(network):
+            before, now = self.of(own), self._step(own)
+            if not now.final:
+                return done, now is not before
+            done.append(own)
+        return done, False
+
+    def give_up(self, requests: Iterable[Request], reason: Message) -> None:
+        """Let requests stay as they are shown, because nothing more is found."""
+        for own in requests:
+            shown = self.of(own)
+            self._end(own, Course(shown.wires, final=True, reason=reason))
+
+    def _step(self, request: Request) -> Course:
+        try:
+            course = next(self._searches[request.key])
+        except StopIteration:
+            raise AssertionError("A search ended without a final course") from None
+        except ValueError as error:
+            was = getattr(request, "was", None)
+            course = Course(() if was is None else (was,), final=True, reason=message_of(error))
+        if course.final:
+            self._end(request, course)
+        else:
+            self._known[request.key] = course
+        return course
+
+    def _end(self, request: Request, course: Course) -> None:
+        self._searches.pop(request.key, None)
+        self._known[request.key] = course
+
+
+def patiently(live: LiveWire, is_done: bool, waits: int) -> int:
+    """Return how often in a row the library has said that its work is done although an answer is missing. Raise Refused at too many."""
+    waits = 0 if is_done or live.progress() < 1.0 else waits + 1
+    if waits > MOST_WAITS:
+        raise Refused("no-result")
+    return waits

@@ -1,0 +1,237 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The drag of a seed: the wires that end there follow it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from ..base.messages import NOTHING, Message, Refused, message_of
+from ..network.picks import undirected
+from ..solver.solver import for_live
+from .courses import Course
+from .interaction import Begun, Edit, Interaction
+from .network import Given, How, Way
+from .ways import Begin, WaySearch, backwards, choices, directed, ways_of
+from .wiring import only_vertices
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from ..network.network import Drawn
+    from ..network.picks import Edge, End, Pick
+    from ..network.wires import Wire
+    from ..solver.solver import LiveWire
+    from .network import Link, Network, Request, Snap
+    from .sketch import Sketch
+
+
+class Leg:
+    """One wire at the seed. Its live wires begin at the end that stays.
+
+    Raises ValueError if that is not part of the surface.
+    """
+
+    def __init__(self, sketch: Sketch, network: Network, own: Request, wire: Wire, moving: End) -> None:
+        ground = sketch.ground
+        self.own, self.wire, self.moving = own, wire, moving
+        self.stays = wire.end if moving == "start" else wire.start
+        self.live = sketch.engines.get(wire.along).fork()
+        if moving == "end":
+            heading = ground.heading(own.goes_on, wire.start) if wire.along == "EDGES" else None
+            self.begin = Begin.of(self.stays, wire.along, heading)
+        else:
+            after = network.after(own) if wire.along == "EDGES" else None
+            self.begin = backwards(self.stays, wire, None if after is None else sketch.wire(after.id), wire.along)
+        self.begin.sow(self.live, wire.along)
+
+    def request(self, pick: Pick, meets: Link | None) -> Way:
+        """Return the request for the wire with its moving end at a pick."""
+        ends = {"start": self.wire.start, "end": self.wire.end, self.moving: pick}
+        return Way(
+            along=self.wire.along,
+            goes_on=self.own.goes_on,
+            how=How.like(self.wire),
+            follow=self.wire.follow,
+            was=self.wire,
+            meets=meets if self.moving == "start" else None,
+            moving=self.moving,
+            id=self.own.id,
+            **ends,
+        )
+
+
+class Dragging(Interaction):
+    """A seed that is dragged, and the wires that follow it. On a wire, a seed is put there first, in the same step for undo.
+
+    Raises ValueError if there is no seed, or if a wire's other end is not part of the surface.
+
+    Attributes
+    ----------
+    moved
+        The wires that follow, as they run now.
+    """
+
+    def __init__(self, sketch: Sketch, grip: Snap) -> None:
+        super().__init__(sketch)
+        self._seed = grip.pick
+        self._before = sketch.base.joined(grip, sketch.points, sketch.is_final)
+        ends = self._before.at(grip.pick)
+        live = self._before.seed
+        if not ends and (live is None or undirected(live.pick) != undirected(grip.pick)):
+            raise Refused(Message.of("no-seed-to-move", pick=grip.pick))
+        self._legs: list[Leg] = []
+        for own, end in ends:
+            wire = sketch.wire_of(own)
+            if wire is None or not isinstance(own, (Given, Way)):
+                raise Refused("still-computing")
+            # Wires that were cut go across the surface anew.
+            wire = wire.uncut()
+            if wire.along != own.along:
+                own = Given.of(wire)
+            self._legs.append(Leg(sketch, self._before, own, wire, end))
+        self._courses: tuple[Begun, ...] = ()
+        self.moved = tuple(leg.wire for leg in self._legs)
+        self._is_final = self._is_solved = True
+        self._shown: tuple[object, Drawn] | None = None
+
+    @property
+    def place(self) -> Pick:
+        """Where the seed is now."""
+        return self._seed if self.target is None else self.target.pick
+
+    @property
+    def is_final(self) -> bool:
+        return self._is_final
+
+    @property
+    def is_solved(self) -> bool:
+        """Whether each wire that follows is the shortest one."""
+        return self._is_solved and not self.reason
+
+    def lives(self) -> Sequence[LiveWire]:
+        return [leg.live for leg in self._legs]
+
+    def aim(self, target: Snap) -> None:
+        """Lead the wires to another place. If that fails, the old wires stay."""
+        self.target = target
+        self._is_final = self._is_solved = True
+        try:
+            self.reason = self._refusal(target.pick) or self._lead(target.pick)
+        except ValueError as error:
+            self.reason = message_of(error)
+
+    def poll(self) -> bool:
+        if self._is_final or self.target is None:
+            return False
+        before = self.moved
+        self.aim(self.target)
+        return before is not self.moved
+
+    def _refusal(self, pick: Pick) -> Message:
+        if isinstance(pick, tuple) and any(leg.wire.along == "SURFACE" for leg in self._legs):
+            return only_vertices(pick)
+        if self._legs and all(undirected(leg.stays) == undirected(pick) for leg in self._legs):
+            return Message.of("would-end-where-it-begins")
+        return NOTHING
+
+    def _lead(self, pick: Pick) -> Message:
+        """Find the wires to a pick, and show them if all of them are solved. Return why there is none."""
+        begun: list[Begun] = []
+        moved: list[Wire] = []
+        missing: list[Leg] = []
+        # A wire that arrives comes first: those that leave an edge have to go on in its direction.
+        meets: Link | None = None
+        direction: Edge | None = None
+        for leg in self._arriving_first():
+            if undirected(leg.stays) == undirected(pick):
+                continue
+            way = leg.request(pick, meets)
+            target, avoid = pick, None
+            if direction is not None and leg.moving == "start":
+                target, avoid = direction[1], direction[0]
+            found = leg.live.wires(for_live(target, way.along))
+            self._is_final &= found.final
+            self._is_solved &= found.solved
+            ways, leading = ways_of(found, way, leg.begin, avoid, self._sketch.points)
+            ordered = choices(way, ways, leading)
+            if not ordered:
+                missing.append(leg)
+                begun.append(Begun(way, Course(), WaySearch(way, self._sketch.ground, leg.live, leg.begin)))
+                continue
+            wire = way.how.of(replace(ordered[0], id=way.id))
+            moved.append(wire)
+            course = Course((wire,), final=found.final, choices=ordered if found.final else ())
+            begun.append(Begun(way, course, WaySearch(way, self._sketch.ground, leg.live, leg.begin)))
+            if isinstance(pick, tuple) and direction is None:
+                # Another wire leaves in the direction of one that arrives, and goes the other way from one that leaves.
+                meets = way.id, leg.moving
+                direction = directed(wire, leg.moving)
+        self._courses = tuple(begun)
+        if self._is_solved and missing:
+            return Message.of("no-wire-between", start=missing[0].stays, pick=pick)
+        if self._is_solved:
+            self.moved = tuple(moved)
+        return NOTHING
+
+    def _arriving_first(self) -> list[Leg]:
+        return sorted(self._legs, key=lambda leg: leg.moving == "start")
+
+    @property
+    def ids(self) -> set[int]:
+        """The numbers of the wires that follow."""
+        return {leg.own.id for leg in self._legs}
+
+    @property
+    def ends(self) -> frozenset[Pick]:
+        """The ends of these wires now, edges in both directions."""
+        ends = {end for wire in (*self.moved, *(leg.wire for leg in self._legs)) for end in (wire.start, wire.end)}
+        return frozenset(ends | {end[::-1] for end in ends if isinstance(end, tuple)})
+
+    def seeds(self) -> list[Pick]:
+        """Return every seed with this one where it is now, each once."""
+        before, now = undirected(self._seed), undirected(self.place)
+        moved = (now if undirected(pick) == before else undirected(pick) for pick in (*self._before.seeds(), *self._live))
+        return list(dict.fromkeys(moved))
+
+    @property
+    def _live(self) -> tuple[Pick, ...]:
+        place = self._sketch.seed_place
+        return () if place is None else (place,)
+
+    @property
+    def shown(self) -> Drawn:
+        """The drawn wires, with those that follow the seed where they are now."""
+        sketch, moved = self._sketch, {wire.id: wire for wire in self.moved}
+        if self._shown is None or self._shown[0] is not self.moved:
+            requests = (own for own in self._before.requests if own.id in moved or own.id not in self.ids)
+            wires = (moved.get(own.id) or sketch.wire_of(own) for own in requests)
+            complete = (sketch.images.completed(wire) for wire in wires if wire is not None)
+            self._shown = self.moved, replace(sketch.drawn, wires=tuple(complete))
+        return self._shown[1]
+
+    def keep(self) -> Edit | None:
+        """Return the edit that leaves the seed where it is now. Return None if it has not moved."""
+        if self.reason:
+            raise Refused(self.reason)
+        if self.target is None:
+            return None
+        sketch, pick = self._sketch, self.target.pick
+        requests = {each.request.id: each.request for each in self._courses}
+        gone = [leg.own.id for leg in self._legs if leg.own.id not in requests]
+        network = self._before.without(*gone).replacing({id: (own,) for id, own in requests.items()})
+        network = replace(self._with_seed(network, pick), mirror=sketch.options.mirror)
+        return Edit(network.joined(self.target, sketch.points, sketch.is_final), self._courses)
+
+    def _with_seed(self, network: Network, pick: Pick) -> Network:
+        """Return a network whose live wire begins, and whose chain began, at the dragged seed's new place."""
+        seed = network.seed
+        if seed is None:
+            return network
+        if undirected(seed.pick) == undirected(self._seed):
+            own = None if seed.after is None else network.find(seed.after[0])
+            stays = own is not None and undirected(getattr(own, seed.after[1])) == undirected(pick)
+            seed = replace(seed, pick=pick, after=seed.after if stays else None)
+        if seed.first is not None and undirected(seed.first) == undirected(self._seed):
+            seed = replace(seed, first=pick)
+        return replace(network, seed=seed)

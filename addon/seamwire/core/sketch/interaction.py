@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The base of what the mouse can do, and the edit that it leads to."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from ..base.messages import NOTHING
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from ..base.messages import Message
+    from ..solver.solver import LiveWire
+    from .courses import Course, Search
+    from .network import Network, Request, Snap
+    from .sketch import Sketch
+
+
+class Begun(NamedTuple):
+    """A new request with the course that is shown now. A search goes on from there unless that is final."""
+
+    request: Request
+    course: Course
+    search: Search | None = None
+
+
+class Edit(NamedTuple):
+    """The network that an interaction leads to, its new requests, and the number of the candidate that stays the active one."""
+
+    network: Network
+    begun: tuple[Begun, ...] = ()
+    chosen: int | None = None
+
+
+class Interaction:
+    """What the mouse is doing on a sketch. It changes nothing of the sketch, which goes on to the network that it keeps.
+
+    Attributes
+    ----------
+    target
+        The pick under the cursor.
+    reason
+        Why nothing can be done there.
+    """
+
+    def __init__(self, sketch: Sketch) -> None:
+        self._sketch = sketch
+        self.target: Snap | None = None
+        self.reason: Message = NOTHING
+
+    def poll(self) -> bool:
+        """Take in what was computed. Return whether there is something else to be seen."""
+        return False
+
+    def keep(self) -> Edit:
+        """Return what a click, or the release of the button, leads to. Raise Refused if that is nothing."""
+        raise NotImplementedError
+
+    @property
+    def is_final(self) -> bool:
+        """Whether nothing is computed for it any more."""
+        return True
+
+    def lives(self) -> Sequence[LiveWire]:
+        """Return the live wires that compute for it."""
+        return ()

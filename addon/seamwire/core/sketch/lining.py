@@ -1,0 +1,187 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The drawn line: wires follow a line that is drawn by dragging, or a ridge or valley."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..base.half_edges import among
+from ..base.messages import Message, Refused
+from ..network.picks import vertices_of
+from .courses import Course, Search
+from .interaction import Begun, Edit, Interaction
+from .line_wires import EdgeLine, SurfaceLine
+from .network import Found, Given, linked, surface_vertex
+from .wiring import only_vertices
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from ..network.picks import Edge, Pick
+    from ..network.wires import Wire
+    from ..solver.solver import LiveWire
+    from .network import How, Network, Seed, Snap
+    from .sketch import Sketch
+
+
+class Lining(Interaction):
+    """A line on the surface, and the wires that follow it. Raises Refused if no line across the surface can begin there.
+
+    Parameters
+    ----------
+    begin
+        The pick under the cursor at its beginning.
+    goes_on
+        Whether it continues the chain from the live wire's seed.
+    apart
+        Whether its wires belong to no chain, and leave the chain that is drawn unchanged.
+    """
+
+    def __init__(self, sketch: Sketch, begin: Snap, goes_on: bool = False, apart: bool = False) -> None:
+        super().__init__(sketch)
+        self._begin, self._goes_on, self._apart = begin, goes_on, apart
+        self.line = self._begun(begin.pick, sketch.network.seed if goes_on else None)
+
+    def _begun(self, pick: Pick, seed: Seed | None) -> EdgeLine | SurfaceLine:
+        sketch = self._sketch
+        if sketch.options.along == "SURFACE":
+            if isinstance(pick, tuple):
+                raise Refused(only_vertices(pick))
+            place = pick if seed is None else surface_vertex(seed.pick)
+            return SurfaceLine(sketch.engines, sketch.points, sketch.triangles, place, sketch.options.into_faces)
+        vertex = pick if isinstance(pick, int) and not self._apart else None
+        before: Edge | None = None
+        if seed is not None:
+            before = sketch.ground.heading(seed.after, seed.pick)
+            vertex = vertices_of(before or seed.pick)[-1]
+        return EdgeLine(sketch.engines, sketch.points, vertex, before)
+
+    def draw(self, points: NDArray[np.float64], triangles: NDArray[np.int32], target: Snap | None) -> None:
+        """Draw the line on: all its points, (k, 3), the triangle of each, (k,), and the pick under the cursor."""
+        self.target = target
+        if len(points):
+            end = None if self.joined is None else self.joined.pick
+            self.line.to(points, triangles, end, self._sketch.stops.kept(self._sketch.drawn))
+        self.reason = self.line.message
+
+    def poll(self) -> bool:
+        before = self.line.wires
+        self.line.poll()
+        self.reason = self.line.message
+        return before is not self.line.wires
+
+    def lives(self) -> Sequence[LiveWire]:
+        return self.line.lives()
+
+    @property
+    def joined(self) -> Snap | None:
+        """The pick under the cursor if a chain would end there, otherwise None."""
+        return self.target if self.target is not None and self.target.ends_chains else None
+
+    def keep(self) -> Edit:
+        sketch, line = self._sketch, self.line
+        line.finish()
+        how = sketch.how(sketch.options.along)
+        is_done = line.poll()
+        if is_done and not line.wires:
+            none = Message.of("no-wire-follows-line" if self._apart else "line-too-short")
+            raise Refused(line.message or none)
+        if is_done:
+            self.warn()
+        wires = tuple(map(how.of, line.wires))
+        ends = line.ends
+        if self._apart:
+            return self._added(sketch.base, ends, wires, is_done, None, False)
+        network = sketch.base
+        for pick in ends:
+            network = self._with_seed_at(network, pick)
+        seed = network.seed if self._goes_on else None
+        start, end = ends
+        if seed is not None:
+            start = seed.pick if sketch.options.along == "EDGES" else surface_vertex(seed.pick)
+            wires = (replace(wires[0], start=start), *wires[1:]) if wires else ()
+        stays = seed is not None and not self._ends_chain(end, seed)
+        return self._added(network, (start, end), wires, is_done, seed, stays)
+
+    def warn(self) -> None:
+        """Report why the wires do not follow the whole line."""
+        if self.line.message:
+            self._sketch.tell(self.line.message)
+
+    def _added(
+        self,
+        network: Network,
+        ends: tuple[Pick, Pick],
+        wires: tuple[Wire, ...],
+        is_done: bool,
+        seed: Seed | None,
+        stays: bool,
+    ) -> Edit:
+        """Return the edit with the line's wires, or with a request that finds them. The chain goes on from its end if it `stays`."""
+        along = self._sketch.options.along
+        link = None if seed is None or along == "SURFACE" else seed.after
+        begun: tuple[Begun, ...] = ()
+        if is_done:
+            first, *rest = linked(wires)
+            new = (first if link is None else replace(first, goes_on=link), *rest)
+            last = wires[-1].id
+        else:
+            request = Found(along=along, start=ends[0], end=ends[1], goes_on=link, what="line")
+            search = LineSearch(self, self._sketch.how(along), request)
+            new, last = (request,), request.id
+            shown = tuple(replace(wire, id=request.id) for wire in wires[:1]) + wires[1:]
+            begun = (Begun(request, Course(shown), search),)
+        after = network.adding(*new)
+        if self._apart:
+            return Edit(after, begun)
+        if not stays or seed is None:
+            return Edit(replace(after, seed=None), begun)
+        going = (last, "end") if along == "EDGES" else None
+        return Edit(replace(after, seed=replace(seed, pick=ends[1], after=going, first=seed.began)), begun)
+
+    def _with_seed_at(self, network: Network, pick: Pick) -> Network:
+        """Return a network with a seed where the line meets one of its wires."""
+        sketch = self._sketch
+        for snap in (self._begin, self.target):
+            if snap is not None and snap.to == "WIRE" and pick in (snap.pick, *vertices_of(snap.pick)):
+                network = network.joined(replace(snap, pick=pick), sketch.points, sketch.is_final)
+        for own in network.requests if isinstance(pick, int) else ():
+            wire = sketch.wire_of(own)
+            if wire is not None and wire.along == "EDGES" and not wire.closed and pick in wire.vertices[1:-1]:
+                network = network.with_seed_in(wire, pick, sketch.points, sketch.is_final(own)) or network
+        return network
+
+    def _ends_chain(self, end: Pick, seed: Seed) -> bool:
+        """Whether a line that went on from a chain ends that: on a seed, a wire or a seam, the chain's first seed too."""
+        if self.joined is not None or end == seed.began:
+            return True
+        return isinstance(end, int) and bool(
+            among(np.array([end]), self._sketch.stops.kept(self._sketch.drawn))[0]
+        )
+
+
+class LineSearch(Search):
+    """Finds the wires that follow a released line."""
+
+    def __init__(self, line: Lining, how: How, request: Found) -> None:
+        self._line, self._how, self._request = line, how, request
+
+    def lives(self) -> Sequence[LiveWire]:
+        return self._line.line.lives()
+
+    def __next__(self) -> Course:
+        line = self._line.line
+        is_done = line.poll()
+        wires = tuple(map(self._how.of, line.wires))
+        if is_done and not wires:
+            raise Refused(line.message or "line-too-short")
+        if wires:
+            wires = (replace(wires[0], id=self._request.id, start=self._request.start), *wires[1:])
+        if is_done:
+            self._line.warn()
+        return Course(wires, final=is_done)

@@ -1,0 +1,400 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The live wire: its candidates from the seed to the cursor. A click begins a chain, or keeps the active one and goes on from its end."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..base import native
+from ..base.messages import NOTHING, Message, Refused, message_of
+from ..network.picks import FacePoint
+from ..network.wires import Wire, distinct
+from ..solver.solver import by_number, for_live
+from .courses import Course
+from .interaction import Begun, Edit, Interaction
+from .network import Given, Way
+from .picture import Intent
+from .ways import Begin, WaySearch, across, along_edges, goal, in_order
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from ..network.picks import Pick
+    from ..solver.solver import LiveWire
+    from .network import Network, Request, Snap
+    from .sketch import Sketch
+
+
+class Wiring(Interaction):
+    """The live wire from the chain's seed to the cursor: a candidate for each metric.
+
+    Attributes
+    ----------
+    wires, finals
+        The candidates, and which of them are computed.
+    leading, settled
+        The candidate that is the active one unless the artist brings another forward, and whether it stays so.
+    chosen
+        The candidate that the artist brought forward.
+    runs
+        Whether the way on to the end is asked for, along edges.
+    extended
+        The live wire with that way, once it is found.
+    """
+
+    def __init__(self, sketch: Sketch) -> None:
+        super().__init__(sketch)
+        self.chosen: int | None = None
+        self.runs = False
+        self.extended: Wire | None = None
+        self._sown: tuple[LiveWire, Begin] | None = None
+        self._seen = False
+        self.clear()
+
+    def clear(self) -> None:
+        """Show no wires. The pick under the cursor stays."""
+        self.wires: tuple[Wire | None, ...] = ()
+        self.finals: tuple[bool, ...] = ()
+        self.leading, self.settled = 0, True
+        self.straight: Wire | None = None
+        self.extended = None
+
+    def forget(self) -> None:
+        """Forget which wires there were: those of another metric, or way of running, are others."""
+        self.clear()
+        self.chosen = None
+
+    # Where it begins
+
+    def begin(self) -> Begin | None:
+        """Return where wires begin now; None between chains."""
+        sketch = self._sketch
+        seed = sketch.network.seed
+        if seed is None:
+            return None
+        return Begin.of(seed.pick, sketch.options.along, sketch.ground.heading(seed.after, seed.pick))
+
+    def sow(self) -> None:
+        """Let the live wires begin where they are to begin now. Raise ValueError if that is not part of the surface."""
+        begin, live = self.begin(), self._live
+        if begin is not None and self._sown != (live, begin):
+            self._sown = None
+            begin.sow(live, self._sketch.options.along)
+            self._sown = live, begin
+
+    @property
+    def _live(self) -> LiveWire:
+        return self._sketch.engines.get(self._sketch.options.along)
+
+    # Candidates
+
+    def aim(self, target: Snap | None) -> None:
+        """Find the wires to a target."""
+        self.target = target
+        self.clear()
+        try:
+            self.reason = self._find()
+        except ValueError as error:
+            self.reason = message_of(error)
+        if self.runs:
+            self._extend()
+
+    def _find(self) -> Message:
+        sketch, target = self._sketch, self.target
+        along, network = sketch.options.along, sketch.network
+        if network.seed is None or target is None:
+            return NOTHING
+        self.sow()
+        begin = self.begin()
+        assert begin is not None
+        if begin.is_at(target.pick, network.seed.pick):
+            return NOTHING
+        if along == "SURFACE" and isinstance(target.pick, tuple):
+            return only_vertices(target.pick)
+        closes = self._closes(network, target)
+        lead, avoid = target.pick, None
+        if along == "EDGES" and closes is not None:
+            lead, avoid = goal(target.pick, sketch.wire(closes.id))
+        found = self._live.wires(for_live(lead, along))
+        candidates, self.leading = by_number(found)
+        self.finals = tuple(each.final for each in candidates)
+        self.settled = found.settled
+        if along == "SURFACE":
+            self.wires = tuple(across(each, row, begin.pick, target.pick) for row, each in enumerate(candidates))
+            if sketch.options.straight:
+                self._add_straight(begin.pick, target)
+        else:
+            ends = network.seed.pick, target.pick
+            self.wires = tuple(
+                along_edges(each, row, begin, ends, avoid, sketch.points) for row, each in enumerate(candidates)
+            )
+        if self.chosen is not None and self.chosen >= len(self.wires):
+            self.chosen = None  # the metric that is used now has no such wire
+        return NOTHING if self._is_reached else Message.of("no-wire-reaches", pick=target.pick)
+
+    @staticmethod
+    def _closes(network: Network, target: Snap) -> Request | None:
+        """Return the request that a wire to a target closes the chain with. It begins there, and goes on from no other one."""
+        if not network.closes(target):
+            return None
+        return next((own for own, end in network.at(target.pick) if end == "start" and own.goes_on is None), None)
+
+    def _add_straight(self, begin: Pick, target: Snap) -> None:
+        if target.seen_along is None:
+            return
+        live = self._sketch.engines.get("SURFACE")
+        self.straight = straight_wire(live, begin, target.pick, target.seen_along, self.leading)
+        if self.straight is not None:
+            self.wires, self.finals = (*self.wires, self.straight), (*self.finals, True)
+            self.leading, self.settled = len(self.wires) - 1, True
+
+    def _extend(self) -> None:
+        sketch = self._sketch
+        seed = sketch.network.seed
+        try:
+            if seed is None:
+                raise Refused("nothing-runs-on")
+            heading = sketch.ground.heading(seed.after, seed.pick)
+            wire = sketch.ground.run_on(sketch.engines.get("EDGES"), self.active, seed.pick, heading)
+        except ValueError as error:
+            self.extended, self.reason = None, message_of(error)
+        else:
+            self.extended = sketch.how("EDGES").of(wire)
+
+    def poll(self) -> bool:
+        """Find the wires to the same target once more, if they were not final or begin elsewhere now."""
+        is_sown = self._sown is None or self._sown == (self._live, self.begin())
+        if self.is_final and is_sown and not (self.runs and self.extended is None):
+            return False
+        before = self.shown
+        self.aim(self.target)
+        return before != self.shown and not _alike(before, self.shown)
+
+    @property
+    def shown(self) -> tuple[object, ...]:
+        """What changes when something else is to be seen."""
+        return self.target, self.reason, self.leading, self.finals, self.wires, self.extended
+
+    @property
+    def is_final(self) -> bool:
+        return all(self.finals)
+
+    def lives(self) -> Sequence[LiveWire]:
+        return (self._live,)
+
+    def is_aimed_at(self, target: Snap | None) -> bool:
+        """Whether a target is under the cursor already, looked at from where it is now if wires are to be straight there."""
+        if target != self.target:
+            return False
+        return not self._sketch.options.straight or target is None or target.seen_along == self.target.seen_along
+
+    @property
+    def active_index(self) -> int:
+        """The candidate that a click would keep."""
+        index = self.leading if self.chosen is None else self.chosen
+        # While that one is not computed and another is, show the one there is.
+        return next((at for at in self._order(index) if self.wires[at] is not None), index)
+
+    @property
+    def active(self) -> Wire | None:
+        return self.wires[self.active_index] if self.wires else None
+
+    @property
+    def active_final(self) -> bool:
+        return self.active is not None and self.finals[self.active_index]
+
+    @property
+    def others(self) -> tuple[Wire, ...]:
+        """The different other wires, in the order in which they follow the active one."""
+        return distinct(self.wires[at] for at in self._order(self.active_index))[1:]
+
+    @property
+    def number(self) -> int:
+        """The place of the active wire among those that run differently, beginning with the leading one, from 0."""
+        active, ways = self.active, distinct(self.wires[at] for at in self._order(self.leading))
+        return next((place for place, way in enumerate(ways) if active is not None and way.like(active)), 0)
+
+    def _order(self, first: int) -> list[int]:
+        count = len(self.wires)
+        return [(first + step) % count for step in range(count)]
+
+    @property
+    def _is_decided(self) -> bool:
+        """Whether the wire that a click would keep is computed, and will not be another one when the rest is."""
+        index = self.active_index
+        return self.active_final and (self.is_final or index == self.chosen or (self.settled and index == self.leading))
+
+    @property
+    def _is_reached(self) -> bool:
+        return not self.is_final or any(self.wires)
+
+    def advance(self) -> None:
+        """Bring the next candidate forward. Raise Refused if there is none."""
+        others = self.others
+        if not others:
+            if self.finals and not self._is_reached:
+                raise Refused(Message.of("no-wire-reaches", pick=self.target.pick))
+            raise Refused("same-edges" if self.is_final and self.active is not None else "no-next-candidate")
+        self.chosen = next(at for at, wire in enumerate(self.wires) if wire is others[0])
+        if self.runs:
+            self._extend()
+
+    @property
+    def is_straight(self) -> bool:
+        """Whether the wire that a click would keep is the one that is straight in the view."""
+        return self.straight is not None and self.active is self.straight
+
+    # Clicks
+
+    def click(self, target: Snap) -> Edit:
+        """Begin a chain at a target, or keep the wire that leads there. Raise Refused if neither is possible."""
+        if self._sketch.network.seed is None:
+            return self.start(target)
+        self._seen = self.active_final and target == self.target
+        if not (self.is_aimed_at(target) and self.is_final and self.wires):
+            self.aim(target)
+        return self.keep()
+
+    def start(self, target: Snap) -> Edit:
+        """Begin a new chain at a target, which ends the one before."""
+        sketch = self._sketch
+        along = sketch.options.along
+        if along == "SURFACE" and isinstance(target.pick, tuple):
+            raise Refused(only_vertices(target.pick))
+        network = replace(sketch.base, seed=None).joined(target, sketch.points, sketch.is_final)
+        return Edit(replace(network, seed=network.seed_at(target, along)))
+
+    def keep(self) -> Edit:
+        sketch, target, wire = self._sketch, self.target, self.active
+        assert target is not None
+        begin = self.begin()
+        assert begin is not None
+        network = sketch.base
+        seed = network.seed
+        assert seed is not None
+        if begin.is_at(target.pick, seed.pick):
+            raise Refused("ends-where-it-begins")
+        if self.reason and not self.runs:
+            raise Refused(self.reason)
+        is_done = self._is_decided or (self._seen and self.active_final)
+        closes = self._closes(network, target)
+        way = Way(
+            along=sketch.options.along,
+            start=seed.pick if sketch.options.along == "EDGES" else begin.pick,
+            end=target.pick,
+            goes_on=seed.after if begin.skips else None,
+            how=sketch.how(sketch.options.along),
+            follow=self.active_index if is_done else self.chosen,
+            closes=None if closes is None else closes.id,
+        )
+        ends = self.ending(target) is not None
+        joined = network.joined(target, sketch.points, sketch.is_final)
+        if self.is_straight and wire is not None:
+            given = Given.of(replace(way.how.of(wire), id=way.id))
+            self._check(way, given.wire)
+            return Edit(joined.with_drawn(given, target.pick, ends))
+        course = Course()
+        if wire is not None:
+            kept = replace(way.how.of(wire), id=way.id)
+            if is_done:
+                self._check(way, kept)
+            ordered = in_order(self.wires, self.active_index) if self.is_final else ()
+            course = Course((kept,), final=is_done, choices=ordered)
+        search = None if course.final else WaySearch(way, sketch.ground, sketch.engines.hand_over(way.along), begin)
+        return Edit(joined.with_drawn(way, target.pick, ends), (Begun(way, course, search),))
+
+    def _check(self, way: Way, wire: Wire) -> None:
+        self._sketch.ground.check(way, wire)
+
+    def run_to_end(self) -> Edit:
+        """Keep the live wire with its way to the end, which ends the chain."""
+        sketch = self._sketch
+        network, begin = sketch.base, self.begin()
+        seed = network.seed
+        if seed is None or begin is None:
+            raise Refused("nothing-runs-on")
+        self._extend()
+        wire, target = self.active, self.target
+        is_done = wire is None or self._is_decided or (self._seen and self.active_final)
+        end = seed.pick if wire is None or target is None else target.pick
+        if self.extended is None and is_done and self.is_final:
+            raise Refused(self.reason)
+        way = Way(
+            along="EDGES",
+            start=seed.pick,
+            end=end,
+            goes_on=seed.after if begin.skips else None,
+            how=sketch.how("EDGES"),
+            follow=self.active_index if wire is not None and is_done else self.chosen,
+            runs_on=True,
+        )
+        shown = () if self.extended is None else (replace(self.extended, id=way.id),)
+        course = Course(shown, final=is_done and self.extended is not None)
+        if course.final:
+            given = Given.of(shown[0], way.goes_on)
+            return Edit(replace(network.adding(given), seed=None))
+        search = WaySearch(way, sketch.ground, sketch.engines.hand_over("EDGES"), begin)
+        return Edit(replace(network.adding(way), seed=None), (Begun(way, course, search),))
+
+    def ending(self, target: Snap) -> Intent | None:
+        """Return how a wire to a target ends the chain, or None if the chain goes on."""
+        if self._sketch.network.closes(target):
+            return Intent.CLOSE
+        return Intent.JOIN if target.ends_chains else None
+
+
+def _alike(one: tuple[object, ...], other: tuple[object, ...]) -> bool:
+    """Whether two states differ only by wires that run the same way."""
+    *before, wires, extended = one
+    *after, others, longer = other
+    pairs = [*zip(wires, others, strict=False), (extended, longer)]
+    return (
+        before == after
+        and len(wires) == len(others)
+        and all(a is b or (a is not None and b is not None and a.like(b)) for a, b in pairs)
+    )
+
+
+def only_vertices(edge: Pick) -> Message:
+    """Say that wires across the surface do not end at edges."""
+    return Message.of("no-edge-across", pick=edge)
+
+
+def straight_wire(
+    live: LiveWire, begin: Pick, end: Pick, direction: tuple[float, float, float], follow: int
+) -> Wire | None:
+    """Return the wire in the plane through two picks and along a direction, such as that from the viewer, or None.
+
+    Parameters
+    ----------
+    begin, end
+        Vertices, or points of triangles.
+    follow
+        Which of the library's wires it is when its seeds are moved.
+    """
+    core, surface = native.load(), live.surface
+    if surface is None:
+        return None
+    try:
+        points, faces, _ = core.plane_section(surface, for_live(begin, "SURFACE"), for_live(end, "SURFACE"), direction)
+    except ValueError:
+        return None  # one lies behind the other
+    if len(points) < 2:
+        return None
+    # Each point of the line with a triangle that it lies in.
+    triangles = np.append(faces, faces[-1])
+    ends = [None if isinstance(pick, FacePoint) else pick for pick in (begin, end)]
+    chain = core.fit_chain(surface, points, triangles, *ends)
+    vertices = tuple(int(v) for v in chain.vertices)
+    inside = next((pick for pick in (begin, end) if isinstance(pick, FacePoint)), None)
+    if len(vertices) < 2 and inside is not None:
+        # Between points of one face there may be no edge to snap to.
+        vertices = (next((pick for pick in ends if isinstance(pick, int)), inside.vertex),)
+    elif len(vertices) < 2 or any(
+        pick is not None and pick != vertices[at] for at, pick in zip((0, -1), ends, strict=True)
+    ):
+        return None
+    return Wire("SURFACE", vertices, points, begin, end, faces, follow=follow)
