@@ -118,7 +118,7 @@ class FakeLive:
     """Wires on a grid: candidate 0 goes along x first, candidate 1 along y first; a third, where `ready` has one, by turns.
 
     The first is shorter, unless `shorter` says otherwise; of three the third one leads, whichever is shorter. Vertices in
-    `islands` are reached by no wire. Forks begin as `fork_ready` says (None: all ready); a new metric makes it ready as
+    `islands` are reached by no wire. Forks begin as `fork_ready` says (None: as this is); a new metric makes it ready as
     `metric_ready` says, and until it is the wires are `stale` ones. Loops go straight on at their corners, as around a limb,
     or turn off there, as `boxes`. Closed cuts may be there `early`, before they are final, the second alone. Across the
     surface the embeddings leave `holes`.
@@ -281,8 +281,11 @@ class FakeLive:
         return _library_wires(self.size).fit_chain(points, faces, begin, end)
 
     def fork(self) -> FakeLive:
-        ready = self.fork_ready or (True,) * len(self.ready)
-        fork = FakeLive(self.size, self.along, ready, self.shorter, self.islands, boxes=self.boxes)
+        ready = self.fork_ready or self.ready
+        fork = FakeLive(
+            self.size, self.along, ready, self.shorter, self.islands, holes=self.holes, boxes=self.boxes,
+            stale=self.stale, metric_ready=self.metric_ready, early=self.early, rings=self.rings,
+        )  # fmt: skip
         self.forks.append(fork)
         return fork
 

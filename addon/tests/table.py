@@ -49,10 +49,13 @@ class Table:
 
     def compute(self) -> None:
         """Let all live wires be ready, and take it in."""
-        for live in self.lives.values():
-            for one in (live, *live.forks):
-                one.ready = (True,) * len(one.ready)
-        self.session.poll()
+        left = list(self.lives.values())
+        while left:
+            live = left.pop()
+            live.ready = (True,) * len(live.ready)
+            left += live.forks
+        for _ in range(2):  # what was found may be where something else begins
+            self.session.poll()
 
 
 def paper(centred: bool = False, **options: object) -> PaperMesh:

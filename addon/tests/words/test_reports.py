@@ -20,7 +20,7 @@ def drawn() -> Drawn:
     """Return a network of two wires."""
     session = Table().session
     assert draw_chain(session, [0, 2, 14]) == []
-    return session.network
+    return session.drawn
 
 
 def test_drawn_wires_are_counted_with_their_edges() -> None:

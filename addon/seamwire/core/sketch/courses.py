@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
 
 from ..base.messages import NOTHING, Refused, message_of
+from ..network.wires import Wire
 from ..solver.solver import MOST_WAITS
 from .network import Given, Request
 
@@ -16,7 +17,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from ..base.messages import Message
-    from ..network.wires import Wire
     from ..solver.solver import LiveWire
     from .network import Key, Network
 
@@ -113,11 +113,12 @@ class Courses:
         except ValueError as error:
             was = getattr(request, "was", None)
             course = Course(() if was is None else (was,), final=True, reason=message_of(error))
+        before = self.of(request)
         if course.final:
             self._end(request, course)
-        else:
+        elif len(course.wires) != len(before.wires) or not all(map(Wire.like, course.wires, before.wires)):
             self._known[request.key] = course
-        return course
+        return self.of(request)
 
     def _end(self, request: Request, course: Course) -> None:
         self._searches.pop(request.key, None)

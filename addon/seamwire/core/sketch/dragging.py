@@ -157,11 +157,12 @@ class Dragging(Interaction):
             ordered = choices(way, ways, leading)
             if not ordered:
                 missing.append(leg)
-                begun.append(Begun(way, Course(), WaySearch(way, self._sketch.ground, leg.live, leg.begin)))
+                begun.append(Begun(way, Course((leg.wire,)), WaySearch(way, self._sketch.ground, leg.live, leg.begin)))
                 continue
             wire = way.how.of(replace(ordered[0], id=way.id))
             moved.append(wire)
-            course = Course((wire,), final=found.final, choices=ordered if found.final else ())
+            shown = wire if found.solved else leg.wire
+            course = Course((shown,), final=found.final, choices=ordered if found.final else ())
             begun.append(Begun(way, course, WaySearch(way, self._sketch.ground, leg.live, leg.begin)))
             if isinstance(pick, tuple) and direction is None:
                 # Another wire leaves in the direction of one that arrives, and goes the other way from one that leaves.
@@ -217,11 +218,13 @@ class Dragging(Interaction):
         if self.target is None:
             return None
         sketch, pick = self._sketch, self.target.pick
-        requests = {each.request.id: each.request for each in self._courses}
+        begun = tuple(each for each in self._courses if not each.course.final or each.course.wires[0].leaves_trace)
+        report = Message.of("wire-went") if len(begun) < len(self._courses) else NOTHING
+        requests = {each.request.id: each.request for each in begun}
         gone = [leg.own.id for leg in self._legs if leg.own.id not in requests]
         network = self._before.without(*gone).replacing({id: (own,) for id, own in requests.items()})
         network = replace(self._with_seed(network, pick), mirror=sketch.options.mirror)
-        return Edit(network.joined(self.target, sketch.points, sketch.is_final), self._courses)
+        return Edit(network.joined(self.target, sketch.points, sketch.is_final), begun, report=report)
 
     def _with_seed(self, network: Network, pick: Pick) -> Network:
         """Return a network whose live wire begins, and whose chain began, at the dragged seed's new place."""

@@ -26,11 +26,12 @@ class Begun(NamedTuple):
 
 
 class Edit(NamedTuple):
-    """The network that an interaction leads to, its new requests, and the number of the candidate that stays the active one."""
+    """The network that an interaction leads to, its new requests, the number of the candidate that stays the active one, and a report."""
 
     network: Network
     begun: tuple[Begun, ...] = ()
     chosen: int | None = None
+    report: Message = NOTHING
 
 
 class Interaction:

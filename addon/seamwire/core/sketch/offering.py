@@ -111,14 +111,15 @@ class Offering(Interaction):
         if why:
             raise Refused(why)
 
-    def use_crests(self, crests: Crests | None, first: bool) -> None:
-        """Offer ridges and valleys, as the first or as the last offer."""
+    def use_crests(self, crests: Crests | None, first: bool) -> bool:
+        """Offer ridges and valleys, as the first or as the last offer. Return whether other offers are shown."""
         if crests is self._crests and first == self._crests_first:
-            return
+            return False
         self._crests, self._crests_first = crests, first
-        if self.offers.wanted:
-            self.offers.final = False
-            self.poll()
+        if not self.offers.wanted:
+            return False
+        self.offers.final = False
+        return self.poll()
 
     def find(self, pick: Pick, kept: Wire | None = None) -> tuple[Wire, ...]:
         """Return what a click on a pick may take, or nothing while it is computed. The wire that such a click took and `kept` comes first.
@@ -202,7 +203,7 @@ class Offering(Interaction):
         if offer is not None and offer.kind in CREST_KINDS:
             return self._take_crest(target.pick)
         if not self.cuts.final:
-            return self._later(target, CutSearch(self._sketch, target.pick, self.cuts, None))
+            return self._later(target, CutSearch(self._sketch, target.pick, self.cuts, None, seen=offer))
         if offer is None:
             raise Refused(self.reason or self.cuts.NONE)
         wires = cut_wires(self.cuts.pieces(offer), self._sketch.how("SURFACE"))
@@ -338,10 +339,16 @@ class LoopSearch(Search):
 
 
 class CutSearch(Search):
-    """Finds the closed cut that a click took, or the cut `before` bent to a point."""
+    """Finds the closed cut that a click took, which is the one `seen` there if it stays, or the cut `before` bent to a point."""
 
     def __init__(
-        self, sketch: Sketch, pick: Pick, cuts: SurfaceLoops, before: TakenCut | None, how: How | None = None
+        self,
+        sketch: Sketch,
+        pick: Pick,
+        cuts: SurfaceLoops,
+        before: TakenCut | None,
+        how: How | None = None,
+        seen: Wire | None = None,
     ) -> None:
         engines = sketch.engines.fork("CUTS")
         self._sketch, self._pick, self._cuts, self._before = sketch, pick, cuts, before
@@ -351,7 +358,7 @@ class CutSearch(Search):
         if before is not None:
             self._own.recall((before,))
             self._own.bend(True)
-        self._how = how or sketch.how("SURFACE")
+        self._how, self._seen = how or sketch.how("SURFACE"), seen
         self._drawn = sketch.drawn
         self._waits = 0
 
@@ -366,6 +373,7 @@ class CutSearch(Search):
             return Course(() if self._before is None else self._before.wires)
         if not offers:
             raise Refused(self._own.NONE)
-        wires = cut_wires(self._own.pieces(offers[0]), self._how)
-        self._cuts.take_from(self._own, self._pick, offers[0], wires, self._before)
+        offer = next((each for each in offers if self._seen is not None and each.like(self._seen)), offers[0])
+        wires = cut_wires(self._own.pieces(offer), self._how)
+        self._cuts.take_from(self._own, self._pick, offer, wires, self._before)
         return Course(wires, final=True)

@@ -425,6 +425,8 @@ class Sketch:
         self.history.step(before)
         self._settle()
         self.wiring.chosen = edit.chosen
+        if edit.report:
+            self.tell(edit.report)
         for begun in edit.begun:
             if begun.course.final and isinstance(begun.request, Way):
                 self._told_of(begun.request)
@@ -513,7 +515,10 @@ class Sketch:
 
     def use_crests(self, crests: Crests | None, first: bool) -> None:
         """Offer wires along the mesh's ridges and valleys: as the `first` of what a click offers, or as the last."""
-        self.offering.use_crests(crests, first)
+        before = self.offering.reason
+        self.revision += self.offering.use_crests(crests, first)
+        if self.interaction is self.offering and self.offering.reason != before:
+            self.reason = self.offering.reason
 
     def stop_preview(self) -> bool:
         """Hide the way to the end. Return whether it was shown."""

@@ -7,7 +7,8 @@ from dataclasses import replace
 
 import pytest
 from seamwire.core.sketch.picture import Intent, Role, SeedRole, ShownSeed
-from seamwire.core.sketch.network import Network, Snap
+from seamwire.core.network.network import Drawn
+from seamwire.core.sketch.network import Snap
 from setting import insert, use
 from table import Table, chain, corner, courses, paper
 
@@ -256,7 +257,7 @@ def test_a_stored_loop_that_no_click_took_has_no_other_way() -> None:
     session.loop((14, 15))
     drawn = replace(session.wires[0], kind=None, through=None)
     mesh = paper()
-    mesh.write(Network((drawn,)))
+    mesh.write(Drawn((drawn,)))
     session = Table().session
     mesh.open(session)
     assert not session.retrace(session.wires[0])

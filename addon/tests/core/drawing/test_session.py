@@ -196,14 +196,15 @@ def test_waiting_shows_nothing_new_until_there_is_a_wire() -> None:
     assert session.revision > before
 
 
-def test_a_click_before_anything_is_seen_waits_until_it_is_known_which_wire_is_shorter() -> None:
+def test_a_click_before_anything_is_seen_keeps_the_wire_that_is_shorter_in_the_end() -> None:
     table = Table(ready=(False, False))
     session = table.session
     session.click(0)
     session.click(7)
     table.lives["EDGES"].ready = (False, True)
     session.poll()
-    assert session.wires == ()
+    assert [wire.vertices for wire in session.wires] == [(0, 6, 7)]
+    assert session.waiting == 1
     table.lives["EDGES"].ready = (True, True)
     session.poll()
     assert [wire.vertices for wire in session.wires] == [(0, 1, 7)]

@@ -403,7 +403,6 @@ def test_after_the_mirror_was_set_undo_does_not_stop_at_steps_that_changed_nothi
     session = Table(centred=True).session
     session.click(0)
     session.adopt(session.drawn, [])
-    session.start(0)
     assert not session.picture.can_undo
     use(session, mirror=(0,))
     assert not session.picture.can_undo

@@ -44,10 +44,10 @@ def after_cutting(session: Sketch, wires: list[Wire]) -> Table:
     it = Table("SURFACE")
     places = Places(it.points, SCALE)
     memory = CutMemory()
-    cuts = [cut.of(Drawn(tuple(wires))) for cut in session.offering.cuts.taken(session.network)]
+    cuts = [cut.of(Drawn(tuple(wires))) for cut in session.offering.cuts.taken(session.drawn)]
     memory.keep([cut for cut in cuts if cut is not None], Drawn(tuple(wires)), places)
     it.session.adopt(Drawn(tuple(replace(wire.anew(), stored=wire.stored) for wire in wires)), [])
-    it.session.offering.cuts.recall(memory.recall(it.session.network, places))
+    it.session.offering.cuts.recall(memory.recall(it.session.drawn, places))
     return it
 
 
@@ -121,9 +121,9 @@ def test_what_is_not_all_there_is_forgotten() -> None:
 
 def test_what_was_changed_since_it_was_taken_is_not_handed_on() -> None:
     session = taken()
-    assert len(session.offering.cuts.taken(session.network)) == 1
+    assert len(session.offering.cuts.taken(session.drawn)) == 1
     session.drop(session.wires[1])
-    assert session.offering.cuts.taken(session.network) == ()
+    assert session.offering.cuts.taken(session.drawn) == ()
 
 
 def test_the_memory_of_cuts_is_bounded_and_forgets_the_oldest(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -132,7 +132,7 @@ def test_the_memory_of_cuts_is_bounded_and_forgets_the_oldest(monkeypatch: pytes
     places = Places(Table("SURFACE").points, SCALE)
     (cut,) = (
         cut
-        for cut in (cut.of(Drawn(tuple(wires))) for cut in session.offering.cuts.taken(session.network))
+        for cut in (cut.of(Drawn(tuple(wires))) for cut in session.offering.cuts.taken(session.drawn))
         if cut is not None
     )
     monkeypatch.setattr(surface_loops, "_MOST_BYTES", 2 * cut.course.nbytes)

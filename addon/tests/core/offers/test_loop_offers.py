@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from fake_live import grid_edges, grid_triangles
 from numpy.typing import NDArray
-from seamwire.core.sketch.network import Network, Snap
+from seamwire.core.network.network import Drawn
+from seamwire.core.sketch.network import Snap
 from seamwire.core.network.stops import Stops
 from seamwire.core.offers import part_borders
 from seamwire.core.offers.edge_loops import LoopOffers
@@ -35,9 +36,9 @@ def halves(go_on: threading.Event | None = None) -> PartBorders:
 
 def test_borders_of_parts_are_offered_last() -> None:
     edge = (2, 2 + SIZE)
-    without = loops(PartBorders(POINTS, grid_triangles(SIZE), grid_edges(SIZE))).find(edge, Network())
+    without = loops(PartBorders(POINTS, grid_triangles(SIZE), grid_edges(SIZE))).find(edge, Drawn())
     offers = loops(halves())
-    found = offers.find(edge, Network())
+    found = offers.find(edge, Drawn())
     assert [one.kind for one in found] == [*(one.kind for one in without), "FLAT", "FLAT"]
     rows = range(SIZE)
     sides = {(x, y) for x in range(3) for y in rows if x in {0, 2} or y in {0, SIZE - 1}}
@@ -53,18 +54,18 @@ def test_loops_do_not_wait_for_parts_and_parts_join_them(monkeypatch: pytest.Mon
     offers = loops(parts)
     offers.point_at(Snap(edge))
     offers.aim(edge)
-    while not offers.find(edge, Network()):
+    while not offers.find(edge, Drawn()):
         pass
-    kinds = [offer.kind for offer in offers.find(edge, Network())]
+    kinds = [offer.kind for offer in offers.find(edge, Drawn())]
     assert "FLAT" not in kinds
     assert offers.final
-    offers.show(edge, offers.find(edge, Network()))
+    offers.show(edge, offers.find(edge, Drawn()))
     offers.point_at(Snap(edge))
     assert offers.final
     go_on.set()
     offers.wait()
     assert not offers.final, "the parts are known since"
-    assert [offer.kind for offer in offers.find(edge, Network())] == [*kinds, "FLAT", "FLAT"]
+    assert [offer.kind for offer in offers.find(edge, Drawn())] == [*kinds, "FLAT", "FLAT"]
     assert offers.final
 
 
@@ -75,7 +76,7 @@ def test_a_motion_of_the_mouse_shows_parts_that_are_known_since(monkeypatch: pyt
     offers = loops(parts)
     offers.point_at(Snap(edge))
     offers.aim(edge)
-    while not (found := offers.find(edge, Network())):
+    while not (found := offers.find(edge, Drawn())):
         pass
     offers.show(edge, found)
     go_on.set()
@@ -102,15 +103,15 @@ def test_the_search_for_parts_ends_when_no_offers_are_asked_for(monkeypatch: pyt
     parts = PartBorders(POINTS, triangles, grid_edges(SIZE), find_parts=find)
     offers = loops(parts)
     offers.aim(edge)
-    while not offers.find(edge, Network()):
+    while not offers.find(edge, Drawn()):
         pass
     offers.aim(None)
     assert ended.wait(10.0)
     offers.wait()
     assert not parts.is_complete
     offers.aim(edge)
-    assert offers.find(edge, Network()), "the loops are known"
+    assert offers.find(edge, Drawn()), "the loops are known"
     offers.wait()
     assert len(searches) == 2
     assert parts.is_complete
-    assert "FLAT" in [offer.kind for offer in offers.find(edge, Network())]
+    assert "FLAT" in [offer.kind for offer in offers.find(edge, Drawn())]

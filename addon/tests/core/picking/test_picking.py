@@ -277,15 +277,16 @@ class Network:
 
     placed: tuple[Pick, ...] = ()
     wires: tuple[Wire, ...] = ()
-    moved: tuple[Wire, ...] = ()
+    dragged: tuple[Wire, ...] = ()
+    seed_place = None
 
     @property
-    def cursor(self) -> object:
-        """The wires that are dragged are here."""
-        return self
+    def moved(self) -> object:
+        ends = {end for wire in self.dragged for end in (wire.start, wire.end)}
+        return {wire.id for wire in self.dragged}, ends
 
     @property
-    def network(self) -> object:
+    def drawn(self) -> object:
         return self.placed, self.wires
 
     @property
@@ -351,7 +352,7 @@ def test_a_wire_across_the_surface_is_found_by_its_curve() -> None:
 def test_a_dragged_seed_and_its_wires_are_not_found() -> None:
     find, view = Picker(grid()), from_above()
     kept, staying = wire(11, 12, 13), wire(21, 22, 23)
-    session = Network(placed=(11, 13, 21, 23), wires=(kept, staying), moved=(kept,))
+    session = Network(placed=(11, 13, 21, 23), wires=(kept, staying), dragged=(kept,))
     for point in ((-0.5, 0.0, 0.0), (0.1, 0.0, 0.0), (0.5, 0.0, 0.0)):
         assert find.snap(view, HERE, pixel(view, point), vertices_only=True, session=session).to == "MESH"
     assert find.snap(view, HERE, pixel(view, (-0.5, 1.0, 0.0)), vertices_only=True, session=session).to == "SEED"

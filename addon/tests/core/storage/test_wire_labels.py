@@ -4,12 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from paper_mesh import PaperMesh
 from seamwire.core.sketch.sketch import Sketch
-from seamwire.core.sketch.network import Network, Snap
+from seamwire.core.network.network import Drawn
+from seamwire.core.sketch.network import Network, Snap, linked
 from seamwire.core.network.picks import Edge
 from seamwire.core.storage.serialization import WAS_SEAM
 from setting import use
@@ -327,9 +329,9 @@ def check_chain(mesh: PaperMesh, where: np.ndarray) -> None:
     assert second.end == where[27]
     assert (first.end, second.start) == ((where[8], where[9]),) * 2
     assert second.heading == (where[8], where[9])
-    network = Network(wires)
-    assert network.before(second) is first
-    assert network.after(first) is second
+    network = Network(linked(wires))
+    assert network.before(network.find(second.id)).id == first.id
+    assert network.after(network.find(first.id)).id == second.id
     assert {(wire.id, end) for wire, end in network.at(first.end)} == {(first.id, "end"), (second.id, "start")}
 
 
@@ -354,7 +356,8 @@ def test_numbers_of_different_times_are_not_taken_for_each_other() -> None:
     session = Table().session
     mesh.open(session)
     (last,) = [wire for wire in session.wires if wire.heading is not None]
-    network = session.network.with_wire(last.changed(strength=3.0))
+    changed = last.changed(strength=3.0)
+    network = replace(session.drawn, wires=tuple(changed if one is last else one for one in session.wires))
     mesh.write(network)
     for _ in range(2):
         wires = [wire for wire in mesh.read().network.wires if wire.start != int(where[30])]
@@ -392,7 +395,7 @@ def test_of_wires_that_end_in_one_seed_each_goes_on_from_its_own() -> None:
     again = opened(mesh)
     (wire,) = [wire for wire in again.wires if wire.heading is not None]
     assert wire.heading == (9, 3), "not (2, 3)"
-    assert again.network.before(wire).vertices == (21, 15, 9, 3)
+    assert again.wire(again.network.find(wire.id).goes_on[0]).vertices == (21, 15, 9, 3)
 
 
 # Subdivided
@@ -460,7 +463,7 @@ def test_wires_that_touch_themselves_survive_other_numbers(vertices: tuple[int, 
     mesh = paper()
     if closed:
         vertices = (7, 8, 14, 20, 19, 13, 14, 15, 9, 8, 2, 1)  # an eight, and more
-    mesh.write(Network((wire(*vertices, closed=closed),)))
+    mesh.write(Drawn((wire(*vertices, closed=closed),)))
     assert mesh.read().network.wires[0].vertices == vertices
     where = mesh.renumber(np.random.default_rng(4).permutation(SIZE**2))
     (again,) = mesh.read().network.wires
@@ -472,7 +475,7 @@ def test_wires_that_touch_themselves_survive_other_numbers(vertices: tuple[int, 
 
 def test_an_open_wire_back_to_its_first_vertex_survives_other_numbers() -> None:
     mesh = paper()
-    mesh.write(Network((wire(0, 1, 7, 6, 0, start=(0, 1)),)))
+    mesh.write(Drawn((wire(0, 1, 7, 6, 0, start=(0, 1)),)))
     mesh.delete_vertices([35])
     mesh.renumber(np.random.default_rng(4).permutation(SIZE**2 - 1))
     (again,) = mesh.read().network.wires
@@ -490,12 +493,12 @@ def test_a_curve_stays_while_its_vertices_do_and_comes_back_with_them() -> None:
     session.click(0)
     session.click(9)
     lifted = session.wires[0].drawn(points=session.wires[0].points + np.array([0.0, 0.0, 0.25]))
-    mesh.write(Network((lifted,)))
+    mesh.write(Drawn((lifted,)))
     assert np.allclose(mesh.read().network.wires[0].points, lifted.points)
     mesh.places[1, 1] += 0.5
     moved = mesh.read().network.wires[0]
     assert np.array_equal(moved.points, mesh.points[list(moved.vertices)]), "else it runs along its edges"
     opened(mesh)
-    mesh.write(Network((moved,)))
+    mesh.write(Drawn((moved,)))
     mesh.places[1, 1] -= 0.5
     assert np.allclose(mesh.read().network.wires[0].points, lifted.points)
