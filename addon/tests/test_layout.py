@@ -236,18 +236,6 @@ def strings(tree: ast.Module) -> Iterator[ast.Constant]:
             yield node
 
 
-def test_the_core_holds_no_sentence_for_artists() -> None:
-    found = [
-        f"{name_of(path)}:{node.lineno}: {node.value}"
-        for path in modules()
-        if name_of(path).startswith(CORES) and path.stem not in {"color_maps", "messages"}
-        for node in strings(ast.parse(path.read_text(encoding="utf-8")))
-        if node.value.strip().count(" ") >= 2
-    ]
-    # What only programmers read: arguments that do not fit each other.
-    assert [one for one in found if "labels for" not in one and "neither points nor" not in one] == []
-
-
 def names_in(tree: ast.ClassDef) -> set[str]:
     """Return the private names that a class gives to its methods and attributes."""
     names = {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}

@@ -260,7 +260,7 @@ def test_an_object_that_cannot_be_cut_is_named_and_the_others_are_cut(
 
     def plan_second(mesh: ObjectSession, wires: object) -> object:
         if mesh.obj.name == "First":
-            raise mesh_cut.CutError("no-wire-leaves-face")
+            raise mesh_cut.CutError("Nothing to cut: every wire stays inside one face")
         return plan(mesh, wires)
 
     monkeypatch.setattr(finishes, "plan_cut", plan_second)

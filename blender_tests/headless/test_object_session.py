@@ -39,7 +39,7 @@ def grid() -> bpy.types.Object:
 
 def draw(mesh: ObjectSession, *picks: int) -> None:
     for pick in picks:
-        assert mesh.session.click(pick), str(mesh.session.drawing.message)
+        assert mesh.session.click(pick), mesh.session.drawing.message
         mesh.session.wait()
     write(mesh)
 

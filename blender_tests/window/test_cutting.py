@@ -284,7 +284,7 @@ def drawn_cut(cutting: Desk, start: int, end: int) -> None:
     """Draw a wire with the tool and let it be cut."""
     cutting.choose()
     session = draw(cutting, start, end)
-    assert not cutting.running, str(session.drawing.message)
+    assert not cutting.running, session.drawing.message
     assert agree(cutting.obj)
 
 

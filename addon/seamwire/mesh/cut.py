@@ -18,7 +18,7 @@ import numpy as np
 from mathutils import Vector
 
 from ..core.base import native
-from ..core.base.messages import Refused
+from ..core.base.refused import Refused
 from ..core.network.picks import FacePoint, vertices_of
 from .cut_joins import cut_layers, holding, is_left_behind, join, mark_seams
 from .unwrap import UNWRAPPED
@@ -98,8 +98,8 @@ def plan(arrays: Arrays, curves: Sequence[CutCurve]) -> CutPlan:
     found = native.load().plan_cuts(arrays.points, arrays.triangles, arrays.polygons, curves)
     if not len(found.along) and not found.across:
         for _, vertex in found.left_out:
-            raise CutError("off-mesh-near", vertex=vertex)
-        raise CutError("no-wire-leaves-face")
+            raise CutError(f"A wire does not run over the mesh near vertex {vertex}")
+        raise CutError("Nothing to cut: every wire stays inside one face")
     return found
 
 
@@ -211,7 +211,7 @@ def _edges_along(
     for one, two in what.along.tolist():
         edge = bm.edges.get((vert_of[one], vert_of[two]))
         if edge is None:
-            raise CutError("off-mesh-near", vertex=int(what.vertices[one, 0]))
+            raise CutError(f"A wire does not run over the mesh near vertex {int(what.vertices[one, 0])}")
         yield edge
 
 

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..core.base import native
-from ..core.base.messages import message_of
 from ..core.network.picks import FacePoint, vertices_of
 from ..core.seams.seam_wires import wires_between
 from ..core.seams.slide_plan import plan as plan_slide
@@ -207,7 +206,7 @@ def cut(
             again = plan_cut(after, placed)
         except ValueError as error:
             _draw_again(after, placed[: len(wires)])
-            raise CutError("cut-taken-back", why=message_of(error)) from error
+            raise CutError(f"{error}. The old cut was removed: undo restores it") from error
         missing = [placed[number] for number, _ in again.left_out if number < len(wires)]
         _draw_again(after, missing)
         after, done = cut(after, again, placed, taken=taken)

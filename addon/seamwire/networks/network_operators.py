@@ -15,7 +15,7 @@ from ..mesh.registration import classes, menu_entry, together
 from ..mesh.settings import settings
 from ..operators.edit_mesh_operator import EditMeshOperator, changing
 from ..operators.steps import Step, Stepwise, end_all
-from ..words.reports import DEGREE_NAMES, count
+from ..words.reports import count
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator
@@ -89,7 +89,7 @@ class _Placing(Stepwise):
             parts.append(f"{len(found.wires) - wires} already present")
         parts.append(f"{count(marked, 'edge')} marked")
         if found.seeds:
-            degrees = (f"{number} {DEGREE_NAMES[degree]}" for degree, number in found.degrees.items())
+            degrees = (f"{number} {degree}" for degree, number in found.degrees.items())
             parts.append(f"seeds: {', '.join(degrees)}")
         if found.added:
             parts.append(f"{count(found.added, 'seed')} added in between")

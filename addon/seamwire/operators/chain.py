@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, TypeVar
 import bpy
 import numpy as np
 
-from ..core.base.messages import NOTHING
 from ..core.drawing.change import Change
 from ..core.network.network import Network, Snap, edges_after
 from ..core.network.picks import FacePoint
@@ -325,8 +324,8 @@ class Chain:
             drawing = view.session.drawing
             for told in (drawing.failure, drawing.warning):
                 if told:
-                    self.notices.add("WARNING", str(told))
-            drawing.failure = drawing.warning = NOTHING
+                    self.notices.add("WARNING", told)
+            drawing.failure = drawing.warning = ""
         view = self.drawn_on
         change = None if view is None else Change(self._before, view.session.drawing.network)
         title = undo_steps.EDIT if self._titles == {undo_steps.EDIT} else undo_steps.DRAW

@@ -12,23 +12,11 @@ if TYPE_CHECKING:
     from ..core.drawing.change import Change
     from ..core.islands.map_faults import MapFaults
     from ..core.islands.square_use import CostlyIsland, SquareUse
-    from ..core.network.picks import Pick
-
-
-DEGREE_NAMES = {"SURE": "sure", "LIKELY": "likely", "DOUBTFUL": "doubtful", "LOST": "not placed"}
-"""How sure a transferred seed is."""
 
 
 def count(number: int, what: str, several: str = "") -> str:
     """Return a number with what it counts."""
     return f"{number} {what if number == 1 else several or what + 's'}"
-
-
-def pick_name(pick: Pick) -> str:
-    """Return a vertex, an edge or a point of a face as messages call it."""
-    if isinstance(pick, tuple):
-        return f"edge {pick[0]}-{pick[1]}"
-    return "this point" if hasattr(pick, "weights") else f"vertex {pick}"
 
 
 ADJUST_DRAWN = ("Point at a wire to change it:", "swap its path, drag its seeds, or remove it")

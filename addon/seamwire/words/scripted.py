@@ -6,8 +6,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..core.drawing.picture import Role
+from ..core.network.picks import pick_name
 from ..terms.choices import LOOPS
-from .reports import pick_name
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -25,7 +25,7 @@ def draw_chain(session: Session, seeds: Iterable[Pick]) -> list[str]:
         done = session.click(pick)
         session.wait()
         if not done or session.drawing.told:
-            problems.append(str(session.drawing.told))
+            problems.append(session.drawing.told)
     session.end_chain()
     return problems
 
@@ -40,7 +40,7 @@ def draw_loop(session: Session, pick: Pick, kind: LoopKind | None = None) -> str
     if done and session.wires != before:
         return ""
     # The shape may suggest no cut at a place.
-    return str(session.drawing.message) or f"The loop through {pick_name(pick)} is there already"
+    return session.drawing.message or f"The loop through {pick_name(pick)} is there already"
 
 
 def _turn_to(session: Session, edge: Edge, kind: LoopKind) -> bool:

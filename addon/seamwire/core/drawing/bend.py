@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..base.messages import NOTHING, Message
+from ..network.picks import pick_name
 from .gesture import Gesture
 
 if TYPE_CHECKING:
@@ -29,15 +29,15 @@ class BendGesture(Gesture):
         self._loops = loops
         self._target: Snap | None = None
 
-    def aim(self, target: Snap | None) -> Message:
+    def aim(self, target: Snap | None) -> str:
         """Bend the cut to a target, across the surface only."""
         self._target = target
         if target is None:
-            return NOTHING
+            return ""
         if self._drawing.options.along == "EDGES" or not self._loops.cuts.takes(target.pick):
-            return Message.of("no-bend-to", pick=target.pick)
+            return f"Closed cuts bend to places on the surface, not to {pick_name(target.pick)}"
         self._loops.cuts.bend(True)
-        return NOTHING
+        return ""
 
     def commit(self) -> Committed:
         """Return the network with the bent cut."""

@@ -6,7 +6,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeVar
 
-from ..base.messages import NOTHING, message_of
 from ..network.network import Snap
 from .extension import Extension
 from .gesture import Gesture
@@ -125,7 +124,7 @@ class Cursor:
         why = (offers if offers.wanted else self.live).advance()
         if why:
             return drawing.refuse(why)
-        drawing.message = NOTHING
+        drawing.message = ""
         if not offers.wanted:
             self.show_extension()
         drawing.revision += 1
@@ -152,7 +151,7 @@ class Cursor:
         except ValueError as error:
             if before is not None and before != seed:
                 self.sow(before)
-            return self._drawing.refuse(message_of(error))
+            return self._drawing.refuse(str(error))
         finally:
             self.read_progress()
         return True
@@ -198,7 +197,7 @@ class Cursor:
         if options.metric != engines.metric:
             self.live.reset()
         engines.use(options.metric, options.strengths, options.clamp)
-        self._drawing.message = NOTHING
+        self._drawing.message = ""
         self.loops.offers.clear()
         self.aim_again()
         self.show_offers()
@@ -208,7 +207,7 @@ class Cursor:
         self.live.chosen = None
         self.loops.offers.clear()
         self.extension.cancel()
-        self._drawing.message = NOTHING
+        self._drawing.message = ""
         self.aim_again()
 
     # A held seed or line
@@ -219,13 +218,13 @@ class Cursor:
         try:
             self.held = kind(drawing, *given)
         except ValueError as error:
-            return drawing.refuse(message_of(error))
+            return drawing.refuse(str(error))
         self.live.seedless = kind is SeedDrag
         self.read_progress()
         self.live.cancel()
         self.loops.offers.clear()
         self.extension.cancel()
-        drawing.message = NOTHING
+        drawing.message = ""
         drawing.revision += 1
         return True
 
@@ -251,7 +250,7 @@ class Cursor:
         """Move the dragged seed; its wires follow as soon as they are computed. None leaves it in place."""
         drag, drawing = self.drag, self._drawing
         if drag is None:
-            return drawing.refuse("no-seed-moves")
+            return drawing.refuse("No seed is being moved")
         if snap is None or drag.ending:
             return False
         before = (drag.target, drag.network, drawing.message)
@@ -265,7 +264,7 @@ class Cursor:
         """Draw the line on: all its points (k, 3), the triangle of each (k,), and the pick under the cursor."""
         line = self.holds(LineGesture)
         if line is None:
-            return self._drawing.refuse("no-line-drawn")
+            return self._drawing.refuse("No line is being drawn")
         line.draw(points, triangles, None if snap is None else Snap.of(snap))
         self.live.target = line.joined
         self.read_progress()

@@ -12,7 +12,6 @@ import numpy as np
 from ...terms.choices import DEFAULT_FINISH
 from ...terms.options import Options
 from ..base import native
-from ..base.messages import NOTHING, Message
 from ..network.network import History, Network
 from ..network.picks import undirected
 from ..network.stops import Stops
@@ -100,14 +99,14 @@ class Drawing:
         self.network = Network(mirror=options.mirror)
         self.history = History()
         self.progress = 0.0
-        self.message: Message = NOTHING
-        self.warning: Message = NOTHING
-        self.failure: Message = NOTHING
+        self.message: str = ""
+        self.warning: str = ""
+        self.failure: str = ""
         self.revision = 0
         self.network_revision = 0
 
     @property
-    def told(self) -> Message:
+    def told(self) -> str:
         """The message or warning that the artist sees now."""
         return self.message or self.warning
 
@@ -185,9 +184,9 @@ class Drawing:
             for amount in AMOUNTS:
                 yield self._finder[1].find(amount, progress=progress).of_face
 
-    def refuse(self, why: str | Message, **values: object) -> bool:
-        """Tell why something is not done: a message, or its code and values."""
-        self.message = Message.of(why, **values) if isinstance(why, str) else why
+    def refuse(self, why: str) -> bool:
+        """Tell why something is not done."""
+        self.message = why
         self.revision += 1
         return False
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from ..base.messages import NOTHING, Message, Refused, message_of
+from ..base.refused import Refused
 from ..network.wires import Wire
 from .gesture import Gesture
 
@@ -27,14 +27,18 @@ class Extension(Gesture):
         """Whether it is asked for."""
         self.wire: Wire | None = None
         """The extended wire that is shown."""
-        self.message = NOTHING
+        self.message = ""
         """Why there is no way to the end, if that is known."""
 
-    def aim(self, target: Snap | None) -> Message:
+    def aim(self, target: Snap | None) -> str:
         """Return why no wire can run to an end. The way does not depend on the target."""
         if self._drawing.network.seed is None:
-            return Message.of("nothing-runs-on")
-        return Message.of("no-run-across") if self._drawing.options.along == "SURFACE" else NOTHING
+            return "Nothing to extend: place a seed first"
+        return (
+            "Extend to End works along edges, not across the surface"
+            if self._drawing.options.along == "SURFACE"
+            else ""
+        )
 
     def poll(self) -> bool:
         """Show the extended wire while it is asked for. Return whether it runs elsewhere than before."""
@@ -52,7 +56,7 @@ class Extension(Gesture):
             return self
         wire = self._find()
         if wire is None:
-            raise Refused(self.message or Message.of("no-way-on"))
+            raise Refused(self.message or "The wire cannot be extended from here")
         return replace(self._drawing.with_wires(wire), seed=None)
 
     def leaves_live(self, live: bool, target: Snap | None) -> bool:
@@ -67,7 +71,7 @@ class Extension(Gesture):
         """Return the live wire, or the seed, with its way to the end, or None if there is no way or no direction."""
         drawing, active = self._drawing, self._live.active
         network, seed = drawing.network, drawing.network.seed
-        self.message = NOTHING
+        self.message = ""
         if seed is None:
             return None
         if active is not None:
@@ -75,13 +79,13 @@ class Extension(Gesture):
         elif seed.forward and isinstance(seed.pick, tuple):
             edge = seed.pick
         else:
-            self.message = Message.of("point-where-to-run")
+            self.message = "Point at where the wire should run"
             return None
         stops = drawing.stops.of(network, active, edge[1:])
         try:
             way = drawing.engines.get("EDGES").extend_straight(edge, stops[stops != edge[1]])
         except ValueError as error:  # the edge is not part of the surface
-            self.message = message_of(error)
+            self.message = str(error)
             return None
         vertices, heading = tuple(int(vertex) for vertex in way.vertices), edge
         if len(vertices) < 2:

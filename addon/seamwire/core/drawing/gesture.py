@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, TypeAlias
 
-from ..base.messages import NOTHING, Message
 from ..network.network import Network
 
 if TYPE_CHECKING:
@@ -26,13 +25,13 @@ class Gesture:
     needs_offers = False
     """Whether it waits for the offers of loops."""
 
-    def take_warning(self) -> Message:
+    def take_warning(self) -> str:
         """Return what to tell after its network was committed. The warning about triangles comes only once."""
-        return NOTHING
+        return ""
 
-    def aim(self, target: Snap | None) -> Message:
+    def aim(self, target: Snap | None) -> str:
         """Point at a target, or at nothing. Return why nothing can be done there, or an empty message."""
-        return NOTHING
+        return ""
 
     def poll(self) -> bool:
         """Take in what was computed. Return whether the picture has changed."""

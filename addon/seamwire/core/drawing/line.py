@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.half_edges import among
-from ..base.messages import Message, Refused
+from ..base.refused import Refused
 from ..network.picks import vertices_of
 from .gesture import Gesture
 from .line_wires import EdgeLine, SurfaceLine
@@ -64,7 +64,7 @@ class LineGesture(Gesture):
             before = seed.pick if seed.forward and isinstance(seed.pick, tuple) else None
         return EdgeLine(drawing.engines, drawing.points, vertex, before)
 
-    def take_warning(self) -> Message:
+    def take_warning(self) -> str:
         """Return why wires do not follow the whole line, or a warning about triangles that they must lead around."""
         return self.line.message or self._drawing.engines.warning(self._drawing.options.along)
 
@@ -87,7 +87,11 @@ class LineGesture(Gesture):
             return self
         wires = tuple(self._drawing.as_drawn(wire) for wire in self.line.wires)
         if not wires:
-            none = Message.of("no-wire-follows-line" if self._apart else "line-too-short")
+            none = (
+                "No wire fits this line: draw closer to the surface"
+                if self._apart
+                else "Drag farther along the surface to draw a line"
+            )
             raise Refused(self.line.message or none)
         return self._kept(wires)
 

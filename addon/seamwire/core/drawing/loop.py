@@ -6,10 +6,10 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from ..base.messages import NOTHING, Message, Refused, message_of
+from ..base.refused import Refused
 from ..fields.crests import CREST_KINDS
 from ..network.network import Snap
-from ..network.picks import FacePoint, undirected
+from ..network.picks import FacePoint, pick_name, undirected
 from ..offers.edge_loops import LoopOffers, taken
 from ..offers.part_borders import PartBorders
 from ..offers.surface_loops import SurfaceLoops
@@ -47,7 +47,7 @@ class LoopGesture(Gesture):
         parts = PartBorders(points, triangles, edges, lambda: drawing.seams, drawing.find_parts)
         self.edges = LoopOffers(drawing.engines, drawing.stops, points, parts)
         self.cuts = SurfaceLoops(drawing.engines, triangles)
-        self.problem = NOTHING
+        self.problem = ""
         self._crests: Crests | None = None
         self._crests_first = False
         self._crest_taken: Pick | None = None
@@ -91,7 +91,7 @@ class LoopGesture(Gesture):
     def poll(self) -> bool:
         """Show the offers at the cursor as soon as they are computed. Return whether they are new."""
         offers, target = self.offers, self._live.target
-        self.problem = NOTHING
+        self.problem = ""
         if target is None:
             return False
         if offers.wanted and not offers.takes(target.pick):
@@ -102,7 +102,7 @@ class LoopGesture(Gesture):
             return vanish
         return offers.unfinished and offers.show(target.pick, self.find(target.pick))
 
-    def show(self, message: Message, is_awaited: bool) -> tuple[bool, Message]:
+    def show(self, message: str, is_awaited: bool) -> tuple[bool, str]:
         """Show the offers at the cursor once they are computed. Return whether others are to be seen, and the message from here on.
 
         `is_awaited`: whether a committed gesture waits for offers.
@@ -118,7 +118,7 @@ class LoopGesture(Gesture):
         if none != self._told_none and (not none or not message):
             self._told_none = none
             if none or message == self.cuts.NONE:
-                message = offers.NONE if none else NOTHING
+                message = offers.NONE if none else ""
         return changed, message
 
     def use_crests(self, crests: Crests | None, first: bool) -> bool:
@@ -135,13 +135,13 @@ class LoopGesture(Gesture):
 
         An edge has the offers along edges, even if wires run across the surface.
         """
-        self.problem = NOTHING
+        self.problem = ""
         offers = self.edges if isinstance(pick, tuple) else self.cuts
         self.cuts.into_faces = self._drawing.options.into_faces
         try:
             return self._with_crest(pick, offers.find(pick, self._drawing.network, kept), kept)
         except ValueError as error:
-            self.problem = message_of(error)
+            self.problem = str(error)
             return ()
 
     def _with_crest(self, pick: Pick, offers: tuple[Wire, ...], kept: Wire | None) -> tuple[Wire, ...]:
@@ -157,13 +157,14 @@ class LoopGesture(Gesture):
 
     # Clicks
 
-    def aim(self, target: Snap | None) -> Message:
+    def aim(self, target: Snap | None) -> str:
         """Choose the offer that is shown at a target, or the first one if none is shown."""
         if target is None:
-            return NOTHING
+            return ""
         if not self.offers.takes(target.pick):
-            code = "no-loop-through" if self._drawing.options.along == "EDGES" else "no-cut-through"
-            return Message.of(code, pick=target.pick)
+            along_edges = self._drawing.options.along == "EDGES"
+            what = "Loops need an edge" if along_edges else "Closed cuts need a vertex or a point of a face"
+            return f"{what}, not {pick_name(target.pick)}"
         self._target = target
         self.cuts.bend(False)
         self.edges.point_at(target)
@@ -173,7 +174,7 @@ class LoopGesture(Gesture):
             self._seen, self._choice = shown.wire, shown.choice
             if self._seen.kind not in CREST_KINDS:
                 self._choice -= shown.offers[0].kind in CREST_KINDS
-        return NOTHING
+        return ""
 
     def commit(self) -> Committed:
         """Return the network with what is offered at the target."""
@@ -195,7 +196,7 @@ class LoopGesture(Gesture):
         if not offers:
             if progress < 1.0 or not self.edges.final:
                 return self
-            raise Refused(self.problem or Message.of("no-edges-run-on", pick=edge))
+            raise Refused(self.problem or f"No edge continues at {pick_name(edge)}")
         loops = tuple(offer for offer in offers if offer.kind not in CREST_KINDS)
         if not loops or (self._seen is None and offers[0].kind in CREST_KINDS):
             return self._along_crest(edge)
@@ -221,7 +222,7 @@ class LoopGesture(Gesture):
         wires = tuple(self._drawing.as_drawn(piece.anew(), like) for piece in self.cuts.pieces(offer))
         wires = tuple(wire for wire in wires if wire.leaves_trace)
         if not wires:
-            raise Refused("cut-meets-no-edge")
+            raise Refused("No edge is left for the seam of this cut")
         for wire in () if before is None else before.wires:
             network = network.without(wire)
         self.cuts.take(pick, offer, wires, before)
@@ -232,7 +233,7 @@ class LoopGesture(Gesture):
         drawing = self._drawing
         number = None if self._crests is None else self._crests.line_at(pick)
         if self._crests is None or number is None:
-            raise Refused("no-crest-at", pick=pick)
+            raise Refused(f"No ridge or valley runs at {pick_name(pick)}")
         points, triangles = self._crests.line(number)
         first = FacePoint.at(points[0], int(triangles[0]), drawing.triangles, drawing.points)
         begin: Pick = first if drawing.options.into_faces and drawing.options.along == "SURFACE" else first.vertex
@@ -279,14 +280,14 @@ class NextOffer(Gesture):
         network = self._drawing.network
         own = network.find(self._wire)
         if own is None:
-            raise Refused("wire-is-gone")
+            raise Refused("This wire no longer exists")
         assert own.through is not None
         if not own.offers:
             offers = self._loops.find(own.through, own)[1:]
             if not self._loops.edges.final:
                 return self
             if not offers:
-                raise Refused(self._loops.problem or Message.of("nothing-else-through-edge"))
+                raise Refused(self._loops.problem or "No other loop through this edge")
             own = replace(own, offers=offers)
         return network.with_wire(own).with_next_offer(own, self._steps)
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from ..base.messages import Refused
+from ..base.refused import Refused
 from .gesture import Gesture
 from .seed_drag import Leg
 
@@ -46,12 +46,12 @@ class Retrace(Gesture):
 def retraced(network: Network, own: Wire, others: tuple[Wire, ...]) -> Network:
     """Return a network where its own wire runs the next other way, the first of `others`. Raises Refused where no way is left."""
     if not others:
-        raise Refused("same-edges")
+        raise Refused("All wires run along the same edges here")
     other, *rest = others
     after = network.after(own)
     if after is not None and isinstance(own.end, tuple) and other.last_edge == own.last_edge[::-1]:
         # What goes on from the edge leaves it over this vertex: arriving there is enough.
         other = replace(other, vertices=other.vertices[:-1], points=other.points[:-1])
         if len(other.vertices) < 2:
-            raise Refused("no-other-way-to-seed")
+            raise Refused("No other path to this seed")
     return network.with_courses({own.id: replace(own, alternatives=(other, *rest)).retraced()})

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..base.messages import NOTHING, Message, Refused, message_of
+from ..base.refused import Refused
 from ..network.network import Network, Snap
-from ..network.picks import FacePoint, undirected, vertices_of
+from ..network.picks import FacePoint, pick_name, undirected, vertices_of
 from ..network.wires import Wire, distinct
 from ..solver.solver import by_number, for_live
 from .gesture import Gesture
@@ -125,7 +125,7 @@ class SeedDrag(Gesture):
         ends = network.at(seed)
         live = network.seed
         if not ends and (live is None or undirected(live.place) != undirected(seed)):
-            raise Refused("no-seed-to-move", pick=seed)
+            raise Refused(f"No seed to move at {pick_name(seed)}")
         self.before = network
         self.network = network
         self.seed = seed
@@ -135,7 +135,7 @@ class SeedDrag(Gesture):
         """Whether each wire that follows is the shortest one."""
         self.ending = False
         """Whether the seed was released, and stays where it is as soon as its wires are computed."""
-        self.message = NOTHING
+        self.message = ""
         engines, points = drawing.engines, drawing.points
         self.legs = [Leg(engines.get(wire.along).fork(), network, wire, end, points) for wire, end in ends]
 
@@ -162,7 +162,7 @@ class SeedDrag(Gesture):
         self.aim(self.target)
         return self.network is not before
 
-    def aim(self, target: Snap | None) -> Message:
+    def aim(self, target: Snap | None) -> str:
         """Lead the wires to another place. If that fails, the old wires stay. Return why."""
         if target is None:
             return self.message
@@ -174,11 +174,11 @@ class SeedDrag(Gesture):
         try:
             courses = self._courses(target.pick)
         except ValueError as error:
-            self.message = message_of(error)
+            self.message = str(error)
             return self.message
         missing = [leg for leg in self.legs if leg.wire.id not in courses]
         if self.solved and missing:
-            self.message = Message.of("no-wire-between", start=missing[0].stays, pick=target.pick)
+            self.message = f"No wire from {pick_name(missing[0].stays)} reaches {pick_name(target.pick)}"
         elif self.solved:
             self.network = self._with_seed(self.before.with_courses(courses), target.pick)
         return self.message
@@ -195,12 +195,12 @@ class SeedDrag(Gesture):
         network = replace(self.network, mirror=self._drawing.options.mirror)
         return network.joined(self.target, self._drawing.points)
 
-    def _refusal(self, pick: Pick) -> Message:
+    def _refusal(self, pick: Pick) -> str:
         if isinstance(pick, tuple) and any(leg.wire.along == "SURFACE" for leg in self.legs):
             return only_vertices(pick)
         if self.legs and all(undirected(leg.stays) == undirected(pick) for leg in self.legs):
-            return Message.of("would-end-where-it-begins")
-        return NOTHING
+            return "The wire would end where it begins: remove it instead"
+        return ""
 
     def _courses(self, pick: Pick) -> dict[int, Wire | None]:
         """Return the wires' new courses; one whose ends meet goes, one that is not reached or computed is left out."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from ..base.messages import NOTHING, Message, Refused, message_of
+from ..base.refused import Refused
 from ..network.network import Snap
 from ..network.picks import undirected
 from ..network.strokes import OffMeshError
@@ -71,7 +71,7 @@ class Session:
         cursor.aim(target)
         bend = bend and self.options.along == "SURFACE"
         if bend != cursor.loops.cuts.bends and drawing.message:
-            drawing.message = NOTHING
+            drawing.message = ""
             drawing.revision += 1
         drawing.revision += cursor.loops.hover(target, loop, bend)
         cursor.show_offers()
@@ -105,7 +105,7 @@ class Session:
         try:
             done = self.step(self.cursor.live.begun(target))
         except Refused as error:
-            return self.drawing.refuse(error.message)
+            return self.drawing.refuse(str(error))
         if done:
             self._remember_click(target)
         return done
@@ -146,7 +146,7 @@ class Session:
             self._finish()
         first = self.drawing.network.closing_point
         if first is None:
-            return self.drawing.refuse("no-chain-to-close")
+            return self.drawing.refuse("No chain to close: draw a wire first")
         self.cursor.extension.wanted = False
         return self.click(Snap(first, "SEED", seen_along=seen_along))
 
@@ -164,10 +164,10 @@ class Session:
             extension.wanted = True
             self.cursor.show_extension()
             found = extension.wire is not None or self.cursor.computing
-            return found or self.drawing.refuse(self.drawing.message or Message.of("no-way-on"))
+            return found or self.drawing.refuse(self.drawing.message or "The wire cannot be extended from here")
         if self.cursor.queue:
             if target is None:
-                return self.drawing.refuse("no-way-on")
+                return self.drawing.refuse("The wire cannot be extended from here")
             extension.wanted = False
         else:
             self.cursor.live.seen = True
@@ -194,17 +194,17 @@ class Session:
         self._finish()
         own = self.drawing.network.find(wire)
         if own is None:
-            return self.drawing.refuse("wire-is-gone")
+            return self.drawing.refuse("This wire no longer exists")
         if own.through is not None:
             return self.commit(NextOffer(self.drawing, self.cursor.loops, own), Snap(own.through, "WIRE", own))
         if own.closed:
-            return self.drawing.refuse("loop-has-one-way")
+            return self.drawing.refuse("A loop has no other path")
         try:
             if own.alternatives:
                 return self.step(retraced(self.drawing.network, own, own.alternatives))
             self.cursor.retraces.append(Retrace(self.drawing, own))
         except ValueError as error:
-            return self.drawing.refuse(message_of(error))
+            return self.drawing.refuse(str(error))
         self.cursor.read_progress()
         self._poll_retraces()
         return not self.drawing.message
@@ -214,7 +214,7 @@ class Session:
         self._finish()
         own = self.drawing.network.find(wire)
         if own is None:
-            return self.drawing.refuse("wire-is-gone")
+            return self.drawing.refuse("This wire no longer exists")
         return self.step(self.drawing.network.without(own))
 
     def drag(self, snap: Snap | Pick) -> bool:
@@ -226,12 +226,12 @@ class Session:
         """Leave the dragged seed where it is, as soon as its wires are computed; one step for undo."""
         drag = self.cursor.drag
         if drag is None:
-            return self.drawing.refuse("no-seed-moves")
+            return self.drawing.refuse("No seed is being moved")
         try:
             done = drag.commit()
         except Refused as error:
             self.cursor.let_go(SeedDrag)
-            return self.drawing.refuse(error.message)
+            return self.drawing.refuse(str(error))
         if done is drag:
             drag.ending = True
             return True
@@ -266,7 +266,7 @@ class Session:
         try:
             stroke = StrokeGesture(self.drawing, self.cursor.live, points, faces, **how)
         except OffMeshError as error:
-            return self.drawing.refuse(message_of(error))
+            return self.drawing.refuse(str(error))
         return self.do(stroke)
 
     def erase(self, stroke: Stroke) -> bool:
@@ -275,7 +275,7 @@ class Session:
         network = self.drawing.network
         rest = tuple(own for own in network.strokes if own.id != stroke.id)
         if len(rest) == len(network.strokes):
-            return self.drawing.refuse("stroke-is-gone")
+            return self.drawing.refuse("This stroke no longer exists")
         return self.step(replace(network, strokes=rest), self.cursor.live.chosen)
 
     # Commits
@@ -283,7 +283,7 @@ class Session:
     def commit(self, gesture: Gesture, target: Snap | None) -> bool:
         """Commit a gesture, or let it wait: for those that wait already, or until it is computed. Return whether it was not refused."""
         if not self.cursor.queue:
-            self.drawing.failure = NOTHING
+            self.drawing.failure = ""
             done = self._attempt(gesture, target)
             if not isinstance(done, Gesture):
                 return done
@@ -299,7 +299,7 @@ class Session:
             done = gesture.commit()
         except ValueError as error:
             self.cursor.aim_again()
-            return self.drawing.refuse(message_of(error))
+            return self.drawing.refuse(str(error))
         if isinstance(done, Gesture):
             return done
         if done is None:
@@ -320,7 +320,7 @@ class Session:
         drawing.history.step(drawing.network)
         lasting = network.lasting()
         drawing.set(drawing.images.complete(lasting))
-        gone = Message.of("wire-went") if lasting is not network else NOTHING
+        gone = "A wire was removed: no edge is left for its seam" if lasting is not network else ""
         drawing.warning = drawing.images.warning(drawing.network) or gone or drawing.failure
         self.cursor.settle()
         self.cursor.live.chosen = chosen
@@ -330,7 +330,7 @@ class Session:
 
     def _finish(self) -> None:
         """Do what waits, because what comes now begins with the wires that it makes."""
-        self.drawing.failure = NOTHING
+        self.drawing.failure = ""
         if self.cursor.queue:
             self.wait(until_committed=True)
         self._leave_seed()
@@ -421,7 +421,7 @@ class Session:
                 try:
                     live.wait()
                 except ValueError as error:  # what it is to compute cannot be computed
-                    drawing.refuse(message_of(error))
+                    drawing.refuse(str(error))
             self.cursor.loops.edges.wait()
             self.poll()
             if not cursor.waiting and (until_committed or not cursor.computing):
@@ -432,7 +432,7 @@ class Session:
             cursor.queue.clear()
             cursor.retraces.clear()
             self.cursor.let_go(SeedDrag)
-            self._told(drawing.refuse("no-result"))
+            self._told(drawing.refuse("The computation ended without a result: this step was dropped"))
 
     # Settings
 
@@ -457,7 +457,7 @@ class Session:
         if options.computes != before.computes:
             cursor.compute_anew()
         if options.clear != before.clear:
-            drawing.message = NOTHING
+            drawing.message = ""
         if options.mirror != drawing.network.mirror:
             drawing.set(replace(drawing.network, mirror=options.mirror))
         return done
@@ -467,7 +467,7 @@ class Session:
         drawing, cursor = self.drawing, self.cursor
         cursor.live.reset()
         cursor.loops.cancel()
-        seed, why = drawing.network.seed, NOTHING
+        seed, why = drawing.network.seed, ""
         if seed is not None and not cursor.sow(seed):
             why = drawing.message
             drawing.set(replace(drawing.network, seed=None))
@@ -495,13 +495,13 @@ class Session:
             drawing.revision += 1
             return True
         network = drawing.history.back(drawing.network)
-        return drawing.refuse("nothing-to-undo") if network is None else self._restore(network)
+        return drawing.refuse("Nothing to undo in this drawing") if network is None else self._restore(network)
 
     def redo(self) -> bool:
         """Bring back the step that undo took. Gestures that wait are done first, and after a new step there is nothing to redo."""
         self._finish()
         network = self.drawing.history.forth(self.drawing.network)
-        return self.drawing.refuse("nothing-to-redo") if network is None else self._restore(network)
+        return self.drawing.refuse("Nothing to redo in this drawing") if network is None else self._restore(network)
 
     def _restore(self, network: Network) -> bool:
         """Go back or forth to a network of the history."""
@@ -510,7 +510,7 @@ class Session:
             self.cursor.sow(network.seed)
         back = [stroke.acts_on for stroke in network.strokes if stroke not in now.strokes]
         self.drawing.set(replace(network, mirror=self.drawing.options.mirror))
-        self.drawing.warning = NOTHING
+        self.drawing.warning = ""
         self._last_click = None
         self.cursor.loops.forget_crest()
         self.cursor.settle()
@@ -535,7 +535,7 @@ class Session:
         if seed is not None and seed != drawing.network.seed and not self.cursor.sow(seed):
             seed = None
         drawing.set(replace(network, seed=seed, mirror=drawing.network.mirror))
-        drawing.warning = NOTHING
+        drawing.warning = ""
         self.cursor.loops.edges.forget()
         self.cursor.settle()
 

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base import native
-from ..base.messages import NOTHING, Message, Refused, message_of
+from ..base.refused import Refused
 from ..network.network import Network
-from ..network.picks import FacePoint
+from ..network.picks import FacePoint, pick_name
 from ..network.wires import Wire, distinct
 from ..solver.solver import by_number, for_live
 from .gesture import Gesture
@@ -53,24 +53,24 @@ class WireGesture(Gesture):
         self.chosen: int | None = None
         """The candidate that the artist brought forward."""
         self._straight: Wire | None = None
-        self._message = NOTHING
+        self._message = ""
         self.seen = False
         """Whether the active wire was shown before the click. The session tells, because waiting clicks show nothing."""
         self._kept = False
         self.seedless = False
         """Whether no live wire is shown, because the seed moves."""
 
-    def take_warning(self) -> Message:
+    def take_warning(self) -> str:
         """Return the warning about triangles that a kept wire leads around, once."""
-        return self._drawing.engines.warning(self._drawing.options.along) if self._kept else NOTHING
+        return self._drawing.engines.warning(self._drawing.options.along) if self._kept else ""
 
-    def aim(self, target: Snap | None) -> Message:
+    def aim(self, target: Snap | None) -> str:
         """Find the wires to a target."""
         self.seen = False
         self._message = self._find(target)
         return self._message
 
-    def _find(self, target: Snap | None) -> Message:
+    def _find(self, target: Snap | None) -> str:
         """Find the wires from the seed to a target. Return the reason for a failure, otherwise an empty message."""
         network, options = self._drawing.network, self._drawing.options
         along = options.along
@@ -78,14 +78,14 @@ class WireGesture(Gesture):
         self.cancel()
         seed = None if self.seedless else network.seed
         if seed is None or target is None or seed.at(target.pick, along):
-            return NOTHING
+            return ""
         if along == "SURFACE" and isinstance(target.pick, tuple):
             return only_vertices(target.pick)
         goal, avoid = _goal(target, network, along)
         try:
             found = self._drawing.engines.get(along).wires(for_live(goal, along))
         except ValueError as error:
-            return message_of(error)
+            return str(error)
         wires, self.leading = by_number(found)
         self.finals = tuple(wire.final for wire in wires)
         self.settled = found.settled
@@ -102,7 +102,7 @@ class WireGesture(Gesture):
             self._add_ring(network, target, along)
         if self.chosen is not None and self.chosen >= len(self.wires):
             self.chosen = None  # the metric that is used now has no such wire
-        return NOTHING if self._is_reached else Message.of("no-wire-reaches", pick=target.pick)
+        return "" if self._is_reached else f"No wire reaches {pick_name(target.pick)}: it is not connected to the seed"
 
     @property
     def final(self) -> bool:
@@ -171,16 +171,16 @@ class WireGesture(Gesture):
         begin = for_live(seed.begins(along), along)
         self._drawing.engines.get(along).seed(begin, forward=seed.forward and along == "EDGES")
 
-    def advance(self) -> Message:
+    def advance(self) -> str:
         """Bring the next wire forward; return why that cannot be, else nothing."""
         others = self.others
         if not others:
             if self.finals and not self._is_reached:
-                return Message.of("no-wire-reaches", pick=self.target.pick)
+                return f"No wire reaches {pick_name(self.target.pick)}: it is not connected to the seed"
             same = self.final and self.active is not None
-            return Message.of("same-edges" if same else "no-next-candidate")
+            return "All wires run along the same edges here" if same else "No other candidate found yet"
         self.chosen = next(at for at, wire in enumerate(self.wires) if wire is others[0])
-        return NOTHING
+        return ""
 
     @property
     def straight_active(self) -> bool:
@@ -271,16 +271,16 @@ class WireGesture(Gesture):
         wire = self.active
         if wire is None:
             if network.seed.at(target.pick, options.along):
-                raise Refused("ends-where-it-begins")
-            raise Refused(self._message or Message.of("no-wire-reaches", pick=target.pick))
+                raise Refused("The wire ends where it begins: click somewhere else")
+            raise Refused(self._message or f"No wire reaches {pick_name(target.pick)}: it is not connected to the seed")
         ending = self.ending(target)
         known = {edge for own in network.wires for edge in own.edges()}
         # The snapped edges of a wire that is cut tell nothing about where it runs.
         if ending is Intent.CLOSE and known.issuperset(wire.edges()) and not isinstance(wire.end, FacePoint):
-            raise Refused("way-back-along-chain")
+            raise Refused("The way back runs along the chain itself: place another seed first")
         wire = replace(self._drawing.as_drawn(wire), alternatives=self.others if self.final else ())
         if not wire.leaves_trace:
-            raise Refused("wire-too-short")
+            raise Refused("Too short to become a seam: click farther away")
         network = network.joined(target, self._drawing.points).with_drawn(wire, target.pick, ending is not None)
         for joint in reversed(self.ring.joints if self.ring_active else ()):
             network = network.with_seed_in(wire, joint, self._drawing.points) or network
@@ -328,9 +328,9 @@ def _goal(target: Snap, network: Network, along: Along) -> tuple[Pick, int | Non
     return target.pick, None
 
 
-def only_vertices(edge: Pick) -> Message:
+def only_vertices(edge: Pick) -> str:
     """Say that wires across the surface do not end at edges."""
-    return Message.of("no-edge-across", pick=edge)
+    return f"Wires across the surface need vertices or points of faces, not {pick_name(edge)}"
 
 
 def straight_wire(live: LiveWire, begin: Pick, end: Pick, direction: Direction, follow: int) -> Wire | None:

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.half_edges import HalfEdges, after, among
-from ..base.messages import NOTHING, Message
 from ..base.nearest_vertices import NearestVertices
 from .network import Network, net_effect
 from .wires import Wire
@@ -454,12 +453,12 @@ class MirrorImages:
             self._effect = (network, *net_effect(claims))
         return self._effect[1:]
 
-    def warning(self, network: Network) -> Message:
+    def warning(self, network: Network) -> str:
         """Return, the first time only, that part of a network's newest wire has no image; empty where it has."""
         if self._warned or not network.wires:
-            return NOTHING
+            return ""
         wire = network.wires[-1]
         if not wire.mirror or not self._symmetry.one_sided(wire, wire.mirror):
-            return NOTHING
+            return ""
         self._warned = True
-        return Message.of("no-mirror-image")
+        return "Part of this wire has no mirror image: the mesh is not symmetric there"

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from ...core.base.geometry import Moments
-from ...core.base.messages import NOTHING, Message, Refused
+from ...core.base.refused import Refused
 from ...core.network.picks import undirected
 from ...core.storage import serialization
 from ...core.storage.serialization import Record
@@ -66,12 +66,12 @@ class Course:
         return float(lengths.mean()) if len(lengths) else 0.0
 
     @property
-    def name(self) -> Message:
+    def name(self) -> str:
         """How it is called in messages: by its seeds."""
         record = self.record
         if record["closed"]:
-            return Message.of("loop-name", vertex=record["vertices"][0])
-        return Message.of("wire-name", start=_text_of(record["start"]), end=_text_of(record["end"]))
+            return f"loop at vertex {record['vertices'][0]}"
+        return f"wire {_text_of(record['start'])} to {_text_of(record['end'])}"
 
 
 @dataclass(frozen=True)
@@ -147,15 +147,18 @@ class NetworkFile:
             data = json.loads(text)
         except (ValueError, RecursionError) as error:
             if isinstance(error, json.JSONDecodeError):
-                raise NetworkFileError("file-no-json-at", line=error.lineno) from error
-            raise NetworkFileError("file-no-json") from error
+                raise NetworkFileError(f"The file is damaged: line {error.lineno} is not valid JSON") from error
+            raise NetworkFileError("The file is damaged: it is not valid JSON") from error
         if not isinstance(data, dict) or data.get("format") != FORMAT:
-            raise NetworkFileError("file-no-network")
+            raise NetworkFileError("The file contains no Seamwire network")
         version = data.get("version")
         if type(version) is not int or version < 1:
-            raise NetworkFileError("file-no-version")
+            raise NetworkFileError("The file is damaged: its version is not a number")
         if version > VERSION:
-            raise NetworkFileError("file-by-newer", version=version, known=VERSION)
+            raise NetworkFileError(
+                f"A newer version of Seamwire wrote the file: it has version {version}, "
+                f"and this one reads up to {VERSION}"
+            )
         try:
             where = "mesh"
             stored = data["mesh"]
@@ -174,23 +177,24 @@ class NetworkFile:
                 where = f"stroke {number}"
                 strokes.append(_stroke_record(row, origin.vertices))
         except serialization.DAMAGED as error:
-            raise NetworkFileError("file-damaged", where=where) from error
+            raise NetworkFileError(f"The file is damaged: {where}") from error
         return cls(origin, metric, clamp, tuple(courses), tuple(strokes))
 
     # On the same mesh
 
-    def problem_with(self, shape: Shape) -> Message:
+    def problem_with(self, shape: Shape) -> str:
         """Return why a mesh is not the one that it was drawn on, by its numbers; nothing if it is."""
         if len(shape.points) != self.origin.vertices:
-            return Message.of("other-vertices", count=self.origin.vertices, here=len(shape.points))
+            here = len(shape.points)
+            return f"The network belongs to a mesh with {self.origin.vertices} vertices, but this one has {here}"
         there = {undirected((one, two)) for one, two in shape.edges.tolist()}
         for course in self.courses:
             vertices = course.record["vertices"]
             around = [*vertices, vertices[0]] if course.record["closed"] else vertices
             for edge in map(undirected, itertools.pairwise(around)):
                 if edge not in there:
-                    return Message.of("other-edges", pick=edge)
-        return NOTHING
+                    return f"The network belongs to a mesh with other edges: edge {edge[0]}-{edge[1]} is missing here"
+        return ""
 
     def wires(self, shape: Shape) -> list[Wire]:
         """Return its wires on the mesh that it was drawn on, by their numbers; see `problem_with`."""

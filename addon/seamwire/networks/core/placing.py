@@ -13,7 +13,7 @@ import numpy as np
 
 from ...core.base import native
 from ...core.base.geometry import Moments, creases, triangle_normals, vertex_normals
-from ...core.base.messages import NOTHING, Message, Refused
+from ...core.base.refused import Refused
 from ...core.storage.serialization import Places
 
 if TYPE_CHECKING:
@@ -134,11 +134,12 @@ def _onto(source: Moments, target: Moments, scale: float, signs: tuple[int, int]
     return Similarity(scale, rotation, target.middle - scale * rotation @ source.middle)
 
 
-def doubt_between(way: Similarity, rival: Similarity) -> Message:
+def doubt_between(way: Similarity, rival: Similarity) -> str:
     """Return the message that a rival lays a network elsewhere."""
     cosine = 0.5 * (np.trace(rival.rotation @ way.rotation.T) - 1.0)
     turn = np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0)))
-    return Message.of("fits-turned", degrees=round(float(turn))) if turn >= _TURNED else Message.of("fits-moved")
+    other = f"if rotated by {round(float(turn))} degrees" if turn >= _TURNED else "in another place"
+    return f"the network also fits {other}: check its position, or give pairs"
 
 
 @dataclass(frozen=True)
@@ -208,7 +209,7 @@ class NearestSurface:
 
     def __init__(self, shape: Shape, go_on: Progress = lambda _: True) -> None:  # `go_on` gets any fraction
         if not len(shape.triangles):
-            raise Refused("no-visible-faces")
+            raise Refused("The mesh has no visible faces to place wires on")
         self._shape, self._go_on = shape, go_on
         self._trees: dict[int | None, tuple[NDArray[np.int64], NearestPoints]] = {}
         self._normals = triangle_normals(shape.places, shape.triangles)
@@ -238,7 +239,7 @@ class NearestSurface:
 
     def align(
         self, points: NDArray[np.float64], moments: Moments, progress: Progress = lambda _: True
-    ) -> tuple[Similarity, Message]:
+    ) -> tuple[Similarity, str]:
         """Find what brings points of a mesh onto this one, and return a message if something else lays them elsewhere about as well.
 
         They stay where they are if they lie on it. Otherwise ICP starts there and from the four alignments of the principal axes without
@@ -249,7 +250,7 @@ class NearestSurface:
         some = points[np.linspace(0, len(points) - 1, min(len(points), _SAMPLE)).astype(np.int64)]
         best, least = Similarity.mirroring(), self._gap(some)
         if least <= _ALIGNED * size or len(points) < 3:
-            return best, NOTHING
+            return best, ""
         own = self._shape.moments
         scale = own.size / moments.size if moments.size > 0.0 else 1.0
         starts = [best, *(_onto(moments, own, scale, signs) for signs in ((1, 1), (1, -1), (-1, 1), (-1, -1)))]
@@ -274,7 +275,7 @@ class NearestSurface:
             if gap <= max(_RIVAL * least, 1e-6 * size)
             and np.linalg.norm(way.of(some) - best.of(some), axis=1).max() > _ELSEWHERE * size
         ]
-        return best, doubt_between(best, min(rivals, key=lambda way: way[0])[1]) if rivals else NOTHING
+        return best, doubt_between(best, min(rivals, key=lambda way: way[0])[1]) if rivals else ""
 
     def _gap(self, points: NDArray[np.float64]) -> float:
         gaps = self.nearest(points)[2]
@@ -340,11 +341,11 @@ class Landmarks:
     def __init__(self, source: Shape, target: Shape, pairs: ArrayLike, progress: Progress = lambda _: True) -> None:
         numbers = np.array(pairs, dtype=np.int64).reshape(-1, 2)
         if len(numbers) < 3:
-            raise Refused("too-few-pairs", count=len(numbers))
+            raise Refused(f"Transfer by pairs needs at least three pairs of vertices, but got {len(numbers)}")
         for shape, column, what in ((source, 0, "source"), (target, 1, "target")):
             outside = numbers[~np.isin(numbers[:, column], shape.triangles), column]
             if len(outside):
-                raise Refused("pair-off-mesh", vertex=outside[0], what=what)
+                raise Refused(f"Pairs: vertex {outside[0]} is not on a visible face of the {what}")
         self._source, self._target = source, target
         self._go_on = within(progress, 1.0, 1.0)
         self._here = _distances(source, numbers[:, 0], within(progress, 0.0, 0.5))

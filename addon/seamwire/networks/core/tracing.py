@@ -17,7 +17,6 @@ import numpy as np
 
 from ...core.base.components import groups
 from ...core.base.geometry import nearest_on_segments
-from ...core.base.messages import Message
 from ...core.network.strokes import Stroke, for_library, on_mesh
 from ...core.network.wires import LOOP_KINDS, Wire
 from ...core.solver.solver import LiveMaker, by_number, final
@@ -43,7 +42,7 @@ _MOST_LOST = 0.3
 _SLICE = 0.05
 """Seconds for which live wires are waited for before the progress is told again."""
 
-DEGREES = ((0.9, "SURE"), (0.6, "LIKELY"), (DOUBTFUL, "DOUBTFUL"), (0.0, "LOST"))
+DEGREES = ((0.9, "sure"), (0.6, "likely"), (DOUBTFUL, "doubtful"), (0.0, "not placed"))
 """The least confidence of each degree of a seed."""
 
 
@@ -62,12 +61,12 @@ class PlacedSeed:
         return next(degree for least, degree in DEGREES if self.confidence >= least)
 
     @property
-    def message(self) -> Message:
+    def message(self) -> str:
         """Where it is, and how sure that is."""
-        seed, degree, confidence = self.source, self.degree, self.confidence
+        seed, sure = self.source, f"{self.degree} ({self.confidence:.2f})"
         if self.vertex is None:
-            return Message.of("seed-lost", seed=seed, degree=degree, confidence=confidence)
-        return Message.of("seed-placed", seed=seed, vertex=self.vertex, degree=degree, confidence=confidence)
+            return f"seed {seed}: {sure}"
+        return f"seed {seed} at vertex {self.vertex}: {sure}"
 
 
 @dataclass
@@ -77,8 +76,8 @@ class Transfer:
     wires: list[Wire] = field(default_factory=list)  # connected as in the source
     strokes: list[Stroke] = field(default_factory=list)
     seeds: list[PlacedSeed] = field(default_factory=list)  # all seeds of the network, each once
-    lost: list[Message] = field(default_factory=list)  # what could not be placed, and why
-    doubts: list[Message] = field(default_factory=list)  # what else the artist should check
+    lost: list[str] = field(default_factory=list)  # what could not be placed, and why
+    doubts: list[str] = field(default_factory=list)  # what else the artist should check
     added: int = 0  # the number of seeds between those of the network
 
     @property
@@ -88,7 +87,7 @@ class Transfer:
         return {degree: counts[degree] for _, degree in DEGREES if degree in counts}
 
     @property
-    def problems(self) -> list[Message]:
+    def problems(self) -> list[str]:
         """Everything that the artist should check: doubts, what is lost, and seeds that are not even likely."""
         unsure = (seed.message for seed in self.seeds if seed.confidence < DEGREES[1][0])
         return [*self.doubts, *self.lost, *unsure]
@@ -171,7 +170,7 @@ class Tracing:
         for number, record in enumerate(self._file.strokes, start=1):
             stroke = self._stroke(record, place_stroke(unpacked(record["points"])))
             if stroke is None:
-                result.lost.append(Message.of("stroke-lost", number=number))
+                result.lost.append(f"stroke {number}: could not be placed")
             else:
                 result.strokes.append(stroke)
         self._library_strokes = [for_library(stroke) for stroke in result.strokes]
@@ -256,24 +255,24 @@ class Tracing:
     def _wires(self, piece: _CoursePart) -> list[Wire]:
         lost = float((piece.confidence < DOUBTFUL).mean())
         if lost > _MOST_LOST:
-            return self._lose(piece, "course-lost", part=lost)
+            return self._lose(piece, f"{lost:.0%} of its course could not be placed on this mesh")
         if piece.vertices[0] == piece.vertices[-1]:
             return self._loop(piece)
         ends = [self._seed(piece, row) for row in (0, -1)]
         if None in ends:
-            return self._lose(piece, "end-lost")
+            return self._lose(piece, "one of its seeds could not be placed on this mesh")
         start, end = ends
         if start == end:
-            return self._lose(piece, "ends-meet", vertex=start)
+            return self._lose(piece, f"both its seeds would be at vertex {start} of this mesh")
         live = self._live(piece)
         found = self._between(live, piece, start, end)
         if found is None:
-            return self._lose(piece, "no-way", start=start, end=end)
+            return self._lose(piece, f"no wire leads from vertex {start} to vertex {end}")
         self._result.added += len(found) - 1
         return found
 
-    def _lose(self, piece: _CoursePart, why: str, **values: object) -> list[Wire]:
-        self._result.lost.append(Message.of(why, wire=piece.name, **values))
+    def _lose(self, piece: _CoursePart, why: str) -> list[Wire]:
+        self._result.lost.append(f"{piece.name}: {why}")
         return []
 
     def _between(self, live: LiveWire, piece: _CoursePart, start: int, end: int) -> list[Wire] | None:
@@ -334,12 +333,12 @@ class Tracing:
         rows = [0, count // 3, 2 * count // 3] if count >= 3 else [0]
         corners = list(dict.fromkeys(self._vertex(piece, row) for row in rows))
         if len(corners) < 3:
-            return self._lose(piece, "loop-too-small")
+            return self._lose(piece, "smaller than an edge of this mesh")
         wires: list[Wire] = []
         for (begin, one), (end, other) in itertools.pairwise(zip([*rows, count], [*corners, corners[0]], strict=True)):
             found = self._between(live, piece.part(begin, end), one, other)
             if found is None:
-                return self._lose(piece, "no-way", start=one, end=other)
+                return self._lose(piece, f"no wire leads from vertex {one} to vertex {other}")
             wires += found
         self._result.added += len(wires)
         return wires

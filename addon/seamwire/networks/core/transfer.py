@@ -11,7 +11,7 @@ import numpy as np
 
 from ...core.base import native
 from ...core.base.geometry import Moments
-from ...core.base.messages import NOTHING, Refused
+from ...core.base.refused import Refused
 from ...core.network.network import Network
 from ...core.network.symmetry import MirrorImages, Symmetry
 from ...core.solver.solver import LiveMaker
@@ -68,7 +68,7 @@ def transfer(
     """
     pairs = np.array(pairs, dtype=np.int64).reshape(-1, 2)
     if mirror is not None and place in {"NUMBERS", "PAIRS"}:
-        raise Refused("mirror-by-surface")
+        raise Refused("Mirror needs Place: Nearest Surface")
     if place == "AUTO":
         same = mirror is None and not file.problem_with(target)
         by_pairs = len(pairs) and source is not None and mirror is None
@@ -81,7 +81,7 @@ def transfer(
     if place == "SURFACE":
         return _by_surface(file, target, mirror, align, live, progress)
     if source is None:
-        raise Refused("pairs-without-source")
+        raise Refused("Pairs need the source object")
     return _by_pairs(file, source, target, pairs, live, progress)
 
 
@@ -124,7 +124,7 @@ def _by_surface(
     file: NetworkFile, target: Shape, mirror: int | None, align: bool, live: LiveMaker, progress: _Told
 ) -> Transfer:
     """Return a network on a mesh with about the same shape and any topology."""
-    surface, doubt = NearestSurface(target, progress.go_on), NOTHING
+    surface, doubt = NearestSurface(target, progress.go_on), ""
     way = Similarity.mirroring(*(() if mirror is None else (mirror,)))
     if align and file.courses:
         points = way.of(np.concatenate([course.places for course in file.courses]))

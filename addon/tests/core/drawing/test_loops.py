@@ -220,7 +220,7 @@ def test_a_single_offer_has_no_next() -> None:
     session.hover((14, 20), loop=True)
     assert session.picture.offered.kinds == ("STRIP",)
     assert not session.cursor.next_candidate()
-    assert session.drawing.message.code == "nothing-else-through-edge"
+    assert session.drawing.message == "No other loop through this edge"
     session.hover(None)
     assert session.picture.offered.kinds == ()
     assert session.picture.offered.kind is None
@@ -238,7 +238,7 @@ def test_an_edge_that_is_none_is_refused_in_words() -> None:
     live = table.lives["EDGES"]
     session = Session(Drawing(lambda _: NoEdge(), table.points, edges=grid_edges(SIZE), triangles=grid_triangles(SIZE)))
     assert not session.loop((0, 20))
-    assert "no edge" in str(session.drawing.message)
+    assert "no edge" in session.drawing.message
     session.hover((0, 20), loop=True)
     assert session.picture.one(Role.OFFER) is None
 
@@ -254,7 +254,7 @@ def test_while_the_loop_is_computed_nothing_is_offered_yet() -> None:
     assert session.picture.one(Role.OFFER) is None
     assert session.cursor.computing
     assert not session.cursor.next_candidate()
-    assert session.drawing.message.code == "no-loop-yet"
+    assert session.drawing.message == "No loop found yet"
     table.compute()
     assert shown(session) == COMPUTED
 

@@ -181,4 +181,4 @@ def test_between_near_points_it_is_offered_where_it_is_to_be_cut(session: Sessio
     session.hover(Snap(end, seen_along=DOWN))
     session.wait()
     assert not session.click(Snap(end, seen_along=DOWN))
-    assert "Too short to become a seam" in str(session.drawing.message)
+    assert "Too short to become a seam" in session.drawing.message
