@@ -161,7 +161,7 @@ def test_an_error_while_cutting_loses_no_wire_and_undo_leads_back(
         return found
 
     monkeypatch.setattr(Notices, "take", note)
-    failing = {"before": (cut, "plan"), "within": (cut, "mark_seams"), "after": (ObjectSession, "take_over")}
+    failing = {"before": (cut, "plan"), "within": (cut, "Cut"), "after": (ObjectSession, "take_over")}
     monkeypatch.setattr(*failing[where], fail)
     before = snapshot(cutting.obj, with_seams=False)
     session, ui = cutting.start(), cutting.ui

@@ -31,7 +31,7 @@ from . import edit_mesh
 from .settings import mirror_axes, snapshot
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Iterable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     import seamwire_core
     from numpy.typing import NDArray
@@ -393,28 +393,25 @@ class ObjectSession:
         session.adopt(network, self.plain_seams)
         self._found = replace(self._found, network=session.network)
 
-    def finder(self, faces: Collection[int] = ()) -> Callable[[Sequence[float]], FacePoint]:
-        """Return what finds the point of the visible surface, or of some faces, that is nearest to a place in object coordinates.
+    def finder(self) -> Callable[[Sequence[float]], FacePoint]:
+        """Return what finds the point of the visible surface that is nearest to a place in object coordinates.
 
         The function raises ValueError if no face is visible, or the place is too far away to be compared with them.
         """
         triangles, in_object = self.arrays.triangles, self.arrays.in_object
-        rows = np.arange(len(triangles))
-        if len(faces):
-            rows = rows[np.isin(self.arrays.polygons, list(faces))]
 
         @functools.cache
         def tree() -> seamwire_core.NearestPoints:
-            return native.load().NearestPoints(in_object, triangles[rows])
+            return native.load().NearestPoints(in_object, triangles)
 
         def find(place: Sequence[float]) -> FacePoint:
-            if not len(rows):
+            if not len(triangles):
                 raise ValueError("No face is visible: give vertices or edges instead of places")
             # In single precision, as Blender has places, larger ones have no distance.
             if not np.abs(np.array(place)).max() < 1e18:
                 raise ValueError(f"The place ({' '.join(f'{x:g}' for x in place)}) is too far from the mesh")
             (row,), (found,), _ = tree().find([place])
-            return FacePoint.at(found, rows[row], triangles, in_object)
+            return FacePoint.at(found, row, triangles, in_object)
 
         return find
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Change:
-    """A network that has become another one. The mesh marks and clears the edges of wires, and slides, cuts or takes back cuts."""
+    """A network that has become another one. The mesh marks and clears the edges of wires, and slides or cuts them."""
 
     before: Network
     after: Network
