@@ -40,8 +40,6 @@ def lines(picture: Picture) -> list[str]:
         which = KINDS[METRICS[options.metric].follows[picture.active.follow]]
         if choice.straight:
             which = "Straight in the view"
-        elif choice.around:
-            which = "Around the limb"
         found.append(f"{which} ({choice.number + 1} of {choice.count})")
     if islands is not None and islands.parted:
         gaps = f", {count(len(islands.gaps), 'gap')} in seams" if islands.gaps else ""

@@ -64,7 +64,7 @@ class Painter:
             line=None if line is None else line.line.points,
             target=target,
             seed=None if seed is None else seed.begins(options.along),
-            choice=Choice(live.number, 1 + len(live.others), live.straight_active, live.ring_active),
+            choice=Choice(live.number, 1 + len(live.others), live.straight_active),
             offered=Offered(offers.kinds, offers.choice, loops.bends),
             intent=self._intent(work.computing),
             can_close=closing is not None,

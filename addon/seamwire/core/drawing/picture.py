@@ -111,12 +111,11 @@ class ShownSeed:
 
 @dataclass(frozen=True)
 class Choice:
-    """One of several candidates: its place among them from 0, how many there are, whether it is straight, or around a limb."""
+    """One of several candidates: its place among them from 0, how many there are, and whether it is straight."""
 
     number: int = 0
     count: int = 1
     straight: bool = False
-    around: bool = False
 
 
 @dataclass(frozen=True)

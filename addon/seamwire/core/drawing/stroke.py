@@ -66,8 +66,8 @@ class StrokeGesture(Gesture):
         # The wire that the stroke is for stays the active one, even if another is shorter now.
         self.keeps_active = self._live.chosen
         index = self._live.active_index
-        # One that is straight in the view, or closes the chain around a limb, follows no stroke.
-        follows = index < len(FOLLOWS) and not (self._live.straight_active or self._live.ring_active)
+        # One that is straight in the view follows no stroke.
+        follows = index < len(FOLLOWS) and not self._live.straight_active
         if acts_on is None and network.seed is not None and follows:
             self.keeps_active, acts_on = index, FOLLOWS[index]
         stroke = replace(self.stroke, acts_on=acts_on or "both")

@@ -16,7 +16,6 @@ from ..network.wires import Wire, distinct
 from ..solver.solver import by_number, for_live
 from .gesture import Gesture
 from .picture import Intent
-from .ring import RingSearch
 
 if TYPE_CHECKING:
     from ...terms.choices import Along
@@ -42,7 +41,6 @@ class WireGesture(Gesture):
 
     def __init__(self, drawing: Drawing) -> None:
         self._drawing = drawing
-        self.ring = RingSearch(drawing.engines, drawing.points, drawing.edges)
         self.target: Snap | None = None
         self.wires: tuple[Wire | None, ...] = ()
         self.finals: tuple[bool, ...] = ()
@@ -98,8 +96,6 @@ class WireGesture(Gesture):
             self.wires = tuple(
                 self._along_edges(wire, follow, seed, target.pick, avoid) for follow, wire in enumerate(wires)
             )
-        if network.closes(target):
-            self._add_ring(network, target, along)
         if self.chosen is not None and self.chosen >= len(self.wires):
             self.chosen = None  # the metric that is used now has no such wire
         return "" if self._is_reached else f"No wire reaches {pick_name(target.pick)}: it is not connected to the seed"
@@ -201,26 +197,6 @@ class WireGesture(Gesture):
             self.wires, self.finals = (*self.wires, self._straight), (*self.finals, True)
             self.leading, self.settled = len(self.wires) - 1, True
 
-    @property
-    def ring_active(self) -> bool:
-        """Whether the wire that a click would keep closes the chain around the limb."""
-        return self.ring.wire is not None and self.active is self.ring.wire
-
-    def _add_ring(self, network: Network, target: Snap, along: Along) -> None:
-        """Add the wire that closes the chain around the limb, as the leading one."""
-        is_found = self.ring.find(network, target, along)
-        ring = self.ring.wire
-        same = next((at for at, wire in enumerate(self.wires) if ring is not None and wire and wire.like(ring)), None)
-        if ring is None:
-            if not is_found and self.wires:
-                # The leading wire is shown meanwhile, but a click waits.
-                self.finals = (*self.finals[: self.leading], False, *self.finals[self.leading + 1 :])
-                self.settled = False
-            return
-        if same is None:
-            self.wires, self.finals, same = (*self.wires, ring), (*self.finals, is_found), len(self.wires)
-        self.leading, self.settled = same, self.finals[same]
-
     def _along_edges(
         self, candidate: Candidate, follow: int, seed: Seed, target: Pick, avoid: int | None
     ) -> Wire | None:
@@ -282,8 +258,6 @@ class WireGesture(Gesture):
         if not wire.leaves_trace:
             raise Refused("Too short to become a seam: click farther away")
         network = network.joined(target, self._drawing.points).with_drawn(wire, target.pick, ending is not None)
-        for joint in reversed(self.ring.joints if self.ring_active else ()):
-            network = network.with_seed_in(wire, joint, self._drawing.points) or network
         self._kept = True
         return network
 
@@ -304,7 +278,7 @@ class WireGesture(Gesture):
 
     def lives(self) -> list[LiveWire]:
         """Return the live wires that compute for it."""
-        return [self._drawing.engines.get(self._drawing.options.along), *self.ring.lives]
+        return [self._drawing.engines.get(self._drawing.options.along)]
 
 
 def across(candidate: Candidate, follow: int, begin: Pick, end: Pick) -> Wire | None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""With Alt held, both directions are offered. Two seeds on one side of a limb close around it."""
+"""With Alt held, both directions are offered."""
 
 from __future__ import annotations
 
@@ -13,8 +13,6 @@ from seamwire.core.network.network import Snap
 from seamwire.core.picking.camera import Camera
 from seamwire.core.picking.picker import Picker
 from seamwire.core.solver.solver import LiveMaker
-from seamwire.terms.choices import Along
-from setting import use
 
 pytest.importorskip("seamwire_core")
 
@@ -177,117 +175,3 @@ def test_of_a_click_that_nothing_was_shown_for_the_first_offer_is_kept() -> None
     alt.session.wait()
     (wire,) = alt.session.wires
     assert set(wire.vertices) == ring(min(wire.vertices) // AROUND)
-
-
-def closing(alt: Alt, first: int, second: int, along: Along = "EDGES") -> Session:
-    """Draw a wire between two vertices, and point at the first one to close the chain there."""
-    session = alt.session
-    use(session, along=along)
-    for pick in (first, second):
-        session.hover(pick)
-        session.wait()
-        session.click(pick)
-        session.wait()
-    session.hover(Snap(first, "SEED"))
-    session.wait()
-    return session
-
-
-def turns_around(session: Session) -> bool:
-    """Whether the wires lead once around the limb's axis, y."""
-    points = np.concatenate([wire.points[:-1] for wire in session.wires])
-    angles = np.arctan2(points[:, 0], points[:, 2])
-    steps = np.diff(np.append(angles, angles[0]))
-    return bool(abs(((steps + np.pi) % (2.0 * np.pi) - np.pi).sum()) > np.pi)
-
-
-@pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
-@pytest.mark.parametrize("second", [AROUND * 20 + 5, AROUND * 24 + 4, AROUND * 18 + 3])
-def test_two_seeds_on_one_side_of_a_limb_close_around_it_first_and_in_front_after_w(along: Along, second: int) -> None:
-    first = AROUND * 20
-    session = closing(Alt(limb(), 200.0), first, second, along)
-    others = [{*wire.vertices} for wire in session.cursor.live.others]
-    assert session.close()
-    session.wait()
-    assert turns_around(session)
-    assert session.seed is None
-    assert session.wires[0].vertices[0] == session.wires[-1].vertices[-1] == first
-    assert session.undo()
-    session.hover(Snap(first, "SEED"))
-    session.wait()
-    assert others
-    assert session.cursor.next_candidate()
-    assert {*session.picture.active.vertices} == others[0]
-
-
-@pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
-def test_a_click_while_the_way_around_a_limb_is_searched_waits_for_it(along: Along) -> None:
-    first, second = AROUND * 20, AROUND * 24 + 4
-    alt = Alt(limb(), 200.0)
-    session = closing(alt, first, second, along)
-    session.hover(None)
-    session.cursor.live.ring.forget()
-    session.hover(Snap(first, "SEED"))
-    assert session.cursor.computing
-    assert not session.cursor.live.decided
-    session.click(Snap(first, "SEED"))
-    session.wait()
-    assert turns_around(session)
-
-
-@pytest.mark.parametrize("along", ["EDGES", "SURFACE"])
-def test_a_stroke_while_the_way_around_a_limb_is_active_is_for_all_wires(along: Along) -> None:
-    first = AROUND * 20
-    session = closing(Alt(limb(), 200.0), first, AROUND * 24 + 4, along)
-    assert session.cursor.live.ring_active
-    assert session.draw_stroke(vertices=[first + 2, first + 3])
-    assert session.network.strokes[-1].acts_on == "both"
-
-
-def test_offers_and_the_way_around_a_limb_are_found_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    # So large that neither is computed before the other is asked for.
-    monkeypatch.setitem(globals(), "AROUND", 96)
-    monkeypatch.setitem(globals(), "RINGS", 160)
-    first, second = AROUND * 80, AROUND * 96 + 24
-    session = closing(Alt(limb(), 200.0), first, second, "SURFACE")
-    session.hover(None)
-    session.cursor.live.ring.forget()
-    session.hover(Snap(first, "SEED"), loop=True)
-    for _ in range(100):
-        for live in session.cursor.lives():
-            live.wait()
-        session.poll()
-        if not session.cursor.computing:
-            break
-    assert not session.cursor.computing
-    assert session.cursor.live.ring.wire is not None
-    assert session.cursor.loops.offers.offers
-
-
-def test_the_wire_around_a_limb_stays_around_it_when_a_seed_is_moved() -> None:
-    session = closing(Alt(limb(), 200.0), AROUND * 20, AROUND * 24 + 4)
-    assert session.picture.choice.around
-    assert session.close()
-    session.drag(Snap(AROUND * 24 + 4, "SEED"))
-    session.cursor.drag_to(AROUND * 25 + 4)
-    session.drag_end()
-    session.wait()
-    assert turns_around(session)
-
-
-def test_on_a_plain_a_chain_closes_beside_itself() -> None:
-    session = closing(Alt(arrays_of(grid_places(21), grid_polygons(21)), 150.0), 21 * 10 + 5, 21 * 13 + 9)
-    assert not session.picture.choice.around
-    assert session.close()
-    assert len(session.wires) == 2
-
-
-def test_a_chain_of_several_wires_closes_as_it_was_drawn() -> None:
-    alt = Alt(limb(), 200.0)
-    session = closing(alt, AROUND * 20, AROUND * 20 + 4)
-    session.hover(AROUND * 24 + 4)
-    session.wait()
-    session.click(AROUND * 24 + 4)
-    session.hover(Snap(AROUND * 20, "SEED"))
-    session.wait()
-    assert not session.picture.choice.around
