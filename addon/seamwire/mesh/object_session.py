@@ -13,7 +13,6 @@ import bpy
 import numpy as np
 
 from ..core.base import native
-from ..core.drawing.change import Change
 from ..core.drawing.drawing import Drawing
 from ..core.drawing.session import Session
 from ..core.network.network import edges_after
@@ -113,8 +112,7 @@ class ObjectSession:
 
     def __init__(self, obj: bpy.types.Object, options: Options | None = None) -> None:
         self.obj = obj
-        self.cage: edit_mesh.Cage | edit_mesh.StoredMesh
-        self.cage = edit_mesh.Cage(obj) if obj.mode == "EDIT" else edit_mesh.StoredMesh(obj.data)
+        self.cage = edit_mesh.Cage(obj)
         self.arrays = edit_mesh.read(obj)
         self.make_live = LiveMaker(self.arrays)
         self.session = Session(
@@ -230,46 +228,37 @@ class ObjectSession:
         session.follow(replace(session.options, mirror=mirror_axes(self.cage.data)))
         return True
 
-    def follow_change(self, obj: bpy.types.Object, before: Network) -> Network | None:
-        """Read the object's mesh again while wires are drawn, and keep what was done since.
+    def rebind(self, obj: bpy.types.Object) -> bool:
+        """Read the object's mesh again while wires are drawn. Return whether it is as it was read or written last.
 
-        `before` is the network that the mesh has; what differs from it was drawn or changed since. Returns `before`, or the other network
-        that the mesh has now if Blender's undo has changed its wires. Returns None where wires would run on it in another way, or it has
-        left edit mode. They can be written even then, if their vertices have the same numbers. Afterwards the mesh is read anew.
+        If it is not, the chain must end. Its wires can still be written if their vertices have the same numbers.
         """
         self.obj = obj
-        editing = obj.mode == "EDIT"
-        self.cage = edit_mesh.Cage(obj) if editing else edit_mesh.StoredMesh(obj.data)
+        self.cage = edit_mesh.Cage(obj)
         has_others = self.cage.vertex_count != len(self.arrays.points)
         self._renumbered = has_others and not self._has_same_numbers()
         known, self._labels = self._labels, self.cage.labels()
         self._outdated = True
-        if not editing or has_others:
-            return None
+        if obj.mode != "EDIT" or has_others:
+            return False
         try:
             arrays = edit_mesh.read(obj)
         except ValueError:
-            return None
+            return False
         if not arrays.same_as(self.arrays):
-            return None
+            return False
         self._outdated = False
-        if all(np.array_equal(getattr(self._labels, name), getattr(known, name)) for name in ("pairs", "labels")):
-            self._set_seams(arrays.seams, self._labels)
-            return before
-        self.session.end_chain()
-        change = Change(before, self.session.network)
-        self._adopt(self._labels, arrays.seams)
-        found = self.session.network
-        self.session.adopt(change.on(found), self.plain_seams)
-        return found
+        before, now = (np.unique(np.sort(seams, axis=1), axis=0) for seams in (self.arrays.seams, arrays.seams))
+        self._set_seams(arrays.seams, self._labels)
+        return self._labels.same_as(known) and np.array_equal(before, now)
 
     def _has_same_numbers(self) -> bool:
-        """Return whether what is drawn finds its vertices where they were, in an edit mesh with more or fewer vertices."""
+        """Return whether what is drawn finds its vertices where they were, in a mesh with more or fewer vertices."""
         network = self.session.network
         of_wires = (vertex for wire in network.wires for edge in wire.claims() for vertex in edge)
         of_strokes = (vertex for stroke in network.strokes for vertex in stroke.corners.reshape(-1).tolist())
         used = sorted({*of_wires, *of_strokes})
-        if not isinstance(self.cage, edit_mesh.Cage) or (used and used[-1] >= self.cage.vertex_count):
+        if used and used[-1] >= self.cage.vertex_count:
             return False
         verts = self.cage.number_bmesh().verts
         moved = np.array([verts[vertex].co for vertex in used]).reshape(-1, 3) - self.arrays.in_object[used]

@@ -235,24 +235,18 @@ class Chain:
         return reason
 
     def _follow_mesh(self, reason: str = "") -> str:
-        """Follow a change of the mesh by others. Return why the chain cannot go on: because of the change, or for the given `reason`."""
+        """Return why the chain cannot go on: because others have changed the mesh, or for the given `reason`."""
         view = self.drawn_on
         if view is None or not (view.stale or not view.mesh.alive()):
             return reason
-        # Blender reports a change of the mesh. Others may mark seams.
         obj = view.obj if view.exists else bpy.data.objects.get(view.name)
         if obj is None:
             self.drawn_on, self._is_saved = None, False
             return "The object was removed"
-        seams, known = view.mesh.arrays.seams, self._before
-        found = view.mesh.follow_change(obj, known)
-        if found is None:
+        if not view.mesh.rebind(obj):
             return reason or "The mesh was changed"
-        after = view.mesh.arrays.seams
-        self._seams = edges_after(self._seams, edges_after(after, (), seams), edges_after(seams, (), after))
-        self._before = found
         view.renew()
-        return reason or ("" if found is known else "Undo has changed the wires of the mesh")
+        return reason
 
     # How it ends
 
