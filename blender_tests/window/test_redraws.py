@@ -89,9 +89,7 @@ def test_progress_is_told_without_a_picture(desk: Desk, calls: Counter[str], mon
     ui.wait_until(lambda: not session.cursor.computing and settled())
     ui.wait(2)
     told: list[float] = []
-    monkeypatch.setattr(
-        "seamwire.operators.chain.status_makers", [lambda chain: told.append(chain.session.drawing.progress)]
-    )
+    monkeypatch.setattr("seamwire.operators.chain.status_drawer", lambda _hints: told.append(session.drawing.progress))
     redraws = calls["redraw"]
     for percent in (10, 20, 30):
         monkeypatch.setattr(session.drawing, "progress", percent / 100.0)

@@ -518,7 +518,7 @@ def break_while_held(desk: Desk, broken: pytest.MonkeyPatch) -> None:
 
 BREAKS: dict[str, Callable[[Desk, pytest.MonkeyPatch], None]] = {
     "hover": lambda desk, broken: broken.setattr(Session, "hover", fail),
-    "hints": lambda desk, broken: broken.setattr(chain_module, "status_makers", [fail]),
+    "hints": lambda desk, broken: broken.setattr(chain_module, "status_drawer", fail),
     "poll": lambda desk, broken: broken.setattr(keymaps, "takes", fail),
     "event": lambda desk, broken: broken.setattr(chain_events, "read", fail),
     "ending": lambda desk, broken: broken.setattr(Session, "end_chain", fail),

@@ -15,7 +15,6 @@ from ..core.base import native
 from ..core.network.picks import FacePoint
 from ..core.seams.seam_wires import wires_between
 from ..core.seams.slide_plan import plan as plan_slide
-from ..terms.choices import FINISHES
 from ..words.reports import count, not_cut
 from . import cut as mesh_cut
 from . import slide as mesh_slide
@@ -24,7 +23,7 @@ from .edit_mesh import restored_after_errors
 from .object_session import ObjectSession
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+    from collections.abc import Collection, Iterable, Iterator, Mapping
 
     from seamwire_core import CutCurve, CutPlan
 
@@ -40,14 +39,14 @@ if TYPE_CHECKING:
 class Finished:
     """What became of wires across the surface when their chain ended."""
 
-    reports: tuple[str, ...] = ()  # what each of `FINISHERS` has done
+    slid: str = ""  # what was slid
     cut: Cut | None = None
     problem: str = ""  # why nothing was cut
 
     @property
     def text(self) -> str:
         """The report; an empty text if nothing was done."""
-        parts = list(self.reports)
+        parts = [self.slid] if self.slid else []
         if self.cut is not None:
             if self.cut.wires:
                 parts.append(f"{count(self.cut.wires, 'wire')} cut, {count(len(self.cut.edges), 'edge')} marked")
@@ -72,17 +71,14 @@ def apply(mesh: ObjectSession, change: Change) -> tuple[ObjectSession, Finished]
 def _apply(mesh: ObjectSession, change: Change) -> tuple[ObjectSession, Finished]:
     wires = [wire for wire in mesh.session.wires if change.finishes(wire)]
     drawn = {wire.vertices: wire.finish for wire in wires}
-    reports = []
-    for name in FINISHERS:
-        own = [wire for wire in wires if wire.finish == name]
-        if own:
-            mesh, moved = move(mesh, own, name)
-            reports.append(
-                f"{FINISHES[name].name}: {count(len(own), 'wire')}, {count(moved, 'vertex', 'vertices')} moved"
-            )
-            wires = [wire for wire in mesh.session.wires if drawn.get(wire.vertices) == wire.finish]
+    finished = Finished()
+    slid = [wire for wire in wires if wire.finish == "SLIDE"]
+    if slid:
+        mesh, moved = move(mesh, slid, "SLIDE")
+        finished = Finished(f"Slide: {count(len(slid), 'wire')}, {count(moved, 'vertex', 'vertices')} moved")
+        wires = [wire for wire in mesh.session.wires if drawn.get(wire.vertices) == wire.finish]
+    # Cuts come last, because they renumber.
     cuts = [wire for wire in wires if wire.cuts]
-    finished = Finished(tuple(reports))
     if not cuts:
         return mesh, finished
     try:
@@ -92,16 +88,19 @@ def _apply(mesh: ObjectSession, change: Change) -> tuple[ObjectSession, Finished
     return mesh, replace(finished, cut=done)
 
 
-def slide(mesh: ObjectSession, wires: Collection[Wire]) -> tuple[ObjectSession, int]:
-    """Slide the vertices of snapped wires, and of their mirror images, onto the wires. The mesh has these wires.
+def move(mesh: ObjectSession, wires: Collection[Wire], finish: Finish) -> tuple[ObjectSession, int]:
+    """Slide the vertices of snapped wires, and of their mirror images, onto the wires, if that is the finish. The mesh has these wires.
 
     Returns the session that goes on, and the number of moved vertices.
     """
+    if not wires or finish != "SLIDE":
+        return mesh, 0
     own = {wire: [wire, *mesh.session.mirrored(wire)] for wire in wires}
     courses = [(image.vertices, image.points) for images in own.values() for image in images]
     seams = {edge for images in own.values() for image in images for edge in image.edges()}
-    stiff = mesh_slide.stiff_vertices(mesh.cage, {vertex for chain, _ in courses for vertex in chain}, seams)
-    moves = plan_slide(mesh_slide.CageFaces(mesh.cage, mesh.arrays), courses, stiff)
+    vertices = {vertex for chain, _ in courses for vertex in chain}
+    stiff = mesh_slide.stiff_vertices(mesh.cage, vertices, seams)
+    moves = plan_slide(mesh_slide.faces_at(mesh.cage, mesh.arrays, vertices), courses, stiff)
     if not moves:
         return mesh, 0
     mesh_slide.carry_out(mesh.obj, mesh.cage, moves)
@@ -117,19 +116,6 @@ def slide(mesh: ObjectSession, wires: Collection[Wire]) -> tuple[ObjectSession, 
     _go_on_with(after, mesh.session.cursor.loops.cuts.taken(mesh.session.drawing.network))
     after.write(after.plan())
     return after, len(moves)
-
-
-FINISHERS: Mapping[Finish, Callable[[ObjectSession, Collection[Wire]], tuple[ObjectSession, int]]] = {"SLIDE": slide}
-"""Functions that finish wires which the mesh has as seams along the nearest edges. Each may move vertices, and does not renumber them.
-
-They return the session that goes on, and the number of moved vertices. Marking the nearest edges needs no function. Cuts come last,
-because they renumber.
-"""
-
-
-def move(mesh: ObjectSession, wires: Collection[Wire], finish: Finish) -> tuple[ObjectSession, int]:
-    """Finish kept wires in a way that does not cut. Returns the session that goes on, and the number of moved vertices."""
-    return FINISHERS[finish](mesh, wires) if wires and finish in FINISHERS else (mesh, 0)
 
 
 def plan_cut(mesh: ObjectSession, wires: Iterable[Wire]) -> CutPlan:

@@ -17,12 +17,14 @@ from ..mesh import finishes
 from ..mesh import settings as chosen
 from ..view.edited_objects import edited
 from ..view.object_view import let_blender_tell
+from ..words.hints import Status, hints
 from ..words.keys import DoubleClicks
 from ..words.notices import Notices
 from ..words.reports import count, summary
 from . import keymaps, undo_steps
 from .after_chain import unwrap_after_chain
-from .chain_state import TRANSITIONS, Cue, Stage, running, status_makers
+from .chain_state import TRANSITIONS, Cue, Stage, running
+from .chain_status import status_drawer
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -30,6 +32,7 @@ if TYPE_CHECKING:
 
     from ..core.drawing.session import Session
     from ..view.object_view import ObjectView
+    from ..words.hints import Hint
     from .drag_handlers import Hold
 
 _Result = TypeVar("_Result")
@@ -454,6 +457,13 @@ class Chain:
         """Let Blender send an event, because a mesh has changed. Nobody may move the mouse."""
         self._set_timer(True)
 
+    def hints(self) -> list[Hint]:
+        """Return what the status bar shows."""
+        symmetric = edited.front.mesh.symmetric
+        offers = symmetric if symmetric and not edited.front.options.mirror else ()
+        axes = "".join("XYZ"[axis] for axis in offers)
+        return hints(Status(self.session.picture, self.keys, self.notices.hint, axes))
+
     def show(self) -> None:
         """Show the sessions as they are now."""
         session = self.session
@@ -473,8 +483,7 @@ class Chain:
             edited.show()
             edited.redraw()
         if self._shown != before:
-            for make in status_makers:
-                _set_status(make(self))
+            _set_status(status_drawer(self.hints()))
         # Last: what is shown may ask for more to be computed.
         self._set_timer(any(view.busy for view in edited.views()))
 

@@ -19,11 +19,6 @@ def count(number: int, what: str, several: str = "") -> str:
     return f"{number} {what if number == 1 else several or what + 's'}"
 
 
-ADJUST_DRAWN = ("Point at a wire to change it:", "swap its path, drag its seeds, or remove it")
-"""The text of the panel Adjust Last Operation after something was drawn."""
-ADJUST_EDITED = ("Undo takes it back. To edit more, point at a wire:", "swap its path, drag its seeds, or remove it")
-"""The text after something was moved, swapped, bent or removed."""
-
 ALL_HIDDEN = "All objects in Edit Mode are hidden: show them"
 """The report of an operator that finds no object, because Blender leaves out hidden ones."""
 HALFWAY = "Stopped halfway"
