@@ -13,9 +13,9 @@ import stored
 import ui as driver
 from desk import leave, undo_steps
 from scene import add_suzanne, changing, edit, head, mark_wires, seams, snapshot
-from seamwire.networks.core.repeats import Repeats
-from seamwire.networks.core.tracing import Tracing
 from seamwire.operators.steps import running
+from seamwire_networks.repeats import Repeats
+from seamwire_networks.tracing import Tracing
 
 
 class Gate:

@@ -15,10 +15,6 @@ if TYPE_CHECKING:
     from ..core.network.picks import Pick
 
 
-DEGREE_NAMES = {"SURE": "sure", "LIKELY": "likely", "DOUBTFUL": "doubtful", "LOST": "not placed"}
-"""How sure a transferred seed is."""
-
-
 def count(number: int, what: str, several: str = "") -> str:
     """Return a number with what it counts."""
     return f"{number} {what if number == 1 else several or what + 's'}"

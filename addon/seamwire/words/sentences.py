@@ -7,39 +7,25 @@ from string import Formatter
 from typing import TYPE_CHECKING
 
 from ..core.base.messages import word_with
-from .reports import DEGREE_NAMES, count, pick_name
+from .reports import count, pick_name
 
 if TYPE_CHECKING:
     from ..core.base.messages import Message
 
 SENTENCES = {
     "cannot-unpack": "Seamwire cannot unpack its compiled part to {folder}: {why}",
-    "course-lost": "{wire}: {part:.0%} of its course could not be placed on this mesh",
     "cut-is-gone": "The mesh has changed too much to find this cut again: undo, or add another cut",
     "cut-meets-no-edge": "No edge is left for the seam of this cut",
     "does-not-load": "Seamwire's compiled part does not load in this Blender (Python {version} on {system}): {why}",
     "drawing-failed": "Part of the drawing failed. It is tried again when the mode, the tool or the mesh changes: {why}",
-    "end-lost": "{wire}: one of its seeds could not be placed on this mesh",
     "loops-failed": "Loops could not be found: {why}",
-    "ends-meet": "{wire}: both its seeds would be at vertex {vertex} of this mesh",
     "ends-where-it-begins": "The wire ends where it begins: click somewhere else",
-    "file-by-newer": "A newer version of Seamwire wrote the file: it has version {version}, and this one reads up to {known}",
-    "file-damaged": "The file is damaged: {where}",
-    "file-no-json": "The file is damaged: it is not valid JSON",
-    "file-no-json-at": "The file is damaged: line {line} is not valid JSON",
-    "file-no-network": "The file contains no Seamwire network",
-    "file-no-version": "The file is damaged: its version is not a number",
-    "fits-moved": "the network also fits in another place: check its position, or give pairs",
-    "fits-turned": "the network also fits if rotated by {degrees} degrees: check its position, or give pairs",
     "invalid-triangles": "{count, triangle} could not be made valid: wires go around {it}",
     "library": "{text}",
     "no-wire-leaves-face": "Nothing to cut: every wire stays inside one face",
     "cut-taken-back": "{why}. The old cut was removed: undo restores it",
     "line-too-short": "Drag farther along the surface to draw a line",
     "loop-has-one-way": "A loop has no other path",
-    "loop-name": "loop at vertex {vertex}",
-    "loop-too-small": "{wire}: smaller than an edge of this mesh",
-    "mirror-by-surface": "Mirror needs Place: Nearest Surface",
     "no-bend-to": "Closed cuts bend to places on the surface, not to {pick}",
     "no-build": (
         "Seamwire's compiled part, {name}, is missing: install the Seamwire package made for Python {version}"
@@ -61,9 +47,7 @@ SENTENCES = {
     "no-run-across": "Extend to End works along edges, not across the surface",
     "no-seed-moves": "No seed is being moved",
     "no-seed-to-move": "No seed to move at {pick}",
-    "no-visible-faces": "The mesh has no visible faces to place wires on",
     "no-result": "The computation ended without a result: this step was dropped",
-    "no-way": "{wire}: no wire leads from {start} to {end}",
     "no-way-on": "The wire cannot be extended from here",
     "no-wire-between": "No wire from {start} reaches {pick}",
     "no-wire-follows-line": "No wire fits this line: draw closer to the surface",
@@ -80,24 +64,16 @@ SENTENCES = {
         "Seamwire's compiled part was built for another Python or system ({found}), and this Blender has "
         "Python {version} on {system}: install the Seamwire package made for it"
     ),
-    "other-edges": "The network belongs to a mesh with other edges: {pick} is missing here",
-    "other-vertices": "The network belongs to a mesh with {count} vertices, but this one has {here}",
-    "pair-off-mesh": "Pairs: vertex {vertex} is not on a visible face of the {what}",
-    "pairs-without-source": "Pairs need the source object",
     "point-where-to-run": "Point at where the wire should run",
     "same-edges": "All wires run along the same edges here",
-    "seed-lost": "seed {seed}: {degree} ({confidence:.2f})",
-    "seed-placed": "seed {seed} at vertex {vertex}: {degree} ({confidence:.2f})",
     "stored-by-newer": "A newer version of Seamwire drew the wires of this mesh: they were not read or changed",
     "stored-unreadable": "The wires of this mesh cannot be read: its seams were not changed",
     "stroke-damaged": "The stroke is damaged: each point needs a place and a face",
     "stroke-is-gone": "This stroke no longer exists",
     "stroke-leaves-mesh": "The stroke leaves the mesh",
     "stroke-leaves-visible-part": "The stroke leaves the visible part of the mesh",
-    "stroke-lost": "stroke {number}: could not be placed",
     "stroke-no-vertex": "There is no vertex {vertex} for the stroke: the mesh has {count}, numbered from 0",
     "stroke-without-direction": "A stroke needs a direction: drag along the surface",
-    "too-few-pairs": "Transfer by pairs needs at least three pairs of vertices, but got {count}",
     "updated-while-in-use": (
         "Seamwire was updated to {versions} while its version {used} was in use: restart Blender. If that "
         "does not help, remove the {name} in {folder}"
@@ -108,7 +84,6 @@ SENTENCES = {
         "enable the add-on"
     ),
     "wire-is-gone": "This wire no longer exists",
-    "wire-name": "wire {start} to {end}",
     "wire-too-short": "Too short to become a seam: click farther away",
     "wire-went": "A wire was removed: no edge is left for its seam",
     "would-end-where-it-begins": "The wire would end where it begins: remove it instead",
@@ -126,7 +101,7 @@ def sentence(message: Message) -> str:
 
 
 class _Words(Formatter):
-    """Puts values into sentences: names for picks and degrees, and numbers with their nouns."""
+    """Puts values into sentences: names for picks, and numbers with their nouns."""
 
     def get_field(self, field_name: str, args: object, kwargs: dict[str, object]) -> tuple[object, str]:
         name, _, counted = field_name.partition(", ")
@@ -135,10 +110,8 @@ class _Words(Formatter):
         value = kwargs[name]
         if counted:
             value = count(int(value), counted)
-        elif name in {"pick", "start", "end"} and not isinstance(value, str):
+        elif name in {"pick", "start"} and not isinstance(value, str):
             value = pick_name(value)
-        elif name == "degree":
-            value = DEGREE_NAMES[value]
         return value, name
 
 

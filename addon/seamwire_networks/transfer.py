@@ -9,14 +9,9 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from ...core.base import native
-from ...core.base.geometry import Moments
-from ...core.base.messages import NOTHING, Refused
-from ...core.network.network import Network
-from ...core.network.symmetry import MirrorImages, Symmetry
-from ...core.solver.solver import LiveMaker
 from .network_file import Course, NetworkFile, NetworkFileError
-from .placing import PLACED, Landmarks, NearestSurface, Placed, Progress, Shape, Similarity, tell, within
+from .placing import PLACED, Landmarks, Moments, NearestSurface, Placed, Progress, Shape, Similarity, tell, within
+from .tool import LiveMaker, MirrorImages, Network, Symmetry, load
 from .tracing import STRAY, PlacedSeed, Tracing, Transfer
 
 if TYPE_CHECKING:
@@ -68,7 +63,7 @@ def transfer(
     """
     pairs = np.array(pairs, dtype=np.int64).reshape(-1, 2)
     if mirror is not None and place in {"NUMBERS", "PAIRS"}:
-        raise Refused("mirror-by-surface")
+        raise ValueError("Mirror needs Place: Nearest Surface")
     if place == "AUTO":
         same = mirror is None and not file.problem_with(target)
         by_pairs = len(pairs) and source is not None and mirror is None
@@ -81,7 +76,7 @@ def transfer(
     if place == "SURFACE":
         return _by_surface(file, target, mirror, align, live, progress)
     if source is None:
-        raise Refused("pairs-without-source")
+        raise ValueError("Pairs need the source object")
     return _by_pairs(file, source, target, pairs, live, progress)
 
 
@@ -124,7 +119,7 @@ def _by_surface(
     file: NetworkFile, target: Shape, mirror: int | None, align: bool, live: LiveMaker, progress: _Told
 ) -> Transfer:
     """Return a network on a mesh with about the same shape and any topology."""
-    surface, doubt = NearestSurface(target, progress.go_on), NOTHING
+    surface, doubt = NearestSurface(target, progress.go_on), ""
     way = Similarity.mirroring(*(() if mirror is None else (mirror,)))
     if align and file.courses:
         points = way.of(np.concatenate([course.places for course in file.courses]))
@@ -161,7 +156,7 @@ def _by_pairs(
     def vertices() -> NearestPoints:
         # Triangles without area, so that vertices without faces are found as well.
         triangles = np.repeat(np.arange(len(source.places)), 3).reshape(-1, 3)
-        return native.load().NearestPoints(source.places, triangles, progress=progress.go_on)
+        return load().NearestPoints(source.places, triangles, progress=progress.go_on)
 
     def nearest(points: NDArray[np.float64]) -> NDArray[np.int64]:
         return vertices().find(points, progress=progress.go_on)[0].astype(np.int64)

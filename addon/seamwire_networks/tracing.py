@@ -11,28 +11,34 @@ import itertools
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...core.base.components import groups
-from ...core.base.geometry import nearest_on_segments
-from ...core.base.messages import Message
-from ...core.network.strokes import Stroke, for_library, on_mesh
-from ...core.network.wires import LOOP_KINDS, Wire
-from ...core.solver.solver import LiveMaker, by_number, final
-from ...core.storage.serialization import unpacked
-from ...terms.choices import DEFAULT_FINISH
-from ...terms.options import CLAMP_PERCENTILE, STRENGTHS
 from .network_file import Course, NetworkFile
 from .placing import DOUBTFUL, PLACED, NearestSurface, Placed, Progress, Shape, tell
+from .tool import (
+    CLAMP_PERCENTILE,
+    DEFAULT_FINISH,
+    LOOP_KINDS,
+    STRENGTHS,
+    LiveMaker,
+    Stroke,
+    Wire,
+    by_number,
+    final,
+    for_library,
+    groups,
+    nearest_on_segments,
+    on_mesh,
+    unpacked,
+)
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+    from seamwire_core import LiveCandidate, LiveWire
 
-    from ...core.network.picks import Edge
-    from ...core.solver.solver import Answer, Candidate, LiveWire
-    from ...terms.choices import Along
+    from .tool import Edge
 
 STRAY = 1.0
 """How many edges a wire may run beside where it is to run before it gets a seed more."""
@@ -43,7 +49,7 @@ _MOST_LOST = 0.3
 _SLICE = 0.05
 """Seconds for which live wires are waited for before the progress is told again."""
 
-DEGREES = ((0.9, "SURE"), (0.6, "LIKELY"), (DOUBTFUL, "DOUBTFUL"), (0.0, "LOST"))
+DEGREES = ((0.9, "sure"), (0.6, "likely"), (DOUBTFUL, "doubtful"), (0.0, "not placed"))
 """The least confidence of each degree of a seed."""
 
 
@@ -62,12 +68,10 @@ class PlacedSeed:
         return next(degree for least, degree in DEGREES if self.confidence >= least)
 
     @property
-    def message(self) -> Message:
+    def text(self) -> str:
         """Where it is, and how sure that is."""
-        seed, degree, confidence = self.source, self.degree, self.confidence
-        if self.vertex is None:
-            return Message.of("seed-lost", seed=seed, degree=degree, confidence=confidence)
-        return Message.of("seed-placed", seed=seed, vertex=self.vertex, degree=degree, confidence=confidence)
+        where = "" if self.vertex is None else f" at vertex {self.vertex}"
+        return f"seed {self.source}{where}: {self.degree} ({self.confidence:.2f})"
 
 
 @dataclass
@@ -77,8 +81,8 @@ class Transfer:
     wires: list[Wire] = field(default_factory=list)  # connected as in the source
     strokes: list[Stroke] = field(default_factory=list)
     seeds: list[PlacedSeed] = field(default_factory=list)  # all seeds of the network, each once
-    lost: list[Message] = field(default_factory=list)  # what could not be placed, and why
-    doubts: list[Message] = field(default_factory=list)  # what else the artist should check
+    lost: list[str] = field(default_factory=list)  # what could not be placed, and why
+    doubts: list[str] = field(default_factory=list)  # what else the artist should check
     added: int = 0  # the number of seeds between those of the network
 
     @property
@@ -88,9 +92,9 @@ class Transfer:
         return {degree: counts[degree] for _, degree in DEGREES if degree in counts}
 
     @property
-    def problems(self) -> list[Message]:
+    def problems(self) -> list[str]:
         """Everything that the artist should check: doubts, what is lost, and seeds that are not even likely."""
-        unsure = (seed.message for seed in self.seeds if seed.confidence < DEGREES[1][0])
+        unsure = (seed.text for seed in self.seeds if seed.confidence < DEGREES[1][0])
         return [*self.doubts, *self.lost, *unsure]
 
     @property
@@ -151,7 +155,7 @@ class Tracing:
     ) -> None:
         self._file, self._target, self._surface, self._make = file, target, surface, live
         self._stray, self._done, self._progress = stray, PLACED, progress
-        self._lives: dict[tuple[Along, float], LiveWire] = {}
+        self._lives: dict[tuple[str, float], LiveWire] = {}
         self._result = Transfer()
         self._library_strokes: list[object] = []
         self._vertex_of: dict[Key, int | None] = {}
@@ -171,7 +175,7 @@ class Tracing:
         for number, record in enumerate(self._file.strokes, start=1):
             stroke = self._stroke(record, place_stroke(unpacked(record["points"])))
             if stroke is None:
-                result.lost.append(Message.of("stroke-lost", number=number))
+                result.lost.append(f"stroke {number}: could not be placed")
             else:
                 result.strokes.append(stroke)
         self._library_strokes = [for_library(stroke) for stroke in result.strokes]
@@ -256,24 +260,24 @@ class Tracing:
     def _wires(self, piece: _CoursePart) -> list[Wire]:
         lost = float((piece.confidence < DOUBTFUL).mean())
         if lost > _MOST_LOST:
-            return self._lose(piece, "course-lost", part=lost)
+            return self._lose(piece, f"{lost:.0%} of its course could not be placed on this mesh")
         if piece.vertices[0] == piece.vertices[-1]:
             return self._loop(piece)
         ends = [self._seed(piece, row) for row in (0, -1)]
         if None in ends:
-            return self._lose(piece, "end-lost")
+            return self._lose(piece, "one of its seeds could not be placed on this mesh")
         start, end = ends
         if start == end:
-            return self._lose(piece, "ends-meet", vertex=start)
+            return self._lose(piece, f"both its seeds would be at vertex {start} of this mesh")
         live = self._live(piece)
         found = self._between(live, piece, start, end)
         if found is None:
-            return self._lose(piece, "no-way", start=start, end=end)
+            return self._lose(piece, f"no wire leads from vertex {start} to vertex {end}")
         self._result.added += len(found) - 1
         return found
 
-    def _lose(self, piece: _CoursePart, why: str, **values: object) -> list[Wire]:
-        self._result.lost.append(Message.of(why, wire=piece.name, **values))
+    def _lose(self, piece: _CoursePart, why: str) -> list[Wire]:
+        self._result.lost.append(f"{piece.name}: {why}")
         return []
 
     def _between(self, live: LiveWire, piece: _CoursePart, start: int, end: int) -> list[Wire] | None:
@@ -293,16 +297,18 @@ class Tracing:
                 return [*first, *second]
         return [self._wire(piece, candidate, follow)]
 
-    def _final(self, live: LiveWire, ask: Callable[[], Answer]) -> Answer:
+    def _final(self, live: LiveWire, ask: Callable[[], Any]) -> Any:  # noqa: ANN401 - what it asks for
         """Return the final answer of live wires. Raise `seamwire_core.Cancelled` if the work is to stop meanwhile."""
 
-        def ask_unless_stopped() -> Answer:
+        def ask_unless_stopped() -> object:
             tell(self._progress, self._done)
             return ask()
 
         return final(live, ask_unless_stopped)
 
-    def _best(self, live: LiveWire, end: int, places: NDArray[np.float64]) -> tuple[int, Candidate, float, int] | None:
+    def _best(
+        self, live: LiveWire, end: int, places: NDArray[np.float64]
+    ) -> tuple[int, LiveCandidate, float, int] | None:
         """Return which of both wires runs nearer to a course, it, how far it strays, and from which place most."""
         found = self._final(live, lambda: live.wires(end))
         best = None
@@ -314,7 +320,7 @@ class Tracing:
                 best = follow, candidate, off, worst
         return best
 
-    def _wire(self, piece: _CoursePart, candidate: Candidate, follow: int) -> Wire:
+    def _wire(self, piece: _CoursePart, candidate: LiveCandidate, follow: int) -> Wire:
         record = piece.course.record
         vertices = tuple(candidate.vertices.tolist())
         return Wire(
@@ -334,12 +340,12 @@ class Tracing:
         rows = [0, count // 3, 2 * count // 3] if count >= 3 else [0]
         corners = list(dict.fromkeys(self._vertex(piece, row) for row in rows))
         if len(corners) < 3:
-            return self._lose(piece, "loop-too-small")
+            return self._lose(piece, "smaller than an edge of this mesh")
         wires: list[Wire] = []
         for (begin, one), (end, other) in itertools.pairwise(zip([*rows, count], [*corners, corners[0]], strict=True)):
             found = self._between(live, piece.part(begin, end), one, other)
             if found is None:
-                return self._lose(piece, "no-way", start=one, end=other)
+                return self._lose(piece, f"no wire leads from vertex {one} to vertex {other}")
             wires += found
         self._result.added += len(wires)
         return wires

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Add-ons that extend this one, such as Seamwire Networks. Their parts are registered while both are enabled.
+
+The name of such an add-on begins with `seamwire_`. It has `VERSION`, `SEAMWIRE_PARTS` and a module `tool`, and calls `join` and `leave` of
+the interface when it is enabled and disabled.
+"""
+
+from __future__ import annotations
+
+import sys
+from functools import partial
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+from ..mesh.registration import together
+from ..mesh.settings import ADDON
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from types import ModuleType
+
+_joined: dict[str, Callable[[], None]] = {}
+"""What takes the parts of each add-on away again, by its name."""
+
+
+def join(addon: ModuleType) -> None:
+    """Register the parts of an add-on, if it belongs to this version."""
+    name, interface = addon.__name__, import_module(f"{ADDON}.interface")
+    if name in _joined:
+        return
+    if sys.modules[ADDON].VERSION != addon.VERSION:
+        print(f"{name} {addon.VERSION} does not fit {ADDON} {sys.modules[ADDON].VERSION}: update both")
+        return
+    if import_module(".tool", name).interface not in (None, interface):
+        # This add-on was updated, so its classes are others.
+        for module in [module for module in sys.modules if module.startswith(f"{name}.")]:
+            del sys.modules[module]
+    import_module(".tool", name).interface = interface
+    parts = [import_module(f".{part}", name) for part in addon.SEAMWIRE_PARTS]
+    enter, leave_again = together(*((part.register, part.unregister) for part in parts))
+    enter()
+    _joined[name] = leave_again
+
+
+def leave(addon: ModuleType) -> None:
+    """Remove the parts of an add-on."""
+    _joined.pop(addon.__name__, lambda: None)()
+
+
+def _waiting() -> list[ModuleType]:
+    named = [module for name, module in tuple(sys.modules.items()) if name.rpartition(".")[2].startswith("seamwire_")]
+    return [
+        module for module in named if getattr(module, "__addon_enabled__", False) and hasattr(module, "SEAMWIRE_PARTS")
+    ]
+
+
+def register() -> None:
+    """Let add-ons join that were enabled before."""
+    together(*((partial(join, addon), partial(leave, addon)) for addon in _waiting()))[0]()
+
+
+def unregister() -> None:
+    """Let all of them leave."""
+    together(*((None, take_away) for take_away in _joined.values()))[1]()
+    _joined.clear()
