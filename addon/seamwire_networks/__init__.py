@@ -26,6 +26,7 @@ SEAMWIRE_PARTS = ("network_operators",)
 # After an update Blender reloads only this file. The parts must be imported again as well.
 for _name in [name for name in sys.modules if name.startswith(f"{__name__}.")]:
     del sys.modules[_name]
+    globals().pop(_name.rpartition(".")[2], None)
 
 
 def register() -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Gives access to the interface of Seamwire, as in `from .tool import Wire`. This add-on imports nothing else of Seamwire."""
+"""Gives access to the interface of Seamwire, as in `from .tool import settings`. This add-on imports nothing else of Seamwire."""
 
 from __future__ import annotations
 

@@ -152,43 +152,34 @@ def test_the_core_has_rooms_only() -> None:
     assert [path.name for path in core.glob("*.py")] == ["__init__.py"]
 
 
-def test_the_lab_uses_nothing_of_the_tool_but_its_interface() -> None:
-    names = set(interface_names())
-    for path in LAB.glob("*.py"):
-        tree = ast.parse(path.read_text(encoding="utf-8"))
-        for node in ast.walk(tree):
-            if isinstance(node, ast.Import):
-                assert not [name.name for name in node.names if name.name.split(".")[0] == "seamwire"], path.name
-            elif isinstance(node, ast.ImportFrom) and node.level == 0 and node.module.split(".")[0] == "seamwire":
-                assert node.module == "seamwire.interface", path.name
-                assert {name.name for name in node.names} <= names, path.name
-    assert imports_by_name(LAB) == {("__init__.py", "f'.{name}'"), ("tool.py", "f'{_addon.__name__}.interface'")}
-
-
-def test_networks_use_nothing_of_the_tool_but_its_interface() -> None:
-    names = set(interface_names())
-    for path in NETWORKS.glob("*.py"):
+@pytest.mark.parametrize("folder", [LAB, NETWORKS], ids=lambda folder: folder.name)
+def test_another_add_on_uses_nothing_of_the_tool_but_its_interface(folder: Path) -> None:
+    used, calls = set(), set()
+    for path in folder.glob("*.py"):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if isinstance(node, ast.Import):
                 assert not [name.name for name in node.names if name.name.split(".")[0] == "seamwire"], path.name
-            elif isinstance(node, ast.ImportFrom) and node.module == "tool":
-                assert {name.name for name in node.names} <= names, path.name
+            elif isinstance(node, ast.ImportFrom) and (node.level, node.module) == (1, "tool"):
+                used.update(name.name for name in node.names)
             elif isinstance(node, ast.ImportFrom):
-                assert node.level < 2 and node.module.split(".")[0] != "seamwire", path.name
-    assert imports_by_name(NETWORKS) == {
-        ("__init__.py", "f'{name}.interface'"),
-        ("tool.py", "'seamwire.interface'"),
-    }
+                assert node.level < 2 and (node.module or "").split(".")[0] != "seamwire", path.name
+            elif isinstance(node, ast.Attribute) and ast.unparse(node.value) == "tool":
+                used.add(node.attr)
+            elif isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] in {
+                "import_module",
+                "__import__",
+            }:
+                calls.add((path.name, ast.unparse(node.args[0])))
+    assert used <= set(interface_names())
+    assert calls == {("__init__.py", "f'{name}.interface'"), ("tool.py", "'seamwire.interface'")}
 
 
-def imports_by_name(folder: Path) -> set[tuple[str, str]]:
-    """Return the modules that an add-on imports by calls, each with the file."""
-    return {
-        (path.name, ast.unparse(node.args[0]))
-        for path in folder.glob("*.py")
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
-        if isinstance(node, ast.Call) and ast.unparse(node.func).split(".")[-1] in {"import_module", "__import__"}
-    }
+def test_the_other_add_ons_join_the_tool_in_the_same_way() -> None:
+    def common(folder: Path) -> str:
+        return (folder / "__init__.py").read_text("utf-8").partition("\n# After an update")[2]
+
+    assert (LAB / "tool.py").read_text("utf-8") == (NETWORKS / "tool.py").read_text("utf-8")
+    assert common(LAB) == common(NETWORKS) != ""
 
 
 def interface_names() -> list[str]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Seamwire Networks joins Seamwire in whatever order both are enabled, and leaves with it."""
+"""Seamwire Lab and Seamwire Networks join Seamwire in whatever order they are enabled, and leave with it."""
 
 from __future__ import annotations
 
@@ -14,17 +14,23 @@ import traces
 from scene import ADDON
 from seamwire.ui import companions
 
-NETWORKS = f"{ADDON}_networks"
-pytestmark = pytest.mark.every_blender
+LAB, NETWORKS = f"{ADDON}_lab", f"{ADDON}_networks"
+OPERATORS = {
+    LAB: ("lab_store",),
+    NETWORKS: ("transfer", "repeat", "load_network", "save_network"),
+}
+pytestmark = [pytest.mark.every_blender, pytest.mark.parametrize("name", OPERATORS)]
 
 
 @pytest.fixture(autouse=True)
-def both() -> Iterator[None]:
-    """Leave both enabled, as they were."""
+def enabled(name: str) -> Iterator[None]:
+    """Have the add-on enabled, and leave everything as it was."""
+    was_there = addon_utils.check(name)[1]
     before = traces.traces()
+    enable(name)
     yield
-    for name in (ADDON, NETWORKS):
-        assert addon_utils.enable(name, default_set=True) is not None
+    enable(ADDON)
+    enable(name) if was_there else disable(name)
     assert traces.difference(before, traces.traces()) == {}
 
 
@@ -36,82 +42,83 @@ def enable(name: str) -> None:
     assert addon_utils.enable(name, default_set=True) is not None
 
 
-def is_there() -> bool:
+def is_there(name: str) -> bool:
     """Return whether its operators are registered, all or nothing."""
-    names = ("transfer", "repeat", "load_network", "save_network")
-    (found,) = {hasattr(bpy.types, f"MESH_OT_seamwire_{name}") for name in names}
+    (found,) = {hasattr(bpy.types, f"MESH_OT_seamwire_{operator}") for operator in OPERATORS[name]}
     return found
 
 
-def test_it_comes_and_goes_with_itself_and_with_the_tool() -> None:
-    assert is_there()
-    disable(NETWORKS)
-    assert not is_there()
-    enable(NETWORKS)
-    assert is_there()
+def test_it_comes_and_goes_with_itself_and_with_the_tool(name: str) -> None:
+    assert is_there(name)
+    disable(name)
+    assert not is_there(name)
+    enable(name)
+    assert is_there(name)
     disable(ADDON)
-    assert not is_there()
+    assert not is_there(name)
     assert traces.ours(traces.traces()) == []
     enable(ADDON)
-    assert is_there()
+    assert is_there(name)
 
 
-def test_enabled_before_the_tool_it_waits() -> None:
-    disable(NETWORKS)
+def test_enabled_before_the_tool_it_waits(name: str) -> None:
+    disable(name)
     disable(ADDON)
-    enable(NETWORKS)
-    assert not is_there()
+    enable(name)
+    assert not is_there(name)
     enable(ADDON)
-    assert is_there()
+    assert is_there(name)
 
 
-def test_disabled_without_the_tool_it_stays_away() -> None:
+def test_disabled_without_the_tool_it_stays_away(name: str) -> None:
     disable(ADDON)
-    disable(NETWORKS)
+    disable(name)
     enable(ADDON)
-    assert not is_there()
+    assert not is_there(name)
 
 
-@pytest.mark.parametrize("first", [ADDON, NETWORKS])
+@pytest.mark.parametrize("is_first", [False, True])
 def test_another_version_does_not_join_and_says_so(
-    first: str, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+    name: str, is_first: bool, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    disable(NETWORKS)
+    disable(name)
     disable(ADDON)
     with monkeypatch.context() as patched:
-        patched.setattr(sys.modules[NETWORKS], "VERSION", (0, 0, 9))
-        for name in (first, ({ADDON, NETWORKS} - {first}).pop()):
-            enable(name)
-        assert not is_there()
+        patched.setattr(sys.modules[name], "VERSION", (0, 0, 9))
+        for addon in (name, ADDON) if is_first else (ADDON, name):
+            enable(addon)
+        assert not is_there(name)
         assert "update both" in capfd.readouterr().out
-        disable(NETWORKS)
-    enable(NETWORKS)
-    assert is_there()
+        disable(name)
+    enable(name)
+    assert is_there(name)
 
 
-def test_after_an_update_of_the_tool_it_uses_the_new_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    parts = [name for name in sys.modules if name.startswith(f"{NETWORKS}.")]
-    before = {name: sys.modules[name] for name in parts}
-    addon = sys.modules[NETWORKS]
+def test_after_an_update_of_the_tool_it_uses_the_new_one(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    addon = sys.modules[name]
+    before = {module: sys.modules[module] for module in sys.modules if module.startswith(f"{name}.")}
+    part = f"{name}.{addon.SEAMWIRE_PARTS[0]}"
     companions.leave(addon)
-    monkeypatch.setattr(before[f"{NETWORKS}.tool"], "interface", sys.modules[ADDON])  # stands for the old interface
+    monkeypatch.setattr(before[f"{name}.tool"], "interface", sys.modules[ADDON])  # stands for the old interface
     companions.join(addon)
-    assert sys.modules[f"{NETWORKS}.network_operators"] is not before[f"{NETWORKS}.network_operators"]
-    assert sys.modules[f"{NETWORKS}.tool"].interface is sys.modules[f"{ADDON}.interface"]
-    assert is_there()
+    assert sys.modules[part] is not before[part]
+    assert sys.modules[f"{name}.tool"].interface is sys.modules[f"{ADDON}.interface"]
+    assert is_there(name)
     companions.leave(addon)
     monkeypatch.undo()
-    sys.modules.update(before)  # tests of other files know these
+    for module, old in before.items():  # tests of other files know these
+        sys.modules[module] = old
+        setattr(addon, module.rpartition(".")[2], old)
     companions.join(addon)
 
 
-def test_enabling_it_does_not_read_numpy() -> None:
+def test_enabling_it_does_not_read_numpy(name: str) -> None:
     if not bpy.app.binary_path:
         pytest.skip("Blender as a Python module cannot be started again")
     code = f"""
 import addon_utils, sys
 loaded = set(sys.modules)
-for name in {(NETWORKS, ADDON)!r}:
+for name in {(name, ADDON)!r}:
     assert addon_utils.enable(name) is not None
 print("Read:", *sorted(set(sys.modules) - loaded))
 """
@@ -126,5 +133,5 @@ print("Read:", *sorted(set(sys.modules) - loaded))
     ]
     output = subprocess.run(command, check=True, capture_output=True, text=True, timeout=120).stdout
     read = next(line for line in output.splitlines() if line.startswith("Read:"))
-    assert "network_operators" in read
+    assert f"{name}.{sys.modules[name].SEAMWIRE_PARTS[-1]}" in read
     assert "numpy" not in read, "Blender's start would wait for it"

@@ -35,6 +35,7 @@ def join(addon: ModuleType) -> None:
         # This add-on was updated, so its classes are others.
         for module in [module for module in sys.modules if module.startswith(f"{name}.")]:
             del sys.modules[module]
+            vars(addon).pop(module.rpartition(".")[2], None)
     import_module(".tool", name).interface = interface
     parts = [import_module(f".{part}", name) for part in addon.SEAMWIRE_PARTS]
     enter, leave_again = together(*((part.register, part.unregister) for part in parts))
