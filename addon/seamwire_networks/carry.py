@@ -22,8 +22,7 @@ if TYPE_CHECKING:
 
     from .placing import Progress
     from .tool import Edge, ObjectSession, Wire
-    from .tracing import Transfer
-    from .transfer import Place
+    from .transfer import Place, Transfer
 
 _SHAPE = ("points", "triangles", "edges", "to_object")
 """What describes a `Shape`, in the order of its parameters."""
@@ -67,7 +66,6 @@ class Source:
 
 
 def shape_of(mesh: ObjectSession) -> Shape:
-    """Return a mesh as it takes part in a transfer."""
     arrays = mesh.arrays
     return Shape(arrays.points, arrays.triangles, arrays.edges, arrays.to_object)
 
@@ -142,10 +140,9 @@ def carry_over(
     )
 
 
-def write(target: ObjectSession, found: Transfer) -> tuple[int, int]:
-    """Mark the seams that `carry_over` found. Return how many wires the mesh did not have, and how many edges became seams."""
+def add(target: ObjectSession, found: Transfer) -> int:
+    """Add what `carry_over` found to a mesh, which can be written then. Return how many wires it did not have."""
     there = {wire.vertices for wire in target.session.wires}
     new = [wire for wire in found.wires if wire.vertices not in there]
     target.add(new, found.strokes)
-    marked, _ = target.write(target.plan())
-    return len(new), marked
+    return len(new)

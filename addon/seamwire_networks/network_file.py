@@ -25,7 +25,6 @@ from .tool import (
     packed,
     stored_stroke,
     stroke_record,
-    undirected,
     unpacked,
     wire_of,
     wire_record,
@@ -187,13 +186,13 @@ class NetworkFile:
         """Return why a mesh is not the one that it was drawn on, by its numbers; nothing if it is."""
         if len(shape.points) != self.origin.vertices:
             return f"The network belongs to a mesh with {self.origin.vertices} vertices, but this one has {len(shape.points)}"
-        there = {undirected((one, two)) for one, two in shape.edges.tolist()}
+        there = {tuple(sorted(edge)) for edge in shape.edges.tolist()}
         for course in self.courses:
             vertices = course.record["vertices"]
             around = [*vertices, vertices[0]] if course.record["closed"] else vertices
-            for edge in map(undirected, itertools.pairwise(around)):
-                if edge not in there:
-                    return f"The network belongs to a mesh with other edges: edge {edge[0]}-{edge[1]} is missing here"
+            for one, two in map(sorted, itertools.pairwise(around)):
+                if (one, two) not in there:
+                    return f"The network belongs to a mesh with other edges: edge {one}-{two} is missing here"
         return ""
 
     def wires(self, shape: Shape) -> list[Wire]:

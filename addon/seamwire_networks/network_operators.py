@@ -15,10 +15,8 @@ from .tool import (
     EditMeshOperator,
     Step,
     Stepwise,
-    changing,
     classes,
     count,
-    end_all,
     menu_entry,
     settings,
     together,
@@ -29,7 +27,7 @@ if TYPE_CHECKING:
 
     from .carry import Source
     from .tool import ObjectSession, Wire
-    from .tracing import Transfer
+    from .transfer import Transfer
 
 SUFFIX = ".json"
 _PLACE_ITEMS = (
@@ -62,11 +60,9 @@ class _Placing(Stepwise):
     )
 
     def source_steps(self, context: bpy.types.Context) -> Generator[Step, None, Source]:
-        """Yield the steps that read the network, and return it."""
         raise NotImplementedError
 
     def steps(self, context: bpy.types.Context) -> Generator[Step, None, set[str]]:
-        """Yield the steps that read and place the network, then write its wires."""
         from .carry import carry_over
 
         pairs = _pairs(self.pairs)
@@ -79,7 +75,7 @@ class _Placing(Stepwise):
         return self._write(context, mesh, found)
 
     def _write(self, context: bpy.types.Context, mesh: ObjectSession, found: Transfer) -> set[str]:
-        from .carry import write
+        from .carry import add
 
         problems = found.problems
         for text in problems[:_MOST_TOLD]:
@@ -88,8 +84,8 @@ class _Placing(Stepwise):
             self.report({"WARNING"}, f"{len(problems) - _MOST_TOLD} more seeds are doubtful or missing")
         if not found.wires and not found.strokes:
             raise ValueError("No wire could be placed on this mesh")
-        with changing(context):
-            wires, marked = write(mesh, found)
+        wires = add(mesh, found)
+        marked = self.write(context, [mesh])
         parts = [count(wires, "wire")]
         if wires < len(found.wires):
             parts.append(f"{len(found.wires) - wires} already present")
@@ -149,7 +145,6 @@ class MESH_OT_seamwire_transfer(_Placing, bpy.types.Operator):
     )
 
     def draw(self, _context: bpy.types.Context) -> None:
-        """Show the settings that have an effect."""
         layout = self.layout
         layout.use_property_split = True
         layout.prop_search(self, "source", bpy.data, "objects")
@@ -163,7 +158,6 @@ class MESH_OT_seamwire_transfer(_Placing, bpy.types.Operator):
         surface.prop(self, "align")
 
     def source_steps(self, context: bpy.types.Context) -> Generator[Step, None, Source]:
-        """Read the wires and the seams of the other object."""
         from .carry import Source, seam_wires
 
         obj = self._object(context)
@@ -175,7 +169,6 @@ class MESH_OT_seamwire_transfer(_Placing, bpy.types.Operator):
         return source
 
     def _object(self, context: bpy.types.Context) -> bpy.types.Object:
-        """Return the object with the seams. Raise ValueError if it is ambiguous."""
         target = context.active_object
         if self.source:
             obj = bpy.data.objects.get(self.source)
@@ -201,7 +194,6 @@ class MESH_OT_seamwire_load_network(_Placing, bpy.types.Operator, ImportHelper):
     _is_chosen = False
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Let the artist choose a file."""
         self._is_chosen = True
         return ImportHelper.invoke(self, context, event)
 
@@ -213,7 +205,6 @@ class MESH_OT_seamwire_load_network(_Placing, bpy.types.Operator, ImportHelper):
         return super().invoke(context, None)
 
     def source_steps(self, _context: bpy.types.Context) -> Generator[Step, None, Source]:
-        """Read the file."""
         from .carry import Source
 
         yield Step("Reading the file")
@@ -264,7 +255,6 @@ class MESH_OT_seamwire_repeat(Stepwise, bpy.types.Operator):
     )
 
     def steps(self, context: bpy.types.Context) -> Generator[Step, None, set[str]]:
-        """Find matching places on the active object, then add the missing wires."""
         from .repeats import missing_wires
 
         mesh = self.open_mesh(context.active_object)
@@ -284,7 +274,6 @@ class MESH_OT_seamwire_repeat(Stepwise, bpy.types.Operator):
         return {"FINISHED"}
 
     def _groups(self, mesh: ObjectSession) -> list[list[Wire]]:
-        """Return the wires to repeat, with connected wires in one list."""
         from .repeats import connected_groups
 
         wires = [wire for wire in mesh.session.wires if wire.along == "EDGES"]
@@ -324,7 +313,6 @@ register, unregister = together(
         MESH_OT_seamwire_save_network,
         MESH_OT_seamwire_repeat,
     ),
-    (lambda: None, end_all),
     menu_entry("VIEW3D_MT_seamwire_network", _draw_network),
     menu_entry("TOPBAR_MT_file_import", _draw_import),
     menu_entry("TOPBAR_MT_file_export", _draw_export),

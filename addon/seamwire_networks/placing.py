@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .tool import Places, area_normals, creases, load, triangle_areas, triangle_normals, units
+from .tool import Places, area_normals, load, units
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -68,7 +68,7 @@ class Moments:
     @classmethod
     def of(cls, points: NDArray[np.float64], triangles: NDArray[np.int32]) -> Moments:
         """Return those of a mesh; of one without an area, zeros."""
-        corners, areas = points[triangles], triangle_areas(points, triangles)
+        corners, areas = points[triangles], 0.5 * np.linalg.norm(area_normals(points, triangles), axis=1)
         total = float(areas.sum())
         if not total > 0.0:
             return cls(np.zeros(3), np.zeros((3, 3)))
@@ -88,10 +88,25 @@ class Moments:
         return float(np.linalg.norm(self.axes))
 
 
-def vertex_normals(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:
+def _vertex_normals(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:
     """Return unit normals of (n, 3) vertices, weighted by the areas of their (m, 3) triangles. Vertices without triangles have zero."""
     rows, normals = triangles.reshape(-1), area_normals(points, triangles)
     return units(np.stack([np.bincount(rows, np.repeat(column, 3), len(points)) for column in normals.T], axis=1))
+
+
+def _creases(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:
+    """Return the largest angle, in degrees, between two triangles that share a side at each vertex, (n,)."""
+    normals = units(area_normals(points, triangles))
+    sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).astype(np.int64), axis=1)
+    order = np.lexsort((sides[:, 1], sides[:, 0]))
+    shared = np.flatnonzero((sides[order[1:]] == sides[order[:-1]]).all(axis=1))
+    one, other = order[shared], order[shared + 1]
+    cosines = np.einsum("ij,ij->i", normals[one // 3], normals[other // 3])
+    angles = np.degrees(np.arccos(np.clip(cosines, -1.0, 1.0)))
+    largest = np.zeros(len(points))
+    for column in sides[one].T:
+        np.maximum.at(largest, column, angles)
+    return largest
 
 
 @dataclass(frozen=True)
@@ -105,7 +120,6 @@ class Shape:
 
     @cached_property
     def where(self) -> Places:
-        """Where its vertices are."""
         return Places(self.points, np.eye(3) if self.to_object is None else self.to_object)
 
     @property
@@ -120,12 +134,12 @@ class Shape:
     @cached_property
     def normals(self) -> NDArray[np.float64]:
         """(n, 3) of the vertices, in object coordinates."""
-        return vertex_normals(self.places, self.triangles)
+        return _vertex_normals(self.places, self.triangles)
 
     @cached_property
     def creases(self) -> NDArray[np.float64]:
         """(n,) the largest angle between triangles at each vertex, in degrees."""
-        return creases(self.places, self.triangles)
+        return _creases(self.places, self.triangles)
 
     @cached_property
     def spacing(self) -> NDArray[np.float64]:
@@ -147,7 +161,6 @@ class Shape:
 
     @cached_property
     def moments(self) -> Moments:
-        """Where its surface lies."""
         return Moments.of(self.places, self.triangles)
 
     @cached_property
@@ -221,11 +234,9 @@ class Similarity:
         return cls(1.0, np.diag(signs), np.zeros(3))
 
     def of(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return where (k, 3) points are then."""
         return self.scale * points @ self.rotation.T + self.shift
 
     def of_normals(self, normals: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return what way (k, 3) normals point then."""
         return normals @ self.rotation.T
 
     def after(self, other: Similarity) -> Similarity:
@@ -248,7 +259,7 @@ class NearestSurface:
             raise ValueError("The mesh has no visible faces to place wires on")
         self._shape, self._go_on = shape, go_on
         self._trees: dict[int | None, tuple[NDArray[np.int64], NearestPoints]] = {}
-        self._normals = triangle_normals(shape.places, shape.triangles)
+        self._normals = units(area_normals(shape.places, shape.triangles))
 
     @cached_property
     def parts(self) -> NDArray[np.int32]:

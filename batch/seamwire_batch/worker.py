@@ -265,7 +265,7 @@ class Run:
                 self.warnings.append(f"{obj.name}: nothing was marked")
             return
         from seamwire.mesh.object_session import ObjectSession
-        from seamwire_networks.carry import carry_over, write
+        from seamwire_networks.carry import add, carry_over
 
         from seamwire_batch.assets import AssetError
 
@@ -276,7 +276,8 @@ class Run:
         self.warnings += [f"{obj.name}: {problem}" for problem in found.problems]
         if not found.wires:
             raise AssetError(f"{obj.name}: no wire has a place on this mesh")
-        write(mesh, found)
+        add(mesh, found)
+        mesh.write(mesh.plan())
 
     def _source(self, obj: bpy.types.Object) -> Source:
         """Return the network for an object, from a file or from the source asset."""

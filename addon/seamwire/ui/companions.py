@@ -14,19 +14,20 @@ from typing import TYPE_CHECKING
 
 from ..mesh.registration import together
 from ..mesh.settings import ADDON
+from ..operators.steps import running
 
 if TYPE_CHECKING:
     from collections.abc import Callable
     from types import ModuleType
 
-_joined: dict[str, Callable[[], None]] = {}
-"""What takes the parts of each add-on away again, by its name."""
+_joined: dict[ModuleType, Callable[[], None]] = {}
+"""What takes the parts of each add-on away again."""
 
 
 def join(addon: ModuleType) -> None:
     """Register the parts of an add-on, if it belongs to this version."""
     name, interface = addon.__name__, import_module(f"{ADDON}.interface")
-    if name in _joined:
+    if addon in _joined:
         return
     if sys.modules[ADDON].VERSION != addon.VERSION:
         print(f"{name} {addon.VERSION} does not fit {ADDON} {sys.modules[ADDON].VERSION}: update both")
@@ -40,12 +41,15 @@ def join(addon: ModuleType) -> None:
     parts = [import_module(f".{part}", name) for part in addon.SEAMWIRE_PARTS]
     enter, leave_again = together(*((part.register, part.unregister) for part in parts))
     enter()
-    _joined[name] = leave_again
+    _joined[addon] = leave_again
 
 
 def leave(addon: ModuleType) -> None:
-    """Remove the parts of an add-on."""
-    _joined.pop(addon.__name__, lambda: None)()
+    """End the operators of an add-on, and remove its parts."""
+    for operator in tuple(running):
+        if type(operator).__module__.startswith(f"{addon.__name__}."):
+            operator.end()
+    _joined.pop(addon, lambda: None)()
 
 
 def _waiting() -> list[ModuleType]:
@@ -62,5 +66,4 @@ def register() -> None:
 
 def unregister() -> None:
     """Let all of them leave."""
-    together(*((None, take_away) for take_away in _joined.values()))[1]()
-    _joined.clear()
+    together(*((None, partial(leave, addon)) for addon in _joined))[1]()

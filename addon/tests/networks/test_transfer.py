@@ -15,8 +15,7 @@ from seamwire.core.network.strokes import Stroke
 from seamwire.core.network.wires import Wire
 from seamwire_networks.network_file import NetworkFile, NetworkFileError
 from seamwire_networks.placing import PLACED, Landmarks, NearestSurface, Shape, Similarity, doubt_between
-from seamwire_networks.tracing import Transfer
-from seamwire_networks.transfer import transfer
+from seamwire_networks.transfer import Transfer, transfer
 
 pytest.importorskip("seamwire_core")
 

@@ -83,18 +83,3 @@ def units(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return vectors, (..., 3), with length 1, or 0 if they have none."""
     lengths = np.linalg.norm(vectors, axis=-1, keepdims=True)
     return np.divide(vectors, lengths, out=np.zeros_like(vectors), where=lengths > 0.0)
-
-
-def creases(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> NDArray[np.float64]:
-    """Return the largest angle, in degrees, between two triangles that share a side at each vertex, (n,)."""
-    normals = triangle_normals(points, triangles)
-    sides = np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2).astype(np.int64), axis=1)
-    order = np.lexsort((sides[:, 1], sides[:, 0]))
-    shared = np.flatnonzero((sides[order[1:]] == sides[order[:-1]]).all(axis=1))
-    one, other = order[shared], order[shared + 1]
-    cosines = np.einsum("ij,ij->i", normals[one // 3], normals[other // 3])
-    angles = np.degrees(np.arccos(np.clip(cosines, -1.0, 1.0)))
-    largest = np.zeros(len(points))
-    for column in sides[one].T:
-        np.maximum.at(largest, column, angles)
-    return largest
